@@ -1,0 +1,25 @@
+# One static library per module: include/lekalo/NAME is its public face, src/NAME its body.
+
+add_library(lekalo_options INTERFACE)
+target_compile_options(lekalo_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  $<$<BOOL:${LEKALO_WERROR}>:-Werror>
+  # Results must be the same bytes for every compiler and optimisation level: no fused
+  # multiply-add unless the source says so (docs/design/geometry.md).
+  -ffp-contract=off)
+
+function(lekalo_module NAME)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  add_library(lekalo_${NAME} STATIC ${sources})
+  add_library(lekalo::${NAME} ALIAS lekalo_${NAME})
+  set_target_properties(lekalo_${NAME} PROPERTIES EXPORT_NAME ${NAME})
+  target_include_directories(lekalo_${NAME} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(lekalo_${NAME} PUBLIC cxx_std_20)
+  target_link_libraries(lekalo_${NAME}
+    PUBLIC ${ARG_PUBLIC}
+    PRIVATE $<BUILD_INTERFACE:lekalo_options> ${ARG_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY LEKALO_MODULES lekalo_${NAME})
+endfunction()

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include "lekalo/geom/polygon.hpp"
+#include "lekalo/geom/pose.hpp"
+
+namespace lekalo::phi {
+
+/// The pair that decides a phi value: vertex of the part, edge of the blank (edge k runs from vertex k on).
+struct NearestPair {
+  std::uint32_t part_vertex = 0, blank_edge = 0;
+};
+
+/// A value known to lie in [low, high].
+struct Enclosure {
+  double low = 0, high = 0;
+  NearestPair nearest;
+};
+
+/// The normalised phi-function of a convex part D and B* = R^2 \ int B of a convex blank B:
+///   Phi = min over edges k of B and vertices i of D of chi_k(R v_i + t),
+/// chi_k the signed distance to the line of edge k, positive inwards. Positive: D lies inside B with that
+/// minimum allowance; zero: they touch; negative: D crosses the boundary of B.
+///
+/// Plain double arithmetic: within 32 u M of the true value, u = 2^-53, M the largest absolute coordinate of
+/// blank, part and t. For reports use clearance_enclosure.
+/// Cost: O(n m). Source: spec of the method of phi-functions, model (5)-(7) of the localisation article.
+[[nodiscard]] double phi(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
+                         const geom::BlankFromPart& pose, NearestPair* nearest = nullptr) noexcept;
+
+/// The same value for the rotation by the *exact* angle `theta` (not its rounded sine and cosine) and the given
+/// doubles, enclosed by error-bounded double-double arithmetic: high - low is a few units in the last place of
+/// the value, plus 1e-30 M. This is what locate reports (low) and what tests compare with the checker.
+/// |theta| <= geom::kMaxAngle. Cost: O(n + m).
+[[nodiscard]] Enclosure clearance_enclosure(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
+                                            double x, double y, double theta) noexcept;
+
+}  // namespace lekalo::phi

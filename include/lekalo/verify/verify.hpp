@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+
+namespace lekalo::verify {
+
+/// The independent checker. It reads the written bytes itself, exactly (decimals become rationals), and decides
+/// with outward rounding; it includes nothing of lekalo but base and shares no code with any solver or reader.
+/// Short and slow on purpose.
+
+struct Document {
+  std::string name;        ///< for messages, and its ending (.csv .txt .xyz .json .dxf) chooses the format
+  std::string_view bytes;
+};
+
+struct LocateInputs {
+  Document result, part, blank;
+  std::optional<Document> certificate;  ///< when the result names a certificate file
+};
+
+enum class Verdict {
+  confirmed,    ///< clearance, bound and certificate hold
+  unproved,     ///< the clearance holds; there is no certificate to check the bound with
+  refuted       ///< something written is not true
+};
+
+struct LocateReport {
+  Verdict verdict = Verdict::refuted;
+  /// The exact minimum allowance at the written pose, mm, as decimals that enclose it (30 digits).
+  std::string clearance_low, clearance_high;
+  /// The largest bound over the certificate, rounded up; empty without one.
+  std::string bound_high;
+  std::size_t intervals = 0;
+  std::vector<std::string> findings;  ///< one sentence for everything that does not hold
+};
+
+/// Rechecks a result of `lekalo locate` (docs/formats.md) against the files it names.
+/// bad_input when a document cannot be read at all; what reads but is untrue is in the report.
+[[nodiscard]] Result<LocateReport> verify_locate(const LocateInputs& inputs);
+
+}  // namespace lekalo::verify
