@@ -1,0 +1,5 @@
+#include <cstdio>
+
+#include "lekalo/base/version.hpp"
+
+int main() { std::printf("lekalo %s\n", lekalo::kVersion); }
