@@ -8,18 +8,42 @@ target_compile_options(lekalo_options INTERFACE
   # multiply-add unless the source says so (docs/design/geometry.md).
   -ffp-contract=off)
 
+# lekalo_module(NAME [PUBLIC targets...] [PRIVATE targets...])
+#
+# PUBLIC: what the module's headers may include; PRIVATE: what only its body may. The lekalo:: targets
+# among them are the arrows of ARCHITECTURE.md; there is no other list of them.
 function(lekalo_module NAME)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  if(NOT sources)
+    set(sources ${PROJECT_BINARY_DIR}/empty_${NAME}.cpp)
+    file(CONFIGURE OUTPUT ${sources} CONTENT "")
+  endif()
   add_library(lekalo_${NAME} STATIC ${sources})
   add_library(lekalo::${NAME} ALIAS lekalo_${NAME})
   set_target_properties(lekalo_${NAME} PROPERTIES EXPORT_NAME ${NAME})
   target_include_directories(lekalo_${NAME} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(lekalo_${NAME} PUBLIC cxx_std_20)
   target_link_libraries(lekalo_${NAME}
     PUBLIC ${ARG_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:lekalo_options> ${ARG_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY LEKALO_MODULES lekalo_${NAME})
+
+  set(arrows "module ${NAME}")
+  foreach(face PUBLIC PRIVATE)
+    set(modules ${ARG_${face}})
+    list(FILTER modules INCLUDE REGEX "^lekalo::")
+    list(TRANSFORM modules REPLACE "^lekalo::" "")
+    list(JOIN modules " " modules)
+    string(APPEND arrows "\n${face} ${NAME}: ${modules}")
+  endforeach()
+  set_property(GLOBAL APPEND_STRING PROPERTY LEKALO_LAYERS "${arrows}\n")
+endfunction()
+
+# Writes the arrows for tests/layers/check_layers.cmake.
+function(lekalo_write_layers FILE)
+  get_property(layers GLOBAL PROPERTY LEKALO_LAYERS)
+  file(CONFIGURE OUTPUT ${FILE} CONTENT "${layers}" @ONLY)
 endfunction()

@@ -1,0 +1,12 @@
+# What the modules link. cmake/lekaloConfig.cmake.in finds the same for whoever installs us.
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(MPFR REQUIRED IMPORTED_TARGET mpfr gmp)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
+if(LEKALO_WITH_IPOPT)
+  pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
+endif()
