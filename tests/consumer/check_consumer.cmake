@@ -1,0 +1,44 @@
+# Installs the build into an empty prefix, then configures, builds and runs the stranger's project there.
+#
+#   cmake -DBUILD=folder -DWORK=folder -DGENERATOR=Ninja -DCOMPILER=c++ -DFLAGS=... -DTYPE=Release
+#         -DMODULES=base|geom|... -P check_consumer.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nended with ${result}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# A folder with a blank in its name, as people have them.
+set(prefix "${WORK}/prefix of a stranger")
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+
+# The installed tree must stand on its own: nothing in it names the tree it was built from.
+file(GLOB_RECURSE package_files ${prefix}/*.cmake)
+foreach(file IN LISTS package_files)
+  file(STRINGS ${file} leaks REGEX "lekalo_options")
+  file(STRINGS ${file} paths)
+  foreach(line IN LISTS paths)
+    string(FIND "${line}" "${BUILD}" place)
+    if(NOT place EQUAL -1)
+      list(APPEND leaks "${line}")
+    endif()
+  endforeach()
+  if(leaks)
+    message(FATAL_ERROR "${file} names the build it came from: ${leaks}")
+  endif()
+endforeach()
+
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G ${GENERATOR}
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=${TYPE}
+  -DCMAKE_PREFIX_PATH=${prefix})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer)
+message(STATUS "${output}")
+run(${prefix}/bin/lekalo --version)
+file(REMOVE_RECURSE ${WORK})

@@ -1,0 +1,121 @@
+# Holds every #include of the modules and the programs against the arrows that CMake states.
+#
+#   cmake -DROOT=source-tree -DLAYERS=build/layers.txt -P check_layers.cmake
+#
+# Rules:
+#   (1) include/lekalo/M reaches M and what lies behind M's PUBLIC arrows;
+#   (2) src/M reaches that, and what lies behind M's PRIVATE arrows;
+#   (3) verify reaches base and nothing else, whatever CMake says: the checker must not share code with
+#       what it judges;
+#   (4) every other quoted include is a file of the same folder: no way round through "../";
+#   (5) below io no files, clocks, threads of output, standard randomness or unordered containers: the same
+#       input gives the same bytes;
+#   (6) apps may include any module, but only through public headers.
+cmake_minimum_required(VERSION 3.25)
+
+set(forbidden_below_io
+  fstream iostream filesystem chrono ctime time.h random unordered_map unordered_set)
+
+set(violations "")
+set(checked 0)
+
+macro(violation)
+  string(APPEND violations "  ${ARGN}\n")
+endmacro()
+
+# ---- the arrows -------------------------------------------------------------------------------------------
+file(STRINGS ${LAYERS} lines)
+set(modules "")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^module ([a-z]+)$")
+    list(APPEND modules ${CMAKE_MATCH_1})
+  elseif(line MATCHES "^(PUBLIC|PRIVATE) ([a-z]+): ?(.*)$")
+    string(REPLACE " " ";" ${CMAKE_MATCH_1}_${CMAKE_MATCH_2} "${CMAKE_MATCH_3}")
+  else()
+    message(FATAL_ERROR "${LAYERS}: cannot read '${line}'")
+  endif()
+endforeach()
+
+# What a module's users see through it. Modules stand in building order, so one pass is enough.
+foreach(module IN LISTS modules)
+  set(seen_${module} ${module})
+  foreach(used IN LISTS PUBLIC_${module})
+    if(NOT DEFINED seen_${used})
+      message(FATAL_ERROR "${LAYERS}: ${module} uses ${used}, which is not stated before it")
+    endif()
+    list(APPEND seen_${module} ${seen_${used}})
+  endforeach()
+  list(REMOVE_DUPLICATES seen_${module})
+  set(body_${module} ${seen_${module}})
+  foreach(used IN LISTS PRIVATE_${module})
+    list(APPEND body_${module} ${seen_${used}})
+  endforeach()
+endforeach()
+
+set(expected_verify base verify)
+set(stated_verify ${body_verify})
+list(SORT stated_verify)
+if("verify" IN_LIST modules AND NOT stated_verify STREQUAL expected_verify)
+  violation("CMake lets verify use ${stated_verify}; it may use base only")
+endif()
+
+# ---- the includes -----------------------------------------------------------------------------------------
+# check_file(FILE ALLOWED...): every include of FILE, relative to ROOT.
+function(check_file FILE MODULE)
+  set(allowed ${ARGN})
+  file(STRINGS ${ROOT}/${FILE} includes REGEX "^[ \t]*#[ \t]*include")
+  get_filename_component(folder ${ROOT}/${FILE} DIRECTORY)
+  foreach(include IN LISTS includes)
+    if(NOT include MATCHES "include[ \t]*([\"<])([^\">]+)[\">]")
+      violation("${FILE}: cannot read '${include}'")
+      continue()
+    endif()
+    set(quote "${CMAKE_MATCH_1}")
+    set(path "${CMAKE_MATCH_2}")
+    if(path MATCHES "^lekalo/([^/]+)/")
+      set(used ${CMAKE_MATCH_1})
+      if(NOT used IN_LIST allowed)
+        violation("${FILE} includes ${path}: ${MODULE} has no arrow to ${used}")
+      endif()
+    elseif(quote STREQUAL "\"" AND (path MATCHES "/" OR NOT EXISTS ${folder}/${path}))
+      violation("${FILE} includes \"${path}\": neither lekalo/MODULE/... nor a file beside it")
+    elseif(path IN_LIST forbidden_below_io AND NOT MODULE MATCHES "^(io|apps)$")
+      violation("${FILE} includes <${path}>: below io nothing may depend on files, clocks or chance")
+    endif()
+  endforeach()
+  math(EXPR checked "${checked} + 1")
+  set(checked ${checked} PARENT_SCOPE)
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+
+function(check_folder FOLDER MODULE)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${FOLDER}/*.cpp ${ROOT}/${FOLDER}/*.hpp)
+  foreach(file IN LISTS files)
+    check_file(${file} ${MODULE} ${ARGN})
+  endforeach()
+  set(checked ${checked} PARENT_SCOPE)
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+
+foreach(module IN LISTS modules)
+  check_folder(include/lekalo/${module} ${module} ${seen_${module}})
+  check_folder(src/${module} ${module} ${body_${module}})
+endforeach()
+check_folder(apps apps ${modules})
+
+foreach(place include/lekalo src)
+  file(GLOB folders RELATIVE ${ROOT}/${place} ${ROOT}/${place}/*)
+  foreach(folder IN LISTS folders)
+    if(NOT folder IN_LIST modules)
+      violation("${place}/${folder} belongs to no module that CMake states")
+    endif()
+  endforeach()
+endforeach()
+
+if(checked EQUAL 0)
+  message(FATAL_ERROR "layers: no file found under ${ROOT}")
+endif()
+if(violations)
+  message(FATAL_ERROR "layers broken:\n${violations}")
+endif()
+message(STATUS "layers: ${checked} files keep to the arrows")
