@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Set-up, release build, and the main job on the example data: where does the part lie in the blank, is there
+# a better place, and the NC program for the machine. Everything it writes goes to demo-out/.
+set -euo pipefail
+. "$(dirname -- "${BASH_SOURCE[0]}")/tools/common.sh"
+
+"$root/tools/setup.sh"
+build_preset release --target lekalo
+
+# From here on as a person would type it, in the folder of the project.
+cd "$root"
+lekalo=build/release/lekalo
+data=examples/localisation
+rm -rf demo-out
+mkdir -p demo-out
+
+show() {
+  printf '\n$'
+  printf ' %q' "$@"
+  printf '\n'
+  "$@"
+}
+
+for n in 1 2 3 4 5 6; do
+  program=()
+  [ "$n" -ne 1 ] || program=(--nc $data/part.nc --nc-out demo-out/part.nc)
+  show "$lekalo" locate --part "$data/example-$n-part.csv" --blank "$data/example-$n-blank.csv" \
+    "${program[@]}" --picture "demo-out/example-$n.svg" -o "demo-out/example-$n.json"
+  show "$lekalo" verify "demo-out/example-$n.json"
+done
+show "$lekalo" locate --part $data/example-1-part.csv --blank $data/example-1-blank.csv \
+  --picture demo-out/example-1.png
+
+say ""
+say "Written to $root/demo-out:"
+say "  example-1.svg ... example-6.svg    blank, start, result, contacts and allowance; example-1.png the first as PNG"
+say "  example-1.json ... example-6.json  pose, clearance, upper bound, contacts and certificate"
+say "  part.nc                            $data/part.nc in the machine's frame"

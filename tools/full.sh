@@ -1,0 +1,84 @@
+# Sourced by test.sh --full: every step runs, whatever became of the one before; the summary says which
+# failed. Sizes are those of the tables the project answers for; smaller ones by environment.
+
+out=$root/test-out
+summary=$out/summary.txt
+failed=()
+
+export LEKALO_SEED=${LEKALO_SEED:-1}
+export LEKALO_CASES=${LEKALO_CASES:-10000}
+export LEKALO_SHARED_DATA=${LEKALO_SHARED_DATA:-$(dirname -- "$root")/shared/data}
+sanitizer_cases=${LEKALO_SANITIZER_CASES:-500}
+fuzz_seconds=${LEKALO_FUZZ_SECONDS:-60}
+
+note() { say "$*" | tee -a "$summary"; }
+
+# step NAME COMMAND...: output to test-out/NAME.log, verdict to the summary.
+step() {
+  local name=$1 log=$out/$1.log start=$SECONDS status=0
+  shift
+  # A subshell of its own, so that `set -e` holds inside the step although its failure is caught here.
+  set +e
+  (set -e; "$@") >"$log" 2>&1 </dev/null
+  status=$?
+  set -e
+  if [ "$status" -eq 0 ]; then
+    note "$(printf '%-22s ok      %6d s' "$name" $((SECONDS - start)))"
+  else
+    note "$(printf '%-22s FAILED  %6d s   (%s)' "$name" $((SECONDS - start)) "test-out/$name.log")"
+    failed+=("$name")
+    tail -n 30 "$log" >&2
+  fi
+  grep -E '^[0-9]+% tests passed|^Total Test time' "$log" | sed 's/^/    /' | tee -a "$summary" || true
+}
+
+shared_data_present() {
+  [ -d "$LEKALO_SHARED_DATA" ] || {
+    say "the folder $LEKALO_SHARED_DATA is missing; LEKALO_SHARED_DATA says where the shared data lie"
+    return 1
+  }
+}
+
+build_and_test() {
+  build_preset "$1"
+  run_ctest "$1" --timeout 7200
+}
+
+few_cases() {
+  LEKALO_CASES=$sanitizer_cases build_and_test "$1"
+}
+
+fuzz_all() {
+  build_preset fuzz
+  "$root/fuzz/run.sh" "$fuzz_seconds"
+}
+
+describe_run() {
+  local git=(git -C "$root" -c safe.directory='*')
+  note "commit    $("${git[@]}" rev-parse HEAD 2>/dev/null || say unknown)$(
+    [ -z "$("${git[@]}" status --porcelain 2>/dev/null)" ] || say ' with local changes')"
+  note "seed      $LEKALO_SEED"
+  note "cases     $LEKALO_CASES (sanitizers $sanitizer_cases), fuzzing $fuzz_seconds s a program"
+  note "compilers $(c++ --version | head -n 1); $(clang++ --version | head -n 1)"
+  note "machine   $(nproc) processors, $(uname -m), $(date -u +%Y-%m-%dT%H:%M:%SZ)"
+  note ""
+}
+
+mkdir -p "$out"
+: >"$summary"
+"$root/tools/setup.sh" --full
+describe_run
+step shared-data shared_data_present
+step dev build_and_test dev
+step clang few_cases clang
+step asan few_cases asan
+step tsan few_cases tsan
+step fuzz fuzz_all
+step demo "$root/demo.sh"
+
+note ""
+if [ "${#failed[@]}" -gt 0 ]; then
+  note "failed: ${failed[*]}"
+  exit 1
+fi
+note "all steps passed; logs and this summary are in test-out/"

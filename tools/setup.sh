@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Installs what the build needs and is missing, on Debian 12 and its kin. Asks nothing; running it again
+# changes nothing.
+#
+#   tools/setup.sh          compiler, CMake and libraries: enough for demo.sh and test.sh
+#   tools/setup.sh --full   also clang and what else test.sh --full needs
+set -euo pipefail
+. "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
+
+packages=(
+  g++ cmake ninja-build pkg-config ccache
+  libexpected-dev libfmt-dev libcli11-dev nlohmann-json3-dev # header libraries and text
+  libmpfr-dev libgmp-dev                                     # exact checks
+  libssl-dev                                                 # SHA-256 of inputs
+  libcairo2-dev                                              # PNG pictures
+  # the reference method; its pkg-config file also names libraries that its package does not bring
+  coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
+  libgtest-dev
+)
+full_packages=(clang libclang-rt-14-dev llvm libbenchmark-dev)
+
+case "${1-}" in
+  "") ;;
+  --full) packages+=("${full_packages[@]}") ;;
+  *) fail "tools/setup.sh: unknown argument '$1'; it takes --full or nothing." ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  say "set-up: no apt-get on this system; going on with what is installed (wanted: ${packages[*]})."
+  exit 0
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ "${#missing[@]}" -gt 0 ] || exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
+  as_root=(sudo)
+else
+  fail "set-up: missing Debian packages (${missing[*]}): run this as root or with sudo, or install them with 'apt-get install --no-install-recommends ${missing[*]}'."
+fi
+
+log=$(mktemp "${TMPDIR:-/tmp}/lekalo-setup.XXXXXX")
+trap 'rm -f -- "$log"' EXIT
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 "$@" >>"$log" 2>&1
+}
+# A list that cannot be fetched (someone's third-party source) does not matter if the install succeeds.
+install_missing() {
+  apt update || true
+  apt install -y --no-install-recommends "${missing[@]}"
+}
+
+say "set-up: installing ${#missing[@]} Debian packages (${missing[*]})"
+if ! install_missing; then
+  say "set-up: the package manager failed; once more in 10 seconds"
+  sleep 10
+  if ! install_missing; then
+    tail -n 40 "$log" >&2
+    fail "set-up: apt-get could not install ${missing[*]}; its last lines are above."
+  fi
+fi
+say "set-up: done"
