@@ -1,0 +1,274 @@
+#include "lekalo/geom/region.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "lekalo/base/assert.hpp"
+#include "lekalo/geom/double_double.hpp"
+#include "lekalo/geom/predicates.hpp"
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::geom {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Of an arc's sweep: direction_angle's 1e-15, and rounding of the dot and cross product before it.
+constexpr double kSweepError = 4e-15;
+
+bool is_arc(const Edge& edge) { return edge.kind != EdgeKind::line; }
+
+/// An arc as the counter-clockwise turn about the centre that covers the same curve.
+struct CcwArc {
+  Point centre, from, to;
+
+  explicit CcwArc(const Edge& arc)
+      : centre(arc.centre),
+        from(arc.kind == EdgeKind::arc_ccw ? arc.from : arc.to),
+        to(arc.kind == EdgeKind::arc_ccw ? arc.to : arc.from) {}
+
+  [[nodiscard]] bool full() const { return from == to; }
+  /// More than a half turn? Decided exactly.
+  [[nodiscard]] bool beyond_half() const { return full() || orientation(centre, from, to) < 0; }
+  /// Does it reach the direction of `axis`, a unit vector along x or y? Decided exactly.
+  [[nodiscard]] bool reaches(Point axis) const {
+    const Point origin;
+    const int from_side = turn(centre, from, origin, axis), to_side = turn(origin, axis, centre, to);
+    // One product of each dot is 0, the other a rounded difference, which keeps its sign.
+    const bool at_from = from_side == 0 && dot(from - centre, axis) > 0;
+    const bool at_to = to_side == 0 && dot(to - centre, axis) > 0;
+    if (full() || at_from || at_to) return true;
+    return beyond_half() ? from_side > 0 || to_side > 0 : from_side > 0 && to_side > 0;
+  }
+};
+
+double sweep_of(const CcwArc& t) {
+  if (t.full()) return 2 * kPi;
+  const Point from = t.from - t.centre, to = t.to - t.centre;
+  const double angle = direction_angle(dot(from, to), cross(from, to));
+  // The rounded cross product may miss the sign of a turn close to nothing, a half or a whole; the exact one
+  // says which side it is on.
+  const double size = std::abs(angle);
+  return t.beyond_half() ? 2 * kPi - size : size;
+}
+
+/// x - sin(x) for x in [0, 2 pi] without losing the small difference of two near numbers.
+double angle_minus_sine(double x) {
+  if (x > 1) return x - sincos(x).sine;
+  // x^3 / 3! - x^5 / 5! + ..., to x^17: the first term left out is below u of the first for x <= 1.
+  double sum = 0;
+  for (int k = 17; k >= 3; k -= 2) sum = x * x / (k * (k - 1)) * (1 - sum);
+  return sum * x;
+}
+
+struct BoundedArea {
+  double value = 0, error = 0;
+};
+
+/// Between an arc's chord and its curve, including the steps between the two radii and their mean.
+BoundedArea area_beside_chord(const Edge& arc) {
+  const CcwArc t(arc);
+  const double r = arc_radius(arc), sweep = sweep_of(t);
+  const double step = norm(t.from - t.centre) - norm(t.to - t.centre);
+  // The second term because r^2 - r_from r_to == (r_from - r_to)^2 / 4.
+  const double value = (r * r * angle_minus_sine(sweep) + step * step * sincos(sweep).sine / 4) / 2;
+  // kSweepError changes the area by r^2 (1 - cos sweep) / 2 as much.
+  const double by_sweep = kSweepError * r * r * std::min(1.0, sweep * sweep / 4);
+  return {arc.kind == EdgeKind::arc_ccw ? value : -value, by_sweep + 8 * kUnitRoundoff * std::abs(value)};
+}
+
+BoundedArea area_with_error(const Contour& contour) {
+  DoubleDouble doubled;
+  double largest = 0, arcs_error = 0;
+  for (const Edge& edge : contour) {
+    doubled = doubled + two_product(edge.from.x, edge.to.y) - two_product(edge.from.y, edge.to.x);
+    largest = std::max({largest, std::abs(edge.from.x), std::abs(edge.from.y)});
+    if (!is_arc(edge)) continue;
+    const BoundedArea beside = area_beside_chord(edge);
+    doubled = doubled + DoubleDouble{2 * beside.value};
+    arcs_error += beside.error;
+  }
+  const double value = (doubled.hi + doubled.lo) / 2;
+  const double count = static_cast<double>(contour.size());
+  return {value, 2 * kUnitRoundoff * std::abs(value) + count * 0x1p-98 * largest * largest + arcs_error};
+}
+
+std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
+
+bool is_exact(const Edge& edge) {
+  return geom::is_exact(edge.from) && geom::is_exact(edge.to) &&
+         (!is_arc(edge) || geom::is_exact(edge.centre));
+}
+
+std::optional<std::string> arc_fault(const Edge& arc, bool alone) {
+  const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
+  if (arc.from == arc.centre || arc.to == arc.centre) {
+    return fmt::format("an end of the arc lies at its centre {}", text(arc.centre));
+  }
+  const double allowed = kArcConsistency + kArcConsistencyRelative * std::max(from, to);
+  if (!(std::abs(from - to) <= allowed)) {
+    return fmt::format(
+        "the arc's ends {} and {} are {} and {} mm from its centre {}; they may differ by {:.3g} mm",
+        text(arc.from), text(arc.to), from, to, text(arc.centre), allowed);
+  }
+  if (arc.from == arc.to) {
+    if (alone) return std::nullopt;
+    return fmt::format("the arc begins and ends at {}: a full circle must be the only edge of its contour",
+                       text(arc.from));
+  }
+  const bool same_side = dot(arc.from - arc.centre, arc.to - arc.centre) > 0;
+  if (same_side && orientation(arc.centre, arc.from, arc.to) == 0) {
+    return fmt::format(
+        "the arc's ends {} and {} lie in one direction from its centre {}: a full circle needs equal ends",
+        text(arc.from), text(arc.to), text(arc.centre));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> edge_fault(const Contour& contour, std::size_t i) {
+  const Edge& edge = contour[i];
+  if (!is_exact(edge)) {
+    return fmt::format("a coordinate of {} to {} is not 0 or a number of magnitude {:.3g} to {:.3g}",
+                       text(edge.from), text(edge.to), kSmallestExactCoordinate, kLargestExactCoordinate);
+  }
+  const std::size_t before = i == 0 ? contour.size() - 1 : i - 1;
+  const Point joint = contour[before].to;
+  if (edge.from != joint) {
+    return fmt::format("it begins at {}, but edge {} ends at {}, {:.3g} mm away", text(edge.from), before,
+                       text(joint), norm(edge.from - joint));
+  }
+  if (is_arc(edge)) return arc_fault(edge, contour.size() == 1);
+  if (edge.from == edge.to) return fmt::format("the line at {} has no length", text(edge.from));
+  return std::nullopt;
+}
+
+Result<Contour> normalised(Contour contour, bool counter_clockwise, const std::string& name) {
+  if (contour.empty()) return failure(ErrorCode::bad_input, name + " has no edges");
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    if (!is_arc(contour[i])) contour[i].centre = {};
+    if (const auto fault = edge_fault(contour, i)) {
+      return failure(ErrorCode::bad_input, fmt::format("{}, edge {}: {}", name, i, *fault));
+    }
+  }
+  const BoundedArea found = area_with_error(contour);
+  if (!(std::abs(found.value) > found.error)) {
+    return failure(ErrorCode::bad_input, fmt::format("{} encloses no area ({:.3g} mm^2)", name, found.value));
+  }
+  return (found.value > 0) == counter_clockwise ? contour : reversed(contour);
+}
+
+}  // namespace
+
+double arc_radius(const Edge& arc) noexcept {
+  return (norm(arc.from - arc.centre) + norm(arc.to - arc.centre)) / 2;
+}
+
+double arc_sweep(const Edge& arc) noexcept { return sweep_of(CcwArc(arc)); }
+
+Result<Region> make_region(Contour outer, std::vector<Contour> holes) {
+  Region region;
+  auto checked = normalised(std::move(outer), true, "outer contour");
+  if (!checked) return tl::unexpected(std::move(checked.error()));
+  region.outer = std::move(*checked);
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    auto hole = normalised(std::move(holes[i]), false, fmt::format("hole {}", i));
+    if (!hole) return tl::unexpected(std::move(hole.error()));
+    region.holes.push_back(std::move(*hole));
+  }
+  return region;
+}
+
+double signed_area(const Contour& contour) noexcept { return area_with_error(contour).value; }
+
+double area(const Region& region) noexcept {
+  double sum = signed_area(region.outer);
+  for (const Contour& hole : region.holes) sum += signed_area(hole);
+  return sum;
+}
+
+Box bounds(const Contour& contour) noexcept {
+  if (contour.empty()) return {};
+  Box box{contour[0].from, contour[0].from};
+  const auto include = [&box](Point p) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  };
+  for (const Edge& edge : contour) {
+    include(edge.from);
+    if (!is_arc(edge)) continue;
+    const CcwArc arc(edge);
+    const double r = arc_radius(edge);
+    for (const Point end : {edge.from - edge.centre, edge.to - edge.centre}) {
+      // The end of the curve at the mean radius, where it stands further out than the end given.
+      if (norm(end) < r) include(edge.centre + (r / norm(end)) * end);
+    }
+    for (const Point axis : {Point{1, 0}, Point{0, 1}, Point{-1, 0}, Point{0, -1}}) {
+      if (arc.reaches(axis)) include(edge.centre + r * axis);
+    }
+  }
+  return box;
+}
+
+Contour reversed(const Contour& contour) {
+  const auto other_way = [](Edge edge) {
+    std::swap(edge.from, edge.to);
+    if (edge.kind != EdgeKind::line) {
+      edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+    }
+    return edge;
+  };
+  Contour result(contour.size());
+  std::transform(contour.rbegin(), contour.rend(), result.begin(), other_way);
+  return result;
+}
+
+FlatRegions flatten(const std::vector<Region>& regions) {
+  FlatRegions flat;
+  const auto append = [&flat](const Contour& contour) {
+    for (const Edge& e : contour) {
+      const double direction = e.kind == EdgeKind::line ? 0 : e.kind == EdgeKind::arc_ccw ? 1 : -1;
+      flat.edges.insert(flat.edges.end(),
+                        {e.from.x, e.from.y, e.to.x, e.to.y, e.centre.x, e.centre.y, direction});
+    }
+    flat.contour_starts.push_back(static_cast<std::uint32_t>(flat.edges.size() / kFlatEdgeStride));
+  };
+  for (const Region& region : regions) {
+    append(region.outer);
+    for (const Contour& hole : region.holes) append(hole);
+    flat.piece_starts.push_back(static_cast<std::uint32_t>(flat.contour_starts.size() - 1));
+  }
+  return flat;
+}
+
+std::vector<Region> unflatten(const FlatRegions& flat) {
+  const auto edge = [&flat](std::size_t i) {
+    const double* v = flat.edges.data() + i * kFlatEdgeStride;
+    const EdgeKind kind = v[6] == 0 ? EdgeKind::line : v[6] > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw;
+    return Edge{kind, {v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}};
+  };
+  const auto contour = [&](std::size_t c) {
+    LEKALO_ASSERT(flat.contour_starts[c + 1] * kFlatEdgeStride <= flat.edges.size());
+    Contour edges;
+    for (std::size_t i = flat.contour_starts[c]; i < flat.contour_starts[c + 1]; ++i)
+      edges.push_back(edge(i));
+    return edges;
+  };
+  std::vector<Region> regions;
+  for (std::size_t p = 0; p + 1 < flat.piece_starts.size(); ++p) {
+    Region region;
+    region.outer = contour(flat.piece_starts[p]);
+    for (std::size_t c = flat.piece_starts[p] + 1; c < flat.piece_starts[p + 1]; ++c) {
+      region.holes.push_back(contour(c));
+    }
+    regions.push_back(std::move(region));
+  }
+  return regions;
+}
+
+}  // namespace lekalo::geom
