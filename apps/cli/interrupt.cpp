@@ -1,0 +1,86 @@
+#include "interrupt.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace lekalo::cli {
+namespace {
+
+// A signal handler reaches nothing but globals.
+std::atomic<bool> stop_flag{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "the flag is set in a signal handler");
+
+void request_stop(int) { stop_flag.store(true, std::memory_order_relaxed); }
+
+void handle(int signal_number) {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  sigemptyset(&action.sa_mask);
+  // Once only: the second Ctrl-C finds the default action.
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+  sigaction(signal_number, &action, nullptr);
+}
+
+void start_timer(double seconds) {
+  const double whole = std::floor(seconds);
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(whole);
+  timer.it_value.tv_usec = static_cast<suseconds_t>((seconds - whole) * 1e6);
+  if (timer.it_value.tv_sec == 0 && timer.it_value.tv_usec == 0) timer.it_value.tv_usec = 1;
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+constexpr auto kQuietTime = std::chrono::seconds(1);
+constexpr auto kBetweenLines = std::chrono::milliseconds(250);
+
+}  // namespace
+
+StopRequests::StopRequests(std::optional<double> seconds) {
+  stop_flag.store(false);
+  handle(SIGINT);
+  handle(SIGTERM);
+  if (seconds) {
+    handle(SIGALRM);
+    start_timer(*seconds);
+  }
+}
+
+StopRequests::~StopRequests() {
+  itimerval none{};
+  setitimer(ITIMER_REAL, &none, nullptr);
+}
+
+const std::atomic<bool>* StopRequests::flag() const noexcept { return &stop_flag; }
+
+ProgressLine::ProgressLine(std::string what)
+    : what_(std::move(what)),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      next_(start_ + kQuietTime) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressLine::show(const Progress& progress) {
+  if (!terminal_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  next_ = now + kBetweenLines;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  std::string line = fmt::format("\r\x1b[K{}: {:.0f} %", what_, 100 * progress.fraction);
+  if (progress.fraction > 0.01) {
+    line += fmt::format(", about {:.0f} s left", seconds * (1 - progress.fraction) / progress.fraction);
+  }
+  line += " (Ctrl-C stops with the best so far)";
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+}  // namespace lekalo::cli

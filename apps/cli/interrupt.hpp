@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "lekalo/base/run_control.hpp"
+
+namespace lekalo::cli {
+
+/// Turns Ctrl-C (and SIGTERM) and a time limit into a stop flag. The first Ctrl-C asks the search to stop
+/// with the best so far, the second ends the program as usual. At most one lives at a time.
+class StopRequests {
+ public:
+  /// `seconds`: set the flag by itself after this time.
+  explicit StopRequests(std::optional<double> seconds);
+  ~StopRequests();
+  StopRequests(const StopRequests&) = delete;
+  StopRequests& operator=(const StopRequests&) = delete;
+  [[nodiscard]] const std::atomic<bool>* flag() const noexcept;
+};
+
+/// A line on stderr with the time left, for work of more than a second, where stderr is a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string what);
+  ~ProgressLine();  ///< wipes the line
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void show(const Progress& progress);
+
+ private:
+  std::string what_;
+  bool terminal_;
+  std::chrono::steady_clock::time_point start_, next_;
+  bool shown_ = false;
+};
+
+}  // namespace lekalo::cli

@@ -1,0 +1,332 @@
+#include "locate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contours.hpp"
+#include "deviations.hpp"
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/io/files.hpp"
+#include "lekalo/io/picture.hpp"
+#include "lekalo/io/result_json.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "outputs.hpp"
+#include "solve.hpp"
+#include "summary.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// Up to this many intervals a certificate stands in the result itself.
+constexpr std::size_t kInlineIntervals = 10'000;
+
+struct Inputs {
+  std::string part_bytes, blank_bytes, nc_bytes, last_bytes;
+  Contour part, blank;
+  std::optional<io::WrittenResult> last;
+};
+
+/// Everything a run makes, before any of it is written.
+struct Product {
+  io::LocateDocument document;
+  std::string result_text, certificate_text, program_text, deviations_text, picture_bytes;
+  bool program_withheld = false;
+};
+
+Result<void> check_paths(const LocateOptions& o) {
+  return check_outputs({{"-o", o.output},
+                        {"--certificate", o.certificate},
+                        {"--picture", o.picture},
+                        {"--deviations", o.deviations},
+                        {"--nc-out", o.nc_out}},
+                       {{"--part", o.part}, {"--blank", o.blank}, {"--nc", o.nc}, {"--compare", o.compare}});
+}
+
+Result<std::string> read_if_named(const std::string& path) {
+  if (path.empty()) return std::string();
+  return io::read_file(path);
+}
+
+Result<Inputs> read_inputs(const LocateOptions& o) {
+  Result<std::string> part_bytes = io::read_file(o.part);
+  if (!part_bytes) return tl::unexpected(part_bytes.error());
+  Result<std::string> blank_bytes = io::read_file(o.blank);
+  if (!blank_bytes) return tl::unexpected(blank_bytes.error());
+  Result<std::string> nc_bytes = read_if_named(o.nc);
+  if (!nc_bytes) return tl::unexpected(nc_bytes.error());
+  Result<std::string> last_bytes = read_if_named(o.compare);
+  if (!last_bytes) return tl::unexpected(last_bytes.error());
+
+  Result<Contour> part = read_contour(*part_bytes, o.part, o.units, std::nullopt);
+  if (!part) return tl::unexpected(part.error());
+  Result<Contour> blank = read_contour(*blank_bytes, o.blank, o.units, o.trim);
+  if (!blank) return tl::unexpected(blank.error());
+  std::optional<io::WrittenResult> last;
+  if (!o.compare.empty()) {
+    Result<io::WrittenResult> read = io::read_result(*last_bytes, o.compare);
+    if (!read) return tl::unexpected(read.error());
+    last = std::move(*read);
+  }
+  return Inputs{std::move(*part_bytes), std::move(*blank_bytes), std::move(*nc_bytes), std::move(*last_bytes),
+                std::move(*part),       std::move(*blank),       std::move(last)};
+}
+
+io::InputRecord contour_record(const char* role, const std::string& path, std::string_view bytes,
+                               const Contour& contour) {
+  return {role, {path, io::sha256(bytes)}, contour.file.unit, contour.file.points.size(), contour.dropped};
+}
+
+std::vector<io::InputRecord> input_records(const LocateOptions& o, const Inputs& in) {
+  std::vector<io::InputRecord> records{contour_record("part", o.part, in.part_bytes, in.part),
+                                       contour_record("blank", o.blank, in.blank_bytes, in.blank)};
+  if (!o.nc.empty()) records.push_back({"nc", {o.nc, io::sha256(in.nc_bytes)}, std::nullopt, 0, {}});
+  if (in.last)
+    records.push_back({"last-result", {o.compare, io::sha256(in.last_bytes)}, std::nullopt, 0, {}});
+  return records;
+}
+
+/// A path that is not UTF-8 cannot stand in JSON as it is.
+bool survives_json(const std::string& path) {
+  return io::json_string(path).find("\xEF\xBF\xBD") == std::string::npos ||
+         path.find("\xEF\xBF\xBD") != std::string::npos;
+}
+
+std::vector<std::string> first_warnings(const LocateOptions& o, const Inputs& in) {
+  std::vector<std::string> warnings = o.warnings;
+  warnings.insert(warnings.end(), in.part.notices.begin(), in.part.notices.end());
+  warnings.insert(warnings.end(), in.blank.notices.begin(), in.blank.notices.end());
+  for (const std::string& path : {o.part, o.blank, o.nc, o.compare, o.nc_out, o.certificate, o.deviations}) {
+    if (!survives_json(path)) {
+      warnings.push_back("the file name " + path +
+                         " is not UTF-8, so the result holds it with replaced characters and verify must be "
+                         "told where the file is");
+    }
+  }
+  return warnings;
+}
+
+io::LocateDocument begin_document(const LocateOptions& o, const Inputs& in, const Solution& found) {
+  io::LocateDocument d;
+  d.status = found.status;
+  d.method = name_of(o.method);
+  d.inputs = input_records(o, in);
+  d.warnings = first_warnings(o, in);
+  d.seed = o.seed;
+  d.work = found.work;
+  d.placement = found.best;
+  d.upper_bound = found.upper_bound;
+  d.min_allowance = o.min_allowance;
+  d.shortfall = found.shortfall;
+  d.window_from_deg = o.window_from_deg;
+  d.window_to_deg = o.window_to_deg;
+  d.contacts = found.contacts;
+  d.alternatives = found.alternatives;
+  d.alternatives_complete = found.alternatives_complete;
+  d.trim = in.blank.trim;
+  d.seconds = found.seconds;
+  return d;
+}
+
+std::string certificate_document(const std::vector<locate::CertificateInterval>& intervals) {
+  io::CertificateText text;
+  for (const locate::CertificateInterval& interval : intervals) text.add(interval);
+  return std::move(text).finish();
+}
+
+void add_certificate(const LocateOptions& o, const Solution& found, Product& product) {
+  io::LocateDocument& d = product.document;
+  if (o.method != Method::certified) return;
+  const bool too_long = found.certificate.size() > kInlineIntervals;
+  if (o.certificate.empty() && !too_long) {
+    d.certificate = found.certificate;
+    return;
+  }
+  product.certificate_text = certificate_document(found.certificate);
+  if (o.certificate.empty()) {
+    d.warnings.push_back(
+        fmt::format("the certificate has {} intervals, more than the {} that go into a result, and is not "
+                    "kept; --certificate FILE keeps it",
+                    found.certificate.size(), kInlineIntervals));
+    return;
+  }
+  d.certificate_file = io::FileRecord{o.certificate, io::sha256(product.certificate_text)};
+  d.certificate_intervals = found.certificate.size();
+}
+
+/// An angle in (-pi, pi] that differs from `angle` by whole turns.
+double least_turn(double angle) {
+  const double turn = std::remainder(angle, 2 * std::numbers::pi);
+  return turn <= -std::numbers::pi ? std::numbers::pi : turn;
+}
+
+void add_comparison(const Inputs& in, Product& product) {
+  if (!in.last) return;
+  io::LocateDocument& d = product.document;
+  const locate::Placement& last = in.last->placement;
+  const locate::Placement& now = d.placement;
+  const io::InputRecord* last_part = in.last->input("part");
+  io::ComparisonRecord c;
+  c.same_part = last_part != nullptr && last_part->file.sha256 == d.inputs.front().file.sha256;
+  if (!c.same_part) d.warnings.push_back("the earlier result was made from another part file");
+  c.dx = now.x - last.x;
+  c.dy = now.y - last.y;
+  c.dtheta = least_turn(now.theta - last.theta);
+  const auto new_pose = geom::BlankFromPart::from_angle(now.theta, {now.x, now.y});
+  const auto last_pose = geom::BlankFromPart::from_angle(last.theta, {last.x, last.y});
+  for (const geom::Point& p : in.part.polygon.vertices()) {
+    c.largest_shift = std::max(c.largest_shift, geom::norm(new_pose(p) - last_pose(p)));
+  }
+  c.last_clearance = last.clearance;
+  c.last_pose_clearance = safe_clearance(in.part, in.blank, last);
+  d.comparison = c;
+}
+
+void add_deviations(const LocateOptions& o, const Inputs& in, Product& product) {
+  if (o.deviations.empty()) return;
+  const Deviations deviations =
+      measure_deviations(in.blank.file.points, in.part.polygon.vertices(), product.document.placement);
+  product.deviations_text = deviations_csv(in.blank.file.points, deviations);
+  product.document.deviations = io::DeviationsRecord{{o.deviations, io::sha256(product.deviations_text)},
+                                                     deviations.signed_mm.size(),
+                                                     deviations.least(),
+                                                     deviations.greatest()};
+}
+
+/// Rewrites the NC program unless the placement misses the allowance, with or without the rounding of the
+/// program; then a warning says why there is none.
+Result<void> add_program(const LocateOptions& o, const Inputs& in, Product& product) {
+  if (o.nc.empty()) return {};
+  io::LocateDocument& d = product.document;
+  if (d.shortfall > 0) {
+    product.program_withheld = true;
+    d.warnings.push_back("no NC program was written, because the allowance is not met");
+    return {};
+  }
+  const locate::Placement& p = d.placement;
+  Result<nc::Rewritten> rewritten = nc::rewrite_program(in.nc_bytes, o.nc, p.x, p.y, p.theta, o.rewrite);
+  if (!rewritten) return tl::unexpected(rewritten.error());
+  const double clearance = difference_rounded_down(p.clearance, rewritten->rounding_mm);
+  if (!(clearance >= o.min_allowance)) {
+    product.program_withheld = true;
+    d.warnings.push_back(
+        fmt::format("no NC program was written, because its rounding to the written decimals, up to {} mm, "
+                    "would leave {} mm",
+                    rewritten->rounding_mm, clearance));
+    return {};
+  }
+  product.program_text = std::move(rewritten->program);
+  d.nc = io::NcRecord{name_of(o.rewrite.mode),
+                      name_of(o.rewrite.scan_frame),
+                      o.rewrite.work_offset,
+                      rewritten->rounding_mm,
+                      clearance,
+                      rewritten->motions,
+                      std::move(rewritten->notes),
+                      {o.nc_out, io::sha256(product.program_text)}};
+  return {};
+}
+
+Result<void> add_picture(const LocateOptions& o, const Inputs& in, const Solution& found, Product& product) {
+  if (o.picture.empty()) return {};
+  io::LocatePicture picture;
+  picture.title = "lekalo locate";
+  picture.part_name = o.part;
+  picture.blank_name = o.blank;
+  picture.method = product.document.method;
+  picture.status = product.document.status;
+  picture.part = in.part.polygon.vertices();
+  picture.blank = in.blank.polygon.vertices();
+  picture.result = found.best;
+  picture.has_upper_bound = found.upper_bound.has_value();
+  picture.upper_bound = found.upper_bound.value_or(0);
+  picture.contacts = found.polygon_contacts;
+  if (o.picture.ends_with(".svg")) {
+    product.picture_bytes = io::picture_svg(picture);
+    return {};
+  }
+  Result<std::string> png = io::picture_png(picture);
+  if (!png) return tl::unexpected(png.error());
+  product.picture_bytes = std::move(*png);
+  return {};
+}
+
+/// Puts the bytes about to be written before the independent checker. Where a proof was made it has to hold,
+/// also one that is too long to be kept.
+Result<void> self_check(const LocateOptions& o, const Inputs& in, const Product& product) {
+  verify::LocateInputs inputs{
+      {"result", product.result_text}, {o.part, in.part_bytes}, {o.blank, in.blank_bytes}, {}};
+  std::string result_with_proof;
+  const bool proof_not_kept = !product.certificate_text.empty() && !product.document.certificate_file;
+  if (proof_not_kept) {
+    io::LocateDocument with_proof = product.document;
+    with_proof.certificate_file = io::FileRecord{"certificate", io::sha256(product.certificate_text)};
+    result_with_proof = io::result_json(with_proof);
+    inputs.result.bytes = result_with_proof;
+  }
+  if (!product.certificate_text.empty()) inputs.certificate = {"certificate", product.certificate_text};
+  const Result<verify::LocateReport> report = verify::verify_locate(inputs);
+  const char* const ending = "; no file was written, and this is a mistake of lekalo worth reporting";
+  if (!report) {
+    return failure(ErrorCode::refuted, "self-check: " + report.error().message + ending);
+  }
+  const auto wanted = o.method == Method::certified ? verify::Verdict::confirmed : verify::Verdict::unproved;
+  if (report->verdict == wanted) return {};
+  const std::string finding =
+      report->findings.empty() ? "the proof is not complete" : report->findings.front();
+  return failure(ErrorCode::refuted, "self-check refuted the result: " + finding + ending);
+}
+
+/// All files, or none: they get their names only after stdout has taken the result.
+Result<void> write_all(const LocateOptions& o, const Product& product) {
+  io::AtomicFiles files;
+  const auto add = [&files](const std::string& path, const std::string& bytes) -> Result<void> {
+    if (path.empty()) return {};
+    return files.add(path, bytes);
+  };
+  Result<void> done = add(o.output, product.result_text)
+                          .and_then([&] { return add(o.certificate, product.certificate_text); })
+                          .and_then([&] { return add(o.picture, product.picture_bytes); })
+                          .and_then([&] { return add(o.deviations, product.deviations_text); });
+  if (done && product.document.nc) done = add(o.nc_out, product.program_text);
+  if (done && o.json) done = print(product.result_text);
+  if (done) done = files.commit();
+  return done;
+}
+
+std::vector<std::string> written_files(const LocateOptions& o, const Product& product) {
+  std::vector<std::string> files;
+  for (const std::string& path : {o.output, o.certificate, o.picture, o.deviations}) {
+    if (!path.empty()) files.push_back(path);
+  }
+  if (product.document.nc) files.push_back(o.nc_out);
+  return files;
+}
+
+}  // namespace
+
+Result<int> run_locate(const LocateOptions& o) {
+  if (Result<void> fine = check_paths(o); !fine) return tl::unexpected(fine.error());
+  const Result<Inputs> in = read_inputs(o);
+  if (!in) return tl::unexpected(in.error());
+  const Result<Solution> found = solve(in->part, in->blank, o);
+  if (!found) return tl::unexpected(found.error());
+
+  Product product;
+  product.document = begin_document(o, *in, *found);
+  add_certificate(o, *found, product);
+  add_comparison(*in, product);
+  add_deviations(o, *in, product);
+  if (Result<void> fine = add_program(o, *in, product); !fine) return tl::unexpected(fine.error());
+  if (Result<void> fine = add_picture(o, *in, *found, product); !fine) return tl::unexpected(fine.error());
+  product.result_text = io::result_json(product.document);
+
+  if (Result<void> fine = self_check(o, *in, product); !fine) return tl::unexpected(fine.error());
+  if (Result<void> fine = write_all(o, product); !fine) return tl::unexpected(fine.error());
+  tell(locate_summary(product.document, written_files(o, product)));
+  return product.document.shortfall > 0 || product.program_withheld ? 1 : 0;
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,358 @@
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "completion.hpp"
+#include "lekalo/base/version.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+template <class T>
+struct Word {
+  const char* name;
+  T value;
+};
+constexpr std::array kMethods{Word<Method>{"certified", Method::certified},
+                              Word<Method>{"ipopt", Method::ipopt}, Word<Method>{"icp", Method::icp}};
+constexpr std::array kUnits{Word<LengthUnit>{"mm", LengthUnit::millimetre},
+                            Word<LengthUnit>{"inch", LengthUnit::inch}};
+constexpr std::array kStartRules{
+    Word<locate::StartRule>{"random", locate::StartRule::random},
+    Word<locate::StartRule>{"centroids", locate::StartRule::centroids},
+    Word<locate::StartRule>{"principal-axes", locate::StartRule::principal_axes}};
+constexpr std::array kModes{Word<nc::RewriteMode>{"coordinates", nc::RewriteMode::coordinates},
+                            Word<nc::RewriteMode>{"offset", nc::RewriteMode::offset},
+                            Word<nc::RewriteMode>{"g68", nc::RewriteMode::g68}};
+constexpr std::array kScanFrames{Word<nc::ScanFrame>{"machine", nc::ScanFrame::machine},
+                                 Word<nc::ScanFrame>{"wcs", nc::ScanFrame::wcs}};
+
+template <class T, std::size_t N>
+const char* name_in(const std::array<Word<T>, N>& words, T value) noexcept {
+  for (const Word<T>& word : words) {
+    if (word.value == value) return word.name;
+  }
+  return "";
+}
+
+template <class T, std::size_t N>
+std::string list_of(const std::array<Word<T>, N>& words, const char* separator) {
+  std::string list;
+  for (const Word<T>& word : words) list += (list.empty() ? "" : separator) + std::string(word.name);
+  return list;
+}
+
+/// The words as typed. They become numbers here rather than in CLI11, whose messages do not name the range
+/// and which takes "nan" and "0x10".
+struct LocateWords {
+  std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
+      alternatives, nc, nc_out, nc_mode, wcs, scan_frame, output, certificate, picture, deviations, compare;
+  std::vector<std::string> window;
+  bool json = false;
+};
+
+/// Turns words into values and keeps the first complaint.
+class WordReader {
+ public:
+  /// Leaves `value` alone when the option was not given.
+  template <class Number>
+  void number(const char* option, const std::string& word, Number low, Number high, const char* wanted,
+              Number& value) {
+    if (word.empty()) return;
+    Number parsed{};
+    const char* const end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, parsed);
+    if (error == std::errc{} && stop == end && low <= parsed && parsed <= high) {
+      value = parsed;
+    } else {
+      complain(fmt::format("{}: \"{}\" is not {}", option, word, wanted));
+    }
+  }
+  template <class T, std::size_t N>
+  void choice(const char* option, const std::string& word, const std::array<Word<T>, N>& words, T& value) {
+    if (word.empty()) return;
+    for (const Word<T>& candidate : words) {
+      if (word == candidate.name) {
+        value = candidate.value;
+        return;
+      }
+    }
+    complain(fmt::format("{}: \"{}\" is not one of {}", option, word, list_of(words, ", ")));
+  }
+  void require(bool condition, const std::string& complaint) {
+    if (!condition) complain(complaint);
+  }
+  [[nodiscard]] const std::string& complaint() const { return complaint_; }
+
+ private:
+  void complain(const std::string& complaint) {
+    if (complaint_.empty()) complaint_ = complaint;
+  }
+  std::string complaint_;
+};
+
+constexpr double kLargestLength = 1e9;         // mm: a thousand kilometres, beyond any machine
+constexpr double kSmallestLength = 1e-300;     // stands for "more than 0"
+constexpr double kLargestWindowAngle = 720.0;  // degrees: either way of writing a window fits
+constexpr double kLongestTime = 1e7;           // seconds
+
+void read_window(const std::vector<std::string>& words, WordReader& read, LocateOptions& o) {
+  if (words.size() != 2) return;
+  const char* const wanted = "an angle between -720 and 720 degrees";
+  read.number("--window", words[0], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_from_deg);
+  read.number("--window", words[1], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_to_deg);
+  read.require(o.window_from_deg <= o.window_to_deg,
+               fmt::format("--window: the first angle, {}, is above the second, {}", words[0], words[1]));
+  if (o.window_to_deg - o.window_from_deg >= 360) {
+    o.window_from_deg = 0;
+    o.window_to_deg = 360;
+  }
+}
+
+void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  read_window(words.window, read, o);
+  read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0", o.gap);
+  read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
+              o.min_allowance);
+  read.choice("--method", words.method, kMethods, o.method);
+  read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.starts);
+  read.choice("--start-rule", words.start_rule, kStartRules, o.start_rule);
+  constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
+  read.number("--seed", words.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
+  read.number("--work", words.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
+  if (!words.alternatives.empty()) {
+    read.number("--alternatives", words.alternatives, 0.0, kLargestLength, "a length in mm of 0 or more",
+                o.alternatives.emplace());
+  }
+  if (!words.time.empty()) {
+    read.number("--time", words.time, 1e-6, kLongestTime, "a time in seconds above 0", o.seconds.emplace());
+  }
+}
+
+void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  o.nc = words.nc;
+  o.nc_out = words.nc_out;
+  read.require(o.nc.empty() || !o.nc_out.empty(),
+               "--nc: say with --nc-out FILE where the rewritten program goes");
+  read.require(o.nc_out.empty() || !o.nc.empty(), "--nc-out: say with --nc FILE which program to rewrite");
+  read.require(!o.nc.empty() || (words.nc_mode.empty() && words.wcs.empty() && words.scan_frame.empty()),
+               "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
+  read.choice("--nc-mode", words.nc_mode, kModes, o.rewrite.mode);
+  read.choice("--scan-frame", words.scan_frame, kScanFrames, o.rewrite.scan_frame);
+  read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)", o.rewrite.work_offset);
+}
+
+void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  o.output = words.output;
+  o.certificate = words.certificate;
+  o.picture = words.picture;
+  o.deviations = words.deviations;
+  o.compare = words.compare;
+  o.json = words.json;
+  const std::string ending = std::filesystem::path(o.picture).extension().string();
+  read.require(o.picture.empty() || ending == ".svg" || ending == ".png",
+               fmt::format("--picture: the name \"{}\" ends neither in .svg nor in .png", o.picture));
+}
+
+/// A file that a method cannot make is refused; a number that it does not look at is only worth a word.
+void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  const bool certified = o.method == Method::certified;
+  const std::string method = name_of(o.method);
+  read.require(certified || o.certificate.empty(),
+               "--certificate: --method " + method + " proves nothing, only --method certified does");
+  read.require(certified || !o.alternatives,
+               "--alternatives: --method " + method + " finds none, only --method certified does");
+  const auto no_effect = [&](bool given, const char* option) {
+    if (given) o.warnings.push_back(fmt::format("{} has no effect with --method {}", option, method));
+  };
+  no_effect(!words.gap.empty() && !certified, "--gap");
+  no_effect(!words.starts.empty() && o.method != Method::ipopt, "--starts");
+  no_effect(!words.start_rule.empty() && o.method != Method::ipopt, "--start-rule");
+  no_effect(!words.work.empty() && o.method == Method::icp, "--work");
+}
+
+Result<LocateOptions> to_options(const LocateWords& words) {
+  LocateOptions o;
+  WordReader read;
+  o.part = words.part;
+  o.blank = words.blank;
+  if (!words.units.empty()) read.choice("--units", words.units, kUnits, o.units.emplace());
+  if (!words.trim.empty()) {
+    read.number("--trim", words.trim, kSmallestLength, kLargestLength, "a length in mm above 0",
+                o.trim.emplace());
+  }
+  read_search(words, read, o);
+  read_program(words, read, o);
+  read_outputs(words, read, o);
+  check_method(words, read, o);
+  if (!read.complaint().empty()) {
+    return failure(ErrorCode::usage, read.complaint() + " (see lekalo locate --help)");
+  }
+  return o;
+}
+
+constexpr const char* kLocateFooter =
+    "Examples:\n"
+    "  lekalo locate --part part.csv --blank probed.csv --min-allowance 0.3 --picture where.svg\n"
+    "  lekalo locate --part part.dxf --blank probed.xyz --trim 0.05 --nc part.ngc --nc-out here.ngc \\\n"
+    "                --nc-mode coordinates --scan-frame wcs -o result.json\n"
+    "\n"
+    "Exit codes: 0 a placement, 1 there is none with this allowance, 2 wrong command line, 3 bad input or "
+    "NC\n"
+    "program refused, 4 the self-check refuted the result, 5 disk or other surroundings. With 2 to 5 no "
+    "file\n"
+    "is written; with 1 no NC program is. Angles on the command line are degrees, in JSON radians.";
+
+void add_input_options(CLI::App& locate, LocateWords& w) {
+  const auto add = [&](const char* name, std::string& word, const char* help) {
+    return locate.add_option(name, word, help)->group("What to place");
+  };
+  add("--part", w.part, "Contour of the part: .csv .txt .xyz .json .dxf, convex")
+      ->required()
+      ->type_name("FILE");
+  add("--blank", w.blank, "Contour of the blank as probed, the same formats")->required()->type_name("FILE");
+  add("--units", w.units, "Unit of contour files that do not name theirs [mm]")
+      ->type_name(list_of(kUnits, "|"));
+  add("--trim", w.trim,
+      "Cut dents of the blank up to this deep inwards to a convex contour; the loss is reported")
+      ->type_name("MM");
+  add("--compare", w.compare, "Result of an earlier probing: report the shift since then")->type_name("FILE");
+}
+
+void add_search_options(CLI::App& locate, LocateWords& w) {
+  const auto add = [&](const char* name, std::string& word, const std::string& type, const char* help) {
+    locate.add_option(name, word, help)->type_name(type)->group("How to search");
+  };
+  add("--min-allowance", w.min_allowance, "MM", "Least material demanded between part and blank surface [0]");
+  locate.add_option("--window", w.window, "Only angles from the first to the second, degrees [0 360]")
+      ->expected(2)
+      ->type_name("DEG DEG")
+      ->group("How to search");
+  add("--gap", w.gap, "MM", "Stop when no other placement can be better by more than this [1e-9]");
+  add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
+  add("--method", w.method, list_of(kMethods, "|"),
+      "certified proves its result; ipopt and icp are there for comparison [certified]");
+  add("--starts", w.starts, "N", "Starts of --method ipopt [10]");
+  add("--start-rule", w.start_rule, list_of(kStartRules, "|"), "Where --method ipopt starts [random]");
+  add("--seed", w.seed, "S", "Seed of all random choices [0]");
+  add("--work", w.work, "N", "Stop after N units of work (linear programs, or starts) with the best so far");
+  add("--time", w.time, "SECONDS", "Stop after this time with the best so far; not reproducible");
+}
+
+void add_program_options(CLI::App& locate, LocateWords& w) {
+  const auto add = [&](const char* name, std::string& word, const std::string& type, const char* help) {
+    locate.add_option(name, word, help)->type_name(type)->group("NC program");
+  };
+  add("--nc", w.nc, "FILE", "ISO/RS-274 program written in the part's frame");
+  add("--nc-out", w.nc_out, "FILE", "The program for the blank as it lies");
+  add("--nc-mode", w.nc_mode, list_of(kModes, "|"),
+      "Turn every coordinate, or let the control do it: LinuxCNC G10 L2, Fanuc G68 [coordinates]");
+  add("--wcs", w.wcs, "N", "Work offset that the program runs in: 1 is G54 .. 9 is G59.3 [1]");
+  add("--scan-frame", w.scan_frame, list_of(kScanFrames, "|"),
+      "Coordinates in which the blank was probed [machine]");
+}
+
+void add_output_options(CLI::App& locate, LocateWords& w) {
+  const auto add = [&](const char* name, std::string& word, const char* help) {
+    locate.add_option(name, word, help)->type_name("FILE")->group("Output");
+  };
+  add("-o,--output", w.output, "Write the result as JSON to this file");
+  add("--picture", w.picture, "Draw blank, part and allowance: .svg or .png");
+  add("--certificate", w.certificate, "Write the proof to this file instead of into the result");
+  add("--deviations", w.deviations, "CSV: signed distance of every probed point from the placed part");
+  locate.add_flag("--json", w.json, "Print the result as JSON on stdout")->group("Output");
+}
+
+void add_verify_options(CLI::App& verify, VerifyOptions& o) {
+  verify.add_option("result", o.result, "Result written by lekalo locate -o")->required()->type_name("FILE");
+  const auto add = [&](const char* name, std::string& word, const char* help) {
+    verify.add_option(name, word, help)->type_name("FILE");
+  };
+  add("--part", o.part, "Where the part file is now, when not where the result says");
+  add("--blank", o.blank, "Where the blank file is now");
+  add("--certificate", o.certificate, "Where the certificate file is now");
+  verify.add_flag("--json", o.json, "Print the report as JSON on stdout");
+}
+
+std::string first_empty_option(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_expected_min() == 0) continue;  // flags
+    for (const std::string& word : option->results()) {
+      if (word.empty()) return option->get_name();
+    }
+  }
+  return {};
+}
+
+/// One line out of CLI11's message, whose own ends are sometimes line breaks.
+std::string sentence(std::string message) {
+  while (!message.empty() && (message.back() == '\n' || message.back() == '.')) message.pop_back();
+  for (char& c : message) {
+    if (c == '\n') c = ' ';
+  }
+  return message;
+}
+
+}  // namespace
+
+const char* name_of(Method method) noexcept { return name_in(kMethods, method); }
+const char* name_of(nc::RewriteMode mode) noexcept { return name_in(kModes, mode); }
+const char* name_of(nc::ScanFrame frame) noexcept { return name_in(kScanFrames, frame); }
+
+Result<Command> parse_command_line(int argc, char** argv) {
+  CLI::App app("lekalo: where in this blank is the part? Placements with a proof.", "lekalo");
+  app.set_version_flag("--version", std::string("lekalo ") + kVersion, "Print the version and stop");
+  app.footer("lekalo COMMAND --help explains a command.");
+  app.require_subcommand(1);
+
+  LocateWords words;
+  CLI::App& locate = *app.add_subcommand(
+      "locate", "Place a part in a probed blank with the largest possible minimum allowance, and prove it");
+  add_input_options(locate, words);
+  add_search_options(locate, words);
+  add_program_options(locate, words);
+  add_output_options(locate, words);
+  locate.footer(kLocateFooter);
+
+  VerifyOptions verify_options;
+  CLI::App& verify = *app.add_subcommand(
+      "verify", "Recheck a result against its files with exact arithmetic, independently of the solver");
+  add_verify_options(verify, verify_options);
+  verify.footer(
+      "Exit codes: 0 confirmed, 1 clearance confirmed but there is no proof of the bound, 4 refuted,\n"
+      "2 wrong command line, 3 a file cannot be read.");
+
+  std::string shell;
+  CLI::App& completion = *app.add_subcommand("completion", "Print a completion script for a shell");
+  completion.add_option("shell", shell, "bash, zsh or fish")->required()->type_name("SHELL");
+  completion.footer("For bash: eval \"$(lekalo completion bash)\"");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion& version) {
+    return PrintText{std::string(version.what()) + "\n"};
+  } catch (const CLI::CallForHelp&) {
+    return PrintText{app.help()};
+  } catch (const CLI::ParseError& error) {
+    return failure(ErrorCode::usage, sentence(error.what()) + " (see lekalo --help)");
+  }
+  for (const CLI::App* command : app.get_subcommands()) {
+    const std::string empty = first_empty_option(*command);
+    if (!empty.empty()) {
+      return failure(ErrorCode::usage, empty + ": the value is empty (see lekalo --help)");
+    }
+  }
+  if (locate) return to_options(words).map([](LocateOptions&& o) { return Command(std::move(o)); });
+  if (verify) return verify_options;
+  return completion_script(app, shell).map([](std::string&& text) {
+    return Command(PrintText{std::move(text)});
+  });
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/locate/reference.hpp"
+#include "lekalo/nc/rewrite.hpp"
+
+namespace lekalo::cli {
+
+enum class Method { certified, ipopt, icp };
+
+/// What `lekalo locate` was asked for, checked. An empty path means: not asked for.
+struct LocateOptions {
+  std::string part, blank;
+  std::optional<LengthUnit> units;
+  std::optional<double> trim;  ///< mm
+  double window_from_deg = 0, window_to_deg = 360;
+  double gap = 1e-9, min_allowance = 0;  ///< mm
+  Method method = Method::certified;
+  int starts = 10;
+  locate::StartRule start_rule = locate::StartRule::random;
+  std::uint64_t seed = 0;
+  std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
+  std::optional<double> seconds;
+  std::optional<double> alternatives;  ///< mm
+  std::string nc, nc_out;
+  nc::RewriteOptions rewrite;
+  std::string output, certificate, picture, deviations, compare;
+  bool json = false;
+  std::vector<std::string> warnings;  ///< options that have no effect here
+};
+
+struct VerifyOptions {
+  std::string result;
+  std::string part, blank, certificate;  ///< instead of the paths in the result; may be empty
+  bool json = false;
+};
+
+/// Text for stdout and nothing else to do: help, version, a completion script.
+struct PrintText {
+  std::string text;
+};
+
+using Command = std::variant<LocateOptions, VerifyOptions, PrintText>;
+
+/// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
+[[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);
+
+/// Names as they stand on the command line and in results.
+[[nodiscard]] const char* name_of(Method method) noexcept;
+[[nodiscard]] const char* name_of(nc::RewriteMode mode) noexcept;
+[[nodiscard]] const char* name_of(nc::ScanFrame frame) noexcept;
+
+}  // namespace lekalo::cli

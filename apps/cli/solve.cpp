@@ -1,0 +1,158 @@
+#include "solve.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numbers>
+
+#include "interrupt.hpp"
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/phi/convex.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// Angles in radians that hold the window in degrees for certain: the product is within 2^-51 of the exact
+/// one.
+locate::AngleWindow window_of(const LocateOptions& options) {
+  if (options.window_from_deg == 0 && options.window_to_deg == 360) return {};
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+  constexpr double kBound = 0x1p-51;
+  const double from = options.window_from_deg * kRadiansPerDegree;
+  const double to = options.window_to_deg * kRadiansPerDegree;
+  return {from - kBound * std::abs(from), to + kBound * std::abs(to)};
+}
+
+/// Contacts in polygon indices to contacts in the indices of the result document.
+class ResultIndices {
+ public:
+  ResultIndices(const Contour& part, const Contour& blank) : part_(part), blank_(blank) {}
+  void convert(locate::Contact& contact) const {
+    contact.part_vertex = part_.vertex_in_result[contact.part_vertex];
+    contact.blank_edge = blank_.edge_in_result[contact.blank_edge];
+  }
+
+ private:
+  const Contour& part_;
+  const Contour& blank_;
+};
+
+const char* name_of_status(locate::Status status) {
+  switch (status) {
+    case locate::Status::optimal:
+      return "optimal";
+    case locate::Status::stopped:
+      return "stopped";
+    case locate::Status::infeasible:
+      return "infeasible";
+  }
+  return "";
+}
+
+Result<Solution> solve_certified(const Contour& part, const Contour& blank, const LocateOptions& options,
+                                 const RunControl& run) {
+  const ResultIndices indices(part, blank);
+  Solution solution;
+  locate::ConvexOptions search;
+  search.gap = options.gap;
+  search.min_allowance = options.min_allowance;
+  search.alternatives = options.alternatives;
+  search.certificate_limit = 0;  // all of it comes through the sink
+  search.certificate_sink = [&](const locate::CertificateInterval& interval) {
+    solution.certificate.push_back(interval);
+    for (locate::Contact& contact : solution.certificate.back().contacts) indices.convert(contact);
+  };
+  search.run = run;
+  const Result<locate::ConvexResult> found = locate::locate_convex(
+      {part.polygon, blank.polygon, window_of(options), part.coordinate_error, blank.coordinate_error},
+      search);
+  if (!found) return tl::unexpected(found.error());
+  solution.status = name_of_status(found->status);
+  solution.best = found->best;
+  solution.upper_bound = found->upper_bound;
+  solution.shortfall = found->shortfall;
+  solution.polygon_contacts = found->contacts;
+  solution.contacts = found->contacts;
+  for (locate::Contact& contact : solution.contacts) indices.convert(contact);
+  solution.alternatives = found->alternatives;
+  solution.alternatives_complete = found->alternatives_complete;
+  solution.work = found->work;
+  return solution;
+}
+
+/// `unproved`: such a method says nothing about other placements, whether it ran to its end or not.
+Result<Solution> reference_solution(const Result<locate::ReferenceResult>& found, const Contour& part,
+                                    const Contour& blank, double min_allowance) {
+  if (!found) return tl::unexpected(found.error());
+  Solution solution;
+  solution.status = "unproved";
+  solution.best = found->best;
+  solution.best.clearance = safe_clearance(part, blank, found->best);
+  solution.shortfall = std::max(0.0, difference_rounded_up(min_allowance, solution.best.clearance));
+  return solution;
+}
+
+Result<Solution> solve_ipopt(const Contour& part, const Contour& blank, const LocateOptions& options,
+                             const RunControl& run) {
+  locate::IpoptOptions search;
+  search.starts = options.starts;
+  search.seed = options.seed;
+  search.start_rule = options.start_rule;
+  search.window = window_of(options);
+  search.run = run;
+  const Result<locate::ReferenceResult> found = locate::locate_ipopt(part.polygon, blank.polygon, search);
+  Result<Solution> solution = reference_solution(found, part, blank, options.min_allowance);
+  if (!solution) return solution;
+  solution->work = static_cast<std::uint64_t>(found->starts_done + found->starts_rejected);
+  const bool budget_spent = solution->work >= options.work && found->starts_done < options.starts;
+  if (run.stop_requested() || budget_spent) solution->status = "stopped";
+  return solution;
+}
+
+Result<Solution> solve_icp(const Contour& part, const Contour& blank, const LocateOptions& options) {
+  locate::IcpOptions search;
+  search.window = window_of(options);
+  const Result<locate::ReferenceResult> found = locate::locate_icp(part.polygon, blank.polygon, search);
+  Result<Solution> solution = reference_solution(found, part, blank, options.min_allowance);
+  if (solution) solution->work = found->iterations;
+  return solution;
+}
+
+}  // namespace
+
+double safe_clearance(const Contour& part, const Contour& blank, const locate::Placement& placement) {
+  const double low =
+      phi::clearance_enclosure(part.polygon, blank.polygon, placement.x, placement.y, placement.theta).low;
+  // Points within e of the true ones in each coordinate are within sqrt(2) e of them, and so is every
+  // boundary point: the clearance of a part inside changes by no more than this. Outside it is a distance to
+  // a line beyond its edge, which tilts with the ends of the edge.
+  const double errors = 1.5 * (part.coordinate_error + blank.coordinate_error);
+  if (errors == 0) return low;
+  return difference_rounded_down(low, errors);
+}
+
+Result<Solution> solve(const Contour& part, const Contour& blank, const LocateOptions& options) {
+  const StopRequests stop(options.seconds);
+  ProgressLine line("searching");
+  RunControl run;
+  run.stop = stop.flag();
+  run.progress = [&line](const Progress& progress) { line.show(progress); };
+  run.work_limit = options.work;
+  const auto start = std::chrono::steady_clock::now();
+  Result<Solution> solution = [&] {
+    switch (options.method) {
+      case Method::ipopt:
+        return solve_ipopt(part, blank, options, run);
+      case Method::icp:
+        return solve_icp(part, blank, options);
+      case Method::certified:
+        break;
+    }
+    return solve_certified(part, blank, options, run);
+  }();
+  if (solution) {
+    solution->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return solution;
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,140 @@
+#include "summary.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace lekalo::cli {
+namespace {
+
+constexpr int kLengthDecimals = 9;
+
+std::string mm_down(double value) { return decimals_down(value, kLengthDecimals) + " mm"; }
+std::string mm_up(double value) { return decimals_up(value, kLengthDecimals) + " mm"; }
+
+double read_back(const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+
+std::string headline(const io::LocateDocument& d) {
+  if (d.status == "optimal") return "The best placement was found and proved.";
+  if (d.status == "infeasible") {
+    return fmt::format("No placement reaches the demanded allowance of {} mm; this is proved.",
+                       d.min_allowance);
+  }
+  if (d.status == "stopped") return "Stopped early: a placement that holds, maybe not the best.";
+  return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
+}
+
+std::string window_text(const io::LocateDocument& d) {
+  if (d.window_from_deg == 0 && d.window_to_deg == 360) return "at any angle";
+  return fmt::format("at an angle from {} to {} degrees", d.window_from_deg, d.window_to_deg);
+}
+
+std::string pose_lines(const io::LocateDocument& d) {
+  const locate::Placement& p = d.placement;
+  return fmt::format(
+      "  the part lies at   x = {:.6f} mm, y = {:.6f} mm, turned by {:.6f} degrees\n"
+      "  minimum allowance  {}{}\n",
+      p.x, p.y, degrees(p.theta), mm_down(p.clearance),
+      p.clearance < 0 ? ": the part sticks out of the blank" : "");
+}
+
+std::string bound_line(const io::LocateDocument& d) {
+  if (!d.upper_bound) return "";
+  return fmt::format("  proved             no placement {} has more than {}\n", window_text(d),
+                     mm_up(*d.upper_bound));
+}
+
+std::string demand_line(const io::LocateDocument& d) {
+  if (d.shortfall > 0) {
+    return fmt::format("  demanded           {} mm: {} are missing\n", d.min_allowance, mm_up(d.shortfall));
+  }
+  return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
+}
+
+std::string contact_lines(const io::LocateDocument& d) {
+  std::string text;
+  for (const locate::Contact& contact : d.contacts) {
+    text += fmt::format("{}part point {} on blank edge {}", text.empty() ? "  held by            " : ", ",
+                        contact.part_vertex, contact.blank_edge);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+std::string alternative_lines(const io::LocateDocument& d) {
+  std::string text;
+  for (const locate::Placement& p : d.alternatives) {
+    text += fmt::format("  alternative        x = {:.6f}, y = {:.6f}, {:.6f} degrees: {}\n", p.x, p.y,
+                        degrees(p.theta), mm_down(p.clearance));
+  }
+  if (!d.alternatives_complete) text += "  alternative        there are more\n";
+  return text;
+}
+
+std::string trim_line(const io::LocateDocument& d) {
+  if (!d.trim) return "";
+  return fmt::format("  trimmed            the blank lost up to {} of its convex hull\n",
+                     mm_up(d.trim->loss));
+}
+
+std::string comparison_lines(const io::LocateDocument& d) {
+  if (!d.comparison) return "";
+  const io::ComparisonRecord& c = *d.comparison;
+  return fmt::format(
+      "  since last time    x {:+.6f} mm, y {:+.6f} mm, angle {:+.6f} degrees; no part point moved more than "
+      "{:.6f} mm\n"
+      "  the last placement would keep {} here (it had {})\n",
+      c.dx, c.dy, degrees(c.dtheta), c.largest_shift, mm_down(c.last_pose_clearance),
+      mm_down(c.last_clearance));
+}
+
+std::string deviation_line(const io::LocateDocument& d) {
+  if (!d.deviations) return "";
+  return fmt::format("  probed points      {}, from {:.6f} to {:.6f} mm off the placed part\n",
+                     d.deviations->points, d.deviations->least, d.deviations->greatest);
+}
+
+std::string program_lines(const io::LocateDocument& d) {
+  if (!d.nc) return "";
+  std::string text = fmt::format("  NC program         {} motions; with its rounding the allowance is {}\n",
+                                 d.nc->motions, mm_down(d.nc->clearance));
+  for (const std::string& note : d.nc->notes) text += "  NC program         " + note + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string decimals_down(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  // Nearest rounding may lie above by half a unit of the last decimal; then one unit less lies below.
+  for (double lower = value; read_back(text) > value; text = fmt::format("{:.{}f}", lower, decimals)) {
+    lower -= std::max(0.5 * std::pow(10.0, -decimals), std::abs(value) * 0x1p-52);
+  }
+  return text;
+}
+
+std::string decimals_up(double value, int decimals) {
+  const std::string negated = decimals_down(-value, decimals);
+  return negated.front() == '-' ? negated.substr(1) : "-" + negated;
+}
+
+std::string locate_summary(const io::LocateDocument& d, const std::vector<std::string>& written) {
+  std::string text = headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + contact_lines(d) +
+                     alternative_lines(d) + trim_line(d) + comparison_lines(d) + deviation_line(d) +
+                     program_lines(d);
+  for (const std::string& warning : d.warnings) text += "  note               " + warning + "\n";
+  for (const std::string& path : written) text += "  wrote              " + path + "\n";
+  return text;
+}
+
+void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+}  // namespace lekalo::cli
