@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/run_control.hpp"
@@ -11,46 +11,80 @@
 namespace lekalo::locate {
 
 /// Methods kept for comparison; neither proves anything. Their clearance is recomputed at the final pose and
-/// rounded down like ours, however bad it is.
+/// rounded down like ours, however bad it is. docs/design/reference-methods.md tells what is the source's and
+/// what had to be filled in.
 
 enum class StartRule {
   random,          ///< the source's: position in the blank and angle in the window at random
   centroids,       ///< perimeter centroids aligned, angle at random
-  principal_axes,  ///< centroids and principal axes of inertia of the outlines aligned (two angles)
+  principal_axes,  ///< centroids and principal axes of inertia of the outlines aligned: two angles, two
+                   ///< starts at most
 };
 
 struct IpoptOptions {
-  int starts = 10;
+  int starts = 10;  ///< feasible starts to optimise from, >= 1
   std::uint64_t seed = 0;
   StartRule start_rule = StartRule::random;
-  AngleWindow window;
-  RunControl run;  ///< one unit of work is one start
+  AngleWindow window;  ///< of the full circle the angle is left free and folded back at the end
+  RunControl run;      ///< one unit of work is one start, feasible or rejected
 };
+
+/// A draw is a feasible start when its homothety coefficient reaches 1 within this. IPOPT itself keeps
+/// constraints to about 1e-8; a smaller value rejects good starts, a larger one accepts starts from which phi
+/// >= 0 cannot be reached.
+inline constexpr double kHomothetyTolerance = 1e-6;
+/// Draws allowed for every start asked for, before the method gives up finding feasible ones.
+inline constexpr int kDrawsPerStart = 10;
+/// IPOPT gets n m constraints; above this number the request is refused (about 1 GB and minutes a start).
+inline constexpr std::size_t kMaxIpoptConstraints = 250'000;
 
 struct ReferenceResult {
   Placement best;
-  int starts_done = 0;        ///< feasible starts that were optimised
-  int starts_rejected = 0;    ///< draws whose homothety coefficient stayed below 1
+  int starts_done = 0;      ///< feasible starts that were optimised; ICP: starts tried
+  int starts_rejected = 0;  ///< draws whose homothety coefficient stayed below 1
+  /// IPOPT: iterations of all its runs, the feasible-start problems included. ICP: of the start kept.
   std::uint64_t iterations = 0;
-  bool found = false;         ///< false: no feasible start; `best` is then the least bad pose seen
+  /// IPOPT: there was a feasible start; if not, `best` is the least bad pose seen. ICP: the part does not
+  /// stick out.
+  bool found = false;
+  /// The run that gave `best` ended by its own criterion (IPOPT: its tolerance; ICP: steps below 1e-10 of the
+  /// blank's size), not by a limit.
+  bool converged = false;
+  double residual =
+      0;  ///< ICP: root mean square distance of the outline points from the part's lines, mm; else 0
 };
 
 /// The source's three stages: feasible starts by maximising the homothety coefficient lambda ((8)-(10) of the
 /// article), a local maximum of phi from each by IPOPT ((5)-(7)), the best of them.
-/// ErrorCode::environment when built without IPOPT.
-[[nodiscard]] Result<ReferenceResult> locate_ipopt(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
+///
+/// Deterministic for one build of IPOPT and its linear algebra on one processor: those choose their own
+/// roundings. Stopped by request or budget it returns the best so far. Writes nothing and reads no option
+/// file. Errors: usage for fewer than one start, a window with from > to or not finite, more than
+/// kMaxIpoptConstraints constraints; environment when built without IPOPT. Cost: some ten iterations a start,
+/// each with a factorisation for n m constraints: 8 ms (n m = 100) to 30 ms. Source: the localisation
+/// article, (5)-(10) and its "general strategy"; Waechter and Biegler 2006 (IPOPT).
+[[nodiscard]] Result<ReferenceResult> locate_ipopt(const geom::ConvexPolygon& part,
+                                                   const geom::ConvexPolygon& blank,
                                                    const IpoptOptions& options);
 
 struct IcpOptions {
-  AngleWindow window;            ///< the start angle is the window's middle, or `start.theta`
-  Placement start;               ///< used when `has_start`
-  bool has_start = false;        ///< else perimeter centroids and principal axes are aligned
-  int max_iterations = 100;
+  AngleWindow window;  ///< the angle is kept in it at every step
+  Placement start;     ///< used when `has_start`
+  /// Else perimeter centroids and principal axes are aligned; of the two angles (moved to the nearest end of
+  /// the window when outside) the one with the smaller final residual is kept, the first when equal.
+  bool has_start = false;
+  int max_iterations = 100;  ///< of each start, >= 1
 };
 
-/// Point-to-line least squares: blank outline points against the nearest line of the part's outline, iterated.
-/// What the trade uses, and what may cut into the part.
-[[nodiscard]] Result<ReferenceResult> locate_icp(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
-                                                 const IcpOptions& options);
+/// Point-to-line least squares: points of the blank's outline (its vertices, and between them at a step of at
+/// most 1/360 of the perimeter) against the line of the nearest edge of the part, small-angle steps until
+/// they vanish. What the trade uses, and what may cut into the part: the criterion does not see on which side
+/// a point lies.
+///
+/// Deterministic. Errors: usage for a window with from > to or not finite, fewer than one iteration, or a
+/// start that is not finite. Cost: O((n + 360) sqrt(m)) an iteration, some 10 to 100 iterations. Source: Besl
+/// and McKay 1992 (iterative closest point); Chen and Medioni 1992 (distance to the tangent).
+[[nodiscard]] Result<ReferenceResult> locate_icp(const geom::ConvexPolygon& part,
+                                                 const geom::ConvexPolygon& blank, const IcpOptions& options);
 
 }  // namespace lekalo::locate
