@@ -1,16 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
-#include "lekalo/geom/pose.hpp"
+#include "lekalo/base/units.hpp"
 
 namespace lekalo::nc {
 
-/// Rewrites an ISO 6983 / RS-274 program from the part's frame into the frame in which the blank was measured.
-/// docs/design/nc-rewrite.md has the white list of words, the rule for each and the bound of the rounding.
+/// Rewrites an ISO 6983 / RS-274 program from the part's frame into the frame in which the blank was
+/// measured. docs/design/nc-rewrite.md has the white list of words, the rule for each and the bound of the
+/// rounding.
 
 enum class RewriteMode {
   coordinates,  ///< X Y I J of every motion turned and shifted; every other byte unchanged
@@ -28,20 +30,40 @@ struct RewriteOptions {
   RewriteMode mode = RewriteMode::coordinates;
   ScanFrame scan_frame = ScanFrame::machine;
   int work_offset = 1;  ///< 1..9: G54 .. G59.3, the one that the program runs in
+  /// Unit until the program's first G20 or G21; used only by programs that name none, with a note.
+  LengthUnit start_unit = LengthUnit::millimetre;
+  /// Decimals of a degree in `G68 R`, 0..9. Controls of increment system IS-B drop what is finer than 0.001
+  /// degree, and the dropped angle would be in no bound.
+  int g68_angle_decimals = 3;
 };
 
 struct Rewritten {
-  std::string program;             ///< the new program, same line ends
-  /// No programmed point of the path lies further than this from its exact place, mm: what rounding to the
+  std::string program;  ///< the new program, same line ends
+  /// No point of the programmed path lies further than this from its exact place, mm: what rounding to the
   /// written decimals can do. Take it off the clearance.
   double rounding_mm = 0;
   std::size_t motions = 0;         ///< blocks whose coordinates were rewritten, or stand under the rotation
   std::vector<std::string> notes;  ///< what the operator must know: frame, offset to set, decimals
 };
 
-/// Passes only words on the white list; anything else, and anything whose meaning would change under the motion,
-/// is ErrorCode::program_refused with `name:line: reason`. The pose's exact angle is `theta`, its shift (x, y) in mm.
-[[nodiscard]] Result<Rewritten> rewrite_program(std::string_view program, const std::string& name, double x, double y,
-                                                double theta, const RewriteOptions& options);
+/// The pose is `p -> R(theta) p + (x, y)`, its shift in mm; theta, x and y count as exact.
+///
+/// \param name  of the program, for messages.
+/// \return      passes only words on the white list; anything else, and anything whose meaning would change
+/// under
+///              the motion, is ErrorCode::program_refused with `name:line: reason`. ErrorCode::usage when the
+///              pose is not finite or beyond 10^6 mm or geom::kMaxAngle, an option is out of range, or the
+///              mode cannot serve the scan frame.
+///
+/// Properties (tests/property/nc_rewrite_test.cpp):
+///   (1) coordinates: as many lines as before, and what is neither X Y I J of a motion nor supplied for one
+///   is
+///       byte for byte the same;
+///   (2) the identity pose in mode coordinates changes no byte;
+///   (3) every programmed point of the result lies within rounding_mm of the pose applied to its original.
+///
+/// Cost: O(bytes), a few passes when arcs need more decimals.
+[[nodiscard]] Result<Rewritten> rewrite_program(std::string_view program, const std::string& name, double x,
+                                                double y, double theta, const RewriteOptions& options);
 
 }  // namespace lekalo::nc

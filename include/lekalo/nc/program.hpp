@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/nc/decimal.hpp"
+
+namespace lekalo::nc {
+
+/// The longest block LinuxCNC reads, in bytes without the line end.
+inline constexpr std::size_t kMaxBlockLength = 255;
+
+/// A letter with its number. Offsets count bytes from the beginning of the program.
+struct Word {
+  char letter = 0;  ///< upper case, whatever the file has
+  Decimal value;
+  bool has_point = false;  ///< written with a decimal point
+  std::size_t letter_at = 0;
+  std::size_t number_begin = 0, number_end = 0;
+};
+
+/// One line of the program.
+struct Block {
+  std::size_t line = 0;            ///< from 1
+  std::size_t begin = 0, end = 0;  ///< bytes without the line end
+  bool block_delete = false;       ///< begins with `/`
+  bool tape_mark = false;          ///< a lone `%`
+  std::vector<Word> words;
+};
+
+/// A program taken apart into words without losing a byte: what no word covers is comment, blank or line end.
+struct Program {
+  std::vector<Block> blocks;  ///< every line, also empty ones
+  std::string line_end;       ///< of the first line that has one, else "\n"
+};
+
+/// Takes the text apart. Refuses (ErrorCode::program_refused, `name:line: reason`) what is not made of
+/// comments and words with plain numbers: expressions, variables, named O words, polar words, nested or open
+/// comments, comments that act (Python, probe and log files, printed variables), characters that are not
+/// ASCII outside comments, blanks inside a number, lines too long.
+[[nodiscard]] Result<Program> parse_program(std::string_view text, const std::string& name);
+
+/// `name:line: reason` as ErrorCode::program_refused.
+[[nodiscard]] tl::unexpected<Error> refusal(const std::string& name, std::size_t line,
+                                            const std::string& reason);
+
+}  // namespace lekalo::nc

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/units.hpp"
+#include "lekalo/nc/program.hpp"
+#include "lekalo/nc/rewrite.hpp"
+
+namespace lekalo::nc {
+
+/// A point of the program's own frame, exact.
+struct GridPoint {
+  Grains x = 0, y = 0;
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
+};
+
+enum class MotionKind { line, arc_by_centre, arc_by_radius, cycle };
+
+/// A block that moves in X and Y, bores where it stands, or both.
+struct Motion {
+  std::size_t block = 0;  ///< index into Program::blocks
+  MotionKind kind = MotionKind::line;
+  LengthUnit unit = LengthUnit::millimetre;
+  bool incremental = false;      ///< G91
+  bool start_known = false;      ///< else the machine may stand anywhere
+  GridPoint start, end;          ///< `end` after all repeats
+  std::int64_t repeats = 1;      ///< L of a cycle under G91
+  bool clockwise = false;        ///< arcs
+  bool absolute_centre = false;  ///< G90.1
+  GridPoint centre;              ///< of an arc by centre
+  Grains radius = 0;             ///< of an arc by radius; negative: the long way round
+  std::int64_t turns = 1;        ///< P of an arc
+  const Word *x = nullptr, *y = nullptr, *i = nullptr, *j = nullptr;  ///< into the program
+};
+
+/// What a program does, as far as a motion in the plane is concerned.
+struct Interpretation {
+  std::vector<Motion> motions;
+  std::optional<std::size_t> first_axis_block;  ///< first block with X Y Z, or with G41 G42
+  LengthUnit unit_at_first = LengthUnit::millimetre;
+  bool incremental_at_first = false;
+  bool unit_stated = false, distance_stated = false, plane_stated = false,
+       offset_stated = false;            ///< before it
+  std::optional<std::size_t> end_block;  ///< M2, M30 or the final %
+  bool end_moves = false;                ///< the end block moves too
+  bool cycle_at_end = false, compensation_at_end = false;
+  std::optional<std::size_t> late_work_offset;  ///< first G54.. not before first_axis_block: its line
+  std::optional<std::size_t> rotation_cancel;   ///< first G69: its line
+  std::optional<std::size_t> program_number;    ///< O word: its line
+  std::vector<std::string> notes;
+};
+
+/// Runs the program on the white list. \param program  must outlive the result.
+[[nodiscard]] Result<Interpretation> interpret(const Program& program, const std::string& name,
+                                               const RewriteOptions& options);
+
+}  // namespace lekalo::nc

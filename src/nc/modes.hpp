@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter.hpp"
+#include "plane.hpp"
+
+namespace lekalo::nc {
+
+/// Fewest decimals of a rewritten number, in millimetres and inches alike.
+inline constexpr int kLeastDecimals = 5;
+
+/// Everything a mode needs to know.
+struct RewriteJob {
+  std::string_view text;
+  const std::string& name;
+  const Program& program;
+  const Interpretation& interpretation;
+  const RigidMotion& machine_from_part;
+  double theta = 0;
+  const RewriteOptions& options;
+};
+
+[[nodiscard]] Result<Rewritten> rewrite_coordinates(const RewriteJob& job);
+[[nodiscard]] Result<Rewritten> insert_offset(const RewriteJob& job);
+[[nodiscard]] Result<Rewritten> insert_g68(const RewriteJob& job);
+
+/// `length` bytes at `at` give way to `text`.
+struct Edit {
+  std::size_t at = 0, length = 0;
+  std::string text;
+};
+
+/// The text with the edits made; several at one place in the order given.
+[[nodiscard]] std::string apply_edits(std::string_view text, std::vector<Edit> edits);
+
+/// A bound that stays one after the few roundings of its own computation.
+[[nodiscard]] constexpr double rounded_up(double bound) noexcept { return bound * (1 + 1e-12); }
+
+}  // namespace lekalo::nc
