@@ -99,7 +99,7 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
   {
     const Point edge = blank[1] - blank[0];
     for (std::size_t i = 1; i < m; ++i)
-      if (cross(edge, placed[i] - placed[vertex]) < 0) vertex = i;
+      if (cross(edge, pose.rotate(part[i] - part[vertex])) < 0) vertex = i;
   }
   for (std::size_t k = 0; k < blank.size(); ++k) {
     const Point a = blank[k], b = blank[blank.next(k)];
