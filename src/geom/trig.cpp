@@ -8,8 +8,8 @@
 namespace lekalo::geom {
 namespace {
 
-// pi/2 in four pieces. The first three have 33 bits, so that their products with a quarter-turn count below 2^20
-// are exact; together they stand within 1e-48 of pi/2.
+// pi/2 in four pieces. The first three have 33 bits, so that their products with a quarter-turn count below
+// 2^20 are exact; together they stand within 1e-48 of pi/2.
 constexpr std::array<double, 4> kHalfPi = {0x1.921fb54400000p+0, 0x1.0b4611a600000p-34, 0x1.3198a2e000000p-69,
                                            0x1.b839a252049c1p-104};
 constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
@@ -34,10 +34,14 @@ Reduced reduce(double theta) noexcept {
 template <class Pair, class Value>
 Pair turn_quarters(Value sine, Value cosine, int quadrant) noexcept {
   switch (quadrant) {
-    case 0: return {sine, cosine};
-    case 1: return {cosine, -sine};
-    case 2: return {-sine, -cosine};
-    default: return {-cosine, sine};
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
   }
 }
 
@@ -70,8 +74,8 @@ SinCos sincos(double theta) noexcept {
   const double x = reduced.rest.hi, low = reduced.rest.lo;
   const double minus_square = -x * x;
   const auto coefficient = [](int n) { return kInverseFactorial[static_cast<std::size_t>(n)].hi; };
-  // Taylor about 0: on |x| <= pi/4 the first term left out is below 1e-19. The leading terms are added last, so
-  // that only their rounding shows; the low half of the rest enters by the derivative.
+  // Taylor about 0: on |x| <= pi/4 the first term left out is below 1e-19. The leading terms are added last,
+  // so that only their rounding shows; the low half of the rest enters by the derivative.
   const double sine = x + (x * minus_square * alternating_series<17, 3>(minus_square, coefficient) + low);
   const double cosine = 1.0 + (minus_square * alternating_series<18, 2>(minus_square, coefficient) - x * low);
   return turn_quarters<SinCos>(sine, cosine, reduced.quadrant);

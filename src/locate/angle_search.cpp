@@ -14,12 +14,18 @@ namespace {
 constexpr double kFirstWidth = 1.0471975511965979;  // a sixth of a turn, rounded up
 /// Programs between two calls of the progress listener.
 constexpr std::uint64_t kReportEvery = 4096;
-/// Whether an interval still has an angle inside that doubles can tell from its ends. (Below 2^-56 a turn moves
-/// nothing by more than rounding does.)
+/// In a flat optimum a better placement is looked for only where the clearance can rise by more than this
+/// part of the gap; elsewhere a bound that says so is enough, which saves most of the pivots.
+constexpr double kNotWorth = 0.25;
+
+/// Whether an interval still has an angle inside that doubles can tell from its ends. (Below 2^-56 a turn
+/// moves nothing by more than rounding does.)
 bool divisible(double lo, double hi) { return hi - lo > std::max(0x1p-51 * std::abs(hi), 0x1p-56); }
 
 /// Where to solve next: at the split, or in the middle where rounding put that on an end.
-double inside(double split, double lo, double hi) { return split > lo && split < hi ? split : lo + 0.5 * (hi - lo); }
+double inside(double split, double lo, double hi) {
+  return split > lo && split < hi ? split : lo + 0.5 * (hi - lo);
+}
 
 bool lower_priority(const AngleInterval& a, const AngleInterval& b) {
   return a.upper != b.upper ? a.upper < b.upper : a.lo.theta > b.lo.theta;
@@ -29,8 +35,9 @@ bool lower_priority(const AngleInterval& a, const AngleInterval& b) {
 
 void for_pieces(const AngleInterval& interval, const std::function<void(const CoverPiece&)>& emit) {
   const auto better = [&](const Angle& from, const Angle& to) -> const Basis& {
-    return max_over(interval.left.bound, from, to) <= max_over(interval.right.bound, from, to) ? interval.left
-                                                                                               : interval.right;
+    return max_over(interval.left.bound, from, to) <= max_over(interval.right.bound, from, to)
+               ? interval.left
+               : interval.right;
   };
   Crossings at = crossings(interval.left.bound, interval.right.bound, interval.lo.theta, interval.hi.theta);
   if (at.count == 2 && at.theta[0] > at.theta[1]) std::swap(at.theta[0], at.theta[1]);
@@ -52,16 +59,16 @@ AngleSearch::AngleSearch(ContactProgram& program, AngleWindow window, double gap
   best_.value = -std::numeric_limits<double>::infinity();
 }
 
-AngleSearch::Probe AngleSearch::probe(double theta, const Basis& warm, double of_interest) {
+AngleSearch::Probe AngleSearch::probe(double theta, const Basis& warm, double of_interest,
+                                      ContactProgram::Effort effort) {
   ++work_;
   const Angle angle = Angle::of(theta);
-  const ContactProgram::Solution solution = program_.solve(angle, warm, of_interest);
+  const ContactProgram::Solution solution = program_.solve(angle, warm, of_interest, effort);
   return {angle, solution.basis, solution.shift, solution.value};
 }
 
 void AngleSearch::offer(const Probe& probe, const Basis& left, const Basis& right) {
-  if (probe.value > best_.value)
-    best_ = {probe.angle, probe.shift, probe.value, {probe.basis, left, right}};
+  if (probe.value > best_.value) best_ = {probe.angle, probe.shift, probe.value, {probe.basis, left, right}};
 }
 
 void AngleSearch::bound(AngleInterval& interval) {
@@ -92,10 +99,14 @@ AngleInterval AngleSearch::join(const Probe& lo, const Probe& hi) {
   return interval;
 }
 
-std::pair<AngleInterval, AngleInterval> AngleSearch::split(const AngleInterval& interval) {
+std::pair<AngleInterval, AngleInterval> AngleSearch::split(const AngleInterval& interval,
+                                                           ContactProgram::Effort effort) {
   const double lo = interval.lo.theta, hi = interval.hi.theta;
   const double theta = inside(interval.split, lo, hi);
-  const Probe middle = probe(theta, theta - lo < hi - theta ? interval.left : interval.right, best_.value);
+  const double of_interest =
+      effort == ContactProgram::Effort::bound ? best_.value + kNotWorth * gap_ : best_.value;
+  const Probe middle =
+      probe(theta, theta - lo < hi - theta ? interval.left : interval.right, of_interest, effort);
   offer(middle, interval.left, interval.right);
   AngleInterval first{interval.lo, middle.angle, interval.left, middle.basis, 0, 0};
   AngleInterval second{middle.angle, interval.hi, middle.basis, interval.right, 0, 0};
@@ -149,7 +160,7 @@ void AngleSearch::best_first(std::vector<AngleInterval>& open, std::vector<Angle
       done.push_back(interval);  // cannot be divided: upper() will say what is left open
       continue;
     }
-    const auto [first, second] = split(interval);
+    const auto [first, second] = split(interval, ContactProgram::Effort::optimum);
     for (const AngleInterval& half : {first, second}) {
       if (closed(half)) {
         done.push_back(half);
@@ -172,7 +183,7 @@ void AngleSearch::in_order(AngleInterval interval, const std::function<void(cons
       emit(top);
       continue;
     }
-    auto [first, second] = split(top);
+    auto [first, second] = split(top, ContactProgram::Effort::bound);
     stack.push_back(second);
     stack.push_back(first);
   }
@@ -212,8 +223,8 @@ void AngleSearch::probe_between(const Probe& from, const Probe& to, double thres
 }
 
 AngleSearch::Peaks AngleSearch::peaks(double threshold, std::uint64_t limit) {
-  // Every angle at which a program was solved, ascending; between two neighbours nothing is higher than the higher
-  // of the two (or than the threshold) by more than the gap.
+  // Every angle at which a program was solved, ascending; between two neighbours nothing is higher than the
+  // higher of the two (or than the threshold) by more than the gap.
   std::vector<Probe> probes;
   Peaks result;
   const std::uint64_t last_work = work_ + limit;
@@ -228,8 +239,8 @@ AngleSearch::Peaks AngleSearch::peaks(double threshold, std::uint64_t limit) {
   const bool cyclic = window_.full_circle();
   if (cyclic) probes.pop_back();  // the first angle again
 
-  // A peak counts when, on both sides, the clearance falls below it by more than the gap before it rises above it;
-  // of equals the first one counts.
+  // A peak counts when, on both sides, the clearance falls below it by more than the gap before it rises
+  // above it; of equals the first one counts.
   const std::size_t count = probes.size();
   const auto falls_before_rising = [&](std::size_t i, bool forwards) {
     const double height = probes[i].value;

@@ -11,8 +11,9 @@
 
 namespace lekalo::locate {
 
-/// An interval of angles with a bound that holds at its left end and one that holds at its right end; both hold
-/// everywhere, so the smaller of them does. `upper` is the largest value of that smaller one, reached at `split`.
+/// An interval of angles with a bound that holds at its left end and one that holds at its right end; both
+/// hold everywhere, so the smaller of them does. `upper` is the largest value of that smaller one, reached at
+/// `split`.
 struct AngleInterval {
   Angle lo, hi;
   Basis left, right;
@@ -28,10 +29,11 @@ struct CoverPiece {
 
 /// Global maximum over the angle of the best clearance at that angle, by branch and bound.
 ///
-/// At each end of an interval a linear program has been solved. The two bounds meet at an angle that is found in
-/// closed form; the next program is solved there. Where the maximum is a peak between two such bounds this converges
-/// like a secant method, in a handful of steps. Best interval first, as long as the open ones fit in kMostOpen;
-/// then in order of angle, depth first, so that memory stays bounded where the clearance is flat in the angle.
+/// At each end of an interval a linear program has been solved. The two bounds meet at an angle that is found
+/// in closed form; the next program is solved there. Where the maximum is a peak between two such bounds this
+/// converges like a secant method, in a handful of steps. Best interval first, as long as the open ones fit
+/// in kMostOpen; then in order of angle, depth first, so that memory stays bounded where the clearance is
+/// flat in the angle.
 class AngleSearch {
  public:
   static constexpr std::size_t kMostOpen = 4096;
@@ -46,12 +48,13 @@ class AngleSearch {
   /// \param gap  an interval whose upper bound is at most the incumbent plus this is closed.
   AngleSearch(ContactProgram& program, AngleWindow window, double gap, const RunControl& run);
 
-  /// Runs to the end, the budget or the stop request. `cover` receives, in ascending order, pieces that cover the
-  /// window, each bounded by upper().
+  /// Runs to the end, the budget or the stop request. `cover` receives, in ascending order, pieces that cover
+  /// the window, each bounded by upper().
   void run(const std::function<void(const CoverPiece&)>& cover);
 
-  /// Goes on after run(): all angles whose clearance is at least `threshold` and a local maximum, at most `limit`
-  /// programs more. Two maxima are told apart when the clearance between them falls by more than the gap.
+  /// Goes on after run(): all angles whose clearance is at least `threshold` and a local maximum, at most
+  /// `limit` programs more. Two maxima are told apart when the clearance between them falls by more than the
+  /// gap.
   struct Peaks {
     std::vector<Incumbent> found;  ///< ascending angle
     bool complete = true;
@@ -71,15 +74,18 @@ class AngleSearch {
     double value = 0;
   };
 
-  Probe probe(double theta, const Basis& warm, double of_interest);
+  Probe probe(double theta, const Basis& warm, double of_interest,
+              ContactProgram::Effort effort = ContactProgram::Effort::optimum);
   void offer(const Probe& probe, const Basis& left, const Basis& right);
   [[nodiscard]] std::vector<double> first_angles() const;
   std::vector<AngleInterval> first_intervals();
   [[nodiscard]] static AngleInterval join(const Probe& lo, const Probe& hi);
   static void bound(AngleInterval& interval);
   /// Solves at interval.split; the two halves replace the interval.
-  std::pair<AngleInterval, AngleInterval> split(const AngleInterval& interval);
-  [[nodiscard]] bool closed(const AngleInterval& interval) const { return interval.upper <= best_.value + gap_; }
+  std::pair<AngleInterval, AngleInterval> split(const AngleInterval& interval, ContactProgram::Effort effort);
+  [[nodiscard]] bool closed(const AngleInterval& interval) const {
+    return interval.upper <= best_.value + gap_;
+  }
   [[nodiscard]] bool out_of_budget() const;
   void report_progress(double newly_closed_width);
 

@@ -14,15 +14,15 @@ using geom::Point;
 
 constexpr double kTwoPi = 6.283185307179586;
 
-/// Up to this many blank edges all stand in the program from the beginning: looking at every one costs less than
-/// finding out which matter.
+/// Up to this many blank edges all stand in the program from the beginning: looking at every one costs less
+/// than finding out which matter.
 constexpr std::size_t kSmall = 96;
 /// Directions in which a larger blank gives its first rows.
 constexpr int kFirstDirections = 16;
 /// Steps to walk along the part's outline before searching it.
 constexpr std::uint32_t kWalk = 6;
-/// Far above the pivots that any program needs (about n in theory, 1 to 4 in practice): ends a cycle that rounding
-/// could cause. Where it ends, the basis is still a valid bound.
+/// Far above the pivots that any program needs (about n in theory, 1 to 4 in practice): ends a cycle that
+/// rounding could cause. Where it ends, the basis is still a valid bound.
 constexpr int kMostPivots = 2000;
 
 /// The same direction in [0, 2 pi).
@@ -54,8 +54,8 @@ void ContactProgram::collect_sides(const geom::Ring& part) {
     direction_of_side_.push_back(wrap(geom::direction_angle(side.x, side.y)));
   }
   // The sides of a convex outline already run in order of direction; only the beginning has to be found.
-  const auto first = static_cast<std::size_t>(std::min_element(direction_of_side_.begin(), direction_of_side_.end()) -
-                                               direction_of_side_.begin());
+  const auto first = static_cast<std::size_t>(
+      std::min_element(direction_of_side_.begin(), direction_of_side_.end()) - direction_of_side_.begin());
   for (std::size_t j = 0; j < m; ++j) {
     const std::size_t i = (first + j) % m;
     side_by_direction_.push_back(static_cast<std::uint32_t>(i));
@@ -85,11 +85,10 @@ void ContactProgram::choose_first_rows() {
     chosen.resize(n);
     std::iota(chosen.begin(), chosen.end(), 0u);
   } else {
-    // The first edge beyond each of some directions, and the one before it: no gap between neighbouring normals is
-    // larger than in the whole blank, so the chosen ones span the plane positively too.
-    const auto first =
-        static_cast<std::size_t>(std::min_element(normal_direction_.begin(), normal_direction_.end()) -
-                                 normal_direction_.begin());
+    // The first edge beyond each of some directions, and the one before it: no gap between neighbouring
+    // normals is larger than in the whole blank, so the chosen ones span the plane positively too.
+    const auto first = static_cast<std::size_t>(
+        std::min_element(normal_direction_.begin(), normal_direction_.end()) - normal_direction_.begin());
     std::size_t j = 0;
     for (int d = 0; d < kFirstDirections; ++d) {
       while (j < n && normal_direction_[(first + j) % n] < d * kTwoPi / kFirstDirections) ++j;
@@ -130,15 +129,17 @@ std::uint32_t ContactProgram::add_row(std::uint32_t edge) {
 }
 
 std::uint32_t ContactProgram::outermost_by_search(double direction) const {
-  // Along the outline n . v falls while the side points away from n and rises afterwards; it is least where the
-  // sides' direction passes that of n less a quarter turn.
+  // Along the outline n . v falls while the side points away from n and rises afterwards; it is least where
+  // the sides' direction passes that of n less a quarter turn.
   const double target = wrap(direction - 0.25 * kTwoPi);
   const auto found = std::lower_bound(side_direction_.begin(), side_direction_.end(), target);
-  return side_by_direction_[found == side_direction_.end() ? 0u
-                                                           : static_cast<std::size_t>(found - side_direction_.begin())];
+  return side_by_direction_[found == side_direction_.end()
+                                ? 0u
+                                : static_cast<std::size_t>(found - side_direction_.begin())];
 }
 
-/// Walks along the part's outline to the vertex with the least q . v; false when `limit` steps do not reach it.
+/// Walks along the part's outline to the vertex with the least q . v; false when `limit` steps do not reach
+/// it.
 bool ContactProgram::walk_outwards(double qx, double qy, std::uint32_t& vertex, std::uint32_t limit) const {
   const auto m = static_cast<std::uint32_t>(side_x_.size());
   const auto rises = [&](std::uint32_t side) { return qx * side_x_[side] + qy * side_y_[side]; };
@@ -159,7 +160,8 @@ std::uint32_t ContactProgram::outermost_vertex(double qx, double qy, std::size_t
                                                std::uint32_t hint) const {
   if (walk_outwards(qx, qy, hint, kWalk)) return hint;
   std::uint32_t vertex = outermost_by_search(normal_direction_[edge] - theta);
-  // Angles are rounded; the walk puts the last step right. Should rounding make it run on, any vertex is valid.
+  // Angles are rounded; the walk puts the last step right. Should rounding make it run on, any vertex is
+  // valid.
   walk_outwards(qx, qy, vertex, static_cast<std::uint32_t>(side_x_.size()));
   return vertex;
 }
@@ -173,13 +175,14 @@ void ContactProgram::change_vertex(std::size_t row, const Angle& angle) {
   row_vertex_[row] = vertex;
   row_cosine_[row] = nx * vertex_x_[vertex] + ny * vertex_y_[vertex];
   row_sine_[row] = ny * vertex_x_[vertex] - nx * vertex_y_[vertex];
-  // The vertex stays outermost while the normal, in the part's frame, stands between a quarter turn beyond the side
-  // before it and a quarter turn beyond the side after it.
+  // The vertex stays outermost while the normal, in the part's frame, stands between a quarter turn beyond
+  // the side before it and a quarter turn beyond the side after it.
   const std::size_t m = side_x_.size();
   const double now = normal_direction_[edge] - angle.theta - 0.25 * kTwoPi;
   const double ahead = wrap(direction_of_side_[vertex] - now);
   const double behind = wrap(now - direction_of_side_[vertex == 0 ? m - 1 : vertex - 1]);
-  // Where rounding put the vertex a hair beyond its range the difference wraps to a full turn; then only this angle.
+  // Where rounding put the vertex a hair beyond its range the difference wraps to a full turn; then only this
+  // angle.
   row_from_[row] = angle.theta - (ahead < 0.5 * kTwoPi ? ahead : 0.0);
   row_to_[row] = angle.theta + (behind < 0.5 * kTwoPi ? behind : 0.0);
 }
@@ -238,7 +241,8 @@ void ContactProgram::meet(Tableau& tableau) const {
 }
 
 void ContactProgram::pivot(Tableau& tableau, std::uint32_t entering) const {
-  // The entering row's column in terms of the basis: barycentric coordinates of its normal in the triangle of theirs.
+  // The entering row's column in terms of the basis: barycentric coordinates of its normal in the triangle of
+  // theirs.
   const Point e{row_nx_[entering], row_ny_[entering]};
   std::array<Point, 3> n;
   for (std::size_t j = 0; j < 3; ++j) n[j] = {row_nx_[tableau.row[j]], row_ny_[tableau.row[j]]};
@@ -254,10 +258,10 @@ void ContactProgram::pivot(Tableau& tableau, std::uint32_t entering) const {
   if (leaving < 3) tableau.row[leaving] = entering;
 }
 
-double ContactProgram::optimise(Tableau& tableau) const {
+double ContactProgram::optimise(Tableau& tableau, double enough) const {
   meet(tableau);
   LeastOpen least = least_open(tableau.shift);
-  for (int n = 0; n < kMostPivots && least.open < tableau.value - tolerance_; ++n) {
+  for (int n = 0; n < kMostPivots && tableau.value > enough && least.open < tableau.value - tolerance_; ++n) {
     const Tableau before = tableau;
     pivot(tableau, least.row);
     if (tableau.row == before.row) break;
@@ -275,18 +279,20 @@ ContactProgram::PlacedEdge ContactProgram::place_edge(std::uint32_t edge, const 
                                                       std::uint32_t hint) const {
   const double c = angle.direction.cosine, s = angle.direction.sine;
   const Point n{normal_x_[edge], normal_y_[edge]};
-  const std::uint32_t vertex = outermost_vertex(c * n.x + s * n.y, c * n.y - s * n.x, edge, angle.theta, hint);
+  const std::uint32_t vertex =
+      outermost_vertex(c * n.x + s * n.y, c * n.y - s * n.x, edge, angle.theta, hint);
   const Point v{vertex_x_[vertex], vertex_y_[vertex]};
   const Point corner = Point{c * v.x - s * v.y, s * v.x + c * v.y} + shift;
   return {edge, vertex, dot(n, corner) - offset_[edge], corner};
 }
 
 bool ContactProgram::all_open_between(const PlacedEdge& first, const PlacedEdge& last, double least) const {
-  // Between the two normals the part stays behind its support lines at both ends, hence behind the point q where these
-  // meet: an edge k with q - least n_k inside the blank is open by `least`. Those points lie in the triangle of both
-  // ends' and of the point where the ends' tangents meet; a point inside both end edges and inside the chord from
-  // the first edge's beginning to the last one's end is inside every edge between.
-  const Point n1{normal_x_[first.edge], normal_y_[first.edge]}, n2{normal_x_[last.edge], normal_y_[last.edge]};
+  // Between the two normals the part stays behind its support lines at both ends, hence behind the point q
+  // where these meet: an edge k with q - least n_k inside the blank is open by `least`. Those points lie in
+  // the triangle of both ends' and of the point where the ends' tangents meet; a point inside both end edges
+  // and inside the chord from the first edge's beginning to the last one's end is inside every edge between.
+  const Point n1{normal_x_[first.edge], normal_y_[first.edge]},
+      n2{normal_x_[last.edge], normal_y_[last.edge]};
   const double turn = cross(n1, n2), along = dot(n1, n2);
   if (!(along > 0.5) || !(turn > 1e-9)) return false;
   const double h1 = dot(n1, first.corner), h2 = dot(n2, last.corner);
@@ -295,17 +301,17 @@ bool ContactProgram::all_open_between(const PlacedEdge& first, const PlacedEdge&
   const Point chord = to - from;
   for (const Point& reach : {n1, n2, (1.0 / (1.0 + along)) * (n1 + n2)}) {
     const Point p = q - least * reach;
-    if (!(dot(n1, p) >= offset_[first.edge]) || !(dot(n2, p) >= offset_[last.edge]) || !(cross(chord, p - from) >= 0))
+    if (!(dot(n1, p) >= offset_[first.edge]) || !(dot(n2, p) >= offset_[last.edge]) ||
+        !(cross(chord, p - from) >= 0))
       return false;
   }
   return true;
 }
 
-void ContactProgram::find_least_open(const PlacedEdge& first, const PlacedEdge& last, const Angle& angle, Point shift,
-                                     PlacedEdge& least) const {
+void ContactProgram::find_least_open(const PlacedEdge& first, const PlacedEdge& last, const Angle& angle,
+                                     Point shift, PlacedEdge& least) const {
   if (last.edge - first.edge < 2 || all_open_between(first, last, least.open)) return;
-  const PlacedEdge middle =
-      place_edge(first.edge + (last.edge - first.edge) / 2, angle, shift, first.vertex);
+  const PlacedEdge middle = place_edge(first.edge + (last.edge - first.edge) / 2, angle, shift, first.vertex);
   if (middle.open < least.open) least = middle;
   // The more promising half first: what it finds prunes the other.
   if (first.open <= last.open) {
@@ -357,17 +363,19 @@ Basis ContactProgram::basis_of(const Tableau& tableau) const {
   return basis;
 }
 
-ContactProgram::Solution ContactProgram::solve(const Angle& angle, const Basis& warm, double of_interest) {
+ContactProgram::Solution ContactProgram::solve(const Angle& angle, const Basis& warm, double of_interest,
+                                               Effort effort) {
   place(angle);
   Tableau tableau;
   for (std::size_t j = 0; j < 3; ++j) tableau.row[j] = row_of_edge_[warm.edge[j]];
-  double value = optimise(tableau);
+  const double enough = effort == Effort::bound ? of_interest : -std::numeric_limits<double>::infinity();
+  double value = optimise(tableau, enough);
   if (row_edge_.size() < normal_x_.size()) {
-    while (tableau.value > of_interest && add_violated(angle, tableau.shift, tableau.value)) value = optimise(tableau);
+    while (tableau.value > of_interest && add_violated(angle, tableau.shift, tableau.value))
+      value = optimise(tableau, enough);
     value -= tolerance_;  // what the edges outside the program may be violated by
-    // Where not all edges were looked at, what they allow is not known to be of interest.
-    if (!(tableau.value > of_interest)) value = std::min(value, of_interest);
   }
+  if (!(tableau.value > of_interest)) value = -std::numeric_limits<double>::infinity();
   return {basis_of(tableau), tableau.shift, value};
 }
 

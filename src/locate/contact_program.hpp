@@ -10,9 +10,9 @@
 
 namespace lekalo::locate {
 
-/// Three contacts that hold the part against the blank at every angle: the blank edges' inward unit normals n_j span
-/// the plane positively, sum lambda_j n_j = 0, sum lambda_j = 1, lambda_j >= 0. Hence for every placement at angle
-/// theta  clearance <= sum lambda_j n_j . (R(theta) v_j - a_j) = bound(theta).
+/// Three contacts that hold the part against the blank at every angle: the blank edges' inward unit normals
+/// n_j span the plane positively, sum lambda_j n_j = 0, sum lambda_j = 1, lambda_j >= 0. Hence for every
+/// placement at angle theta  clearance <= sum lambda_j n_j . (R(theta) v_j - a_j) = bound(theta).
 struct Basis {
   std::array<std::uint32_t, 3> edge{};    ///< of the blank
   std::array<std::uint32_t, 3> vertex{};  ///< of the part, one per edge
@@ -23,22 +23,30 @@ struct Basis {
 
 /// The linear program of one fixed angle,
 ///   maximise r over (t, r)   subject to   n_k . (R v_i + t - a_k) >= r   for all edges k and vertices i,
-/// solved by the dual simplex method on three contacts. The matrix [n_k, -1] does not depend on the angle, so the
-/// basis of one angle is dual feasible, hence a warm start, at every other.
+/// solved by the dual simplex method on three contacts. The matrix [n_k, -1] does not depend on the angle, so
+/// the basis of one angle is dual feasible, hence a warm start, at every other.
 class ContactProgram {
  public:
   /// \pre polygons in one local frame (coordinates of the size of the shapes, not of their place).
   ContactProgram(const geom::Ring& part, const geom::Ring& blank);
 
   struct Solution {
-    Basis basis;          ///< a valid bound, whatever happened
-    geom::Point shift;    ///< best shift found
-    double value = 0;     ///< least n_k . (R v_i + shift - a_k) over *all* edges: reached, not only bounded
+    Basis basis;        ///< a valid bound, whatever happened
+    geom::Point shift;  ///< best shift found
+    /// Least n_k . (R v_i + shift - a_k) over *all* edges: reached, not only bounded. -infinity when the
+    /// bound turned out not to be of interest.
+    double value = 0;
   };
 
-  /// Edges are taken into the program only as they are found violated, and that is looked for only while the
-  /// bound at this angle exceeds `of_interest`: below it, `value` is only what the edges known so far allow.
-  [[nodiscard]] Solution solve(const Angle& angle, const Basis& warm, double of_interest);
+  enum class Effort {
+    optimum,  ///< the tightest bound, which says most about the angles around
+    bound     ///< any bound that is at most `of_interest`
+  };
+
+  /// Edges of a large blank are taken into the program only as they are found violated, and that is looked
+  /// for only while the bound at this angle exceeds `of_interest`.
+  [[nodiscard]] Solution solve(const Angle& angle, const Basis& warm, double of_interest,
+                               Effort effort = Effort::optimum);
 
   [[nodiscard]] Basis first_basis() const { return first_basis_; }
 
@@ -77,8 +85,9 @@ class ContactProgram {
   [[nodiscard]] LeastOpen least_open(geom::Point shift) const;
   void meet(Tableau& tableau) const;
   void pivot(Tableau& tableau, std::uint32_t entering) const;
-  /// Pivots until no row in the program is violated; returns how far the least open row is open.
-  double optimise(Tableau& tableau) const;
+  /// Pivots until no row in the program is violated or the value is at most `enough`; returns how far the
+  /// least open row is open.
+  double optimise(Tableau& tableau, double enough) const;
   /// An edge of the blank with the part placed: the vertex outermost for it, and how far it is open.
   struct PlacedEdge {
     std::uint32_t edge = 0, vertex = 0;
@@ -92,8 +101,8 @@ class ContactProgram {
   /// Makes `least` the least open edge strictly between two, if one is less open than it.
   void find_least_open(const PlacedEdge& first, const PlacedEdge& last, const Angle& angle, geom::Point shift,
                        PlacedEdge& least) const;
-  /// Takes edges outside the program that are violated at (shift, value) into it, the worst of each stretch between
-  /// the first rows. False when no edge is violated.
+  /// Takes edges outside the program that are violated at (shift, value) into it, the worst of each stretch
+  /// between the first rows. False when no edge is violated.
   bool add_violated(const Angle& angle, geom::Point shift, double value);
   [[nodiscard]] Basis basis_of(const Tableau& tableau) const;
 
@@ -106,7 +115,8 @@ class ContactProgram {
   std::vector<double> normal_x_, normal_y_, offset_, normal_direction_;
   std::vector<std::uint32_t> first_edges_;  ///< the first rows' edges, ascending
   // The rows in the program. row_vertex_ is outermost for angles in [row_from_, row_to_], where
-  // n . R v = row_cosine_ cos + row_sine_ sin. row_open_ = n . R v - offset at the current angle: the opening at shift 0.
+  // n . R v = row_cosine_ cos + row_sine_ sin. row_open_ = n . R v - offset at the current angle: the opening
+  // at shift 0.
   std::vector<std::uint32_t> row_edge_, row_vertex_, row_of_edge_;
   std::vector<double> row_from_, row_to_, row_cosine_, row_sine_, row_offset_, row_nx_, row_ny_, row_open_;
   Basis first_basis_;

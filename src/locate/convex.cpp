@@ -24,8 +24,8 @@ constexpr double kUnit = 0x1p-53;
 constexpr std::uint64_t kAlternativesWork = 200'000;
 constexpr std::size_t kMostAlternatives = 64;
 
-/// A ring moved so that the middle of its box is the origin. The search then sees numbers of the size of the shape,
-/// however far away it stands.
+/// A ring moved so that the middle of its box is the origin. The search then sees numbers of the size of the
+/// shape, however far away it stands.
 struct LocalRing {
   Point origin;
   Ring ring;
@@ -33,16 +33,18 @@ struct LocalRing {
 
 LocalRing to_local(const geom::ConvexPolygon& polygon) {
   const geom::Box box = geom::bounds(polygon.vertices());
-  LocalRing local{{0.5 * box.low.x + 0.5 * box.high.x, 0.5 * box.low.y + 0.5 * box.high.y}, polygon.vertices()};
+  LocalRing local{{0.5 * box.low.x + 0.5 * box.high.x, 0.5 * box.low.y + 0.5 * box.high.y},
+                  polygon.vertices()};
   for (Point& p : local.ring) p = p - local.origin;
   return local;
 }
 
-/// How much more than in exact arithmetic the line of an edge of the blank may move at a point of the part, when the
-/// part may lie outside: the longest distance over the shortest edge.
+/// How much more than in exact arithmetic the line of an edge of the blank may move at a point of the part,
+/// when the part may lie outside: the longest distance over the shortest edge.
 double worst_lever(const geom::ConvexPolygon& blank, double reach) {
   double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < blank.size(); ++k) shortest = std::min(shortest, norm(blank[blank.next(k)] - blank[k]));
+  for (std::size_t k = 0; k < blank.size(); ++k)
+    shortest = std::min(shortest, norm(blank[blank.next(k)] - blank[k]));
   return 1 + 2 * reach / shortest;
 }
 
@@ -65,10 +67,12 @@ class Localiser {
     ConvexResult result;
     double upper = -std::numeric_limits<double>::infinity();
     search.run([&](const CoverPiece& piece) {
-      upper = std::max(upper, proved_bound(piece.basis, piece.from, piece.to, part_.ring, blank_.ring, uncertainty_));
+      upper = std::max(
+          upper, proved_bound(piece.basis, piece.from, piece.to, part_.ring, blank_.ring, uncertainty_));
       record(piece, result);
     });
-    if (options_.keep_certificate && result.certificate_size > options_.certificate_limit) result.certificate.clear();
+    if (options_.keep_certificate && result.certificate_size > options_.certificate_limit)
+      result.certificate.clear();
     result.best = placement(search.best());
     result.upper_bound = upper;
     result.contacts = contacts(search.best());
@@ -81,9 +85,11 @@ class Localiser {
   }
 
  private:
-  /// The gap left to the search: what was asked for less what rounding the pose and proving the bound will take.
+  /// The gap left to the search: what was asked for less what rounding the pose and proving the bound will
+  /// take.
   [[nodiscard]] double search_gap() const {
-    double far = geom::largest_coordinate(problem_.part.vertices()) + geom::largest_coordinate(problem_.blank.vertices());
+    double far = geom::largest_coordinate(problem_.part.vertices()) +
+                 geom::largest_coordinate(problem_.blank.vertices());
     const double taken = 8 * kUnit * far + 128 * kUnit * program_.scale() +
                          6 * (problem_.part_coordinate_error + problem_.blank_coordinate_error);
     return std::max(options_.gap - taken, 8 * kUnit * program_.scale());
@@ -92,7 +98,8 @@ class Localiser {
   void record(const CoverPiece& piece, ConvexResult& result) const {
     CertificateInterval interval{piece.from.theta, piece.to.theta, {}};
     for (std::size_t j = 0; j < 3; ++j)
-      interval.contacts[j] = {piece.basis.vertex[j], piece.basis.edge[j], std::max(0.0, piece.basis.lambda[j])};
+      interval.contacts[j] = {piece.basis.vertex[j], piece.basis.edge[j],
+                              std::max(0.0, piece.basis.lambda[j])};
     ++result.certificate_size;
     if (options_.keep_certificate && result.certificate_size <= options_.certificate_limit)
       result.certificate.push_back(interval);
@@ -110,21 +117,26 @@ class Localiser {
         geom::two_sum(found.shift.y, blank_.origin.y) - (rotation.sine * px + rotation.cosine * py);
     Placement placement{x.hi, y.hi, found.angle.theta, 0};
     const double low =
-        phi::clearance_enclosure(problem_.part, problem_.blank, placement.x, placement.y, placement.theta).low;
-    // Inside, clearance is a distance between outlines, which move by no more than their points do. Outside it is a
-    // distance to the line of an edge, which may move more.
+        phi::clearance_enclosure(problem_.part, problem_.blank, placement.x, placement.y, placement.theta)
+            .low;
+    // Inside, clearance is a distance between outlines, which move by no more than their points do. Outside
+    // it is a distance to the line of an edge, which may move more.
     constexpr double kDiagonal = 1.4142135623730952;
     const double lever = low >= 0 ? 1 : worst_lever(problem_.blank, 4 * program_.scale() + std::abs(low));
-    const double errors =
-        kDiagonal * (problem_.part_coordinate_error + lever * problem_.blank_coordinate_error) * (1 + 8 * kUnit);
-    // The written decimals of pose and clearance are the shortest that read back: half a unit in the last place off.
-    const double written = kUnit * (std::abs(placement.x) + std::abs(placement.y) + std::abs(low) +
-                                    std::abs(placement.theta) * geom::largest_coordinate(problem_.part.vertices()) * 2);
+    const double errors = kDiagonal *
+                          (problem_.part_coordinate_error + lever * problem_.blank_coordinate_error) *
+                          (1 + 8 * kUnit);
+    // The written decimals of pose and clearance are the shortest that read back: half a unit in the last
+    // place off.
+    const double written =
+        kUnit * (std::abs(placement.x) + std::abs(placement.y) + std::abs(low) +
+                 std::abs(placement.theta) * geom::largest_coordinate(problem_.part.vertices()) * 2);
     placement.clearance = low - errors - written;
     return placement;
   }
 
-  /// What holds the placement: contacts whose multipliers balance in force, and in moment where two bounds meet.
+  /// What holds the placement: contacts whose multipliers balance in force, and in moment where two bounds
+  /// meet.
   [[nodiscard]] std::vector<Contact> contacts(const AngleSearch::Incumbent& found) const {
     const double tolerance = std::max(options_.gap, 64 * kUnit * program_.scale());
     const Basis* rising = nullptr;
@@ -133,7 +145,8 @@ class Localiser {
       if (basis.bound.at(found.angle) > found.value + tolerance) continue;
       const double slope = basis.bound.slope_at(found.angle);
       if (slope >= 0 && (rising == nullptr || slope > rising->bound.slope_at(found.angle))) rising = &basis;
-      if (slope <= 0 && (falling == nullptr || slope < falling->bound.slope_at(found.angle))) falling = &basis;
+      if (slope <= 0 && (falling == nullptr || slope < falling->bound.slope_at(found.angle)))
+        falling = &basis;
     }
     const Basis* first = rising != nullptr ? rising : (falling != nullptr ? falling : &found.holders.front());
     const Basis* second = falling != nullptr ? falling : first;
@@ -180,7 +193,8 @@ class Localiser {
   [[nodiscard]] bool same_peak(double a, double b) const {
     constexpr double kTurn = 6.283185307179586;
     const double difference = std::abs(a - b);
-    const double apart = problem_.window.full_circle() ? std::min(difference, kTurn - difference) : difference;
+    const double apart =
+        problem_.window.full_circle() ? std::min(difference, kTurn - difference) : difference;
     return apart < 1e-6;
   }
 
@@ -197,8 +211,8 @@ Result<ConvexResult> locate_convex(const ConvexProblem& problem, const ConvexOpt
   const AngleWindow& window = problem.window;
   if (!(window.from <= window.to) || !(std::abs(window.from) <= geom::kMaxAngle) ||
       !(std::abs(window.to) <= geom::kMaxAngle))
-    return failure(ErrorCode::usage, fmt::format("angle window from {} to {} rad is empty or not finite", window.from,
-                                                 window.to));
+    return failure(ErrorCode::usage, fmt::format("angle window from {} to {} rad is empty or not finite",
+                                                 window.from, window.to));
   if (window.to - window.from > 6.2831853071795872)
     return failure(ErrorCode::usage, "angle window is wider than a full circle");
   if (!(options.gap > 0) || !std::isfinite(options.gap))

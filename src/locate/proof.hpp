@@ -17,7 +17,8 @@ struct Uncertainty {
 /// \pre `part` and `blank` in the local frame, from <= to less than pi apart.
 /// \return +infinity when the three edges do not provably span the plane positively.
 /// docs/design/locate-convex.md, "What the rounding can hide".
-[[nodiscard]] double proved_bound(const Basis& basis, const Angle& from, const Angle& to, const geom::Ring& part,
-                                  const geom::Ring& blank, const Uncertainty& uncertainty);
+[[nodiscard]] double proved_bound(const Basis& basis, const Angle& from, const Angle& to,
+                                  const geom::Ring& part, const geom::Ring& blank,
+                                  const Uncertainty& uncertainty);
 
 }  // namespace lekalo::locate

@@ -41,13 +41,15 @@ struct Sinusoid {
 }
 
 /// Angles strictly inside (lo, hi), an interval shorter than pi, where f and g are equal: none, one or two,
-/// in no order. Solved by the half-angle substitution about the middle, which keeps its digits on short intervals.
+/// in no order. Solved by the half-angle substitution about the middle, which keeps its digits on short
+/// intervals.
 struct Crossings {
   std::array<double, 2> theta{};
   int count = 0;
 };
 
-[[nodiscard]] inline Crossings crossings(const Sinusoid& f, const Sinusoid& g, double lo, double hi) noexcept {
+[[nodiscard]] inline Crossings crossings(const Sinusoid& f, const Sinusoid& g, double lo,
+                                         double hi) noexcept {
   const double middle = lo + 0.5 * (hi - lo);
   const geom::SinCos sc = geom::sincos(middle);
   const double mean = f.mean - g.mean, a0 = f.a - g.a, b0 = f.b - g.b;

@@ -32,7 +32,8 @@ DoubleDouble cross(const PointDD& a, const PointDD& b) { return a.x * b.y - a.y 
 /// The placed part in double-double: exact input doubles, the rotation within kSinCosPairError.
 class ExactPlacement {
  public:
-  ExactPlacement(double x, double y, double theta) : rotation_(geom::sincos_double_double(theta)), x_(x), y_(y) {}
+  ExactPlacement(double x, double y, double theta)
+      : rotation_(geom::sincos_double_double(theta)), x_(x), y_(y) {}
   [[nodiscard]] PointDD operator()(Point v) const {
     const DoubleDouble vx{v.x}, vy{v.y};
     return {rotation_.cosine * vx - rotation_.sine * vy + DoubleDouble{x_},
@@ -75,15 +76,16 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
   double scale = std::max(std::abs(x), std::abs(y));
   for (std::size_t i = 0; i < m; ++i) {
     placed[i] = pose(part[i]);
-    scale = std::max({scale, std::abs(part[i].x), std::abs(part[i].y), std::abs(placed[i].x), std::abs(placed[i].y)});
+    scale = std::max(
+        {scale, std::abs(part[i].x), std::abs(part[i].y), std::abs(placed[i].x), std::abs(placed[i].y)});
   }
   for (const Point& p : blank.vertices()) scale = std::max({scale, std::abs(p.x), std::abs(p.y)});
-  // Doubles say which pairs can be the least; they are right within 32 u scale (see phi), so every pair within
-  // twice that of the least double value is computed again with 32 digits.
+  // Doubles say which pairs can be the least; they are right within 32 u scale (see phi), so every pair
+  // within twice that of the least double value is computed again with 32 digits.
   const double margin = 64 * kUnit * scale;
 
-  // One turn around both polygons: as the edge's direction turns, so does the vertex that is furthest out. The
-  // walk goes by the direction of the part's edges, which does not suffer from far-away coordinates.
+  // One turn around both polygons: as the edge's direction turns, so does the vertex that is furthest out.
+  // The walk goes by the direction of the part's edges, which does not suffer from far-away coordinates.
   const auto furthest_from = [&](std::size_t start, Point edge) {
     std::size_t i = start;
     for (std::size_t steps = 0; steps < m; ++steps) {
@@ -135,13 +137,13 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
     }
   }
 
-  // Errors: rotation 2 kSinCosPairError scale, then a dozen operations of 16 * 2^-106 each on numbers below 4 scale,
-  // multiplied by edge / length <= 1. 1e-28 scale covers them with an order of magnitude to spare.
+  // Errors: rotation 2 kSinCosPairError scale, then a dozen operations of 16 * 2^-106 each on numbers below 4
+  // scale, multiplied by edge / length <= 1. 1e-28 scale covers them with an order of magnitude to spare.
   const double error = 1e-28 * scale;
   const DoubleDouble low = best - DoubleDouble{error}, high = best + DoubleDouble{error};
   const double inf = std::numeric_limits<double>::infinity();
-  return {low.lo < 0 ? std::nextafter(low.hi, -inf) : low.hi, high.lo > 0 ? std::nextafter(high.hi, inf) : high.hi,
-          nearest};
+  return {low.lo < 0 ? std::nextafter(low.hi, -inf) : low.hi,
+          high.lo > 0 ? std::nextafter(high.hi, inf) : high.hi, nearest};
 }
 
 }  // namespace lekalo::phi

@@ -71,7 +71,8 @@ struct DoubleDouble {
   return quick_two_sum(first, rest.hi / (2.0 * first));
 }
 
-/// Sine and cosine of exactly theta, |theta| <= kMaxAngle of trig.hpp; absolute error at most kSinCosPairError.
+/// Sine and cosine of exactly theta, |theta| <= kMaxAngle of trig.hpp; absolute error at most
+/// kSinCosPairError.
 struct SinCosPair {
   DoubleDouble sine, cosine;
 };

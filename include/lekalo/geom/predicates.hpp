@@ -40,7 +40,20 @@ inline constexpr double kLargestExactCoordinate = 0x1p480;
 inline constexpr double kOrientationFilter = 0x3p-53 + 0x10p-106;
 
 namespace detail {
-/// Sign of the exact cross product (b - a) x (d - c) where the filter does not decide.
+inline constexpr int kUndecided = 2;
+
+/// The first tier of `turn`: its sign, or kUndecided.
+[[nodiscard]] constexpr int turn_filter(Point a, Point b, Point c, Point d) noexcept {
+  const double left = (b.x - a.x) * (d.y - c.y);
+  const double right = (b.y - a.y) * (d.x - c.x);
+  const double difference = left - right;
+  const double bound = kOrientationFilter * ((left < 0 ? -left : left) + (right < 0 ? -right : right));
+  // ">=" so that two zero products, which are exact, are decided here.
+  if (difference >= bound) return difference > 0 ? 1 : 0;
+  return -difference >= bound ? -1 : kUndecided;
+}
+
+/// Always the exact sign: the tiers that follow (src/geom/turn_tiers.hpp).
 [[nodiscard]] int turn_exact(Point a, Point b, Point c, Point d) noexcept;
 }  // namespace detail
 
@@ -48,14 +61,8 @@ namespace detail {
 /// Adaptive: a floating-point filter answers nearly always, else expansions of exact products.
 /// Source: Shewchuk 1997, section 4.4, for the idea and the bound of the filter; the code is our own.
 [[nodiscard]] constexpr int turn(Point a, Point b, Point c, Point d) noexcept {
-  const double left = (b.x - a.x) * (d.y - c.y);
-  const double right = (b.y - a.y) * (d.x - c.x);
-  const double difference = left - right;
-  const double bound = kOrientationFilter * ((left < 0 ? -left : left) + (right < 0 ? -right : right));
-  // ">=" so that two zero products, which are exact, end here.
-  if (difference >= bound) return difference > 0 ? 1 : 0;
-  if (-difference >= bound) return -1;
-  return detail::turn_exact(a, b, c, d);
+  const int sign = detail::turn_filter(a, b, c, d);
+  return sign != detail::kUndecided ? sign : detail::turn_exact(a, b, c, d);
 }
 
 /// Turn a -> b -> c: +1 left (counter-clockwise), -1 right, 0 on one line.

@@ -29,10 +29,10 @@ struct Enclosure {
 [[nodiscard]] double phi(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                          const geom::BlankFromPart& pose, NearestPair* nearest = nullptr) noexcept;
 
-/// The same value for the rotation by the *exact* angle `theta` (not its rounded sine and cosine) and the given
-/// doubles, enclosed by error-bounded double-double arithmetic: high - low is a few units in the last place of
-/// the value, plus 1e-30 M. This is what locate reports (low) and what tests compare with the checker.
-/// |theta| <= geom::kMaxAngle. Cost: O(n + m).
+/// The same value for the rotation by the *exact* angle `theta` (not its rounded sine and cosine) and the
+/// given doubles, enclosed by error-bounded double-double arithmetic: high - low is a few units in the last
+/// place of the value, plus 1e-30 M. This is what locate reports (low) and what tests compare with the
+/// checker. |theta| <= geom::kMaxAngle. Cost: O(n + m).
 [[nodiscard]] Enclosure clearance_enclosure(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                                             double x, double y, double theta) noexcept;
 
