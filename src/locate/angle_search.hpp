@@ -36,7 +36,7 @@ struct CoverPiece {
 /// flat in the angle.
 class AngleSearch {
  public:
-  static constexpr std::size_t kMostOpen = 4096;
+  static constexpr std::size_t kMostOpen = 512;
 
   struct Incumbent {
     Angle angle;
