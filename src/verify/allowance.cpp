@@ -1,0 +1,252 @@
+#include "allowance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lekalo::verify {
+namespace {
+
+/// The distances that the filter computes in doubles, of points with coordinates below 1 in magnitude, are
+/// within this of the true ones. With u = 2^-53: a point is within 2 u of the exact one in each coordinate, a
+/// unit normal within 8 u, and the sum of two products of a normal with a difference below 2 gathers less
+/// than 60 u; clamping to a segment moves its foot by a few u more. 128 u is stated.
+constexpr double kFilterError = 0x1p-46;
+
+struct Rotation {
+  Interval cosine, sine;
+};
+
+Rotation rotation(const Decimal& angle, mpfr_prec_t precision) {
+  const Interval exact(angle, precision + angle_bits(angle));
+  return {cosine(exact), sine(exact)};
+}
+
+/// direction x (R v + t - a), which is the distance times the direction's length.
+Interval scaled_distance(const Point& v, const Point& a, const Point& direction, const Point& shift,
+                         const Rotation& turn, mpfr_prec_t precision) {
+  return turn.cosine * Interval(cross(direction, v), precision) +
+         turn.sine * Interval(dot(direction, v), precision) +
+         Interval(cross(direction, shift - a), precision);
+}
+
+Interval length(const Point& direction, mpfr_prec_t precision) {
+  return square_root(Interval(dot(direction, direction), precision));
+}
+
+// ---- the filter in doubles --------------------------------------------------------------------------------
+
+struct IntervalPoint {
+  Interval x, y;
+};
+
+struct FlatPoint {
+  double x = 0, y = 0;
+};
+
+FlatPoint operator-(FlatPoint a, FlatPoint b) { return {a.x - b.x, a.y - b.y}; }
+
+/// value / 2^scale, within 2^-52 of it relatively.
+double scaled(const Integer& value, long scale) {
+  long exponent = 0;
+  const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+}
+double scaled(mpfr_srcptr value, long scale) {
+  if (mpfr_zero_p(value) != 0) return 0;
+  long exponent = 0;
+  const double digits = mpfr_get_d_2exp(&exponent, value, MPFR_RNDN);
+  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+}
+long bits(const Integer& value) { return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2)); }
+long bits(mpfr_srcptr value) { return mpfr_zero_p(value) != 0 ? 0 : mpfr_get_exp(value); }
+
+/// Everything seen from one corner of the blank, so that a blank far from the origin keeps its digits; placed
+/// part points as intervals, and both as doubles in units of 2^scale, which makes them smaller than 1.
+class Scene {
+ public:
+  Scene(const Outline& blank, const Outline& part, const Pose& pose, const Rotation& turn,
+        mpfr_prec_t precision)
+      : blank_(blank), precision_(precision), origin_(blank.corner(0)) {
+    const Interval tx(pose.shift.x - origin_.x, precision), ty(pose.shift.y - origin_.y, precision);
+    for (const Point& v : part.points) {
+      const Interval x(v.x, precision), y(v.y, precision);
+      placed_.push_back({turn.cosine * x - turn.sine * y + tx, turn.sine * x + turn.cosine * y + ty});
+    }
+    for (const IntervalPoint& p : placed_) {
+      for (mpfr_srcptr value : {p.x.low(), p.x.high(), p.y.low(), p.y.high()}) {
+        scale_ = std::max(scale_, bits(value) + 1);
+      }
+    }
+    for (const Point& q : blank.points) {
+      scale_ = std::max({scale_, bits(q.x - origin_.x), bits(q.y - origin_.y)});
+    }
+    for (const IntervalPoint& p : placed_) {
+      flat_part_.push_back({scaled(p.x.low(), scale_), scaled(p.y.low(), scale_)});
+    }
+    for (const Point& q : blank.points) {
+      flat_blank_.push_back({scaled(q.x - origin_.x, scale_), scaled(q.y - origin_.y, scale_)});
+    }
+  }
+
+  [[nodiscard]] const std::vector<FlatPoint>& flat_part() const { return flat_part_; }
+  [[nodiscard]] const std::vector<FlatPoint>& flat_blank() const { return flat_blank_; }
+  [[nodiscard]] const IntervalPoint& placed(std::size_t i) const { return placed_[i]; }
+  [[nodiscard]] IntervalPoint blank_point(std::size_t i) const {
+    const Point q = blank_.points[i] - origin_;
+    return {Interval(q.x, precision_), Interval(q.y, precision_)};
+  }
+
+  /// Unit normal to the left of hull edge j, and its dent in units of 2^scale.
+  void flat_line(std::size_t j, FlatPoint& normal, double& dent) const {
+    const Point side = blank_.side(j);
+    const long size = std::max(bits(side.x), bits(side.y));
+    const double x = scaled(side.x, size), y = scaled(side.y, size);
+    const double side_length = std::sqrt(x * x + y * y);
+    normal = {-y / side_length, x / side_length};
+    dent = scaled(blank_.dents[j], size + scale_) / side_length;
+  }
+
+ private:
+  const Outline& blank_;
+  mpfr_prec_t precision_;
+  Point origin_;
+  std::vector<IntervalPoint> placed_;
+  std::vector<FlatPoint> flat_part_, flat_blank_;
+  long scale_ = 1;
+};
+
+using Pair = std::pair<std::size_t, std::size_t>;
+
+/// The pairs (row, column) that may have the least true distance when distance(row, column) is within
+/// kFilterError of the true one.
+template <class RowDistance>
+std::vector<Pair> near_minimal(std::size_t rows, std::size_t columns, RowDistance row_distance) {
+  std::vector<double> least(rows, std::numeric_limits<double>::infinity());
+  for (std::size_t r = 0; r < rows; ++r) {
+    const auto distance = row_distance(r);
+    for (std::size_t c = 0; c < columns; ++c) least[r] = std::min(least[r], distance(c));
+  }
+  const double limit = *std::min_element(least.begin(), least.end()) + 2 * kFilterError;
+  std::vector<Pair> pairs;
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (least[r] > limit) continue;
+    const auto distance = row_distance(r);
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (!(distance(c) > limit)) pairs.emplace_back(r, c);
+    }
+  }
+  return pairs;
+}
+
+double flat_segment_distance(FlatPoint p, FlatPoint a, FlatPoint b) {
+  const FlatPoint e = b - a, w = p - a;
+  const double squared = e.x * e.x + e.y * e.y;
+  const double t = squared > 0 ? std::clamp((w.x * e.x + w.y * e.y) / squared, 0.0, 1.0) : 0.0;
+  const FlatPoint rest{w.x - t * e.x, w.y - t * e.y};
+  return std::sqrt(rest.x * rest.x + rest.y * rest.y);
+}
+
+// ---- exact minima -----------------------------------------------------------------------------------------
+
+Interval least_of(const std::vector<Interval>& values) {
+  Interval least = values.front();
+  for (const Interval& value : values) least = minimum(least, value);
+  return least;
+}
+
+/// Least signed distance from the hull's edges, each moved in by its dent when `dented`.
+Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Rotation& turn,
+                      const Scene& scene, bool dented, mpfr_prec_t precision) {
+  const auto row_distance = [&](std::size_t j) {
+    FlatPoint normal;
+    double dent = 0;
+    scene.flat_line(j, normal, dent);
+    const FlatPoint a = scene.flat_blank()[blank.hull[j]];
+    return [&scene, &part, normal, a, dent = dented ? dent : 0.0](std::size_t i) {
+      const FlatPoint w = scene.flat_part()[part.hull[i]] - a;
+      return normal.x * w.x + normal.y * w.y - dent;
+    };
+  };
+  std::vector<Interval> values;
+  for (const auto& [j, i] : near_minimal(blank.hull.size(), part.hull.size(), row_distance)) {
+    const Point side = blank.side(j);
+    Interval value = scaled_distance(part.corner(i), blank.corner(j), side, pose.shift, turn, precision);
+    if (dented) value = value - Interval(blank.dents[j], precision);
+    values.push_back(value / length(side, precision));
+  }
+  return least_of(values);
+}
+
+Interval segment_distance(const IntervalPoint& p, const IntervalPoint& a, const IntervalPoint& b) {
+  const IntervalPoint e{b.x - a.x, b.y - a.y}, w{p.x - a.x, p.y - a.y}, z{p.x - b.x, p.y - b.y};
+  const Interval along = w.x * e.x + w.y * e.y, squared = square(e.x) + square(e.y);
+  const Interval from_a = square_root(square(w.x) + square(w.y)),
+                 from_b = square_root(square(z.x) + square(z.y));
+  if (mpfr_zero_p(squared.high()) != 0 || certainly_negative(along)) return from_a;
+  if (certainly_above(along, squared)) return from_b;
+  if (!certainly_positive(squared)) return hull(Interval(p.x.precision()), from_a);
+  const Interval cross_product = e.x * w.y - e.y * w.x;
+  const Interval line = square_root(square(cross_product) / squared);
+  const bool between = certainly_positive(along) && certainly_above(squared, along);
+  return between ? line : hull(line, minimum(from_a, from_b));
+}
+
+/// Distance between two outlines that do not cross: part points from blank edges, and blank points from part
+/// edges. Only blank points that are no hull corners can be nearest to the inside of a part edge.
+Interval outline_distance(const Outline& blank, const Outline& part, const Scene& scene) {
+  const std::size_t n = blank.points.size(), m = part.points.size();
+  std::vector<bool> is_corner(n, false);
+  for (const std::size_t i : blank.hull) is_corner[i] = true;
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!is_corner[i]) others.push_back(i);
+  }
+  const auto from_blank_edge = [&](std::size_t j) {
+    return [&scene, a = scene.flat_blank()[j], b = scene.flat_blank()[(j + 1) % n]](std::size_t i) {
+      return flat_segment_distance(scene.flat_part()[i], a, b);
+    };
+  };
+  const auto from_part_edge = [&](std::size_t j) {
+    return [&scene, &others, a = scene.flat_part()[j], b = scene.flat_part()[(j + 1) % m]](std::size_t i) {
+      return flat_segment_distance(scene.flat_blank()[others[i]], a, b);
+    };
+  };
+  std::vector<Interval> values;
+  for (const auto& [j, i] : near_minimal(n, m, from_blank_edge)) {
+    values.push_back(segment_distance(scene.placed(i), scene.blank_point(j), scene.blank_point((j + 1) % n)));
+  }
+  for (const auto& [j, i] : near_minimal(m, others.size(), from_part_edge)) {
+    values.push_back(
+        segment_distance(scene.blank_point(others[i]), scene.placed(j), scene.placed((j + 1) % m)));
+  }
+  return least_of(values);
+}
+
+}  // namespace
+
+Interval allowance(const Outline& blank, const Outline& part, const Pose& pose, mpfr_prec_t precision) {
+  const Rotation turn = rotation(pose.angle, precision);
+  const Scene scene(blank, part, pose, turn, precision);
+  const Interval outer = line_minimum(blank, part, pose, turn, scene, false, precision);
+  if (blank.convex()) return outer;
+  const Interval inner = line_minimum(blank, part, pose, turn, scene, true, precision);
+  return certainly_positive(inner) ? outline_distance(blank, part, scene) : hull(inner, outer);
+}
+
+Interval line_distance(const Point& v, const Point& a, const Point& direction, const Pose& pose,
+                       mpfr_prec_t precision) {
+  return scaled_distance(v, a, direction, pose.shift, rotation(pose.angle, precision), precision) /
+         length(direction, precision);
+}
+
+mpfr_prec_t working_precision(const Outline& blank, const Outline& part) {
+  long widest = 1;
+  for (const Outline* outline : {&blank, &part}) {
+    for (const Point& p : outline->points) widest = std::max({widest, bits(p.x), bits(p.y)});
+  }
+  return 256 + 6 * static_cast<mpfr_prec_t>(widest);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact.hpp"
+#include "interval.hpp"
+#include "outline.hpp"
+#include "span.hpp"
+
+namespace lekalo::verify {
+
+/// The line of a blank edge from file point k to the next that was not dropped.
+///
+/// `outside` >= 0 is how far the blank reaches across the line, times the edge's length: 0 for the true edge
+/// of a convex blank. The line moved out by it has the whole blank on its left and touches a hull corner
+/// there; its normal is c1 n1 + c2 n2 of the two hull edges at that corner, c1, c2 >= 0, and `spread` = c1 +
+/// c2 >= 1. So where every hull edge is at least (signed) r away, this line is at least r away if r >= 0, and
+/// at least spread r if r < 0.
+struct EdgeLine {
+  Point start, direction;  ///< material on the left, whichever way the file runs
+  Integer outside;
+  Interval length, spread;  ///< spread is exactly 1 when outside is 0
+  Interval short_length;    ///< length in 64 bits
+  Span flat_length;         ///< length in doubles
+};
+
+/// The edges of a blank as a result names them, each measured when first asked for. The list of dropped
+/// points is a hint: whatever it says, an EdgeLine tells the truth about its line.
+class EdgeLines {
+ public:
+  EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, mpfr_prec_t precision);
+
+  /// nullptr, with the reason in `why`, when there is no such edge.
+  [[nodiscard]] const EdgeLine* find(std::size_t k, std::string& why);
+  /// File index of the next point that was not dropped.
+  [[nodiscard]] std::size_t next_kept(std::size_t k) const { return next_kept_[k]; }
+
+ private:
+  [[nodiscard]] EdgeLine measure(std::size_t k) const;
+
+  const Outline& blank_;
+  mpfr_prec_t precision_;
+  std::vector<bool> dropped_;
+  std::vector<std::size_t> next_kept_;  ///< per file point
+  std::vector<std::size_t> under_;      ///< per file point: hull edge it lies under
+  std::vector<std::optional<EdgeLine>> lines_;
+};
+
+}  // namespace lekalo::verify

@@ -1,0 +1,107 @@
+#include "exact.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "lekalo/base/assert.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Takes digits from the front of `text` and appends them to `digits`; how many.
+std::size_t take_digits(std::string_view& text, std::string& digits) {
+  std::size_t count = 0;
+  while (count < text.size() && is_digit(text[count])) ++count;
+  digits.append(text.substr(0, count));
+  text.remove_prefix(count);
+  return count;
+}
+
+bool take_sign(std::string_view& text) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  return negative;
+}
+
+/// e [+-] digits, the whole of `text`; values beyond a million stay at a million, which is out of range
+/// anyway.
+std::optional<long> parse_exponent(std::string_view text) {
+  if (text.empty()) return 0;
+  if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
+  text.remove_prefix(1);
+  const bool negative = take_sign(text);
+  if (text.empty() || !std::all_of(text.begin(), text.end(), is_digit)) return std::nullopt;
+  long value = 0;
+  for (const char c : text) value = std::min(value * 10 + (c - '0'), 1'000'000L);
+  return negative ? -value : value;
+}
+
+}  // namespace
+
+std::optional<Decimal> parse_decimal(std::string_view text) {
+  const bool negative = take_sign(text);
+  std::string digits;
+  std::size_t count = take_digits(text, digits);
+  std::size_t decimals = 0;
+  if (!text.empty() && text.front() == '.') {
+    text.remove_prefix(1);
+    decimals = take_digits(text, digits);
+    count += decimals;
+  }
+  const std::optional<long> written = parse_exponent(text);
+  if (count == 0 || !written) return std::nullopt;
+
+  const std::size_t first = digits.find_first_not_of('0');
+  if (first == std::string::npos) return Decimal{};
+  const std::size_t last = digits.find_last_not_of('0');
+  const long exponent = *written - static_cast<long>(decimals) + static_cast<long>(digits.size() - 1 - last);
+  digits = digits.substr(first, last - first + 1);
+  const long magnitude = exponent + static_cast<long>(digits.size());
+  if (digits.size() > kMaxDigits || std::abs(magnitude) > kMaxMagnitude) return std::nullopt;
+
+  Decimal value{Integer(digits, 10), exponent};
+  if (negative) value.digits = -value.digits;
+  return value;
+}
+
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string words(text.substr(0, kLongest));
+  std::replace_if(
+      words.begin(), words.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
+  return text.size() > kLongest ? words + "..." : words;
+}
+
+Integer power_of_ten(unsigned long exponent) {
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, exponent);
+  return power;
+}
+
+Integer in_units(const Decimal& value, long exponent) {
+  if (value.digits == 0) return 0;
+  LEKALO_ASSERT(exponent <= value.exponent);
+  return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent - exponent));
+}
+
+Decimal operator-(const Decimal& a, const Decimal& b) {
+  if (b.digits == 0) return a;
+  if (a.digits == 0) return {-b.digits, b.exponent};
+  const long exponent = std::min(a.exponent, b.exponent);
+  return {in_units(a, exponent) - in_units(b, exponent), exponent};
+}
+
+int compare(const Decimal& a, const Decimal& b) { return sgn((a - b).digits); }
+
+long angle_bits(const Decimal& value) {
+  const auto digits = static_cast<long>(mpz_sizeinbase(value.digits.get_mpz_t(), 10));
+  return value.digits == 0 ? 0 : 4 * std::max(0L, digits + value.exponent);
+}
+
+double approximate(const Decimal& value) {
+  return std::strtod((value.digits.get_str() + "e" + std::to_string(value.exponent)).c_str(), nullptr);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,178 @@
+#include "outline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace lekalo::verify {
+namespace {
+
+bool before(const Point& a, const Point& b) {
+  const int order = cmp(a.x, b.x);
+  return order != 0 ? order < 0 : a.y < b.y;
+}
+
+/// Indices by x, then y, without repeated points; of equal points the first in the file stays.
+std::vector<std::size_t> sorted_distinct(const Ring& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&points](std::size_t i, std::size_t j) {
+    if (before(points[i], points[j])) return true;
+    return !before(points[j], points[i]) && i < j;
+  });
+  order.erase(std::unique(order.begin(), order.end(),
+                          [&points](std::size_t i, std::size_t j) { return points[i] == points[j]; }),
+              order.end());
+  return order;
+}
+
+/// Monotone chain (Andrew 1979): the lower, then the upper half; corners with a strict left turn only.
+std::vector<std::size_t> convex_hull(const Ring& points) {
+  std::vector<std::size_t> order = sorted_distinct(points);
+  std::vector<std::size_t> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t base = hull.size();
+    for (const std::size_t i : order) {
+      while (hull.size() >= base + 2 && cross(points[hull.back()] - points[hull[hull.size() - 2]],
+                                              points[i] - points[hull.back()]) <= 0) {
+        hull.pop_back();
+      }
+      hull.push_back(i);
+    }
+    hull.pop_back();  // the first corner of the other half
+    std::reverse(order.begin(), order.end());
+  }
+  return hull;
+}
+
+/// How often `next` is below its predecessor, around the ring.
+std::size_t descents(const std::vector<std::size_t>& ring) {
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < ring.size(); ++j) count += ring[(j + 1) % ring.size()] < ring[j] ? 1 : 0;
+  return count;
+}
+
+void measure_dents(Outline& outline) {
+  const std::size_t n = outline.points.size();
+  for (std::size_t j = 0; j < outline.hull.size(); ++j) {
+    const Point side = outline.side(j);
+    const std::size_t from = outline.hull[j], to = outline.hull[(j + 1) % outline.hull.size()];
+    Integer deepest = 0;
+    for (std::size_t i = from; i != to;) {
+      i = outline.counter_clockwise ? (i + 1) % n : (i + n - 1) % n;
+      deepest = std::max(deepest, cross(side, outline.points[i] - outline.corner(j)));
+    }
+    outline.dents.push_back(deepest);
+  }
+}
+
+}  // namespace
+
+bool Outline::convex() const {
+  return std::all_of(dents.begin(), dents.end(), [](const Integer& dent) { return dent == 0; });
+}
+
+Result<Outline> make_outline(Ring points, std::string_view name) {
+  Outline outline;
+  outline.points = std::move(points);
+  outline.hull = convex_hull(outline.points);
+  if (outline.hull.size() < 3)
+    return failure(ErrorCode::bad_input, fmt::format("{}: the contour has no area", name));
+  const std::size_t falls = descents(outline.hull);
+  outline.counter_clockwise = falls == 1;
+  if (falls != 1 && falls + 1 != outline.hull.size()) {
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: the contour does not run once around its convex hull", name));
+  }
+  measure_dents(outline);
+  return outline;
+}
+
+std::size_t lowest_corner(const Outline& outline, const Point& direction, std::size_t start) {
+  const std::size_t n = outline.hull.size();
+  const auto lower = [&](std::size_t i, std::size_t j) {
+    return cross(direction, outline.corner(i) - outline.corner(j)) < 0;
+  };
+  std::size_t at = start % n;
+  for (const std::size_t step : {std::size_t{1}, n - 1}) {
+    while (lower(at + step, at)) at = (at + step) % n;
+  }
+  return at;
+}
+
+namespace {
+
+/// The open segment from a to b meets the interior of the hull: the stretch where it is left of every side is
+/// not empty. The stretch is kept as fractions low.first / low.second etc. with positive denominators.
+bool enters(const Point& a, const Point& b, const Outline& hull) {
+  Integer low = 0, low_over = 1, high = 1, high_over = 1;
+  for (std::size_t j = 0; j < hull.hull.size(); ++j) {
+    const Point side = hull.side(j);
+    const Integer at_a = cross(side, a - hull.corner(j)), at_b = cross(side, b - hull.corner(j));
+    const Integer slope = at_b - at_a;  // at_a + t slope > 0 wanted
+    if (slope == 0) {
+      if (at_a <= 0) return false;
+    } else if (slope > 0) {
+      if (-at_a * low_over > low * slope) {
+        low = -at_a;
+        low_over = slope;
+      }
+    } else if (at_a * high_over < high * -slope) {
+      high = at_a;
+      high_over = -slope;
+    }
+    if (low * high_over >= high * low_over) return false;
+  }
+  return true;
+}
+
+/// How often the outline winds around p / scale; p must not lie on it.
+long winding_number(const Outline& outline, const Point& p, long scale) {
+  const std::size_t n = outline.points.size();
+  long winding = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point a{outline.points[i].x * scale, outline.points[i].y * scale};
+    const Point& next = outline.points[(i + 1) % n];
+    const Point b{next.x * scale, next.y * scale};
+    const bool up = a.y <= p.y && b.y > p.y, down = a.y > p.y && b.y <= p.y;
+    if (!up && !down) continue;
+    const Integer turn = cross(b - a, p - a);
+    if (up && turn > 0) ++winding;
+    if (down && turn < 0) --winding;
+  }
+  return winding;
+}
+
+}  // namespace
+
+bool lies_inside(const Outline& inner, const Outline& outer, std::size_t& culprit) {
+  const std::size_t n = outer.points.size();
+  // The side of `inner` that kept the last edge out most likely keeps out the next one too.
+  std::size_t hint = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point &a = outer.points[i], &b = outer.points[(i + 1) % n];
+    const auto keeps_out = [&](std::size_t j) {
+      return cross(inner.side(j), a - inner.corner(j)) <= 0 && cross(inner.side(j), b - inner.corner(j)) <= 0;
+    };
+    const std::size_t before_hint = hint + inner.hull.size() - 1;
+    if (keeps_out(hint)) continue;
+    if (keeps_out(hint + 1)) {
+      hint = (hint + 1) % inner.hull.size();
+      continue;
+    }
+    if (keeps_out(before_hint)) {
+      hint = before_hint % inner.hull.size();
+      continue;
+    }
+    culprit = i;
+    if (enters(a, b, inner)) return false;
+    for (hint = 0; hint + 1 < inner.hull.size() && !keeps_out(hint);) ++hint;
+  }
+  const Point middle{inner.corner(0).x + inner.corner(1).x + inner.corner(2).x,
+                     inner.corner(0).y + inner.corner(1).y + inner.corner(2).y};
+  culprit = 0;
+  return winding_number(outer, middle, 3) != 0;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "exact.hpp"
+
+namespace lekalo::verify {
+
+/// A small brother of Interval in doubles: the first tier, where most of a long certificate is decided. Each
+/// operation rounds to nearest and then steps one double outwards. Overflow gives infinities or NaN, which
+/// decide nothing when comparisons are written to fail on NaN.
+struct Span {
+  double low = 0, high = 0;
+};
+
+[[nodiscard]] inline Span outwards(double low, double high) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {std::nextafter(low, -kInfinity), std::nextafter(high, kInfinity)};
+}
+
+/// GMP cuts towards zero, by less than one step.
+[[nodiscard]] inline Span to_span(const Integer& value) {
+  const double cut = value.get_d();
+  return outwards(cut, cut);
+}
+
+[[nodiscard]] inline Span operator+(Span a, Span b) { return outwards(a.low + b.low, a.high + b.high); }
+[[nodiscard]] inline Span operator-(Span a, Span b) { return outwards(a.low - b.high, a.high - b.low); }
+[[nodiscard]] inline Span operator*(Span a, Span b) {
+  const double ll = a.low * b.low, lh = a.low * b.high, hl = a.high * b.low, hh = a.high * b.high;
+  return outwards(std::min(std::min(ll, lh), std::min(hl, hh)), std::max(std::max(ll, lh), std::max(hl, hh)));
+}
+/// \pre b > 0
+[[nodiscard]] inline Span operator/(Span a, Span b) {
+  return outwards(a.low / (a.low < 0 ? b.low : b.high), a.high / (a.high < 0 ? b.high : b.low));
+}
+[[nodiscard]] inline Span square_root(Span a) {
+  return outwards(std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high));
+}
+
+}  // namespace lekalo::verify
