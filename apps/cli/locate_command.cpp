@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <iterator>
 
 #include "contours.hpp"
-#include "deviations.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/picture.hpp"
 #include "lekalo/io/result_json.hpp"
+#include "lekalo/locate/allowance.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "outputs.hpp"
 #include "solve.hpp"
@@ -156,12 +155,6 @@ void add_certificate(const LocateOptions& o, const Solution& found, Product& pro
   d.certificate_intervals = found.certificate.size();
 }
 
-/// An angle in (-pi, pi] that differs from `angle` by whole turns.
-double least_turn(double angle) {
-  const double turn = std::remainder(angle, 2 * std::numbers::pi);
-  return turn <= -std::numbers::pi ? std::numbers::pi : turn;
-}
-
 void add_comparison(const Inputs& in, Product& product) {
   if (!in.last) return;
   io::LocateDocument& d = product.document;
@@ -171,28 +164,34 @@ void add_comparison(const Inputs& in, Product& product) {
   io::ComparisonRecord c;
   c.same_part = last_part != nullptr && last_part->file.sha256 == d.inputs.front().file.sha256;
   if (!c.same_part) d.warnings.push_back("the earlier result was made from another part file");
-  c.dx = now.x - last.x;
-  c.dy = now.y - last.y;
-  c.dtheta = least_turn(now.theta - last.theta);
-  const auto new_pose = geom::BlankFromPart::from_angle(now.theta, {now.x, now.y});
-  const auto last_pose = geom::BlankFromPart::from_angle(last.theta, {last.x, last.y});
-  for (const geom::Point& p : in.part.polygon.vertices()) {
-    c.largest_shift = std::max(c.largest_shift, geom::norm(new_pose(p) - last_pose(p)));
-  }
+  const locate::PlacementShift shift = locate::placement_shift(in.part.polygon.vertices(), last, now);
+  c.dx = shift.dx;
+  c.dy = shift.dy;
+  c.dtheta = shift.dtheta;
+  c.largest_shift = shift.largest;
   c.last_clearance = last.clearance;
   c.last_pose_clearance = safe_clearance(in.part, in.blank, last);
   d.comparison = c;
 }
 
+/// One line for every probed point; index counts from 0 in file order.
+std::string deviations_csv(const geom::Ring& probed, const std::vector<double>& deviations) {
+  std::string text = "index,x,y,deviation\n";
+  for (std::size_t k = 0; k < probed.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", k, probed[k].x, probed[k].y, deviations[k]);
+  }
+  return text;
+}
+
 void add_deviations(const LocateOptions& o, const Inputs& in, Product& product) {
   if (o.deviations.empty()) return;
-  const Deviations deviations =
-      measure_deviations(in.blank.file.points, in.part.polygon.vertices(), product.document.placement);
-  product.deviations_text = deviations_csv(in.blank.file.points, deviations);
-  product.document.deviations = io::DeviationsRecord{{o.deviations, io::sha256(product.deviations_text)},
-                                                     deviations.signed_mm.size(),
-                                                     deviations.least(),
-                                                     deviations.greatest()};
+  const geom::Ring& probed = in.blank.file.points;
+  const std::vector<double> deviations =
+      locate::deviations(probed, in.part.polygon.vertices(), product.document.placement);
+  const auto [least, greatest] = std::minmax_element(deviations.begin(), deviations.end());
+  product.deviations_text = deviations_csv(probed, deviations);
+  product.document.deviations = io::DeviationsRecord{
+      {o.deviations, io::sha256(product.deviations_text)}, deviations.size(), *least, *greatest};
 }
 
 /// Rewrites the NC program unless the placement misses the allowance, with or without the rounding of the

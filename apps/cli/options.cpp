@@ -100,6 +100,7 @@ class WordReader {
 constexpr double kLargestLength = 1e9;         // mm: a thousand kilometres, beyond any machine
 constexpr double kSmallestLength = 1e-300;     // stands for "more than 0"
 constexpr double kLargestWindowAngle = 720.0;  // degrees: either way of writing a window fits
+constexpr double kClosedWindow = 1e-9;         // degrees: a smaller opening is none
 constexpr double kLongestTime = 1e7;           // seconds
 
 void read_window(const std::vector<std::string>& words, WordReader& read, LocateOptions& o) {
@@ -109,7 +110,7 @@ void read_window(const std::vector<std::string>& words, WordReader& read, Locate
   read.number("--window", words[1], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_to_deg);
   read.require(o.window_from_deg <= o.window_to_deg,
                fmt::format("--window: the first angle, {}, is above the second, {}", words[0], words[1]));
-  if (o.window_to_deg - o.window_from_deg >= 360) {
+  if (o.window_to_deg - o.window_from_deg > 360 - kClosedWindow) {
     o.window_from_deg = 0;
     o.window_to_deg = 360;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numbers>
 
 #include "interrupt.hpp"
@@ -56,7 +57,7 @@ Result<Solution> solve_certified(const Contour& part, const Contour& blank, cons
   search.gap = options.gap;
   search.min_allowance = options.min_allowance;
   search.alternatives = options.alternatives;
-  search.certificate_limit = 0;  // all of it comes through the sink
+  search.keep_certificate = false;  // all of it comes through the sink
   search.certificate_sink = [&](const locate::CertificateInterval& interval) {
     solution.certificate.push_back(interval);
     for (locate::Contact& contact : solution.certificate.back().contacts) indices.convert(contact);
@@ -117,17 +118,34 @@ Result<Solution> solve_icp(const Contour& part, const Contour& blank, const Loca
   return solution;
 }
 
+/// How many times further than the ends of its edges a line of the blank moves, at most, at points up to
+/// `outside` mm out of the blank.
+double edge_lever(const geom::ConvexPolygon& blank, double outside) {
+  const geom::Box box = geom::bounds(blank.vertices());
+  const double reach = geom::norm(box.high - box.low) + outside;
+  double shortest = reach;
+  for (std::size_t k = 0; k < blank.size(); ++k) {
+    shortest = std::min(shortest, geom::norm(blank[blank.next(k)] - blank[k]));
+  }
+  return 1 + 2 * reach / shortest;
+}
+
 }  // namespace
 
 double safe_clearance(const Contour& part, const Contour& blank, const locate::Placement& placement) {
   const double low =
       phi::clearance_enclosure(part.polygon, blank.polygon, placement.x, placement.y, placement.theta).low;
   // Points within e of the true ones in each coordinate are within sqrt(2) e of them, and so is every
-  // boundary point: the clearance of a part inside changes by no more than this. Outside it is a distance to
-  // a line beyond its edge, which tilts with the ends of the edge.
-  const double errors = 1.5 * (part.coordinate_error + blank.coordinate_error);
-  if (errors == 0) return low;
-  return difference_rounded_down(low, errors);
+  // boundary point: the clearance of a part inside changes by no more than this. Of a part outside it is the
+  // distance to the line of an edge, which the ends of a short edge may turn.
+  constexpr double kMoreThanDiagonal = 1.5;
+  const double lever = low >= 0 ? 1 : edge_lever(blank.polygon, std::abs(low));
+  const double errors = kMoreThanDiagonal * (part.coordinate_error + lever * blank.coordinate_error);
+  // Decimals in the result are the shortest that read back, half a unit in the last place off the doubles.
+  const double arm = 2 * geom::largest_coordinate(part.polygon.vertices());
+  const double written = 0x1p-53 * (std::abs(placement.x) + std::abs(placement.y) + std::abs(low) +
+                                    std::abs(placement.theta) * arm);
+  return difference_rounded_down(low, errors + written);
 }
 
 Result<Solution> solve(const Contour& part, const Contour& blank, const LocateOptions& options) {
