@@ -52,7 +52,8 @@ std::string list_of(const std::array<Word<T>, N>& words, const char* separator) 
 /// and which takes "nan" and "0x10".
 struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
-      alternatives, nc, nc_out, nc_mode, wcs, scan_frame, output, certificate, picture, deviations, compare;
+      alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
+      deviations, compare;
   std::vector<std::string> window;
   bool json = false;
 };
@@ -146,6 +147,11 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
                "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
   read.choice("--nc-mode", words.nc_mode, kModes, o.rewrite.mode);
   read.choice("--scan-frame", words.scan_frame, kScanFrames, o.rewrite.scan_frame);
+  read.number("--nc-angle-decimals", words.nc_angle_decimals, 0, 9, "a whole number from 0 to 9",
+              o.rewrite.g68_angle_decimals);
+  read.require(words.nc_angle_decimals.empty() || o.rewrite.mode == nc::RewriteMode::g68,
+               "--nc-angle-decimals is for --nc-mode g68 alone");
+  if (o.units) o.rewrite.start_unit = *o.units;
   read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)", o.rewrite.work_offset);
 }
 
@@ -255,6 +261,8 @@ void add_program_options(CLI::App& locate, LocateWords& w) {
   add("--nc-mode", w.nc_mode, list_of(kModes, "|"),
       "Turn every coordinate, or let the control do it: LinuxCNC G10 L2, Fanuc G68 [coordinates]");
   add("--wcs", w.wcs, "N", "Work offset that the program runs in: 1 is G54 .. 9 is G59.3 [1]");
+  add("--nc-angle-decimals", w.nc_angle_decimals, "N",
+      "Decimals of a degree that the control takes in G68 R [3]");
   add("--scan-frame", w.scan_frame, list_of(kScanFrames, "|"),
       "Coordinates in which the blank was probed [machine]");
 }

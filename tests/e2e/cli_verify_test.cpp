@@ -1,0 +1,177 @@
+#include "e2e/cli_run.hpp"
+
+/// `lekalo verify`: a result that was not touched is confirmed, anything changed afterwards is refuted.
+namespace lekalo::test {
+namespace {
+
+class Verify : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_plate(folder_);
+    const Ran ran = run(folder_.path(), kLocatePlate + Words{"-o", "out.json", "--nc", "part.nc", "--nc-out",
+                                                             "out.nc", "--alternatives", "0.01"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    result_ = Json::parse(read_bytes(folder_ / "out.json"));
+  }
+  [[nodiscard]] Ran verify(const Words& more = {}) const {
+    return run(folder_.path(), Words{"verify", "out.json"} + more);
+  }
+  [[nodiscard]] Ran verify_changed(const Json& changed) const {
+    write_bytes(folder_ / "out.json", changed.dump());
+    return verify();
+  }
+  /// Exit status of the result with one number moved by `step`.
+  [[nodiscard]] int verify_moved(const Json::json_pointer& field, double step) const {
+    Json changed = result_;
+    changed[field] = changed[field].get<double>() + step;
+    return verify_changed(changed).status;
+  }
+  TemporaryFolder folder_;
+  Json result_;
+};
+
+TEST_F(Verify, ConfirmsWhatWasNotTouched) {
+  const Ran ran = verify({"--json"});
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  const Json report = ran.json();
+  EXPECT_EQ(report["format"]["name"], "lekalo-verify");
+  EXPECT_EQ(report["status"], "confirmed");
+  EXPECT_EQ(report["findings"].size(), 0U);
+  EXPECT_EQ(report["inputs"].size(), 3U);
+  EXPECT_GT(report["intervals"], 0);
+  EXPECT_EQ(report["clearance_low"].get<std::string>().substr(0, 4),
+            result_["clearance"].get<double>() < 5 ? "4.99" : "5.00");
+  EXPECT_EQ(report["bound_high"].get<std::string>().substr(0, 4), "5.00");
+  EXPECT_NE(ran.err.find("Confirmed"), std::string::npos);
+  EXPECT_NE(ran.err.find(report["clearance_low"].get<std::string>()), std::string::npos);
+}
+
+TEST_F(Verify, ConfirmsFormattedOtherwise) { EXPECT_EQ(verify_changed(result_).status, 0); }
+
+TEST_F(Verify, PrintsNothingToStdoutWithoutJson) { EXPECT_EQ(verify().out, ""); }
+
+TEST_F(Verify, RefutesAClearanceThatIsTooLarge) {
+  EXPECT_EQ(verify_moved("/clearance"_json_pointer, 1e-6), 4);
+  EXPECT_EQ(verify_moved("/clearance"_json_pointer, 1), 4);
+}
+
+TEST_F(Verify, RefutesAPoseThatWasMoved) {
+  EXPECT_EQ(verify_moved("/x"_json_pointer, 1e-3), 4);
+  EXPECT_EQ(verify_moved("/y"_json_pointer, -1e-3), 4);
+  EXPECT_EQ(verify_moved("/theta"_json_pointer, 1e-4), 4);
+}
+
+TEST_F(Verify, RefutesABoundThatIsTooSmall) {
+  EXPECT_EQ(verify_moved("/upper_bound"_json_pointer, -1e-3), 4);
+}
+
+TEST_F(Verify, RefutesACertificateWithAHole) {
+  Json changed = result_;
+  ASSERT_GT(changed["certificate"].size(), 2U);
+  changed["certificate"].erase(1);
+  const Ran ran = verify_changed(changed);
+  EXPECT_EQ(ran.status, 4);
+  EXPECT_NE(ran.err.find("covers"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, RefutesContactsThatProveLess) {
+  Json changed = result_;
+  for (Json& interval : changed["certificate"]) {
+    Json& contact = interval["contacts"][0];
+    contact["part_vertex"] = (contact["part_vertex"].get<int>() + 2) % 4;
+  }
+  EXPECT_EQ(verify_changed(changed).status, 4);
+}
+
+TEST_F(Verify, RefutesAnAlternativeThatIsNone) {
+  EXPECT_EQ(verify_moved("/alternatives/0/clearance"_json_pointer, 1e-3), 4);
+}
+
+TEST_F(Verify, RefutesAStatusThatTheNumbersDoNotHave) {
+  Json changed = result_;
+  changed["status"] = "infeasible";
+  EXPECT_EQ(verify_changed(changed).status, 4);
+}
+
+TEST_F(Verify, RefutesANarrowerWindowThanThePose) {
+  Json changed = result_;
+  changed["window_deg"] = {80, 100};
+  EXPECT_EQ(verify_changed(changed).status, 4);
+}
+
+TEST_F(Verify, RefutesAResultForOtherContours) {
+  write_bytes(folder_ / "blank.csv", "100 100\n190 100\n190 150\n100 150.5\n");
+  const Ran ran = verify();
+  EXPECT_EQ(ran.status, 4);
+  EXPECT_NE(ran.err.find("SHA-256"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, RefutesAProgramThatWasEdited) {
+  write_bytes(folder_ / "out.nc", read_bytes(folder_ / "out.nc") + "G0 X0\n");
+  const Ran ran = verify();
+  EXPECT_EQ(ran.status, 4);
+  EXPECT_NE(ran.err.find("out.nc"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, MissesAProgramThatWentAwayWithAWordOnly) {
+  fs::remove(folder_ / "out.nc");
+  const Ran ran = verify();
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.err.find("out.nc"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, WithoutCertificateTheBoundIsUnproved) {
+  Json changed = result_;
+  changed["certificate"] = nullptr;
+  const Ran ran = verify_changed(changed);
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("Unproved"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, ReportsWhatCannotBeReadWithOneSentence) {
+  Json no_clearance = result_;
+  no_clearance.erase("clearance");
+  Json no_inputs = result_;
+  no_inputs["inputs"] = Json::array();
+  Json huge_index = result_;
+  huge_index["contacts"][0]["part_vertex"] = -1;
+  for (const Json& changed : {no_clearance, no_inputs, huge_index}) {
+    const Ran ran = verify_changed(changed);
+    EXPECT_EQ(ran.status, 3) << ran.err;
+    EXPECT_NE(ran.err.find("out.json"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find('\n'), ran.err.size() - 1) << ran.err;
+  }
+}
+
+TEST_F(Verify, SaysWhichFileIsMissing) {
+  fs::remove(folder_ / "blank.csv");
+  const Ran ran = verify();
+  EXPECT_EQ(ran.status, 3);
+  EXPECT_NE(ran.err.find("blank.csv"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, FindsTheFilesBesideTheResultAndWhereItIsTold) {
+  const TemporaryFolder elsewhere;
+  EXPECT_EQ(run(elsewhere.path(), {"verify", (folder_ / "out.json").string()}).status, 0);
+  fs::create_directory(folder_ / "moved");
+  fs::rename(folder_ / "blank.csv", folder_ / "moved/b.csv");
+  EXPECT_EQ(verify().status, 3);
+  EXPECT_EQ(verify({"--blank", "moved/b.csv"}).status, 0);
+}
+
+TEST_F(Verify, ChecksTheCertificateFile) {
+  ASSERT_EQ(run(folder_.path(), kLocatePlate + Words{"-o", "out.json", "--certificate", "out.cert"}).status,
+            0);
+  EXPECT_EQ(verify().status, 0);
+  const std::string certificate = read_bytes(folder_ / "out.cert");
+  Json shorter = Json::parse(certificate);
+  EXPECT_EQ(shorter["format"]["name"], "lekalo-certificate");
+  shorter["intervals"].erase(0);
+  write_bytes(folder_ / "out.cert", shorter.dump());
+  EXPECT_EQ(verify().status, 4);
+  fs::remove(folder_ / "out.cert");
+  EXPECT_EQ(verify().status, 3);
+}
+
+}  // namespace
+}  // namespace lekalo::test
