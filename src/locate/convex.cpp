@@ -138,16 +138,16 @@ class Localiser {
   /// What holds the placement: contacts whose multipliers balance in force, and in moment where two bounds
   /// meet.
   [[nodiscard]] std::vector<Contact> contacts(const AngleSearch::Incumbent& found) const {
-    const double tolerance = std::max(options_.gap, 64 * kUnit * program_.scale());
     const Basis* rising = nullptr;
     const Basis* falling = nullptr;
     for (const Basis& basis : found.holders) {
-      if (basis.bound.at(found.angle) > found.value + tolerance) continue;
+      if (!all_touch(basis, found)) continue;
       const double slope = basis.bound.slope_at(found.angle);
       if (slope >= 0 && (rising == nullptr || slope > rising->bound.slope_at(found.angle))) rising = &basis;
       if (slope <= 0 && (falling == nullptr || slope < falling->bound.slope_at(found.angle)))
         falling = &basis;
     }
+    // The angle's own basis always touches; the others where the search has closed in.
     const Basis* first = rising != nullptr ? rising : (falling != nullptr ? falling : &found.holders.front());
     const Basis* second = falling != nullptr ? falling : first;
     const double up = first->bound.slope_at(found.angle), down = -second->bound.slope_at(found.angle);
@@ -173,6 +173,19 @@ class Localiser {
       return a.blank_edge != b.blank_edge ? a.blank_edge < b.blank_edge : a.part_vertex < b.part_vertex;
     });
     return merged;
+  }
+
+  /// Whether the three contacts of a basis are those of this placement, but for what cannot be measured.
+  [[nodiscard]] bool all_touch(const Basis& basis, const AngleSearch::Incumbent& found) const {
+    const double tolerance = 1e-9 * program_.scale();
+    const double c = found.angle.direction.cosine, s = found.angle.direction.sine;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Point v = part_.ring[basis.vertex[j]], a = blank_.ring[basis.edge[j]];
+      const Point edge = blank_.ring[problem_.blank.next(basis.edge[j])] - a;
+      const Point p = Point{c * v.x - s * v.y, s * v.x + c * v.y} + found.shift;
+      if (cross(edge, p - a) / norm(edge) > found.value + tolerance) return false;
+    }
+    return true;
   }
 
   void add_alternatives(AngleSearch& search, ConvexResult& result) const {

@@ -15,7 +15,7 @@ struct Uncertainty {
 /// A number that no placement at an angle in [from, to] exceeds, for the exact shapes behind the doubles: the
 /// largest value of the basis's sinusoid over the interval plus everything rounding can hide.
 /// \pre `part` and `blank` in the local frame, from <= to less than pi apart.
-/// \return +infinity when the three edges do not provably span the plane positively.
+/// \return +infinity when the three edges are parallel.
 /// docs/design/locate-convex.md, "What the rounding can hide".
 [[nodiscard]] double proved_bound(const Basis& basis, const Angle& from, const Angle& to,
                                   const geom::Ring& part, const geom::Ring& blank,

@@ -79,6 +79,35 @@ void CertificateCheck::check_order(const WrittenInterval& interval) {
   if (count_ == 0 || compare_texts(interval.to, reach_) > 0) reach_ = interval.to;
 }
 
+bool CertificateCheck::weigh(Sinusoid& s) {
+  bool positive = false, negative = false;
+  for (std::size_t j = 0; j < 3; ++j) {
+    s.weights[j] = cross(s.edges[(j + 1) % 3]->direction, s.edges[(j + 2) % 3]->direction);
+    positive = positive || sgn(s.weights[j]) > 0;
+    negative = negative || sgn(s.weights[j]) < 0;
+  }
+  return !(positive && negative);
+}
+
+/// Weighs the three edges. Two that are opposite but for the last digits of the file leave the third next to
+/// no weight, and on which side of zero is beyond what its writer could know. A bound may be made of any
+/// edges, so an edge across the blank takes that place.
+bool CertificateCheck::balance(const WrittenInterval& interval, Sinusoid& s) {
+  if (weigh(s)) return true;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (!(interval.contacts[j].multiplier <= kMultiplierTolerance)) continue;
+    const EdgeLine* const written = s.edges[j];
+    const std::size_t across =
+        lowest_corner(edges_.outline(), {-written->direction.x, -written->direction.y}, 0);
+    for (const std::size_t corner : {across, across + edges_.outline().hull.size() - 1}) {
+      s.edges[j] = edges_.along_hull(corner);
+      if (s.edges[j] != nullptr && weigh(s)) return true;
+    }
+    s.edges[j] = written;
+  }
+  return false;
+}
+
 std::optional<CertificateCheck::Sinusoid> CertificateCheck::sinusoid(const WrittenInterval& interval) {
   Sinusoid s;
   for (std::size_t j = 0; j < 3; ++j) {
@@ -94,16 +123,11 @@ std::optional<CertificateCheck::Sinusoid> CertificateCheck::sinusoid(const Writt
       return std::nullopt;
     }
   }
-  int sign = 0;
-  for (std::size_t j = 0; j < 3; ++j) {
-    s.weights[j] = cross(s.edges[(j + 1) % 3]->direction, s.edges[(j + 2) % 3]->direction);
-    const int own = sgn(s.weights[j]);
-    if (own * sign < 0) {
-      say("the inward normals of its blank edges do not balance, so they bound nothing");
-      return std::nullopt;
-    }
-    if (own != 0) sign = own;
+  if (!balance(interval, s)) {
+    say("the inward normals of its blank edges do not balance, so they bound nothing");
+    return std::nullopt;
   }
+  const int sign = sgn(s.weights[0]) + sgn(s.weights[1]) + sgn(s.weights[2]);
   if (sign == 0) {
     say("its three blank edges are parallel, so they bound nothing");
     return std::nullopt;

@@ -71,6 +71,8 @@ class CertificateCheck {
   void say(const std::string& sentence);
   void check_order(const WrittenInterval& interval);
   [[nodiscard]] std::optional<Sinusoid> sinusoid(const WrittenInterval& interval);
+  [[nodiscard]] static bool weigh(Sinusoid& s);
+  [[nodiscard]] bool balance(const WrittenInterval& interval, Sinusoid& s);
   void check_multipliers(const WrittenInterval& interval, const Sinusoid& s);
   /// At or above the bound over the interval; infinite when doubles cannot tell.
   [[nodiscard]] double flat_bound(const WrittenInterval& interval, const Sinusoid& s);

@@ -45,6 +45,12 @@ const EdgeLine* EdgeLines::find(std::size_t k, std::string& why) {
   return nullptr;
 }
 
+const EdgeLine* EdgeLines::along_hull(std::size_t j) {
+  const std::size_t count = blank_.hull.size();
+  std::string why;
+  return find(blank_.hull[(blank_.counter_clockwise ? j : j + 1) % count], why);
+}
+
 EdgeLine EdgeLines::measure(std::size_t k) const {
   std::size_t from = k, to = next_kept_[k];
   if (!blank_.counter_clockwise) std::swap(from, to);

@@ -34,6 +34,9 @@ class EdgeLines {
 
   /// nullptr, with the reason in `why`, when there is no such edge.
   [[nodiscard]] const EdgeLine* find(std::size_t k, std::string& why);
+  /// The edge along the hull from its corner j (counter-clockwise, cyclic); nullptr when the result dropped it.
+  [[nodiscard]] const EdgeLine* along_hull(std::size_t j);
+  [[nodiscard]] const Outline& outline() const { return blank_; }
   /// File index of the next point that was not dropped.
   [[nodiscard]] std::size_t next_kept(std::size_t k) const { return next_kept_[k]; }
 
