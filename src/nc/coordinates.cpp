@@ -231,37 +231,37 @@ class CoordinatePass {
   GridPoint here_;
 };
 
-/// For each motion the one whose words set its start; itself for the first.
-std::vector<std::size_t> start_writers(const std::vector<Motion>& motions) {
-  std::vector<std::size_t> writers;
-  std::size_t last = 0;
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    writers.push_back(k == 0 ? 0 : last);
-    if (motions[k].x != nullptr || motions[k].y != nullptr) last = k;
-  }
-  return writers;
+/// Whether the words of a motion decide where it ends; else it carries on from its start.
+bool sets_end(const Motion& motion, bool turns) {
+  const bool stays = motion.start_known && motion.end == motion.start;
+  return (motion.x != nullptr || motion.y != nullptr) && !stays && (turns || !motion.incremental);
 }
 
-/// One more decimal for the words that shape the distorted arcs. The first arc that has all it may have, else
-/// nothing.
-std::optional<std::size_t> refine(const std::vector<Motion>& motions,
+/// One more decimal for the words that shape the distorted arcs: their own, and those of the motions before,
+/// back to the one that decided where the arc starts. The first arc of which all have what they may have,
+/// else nothing.
+std::optional<std::size_t> refine(const std::vector<Motion>& motions, bool turns,
                                   const std::vector<std::size_t>& distorted, std::vector<int>& extra) {
-  const std::vector<std::size_t> writers = start_writers(motions);
   const auto may_grow = [&](std::size_t k) {
     const Motion& m = motions[k];
     return std::max(decimals_of(m.x, m.y), decimals_of(m.i, m.j)) + extra[k] < kMostDecimals;
   };
-  std::vector<std::size_t> growing;
+  std::vector<bool> growing(motions.size(), false);
+  std::vector<bool> start_may_grow(motions.size() + 1, false);
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    start_may_grow[k + 1] = may_grow(k) || (!sets_end(motions[k], turns) && start_may_grow[k]);
+
   for (const std::size_t k : distorted) {
-    if (!may_grow(k) && !may_grow(writers[k])) return k;
-    growing.push_back(k);
-    growing.push_back(writers[k]);
+    if (!may_grow(k) && !start_may_grow[k]) return k;
+    growing[k] = true;
+    for (std::size_t j = k; j-- > 0;) {
+      const bool known = growing[j];  // then what stands before it is growing too
+      growing[j] = true;
+      if (sets_end(motions[j], turns) || known) break;
+    }
   }
-  std::ranges::sort(growing);
-  const auto repeated = std::ranges::unique(growing);
-  growing.erase(repeated.begin(), repeated.end());
-  for (const std::size_t k : growing)
-    if (may_grow(k)) ++extra[k];
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    if (growing[k] && may_grow(k)) ++extra[k];
   return std::nullopt;
 }
 
@@ -299,7 +299,8 @@ Result<Rewritten> rewrite_coordinates(const RewriteJob& job) {
     CoordinatePass pass(job, extra);
     pass.run();
     if (!pass.distorted.empty()) {
-      const std::optional<std::size_t> lost = refine(motions, pass.distorted, extra);
+      const std::optional<std::size_t> lost =
+          refine(motions, job.machine_from_part.turns(), pass.distorted, extra);
       if (!lost) continue;
       return refusal(
           job.name, job.program.blocks[motions[*lost].block].line,

@@ -173,7 +173,7 @@ class Interpreter {
     if (words.code(Group::distance) != kNone) modal_.incremental = words.code(Group::distance) == 910;
     if (words.code(Group::centre_distance) != kNone)
       modal_.absolute_centre = words.code(Group::centre_distance) == 901;
-    if (words.code(Group::motion) != kNone) modal_.motion = words.code(Group::motion);
+    if (Fault fault = set_motion(words)) return fault;
     if (words.code(Group::compensation) != kNone) modal_.compensation = words.code(Group::compensation);
     if (words.tool_change) modal_.x_known = modal_.y_known = false;
     if (modal_.compensation != 400) {
@@ -187,6 +187,17 @@ class Interpreter {
     }
     if (const int offset = words.code(Group::work_offset); offset != kNone)
       return set_work_offset(work_offset_of(offset));
+    return {};
+  }
+
+  Fault set_motion(const Words& words) {
+    const int motion = words.code(Group::motion);
+    const bool cancels = words.code(Group::cycle_cancel) != kNone;
+    if (cancels && is_cycle(motion)) return "G80 and a canned cycle in one block";
+    if (motion != kNone)
+      modal_.motion = motion;
+    else if (cancels)
+      modal_.motion = kMotionOff;
     return {};
   }
 

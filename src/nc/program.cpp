@@ -15,6 +15,9 @@ char to_upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>
 bool is_letter(char c) noexcept { return to_upper(c) >= 'A' && to_upper(c) <= 'Z'; }
 bool in_number(char c) noexcept { return is_digit(c) || c == '.' || c == '+' || c == '-'; }
 
+constexpr const char* kSubprograms =
+    "O words (subprograms, branches) cannot be rewritten; let the CAM system write them out";
+
 /// What is wrong with a line; nothing when all is well.
 using Fault = std::optional<std::string>;
 
@@ -153,6 +156,7 @@ class LineReader {
                  : fmt::format("{}{} is not a number", word.letter, number);
     skip_blanks();
     if (in_number(peek())) return fmt::format("a blank inside the number after {}{}", word.letter, number);
+    if (word.letter == 'O' && !at_end() && peek() != '(' && peek() != ';') return std::string(kSubprograms);
     word.value = *parsed.value;
     word.has_point = number.find('.') != std::string_view::npos;
     block_.words.push_back(word);
@@ -160,8 +164,7 @@ class LineReader {
   }
 
   Fault missing_number(char letter) const {
-    if (letter == 'O')
-      return "named O words (subprograms) cannot be rewritten; let the CAM system write them out";
+    if (letter == 'O') return std::string(kSubprograms);
     const char next = peek();
     if (next == '#' || next == '[' || next == '@' || next == '^') return character_fault(next);
     return fmt::format("the letter {} has no number", letter);

@@ -46,7 +46,7 @@ constexpr std::array kWhiteList = {
     GWord{690, Group::rotation_cancel},
     GWord{730, Group::motion},
     GWord{740, Group::motion},
-    GWord{kMotionOff, Group::motion},
+    GWord{kMotionOff, Group::cycle_cancel},
     GWord{810, Group::motion},
     GWord{820, Group::motion},
     GWord{830, Group::motion},
@@ -107,9 +107,7 @@ std::optional<Group> group_of(int tenths) noexcept {
   return std::nullopt;
 }
 
-bool is_cycle(int tenths) noexcept {
-  return group_of(tenths) == Group::motion && tenths > kCounterClockwise && tenths != kMotionOff;
-}
+bool is_cycle(int tenths) noexcept { return group_of(tenths) == Group::motion && tenths > kCounterClockwise; }
 
 int work_offset_of(int tenths) noexcept { return tenths <= 590 ? (tenths - 530) / 10 : tenths - 590 + 6; }
 
@@ -164,7 +162,10 @@ std::optional<std::string> refused_letter(char letter) {
     case 'W':
       return fmt::format("axis {}: only X Y Z programs can be rewritten", letter);
     case 'K':
-      return std::string("K: arcs out of the XY plane and repeats by K are not rewritten");
+      return std::string(
+          "K: arcs outside the XY plane (G18, G19) do not stay in their plane when turned, and repeats by K "
+          "are not "
+          "rewritten");
     default:
       return fmt::format("{} is not on the list of words that can be rewritten", letter);
   }

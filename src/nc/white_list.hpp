@@ -15,6 +15,7 @@ namespace lekalo::nc {
 enum class Group {
   dwell,
   motion,
+  cycle_cancel,  ///< G80, which may stand beside G0 to G3
   plane,
   unit,
   compensation,
@@ -28,7 +29,7 @@ enum class Group {
   spindle_mode,
   rotation_cancel,
 };
-inline constexpr std::size_t kGroups = 14;
+inline constexpr std::size_t kGroups = 15;
 
 /// Codes count tenths, so that G59.3 is 593.
 inline constexpr int kRapid = 0, kFeed = 10, kClockwise = 20, kCounterClockwise = 30, kMotionOff = 800;

@@ -119,7 +119,7 @@ TEST_F(NcRewrite, comes_back_under_the_inverse_pose) {
     const auto back_x = static_cast<double>(-(m.cosine * pose.x + m.sine * pose.y));
     const auto back_y = static_cast<double>(m.sine * pose.x - m.cosine * pose.y);
     const auto back = rewrite_program(there->program, "p", back_x, back_y, -pose.theta, {});
-    EXPECT_TRUE(back.has_value()) << (back ? "" : back.error().message);
+    EXPECT_TRUE(back.has_value()) << (back ? "" : back.error().message) << "\n" << there->program;
     if (!back) return false;
     const rs274::Real off =
         rs274::deviation(rs274::Reader().read(program), rs274::Reader().read(back->program), {});

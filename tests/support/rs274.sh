@@ -37,11 +37,11 @@ unpack() {
     fail "cannot download ${packages[0]} and its libraries from Debian; see $cache/download.log"
   local package
   for package in "$work"/*.deb; do dpkg-deb -x "$package" "$work/root"; done
-  # Diameters in mm; 25.4 is the inch tool that some of LinuxCNC's samples ask for.
+  # rs274 reads diameters in inches; tool 4 is the one inch tool that some of LinuxCNC's samples ask for.
   local tool diameter
   for tool in {1..20}; do
-    diameter=6.0
-    [ "$tool" = 4 ] && diameter=25.4
+    diameter=0.25
+    [ "$tool" = 4 ] && diameter=1.0
     printf 'T%d P%d D%s Z0\n' "$tool" "$tool" "$diameter"
   done >"$work/root/tool.tbl"
   rm -rf "$root"

@@ -51,7 +51,7 @@ class RandomProgram {
     return buffer.data();
   }
   std::string number(double value) {
-    std::string text = fixed(value, 6);
+    std::string text = fixed(value + 0.0, 6);  // no -0 of the generator's own
     while (text.back() == '0' && random_.below(8) != 0) text.pop_back();
     if (text.back() == '.' && random_.below(2) == 0) text.pop_back();
     if (text[0] != '-' && random_.below(6) == 0) text.insert(0, "+");

@@ -1,0 +1,268 @@
+// LinuxCNC's own interpreter, rs274, reads the original and the rewritten program; its canonical motions,
+// moved by the pose, must agree within 2e-4 of the program's unit (it prints four decimals).
+
+#include "support/rs274.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lekalo/nc/rewrite.hpp"
+#include "support/cases.hpp"
+#include "support/rs274_random.hpp"
+
+namespace {
+
+using namespace lekalo::nc;
+
+constexpr double kTolerance = 2e-4;
+constexpr double kDegree = 0.017453292519943295;
+
+// Shifts and angles of four decimals, so that what rs274 announces is what was written.
+const std::vector<rs274::PlaneMotion> kPoses = {
+    {12.7, -25.4, 33.25 * kDegree}, {-101.6, 50.8, -118.5 * kDegree}, {0, 0, 90 * kDegree}, {3.175, 6.35, 0}};
+
+const rs274::Oracle& oracle() {
+  static const rs274::Oracle instance(LEKALO_SOURCE_DIR "/tests/support/rs274.sh");
+  return instance;
+}
+
+/// What is wrong with the rewritten program; empty when nothing is.
+std::string disagreement(const std::string& program, const rs274::PlaneMotion& pose, RewriteMode mode,
+                         const rs274::Run& original, std::size_t& motions) {
+  const auto result = rewrite_program(program, "program", pose.x, pose.y, pose.theta, {.mode = mode});
+  if (!result) return "refused: " + result.error().message;
+  rs274::Comparison comparison(pose, kTolerance, mode == RewriteMode::offset);
+  std::string what = comparison.difference(original, oracle().run(result->program));
+  motions = comparison.motions;
+  return what.empty() ? "" : what + "\n" + result->program;
+}
+
+void expect_agreement(const std::string& program) {
+  const rs274::Run original = oracle().run(program);
+  ASSERT_TRUE(original.accepted) << original.errors << program;
+  for (const auto& pose : kPoses)
+    for (const RewriteMode mode : {RewriteMode::coordinates, RewriteMode::offset}) {
+      std::size_t motions = 0;
+      EXPECT_EQ(disagreement(program, pose, mode, original, motions), "") << "angle " << pose.theta / kDegree;
+      EXPECT_GT(motions, 0U);
+    }
+}
+
+TEST(NcRs274, the_oracle_refuses_what_it_should) {
+  EXPECT_FALSE(oracle().run("G21 F100\nG0 X0 Y0\nG2 X10 Y0 I4 J0\nM2\n").accepted);
+  EXPECT_TRUE(oracle().run("G21 F100\nG0 X0 Y0\nG2 X10 Y0 I5 J0\nM2\n").accepted);
+}
+
+TEST(NcRs274, the_comparison_notices_a_small_error) {
+  const std::string program = "G21 F100\nG0 X0 Y0\nG2 X10 Y0 I5 J0\nG1 X20 Y1\nM2\n";
+  const rs274::Run original = oracle().run(program);
+  const auto result = rewrite_program(program, "p", 1, 2, 0.5, {});
+  ASSERT_TRUE(result) << result.error().message;
+  const rs274::Run written = oracle().run(result->program);
+  EXPECT_EQ(rs274::Comparison({1, 2, 0.5}, kTolerance, false).difference(original, written), "");
+  EXPECT_NE(rs274::Comparison({1.0003, 2, 0.5}, kTolerance, false).difference(original, written), "");
+  EXPECT_NE(rs274::Comparison({1, 2, 0.5001}, kTolerance, false).difference(original, written), "");
+  EXPECT_NE(rs274::Comparison({1, 2, 0.5}, kTolerance, false).difference(original, original), "");
+}
+
+TEST(NcRs274, lines_arcs_and_helices_agree) {
+  expect_agreement(R"(%
+(lines, arcs both ways, both formats)
+N10 G21 G90 G17 G40 G49 G80 G94
+N20 G54 T1 M6
+N30 S1000 M3 F200
+G0 Z5.
+N40 g0 x10.5 y0
+X20
+y5.25
+G1 Z-1. F100
+G2 X30. Y15.25 I10. J0. ; quarter
+G3 X40 Y25.25 R10.
+G2 I5.
+G3 X40. Y25.25 I-3 J4 P2 Z-5
+G2 X44 Y25.25 R2.
+G3 X44.5 Y26 R-3
+G2 X54.5 Y26.001 R250
+G3 X54.5 Y26.5 R-40
+G3 X50 Y20 R10 Z-7 P2
+G90.1 G2 X60 Y20 I55 J20
+G91.1
+G64 P0.01
+G1 X0 Y0
+G61 G1 X1 Z5
+G0 Z10 M5
+M30
+%
+)");
+}
+
+TEST(NcRs274, incremental_moves_and_cycles_agree) {
+  expect_agreement(R"(G21 G90 G17 G40 G80 G94 F150
+G0 X5 Y5 Z10
+G91 G1 X1.1
+X1.1 Y.3
+Y-2
+X1 Z-1
+G2 X2 R1
+G3 X2. I1.
+G3 Y-3 J-1.5 Z-.5
+G90 G0 Z10
+G98 G81 X11.25 Y1. Z-3. R1.
+X2.
+Y7
+G99 G82 X3 Y3 Z-2 R1 P.1
+G83 X4 Y4 Z-6 R1 Q1.5
+G73 X5 Y5 Z-6 R1 Q1.5
+G85 X6 Y6 Z-2 R1
+G86 X7 Y6 Z-2 R1 P.1 S1000 M3
+G89 X8 Y6 Z-2 R1 P.1
+G80 G0 Z10
+G91 G81 X2.3 Y1.1 Z-1 R-2 L4
+X-1 L2
+Y3
+G80
+G90 G0 X0 Y0
+M2
+)");
+}
+
+TEST(NcRs274, inches_and_a_change_of_unit_agree) {
+  expect_agreement(R"(G20 G90 G17 F10
+G0 Z1
+G0 X1 Y1
+G1 X1.5
+G2 X2.5 Y2 I1 J0
+G3 X3.5 Y3 R1
+G2 X4.5 Y3 R.5
+G91 G1 X.1
+X.1
+G3 I.25
+G90 G81 X1 Y3 Z-.1 R.1
+Y4
+G80
+G21 G0 X25.4
+Y50.8
+G1 X30
+G2 X40 Y50.8 R5
+G20 G1 X1 Y1
+M2
+)");
+}
+
+TEST(NcRs274, cutter_compensation_agrees) {
+  expect_agreement(R"(G21 G90 G17 G40 F100
+T1 M6
+G0 X-20 Y-20 Z5
+G1 Z-1
+G41 D1 G1 X0 Y-10
+Y30
+G2 X10 Y40 I10
+G1 X40
+Y0
+X-10
+G40 G1 X-20 Y-20
+G0 Z5
+G42 D1 G1 X0 Y-10
+X50
+Y30
+G3 X40 Y40 R10
+G1 X0
+G40 X-20
+M2
+)");
+}
+
+TEST(NcRs274, a_modal_word_missing_at_the_top_is_set_by_the_offset_line) {
+  // The program leaves unit and work offset to the control.
+  expect_agreement("G0 X1. Y2.\nG1 X30. F100\nM2\n");
+  expect_agreement(
+      "G0 Z5.\nG20\nG54 G0 X1. Y2.\nG1 X3. F10\nM2\n");
+}
+
+TEST(NcRs274, random_programs_agree) {
+  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(100), 1500);
+  std::size_t compared = 0;
+  for (std::size_t k = 1; k <= count; ++k) {
+    const std::string program = rs274::RandomProgram(lekalo::cases::seed(), 2 * k).write();
+    SCOPED_TRACE(testing::Message() << "seed " << lekalo::cases::seed() << ", case " << k << "\n" << program);
+    const rs274::Run original = oracle().run(program);
+    const auto& pose = kPoses[k % kPoses.size()];
+    const RewriteMode mode = k % 3 == 0 ? RewriteMode::offset : RewriteMode::coordinates;
+    const auto result = rewrite_program(program, "program", pose.x, pose.y, pose.theta, {.mode = mode});
+    if (!result) continue;  // the share of these is bounded in tests/property/nc_rewrite_test.cpp
+    ++compared;
+    rs274::Comparison comparison(pose, kTolerance, mode == RewriteMode::offset);
+    const rs274::Run written = oracle().run(result->program);
+    ASSERT_TRUE(original.accepted) << original.errors;
+    ASSERT_EQ(comparison.difference(original, written), "") << written.errors << result->program;
+  }
+  EXPECT_GE(compared, count * 9 / 10);
+}
+
+/// LinuxCNC's own samples, files nobody here wrote: each is rewritten and agrees, or is refused with line and
+/// reason. The table of the verdicts is part of the documentation; LEKALO_WRITE_NC_SAMPLES=1 writes it anew.
+TEST(NcRs274, samples_of_linuxcnc_are_rewritten_or_refused_as_the_table_says) {
+  const std::filesystem::path folder = oracle().root() / "usr/share/linuxcnc/ncfiles";
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".ngc") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  ASSERT_GT(files.size(), 100U);
+
+  std::string table;
+  std::size_t rewritten = 0, refused = 0;
+  for (const auto& file : files) {
+    const std::string name = file.lexically_relative(folder).string(), program = rs274::read_file(file);
+    SCOPED_TRACE(name);
+    const rs274::Run original = oracle().run(program);
+    std::string verdict;
+    const auto result = rewrite_program(program, name, 12.7, -25.4, 33.25 * kDegree, {});
+    if (result) {
+      ++rewritten;
+      for (const auto& pose : kPoses)
+        for (const RewriteMode mode : {RewriteMode::coordinates, RewriteMode::offset}) {
+          std::size_t motions = 0;
+          EXPECT_EQ(disagreement(program, pose, mode, original, motions), "")
+              << "angle " << pose.theta / kDegree;
+          verdict = fmt::format("rewritten, {} canonical motions agree in both modes", motions);
+        }
+    } else {
+      ++refused;
+      const std::string& message = result.error().message;
+      ASSERT_EQ(message.rfind(name + ":", 0), 0U) << message;
+      const std::string place = message.substr(name.size() + 1);
+      EXPECT_GT(std::atoi(place.c_str()), 0) << message;
+      verdict = "refused, line " + place;
+    }
+    std::string escaped;
+    for (const char c : verdict) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+    table += fmt::format("| {} | {} | {} |\n", name, original.accepted ? "accepts" : "rejects", escaped);
+  }
+
+  const std::filesystem::path page = LEKALO_SOURCE_DIR "/docs/nc-samples.md";
+  const std::string head =
+      "# LinuxCNC's sample programs\n\n"
+      "What `lekalo` makes of every `.ngc` file of the Debian package linuxcnc-uspace 2.9.0~pre1 "
+      "(`usr/share/linuxcnc/ncfiles`), programs that\nnobody here wrote: mill, lathe and plasma programs, "
+      "probing "
+      "macros and subroutine libraries. A file is rewritten, and then LinuxCNC's\ninterpreter `rs274` gives "
+      "the same "
+      "canonical motions, moved by the pose, within 2e-4 of its unit (modes `coordinates` and `offset`, "
+      "four\nposes), "
+      "or it is refused with line and reason. The second column is what `rs274` alone makes of the file as "
+      "it "
+      "stands:\nmany need parameters, subroutines, tools or pins of a configured machine, or are subroutines "
+      "themselves.\n\n"
+      "This page is written and checked by `tests/differential/nc_rs274_test.cpp` "
+      "(`LEKALO_WRITE_NC_SAMPLES=1` writes "
+      "it anew).\n\n";
+  const std::string expected =
+      head + fmt::format("{} files: {} rewritten, {} refused.\n\n", files.size(), rewritten, refused) +
+      "| file | rs274 | lekalo |\n|---|---|---|\n" + table;
+  if (std::getenv("LEKALO_WRITE_NC_SAMPLES") != nullptr) std::ofstream(page, std::ios::binary) << expected;
+  EXPECT_EQ(rs274::read_file(page), expected) << "the table of docs/nc-samples.md is out of date";
+}
+
+}  // namespace

@@ -1,0 +1,229 @@
+#pragma once
+
+// LinuxCNC's interpreter as a test oracle: runs programs and compares the canonical motions of an original
+// with those of its rewritten form. See rs274.sh for where it comes from.
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace rs274 {
+
+/// One call of the interpreter's canonical interface.
+struct Call {
+  std::string name;
+  std::string arguments;
+  std::vector<double> numbers;  ///< those of a motion
+  double unit = 1;              ///< millimetres in the unit of its numbers
+
+  [[nodiscard]] bool straight() const { return name == "STRAIGHT_FEED" || name == "STRAIGHT_TRAVERSE"; }
+  [[nodiscard]] bool arc() const { return name == "ARC_FEED"; }
+};
+
+struct Run {
+  bool accepted = false;
+  std::vector<Call> calls;
+  std::string errors;
+};
+
+/// A folder that goes away with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lekalo-rs274-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Oracle {
+ public:
+  /// Fetches and unpacks the interpreter when it is missing; throws with the script's words when that fails,
+  /// so that no comparison is ever skipped in silence.
+  explicit Oracle(std::string script) : script_(std::move(script)) {
+    const auto [status, folder, errors] = shell("'" + script_ + "' prepare");
+    if (status != 0) throw std::runtime_error(errors);
+    root_ = folder.substr(0, folder.find('\n'));
+  }
+
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+
+  [[nodiscard]] Run run(const std::string& program) const {
+    const std::filesystem::path file = scratch_.path() / "program.ngc";
+    std::ofstream(file, std::ios::binary) << program;
+    const auto [status, output, errors] =
+        shell("'" + script_ + "' run '" + scratch_.path().string() + "' '" + file.string() + "'");
+    Run result;
+    result.accepted = status == 0;
+    result.errors = errors;
+    double unit = 1;
+    std::istringstream lines(output);
+    for (std::string line; std::getline(lines, line);)
+      if (std::optional<Call> call = parse(line, unit)) result.calls.push_back(std::move(*call));
+    return result;
+  }
+
+ private:
+  struct Output {
+    int status;
+    std::string out, errors;
+  };
+
+  Output shell(const std::string& command) const {
+    const std::filesystem::path errors = scratch_.path() / "errors.txt";
+    FILE* pipe = popen((command + " 2>'" + errors.string() + "'").c_str(), "r");
+    if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
+    std::string out;
+    std::array<char, 65536> buffer{};
+    for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+      out.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out, read_file(errors)};
+  }
+
+  /// `   12 N0040  STRAIGHT_FEED(1.0000, 2.0000, ...)`
+  static std::optional<Call> parse(const std::string& line, double& unit) {
+    const std::size_t open = line.find('(');
+    if (open == std::string::npos) return std::nullopt;
+    const std::size_t name = line.find_last_of(" \t", open) + 1;
+    Call call{line.substr(name, open - name), line.substr(open), {}, unit};
+    if (call.name == "USE_LENGTH_UNITS") unit = call.arguments.find("INCHES") != std::string::npos ? 25.4 : 1;
+    std::string numbers = call.arguments;
+    for (char& c : numbers)
+      if (c == '(' || c == ')' || c == ',') c = ' ';
+    std::istringstream stream(numbers);
+    for (double value = 0; stream >> value;) call.numbers.push_back(value);
+    return call;
+  }
+
+  std::string script_;
+  ScratchFolder scratch_;
+  std::filesystem::path root_;
+};
+
+/// A rigid motion of the plane, millimetres.
+struct PlaneMotion {
+  double x = 0, y = 0, theta = 0;
+
+  [[nodiscard]] std::array<double, 2> operator()(double px, double py) const {
+    return {std::cos(theta) * px - std::sin(theta) * py + x, std::sin(theta) * px + std::cos(theta) * py + y};
+  }
+};
+
+/// Compares two runs call by call. The written one's announced work offset and rotation are applied when
+/// `announced_frame` is set (its positions ignore them); else they must be the same as the original's.
+class Comparison {
+ public:
+  Comparison(PlaneMotion pose, double tolerance_units, bool announced_frame)
+      : pose_(pose), tolerance_(tolerance_units), announced_(announced_frame) {}
+
+  /// What differs first; empty when nothing does.
+  std::string difference(const Run& original, const Run& written) {
+    if (original.accepted != written.accepted)
+      return original.accepted ? "the rewritten program is not accepted: " + written.errors
+                               : "only the original is not accepted: " + original.errors;
+    const std::vector<Call> a = relevant(original.calls, false), b = relevant(written.calls, true);
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
+      if (std::string what = differ(a[k], b[k]); !what.empty())
+        return what + "\n  " + a[k].name + a[k].arguments + "\n  " + b[k].name + b[k].arguments;
+    }
+    return a.size() == b.size() ? "" : "one has more calls than the other";
+  }
+
+  std::size_t motions = 0;   ///< compared
+  double largest_units = 0;  ///< deviation seen, in the unit of the program
+
+ private:
+  /// Drops what only tells of the interpreter's state, and follows the announced frame into the calls.
+  std::vector<Call> relevant(const std::vector<Call>& calls, bool is_written) const {
+    std::vector<Call> kept;
+    PlaneMotion frame;
+    for (Call call : calls) {
+      if (call.name == "USE_LENGTH_UNITS") continue;
+      if (call.name == "COMMENT" && call.arguments.find("interpreter:") != std::string::npos) continue;
+      if (announced_ && call.name == "SET_G5X_OFFSET") {
+        frame.x = call.numbers.at(1) * call.unit;
+        frame.y = call.numbers.at(2) * call.unit;
+        continue;
+      }
+      if (announced_ && call.name == "SET_XY_ROTATION") {
+        frame.theta = call.numbers.at(0) * 3.14159265358979323846 / 180;
+        continue;
+      }
+      if (announced_ && is_written && (call.straight() || call.arc())) place(frame, call);
+      kept.push_back(std::move(call));
+    }
+    return kept;
+  }
+
+  static void place(const PlaneMotion& frame, Call& call) {
+    move(frame, call, 0);
+    if (call.arc()) move(frame, call, 2);
+  }
+  static void move(const PlaneMotion& motion, Call& call, std::size_t at) {
+    const auto moved = motion(call.numbers.at(at) * call.unit, call.numbers.at(at + 1) * call.unit);
+    call.numbers[at] = moved[0] / call.unit;
+    call.numbers[at + 1] = moved[1] / call.unit;
+  }
+
+  std::string differ(const Call& a, const Call& b) {
+    if (a.name != b.name) return "different calls";
+    if (!a.straight() && !a.arc()) return a.arguments == b.arguments ? "" : "different arguments";
+    if (a.unit != b.unit) return "different units";
+    // Until the first words in X and Y the machine stands where it was switched on, whatever the frame.
+    const bool resting = a.straight() && a.numbers.at(0) == 0 && a.numbers.at(1) == 0;
+    if (!placed_ && resting && rests(b)) return a.numbers.at(2) == b.numbers.at(2) ? "" : "different Z";
+    placed_ = true;
+    ++motions;
+    Call image = a;
+    place(pose_, image);
+    for (std::size_t k = 0; k < image.numbers.size(); ++k) {
+      const double off = std::abs(image.numbers[k] - b.numbers.at(k));
+      const bool in_plane = k < 2 || (a.arc() && k < 4);
+      if (in_plane) largest_units = std::max(largest_units, off);
+      if (!(off <= (in_plane ? tolerance_ : 0))) return "different positions";
+    }
+    return "";
+  }
+
+  bool rests(const Call& b) const {
+    if (!announced_) return b.numbers.at(0) == 0 && b.numbers.at(1) == 0;
+    // Before its first move a machine at rest has other coordinates in another frame: LinuxCNC keeps (0, 0).
+    return true;
+  }
+
+  PlaneMotion pose_;
+  double tolerance_;
+  bool announced_;
+  bool placed_ = false;
+};
+
+}  // namespace rs274
