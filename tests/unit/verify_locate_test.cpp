@@ -1,5 +1,5 @@
-// verify_locate on results written by hand or by the solver of support/verify_cases.hpp, which shares nothing with
-// lekalo: true ones are confirmed, and whatever digit is falsified, the lie is found.
+// verify_locate on results written by hand or by the solver of support/verify_cases.hpp, which shares nothing
+// with lekalo: true ones are confirmed, and whatever digit is falsified, the lie is found.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,8 @@ const std::vector<Tampering>& tamperings() {
        [](Files& f, const Solution&) { f.certificate.erase(f.certificate.begin() + 30); }},
       {"last interval removed", "less than the full circle",
        [](Files& f, const Solution&) { f.certificate.pop_back(); }},
-      {"all intervals removed", "it has no intervals", [](Files& f, const Solution&) { f.certificate.clear(); }},
+      {"all intervals removed", "it has no intervals",
+       [](Files& f, const Solution&) { f.certificate.clear(); }},
       {"the circle cut short by 4e-16", "less than the full circle",
        [](Files& f, const Solution&) { f.certificate.back().to = "6.2831853071795864"; }},
       {"a hole of 1e-25", "nothing covers the angles",
@@ -115,7 +116,8 @@ const std::vector<Tampering>& tamperings() {
        }},
       {"three neighbouring blank edges", "interval 40: the inward normals of its blank edges do not balance",
        [](Files& f, const Solution&) {
-         for (const std::size_t j : {0U, 1U, 2U}) f.certificate[40].contacts[j].blank_edge = std::to_string(j);
+         for (const std::size_t j : {0U, 1U, 2U})
+           f.certificate[40].contacts[j].blank_edge = std::to_string(j);
        }},
       {"the same edge three times", "parallel",
        [](Files& f, const Solution&) {
@@ -150,7 +152,8 @@ const std::vector<Tampering>& tamperings() {
       {"gap halved", "gap is written as",
        [](Files& f, const Solution&) { f["gap"] = text_of(std::stod(f["gap"]) / 2); }},
       {"gap null", "only one of upper_bound and gap", [](Files& f, const Solution&) { f["gap"] = "null"; }},
-      {"shortfall from nothing", "shortfall is 0.5", [](Files& f, const Solution&) { f["shortfall"] = "0.5"; }},
+      {"shortfall from nothing", "shortfall is 0.5",
+       [](Files& f, const Solution&) { f["shortfall"] = "0.5"; }},
       {"min_allowance out of reach, status optimal", "status is optimal, but upper_bound",
        [](Files& f, const Solution& s) {
          f["min_allowance"] = "10";
@@ -166,15 +169,12 @@ const std::vector<Tampering>& tamperings() {
        [](Files& f, const Solution&) { f["status"] = "\"infeasible\""; }},
       {"unproved, with a certificate", "status is unproved",
        [](Files& f, const Solution&) { f["status"] = "\"unproved\""; }},
-      {"a corner of the blank moved by 1", "",
-       [move](Files& f, const Solution&) { move(f.blank, 1); }},
-      {"a corner of the part moved by 1", "",
-       [move](Files& f, const Solution&) { move(f.part, 1); }},
+      {"a corner of the blank moved by 1", "", [move](Files& f, const Solution&) { move(f.blank, 1); }},
+      {"a corner of the part moved by 1", "", [move](Files& f, const Solution&) { move(f.part, 1); }},
       {"the blank enlarged: more room than the bound allows", "",
        [](Files& f, const Solution&) { f.blank = replaced(f.blank, "[[", "[[30, 100], [") + " "; }},
-      {"units inch", "", [](Files& f, const Solution&) {
-         f["inputs"] = replaced(f["inputs"], "\"mm\"", "\"inch\"");
-       }},
+      {"units inch", "",
+       [](Files& f, const Solution&) { f["inputs"] = replaced(f["inputs"], "\"mm\"", "\"inch\""); }},
       {"number of points", "points, the result says 11",
        [](Files& f, const Solution&) {
          const std::size_t at = f["inputs"].find("\"points\": ");
@@ -205,12 +205,14 @@ const std::vector<Tampering>& tamperings() {
          f["contacts"] = "[" + contact_text({(c.part_vertex + 5) % 10, c.blank_edge, 1}).json() + "]";
        }},
       {"a contact of the pose that does not exist", "contact 0: part vertex 77",
-       [](Files& f, const Solution&) { f["contacts"] = "[" + ContactText{"77", "0", "1"}.json() + "]"; }},
+       [](Files& f, const Solution&) {
+         f["contacts"] = "[" + ContactText{"77", "0", "1"}.json() + "]";
+       }},
       {"an alternative with too much clearance", "alternative 0: clearance",
        [](Files& f, const Solution& s) {
-         f["alternatives"] = fmt::format(
-             R"([{{"x": {}, "y": {}, "theta": {}, "theta_deg": {}, "clearance": {}}}])", s.x, s.y, s.theta,
-             s.theta * 57.29577951308232, s.clearance + 1e-11);
+         f["alternatives"] =
+             fmt::format(R"([{{"x": {}, "y": {}, "theta": {}, "theta_deg": {}, "clearance": {}}}])", s.x, s.y,
+                         s.theta, s.theta * 57.29577951308232, s.clearance + 1e-11);
        }},
       {"an NC program that keeps more than the placement", "nc.clearance",
        [](Files& f, const Solution& s) {
@@ -236,7 +238,8 @@ TEST(VerifyLocate, finds_every_falsified_digit) {
         continue;
       }
       EXPECT_EQ(report->verdict, Verdict::refuted) << what;
-      EXPECT_NE(findings(report).find(tampering.finding), std::string::npos) << what << ":\n" << findings(report);
+      EXPECT_NE(findings(report).find(tampering.finding), std::string::npos) << what << ":\n"
+                                                                             << findings(report);
     }
   }
 }
