@@ -12,20 +12,30 @@
 
 namespace lekalo::io {
 
+/// Most points (or LINEs) of a contour file; more are refused.
+inline constexpr std::size_t kMostContourPoints = 5'000'000;
+
 /// The points of a contour as they stand in a file (docs/formats.md), scaled to millimetres, in file order.
 struct ContourFile {
-  std::string name;                  ///< as given, for messages
+  std::string name;  ///< as given, for messages
   LengthUnit unit = LengthUnit::millimetre;
-  geom::Ring points;                 ///< mm, file order, nothing dropped
-  /// Where each point stands, for messages: line number (text, DXF) or index (JSON).
+  geom::Ring
+      points;  ///< mm, at most 1e9, file order, nothing dropped; each the double nearest to its decimal
+  /// Where each point stands, for messages: line number, 1-based (text, DXF), or index (JSON).
   std::vector<std::size_t> places;
-  /// Every coordinate is within this of the decimal in the file, mm (reading and scaling round).
+  bool places_are_lines = true;
+  /// Every coordinate is within this of the decimal in the file, mm: half a unit in the last place of the
+  /// largest coordinate that is not proved to be a double. 0 when all are. Inches are scaled as decimals.
   double coordinate_error = 0;
   std::vector<std::string> notices;  ///< e.g. third numbers ignored
 };
 
-/// Parses the bytes of a contour file; the ending of `name` chooses the format. `unit` is what the user said, and
-/// applies where the file does not say; a file that says otherwise is refused.
+/// Parses the bytes of a contour file; the ending of `name`, in any case, chooses the format. `unit` is what
+/// the user said, and applies where the file does not say (millimetres if neither does); a file that says
+/// otherwise is refused.
+///
+/// Fails with ErrorCode::bad_input and one sentence that names the file, the line, point or entity, what
+/// stands there and the way out. Never empty: at least one point. Cost: O(bytes), O(n log n) for LINEs.
 [[nodiscard]] Result<ContourFile> parse_contour(std::string_view bytes, const std::string& name,
                                                 std::optional<LengthUnit> unit);
 
@@ -34,8 +44,10 @@ struct ConvexContour {
   geom::ConvexPolygon polygon;
   std::vector<std::size_t> file_index_of_vertex;  ///< per polygon vertex
   bool reversed = false;                          ///< the file runs clockwise
-  std::vector<std::size_t> dropped;               ///< file indices of duplicates and collinear points, ascending
-  double coordinate_error = 0;                    ///< mm; covers reading, scaling and what dropping changed
+  std::vector<std::size_t> dropped;  ///< file indices of duplicates and collinear points, ascending
+  /// mm; covers reading, scaling and what dropping changed: the polygon's outline and the outline through all
+  /// points of the file are within coordinate_error - file.coordinate_error of each other, both ways.
+  double coordinate_error = 0;
   std::vector<std::string> notices;
 
   /// Index of the blank edge in file order (docs/formats.md) for polygon edge k.
@@ -45,18 +57,32 @@ struct ConvexContour {
 /// Drops duplicates and collinear points, turns the contour counter-clockwise and checks that it is convex.
 /// Refuses, naming the vertex, anything else: fewer than three corners, no area, self-crossing, a reflex
 /// corner (with its depth, and the advice to use --trim for a probed blank).
+///
+/// A point is collinear when it lies within three file.coordinate_error of the segment between the corners
+/// kept around it, and the contour does not run back there: points that are collinear as decimals are,
+/// whatever reading made of them. With coordinate_error 0 only exactly collinear points are.
+///
+/// Laws (tests/property/io_convex_test.cpp): the polygon does not depend on where the file begins, on its
+/// direction, on duplicates or on exactly collinear points.
+/// Cost: O(n log n).
 [[nodiscard]] Result<ConvexContour> make_convex(const ContourFile& file);
 
 /// A convex polygon inside a nearly convex contour.
 struct TrimmedContour {
-  geom::ConvexPolygon polygon;  ///< lies inside the file's contour: no point of it is outside
-  double loss = 0;              ///< largest depth cut off the convex hull, mm, rounded up
+  /// Lies inside the file's contour, also when both are read as exact decimals (the polygon's written in
+  /// shortest form): no point of it is outside.
+  geom::ConvexPolygon polygon;
+  /// mm, rounded up: no placement has more than this less clearance than in the convex hull of the file.
+  double loss = 0;
+  /// mm; between the polygon's coordinates and their shortest decimals. (Reading the file is in the loss.)
   double coordinate_error = 0;
   std::vector<std::string> notices;
 };
 
-/// Cuts inwards: every edge of the convex hull moves in by the depth of the deepest dent under it, if that depth
-/// is at most `tolerance` mm; else refused, naming the deepest point. Never outwards.
+/// Cuts inwards: every edge of the convex hull moves in by the depth of the deepest dent under it, if that
+/// depth is at most `tolerance` mm; else refused, naming the deepest point. Never outwards. Refuses with
+/// ErrorCode::usage a tolerance that is not finite or negative, with bad_input a contour that does not run
+/// once around its hull, and one of which nothing convex is left. Cost: O(n log n).
 [[nodiscard]] Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance);
 
 }  // namespace lekalo::io

@@ -1,0 +1,182 @@
+#include "contour_number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "lekalo/base/assert.hpp"
+
+namespace lekalo::io {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// digits times 10^exponent, without leading and trailing zeros; no digits for zero.
+struct Decimal {
+  bool negative = false;
+  std::string digits;
+  std::int64_t exponent = 0;
+};
+
+/// The digits after "e"; saturates far outside of every range that matters.
+std::optional<std::int64_t> read_exponent(std::string_view text) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  if (text.empty()) return std::nullopt;
+  std::int64_t value = 0;
+  for (const char c : text) {
+    if (!is_digit(c)) return std::nullopt;
+    value = std::min<std::int64_t>(value * 10 + (c - '0'), std::int64_t{1} << 50);
+  }
+  return negative ? -value : value;
+}
+
+std::optional<Decimal> read_decimal(std::string_view text) {
+  Decimal decimal;
+  std::size_t at = 0;
+  if (at < text.size() && (text[at] == '-' || text[at] == '+')) decimal.negative = text[at++] == '-';
+  bool after_point = false, any_digit = false;
+  for (; at < text.size() && (is_digit(text[at]) || (text[at] == '.' && !after_point)); ++at) {
+    if (text[at] == '.') {
+      after_point = true;
+      continue;
+    }
+    any_digit = true;
+    if (after_point) --decimal.exponent;
+    if (!decimal.digits.empty() || text[at] != '0') decimal.digits += text[at];
+  }
+  if (!any_digit) return std::nullopt;
+  if (at < text.size()) {
+    if (lower(text[at]) != 'e') return std::nullopt;
+    const auto exponent = read_exponent(text.substr(at + 1));
+    if (!exponent) return std::nullopt;
+    decimal.exponent += *exponent;
+  }
+  while (!decimal.digits.empty() && decimal.digits.back() == '0') {
+    decimal.digits.pop_back();
+    ++decimal.exponent;
+  }
+  return decimal;
+}
+
+/// Times 25.4, exactly: 254 as schoolbook multiplication, the point moved by one.
+void inches_to_millimetres(Decimal& decimal) {
+  unsigned carry = 0;
+  for (auto digit = decimal.digits.rbegin(); digit != decimal.digits.rend(); ++digit) {
+    carry += 254U * static_cast<unsigned>(*digit - '0');
+    *digit = static_cast<char>('0' + carry % 10);
+    carry /= 10;
+  }
+  if (carry > 0) decimal.digits.insert(0, std::to_string(carry));
+  --decimal.exponent;
+  while (!decimal.digits.empty() && decimal.digits.back() == '0') {
+    decimal.digits.pop_back();
+    ++decimal.exponent;
+  }
+}
+
+/// True only when the decimal is a double: an odd number below 2^53 times a power of two.
+/// \pre its magnitude is about kLargestMillimetres at most, so an exponent above 0 is small
+bool is_exact_double(const Decimal& decimal) {
+  if (decimal.digits.size() > 19)
+    return false;  // may be one; the caller's bound then is merely not the smallest
+  std::uint64_t odd = 0;
+  for (const char c : decimal.digits) odd = odd * 10 + static_cast<std::uint64_t>(c - '0');
+  for (std::int64_t e = decimal.exponent; e > 0; --e) odd *= 5;
+  for (std::int64_t e = decimal.exponent; e < 0; ++e) {
+    if (odd % 5 != 0) return false;
+    odd /= 5;
+  }
+  while (odd % 2 == 0 && odd != 0) odd /= 2;
+  return odd < (std::uint64_t{1} << 53);
+}
+
+/// The nearest double, for magnitudes far from overflow and underflow.
+double nearest_double(const Decimal& decimal) {
+  const std::string text =
+      fmt::format("{}{}e{}", decimal.negative ? "-" : "", decimal.digits, decimal.exponent);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  LEKALO_ASSERT(error == std::errc() && end == text.data() + text.size());
+  return value;
+}
+
+/// Bytes of the UTF-8 sequence that begins here, 0 when it is none or not printable.
+std::size_t printable_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+  // C1 controls (U+0080 to U+009F) and everything that is not plain two- or three-byte text stay hexadecimal.
+  const std::size_t length = byte(0) >= 0xc3 && byte(0) < 0xe0   ? 2
+                             : byte(0) >= 0xe1 && byte(0) < 0xed ? 3
+                                                                 : 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+bool is_number(std::string_view text) { return read_decimal(text).has_value(); }
+
+bool is_not_finite(std::string_view text) {
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  std::string name(text.substr(0, 9));
+  std::transform(name.begin(), name.end(), name.begin(), lower);
+  return name == "nan" || name == "inf" || name == "infinity";
+}
+
+tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text, LengthUnit unit) {
+  auto decimal = read_decimal(text);
+  if (!decimal) {
+    return tl::unexpected(is_not_finite(text) ? NumberFault::not_finite : NumberFault::not_a_number);
+  }
+  if (decimal->digits.empty()) return Millimetres{};
+  if (unit == LengthUnit::inch) inches_to_millimetres(*decimal);
+  // The number lies in [10^(places - 1), 10^places).
+  const std::int64_t places = static_cast<std::int64_t>(decimal->digits.size()) + decimal->exponent;
+  if (places > 10) return tl::unexpected(NumberFault::too_large);
+  if (places <= -100) return Millimetres{0, kSmallestMillimetres};
+  Millimetres result{nearest_double(*decimal), 0};
+  if (std::abs(result.value) > kLargestMillimetres) return tl::unexpected(NumberFault::too_large);
+  // Half a unit in the last place of 2^e .. 2^(e+1) is 2^(e - 53).
+  if (!is_exact_double(*decimal)) result.error = std::ldexp(1.0, std::ilogb(result.value) - 53);
+  return result;
+}
+
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string out = "'";
+  for (std::size_t at = 0, shown = 0; at < text.size(); ++shown) {
+    if (shown == kLongest) return out + "...'";
+    const std::size_t length = printable_length(text.substr(at));
+    if (length == 0) {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
+    } else {
+      out += text.substr(at, length);
+    }
+    at += std::max<std::size_t>(length, 1);
+  }
+  return out + "'";
+}
+
+std::string number_sentence(NumberFault fault, std::string_view text) {
+  switch (fault) {
+    case NumberFault::not_a_number:
+      return fmt::format("{} is not a number", excerpt(text));
+    case NumberFault::not_finite:
+      return fmt::format("{} is not a finite number", excerpt(text));
+    case NumberFault::too_large:
+      return fmt::format("{} is out of range: coordinates go up to {:g} mm", excerpt(text),
+                         kLargestMillimetres);
+  }
+  return {};
+}
+
+}  // namespace lekalo::io

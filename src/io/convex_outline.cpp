@@ -1,0 +1,193 @@
+#include "convex_outline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contour_points.hpp"
+#include "lekalo/geom/double_double.hpp"
+#include "lekalo/geom/predicates.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using geom::DoubleDouble;
+using geom::Point;
+
+struct Vector {
+  DoubleDouble x, y;
+};
+
+Vector between(Point from, Point to) { return {geom::two_sum(to.x, -from.x), geom::two_sum(to.y, -from.y)}; }
+DoubleDouble cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+DoubleDouble dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+
+/// Of a vector that is not zero.
+DoubleDouble length(Vector a) { return geom::sqrt(dot(a, a)); }
+
+/// Pays for 30 operations of double-double arithmetic and for leaving the low half out.
+double rounded_up(DoubleDouble value, double scale) {
+  return std::nextafter(std::abs(value.hi) + 0x1p-96 * scale, std::numeric_limits<double>::infinity());
+}
+
+/// File indices without points equal to the one before them, and without closing points equal to the first.
+std::vector<std::size_t> without_duplicates(const geom::Ring& points, std::vector<std::size_t>& duplicates) {
+  std::vector<std::size_t> ring;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    (ring.empty() || points[i] != points[ring.back()] ? ring : duplicates).push_back(i);
+  }
+  while (ring.size() > 1 && points[ring.back()] == points[ring.front()]) {
+    duplicates.push_back(ring.back());
+    ring.pop_back();
+  }
+  std::sort(duplicates.begin(), duplicates.end());
+  return ring;
+}
+
+/// A strictly convex ring cut at corner 0 and unrolled, for chords between its corners.
+class HullChords {
+ public:
+  HullChords(const Outline& outline, double tolerance) : outline_(outline), tolerance_(tolerance) {}
+
+  /// Whether all corners strictly between corners i and j > i lie within the tolerance of their segment.
+  [[nodiscard]] bool straight(std::size_t i, std::size_t j) const {
+    if (j - i < 2) return true;
+    for (const std::size_t k : {i + 1, farthest(i, j), j - 1}) {
+      if (!(distance_to_segment_up(corner(k), corner(i), corner(j)) <= tolerance_)) return false;
+    }
+    return true;
+  }
+
+  /// The largest j <= last with straight(i, j): what lies between a chord and a convex ring only grows with
+  /// j.
+  [[nodiscard]] std::size_t farthest_straight(std::size_t i, std::size_t last) const {
+    std::size_t good = i + 1, step = 1;
+    while (good + step <= last && straight(i, good + step)) {
+      good += step;
+      step *= 2;
+    }
+    for (; step > 0; step /= 2) {
+      if (good + step <= last && straight(i, good + step)) good += step;
+    }
+    return good;
+  }
+
+ private:
+  [[nodiscard]] Point corner(std::size_t k) const {
+    return outline_.point(outline_.hull[k % outline_.hull.size()]);
+  }
+
+  /// The corner farthest from the chord's line: the edges lead away from it first, then back.
+  [[nodiscard]] std::size_t farthest(std::size_t i, std::size_t j) const {
+    std::size_t low = i + 1, high = j - 1;
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (geom::turn(corner(i), corner(j), corner(middle), corner(middle + 1)) >= 0) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return low;
+  }
+
+  const Outline& outline_;
+  double tolerance_;
+};
+
+}  // namespace
+
+double depth_left_of_line_up(Point p, Point a, Point b) {
+  const int side = geom::orientation(a, b, p);
+  if (side == 0) return 0;
+  const Vector chord = between(a, b), arm = between(a, p);
+  return side * rounded_up(cross(chord, arm) / length(chord), std::abs(arm.x.hi) + std::abs(arm.y.hi));
+}
+
+double distance_to_segment_up(Point p, Point a, Point b) {
+  const auto distance = [](Vector v) {
+    return v.x.hi == 0 && v.y.hi == 0 ? 0.0 : rounded_up(length(v), std::abs(v.x.hi) + std::abs(v.y.hi));
+  };
+  const Vector chord = between(a, b), arm = between(a, p);
+  const DoubleDouble along = dot(chord, arm);
+  if (a == b || along.hi <= 0) return distance(arm);
+  if ((along - dot(chord, chord)).hi >= 0) return distance(between(b, p));
+  return std::abs(depth_left_of_line_up(p, a, b));
+}
+
+std::string Outline::name(std::size_t position) const {
+  const std::size_t index = ring[position];
+  const Point p = file->points[index];
+  const std::string place =
+      file->places_are_lines ? fmt::format("line {}: ", file->places[index]) : std::string();
+  return fmt::format("point {} ({}{}, {} mm)", index, place, p.x, p.y);
+}
+
+Result<Outline> make_outline(const ContourFile& file) {
+  Outline outline;
+  outline.file = &file;
+  outline.ring = without_duplicates(file.points, outline.duplicates);
+  if (outline.ring.size() < 3) {
+    return refuse(file.name, fmt::format("{} different point{} in a row; a contour needs at least 3",
+                                         outline.ring.size(), outline.ring.size() == 1 ? "" : "s"));
+  }
+  geom::Ring points;
+  points.reserve(outline.ring.size());
+  for (const std::size_t index : outline.ring) points.push_back(file.points[index]);
+  outline.hull = geom::convex_hull(points);
+  if (outline.hull.size() < 3) {
+    return refuse(file.name,
+                  fmt::format("the contour has no area: all its points lie on the line through {} and {}",
+                              outline.name(outline.hull[0]), outline.name(outline.hull[1])));
+  }
+
+  // A contour that runs once around meets the corners of its hull in their order.
+  const std::size_t n = outline.hull.size();
+  std::size_t falls = 0;
+  for (std::size_t j = 0; j < n; ++j) falls += outline.hull[(j + 1) % n] < outline.hull[j] ? 1 : 0;
+  outline.reversed = falls != 1;
+  if (falls != 1 && falls + 1 != n) {
+    std::size_t j = 0;
+    const auto leads_on = [&](std::size_t k) { return outline.hull[(k + 1) % n] > outline.hull[k]; };
+    while (leads_on(j) == leads_on(j + 1)) ++j;
+    return refuse(file.name,
+                  fmt::format("the contour crosses itself or goes around more than once: {} stands out of "
+                              "order",
+                              outline.name(outline.hull[(j + 1) % n])));
+  }
+  if (outline.reversed) {
+    std::reverse(outline.ring.begin(), outline.ring.end());
+    for (std::size_t& position : outline.hull) position = outline.ring.size() - 1 - position;
+  }
+  // Counter-clockwise both, so the hull ascends but for one fall.
+  std::sort(outline.hull.begin(), outline.hull.end());
+  return outline;
+}
+
+std::vector<std::size_t> true_corners(const Outline& outline, double tolerance) {
+  const std::size_t n = outline.hull.size();
+  if (!(tolerance > 0)) return outline.hull;
+  const HullChords chords(outline, tolerance);
+  // Begin at the corner lowest in (x, y), so that the outcome does not depend on where the file begins.
+  const auto lower = [&](std::size_t i, std::size_t j) {
+    const Point a = outline.point(outline.hull[i]), b = outline.point(outline.hull[j]);
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  };
+  std::size_t first = 0;
+  for (std::size_t j = 1; j < n; ++j) first = lower(j, first) ? j : first;
+  std::vector<std::size_t> kept;
+  // The first chord stops one corner short of where it began: a chord needs two ends.
+  for (std::size_t j = first; j < first + n;
+       j = chords.farthest_straight(j, j == first ? first + n - 1 : first + n)) {
+    kept.push_back(j);
+  }
+  // The first corner was kept unseen.
+  if (kept.size() > 3 && chords.straight(kept.back(), kept[1] + n)) kept.erase(kept.begin());
+  for (std::size_t& j : kept) j = outline.hull[j % n];
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+}  // namespace lekalo::io
