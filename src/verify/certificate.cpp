@@ -97,11 +97,14 @@ bool CertificateCheck::balance(const WrittenInterval& interval, Sinusoid& s) {
   for (std::size_t j = 0; j < 3; ++j) {
     if (!(interval.contacts[j].multiplier <= kMultiplierTolerance)) continue;
     const EdgeLine* const written = s.edges[j];
+    const std::size_t count = edges_.outline().hull.size();
     const std::size_t across =
         lowest_corner(edges_.outline(), {-written->direction.x, -written->direction.y}, 0);
-    for (const std::size_t corner : {across, across + edges_.outline().hull.size() - 1}) {
-      s.edges[j] = edges_.along_hull(corner);
-      if (s.edges[j] != nullptr && weigh(s)) return true;
+    // The two hull edges at that corner, and one further on each side: the nearest may be a scrap of the pair
+    // itself.
+    for (const std::size_t corner : {across, across + count - 1, across + 1, across + count - 2}) {
+      s.edges[j] = &edges_.along_hull(corner);
+      if (weigh(s)) return true;
     }
     s.edges[j] = written;
   }

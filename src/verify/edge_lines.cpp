@@ -12,7 +12,8 @@ EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropp
       dropped_(blank.points.size(), false),
       next_kept_(blank.points.size()),
       under_(blank.points.size()),
-      lines_(blank.points.size()) {
+      lines_(blank.points.size()),
+      hull_lines_(blank.hull.size()) {
   const std::size_t n = blank.points.size();
   for (const std::size_t k : dropped) {
     if (k < n) dropped_[k] = true;
@@ -39,33 +40,29 @@ const EdgeLine* EdgeLines::find(std::size_t k, std::string& why) {
   } else if (blank_.points[k] == blank_.points[next_kept_[k]]) {
     why = fmt::format("blank edge {} has no length", k);
   } else {
-    if (!lines_[k]) lines_[k] = measure(k);
+    if (!lines_[k]) {
+      const Point *from = &blank_.points[k], *to = &blank_.points[next_kept_[k]];
+      if (!blank_.counter_clockwise) std::swap(from, to);
+      lines_[k] = measure(*from, *to, under_[k]);
+    }
     return &*lines_[k];
   }
   return nullptr;
 }
 
-const EdgeLine* EdgeLines::along_hull(std::size_t j) {
-  const std::size_t count = blank_.hull.size();
-  std::string why;
-  return find(blank_.hull[(blank_.counter_clockwise ? j : j + 1) % count], why);
+const EdgeLine& EdgeLines::along_hull(std::size_t j) {
+  j %= blank_.hull.size();
+  if (!hull_lines_[j]) hull_lines_[j] = measure(blank_.corner(j), blank_.corner(j + 1), j);
+  return *hull_lines_[j];
 }
 
-EdgeLine EdgeLines::measure(std::size_t k) const {
-  std::size_t from = k, to = next_kept_[k];
-  if (!blank_.counter_clockwise) std::swap(from, to);
-  EdgeLine line{blank_.points[from],
-                blank_.points[to] - blank_.points[from],
-                0,
-                Interval(precision_),
-                Interval(Integer(1), precision_),
-                Interval(64),
-                {}};
+EdgeLine EdgeLines::measure(const Point& from, const Point& to, std::size_t near) const {
+  EdgeLine line{from, to - from, 0, Interval(precision_), Interval(Integer(1), precision_), Interval(64), {}};
   const Integer squared = dot(line.direction, line.direction);
   line.length = square_root(Interval(squared, precision_));
   line.short_length = square_root(Interval(squared, 64));
   line.flat_length = {line.length.low_double(), line.length.high_double()};
-  const std::size_t lowest = lowest_corner(blank_, line.direction, under_[from]);
+  const std::size_t lowest = lowest_corner(blank_, line.direction, near);
   line.outside = -cross(line.direction, blank_.corner(lowest) - line.start);
   if (line.outside == 0) return line;
 

@@ -34,21 +34,23 @@ class EdgeLines {
 
   /// nullptr, with the reason in `why`, when there is no such edge.
   [[nodiscard]] const EdgeLine* find(std::size_t k, std::string& why);
-  /// The edge along the hull from its corner j (counter-clockwise, cyclic); nullptr when the result dropped it.
-  [[nodiscard]] const EdgeLine* along_hull(std::size_t j);
+  /// Hull edge j (cyclic), whether or not a file edge runs along it.
+  [[nodiscard]] const EdgeLine& along_hull(std::size_t j);
   [[nodiscard]] const Outline& outline() const { return blank_; }
   /// File index of the next point that was not dropped.
   [[nodiscard]] std::size_t next_kept(std::size_t k) const { return next_kept_[k]; }
 
  private:
-  [[nodiscard]] EdgeLine measure(std::size_t k) const;
+  /// `near`: a hull edge to look from for what lies outside.
+  [[nodiscard]] EdgeLine measure(const Point& from, const Point& to, std::size_t near) const;
 
   const Outline& blank_;
   mpfr_prec_t precision_;
   std::vector<bool> dropped_;
-  std::vector<std::size_t> next_kept_;  ///< per file point
-  std::vector<std::size_t> under_;      ///< per file point: hull edge it lies under
-  std::vector<std::optional<EdgeLine>> lines_;
+  std::vector<std::size_t> next_kept_;               ///< per file point
+  std::vector<std::size_t> under_;                   ///< per file point: hull edge it lies under
+  std::vector<std::optional<EdgeLine>> lines_;       ///< per file point
+  std::vector<std::optional<EdgeLine>> hull_lines_;  ///< per hull edge
 };
 
 }  // namespace lekalo::verify

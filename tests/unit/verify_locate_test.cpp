@@ -26,13 +26,6 @@ void expect_finding(const Files& files, const std::string& words, const std::str
   EXPECT_NE(findings(report).find(words), std::string::npos) << what << ":\n" << findings(report);
 }
 
-void expect_bad_input(const Files& files, const std::string& words, const std::string& what) {
-  const auto report = check(files);
-  ASSERT_FALSE(report) << what << ":\n" << findings(report);
-  EXPECT_EQ(report.error().code, ErrorCode::bad_input) << what;
-  EXPECT_NE(report.error().message.find(words), std::string::npos) << what << ": " << report.error().message;
-  EXPECT_EQ(report.error().message.find('\n'), std::string::npos) << what << ": " << report.error().message;
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
