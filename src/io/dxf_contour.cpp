@@ -18,8 +18,12 @@ constexpr double kChainReach = 1e-6;
 struct Polyline {
   std::size_t line = 0;
   std::string layer;
-  bool closed = false;  ///< flag 1
-  std::size_t first_point = 0, points = 0;
+  bool closed = false;     ///< flag 1
+  std::size_t points = 0;  ///< read so far
+  std::string_view count;  ///< as the file says
+  bool has_x = false;      ///< of a vertex whose y comes next
+  Millimetres x;
+  std::size_t x_line = 0;
 };
 
 /// Drawing units of $INSUNITS that drawings in the shop come with, for the message.
@@ -195,54 +199,51 @@ class DxfReader {
   Result<bool> read_polyline() {
     Polyline polyline;
     polyline.line = group_.line;
-    polyline.first_point = file_.points.size();
-    std::optional<Millimetres> x;
-    std::size_t x_line = 0;
-    std::optional<std::string_view> count;
     auto more = next();
     for (; more && *more && group_.code != 0; more = next()) {
-      if (auto done = read_common(polyline.layer, "LWPOLYLINE"); !done)
-        return tl::unexpected(std::move(done.error()));
-      if (group_.code == 70) {
-        const auto flags = number(LengthUnit::millimetre);
-        if (!flags) return tl::unexpected(flags.error());
-        polyline.closed = std::fmod(flags->value, 2.0) == 1.0;
-      } else if (group_.code == 90) {
-        count = group_.value;
-      } else if (group_.code == 42) {
-        const auto bulge = number(LengthUnit::millimetre);
-        if (!bulge) return tl::unexpected(bulge.error());
-        if (bulge->value != 0 || bulge->error != 0) {
-          return refuse_here(
-              fmt::format("the LWPOLYLINE of line {} has a bulge at vertex {}; arcs are not read until "
-                          "any-shape locate",
-                          polyline.line, x || polyline.points == 0 ? polyline.points : polyline.points - 1));
-        }
-      } else if (group_.code == 10) {
-        if (x) return refuse_here("an x without the y of the one before");
-        const auto value = number(file_.unit);
-        if (!value) return tl::unexpected(value.error());
-        x = *value;
-        x_line = group_.line;
-      } else if (group_.code == 20) {
-        const auto y = number(file_.unit);
-        if (!y) return tl::unexpected(y.error());
-        if (!x) return refuse_here("a y without its x");
-        if (!append_point(file_, *x, *y, x_line)) return refuse_here(too_many_points());
-        x.reset();
-        ++polyline.points;
-      }
+      auto done = read_common(polyline.layer, "LWPOLYLINE");
+      if (done) done = read_vertex_group(polyline);
+      if (!done) return tl::unexpected(std::move(done.error()));
     }
     if (!more) return more;
-    if (x) return refuse_line(file_.name, x_line, "an x without its y");
-    if (count && *count != fmt::format("{}", polyline.points)) {
+    if (polyline.has_x) return refuse_line(file_.name, polyline.x_line, "an x without its y");
+    if (!polyline.count.empty() && polyline.count != fmt::format("{}", polyline.points)) {
       return refuse_line(
           file_.name, polyline.line,
           fmt::format("this LWPOLYLINE says it has {} vertices, but has {}; the file is damaged",
-                      excerpt(*count), polyline.points));
+                      excerpt(polyline.count), polyline.points));
     }
     polylines_.push_back(std::move(polyline));
     return more;
+  }
+
+  Result<void> read_vertex_group(Polyline& polyline) {
+    if (group_.code == 90) polyline.count = group_.value;
+    if (group_.code != 70 && group_.code != 42 && group_.code != 10 && group_.code != 20) return {};
+    const bool is_length = group_.code == 10 || group_.code == 20;
+    const auto value = number(is_length ? file_.unit : LengthUnit::millimetre);
+    if (!value) return tl::unexpected(value.error());
+    if (group_.code == 70) polyline.closed = std::fmod(value->value, 2.0) == 1.0;
+    if (group_.code == 42 && (value->value != 0 || value->error != 0)) {
+      const std::size_t vertex =
+          polyline.has_x || polyline.points == 0 ? polyline.points : polyline.points - 1;
+      return refuse_here(fmt::format(
+          "the LWPOLYLINE of line {} has a bulge at vertex {}; arcs are not read until any-shape locate",
+          polyline.line, vertex));
+    }
+    if (!is_length) return {};
+    if (polyline.has_x != (group_.code == 20)) {
+      return refuse_here(polyline.has_x ? "an x, but the one before has no y" : "a y without its x");
+    }
+    polyline.has_x = !polyline.has_x;
+    if (polyline.has_x) {
+      polyline.x = *value;
+      polyline.x_line = group_.line;
+      return {};
+    }
+    ++polyline.points;
+    if (!append_point(file_, polyline.x, *value, polyline.x_line)) return refuse_here(too_many_points());
+    return {};
   }
 
   Result<bool> read_line() {
