@@ -177,6 +177,9 @@ Result<Rewritten> insert_g68(const RewriteJob& job) {
   if (program.incremental_at_first)
     return refusal(job.name, first_line,
                    "the first motion is in G91, but G68 must be given in G90: write G90 before it");
+  if (program.other_plane)
+    return refusal(job.name, *program.other_plane,
+                   "G68 turns the XY plane, and under it no other may be selected; remove G18 and G19");
   if (program.end_moves)
     return refusal(
         job.name, job.program.blocks[*program.end_block].line,

@@ -146,7 +146,10 @@ class Interpreter {
                                                      compensation == 420 || words['I'] || words['J']);
     if (first) {
       result_.first_axis_block = index_;
-      result_.unit_at_first = words.code(Group::unit) == kNone ? modal_.unit : unit_of(words);
+      // An inserted line stands before the block: a unit word of the block itself comes too late for it,
+      // unless the line can say the same because nothing was said so far.
+      const bool says_unit = words.code(Group::unit) != kNone && !result_.unit_stated;
+      result_.unit_at_first = says_unit ? unit_of(words) : modal_.unit;
       result_.incremental_at_first = modal_.incremental;
     }
     if (!result_.first_axis_block) {
@@ -158,6 +161,8 @@ class Interpreter {
       result_.late_work_offset = line();
     }
     unit_ever_stated_ = unit_ever_stated_ || words.code(Group::unit) != kNone;
+    const int plane = words.code(Group::plane);
+    if (plane != kNone && plane != 170 && !result_.other_plane) result_.other_plane = line();
     if (words.code(Group::rotation_cancel) != kNone && !result_.rotation_cancel)
       result_.rotation_cancel = line();
   }

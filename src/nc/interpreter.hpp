@@ -40,7 +40,8 @@ struct Motion {
 struct Interpretation {
   std::vector<Motion> motions;
   std::optional<std::size_t> first_axis_block;  ///< first block with X Y Z, or with G41 G42
-  LengthUnit unit_at_first = LengthUnit::millimetre;
+  LengthUnit unit_at_first =
+      LengthUnit::millimetre;  ///< in force before it, or said by it for the first time
   bool incremental_at_first = false;
   bool unit_stated = false, distance_stated = false, plane_stated = false,
        offset_stated = false;            ///< before it
@@ -49,6 +50,7 @@ struct Interpretation {
   bool cycle_at_end = false, compensation_at_end = false;
   std::optional<std::size_t> late_work_offset;  ///< first G54.. not before first_axis_block: its line
   std::optional<std::size_t> rotation_cancel;   ///< first G69: its line
+  std::optional<std::size_t> other_plane;       ///< first G18 or G19: its line
   std::optional<std::size_t> program_number;    ///< O word: its line
   std::vector<std::string> notes;
 };

@@ -78,7 +78,7 @@ class Reader {
       const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[k])));
       std::size_t end = k + 1;
       std::string number;
-      while (end < text.size() && std::string("+-.0123456789 ").find(text[end]) != std::string::npos)
+      while (end < text.size() && std::string("+-.0123456789 \t").find(text[end]) != std::string::npos)
         number += text[end++];
       k = end - 1;
       const Real value = std::strtold(number.c_str(), nullptr);

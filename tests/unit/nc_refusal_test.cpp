@@ -252,6 +252,8 @@ TEST(NcRefusal, of_what_one_mode_cannot_do) {
        g68},
       {"G91\nG0 Z5\nG90 X0 Y0\n",
        "2: the first motion is in G91, but G68 must be given in G90: write G90 before it", g68},
+      {"G0 X0 Y0\nG19\nG17\n",
+       "2: G68 turns the XY plane, and under it no other may be selected; remove G18 and G19", g68},
       {"G0 X0 Y0\nG0 Z5 M30\n",
        "2: the block that ends the program moves too, but the rotation must be cancelled in between: split "
        "it",

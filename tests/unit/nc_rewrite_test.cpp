@@ -228,6 +228,11 @@ TEST(NcOffset, says_unit_and_work_offset_itself_when_the_program_does_not_yet) {
   EXPECT_EQ(with_offset("G0 X0 Y0\n"), "G21 G54 G10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG0 X0 Y0\n");
 }
 
+TEST(NcOffset, is_written_in_the_unit_in_force_before_the_first_motion) {
+  EXPECT_EQ(with_offset("G21 G54\nG20 G0 X0 Y0\n"),
+            "G21 G54\nG10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG20 G0 X0 Y0\n");
+}
+
 TEST(NcOffset, stands_before_cutter_compensation) {
   EXPECT_EQ(with_offset("G21 G54\nG41 D1\nG0 X0 Y0\n"),
             "G21 G54\nG10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG41 D1\nG0 X0 Y0\n");
