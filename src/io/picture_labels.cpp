@@ -1,0 +1,98 @@
+#include "picture_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lekalo/geom/predicates.hpp"
+#include "picture_colour.hpp"
+#include "picture_text.hpp"
+
+namespace lekalo::io::detail {
+namespace {
+
+using geom::Point;
+using geom::Ring;
+
+constexpr double kStandOff[] = {2.0, 4.0, 7.0, 11.0};             ///< mm of paper
+constexpr double kAside[] = {0, 4, -4, 8, -8, 13, -13, 19, -19};  ///< mm of paper, along the edge
+constexpr double kClear = 0.5;                                    ///< mm around a label
+
+class Places {
+ public:
+  Places(const std::vector<Ring>& obstacles, const Rect& page) : obstacles_(obstacles), page_(page) {}
+
+  struct Place {
+    Rect box;
+    Segment leader;
+  };
+
+  std::optional<Place> find(const Label& label, double width, double height) {
+    const Point out = (1 / geom::norm(label.outward)) * label.outward, aside = perpendicular(out);
+    const double reach = (std::abs(out.x) * width + std::abs(out.y) * height) / 2;
+    for (const double off : kStandOff) {
+      for (const double step : kAside) {
+        const Point centre = label.at + (off + reach) * out + step * aside;
+        const Place place{{centre.x - width / 2, centre.y - height / 2, width, height},
+                          leader(label.at, centre, width, height)};
+        if (!is_free(place)) continue;
+        taken_.push_back(place);
+        return place;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static Segment leader(Point from, Point centre, double width, double height) {
+    const Rect box{centre.x - width / 2, centre.y - height / 2, width, height};
+    const Point to{std::clamp(from.x, box.x, box.right()), std::clamp(from.y, box.y, box.bottom())};
+    return {from, to};
+  }
+
+  [[nodiscard]] bool is_free(const Place& place) const {
+    const Rect box = place.box.grown(kClear);
+    if (!page_.contains(box)) return false;
+    for (const Place& other : taken_) {
+      if (box.overlaps(other.box) || clipped(other.leader, box) ||
+          clipped(place.leader, other.box.grown(kClear))) {
+        return false;
+      }
+    }
+    for (const Ring& ring : obstacles_) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        if (clipped({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]}, box)) return false;
+      }
+    }
+    return true;
+  }
+
+  const std::vector<Ring>& obstacles_;
+  Rect page_;
+  std::vector<Place> taken_;
+};
+
+}  // namespace
+
+void place_labels(const std::vector<Label>& labels, double size, const std::vector<Ring>& obstacles,
+                  const Rect& page, std::vector<Item>& items) {
+  Places places(obstacles, page);
+  for (const Label& label : labels) {
+    const double width = size * text_width(label.text), height = 0.8 * size;
+    const auto place = places.find(label, width, height);
+    if (!place) continue;
+    Paint line;
+    line.stroke = kFaint;
+    line.width = 0.2;
+    items.push_back(PathItem{{{place->leader.a, place->leader.b}}, false, line, {"leader", ""}});
+    items.push_back(TextItem{{place->box.x + width / 2, place->box.bottom()},
+                             label.text,
+                             size,
+                             Anchor::middle,
+                             kInk,
+                             false,
+                             {"contact-label", ""}});
+  }
+}
+
+}  // namespace lekalo::io::detail

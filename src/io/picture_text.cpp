@@ -1,0 +1,254 @@
+#include "picture_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+namespace lekalo::io::detail {
+namespace {
+
+constexpr char32_t kReplacement = 0xFFFD;
+
+int continuation_bytes(unsigned char lead) {
+  if (lead < 0x80) return 0;
+  if (lead >= 0xC2 && lead <= 0xDF) return 1;
+  if (lead >= 0xE0 && lead <= 0xEF) return 2;
+  if (lead >= 0xF0 && lead <= 0xF4) return 3;
+  return -1;
+}
+
+/// Takes one character off the front; bytes that are not UTF-8 give U+FFFD one by one.
+char32_t take_character(std::string_view& text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const int more = continuation_bytes(lead);
+  if (more < 0 || text.size() <= static_cast<std::size_t>(more)) {
+    text.remove_prefix(1);
+    return kReplacement;
+  }
+  char32_t code = more == 0 ? lead : static_cast<char32_t>(lead & (0x3F >> more));
+  for (int i = 1; i <= more; ++i) {
+    const auto byte = static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
+    if ((byte & 0xC0) != 0x80) {
+      text.remove_prefix(1);
+      return kReplacement;
+    }
+    code = (code << 6) | (byte & 0x3F);
+  }
+  constexpr char32_t kSmallest[] = {0, 0x80, 0x800, 0x10000};
+  if (code < kSmallest[more] || (code >= 0xD800 && code <= 0xDFFF) || code > 0x10FFFF) {
+    text.remove_prefix(1);
+    return kReplacement;
+  }
+  text.remove_prefix(static_cast<std::size_t>(more) + 1);
+  return code;
+}
+
+void append(std::string& text, char32_t code) {
+  const auto byte = [&text](char32_t value) { text += static_cast<char>(static_cast<unsigned char>(value)); };
+  if (code < 0x80) {
+    byte(code);
+  } else if (code < 0x800) {
+    byte(0xC0 | (code >> 6));
+    byte(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    byte(0xE0 | (code >> 12));
+    byte(0x80 | ((code >> 6) & 0x3F));
+    byte(0x80 | (code & 0x3F));
+  } else {
+    byte(0xF0 | (code >> 18));
+    byte(0x80 | ((code >> 12) & 0x3F));
+    byte(0x80 | ((code >> 6) & 0x3F));
+    byte(0x80 | (code & 0x3F));
+  }
+}
+
+char32_t shown(char32_t code) {
+  if (code == '\t' || code == '\n' || code == '\r') return ' ';
+  const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+  // Marks that turn the writing direction would let a name rearrange what stands around it.
+  const bool direction = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  return control || direction || (code & 0xFFFE) == 0xFFFE ? kReplacement : code;
+}
+
+std::vector<char32_t> characters(std::string_view text) {
+  std::vector<char32_t> codes;
+  while (!text.empty()) codes.push_back(shown(take_character(text)));
+  return codes;
+}
+
+bool is_among(char32_t code, std::u32string_view set) { return set.find(code) != std::u32string_view::npos; }
+
+double width_of(char32_t code) {
+  if (is_among(code, U" .,:;!|'ijlI·")) return 0.40;
+  if (is_among(code, U"()[]{}/\\-rtf\"")) return 0.46;
+  if (is_among(code, U"mwMW@%—ЖШЩЮМФжшщюыЫДф")) return 1.10;
+  if (code >= '0' && code <= '9') return 0.64;
+  if (code >= 'A' && code <= 'Z') return 0.80;
+  if (code < 0x80) return 0.66;
+  if (code >= 0x2070 && code <= 0x209F) return 0.42;  // raised and lowered digits
+  if (code >= 0x0410 && code <= 0x042F) return 0.86;
+  if (code < 0x0600) return 0.76;
+  return 1.1;  // ideographs and whatever else
+}
+
+double width_of(const std::vector<char32_t>& codes) {
+  double sum = 0;
+  for (const char32_t code : codes) sum += width_of(code);
+  return sum;
+}
+
+std::string to_utf8(const std::vector<char32_t>& codes) {
+  std::string text;
+  for (const char32_t code : codes) append(text, code);
+  return text;
+}
+
+std::string without_minus_zero(std::string text) {
+  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+  return zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+double parsed(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+bool wrong_side(const std::string& text, double value, Rounding rounding) {
+  return (rounding == Rounding::down && parsed(text) > value) ||
+         (rounding == Rounding::up && parsed(text) < value);
+}
+
+/// Fixed-point or, with `scientific`, d.dde-x: the nearest, or the next on the side asked for.
+std::string directed(double value, int decimals, Rounding rounding, bool scientific) {
+  const auto write = [&](double v) {
+    return scientific ? fmt::format("{:.{}e}", v, decimals) : fmt::format("{:.{}f}", v, decimals);
+  };
+  std::string text = write(value);
+  if (!wrong_side(text, value, rounding)) return text;
+  const double exponent = scientific ? std::floor(std::log10(std::abs(value))) : 0;
+  const double last_place = std::pow(10.0, exponent - decimals);
+  text = write(rounding == Rounding::down ? value - last_place : value + last_place);
+  return text;
+}
+
+std::string superscript(int number) {
+  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char c : std::to_string(number)) {
+    text += c == '-' ? "⁻" : kDigits[c - '0'];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string clean_text(std::string_view text) { return to_utf8(characters(text)); }
+
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (const char c : clean_text(text)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+double text_width(std::string_view utf8) { return width_of(characters(utf8)); }
+
+std::string shortened(std::string_view utf8, double width) {
+  const std::vector<char32_t> codes = characters(utf8);
+  if (width_of(codes) <= width) return to_utf8(codes);
+  constexpr char32_t kEllipsis = 0x2026;
+  const double room = width - width_of(kEllipsis);
+  std::size_t head = 0, tail = codes.size();
+  double used_head = 0, used_tail = 0;
+  while (head < tail) {
+    const bool at_end = used_tail <= 1.3 * used_head;
+    const double next = width_of(at_end ? codes[tail - 1] : codes[head]);
+    if (used_head + used_tail + next > room) break;
+    if (at_end) {
+      --tail;
+      used_tail += next;
+    } else {
+      ++head;
+      used_head += next;
+    }
+  }
+  std::vector<char32_t> kept(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(head));
+  kept.push_back(kEllipsis);
+  kept.insert(kept.end(), codes.begin() + static_cast<std::ptrdiff_t>(tail), codes.end());
+  return to_utf8(kept);
+}
+
+std::string file_name(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  return std::string(slash == std::string_view::npos || slash + 1 == path.size() ? path
+                                                                                 : path.substr(slash + 1));
+}
+
+int decimals_for(double size) {
+  if (!(size > 0) || !std::isfinite(size)) return 6;
+  return std::clamp(7 - static_cast<int>(std::floor(std::log10(size))), 3, 14);
+}
+
+std::string decimal(double value, int decimals, Rounding rounding) {
+  if (!std::isfinite(value)) return "–";
+  const double size = std::abs(value);
+  const double readable = std::max(10 * std::pow(10.0, -decimals), decimals > 8 ? 1e-4 : 0.0);
+  const bool scientific = (size != 0 && size < readable) || size >= 1e15;
+  if (!scientific) return without_minus_zero(directed(value, decimals, rounding, false));
+  const int exponent = static_cast<int>(std::floor(std::log10(size)));
+  return directed(value, std::clamp(decimals + exponent, 3, 16), rounding, true);
+}
+
+std::string short_number_up(double value) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0) return "0";
+  const double size = std::abs(value);
+  if (size < 1e-3 || size >= 1e6) return directed(value, 1, Rounding::up, true);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(size))));
+  return directed(value, decimals, Rounding::up, false);
+}
+
+std::string LengthScale::text(double mm) const {
+  return without_minus_zero(fmt::format("{:.{}f}", mm / unit, decimals));
+}
+std::string LengthScale::text_with_unit(double mm) const {
+  return unit == 1 ? text(mm) + " mm" : text(mm) + "·" + unit_name;
+}
+
+LengthScale length_scale(double step, double largest) {
+  const int step_power = static_cast<int>(std::floor(std::log10(step) + 1e-9));
+  const int largest_power = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
+  if (step_power >= -4 && largest_power <= 5) return {1, "mm", std::max(0, -step_power)};
+  return {std::pow(10.0, largest_power), "10" + superscript(largest_power) + " mm",
+          std::max(0, largest_power - step_power)};
+}
+
+double round_length(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= value) return factor * power;
+  }
+  return power;
+}
+
+}  // namespace lekalo::io::detail

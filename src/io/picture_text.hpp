@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lekalo::io::detail {
+
+/// The text with everything that is not UTF-8 or that XML forbids replaced by U+FFFD; line ends and tabs
+/// become blanks.
+[[nodiscard]] std::string clean_text(std::string_view text);
+/// clean_text with & < > " ' written as XML entities.
+[[nodiscard]] std::string xml_text(std::string_view text);
+
+/// Width of the text in multiples of the font size, in a wide sans-serif (others come out narrower): an
+/// estimate from above, because the font is the reader's.
+[[nodiscard]] double text_width(std::string_view utf8);
+/// The text with its middle replaced by an ellipsis until it is at most `width` wide; the end keeps a little
+/// more than half, because names differ in their ends.
+[[nodiscard]] std::string shortened(std::string_view utf8, double width);
+/// The part of a path after the last folder.
+[[nodiscard]] std::string file_name(std::string_view path);
+
+/// Decimals that show lengths of a thing of this size, mm, to about seven digits of the size; 3 to 14.
+[[nodiscard]] int decimals_for(double size);
+/// Fixed-point decimal, rounded to nearest, down or up; never "-0". Numbers from 1e15 on, and ones too small
+/// to show a digit or to count zeros in, are written d.ddde-x. A dash for what is not finite.
+enum class Rounding { nearest, down, up };
+[[nodiscard]] std::string decimal(double value, int decimals, Rounding rounding = Rounding::nearest);
+/// Two significant digits, rounded up, for small numbers that must not look smaller than they are.
+[[nodiscard]] std::string short_number_up(double value);
+
+/// How lengths of a drawing's scale are written: in mm, or in a power of ten of mm where that needs fewer
+/// digits.
+struct LengthScale {
+  double unit = 1;        ///< mm
+  std::string unit_name;  ///< "mm", "10⁻⁵ mm"
+  int decimals = 0;       ///< for multiples of `step` in that unit
+  [[nodiscard]] std::string text(double mm) const;
+  [[nodiscard]] std::string text_with_unit(double mm) const;
+};
+/// For multiples of `step` up to `largest`, both mm, > 0.
+[[nodiscard]] LengthScale length_scale(double step, double largest);
+/// 1, 2 or 5 times a power of ten, the largest at most `value` > 0.
+[[nodiscard]] double round_length(double value);
+
+}  // namespace lekalo::io::detail
