@@ -254,7 +254,8 @@ Result<void> add_picture(const LocateOptions& o, const Inputs& in, const Solutio
 
 /// Puts the bytes about to be written before the independent checker. Where a proof was made it has to hold,
 /// also one that is too long to be kept.
-Result<void> self_check(const LocateOptions& o, const Inputs& in, const Product& product) {
+Result<void> self_check(const LocateOptions& o, const Inputs& in, const Solution& found,
+                        const Product& product) {
   verify::LocateInputs inputs{
       {"result", product.result_text}, {o.part, in.part_bytes}, {o.blank, in.blank_bytes}, {}};
   std::string result_with_proof;
@@ -262,6 +263,7 @@ Result<void> self_check(const LocateOptions& o, const Inputs& in, const Product&
   if (proof_not_kept) {
     io::LocateDocument with_proof = product.document;
     with_proof.certificate_file = io::FileRecord{"certificate", io::sha256(product.certificate_text)};
+    with_proof.certificate_intervals = found.certificate.size();
     result_with_proof = io::result_json(with_proof);
     inputs.result.bytes = result_with_proof;
   }
@@ -322,7 +324,7 @@ Result<int> run_locate(const LocateOptions& o) {
   if (Result<void> fine = add_picture(o, *in, *found, product); !fine) return tl::unexpected(fine.error());
   product.result_text = io::result_json(product.document);
 
-  if (Result<void> fine = self_check(o, *in, product); !fine) return tl::unexpected(fine.error());
+  if (Result<void> fine = self_check(o, *in, *found, product); !fine) return tl::unexpected(fine.error());
   if (Result<void> fine = write_all(o, product); !fine) return tl::unexpected(fine.error());
   tell(locate_summary(product.document, written_files(o, product)));
   return product.document.shortfall > 0 || product.program_withheld ? 1 : 0;

@@ -348,6 +348,11 @@ Result<Command> parse_command_line(int argc, char** argv) {
     return PrintText{std::string(version.what()) + "\n"};
   } catch (const CLI::CallForHelp&) {
     return PrintText{app.help()};
+  } catch (const CLI::RequiredError& error) {
+    const bool unknown = argc > 1 && app.get_subcommands().empty();
+    return failure(ErrorCode::usage,
+                   unknown ? fmt::format("there is no command \"{}\" (see lekalo --help)", argv[1])
+                           : sentence(error.what()) + " (see lekalo --help)");
   } catch (const CLI::ParseError& error) {
     return failure(ErrorCode::usage, sentence(error.what()) + " (see lekalo --help)");
   }

@@ -62,11 +62,11 @@ void append_interval(std::string& out, const locate::CertificateInterval& interv
   out += R"(, "to": )";
   append_number(out, interval.to);
   out += R"(, "contacts": )";
-  char separator = '[';
+  const char* separator = "[";
   for (const locate::Contact& contact : interval.contacts) {
     out += separator;
     append_contact(out, contact);
-    separator = ',';
+    separator = ", ";
   }
   out += "]}";
 }

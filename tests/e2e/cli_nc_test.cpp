@@ -40,6 +40,7 @@ TEST_F(Program3, CoordinatesModeShiftsThemAndKeepsTheRest) {
 }
 
 TEST_F(Program3, ClearanceOfTheProgramIsThatOfThePlacementLessTheRounding) {
+  write_bytes(folder_ / "blank.csv", "100.3 100\n190.2 104\n188 154\n98.1 150\n");
   const Json result = locate({}).json();
   const double clearance = result["clearance"], rounding = result["nc"]["rounding_mm"];
   const double left = result["nc"]["clearance"];
