@@ -119,8 +119,11 @@ class TextReader {
     }
     const bool first = !std::exchange(seen_content_, true);
     if (first && is_header(line)) {
-      file_.notices.push_back(
-          fmt::format("{}: line {} is taken for a header: {}", file_.name, line_number_, excerpt(line)));
+      // "x,y" needs no notice; what might have been a point does.
+      if (line.find_first_of("0123456789") != std::string_view::npos) {
+        file_.notices.push_back(
+            fmt::format("{}: line {} is taken for a header: {}", file_.name, line_number_, excerpt(line)));
+      }
       return {};
     }
     return read_point(line, separator);
