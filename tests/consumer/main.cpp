@@ -1,5 +1,6 @@
-// A square of 8 mm in a square of 10 mm: the best placement leaves 1 mm all round.
-#include <cmath>
+// What a stranger writes against the installed library: the lines of the README, and a contour read from text.
+#undef NDEBUG
+#include <cassert>
 #include <iostream>
 
 #include "lekalo/io/contour_file.hpp"
@@ -7,27 +8,21 @@
 
 namespace {
 
-lekalo::geom::ConvexPolygon square(const char* name, const char* points) {
-  const auto file = lekalo::io::parse_contour(points, name, lekalo::LengthUnit::millimetre);
-  const auto contour = lekalo::io::make_convex(file.value());
-  return contour.value().polygon;
+void as_in_the_readme() {
+  const auto part = lekalo::geom::ConvexPolygon::make({{0, 0}, {8, 0}, {8, 8}, {0, 8}});
+  const auto blank = lekalo::geom::ConvexPolygon::make({{10, 10}, {20, 10}, {20, 20}, {10, 20}});
+  const auto result = lekalo::locate::locate_convex({*part, *blank}, {});
+  assert(result->best.clearance <= 1 && result->upper_bound >= 1);         // the optimum is 1 mm
+  assert(result->upper_bound - result->best.clearance <= 1e-9);            // and that is proved
 }
 
 }  // namespace
 
 int main() {
-  const lekalo::locate::ConvexProblem problem{
-      .part = square("part.csv", "0 0\n8 0\n8 8\n0 8\n"),
-      .blank = square("blank.csv", "100,100\n110,100\n110,110\n100,110\n"),
-      .window = {},
-  };
-  const auto result = lekalo::locate::locate_convex(problem, {});
-  if (!result) {
-    std::cerr << result.error().message << '\n';
-    return 1;
-  }
-  std::cout << "clearance " << result->best.clearance << " mm, at most " << result->upper_bound << " mm\n";
-  const bool right = result->best.clearance <= 1.0 && result->best.clearance > 1.0 - 1e-8 &&
-                     result->upper_bound >= 1.0 && result->upper_bound - result->best.clearance < 1e-8;
-  return right ? 0 : 1;
+  as_in_the_readme();
+  const auto file = lekalo::io::parse_contour("0 0\n8 0\n8 8\n0 8\n", "part.csv", lekalo::LengthUnit::millimetre);
+  assert(file.has_value());
+  const auto contour = lekalo::io::make_convex(*file);
+  assert(contour.has_value() && contour->polygon.size() == 4);
+  std::cout << "found, compiled, linked, ran\n";
 }
