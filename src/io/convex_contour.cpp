@@ -20,8 +20,8 @@ struct Stray {
 /// Looks at every point between corners.
 class StraightRuns {
  public:
-  StraightRuns(const Outline& outline, const std::vector<std::size_t>& corners, double tolerance)
-      : outline_(outline), tolerance_(tolerance) {
+  StraightRuns(const Outline& outline, double tolerance) : outline_(outline), tolerance_(tolerance) {
+    const std::vector<std::size_t>& corners = outline.corners;
     for (std::size_t k = 0; k < corners.size(); ++k) look_at(corners[k], corners[(k + 1) % corners.size()]);
   }
 
@@ -101,17 +101,11 @@ std::size_t ConvexContour::file_edge(std::size_t polygon_edge) const {
 }
 
 Result<ConvexContour> make_convex(const ContourFile& file) {
-  const auto outline = make_outline(file);
-  if (!outline) return tl::unexpected(outline.error());
   const double tolerance = kCollinearErrors * file.coordinate_error;
-  const std::vector<std::size_t> corners = true_corners(*outline, tolerance);
-  if (corners.size() < 3) {
-    return refuse(file.name,
-                  fmt::format("the contour has no area: it is no wider than the rounding of its numbers, "
-                              "{:.3g} mm",
-                              tolerance));
-  }
-  const StraightRuns runs(*outline, corners, tolerance);
+  const auto outline = make_outline(file, tolerance);
+  if (!outline) return tl::unexpected(outline.error());
+  const std::vector<std::size_t>& corners = outline->corners;
+  const StraightRuns runs(*outline, tolerance);
   if (runs.worst().distance > tolerance) return refuse_stray(*outline, runs.worst());
   if (runs.runs_back_at() != outline->ring.size()) {
     return refuse(file.name, fmt::format("the contour runs back along its own edge to {}",

@@ -46,10 +46,10 @@ std::vector<std::size_t> without_duplicates(const geom::Ring& points, std::vecto
   return ring;
 }
 
-/// A strictly convex ring cut at corner 0 and unrolled, for chords between its corners.
+/// A strictly convex ring, corners numbered on and on around it, for chords between them.
 class HullChords {
  public:
-  HullChords(const Outline& outline, double tolerance) : outline_(outline), tolerance_(tolerance) {}
+  HullChords(const geom::Ring& hull, double tolerance) : hull_(hull), tolerance_(tolerance) {}
 
   /// Whether all corners strictly between corners i and j > i lie within the tolerance of their segment.
   [[nodiscard]] bool straight(std::size_t i, std::size_t j) const {
@@ -75,9 +75,7 @@ class HullChords {
   }
 
  private:
-  [[nodiscard]] Point corner(std::size_t k) const {
-    return outline_.point(outline_.hull[k % outline_.hull.size()]);
-  }
+  [[nodiscard]] Point corner(std::size_t k) const { return hull_[k % hull_.size()]; }
 
   /// The corner farthest from the chord's line: the edges lead away from it first, then back.
   [[nodiscard]] std::size_t farthest(std::size_t i, std::size_t j) const {
@@ -93,9 +91,45 @@ class HullChords {
     return low;
   }
 
-  const Outline& outline_;
+  const geom::Ring& hull_;
   double tolerance_;
 };
+
+/// Indices of the corners that stay, ascending; fewer than three when the hull is no wider than the
+/// tolerance. Cost: O(corners log^2 corners).
+std::vector<std::size_t> true_corners(const geom::Ring& hull, double tolerance) {
+  const std::size_t n = hull.size();
+  std::vector<std::size_t> kept;
+  if (!(tolerance > 0)) {
+    for (std::size_t j = 0; j < n; ++j) kept.push_back(j);
+    return kept;
+  }
+  const HullChords chords(hull, tolerance);
+  // convex_hull begins with the point lowest in (x, y), so the outcome does not depend on where the file
+  // begins. The first chord stops one corner short of where it began: a chord needs two ends.
+  for (std::size_t j = 0; j < n; j = chords.farthest_straight(j, j == 0 ? n - 1 : n)) kept.push_back(j);
+  // The first corner was kept unseen.
+  if (kept.size() > 3 && chords.straight(kept.back(), kept[1] + n)) kept.erase(kept.begin());
+  return kept;
+}
+
+/// Corners as positions in a ring that should meet them in their order, forwards or backwards: how often the
+/// next stands lower.
+std::size_t count_falls(const std::vector<std::size_t>& corners) {
+  std::size_t falls = 0;
+  for (std::size_t j = 0; j < corners.size(); ++j)
+    falls += corners[(j + 1) % corners.size()] < corners[j] ? 1 : 0;
+  return falls;
+}
+
+/// A corner that stands neither between its neighbours forwards nor backwards; \pre there is one
+std::size_t out_of_order(const std::vector<std::size_t>& corners) {
+  const std::size_t n = corners.size();
+  const auto rises = [&](std::size_t j) { return corners[(j + 1) % n] > corners[j % n]; };
+  std::size_t j = 0;
+  while (rises(j) == rises(j + 1)) ++j;
+  return corners[(j + 1) % n];
+}
 
 }  // namespace
 
@@ -125,69 +159,46 @@ std::string Outline::name(std::size_t position) const {
   return fmt::format("point {} ({}{}, {} mm)", index, place, p.x, p.y);
 }
 
-Result<Outline> make_outline(const ContourFile& file) {
+Result<Outline> make_outline(const ContourFile& file, double tolerance) {
   Outline outline;
   outline.file = &file;
   outline.ring = without_duplicates(file.points, outline.duplicates);
-  if (outline.ring.size() < 3) {
-    return refuse(file.name, fmt::format("{} different point{} in a row; a contour needs at least 3",
-                                         outline.ring.size(), outline.ring.size() == 1 ? "" : "s"));
+  const std::size_t n = outline.ring.size();
+  if (n < 3) {
+    return refuse(file.name, fmt::format("{} different point{} in a row; a contour needs at least 3", n,
+                                         n == 1 ? "" : "s"));
   }
-  geom::Ring points;
-  points.reserve(outline.ring.size());
+  geom::Ring points, hull_points;
   for (const std::size_t index : outline.ring) points.push_back(file.points[index]);
-  outline.hull = geom::convex_hull(points);
-  if (outline.hull.size() < 3) {
+  const std::vector<std::size_t> hull = geom::convex_hull(points);
+  if (hull.size() < 3) {
     return refuse(file.name,
                   fmt::format("the contour has no area: all its points lie on the line through {} and {}",
-                              outline.name(outline.hull[0]), outline.name(outline.hull[1])));
+                              outline.name(hull[0]), outline.name(hull[1])));
+  }
+  for (const std::size_t position : hull) hull_points.push_back(points[position]);
+  for (const std::size_t j : true_corners(hull_points, tolerance)) outline.corners.push_back(hull[j]);
+  if (outline.corners.size() < 3) {
+    return refuse(file.name,
+                  fmt::format("the contour has no area: it is no wider than the rounding of its numbers, "
+                              "{:.3g} mm",
+                              tolerance));
   }
 
-  // A contour that runs once around meets the corners of its hull in their order.
-  const std::size_t n = outline.hull.size();
-  std::size_t falls = 0;
-  for (std::size_t j = 0; j < n; ++j) falls += outline.hull[(j + 1) % n] < outline.hull[j] ? 1 : 0;
+  const std::size_t falls = count_falls(outline.corners);
   outline.reversed = falls != 1;
-  if (falls != 1 && falls + 1 != n) {
-    std::size_t j = 0;
-    const auto leads_on = [&](std::size_t k) { return outline.hull[(k + 1) % n] > outline.hull[k]; };
-    while (leads_on(j) == leads_on(j + 1)) ++j;
+  if (falls != 1 && falls + 1 != outline.corners.size()) {
     return refuse(file.name,
                   fmt::format("the contour crosses itself or goes around more than once: {} stands out of "
                               "order",
-                              outline.name(outline.hull[(j + 1) % n])));
+                              outline.name(out_of_order(outline.corners))));
   }
   if (outline.reversed) {
     std::reverse(outline.ring.begin(), outline.ring.end());
-    for (std::size_t& position : outline.hull) position = outline.ring.size() - 1 - position;
+    for (std::size_t& position : outline.corners) position = n - 1 - position;
   }
-  // Counter-clockwise both, so the hull ascends but for one fall.
-  std::sort(outline.hull.begin(), outline.hull.end());
+  std::sort(outline.corners.begin(), outline.corners.end());
   return outline;
-}
-
-std::vector<std::size_t> true_corners(const Outline& outline, double tolerance) {
-  const std::size_t n = outline.hull.size();
-  if (!(tolerance > 0)) return outline.hull;
-  const HullChords chords(outline, tolerance);
-  // Begin at the corner lowest in (x, y), so that the outcome does not depend on where the file begins.
-  const auto lower = [&](std::size_t i, std::size_t j) {
-    const Point a = outline.point(outline.hull[i]), b = outline.point(outline.hull[j]);
-    return a.x != b.x ? a.x < b.x : a.y < b.y;
-  };
-  std::size_t first = 0;
-  for (std::size_t j = 1; j < n; ++j) first = lower(j, first) ? j : first;
-  std::vector<std::size_t> kept;
-  // The first chord stops one corner short of where it began: a chord needs two ends.
-  for (std::size_t j = first; j < first + n;
-       j = chords.farthest_straight(j, j == first ? first + n - 1 : first + n)) {
-    kept.push_back(j);
-  }
-  // The first corner was kept unseen.
-  if (kept.size() > 3 && chords.straight(kept.back(), kept[1] + n)) kept.erase(kept.begin());
-  for (std::size_t& j : kept) j = outline.hull[j % n];
-  std::sort(kept.begin(), kept.end());
-  return kept;
 }
 
 }  // namespace lekalo::io

@@ -14,11 +14,12 @@ namespace lekalo::io {
 /// file.
 inline constexpr double kCollinearErrors = 3;
 
-/// A contour beside its convex hull. `ring` holds the file indices without duplicates, turned to run
-/// counter-clockwise; `hull` the positions in `ring` of the hull's strict corners, ascending.
+/// A contour and the corners of its convex hull. `ring` holds the file indices without duplicates, turned to
+/// run counter-clockwise; `corners` positions in `ring`, ascending: a strictly convex polygon,
+/// counter-clockwise.
 struct Outline {
   const ContourFile* file = nullptr;
-  std::vector<std::size_t> ring, duplicates, hull;
+  std::vector<std::size_t> ring, duplicates, corners;
   bool reversed = false;
 
   [[nodiscard]] geom::Point point(std::size_t position) const { return file->points[ring[position]]; }
@@ -29,14 +30,11 @@ struct Outline {
   [[nodiscard]] std::string name(std::size_t position) const;
 };
 
-/// Fails with ErrorCode::bad_input for points without area and for a contour that does not run once around
-/// its hull. Cost: O(n log n). \pre file outlives the outline
-[[nodiscard]] Result<Outline> make_outline(const ContourFile& file);
-
-/// The hull without corners that the rounding of straight edges made: each left out lies within `tolerance`
-/// mm (largest found in `moved`) of the segment between those that stay. Positions in `ring`, ascending;
-/// fewer than three when the contour is no wider than the tolerance. Cost: O(corners log^2 n).
-[[nodiscard]] std::vector<std::size_t> true_corners(const Outline& outline, double tolerance);
+/// Corners of the hull that only rounding made are left out: each lies within `tolerance` mm of the segment
+/// between those that stay around it. Fails with ErrorCode::bad_input for a contour no wider than the
+/// tolerance, and for one that does not run once around the corners. Cost: O(n log n). \pre file outlives the
+/// outline
+[[nodiscard]] Result<Outline> make_outline(const ContourFile& file, double tolerance);
 
 /// Distance from p to the segment ab, never below the exact one, and 0 only where that is 0; relative error
 /// 1e-15.

@@ -37,7 +37,8 @@ struct Sides {
   double outside = 0;  ///< how far hull corners that were left out lie outside, mm
 };
 
-Sides measure_sides(const Outline& outline, const std::vector<std::size_t>& corners) {
+Sides measure_sides(const Outline& outline) {
+  const std::vector<std::size_t>& corners = outline.corners;
   Sides all;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const std::size_t first = corners[k], last = corners[(k + 1) % corners.size()];
@@ -168,17 +169,13 @@ Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance)
     return failure(ErrorCode::usage,
                    fmt::format("--trim {}: a depth in mm, 0 or more, is wanted", tolerance));
   }
-  const auto outline = make_outline(file);
-  if (!outline) return tl::unexpected(outline.error());
   // Sides between corners closer to straight than this meet nowhere in particular.
   const double rounding = kHalfUlp * geom::largest_coordinate(file.points);
   const double straight = std::max(kCollinearErrors * file.coordinate_error, 16 * rounding);
-  const std::vector<std::size_t> corners = true_corners(*outline, straight);
-  if (corners.size() < 3) {
-    return refuse(file.name, fmt::format("the contour has no area: it is no wider than {:.3g} mm", straight));
-  }
+  const auto outline = make_outline(file, straight);
+  if (!outline) return tl::unexpected(outline.error());
 
-  const Sides measured = measure_sides(*outline, corners);
+  const Sides measured = measure_sides(*outline);
   const Side& worst = *std::max_element(measured.sides.begin(), measured.sides.end(),
                                         [](const Side& a, const Side& b) { return a.depth < b.depth; });
   if (!(worst.depth <= tolerance + straight)) {
