@@ -8,7 +8,6 @@
 namespace lekalo::nc {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 /// Half chord over radius from which LinuxCNC (its TINY) and others take an arc by radius for a half circle.
 constexpr double kHalfCircle = 1 - 1e-12;
 
@@ -16,7 +15,7 @@ double sweep_between(const Vector& from, const Vector& to, bool clockwise) noexc
   const double first = geom::direction_angle(from.x.hi, from.y.hi);
   const double last = geom::direction_angle(to.x.hi, to.y.hi);
   const double sweep = clockwise ? first - last : last - first;
-  return sweep > 0 ? sweep : sweep + kTwoPi;
+  return sweep > 0 ? sweep : sweep + kFullTurn;
 }
 
 double half_chord_over_radius(const Vector& start, const Vector& end,
@@ -34,7 +33,7 @@ Arc arc_by_centre(const Vector& start, const Vector& end, const Vector& centre, 
   Arc arc{start, end, centre};
   arc.start_radius = millimetres(start - centre);
   arc.end_radius = millimetres(end - centre);
-  arc.sweep = end_is_start ? kTwoPi : sweep_between(start - centre, end - centre, clockwise);
+  arc.sweep = end_is_start ? kFullTurn : sweep_between(start - centre, end - centre, clockwise);
   return arc;
 }
 

@@ -219,8 +219,9 @@ class CoordinatePass {
     const bool spaced =
         sister.letter_at == block.begin ? blank_at(sister.number_end) : blank_at(sister.letter_at - 1);
     const char* gap = spaced ? " " : "";
-    if (before)
-      edits.push_back({sister.letter_at, 0, fmt::format("{}{}{}", cased, number, gap)});
+    if (before)  // with the sister's letter, so that a word supplied after the word before them stays with
+                 // that one
+      edits.push_back({sister.letter_at, 1, fmt::format("{}{}{}{}", cased, number, gap, written)});
     else
       edits.push_back({sister.number_end, 0, fmt::format("{}{}{}", gap, cased, number)});
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -398,8 +399,12 @@ class Interpreter {
     if (!radii_agree(arc, motion.unit))
       return fmt::format("the centre is {:.5f} mm from the start but {:.5f} mm from the end of the arc",
                          arc.start_radius, arc.end_radius);
-    if (arc.sweep < kSmallestSweep)
-      return fmt::format("an arc of only {:.1e} rad: some controls read it as a full circle", arc.sweep);
+    const double apart = std::min(arc.sweep, kFullTurn - arc.sweep);
+    if (motion.end != motion.start && apart < kSmallestSweep)
+      return fmt::format(
+          "the ends of the arc differ, but seen from its centre by {:.1e} rad only: a control may run a "
+          "full circle or nothing; give a full circle the same end as start",
+          std::max(apart, 0.0));
     return {};
   }
 

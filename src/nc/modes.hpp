@@ -34,7 +34,8 @@ struct Edit {
   std::string text;
 };
 
-/// The text with the edits made; several at one place in the order given.
+/// The text with the edits made. At one place insertions come first, in the order given, then what gives way
+/// there.
 [[nodiscard]] std::string apply_edits(std::string_view text, std::vector<Edit> edits);
 
 /// A bound that stays one after the few roundings of its own computation.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lekalo/geom/trig.hpp"
 #include "modes.hpp"
@@ -44,7 +45,7 @@ Result<Rewritten> run_mode(const RewriteJob& job) {
 }  // namespace
 
 std::string apply_edits(std::string_view text, std::vector<Edit> edits) {
-  std::ranges::stable_sort(edits, {}, &Edit::at);
+  std::ranges::stable_sort(edits, {}, [](const Edit& edit) { return std::pair(edit.at, edit.length); });
   std::string result;
   std::size_t done = 0;
   for (const Edit& edit : edits) {

@@ -98,6 +98,21 @@ M30
 )");
 }
 
+TEST(NcRs274, arcs_pass_exactly_when_linuxcnc_takes_them) {
+  for (const char* arc : {"G21 F9\nG0 X0 Y0\nG2 X20.028 I10", "G21 F9\nG0 X0 Y0\nG2 X20.029 I10",
+                          "G21 F9\nG0 X0 Y0\nG2 X200.1 I100", "G21 F9\nG0 X0 Y0\nG2 X200.11 I100",
+                          "G20 F9\nG0 X0 Y0\nG2 X2.0028 I1", "G20 F9\nG0 X0 Y0\nG2 X2.0029 I1",
+                          "G21 F9\nG0 X0 Y0\nG2 X10.0025 R5", "G21 F9\nG0 X0 Y0\nG2 X10.0026 R5",
+                          "G20 F9\nG0 X0 Y0\nG2 X10.0000999 R5", "G20 F9\nG0 X0 Y0\nG2 X10.0001001 R5",
+                          "G21 F9\nG0 X0 Y0\nG2 I.0012", "G21 F9\nG0 X0 Y0\nG2 I.0013"}) {
+    const std::string program = std::string(arc) + "\nM2\n";
+    const auto result = rewrite_program(program, "p", 12.7, -25.4, 33.25 * kDegree, {});
+    EXPECT_EQ(oracle().run(program).accepted, result.has_value()) << program;
+    if (!result) continue;
+    EXPECT_TRUE(oracle().run(result->program).accepted) << result->program;
+  }
+}
+
 TEST(NcRs274, incremental_moves_and_cycles_agree) {
   expect_agreement(R"(G21 G90 G17 G40 G80 G94 F150
 G0 X5 Y5 Z10
@@ -177,8 +192,7 @@ M2
 TEST(NcRs274, a_modal_word_missing_at_the_top_is_set_by_the_offset_line) {
   // The program leaves unit and work offset to the control.
   expect_agreement("G0 X1. Y2.\nG1 X30. F100\nM2\n");
-  expect_agreement(
-      "G0 Z5.\nG20\nG54 G0 X1. Y2.\nG1 X3. F10\nM2\n");
+  expect_agreement("G0 Z5.\nG20\nG54 G0 X1. Y2.\nG1 X3. F10\nM2\n");
 }
 
 TEST(NcRs274, random_programs_agree) {

@@ -186,7 +186,13 @@ TEST(NcRefusal, of_arcs_and_cycles_that_cannot_be_kept) {
       {"G0 X0 Y0\nG3 X100 Y.0001 I100 \n",
        "2: the centre is 100.00000 mm from the start but 0.00010 mm from the end of the arc"},
       {"G0 X100 Y0\nG3 X100 Y.0001 I-100 \n",
-       "2: an arc of only 1.0e-06 rad: some controls read it as a full circle"},
+       "2: the ends of the arc differ, but seen from its centre by 1.0e-06 rad only: a control may run a "
+       "full circle or "
+       "nothing; give a full circle the same end as start"},
+      {"G0 X100 Y0\nG3 X100.01 Y0 I-100 \n",
+       "2: the ends of the arc differ, but seen from its centre by 0.0e+00 rad only: a control may run a "
+       "full circle or "
+       "nothing; give a full circle the same end as start"},
       {"G0 X0 Y0\nG90.1 G2 X2 I1\n", "2: G90.1 needs both I and J"},
       {"G0 X0 Y0\nG2 X2 I1 P1.5\n", "2: P of an arc must be a whole number of turns, at least 1"},
       {"G0 X0 Y0\nG2 X2 I1 P0\n", "2: P of an arc must be a whole number of turns, at least 1"},

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/rs274_reader.hpp"
+
 namespace {
 
 using namespace lekalo::nc;
@@ -43,6 +45,10 @@ TEST(NcRewrite, supplies_the_missing_axis_beside_its_sister) {
   EXPECT_EQ(body("G0 X1 Y2\nX5\n", turned), "G0 X8.00000 Y21.00000\nX8.00000 Y25.00000\n");
   EXPECT_EQ(body("G0 X1 Y2\nY5\n", turned), "G0 X8.00000 Y21.00000\nX5.00000 Y21.00000\n");
   EXPECT_EQ(body("G0 X1 Y2\nN7 G1 Y5 Z1\n", turned), "G0 X8.00000 Y21.00000\nN7 G1 X5.00000 Y21.00000 Z1\n");
+}
+
+TEST(NcRewrite, supplies_two_words_at_one_place_in_order) {
+  EXPECT_EQ(body("G0X0Y0\nG2I2Y0\n", turned), "G0X10.00000Y20.00000\nG2I0.00000J2.00000X10.00000Y20.00000\n");
 }
 
 TEST(NcRewrite, keeps_case_and_spacing) {
@@ -95,6 +101,18 @@ TEST(NcRewrite, turns_full_circles_and_helices) {
             "G2 X10.00000 Y20.00000 I0.00000 J1.00000\n");
 }
 
+TEST(NcRewrite, passes_radii_that_differ_by_what_cam_systems_round) {
+  const auto passes = [](const std::string& program) {
+    return rewrite_program(program, "p", 1, 2, 0.5, {}).has_value();
+  };
+  EXPECT_TRUE(passes("G21\nG0 X0 Y0\nG2 X20.028 I10\n"));  // 0.02 sqrt(2) mm is 0.02828
+  EXPECT_FALSE(passes("G21\nG0 X0 Y0\nG2 X20.029 I10\n"));
+  EXPECT_TRUE(passes("G21\nG0 X0 Y0\nG2 X200.1 I100\n"));  // 0.1 % of the radius
+  EXPECT_FALSE(passes("G21\nG0 X0 Y0\nG2 X200.11 I100\n"));
+  EXPECT_TRUE(passes("G20\nG0 X0 Y0\nG2 X2.0028 I1\n"));  // 0.002 sqrt(2) inch
+  EXPECT_FALSE(passes("G20\nG0 X0 Y0\nG2 X2.0029 I1\n"));
+}
+
 TEST(NcRewrite, turns_absolute_arc_centres) {
   EXPECT_EQ(body("G0 X1 Y0\nG90.1 G2 X3 Y0 I2 J0\n", turned),
             "G0 X10.00000 Y21.00000\nG90.1 G2 X10.00000 Y23.00000 I10.00000 J22.00000\n");
@@ -115,10 +133,36 @@ TEST(NcRewrite, gives_short_arcs_by_radius_the_decimals_that_hold_their_centre) 
   EXPECT_LT(result.rounding_mm, 1e-4);
 }
 
+TEST(NcRewrite, more_decimals_go_to_the_block_that_decided_where_the_arc_starts) {
+  // A full circle in between ends where it starts; so does, under a pure shift, an incremental move keep its
+  // bytes.
+  const auto after_circle =
+      rewritten("G21\nG0 X0 Y0\nG2 X0 Y0 I1\nG2 X0.1 Y0 R100\n", 0.1234567, 0.7654321, 0.3);
+  EXPECT_EQ(after_circle.program.substr(0, 34), "G21\nG0 X0.1234567 Y0.7654321\nG2 X0");
+  EXPECT_LT(after_circle.rounding_mm, 1e-4);
+  const auto after_step =
+      rewritten("G21\nG0 X0 Y0\nG91 G1 X1\nG90 G2 X1.100004 Y0 R100\n", 0.1234567, 0.7654321, 0);
+  EXPECT_EQ(after_step.program,
+            "G21\nG0 X0.1234567 Y0.7654321\nG91 G1 X1\nG90 G2 X1.22346070 Y0.76543210 R100\n");
+}
+
+TEST(NcRewrite, a_very_short_arc_does_not_become_a_full_turn_nor_a_full_turn_less_a_hair_a_short_arc) {
+  for (const char* way : {"G2", "G3"})
+    for (int k = 0; k < 100; ++k) {
+      const std::string program = std::string("G21\nG0 X1.5 Y0.\n") + way + " X1.5 Y-0.000005 I-1.5\n";
+      const auto written = rs274::Reader().read(rewritten(program, 0.3, 0.7, 0.06 * k).program).back();
+      const auto original = rs274::Reader().read(program).back();
+      EXPECT_NEAR(static_cast<double>(written.sweep), static_cast<double>(original.sweep), 1e-4)
+          << k << program;
+    }
+}
+
 TEST(NcRewrite, keeps_the_half_circle_by_radius_a_half_circle) {
   for (int k = 0; k < 50; ++k) {
     const auto result = rewritten("G21\nG0 X-7 Y3\nG3 X13 Y3 R10\n", 0.1 * k, 0.2, 0.13 * k);
     EXPECT_LT(result.rounding_mm, 1e-4) << k;
+    EXPECT_EQ(result.notes.at(1).rfind("rewritten numbers have 5 to 5 decimals", 0), 0U)
+        << result.notes.at(1);
   }
 }
 
@@ -128,6 +172,22 @@ TEST(NcRewrite, an_end_that_is_the_start_stays_it_to_the_last_digit) {
             "G21\nG0 X0.1179427 Y0.0364839\nG2 X0.1179427 Y0.0364839 I0.95534 J0.29552\n");
   EXPECT_EQ(rewritten("G21\nG0 X0.1234567 Y0\nG91 G2 X0 Y0 I1\n", 0, 0, 0.3).program,
             "G21\nG0 X0.1179427 Y0.0364839\nG91 G2 X0.00000 Y0.00000 I0.95534 J0.29552\n");
+}
+
+TEST(NcRewrite, an_end_that_is_the_start_stays_it_when_its_word_has_more_decimals) {
+  EXPECT_EQ(rewritten("G21\nG0 X0.5 Y0.25\nG2 X0.5000000 Y0.25 I1\n", 0, 0, 0.3).program,
+            "G21\nG0 X0.40379 Y0.38659\nG2 X0.4037900 Y0.3865900 I0.95533 J0.29552\n");
+}
+
+TEST(NcRewrite, counts_the_centre_from_the_written_start) {
+  // From the exact start the rounding of start and centre would add up.
+  const std::string program = "G21\nG0 X1.7 Y2.3\nG2 I3.1 J4.7\n";
+  const rs274::Step original = rs274::Reader().read(program).back();
+  for (int k = 1; k < 200; ++k) {
+    const rs274::Step written = rs274::Reader().read(rewritten(program, 0.1, 0.2, 0.031 * k).program).back();
+    const rs274::Point exact = rs274::Motion::turned(0.1, 0.2, 0.031 * k)(original.centre);
+    EXPECT_LE(rs274::distance(exact, written.centre), 7.0711e-6L) << k;
+  }
 }
 
 TEST(NcRewrite, incremental_moves_do_not_add_up_their_rounding) {
