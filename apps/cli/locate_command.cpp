@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "contours.hpp"
 #include "lekalo/base/rounding.hpp"
+#include "lekalo/geom/trig.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/picture.hpp"
 #include "lekalo/io/result_json.hpp"
@@ -21,6 +23,9 @@ namespace {
 
 /// Up to this many intervals a certificate stands in the result itself.
 constexpr std::size_t kInlineIntervals = 10'000;
+
+/// A pose that is compared with may lie this far out, mm; a thousand kilometres, beyond any machine.
+constexpr double kFarthestPose = 1e9;
 
 struct Inputs {
   std::string part_bytes, blank_bytes, nc_bytes, last_bytes;
@@ -67,6 +72,13 @@ Result<Inputs> read_inputs(const LocateOptions& o) {
   if (!o.compare.empty()) {
     Result<io::WrittenResult> read = io::read_result(*last_bytes, o.compare);
     if (!read) return tl::unexpected(read.error());
+    const locate::Placement& pose = read->placement;
+    if (!(std::abs(pose.theta) <= geom::kMaxAngle &&
+          std::max(std::abs(pose.x), std::abs(pose.y)) <= kFarthestPose)) {
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: the pose ({}, {}) mm, {} rad is out of all measure", o.compare, pose.x,
+                                 pose.y, pose.theta));
+    }
     last = std::move(*read);
   }
   return Inputs{std::move(*part_bytes), std::move(*blank_bytes), std::move(*nc_bytes), std::move(*last_bytes),

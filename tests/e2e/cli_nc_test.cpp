@@ -108,7 +108,7 @@ TEST_F(Program3, AllowanceLostInTheRoundingGivesNoProgramButTheResult) {
 
 TEST_F(Program3, ExampleProgramIsRewrittenForItsBlank) {
   const std::string input = (fs::path(LEKALO_SOURCE_DIR) / "examples/localisation/part.nc").string();
-  for (const Words& mode : {Words{}, Words{"--nc-mode", "offset"}, Words{"--nc-mode", "g68"}}) {
+  for (const Words& mode : {Words{}, Words{"--nc-mode", "offset"}}) {
     const Ran ran = run(
         folder_.path(),
         locate_example(1) + Words{"--nc", input, "--nc-out", "out.nc", "--json", "-o", "out.json"} + mode);
