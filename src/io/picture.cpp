@@ -32,11 +32,10 @@ constexpr std::size_t kMostLabels = 12;  ///< contacts beyond that are drawn wit
 constexpr double kSmallestShare = 0.6;
 
 constexpr double kInsetSide = 30, kInsetCaption = 2.6;
-constexpr double kAllowanceInInset = 9;   ///< mm of paper
-constexpr double kWorthMagnifying = 2.5;  ///< times the drawing's scale
+constexpr double kAllowanceInInset = 9;  ///< mm of paper
+constexpr double kWorthMagnifying = 4;   ///< times the drawing's scale
 constexpr double kMostMagnified = 1e6;
-/// The last binary digit of a coordinate must stay below this, mm of paper, or the inset shows rounding.
-constexpr double kFinestDetail = 0.02;
+constexpr double kFinestRounding = 0.2;  ///< mm of paper: rounding must not show in the inset
 
 Paint stroke(Colour colour, double width, double dash = 0) {
   Paint paint;
@@ -64,11 +63,13 @@ class Composer {
     main_drawing();
     scale_bar();
     const bool start_shown = picture_.draw_start && start_in_main_;
-    draw_panel(picture_, shapes_, picture_.draw_start, kPanel, scene_.items);
-    Rect inset{kPanel.x, kPanel.bottom() - kInsetSide - kInsetCaption - 1, kInsetSide, kInsetSide};
+    const double text_end = draw_panel(picture_, shapes_, picture_.draw_start, kPanel, scene_.items);
+    const double bottom = kPanel.bottom() - kInsetCaption - 1;
+    const double side = std::min(kInsetSide, bottom - text_end - 3);
+    Rect inset{kPanel.x, bottom - side, side, side};
     if (thinnest_scale_ > 0) {
       magnified(inset);
-      inset.x = kPanel.right() - kInsetSide;
+      inset.x = kPanel.x + kPanel.width / 2 + 1;
     }
     if (picture_.draw_start && !start_shown) overview(inset);
     return std::move(scene_);
@@ -87,11 +88,8 @@ class Composer {
 
   /// 0 when the thinnest place can be seen without.
   void choose_magnification() {
-    if (shapes_.samples.empty()) return;
-    double largest =
-        std::max(geom::largest_coordinate(shapes_.blank), geom::largest_coordinate(shapes_.part));
-    largest = std::max(largest, geom::largest_coordinate(picture_.part));
-    const double finest = kFinestDetail / (largest * std::numeric_limits<double>::epsilon());
+    if (shapes_.samples.empty() || !(std::abs(shapes_.least) > shapes_.rounding)) return;
+    const double finest = kFinestRounding / shapes_.rounding;
     const double wanted = kAllowanceInInset / std::abs(shapes_.least);
     const double most = std::min(finest, kMostMagnified * view_.scale);
     const double times = std::min(wanted, most) / view_.scale;
@@ -110,23 +108,23 @@ class Composer {
 
   void main_drawing() {
     draw_shapes(shapes_, view_, kDrawing, scene_.items);
-    std::vector<Ring> obstacles{on_paper(shapes_.blank, view_, kDrawing),
-                                on_paper(shapes_.part, view_, kDrawing)};
+    Obstacles obstacles{{on_paper(shapes_.blank, view_, kDrawing), on_paper(shapes_.part, view_, kDrawing)},
+                        {}};
     if (picture_.draw_start && start_in_main_) {
       draw_start(shapes_, view_, kDrawing, scene_.items);
-      obstacles.push_back(on_paper(shapes_.start, view_, kDrawing));
+      obstacles.lines.push_back(on_paper(shapes_.start, view_, kDrawing));
     }
     draw_contacts(picture_, contacts_, view_, kDrawing, scene_.items);
     if (thinnest_scale_ > 0) {
       const Point at = view_(shapes_.samples[shapes_.thinnest].at);
       scene_.items.push_back(
           DotItem{at, kRing, stroke(kOutside, 0.5), {"thinnest", "the thinnest place, magnified beside"}});
-      obstacles.push_back(Rect{at.x - kRing, at.y - kRing, 2 * kRing, 2 * kRing}.ring());
+      obstacles.filled.push_back(Rect{at.x - kRing, at.y - kRing, 2 * kRing, 2 * kRing}.ring());
     }
     label_contacts(obstacles);
   }
 
-  void label_contacts(const std::vector<Ring>& obstacles) {
+  void label_contacts(const Obstacles& obstacles) {
     if (contacts_.size() > kMostLabels) return;
     std::vector<Label> labels;
     for (const ContactLine& line : contacts_) {
@@ -134,7 +132,10 @@ class Composer {
       if (!(geom::norm(along) > 0)) continue;
       Point outward = perpendicular(along);
       if (dot(outward, foot - view_(middle_of_blank())) < 0) outward = -outward;
-      labels.push_back({foot, outward, contact_label(picture_, picture_.contacts[line.index])});
+      const Point vertex = view_(line.vertex);
+      const bool sticks_out = dot(outward, vertex - foot) > 0;
+      labels.push_back(
+          {sticks_out ? vertex : foot, outward, contact_label(picture_, picture_.contacts[line.index])});
     }
     place_labels(labels, kLabelSize, obstacles, kDrawing, scene_.items);
   }
@@ -161,9 +162,10 @@ class Composer {
 
   void frame(const Rect& inset, const std::string& caption) {
     scene_.items.push_back(PathItem{{inset.ring()}, true, stroke(kFaint, 0.25), {"inset", ""}});
+    const double room = kPanel.width / 2 - 1.5;
     scene_.items.push_back(TextItem{{inset.x, inset.bottom() + kInsetCaption + 1},
-                                    shortened(caption, inset.width / 2.5),
-                                    2.5,
+                                    caption,
+                                    fitting_size(caption, kInsetCaption, room),
                                     Anchor::start,
                                     kInk,
                                     false,
@@ -181,7 +183,7 @@ class Composer {
         {{close(thin), close(shapes_.blank_at_thinnest)}}, false, stroke(kInk, 0.4), {"thinnest-line", ""}});
     scene_.items.push_back(DotItem{close(thin), 0.6, dot, {}});
     scene_.items.push_back(DotItem{close(shapes_.blank_at_thinnest), 0.6, dot, {}});
-    frame(inset, fmt::format("in the ring, {} times", magnification_));
+    frame(inset, fmt::format("in the ring, ×{}", magnification_));
   }
 
   void overview(const Rect& inset) {
@@ -193,17 +195,17 @@ class Composer {
     const Point to = placed.low + 0.5 * (placed.high - placed.low);
     scene_.items.push_back(
         PathItem{{{far(from), far(to)}}, false, stroke(kStartLine, 0.2), {"start-way", ""}});
-    small_shape(shapes_.blank, far, inset, kBlankFill, stroke(kBlankLine, 0.25), "overview-blank");
-    small_shape(shapes_.part, far, inset, kPaper, stroke(kInk, 0.25), "overview-part");
-    small_shape(shapes_.start, far, inset, kPaper, stroke(kStartLine, 0.35, 0.9), "start");
-    frame(inset, fmt::format("start, {} mm away", short_number_up(geom::norm(to - from))));
+    Paint blank = stroke(kBlankLine, 0.25);
+    blank.fill = kBlankFill;
+    blank.fill_alpha = 1;
+    small_shape(shapes_.blank, far, inset, blank, "overview-blank");
+    small_shape(shapes_.part, far, inset, stroke(kInk, 0.25), "overview-part");
+    small_shape(shapes_.start, far, inset, stroke(kStartLine, 0.35, 0.9), "start");
+    frame(inset, fmt::format("start: {} mm away", short_number_up(geom::norm(to - from))));
   }
   /// The shape, or a dot where it would be smaller than one.
-  void small_shape(const Ring& ring, const View& view, const Rect& inset, Colour fill, Paint paint,
-                   const char* kind) {
+  void small_shape(const Ring& ring, const View& view, const Rect& inset, Paint paint, const char* kind) {
     const geom::Box box = geom::bounds(ring);
-    paint.fill = fill;
-    paint.fill_alpha = 1;
     const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y) * view.scale;
     if (size < 2) {
       paint.dash = 0;

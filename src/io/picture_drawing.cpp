@@ -23,6 +23,9 @@ constexpr double kBand = 2.0;          ///< width of the coloured band, mm of pa
 constexpr double kThinBand = 1.2;      ///< of the coloured line for parts that have no room for the band
 constexpr double kNearSamples = 0.15;  ///< mm of paper; closer samples share one piece of the band
 
+/// Units in the last place of the largest coordinate, in a placed vertex and its distance.
+constexpr double kRoundings = 16;
+
 Ring placed(const Ring& part, const locate::Placement& at) {
   const auto pose = geom::BlankFromPart::from_angle(at.theta, {at.x, at.y});
   Ring ring(part.size());
@@ -52,6 +55,11 @@ Point nearest_of_outline(Point p, const Ring& ring) {
   return nearest;
 }
 
+double extent(const Ring& ring) {
+  const geom::Box box = geom::bounds(ring);
+  return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
 void set_range(Located& shapes) {
   const auto less = [](const auto& a, const auto& b) { return a.allowance < b.allowance; };
   const auto [thin, thick] = std::minmax_element(shapes.samples.begin(), shapes.samples.end(), less);
@@ -62,7 +70,22 @@ void set_range(Located& shapes) {
   shapes.high = std::max(0.0, shapes.greatest);
   // An even allowance would stretch differences nobody can measure over all colours: it is shown as one.
   if (!(shapes.high - shapes.low > 0.02 * shapes.high)) shapes.low = 0;
-  if (!(shapes.high > shapes.low)) shapes.high = 1;
+  // No allowance anywhere: all of it thin, on a scale that fits the size of the blank.
+  if (!(shapes.high > shapes.rounding)) shapes.high = 0.01 * extent(shapes.blank);
+}
+
+/// Of places that are equally thin a vertex in contact is the one to show.
+void prefer_contact(const LocatePicture& picture, Located& shapes) {
+  const double close = shapes.least + shapes.rounding + 1e-6 * (shapes.high - shapes.low);
+  for (const locate::Contact& contact : picture.contacts) {
+    const auto at_vertex = [&](const locate::AllowanceSample& sample) {
+      return sample.part_edge == contact.part_vertex && sample.along == 0 && sample.allowance <= close;
+    };
+    const auto found = std::find_if(shapes.samples.begin(), shapes.samples.end(), at_vertex);
+    if (found == shapes.samples.end()) continue;
+    shapes.thinnest = static_cast<std::size_t>(found - shapes.samples.begin());
+    return;
+  }
 }
 
 /// A run of samples with one colour.
@@ -91,7 +114,7 @@ std::vector<Piece> band_pieces(const Located& shapes, const View& view) {
     const Stop& from = stops[i];
     const Stop& to = stops[i + 1 == stops.size() ? 0 : i + 1];
     const double allowance = std::min(from.allowance, to.allowance);
-    const int level = allowance < 0 ? -1 : scale_step(allowance, shapes.low, shapes.high);
+    const int level = allowance < -shapes.rounding ? -1 : scale_step(allowance, shapes.low, shapes.high);
     if (pieces.empty() || pieces.back().level != level) pieces.push_back({{from.at}, level});
     pieces.back().line.push_back(to.at);
   }
@@ -155,7 +178,12 @@ Located located(const LocatePicture& picture) {
   auto samples = locate::contour_allowance(picture.part, picture.blank, picture.result, step);
   if (!samples) return shapes;
   shapes.samples = std::move(*samples);
+  const double largest =
+      std::max({geom::largest_coordinate(shapes.blank), geom::largest_coordinate(shapes.part),
+                geom::largest_coordinate(picture.part)});
+  shapes.rounding = kRoundings * std::numeric_limits<double>::epsilon() * largest;
   set_range(shapes);
+  prefer_contact(picture, shapes);
   shapes.blank_at_thinnest = nearest_of_outline(shapes.samples[shapes.thinnest].at, shapes.blank);
   return shapes;
 }
@@ -187,7 +215,7 @@ void draw_shapes(const Located& shapes, const View& view, const Rect& visible, s
   const bool thin = typical_width(shapes.part) * view.scale < 1.5 * kBand;
   items.push_back(ClipBegin{{visible.ring()}});
   // What the blank does not cover of the part afterwards is what sticks out.
-  if (shapes.least < 0)
+  if (shapes.sticks_out())
     items.push_back(PathItem{{part}, true, fill_of({250, 190, 196}), {"part-outside", ""}});
   items.push_back(PathItem{{blank}, true, fill_of(kBlankFill), {"blank", "blank"}});
   items.push_back(ClipBegin{{blank}});

@@ -19,6 +19,8 @@ struct Located {
   geom::Point blank_at_thinnest;   ///< the point of the blank's outline nearest to it
   double least = 0, greatest = 0;  ///< of the samples, mm
   double low = 0, high = 0;        ///< range of the colour scale, mm, low < high
+  double rounding = 0;             ///< allowances of at most this size cannot be told from 0, mm
+  [[nodiscard]] bool sticks_out() const { return least < -rounding; }
 };
 [[nodiscard]] Located located(const LocatePicture& picture);
 

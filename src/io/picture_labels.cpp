@@ -20,7 +20,7 @@ constexpr double kClear = 0.5;                                    ///< mm around
 
 class Places {
  public:
-  Places(const std::vector<Ring>& obstacles, const Rect& page) : obstacles_(obstacles), page_(page) {}
+  Places(const Obstacles& obstacles, const Rect& page) : obstacles_(obstacles), page_(page) {}
 
   struct Place {
     Rect box;
@@ -59,23 +59,30 @@ class Places {
         return false;
       }
     }
-    for (const Ring& ring : obstacles_) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        if (clipped({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]}, box)) return false;
-      }
+    const auto inside = [&box](const Ring& ring) {
+      return geom::locate_point(ring, box.centre()) != geom::PointLocation::outside;
+    };
+    return std::none_of(obstacles_.filled.begin(), obstacles_.filled.end(),
+                        [&](const Ring& ring) { return inside(ring) || crosses(ring, box); }) &&
+           std::none_of(obstacles_.lines.begin(), obstacles_.lines.end(),
+                        [&](const Ring& ring) { return crosses(ring, box); });
+  }
+  static bool crosses(const Ring& ring, const Rect& box) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (clipped({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]}, box)) return true;
     }
-    return true;
+    return false;
   }
 
-  const std::vector<Ring>& obstacles_;
+  const Obstacles& obstacles_;
   Rect page_;
   std::vector<Place> taken_;
 };
 
 }  // namespace
 
-void place_labels(const std::vector<Label>& labels, double size, const std::vector<Ring>& obstacles,
-                  const Rect& page, std::vector<Item>& items) {
+void place_labels(const std::vector<Label>& labels, double size, const Obstacles& obstacles, const Rect& page,
+                  std::vector<Item>& items) {
   Places places(obstacles, page);
   for (const Label& label : labels) {
     const double width = size * text_width(label.text), height = 0.8 * size;

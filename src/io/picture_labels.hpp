@@ -15,9 +15,15 @@ struct Label {
   std::string text;
 };
 
-/// Finds places for labels within `page`, one after the other: no label covers a line of `obstacles` (closed
-/// lines on paper), another label or another label's leader. A label without such a place is left out.
-void place_labels(const std::vector<Label>& labels, double size, const std::vector<geom::Ring>& obstacles,
-                  const Rect& page, std::vector<Item>& items);
+/// What labels keep off, closed lines on paper.
+struct Obstacles {
+  std::vector<geom::Ring> filled;  ///< no label on the line or inside
+  std::vector<geom::Ring> lines;   ///< no label on the line
+};
+
+/// Finds places for labels within `page`, one after the other, clear of the obstacles, of other labels and of
+/// their leaders. A label without such a place is left out.
+void place_labels(const std::vector<Label>& labels, double size, const Obstacles& obstacles, const Rect& page,
+                  std::vector<Item>& items);
 
 }  // namespace lekalo::io::detail

@@ -15,9 +15,10 @@ namespace {
 
 using geom::Point;
 
-constexpr double kBody = 3.1;   ///< font size, mm of paper
-constexpr double kSmall = 2.7;  ///< of captions and ticks
-constexpr double kLine = 4.7;   ///< from baseline to baseline
+constexpr double kBody = 3.1;       ///< font size, mm of paper
+constexpr double kSmall = 2.7;      ///< of captions and ticks
+constexpr double kBoldWider = 1.1;  ///< bold letters against plain ones
+constexpr double kLine = 4.7;       ///< from baseline to baseline
 
 Rect rectangle_around_text(double x, double baseline, double width, double size) {
   return {x, baseline - size, width, 1.45 * size};
@@ -42,7 +43,7 @@ class Panel {
     verdict();
     numbers();
     rule();
-    if (!shapes_.samples.empty()) scale();
+    allowance_key();
     legend(start_drawn);
   }
   [[nodiscard]] double end() const { return y_; }
@@ -71,7 +72,8 @@ class Panel {
 
   void heading() {
     y_ += 4.5;
-    text(room_.x, shortened(picture_.title, room_.width / 5.0), 5.0, kInk, Anchor::start, true, "title");
+    text(room_.x, shortened(picture_.title, room_.width / (5.0 * kBoldWider)), 5.0, kInk, Anchor::start, true,
+         "title");
     y_ += 1.2;
     name("part", picture_.part_name);
     name("blank", picture_.blank_name);
@@ -87,7 +89,7 @@ class Panel {
   void verdict() {
     y_ += 8;
     const std::string status = shortened(picture_.status, 0.45 * room_.width / kBody);
-    const double width = kBody * 1.08 * text_width(status) + 4;
+    const double width = kBody * kBoldWider * text_width(status) + 4;
     if (!status.empty()) {
       path(rectangle_around_text(room_.x, y_, width, kBody).ring(), true,
            filled(colour_of_status(picture_.status)), "status-box");
@@ -102,36 +104,41 @@ class Panel {
     text(room_.x, "minimum allowance", kBody, kGrey);
     y_ += 8;
     const double clearance = picture_.result.clearance;
-    text(room_.x, decimal(clearance, decimals_, Rounding::down) + " mm", 7.0, clearance < 0 ? kOutside : kInk,
+    const std::string words = length(clearance, Rounding::down);
+    text(room_.x, words, fitting_size(words, 7.0, room_.width / kBoldWider), clearance < 0 ? kOutside : kInk,
          Anchor::start, true, "clearance");
     y_ += 2.5;
   }
 
+  [[nodiscard]] std::string length(double mm, Rounding rounding = Rounding::nearest) const {
+    const std::string number = decimal(mm, decimals_, rounding);
+    return std::isfinite(mm) ? number + " mm" : number;
+  }
   void row(const char* what, const std::string& value, const char* kind, Colour colour = kInk) {
     y_ += kLine;
     text(room_.x, what, kBody, kGrey);
-    text(room_.right(), value, kBody, colour, Anchor::end, false, kind);
+    const double width = room_.width - kBody * (text_width(what) + 1);
+    text(room_.right(), value, fitting_size(value, kBody, width), colour, Anchor::end, false, kind);
   }
 
   void numbers() {
     const locate::Placement& result = picture_.result;
     if (picture_.has_upper_bound) {
-      row("proven upper bound", decimal(picture_.upper_bound, decimals_, Rounding::up) + " mm",
-          "upper-bound");
-      row("gap",
-          short_number_up(difference_rounded_up(picture_.upper_bound, result.clearance)) + " mm", "gap");
+      row("proven upper bound", length(picture_.upper_bound, Rounding::up), "upper-bound");
+      const double gap = difference_rounded_up(picture_.upper_bound, result.clearance);
+      row("gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap");
     } else {
       row("proven upper bound", "not proved", "upper-bound");
     }
     if (picture_.min_allowance > 0) {
-      row("demanded", decimal(picture_.min_allowance, decimals_) + " mm", "min-allowance");
+      row("demanded", length(picture_.min_allowance), "min-allowance");
     }
     if (picture_.shortfall > 0) {
-      row("missing", short_number_up(picture_.shortfall) + " mm", "shortfall", kOutside);
+      row("missing", length(picture_.shortfall, Rounding::up), "shortfall", kOutside);
     }
     y_ += 1.5;
-    row("x", decimal(result.x, decimals_) + " mm", "x");
-    row("y", decimal(result.y, decimals_) + " mm", "y");
+    row("x", length(result.x), "x");
+    row("y", length(result.y), "y");
     // As many digits as move the rim of the part by less than the last digit of x.
     row("angle", decimal(result.theta * (180 / std::numbers::pi), 7) + "°", "theta-deg");
   }
@@ -141,6 +148,11 @@ class Panel {
     path({{room_.x, y_}, {room_.right(), y_}}, false, stroked(kRule, 0.3), "rule");
   }
 
+  void allowance_key() {
+    if (shapes_.samples.empty()) return;
+    if (shapes_.greatest >= -shapes_.rounding) scale();
+    if (shapes_.sticks_out()) outside_key();
+  }
   void scale() {
     const double step = tick_step();
     const LengthScale unit = length_scale(step, shapes_.high);
@@ -161,14 +173,13 @@ class Panel {
       tick(k * step, unit, bar + 3.6);
     }
     y_ += 0.6;
-    if (shapes_.least < 0) outside_key();
   }
-  /// Round, at most six on the scale, and far enough apart for their numbers.
+  /// Round, three to seven on the scale, fewer where their numbers are long.
   [[nodiscard]] double tick_step() const {
     const double range = shapes_.high - shapes_.low;
-    double share = 5;
+    double share = 3;
     double step = round_length(range / share);
-    for (; share > 0.6; share *= 0.7) {
+    for (; share > 0.4; share *= 0.7) {
       step = round_length(range / share);
       const double widest = kSmall * text_width(length_scale(step, shapes_.high).text(shapes_.high));
       if (step / range * room_.width > 1.3 * widest) break;
@@ -189,8 +200,10 @@ class Panel {
     const geom::Ring line{{room_.x, y_ - 1.1}, {room_.x + 9, y_ - 1.1}};
     path(line, false, stroked(kOutsideBase, 2.2), "key");
     path(line, false, stroked(kOutside, 2.2, 1.6), "key");
-    text(room_.x + 11, fmt::format("outside the blank, by up to {} mm", short_number_up(-shapes_.least)),
-         kSmall, kOutside, Anchor::start, false, "outside");
+    const std::string words =
+        fmt::format("outside the blank, by up to {} mm", short_number_up(-shapes_.least));
+    text(room_.x + 11, words, fitting_size(words, kSmall, room_.width - 11), kOutside, Anchor::start, false,
+         "outside");
   }
 
   void legend(bool start_drawn) {
@@ -198,24 +211,23 @@ class Panel {
     const double second = room_.x + room_.width / 2;
     y_ += kLine;
     swatch(room_.x, kBlankFill, kBlankLine, "blank");
-    swatch(second, kPaper, kInk, "part, result");
-    const bool contacts = !picture_.contacts.empty();
-    if (!start_drawn && !contacts) return;
-    y_ += kLine;
-    double x = room_.x;
+    swatch(second, kPaper, kInk, "part, placed");
     if (start_drawn) {
-      path({{x, y_ - 1.0}, {x + 6, y_ - 1.0}}, false, stroked(kStartLine, 0.35, 1.3), "key");
-      text(x + 8, "part, start", kSmall, kInk);
-      x = second;
+      y_ += kLine;
+      path({{room_.x, y_ - 1.0}, {room_.x + 6, y_ - 1.0}}, false, stroked(kStartLine, 0.35, 1.3), "key");
+      const locate::Placement& start = picture_.start;
+      const bool own = start.x == 0 && start.y == 0 && start.theta == 0;
+      text(room_.x + 8, own ? "part, where its own coordinates put it" : "part, where it started", kSmall,
+           kInk);
     }
-    if (contacts) {
-      path({{x + 0.8, y_ - 1.0}, {x + 5.6, y_ - 1.0}}, false, stroked(kInk, 0.5), "key");
-      Paint dot = filled(kPaper);
-      dot.stroke = kInk;
-      dot.width = 0.4;
-      items_.push_back(DotItem{{x + 0.8, y_ - 1.0}, 0.8, dot, {"key", ""}});
-      text(x + 8, "v vertex to e edge", kSmall, kInk);
-    }
+    if (picture_.contacts.empty()) return;
+    y_ += kLine;
+    path({{room_.x + 0.8, y_ - 1.0}, {room_.x + 6, y_ - 1.0}}, false, stroked(kInk, 0.5), "key");
+    Paint dot = filled(kPaper);
+    dot.stroke = kInk;
+    dot.width = 0.4;
+    items_.push_back(DotItem{{room_.x + 0.8, y_ - 1.0}, 0.8, dot, {"key", ""}});
+    text(room_.x + 8, "contact: part vertex v, blank edge e", kSmall, kInk);
   }
   void swatch(double x, Colour fill, Colour line, const char* what) {
     Paint paint = filled(fill);

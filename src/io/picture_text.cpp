@@ -91,6 +91,7 @@ double width_of(char32_t code) {
   if (code < 0x80) return 0.66;
   if (code >= 0x2070 && code <= 0x209F) return 0.42;  // raised and lowered digits
   if (code >= 0x0410 && code <= 0x042F) return 0.86;
+  if (code >= 0x0430 && code <= 0x044F) return 0.68;
   if (code < 0x0600) return 0.76;
   return 1.1;  // ideographs and whatever else
 }
@@ -128,7 +129,12 @@ std::string directed(double value, int decimals, Rounding rounding, bool scienti
   if (!wrong_side(text, value, rounding)) return text;
   const double exponent = scientific ? std::floor(std::log10(std::abs(value))) : 0;
   const double last_place = std::pow(10.0, exponent - decimals);
-  text = write(rounding == Rounding::down ? value - last_place : value + last_place);
+  // Half a unit further the nearest is the next on that side, where the sum is not rounded back.
+  for (const double units : {0.5, 1.0}) {
+    const double shift = rounding == Rounding::down ? -units * last_place : units * last_place;
+    text = write(value + shift);
+    if (!wrong_side(text, value, rounding)) break;
+  }
   return text;
 }
 
@@ -173,6 +179,11 @@ std::string xml_text(std::string_view text) {
 
 double text_width(std::string_view utf8) { return width_of(characters(utf8)); }
 
+double fitting_size(std::string_view utf8, double size, double width) {
+  const double one = text_width(utf8);
+  return one * size > width ? width / one : size;
+}
+
 std::string shortened(std::string_view utf8, double width) {
   const std::vector<char32_t> codes = characters(utf8);
   if (width_of(codes) <= width) return to_utf8(codes);
@@ -206,7 +217,8 @@ std::string file_name(std::string_view path) {
 
 int decimals_for(double size) {
   if (!(size > 0) || !std::isfinite(size)) return 6;
-  return std::clamp(7 - static_cast<int>(std::floor(std::log10(size))), 3, 14);
+  const int power = static_cast<int>(std::floor(std::log10(size)));
+  return power < 4 ? std::clamp(7 - power, 6, 14) : std::max(9 - power, 3);
 }
 
 std::string decimal(double value, int decimals, Rounding rounding) {

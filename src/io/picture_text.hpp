@@ -14,13 +14,16 @@ namespace lekalo::io::detail {
 /// Width of the text in multiples of the font size, in a wide sans-serif (others come out narrower): an
 /// estimate from above, because the font is the reader's.
 [[nodiscard]] double text_width(std::string_view utf8);
+/// The font size at which the text is at most `width` wide, at most `size`.
+[[nodiscard]] double fitting_size(std::string_view utf8, double size, double width);
 /// The text with its middle replaced by an ellipsis until it is at most `width` wide; the end keeps a little
 /// more than half, because names differ in their ends.
 [[nodiscard]] std::string shortened(std::string_view utf8, double width);
 /// The part of a path after the last folder.
 [[nodiscard]] std::string file_name(std::string_view path);
 
-/// Decimals that show lengths of a thing of this size, mm, to about seven digits of the size; 3 to 14.
+/// Decimals for lengths of a thing of this size, mm: 6 for the sizes of a workshop, more for smaller things,
+/// fewer (at least 3) where the numbers would grow too long.
 [[nodiscard]] int decimals_for(double size);
 /// Fixed-point decimal, rounded to nearest, down or up; never "-0". Numbers from 1e15 on, and ones too small
 /// to show a digit or to count zeros in, are written d.ddde-x. A dash for what is not finite.
