@@ -19,16 +19,29 @@ Result<Contour> as_convex(io::ContourFile file) {
   return contour;
 }
 
+/// File indices of points equal to the one before, and of closing points: what a contour drops that is not
+/// made convex by dropping collinear points.
+std::vector<std::size_t> repeated_points(const geom::Ring& points) {
+  std::size_t end = points.size();  // before the closing points
+  while (end > 1 && points[end - 1] == points[0]) --end;
+  std::vector<std::size_t> repeated;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (k >= end || points[k] == points[k - 1]) repeated.push_back(k);
+  }
+  return repeated;
+}
+
 Result<Contour> as_trimmed(io::ContourFile file, double tolerance) {
   Result<io::TrimmedContour> trimmed = io::trim_to_convex(file, tolerance);
   if (!trimmed) return tl::unexpected(trimmed.error());
   const std::size_t size = trimmed->polygon.size();
+  std::vector<std::size_t> repeated = repeated_points(file.points);
   Contour contour{std::move(file),
                   trimmed->polygon,
                   trimmed->coordinate_error,
                   std::vector<std::uint32_t>(size),
                   {},
-                  {},
+                  std::move(repeated),
                   io::TrimRecord{tolerance, trimmed->loss, trimmed->polygon.vertices()},
                   std::move(trimmed->notices)};
   std::iota(contour.vertex_in_result.begin(), contour.vertex_in_result.end(), 0U);

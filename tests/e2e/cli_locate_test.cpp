@@ -279,6 +279,17 @@ TEST_F(Plate, DentedProbingIsTrimmedInwardsAndTheLossReported) {
   EXPECT_EQ(verify("out.json"), 0);
 }
 
+TEST_F(Plate, TrimmedBlankListsItsRepeatedPoints) {
+  // A probing that rests (0 and 1), repeats itself (4 and 5) and closes twice (7 and 8): the self-check once
+  // missed these in the result.
+  write_bytes(folder_ / "blank.csv",
+              "100 100\n100 100\n145 100.25\n190 100\n190 150\n190 150\n100 150\n100 100\n100 100\n");
+  const Ran ran = locate({"--trim", "0.5", "--json", "-o", "out.json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["inputs"][1]["dropped"], Json::array({1, 5, 7, 8}));
+  EXPECT_EQ(verify("out.json"), 0);
+}
+
 TEST_F(Plate, InchesGiveTheSamePlacementInMillimetres) {
   write_bytes(folder_ / "part.csv", "0 0\n8 0\n8 4\n0 4\n");
   write_bytes(folder_ / "blank.csv", "10 10\n19 10\n19 15\n10 15\n");
