@@ -5,9 +5,8 @@
 
 namespace lekalo::geom::detail {
 
-/// The arithmetic tiers behind `turn`, each with its own entry so that tests can ask which one answered and
-/// hold each against the next. A tier that cannot decide answers kUndecided.
-inline constexpr int kUndecided = 2;
+/// The tiers of `turn` after turn_filter, each with its own entry so that tests can ask which one answered
+/// and hold each against the next. A tier that cannot decide answers kUndecided.
 
 [[nodiscard]] constexpr int sign_of(double v) noexcept { return (v > 0) - (v < 0); }
 
