@@ -11,6 +11,7 @@ set -euo pipefail
 
 source_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 cache=${LEKALO_RS274_DIR:-$source_root/build/rs274}
+case $cache in /*) ;; *) cache=$PWD/$cache ;; esac
 root=$cache/root
 
 # The interpreter and the libraries that a bare Debian 12 lacks. Python starts with it and needs its own library.
