@@ -118,11 +118,12 @@ std::vector<Piece> band_pieces(const Located& shapes, const View& view) {
     if (pieces.empty() || pieces.back().level != level) pieces.push_back({{from.at}, level});
     pieces.back().line.push_back(to.at);
   }
-  for (Piece& piece : pieces) {
-    Point& last = piece.line.back();
-    const Point along = last - piece.line[piece.line.size() - 2];
+  constexpr double kInto = 0.5;  // mm of paper, some pixels of a small picture
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Ring& next = pieces[i + 1 == pieces.size() ? 0 : i + 1].line;
+    const Point begin = next[0], along = next[1] - begin;
     const double length = geom::norm(along);
-    if (length > 0) last = last + (0.1 / length) * along;
+    if (length > 0) pieces[i].line.push_back(begin + std::min(1.0, kInto / length) * along);
   }
   return pieces;
 }
