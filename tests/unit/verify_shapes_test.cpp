@@ -279,6 +279,27 @@ TEST(VerifyShapes, nearly_opposite_edges_whose_third_weighs_less_than_nothing_st
   }
 }
 
+TEST(VerifyShapes, a_third_edge_along_an_opposite_pair_is_no_obstacle_while_it_weighs_nothing) {
+  // The lower side has a corner of 1e-15 in its middle, and the written third edge is its other half: all
+  // three edges are parallel but for that, and their exact weights are whatever the last digits say.
+  Files f = upright_squares();
+  f.blank = "[[0, 0.000000000000001], [5, 0], [12, 0.000000000000003], [12, 12], [0, 12]]";
+  f["inputs"] = inputs_json(4, 5);
+  f["clearance"] = "0.99999999999999";
+  f["upper_bound"] = "1.00000000000001";
+  f["gap"] = "2e-14";
+  f.certificate = {interval("0", "0", {{"0", "0", "0.5"}, {"2", "3", "0.5"}, {"3", "1", "0"}})};
+  EXPECT_EQ(verdict_of(f), Verdict::confirmed) << findings(check(f));
+  f["upper_bound"] = "0.99999999999999";
+  f["gap"] = "0";
+  EXPECT_EQ(verdict_of(f), Verdict::refuted);
+  // A multiplier that says the third edge matters is another matter.
+  f["upper_bound"] = "1.00000000000001";
+  f["gap"] = "2e-14";
+  f.certificate = {interval("0", "0", {{"0", "0", "0.4"}, {"2", "3", "0.5"}, {"3", "1", "0.1"}})};
+  EXPECT_EQ(verdict_of(f), Verdict::refuted);
+}
+
 // ---- trimmed blanks ---------------------------------------------------------------------------------------
 
 Files trimmed(const std::string& contour) {
