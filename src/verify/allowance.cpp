@@ -14,18 +14,13 @@ namespace {
 /// than 60 u; clamping to a segment moves its foot by a few u more. 128 u is stated.
 constexpr double kFilterError = 0x1p-46;
 
-struct Rotation {
-  Interval cosine, sine;
-};
-
-Rotation rotation(const Decimal& angle, mpfr_prec_t precision) {
-  const Interval exact(angle, precision + angle_bits(angle));
-  return {cosine(exact), sine(exact)};
+Turn rotation(const Decimal& angle, mpfr_prec_t precision) {
+  return turn_by(Interval(angle, precision + angle_bits(angle)));
 }
 
 /// direction x (R v + t - a), which is the distance times the direction's length.
 Interval scaled_distance(const Point& v, const Point& a, const Point& direction, const Point& shift,
-                         const Rotation& turn, mpfr_prec_t precision) {
+                         const Turn& turn, mpfr_prec_t precision) {
   return turn.cosine * Interval(cross(direction, v), precision) +
          turn.sine * Interval(dot(direction, v), precision) +
          Interval(cross(direction, shift - a), precision);
@@ -66,8 +61,7 @@ long bits(mpfr_srcptr value) { return mpfr_zero_p(value) != 0 ? 0 : mpfr_get_exp
 /// part points as intervals, and both as doubles in units of 2^scale, which makes them smaller than 1.
 class Scene {
  public:
-  Scene(const Outline& blank, const Outline& part, const Pose& pose, const Rotation& turn,
-        mpfr_prec_t precision)
+  Scene(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn, mpfr_prec_t precision)
       : blank_(blank), precision_(precision), origin_(blank.corner(0)) {
     const Interval tx(pose.shift.x - origin_.x, precision), ty(pose.shift.y - origin_.y, precision);
     for (const Point& v : part.points) {
@@ -157,7 +151,7 @@ Interval least_of(const std::vector<Interval>& values) {
 }
 
 /// Least signed distance from the hull's edges, each moved in by its dent when `dented`.
-Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Rotation& turn,
+Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
                       const Scene& scene, bool dented, mpfr_prec_t precision) {
   const auto row_distance = [&](std::size_t j) {
     FlatPoint normal;
@@ -227,7 +221,7 @@ Interval outline_distance(const Outline& blank, const Outline& part, const Scene
 }  // namespace
 
 Interval allowance(const Outline& blank, const Outline& part, const Pose& pose, mpfr_prec_t precision) {
-  const Rotation turn = rotation(pose.angle, precision);
+  const Turn turn = rotation(pose.angle, precision);
   const Scene scene(blank, part, pose, turn, precision);
   const Interval outer = line_minimum(blank, part, pose, turn, scene, false, precision);
   if (blank.convex()) return outer;

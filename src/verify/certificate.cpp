@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -12,8 +13,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Sentences about single intervals; a certificate may hold a million of them.
 constexpr std::size_t kMostComplaints = 20;
-/// Doubles hold products and squares of numbers with so many bits without overflow.
-constexpr std::size_t kFlatBits = 400;
+/// Enough for what is compared with a tolerance.
+constexpr mpfr_prec_t kRough = 64;
 
 /// NaN when the double nearest to the number is not finite or the number is too small for one.
 double nearest_double(std::string_view text) {
@@ -33,13 +34,22 @@ int compare_texts(std::string_view a, std::string_view b) {
   return compare(*parse_decimal(a), *parse_decimal(b));
 }
 
-bool small_enough(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 2) <= kFlatBits; }
+/// A few units in the last place that doubles have at the largest coordinate.
+Interval coordinate_roundoff(const Ring& points) {
+  Integer largest = 0;
+  for (const Point& p : points) largest = std::max<Integer>(largest, std::max<Integer>(abs(p.x), abs(p.y)));
+  return Interval(largest, kRough) / Interval(Integer(1) << 50, kRough);
+}
 
 }  // namespace
 
 CertificateCheck::CertificateCheck(const Outline& part, EdgeLines& edges, mpfr_prec_t precision,
                                    std::vector<std::string>& findings)
-    : part_(part), edges_(edges), precision_(precision), findings_(findings) {}
+    : part_(part),
+      edges_(edges),
+      precision_(precision),
+      findings_(findings),
+      roundoff_(coordinate_roundoff(edges.outline().points)) {}
 
 void CertificateCheck::say(const std::string& sentence) {
   if (++complaints_ <= kMostComplaints) {
@@ -50,14 +60,20 @@ void CertificateCheck::say(const std::string& sentence) {
 void CertificateCheck::add(const WrittenInterval& interval) {
   check_order(interval);
   if (const std::optional<Sinusoid> s = sinusoid(interval)) {
-    check_multipliers(interval, *s);
-    if (!bound_ || !(flat_bound(interval, *s) <= bound_->low_double())) {
-      const Interval exact = exact_bound(interval, *s);
+    if (may_raise_bound(interval, *s)) {
+      const Interval exact = bound_over(interval, *s, precision_);
       if (!bound_ || !certainly_not_above(exact, *bound_)) worst_ = count_;
       bound_ = bound_ ? maximum(*bound_, exact) : exact;
+      flat_bound_ = bound_->low_double(edges_.flat_scale());
     }
   }
   ++count_;
+}
+
+bool CertificateCheck::may_raise_bound(const WrittenInterval& interval, const Sinusoid& s) {
+  constexpr mpfr_prec_t kShort = 128;
+  return !bound_ || (!(flat_bound(interval, s) <= flat_bound_) &&
+                     !certainly_not_above(bound_over(interval, s, kShort), *bound_));
 }
 
 void CertificateCheck::check_order(const WrittenInterval& interval) {
@@ -79,44 +95,14 @@ void CertificateCheck::check_order(const WrittenInterval& interval) {
   if (count_ == 0 || compare_texts(interval.to, reach_) > 0) reach_ = interval.to;
 }
 
-bool CertificateCheck::weigh(Sinusoid& s) {
-  bool positive = false, negative = false;
-  for (std::size_t j = 0; j < 3; ++j) {
-    s.weights[j] = cross(s.edges[(j + 1) % 3]->direction, s.edges[(j + 2) % 3]->direction);
-    positive = positive || sgn(s.weights[j]) > 0;
-    negative = negative || sgn(s.weights[j]) < 0;
-  }
-  return !(positive && negative);
-}
-
-/// Weighs the three edges. Two that are opposite but for the last digits of the file leave the third next to
-/// no weight, and on which side of zero is beyond what its writer could know. A bound may be made of any
-/// edges, so an edge across the blank takes that place.
-bool CertificateCheck::balance(const WrittenInterval& interval, Sinusoid& s) {
-  if (weigh(s)) return true;
-  for (std::size_t j = 0; j < 3; ++j) {
-    if (!(interval.contacts[j].multiplier <= kMultiplierTolerance)) continue;
-    const EdgeLine* const written = s.edges[j];
-    const std::size_t count = edges_.outline().hull.size();
-    const std::size_t across =
-        lowest_corner(edges_.outline(), {-written->direction.x, -written->direction.y}, 0);
-    // The two hull edges at that corner, and one further on each side: the nearest may be a scrap of the pair
-    // itself.
-    for (const std::size_t corner : {across, across + count - 1, across + 1, across + count - 2}) {
-      s.edges[j] = &edges_.along_hull(corner);
-      if (weigh(s)) return true;
-    }
-    s.edges[j] = written;
-  }
-  return false;
-}
-
 std::optional<CertificateCheck::Sinusoid> CertificateCheck::sinusoid(const WrittenInterval& interval) {
-  Sinusoid s;
+  std::array<const EdgeLine*, 3> written{};
+  std::array<double, 3> multipliers{};
   for (std::size_t j = 0; j < 3; ++j) {
     const WrittenContact& contact = interval.contacts[j];
     std::string why;
-    s.edges[j] = edges_.find(contact.blank_edge, why);
+    written[j] = edges_.find(contact.blank_edge, why);
+    multipliers[j] = contact.multiplier;
     if (contact.part_vertex >= part_.points.size()) {
       why = fmt::format("part vertex {} does not exist, the part has {} points", contact.part_vertex,
                         part_.points.size());
@@ -126,41 +112,39 @@ std::optional<CertificateCheck::Sinusoid> CertificateCheck::sinusoid(const Writt
       return std::nullopt;
     }
   }
-  if (!balance(interval, s)) {
-    say("the inward normals of its blank edges do not balance, so they bound nothing");
-    return std::nullopt;
-  }
-  const int sign = sgn(s.weights[0]) + sgn(s.weights[1]) + sgn(s.weights[2]);
-  if (sign == 0) {
-    say("its three blank edges are parallel, so they bound nothing");
-    return std::nullopt;
-  }
+  Sinusoid s{intended_triple(written, multipliers, kMultiplierTolerance, edges_), 0, 0, 0};
+  if (!check_triple(interval, s.triple)) return std::nullopt;
   for (std::size_t j = 0; j < 3; ++j) {
-    if (sign < 0) s.weights[j] = -s.weights[j];
-    const EdgeLine& edge = *s.edges[j];
+    const EdgeLine& edge = *s.triple.edges[j];
+    const Integer& weight = s.triple.weights[j];
     const Point& v = part_.points[interval.contacts[j].part_vertex];
-    s.constant += s.weights[j] * (edge.outside - cross(edge.direction, edge.start));
-    s.cosine += s.weights[j] * cross(edge.direction, v);
-    s.sine += s.weights[j] * dot(edge.direction, v);
+    s.constant += weight * (edge.outside - cross(edge.direction, edge.start));
+    s.cosine += weight * cross(edge.direction, v);
+    s.sine += weight * dot(edge.direction, v);
   }
   return s;
 }
 
-void CertificateCheck::check_multipliers(const WrittenInterval& interval, const Sinusoid& s) {
-  constexpr mpfr_prec_t kEnough = 64;
-  std::array<Interval, 3> shares{Interval(kEnough), Interval(kEnough), Interval(kEnough)};
-  Interval sum(kEnough);
-  for (std::size_t j = 0; j < 3; ++j) {
-    shares[j] = Interval(s.weights[j], kEnough) * s.edges[j]->short_length;
-    sum = sum + shares[j];
+bool CertificateCheck::check_triple(const WrittenInterval& interval, const EdgeTriple& triple) {
+  switch (triple.balance) {
+    case EdgeTriple::Balance::parallel:
+      say("its three blank edges are parallel, so they bound nothing");
+      return false;
+    case EdgeTriple::Balance::opposed:
+      say("the inward normals of its blank edges do not balance, so they bound nothing");
+      return false;
+    case EdgeTriple::Balance::holds:
+      break;
   }
   for (std::size_t j = 0; j < 3; ++j) {
-    const double multiplier = (shares[j] / sum).low_double();
     const double written = interval.contacts[j].multiplier;
-    if (!(std::abs(written - multiplier) <= kMultiplierTolerance)) {
-      say(fmt::format("multiplier {} is written as {}, but the edges give {}", j, written, multiplier));
+    const double difference = std::abs(written - triple.shares[j]);
+    if (!(difference <= kMultiplierTolerance) &&
+        !(difference <= kMultiplierTolerance + triple.sensitivity(roundoff_))) {
+      say(fmt::format("multiplier {} is written as {}, but the edges give {}", j, written, triple.shares[j]));
     }
   }
+  return true;
 }
 
 const CertificateCheck::FlatTurn& CertificateCheck::flat_turn(std::string_view angle) {
@@ -186,22 +170,18 @@ const CertificateCheck::FlatTurn& CertificateCheck::flat_turn(std::string_view a
 }
 
 double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinusoid& s) {
-  for (const Integer* value : {&s.constant, &s.cosine, &s.sine}) {
-    if (!small_enough(*value)) return kInfinity;
-  }
+  const long scale = std::max({bits_of(s.constant), bits_of(s.cosine), bits_of(s.sine)});
+  const long weight_scale =
+      std::max({bits_of(s.triple.weights[0]), bits_of(s.triple.weights[1]), bits_of(s.triple.weights[2])});
   Span divisor;
   bool true_edges = true;
   for (std::size_t j = 0; j < 3; ++j) {
-    const EdgeLine& edge = *s.edges[j];
-    if (!small_enough(s.weights[j]) || !small_enough(edge.direction.x) || !small_enough(edge.direction.y)) {
-      return kInfinity;
-    }
-    divisor = divisor + to_span(s.weights[j]) * edge.flat_length;
-    true_edges = true_edges && edge.outside == 0;
+    divisor = divisor + to_span(s.triple.weights[j], weight_scale) * s.triple.edges[j]->flat_length;
+    true_edges = true_edges && s.triple.edges[j]->outside == 0;
   }
   if (!(divisor.low > 0)) return kInfinity;
 
-  const Span k = to_span(s.constant), a = to_span(s.cosine), b = to_span(s.sine);
+  const Span k = to_span(s.constant, scale), a = to_span(s.cosine, scale), b = to_span(s.sine, scale);
   const FlatTurn from = flat_turn(interval.from), to = flat_turn(interval.to);
   const Span slope_from = b * from.cosine - a * from.sine, slope_to = b * to.cosine - a * to.sine;
   const bool narrow = to.nearest - from.nearest < 3;
@@ -212,40 +192,45 @@ double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinus
       no_crest ? Span{std::max(at_from.low, at_to.low), std::max(at_from.high, at_to.high)} : crest;
   const Span sum = k + top;
   if (sum.high < 0 && !true_edges) return kInfinity;  // the spread of the lines counts
-  return (sum / divisor).high;
+  const long places = std::clamp(scale - weight_scale - 2 * edges_.flat_scale(), -4000L, 4000L);
+  return std::nextafter(std::ldexp((sum / divisor).high, static_cast<int>(places)), kInfinity);
 }
 
-Interval CertificateCheck::exact_bound(const WrittenInterval& interval, const Sinusoid& s) const {
-  const Decimal from = *parse_decimal(interval.from), to = *parse_decimal(interval.to);
-  const Decimal width = to - from;
-  const Interval a(s.cosine, precision_), b(s.sine, precision_);
+Turn CertificateCheck::turn_at(std::string_view angle, mpfr_prec_t precision) {
+  if (last_turn_ && last_angle_ == angle && last_turn_->sine.precision() >= precision) return *last_turn_;
+  const Decimal exact = *parse_decimal(angle);
+  last_turn_ = turn_by(Interval(exact, precision + angle_bits(exact)));
+  last_angle_ = angle;
+  return *last_turn_;
+}
+
+Interval CertificateCheck::bound_over(const WrittenInterval& interval, const Sinusoid& s,
+                                      mpfr_prec_t precision) {
+  const Interval a(s.cosine, precision), b(s.sine, precision);
   const Interval crest = square_root(square(a) + square(b));
-  // Below pi wide, the crest is inside just when the curve rises at the start and falls at the end. So wide
-  // intervals are looked at in thirds, and those beyond a full turn hold the crest.
-  Interval top = crest;
-  if (compare(width, Decimal{9, 0}) < 0) {
-    const int pieces = compare(width, Decimal{3, 0}) < 0 ? 1 : 3;
-    const mpfr_prec_t wide = precision_ + angle_bits(from) + angle_bits(to);
-    const Interval start(from, wide), step = Interval(width, wide) / Interval(Integer(pieces), wide);
-    for (int i = 0; i < pieces; ++i) {
-      const Interval left = start + Interval(Integer(i), wide) * step;
-      const Interval right =
-          i + 1 == pieces ? Interval(to, wide) : start + Interval(Integer(i + 1), wide) * step;
-      const Interval cos_left = cosine(left), sin_left = sine(left), cos_right = cosine(right),
-                     sin_right = sine(right);
-      const bool no_crest = certainly_negative(b * cos_left - a * sin_left) ||
-                            certainly_positive(b * cos_right - a * sin_right);
-      const Interval piece =
-          no_crest ? maximum(a * cos_left + b * sin_left, a * cos_right + b * sin_right) : crest;
-      top = i == 0 ? piece : maximum(top, piece);
-    }
+  // Below pi wide, the crest is inside just when the curve rises at the start and falls at the end.
+  const auto narrow_top = [&](const Turn& from, const Turn& to) {
+    const bool no_crest = certainly_negative(b * from.cosine - a * from.sine) ||
+                          certainly_positive(b * to.cosine - a * to.sine);
+    return no_crest ? maximum(a * from.cosine + b * from.sine, a * to.cosine + b * to.sine) : crest;
+  };
+  const Turn from = turn_at(interval.from, precision), to = turn_at(interval.to, precision);
+  const Decimal begin = *parse_decimal(interval.from), width = *parse_decimal(interval.to) - begin;
+  Interval top = crest;  // beyond a full turn
+  if (compare(width, Decimal{3, 0}) < 0) {
+    top = narrow_top(from, to);
+  } else if (compare(width, Decimal{9, 0}) < 0) {
+    const mpfr_prec_t wide = precision + angle_bits(begin) + angle_bits(width);
+    const Interval start(begin, wide), third = Interval(width, wide) / Interval(Integer(3), wide);
+    const Turn first = turn_by(start + third), second = turn_by(start + third + third);
+    top = maximum(narrow_top(from, first), maximum(narrow_top(first, second), narrow_top(second, to)));
   }
-  Interval divisor(precision_), spread(Integer(1), precision_);
+  Interval divisor(precision), spread(Integer(1), precision);
   for (std::size_t j = 0; j < 3; ++j) {
-    divisor = divisor + Interval(s.weights[j], precision_) * s.edges[j]->length;
-    spread = maximum(spread, s.edges[j]->spread);
+    divisor = divisor + Interval(s.triple.weights[j], precision) * s.triple.edges[j]->length;
+    spread = maximum(spread, s.triple.edges[j]->spread);
   }
-  const Interval bound = (Interval(s.constant, precision_) + top) / divisor;
+  const Interval bound = (Interval(s.constant, precision) + top) / divisor;
   return certainly_negative(bound) ? bound / spread : bound;
 }
 

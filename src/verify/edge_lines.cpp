@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lekalo::verify {
@@ -24,6 +25,8 @@ EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropp
     if (!dropped_[i % n]) kept = i % n;
   }
   for (std::size_t j = 0; j < blank.hull.size(); ++j) {
+    const Point side = blank.side(j);
+    flat_scale_ = std::max({flat_scale_, bits_of(side.x), bits_of(side.y)});
     const std::size_t to = blank.hull[(j + 1) % blank.hull.size()];
     for (std::size_t i = blank.hull[j]; i != to;) {
       under_[i] = j;
@@ -61,7 +64,7 @@ EdgeLine EdgeLines::measure(const Point& from, const Point& to, std::size_t near
   const Integer squared = dot(line.direction, line.direction);
   line.length = square_root(Interval(squared, precision_));
   line.short_length = square_root(Interval(squared, 64));
-  line.flat_length = {line.length.low_double(), line.length.high_double()};
+  line.flat_length = {line.length.low_double(flat_scale_), line.length.high_double(flat_scale_)};
   const std::size_t lowest = lowest_corner(blank_, line.direction, near);
   line.outside = -cross(line.direction, blank_.corner(lowest) - line.start);
   if (line.outside == 0) return line;

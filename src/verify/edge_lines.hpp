@@ -23,7 +23,7 @@ struct EdgeLine {
   Integer outside;
   Interval length, spread;  ///< spread is exactly 1 when outside is 0
   Interval short_length;    ///< length in 64 bits
-  Span flat_length;         ///< length in doubles
+  Span flat_length;         ///< length in doubles, in units of 2^EdgeLines::flat_scale()
 };
 
 /// The edges of a blank as a result names them, each measured when first asked for. The list of dropped
@@ -37,6 +37,8 @@ class EdgeLines {
   /// Hull edge j (cyclic), whether or not a file edge runs along it.
   [[nodiscard]] const EdgeLine& along_hull(std::size_t j);
   [[nodiscard]] const Outline& outline() const { return blank_; }
+  /// About the size of the blank: 2^flat_scale() makes lengths doubles of moderate size, whatever the units.
+  [[nodiscard]] long flat_scale() const { return flat_scale_; }
   /// File index of the next point that was not dropped.
   [[nodiscard]] std::size_t next_kept(std::size_t k) const { return next_kept_[k]; }
 
@@ -46,6 +48,7 @@ class EdgeLines {
 
   const Outline& blank_;
   mpfr_prec_t precision_;
+  long flat_scale_ = 0;
   std::vector<bool> dropped_;
   std::vector<std::size_t> next_kept_;               ///< per file point
   std::vector<std::size_t> under_;                   ///< per file point: hull edge it lies under

@@ -120,33 +120,23 @@ Interval square(const Interval& a) {
   return result;
 }
 
-namespace {
-
-/// f over a, for an f that changes by at most as much as its argument: f(low) and the width on both sides.
-template <class Function>
-void widened(Function f, const Interval& a, mpfr_ptr low, mpfr_ptr high) {
-  f(low, a.low(), MPFR_RNDD);
-  f(high, a.low(), MPFR_RNDU);
-  mpfr_t width;
-  mpfr_init2(width, a.precision());
-  mpfr_sub(width, a.high(), a.low(), MPFR_RNDU);
-  mpfr_sub(low, low, width, MPFR_RNDD);
-  mpfr_add(high, high, width, MPFR_RNDU);
-  mpfr_clear(width);
-}
-
-}  // namespace
-
-Interval sine(const Interval& a) {
-  Interval result(a.precision());
-  widened(mpfr_sin, a, result.low_, result.high_);
-  return result;
-}
-
-Interval cosine(const Interval& a) {
-  Interval result(a.precision());
-  widened(mpfr_cos, a, result.low_, result.high_);
-  return result;
+Turn turn_by(const Interval& angle) {
+  Turn turn{Interval(angle.precision()), Interval(angle.precision())};
+  Interval &c = turn.cosine, &s = turn.sine;
+  mpfr_sin_cos(s.low_, c.low_, angle.low_, MPFR_RNDN);
+  mpfr_set(s.high_, s.low_, MPFR_RNDN);
+  mpfr_set(c.high_, c.low_, MPFR_RNDN);
+  if (mpfr_zero_p(angle.low_) != 0 && mpfr_zero_p(angle.high_) != 0) return turn;
+  // One step for the rounding; and neither changes by more than the angle does.
+  Interval width(angle.precision());
+  mpfr_sub(width.high_, angle.high_, angle.low_, MPFR_RNDU);
+  for (Interval* value : {&c, &s}) {
+    mpfr_nextbelow(value->low_);
+    mpfr_nextabove(value->high_);
+    mpfr_sub(value->low_, value->low_, width.high_, MPFR_RNDD);
+    mpfr_add(value->high_, value->high_, width.high_, MPFR_RNDU);
+  }
+  return turn;
 }
 
 Interval minimum(const Interval& a, const Interval& b) {
@@ -168,6 +158,18 @@ Interval hull(const Interval& a, const Interval& b) {
   mpfr_min(result.low_, a.low_, b.low_, MPFR_RNDD);
   mpfr_max(result.high_, a.high_, b.high_, MPFR_RNDU);
   return result;
+}
+
+double Interval::high_double(long scale) const {
+  Interval scaled = *this;
+  mpfr_div_2si(scaled.high_, scaled.high_, scale, MPFR_RNDU);
+  return mpfr_get_d(scaled.high_, MPFR_RNDU);
+}
+
+double Interval::low_double(long scale) const {
+  Interval scaled = *this;
+  mpfr_div_2si(scaled.low_, scaled.low_, scale, MPFR_RNDD);
+  return mpfr_get_d(scaled.low_, MPFR_RNDD);
 }
 
 std::string Interval::low_text() const { return decimal_text(low_, "%.30RDg"); }

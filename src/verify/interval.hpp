@@ -34,8 +34,7 @@ class Interval {
   /// Of the part that is not negative; [0, 0] when there is none.
   friend Interval square_root(const Interval& a);
   friend Interval square(const Interval& a);
-  friend Interval sine(const Interval& a);
-  friend Interval cosine(const Interval& a);
+  friend struct Turn turn_by(const Interval& angle);
   /// Holds min(x, y) for every x in a, y in b.
   friend Interval minimum(const Interval& a, const Interval& b);
   friend Interval maximum(const Interval& a, const Interval& b);
@@ -54,12 +53,19 @@ class Interval {
   /// 30 significant decimal digits, at or below low, at or above high.
   [[nodiscard]] std::string low_text() const;
   [[nodiscard]] std::string high_text() const;
-  /// A double at or above high.
-  [[nodiscard]] double high_double() const { return mpfr_get_d(high_, MPFR_RNDU); }
-  [[nodiscard]] double low_double() const { return mpfr_get_d(low_, MPFR_RNDD); }
+  /// A double at or above high / 2^scale, at or below low / 2^scale.
+  [[nodiscard]] double high_double(long scale = 0) const;
+  [[nodiscard]] double low_double(long scale = 0) const;
 
  private:
   mpfr_t low_, high_;
 };
+
+struct Turn {
+  Interval cosine, sine;
+};
+
+/// Exactly (1, 0) for the angle 0, the only written angle where either is rational.
+[[nodiscard]] Turn turn_by(const Interval& angle);
 
 }  // namespace lekalo::verify

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "edge_lines.hpp"
+
+namespace lekalo::verify {
+
+/// Three blank edges that bound the allowance together, once they balance: for edges e1, e2, e3 the numbers
+/// e2 x e3, e3 x e1, e1 x e2 make the sum of (number x edge) zero. When they agree in sign they weigh the
+/// three distances so that a shift of the part cancels.
+struct EdgeTriple {
+  enum class Balance { holds, parallel, opposed };
+
+  std::array<const EdgeLine*, 3> edges{};
+  std::array<Integer, 3> weights;  ///< when the balance holds: not negative, not all zero
+  std::array<double, 3> shares{};  ///< weights x lengths, of their sum: the multipliers, near enough
+  Balance balance = Balance::parallel;
+
+  explicit EdgeTriple(const std::array<const EdgeLine*, 3>& three);
+  /// Largest difference of a share from the multiplier written for it.
+  [[nodiscard]] double disagreement(const std::array<double, 3>& multipliers) const;
+  /// What an error of `roundoff` in each coordinate of the edges' ends makes of a share, about.
+  [[nodiscard]] double sensitivity(const Interval& roundoff) const;
+};
+
+/// The triple that a certificate means by its edges and multipliers.
+///
+/// Where a multiplier is next to nothing, the other two edges are opposite but for the last digits of the
+/// file, and the third carries what those digits leave: which edge is fit for that, and whether it does not
+/// itself run along the pair, is beyond what its writer could know. Any three edges that balance make a true
+/// bound, so there a hull edge across the pair takes its place when that fits the written multipliers better.
+[[nodiscard]] EdgeTriple intended_triple(const std::array<const EdgeLine*, 3>& written,
+                                         const std::array<double, 3>& multipliers, double tolerance,
+                                         EdgeLines& edges);
+
+}  // namespace lekalo::verify
