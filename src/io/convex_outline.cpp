@@ -53,11 +53,11 @@ class HullChords {
 
   /// Whether all corners strictly between corners i and j > i lie within the tolerance of their segment.
   [[nodiscard]] bool straight(std::size_t i, std::size_t j) const {
-    if (j - i < 2) return true;
-    for (const std::size_t k : {i + 1, farthest(i, j), j - 1}) {
-      if (!(distance_to_segment_up(corner(k), corner(i), corner(j)) <= tolerance_)) return false;
-    }
-    return true;
+    const auto near = [&](std::size_t k) {
+      return distance_to_segment_up(corner(k), corner(i), corner(j)) <= tolerance_;
+    };
+    if (j - i <= 2) return j - i < 2 || near(i + 1);
+    return near(farthest(i, j)) && near(i + 1) && near(j - 1);
   }
 
   /// The largest j <= last with straight(i, j): what lies between a chord and a convex ring only grows with

@@ -126,20 +126,20 @@ std::optional<geom::ConvexPolygon> rounded_polygon(const std::vector<ExactishPoi
   return *std::move(polygon);
 }
 
-/// Every vertex lies beyond every side's deepest point by at least `margin`. The vertex nearest to a side
-/// moves on around the polygon as the sides do: O(sides + vertices).
-bool is_beyond(const geom::ConvexPolygon& polygon, const std::vector<Side>& sides, double margin) {
+/// Every vertex lies beyond every side's deepest point, also when it comes `slack` short of the half planes.
+/// The vertex nearest to a side moves on around the polygon as the sides do: O(sides + vertices).
+bool is_beyond(const geom::ConvexPolygon& polygon, const std::vector<Side>& sides,
+               const std::vector<HalfPlane>& planes, double slack) {
+  const auto nearer = [&](const Side& side, std::size_t i, std::size_t j) {
+    return geom::turn(side.from, side.to, polygon[j], polygon[i]) < 0;
+  };
   std::size_t nearest = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    if (geom::turn(sides[0].from, sides[0].to, polygon[nearest], polygon[i]) < 0) nearest = i;
-  }
-  for (const Side& side : sides) {
-    while (geom::turn(side.from, side.to, polygon[nearest], polygon[polygon.next(nearest)]) < 0) {
-      nearest = polygon.next(nearest);
-    }
+  for (std::size_t i = 0; i < polygon.size(); ++i) nearest = nearer(sides[0], i, nearest) ? i : nearest;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    while (nearer(sides[k], polygon.next(nearest), nearest)) nearest = polygon.next(nearest);
     const Point v = polygon[nearest];
-    if (geom::turn(side.from, side.to, side.deepest_point, v) <= 0) return false;
-    if (!(HalfPlane(side, margin).excess({{v.x, 0}, {v.y, 0}}).hi >= 0)) return false;
+    if (geom::turn(sides[k].from, sides[k].to, sides[k].deepest_point, v) <= 0) return false;
+    if (!(planes[k].excess({{v.x, 0}, {v.y, 0}}).hi >= -slack)) return false;
   }
   return true;
 }
@@ -193,7 +193,7 @@ Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance)
     for (const Side& side : measured.sides) planes.emplace_back(side, margin);
     auto polygon = rounded_polygon(common_part(planes));
     if (!polygon) break;
-    if (!is_beyond(*polygon, measured.sides, needed)) continue;
+    if (!is_beyond(*polygon, measured.sides, planes, margin - needed)) continue;
     const double error = written_error(polygon->vertices());
     const double loss = sum_rounded_up({worst.depth, measured.outside, margin, 2 * rounding});
     std::string notice =
