@@ -16,6 +16,8 @@ packages=(
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
   libgtest-dev
+  python3            # a third opinion on results, written by a stranger
+  fonts-dejavu-core  # texts in PNG pictures, Cyrillic too
 )
 full_packages=(clang libclang-rt-14-dev llvm libbenchmark-dev)
 
