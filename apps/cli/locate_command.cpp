@@ -99,19 +99,13 @@ std::vector<io::InputRecord> input_records(const LocateOptions& o, const Inputs&
   return records;
 }
 
-/// A path that is not UTF-8 cannot stand in JSON as it is.
-bool survives_json(const std::string& path) {
-  return io::json_string(path).find("\xEF\xBF\xBD") == std::string::npos ||
-         path.find("\xEF\xBF\xBD") != std::string::npos;
-}
-
 std::vector<std::string> first_warnings(const LocateOptions& o, const Inputs& in) {
   std::vector<std::string> warnings = o.warnings;
   warnings.insert(warnings.end(), in.part.notices.begin(), in.part.notices.end());
   warnings.insert(warnings.end(), in.blank.notices.begin(), in.blank.notices.end());
   for (const std::string& path : {o.part, o.blank, o.nc, o.compare, o.nc_out, o.certificate, o.deviations}) {
-    if (!survives_json(path)) {
-      warnings.push_back("the file name " + path +
+    if (io::as_utf8(path) != path) {
+      warnings.push_back("the file name " + io::as_utf8(path) +
                          " is not UTF-8, so the result holds it with replaced characters and verify must be "
                          "told where the file is");
     }
@@ -244,18 +238,23 @@ Result<void> add_picture(const LocateOptions& o, const Inputs& in, const Solutio
   if (o.picture.empty()) return {};
   io::LocatePicture picture;
   picture.title = "lekalo locate";
-  picture.part_name = o.part;
-  picture.blank_name = o.blank;
+  picture.part_name = io::as_utf8(o.part);
+  picture.blank_name = io::as_utf8(o.blank);
   picture.method = product.document.method;
   picture.status = product.document.status;
   picture.part = in.part.polygon.vertices();
   picture.blank = in.blank.polygon.vertices();
+  if (in.last) picture.start = in.last->placement;
   picture.result = found.best;
+  picture.min_allowance = product.document.min_allowance;
+  picture.shortfall = product.document.shortfall;
   picture.has_upper_bound = found.upper_bound.has_value();
   picture.upper_bound = found.upper_bound.value_or(0);
   picture.min_allowance = o.min_allowance;
   picture.shortfall = product.document.shortfall;
   picture.contacts = found.polygon_contacts;
+  picture.vertex_numbers = in.part.vertex_in_result;
+  picture.edge_numbers = in.blank.edge_in_result;
   picture.vertex_numbers = in.part.vertex_in_result;
   picture.edge_numbers = in.blank.edge_in_result;
   if (in.last) picture.start = in.last->placement;

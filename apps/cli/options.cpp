@@ -239,7 +239,7 @@ void add_search_options(CLI::App& locate, LocateWords& w) {
   add("--min-allowance", w.min_allowance, "MM", "Least material demanded between part and blank surface [0]");
   locate.add_option("--window", w.window, "Only angles from the first to the second, degrees [0 360]")
       ->expected(2)
-      ->type_name("DEG DEG")
+      ->type_name("DEG")
       ->group("How to search");
   add("--gap", w.gap, "MM", "Stop when no other placement can be better by more than this [1e-9]");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
@@ -349,10 +349,12 @@ Result<Command> parse_command_line(int argc, char** argv) {
   } catch (const CLI::CallForHelp&) {
     return PrintText{app.help()};
   } catch (const CLI::RequiredError& error) {
-    const bool unknown = argc > 1 && app.get_subcommands().empty();
-    return failure(ErrorCode::usage,
-                   unknown ? fmt::format("there is no command \"{}\" (see lekalo --help)", argv[1])
-                           : sentence(error.what()) + " (see lekalo --help)");
+    if (!app.get_subcommands().empty()) {
+      return failure(ErrorCode::usage, sentence(error.what()) + " (see lekalo --help)");
+    }
+    const std::string given =
+        argc > 1 ? fmt::format("there is no command \"{}\"", argv[1]) : "a command is missing";
+    return failure(ErrorCode::usage, given + ", only locate, verify and completion (see lekalo --help)");
   } catch (const CLI::ParseError& error) {
     return failure(ErrorCode::usage, sentence(error.what()) + " (see lekalo --help)");
   }

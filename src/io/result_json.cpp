@@ -264,6 +264,8 @@ std::string json_string(std::string_view text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string as_utf8(std::string_view text) { return Json::parse(json_string(text)).get<std::string>(); }
+
 std::string result_json(const LocateDocument& d) {
   ObjectText out;
   append_head(out, d);

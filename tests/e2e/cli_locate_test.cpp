@@ -404,11 +404,25 @@ TEST_F(Plate, OptionsWithoutEffectAreNamed) {
   EXPECT_NE(ran.json()["warnings"][0].get<std::string>().find("--starts"), std::string::npos);
 }
 
+TEST_F(Plate, PictureNumbersContactsLikeTheResult) {
+  // Clockwise and with a repeated first point, so that no index of the solver is that of the file.
+  write_bytes(folder_ / "part.csv", "0 0\n0 0\n0 40\n80 40\n80 0\n");
+  write_bytes(folder_ / "blank.csv", "100 100\n100 100\n100 150\n190 150.5\n190 100\n");
+  const Ran ran = locate({"--json", "--picture", "out.svg"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string picture = read_bytes(folder_ / "out.svg");
+  ASSERT_FALSE(ran.json()["contacts"].empty());
+  for (const Json& contact : ran.json()["contacts"]) {
+    const std::string label = "v" + contact["part_vertex"].dump() + " e" + contact["blank_edge"].dump();
+    EXPECT_NE(picture.find(label), std::string::npos) << label;
+  }
+}
+
 TEST_F(Plate, NamesThatAreNotUtf8Work) {
   const std::string name = "bl\xe4nk.csv";  // Latin-1
   write_bytes(folder_ / name, kPlateBlank);
-  const Ran ran = run(folder_.path(),
-                      {"locate", "--part", "part.csv", "--blank", name, "-o", "r\xe9sult.json", "--json"});
+  const Ran ran = run(folder_.path(), {"locate", "--part", "part.csv", "--blank", name, "-o",
+                                       "r\xe9sult.json", "--json", "--picture", "p.svg"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.json()["inputs"][1]["path"], "bl\xEF\xBF\xBDnk.csv");
   EXPECT_EQ(ran.json()["warnings"].size(), 1U);

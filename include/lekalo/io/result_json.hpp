@@ -119,6 +119,9 @@ struct WrittenResult {
 /// bad_input, naming the file and the field, when this is not a result of `lekalo locate` of this version.
 [[nodiscard]] Result<WrittenResult> read_result(std::string_view bytes, const std::string& name);
 
+/// The text itself where it is UTF-8, else with U+FFFD for what is not.
+[[nodiscard]] std::string as_utf8(std::string_view text);
+
 /// JSON text of a string; bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string json_string(std::string_view text);
 
