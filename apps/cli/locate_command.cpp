@@ -250,14 +250,9 @@ Result<void> add_picture(const LocateOptions& o, const Inputs& in, const Solutio
   picture.shortfall = product.document.shortfall;
   picture.has_upper_bound = found.upper_bound.has_value();
   picture.upper_bound = found.upper_bound.value_or(0);
-  picture.min_allowance = o.min_allowance;
-  picture.shortfall = product.document.shortfall;
   picture.contacts = found.polygon_contacts;
   picture.vertex_numbers = in.part.vertex_in_result;
   picture.edge_numbers = in.blank.edge_in_result;
-  picture.vertex_numbers = in.part.vertex_in_result;
-  picture.edge_numbers = in.blank.edge_in_result;
-  if (in.last) picture.start = in.last->placement;
   if (o.picture.ends_with(".svg")) {
     product.picture_bytes = io::picture_svg(picture);
     return {};
