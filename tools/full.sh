@@ -74,6 +74,7 @@ step clang few_cases clang
 step asan few_cases asan
 step tsan few_cases tsan
 step fuzz fuzz_all
+step bench "$root/bench/run.sh"
 step demo "$root/demo.sh"
 
 note ""
