@@ -47,7 +47,7 @@ else
   fail "set-up: missing Debian packages (${missing[*]}): run this as root or with sudo, or install them with 'apt-get install --no-install-recommends ${missing[*]}'."
 fi
 
-log=$(mktemp "${TMPDIR:-/tmp}/lekalo-setup.XXXXXX")
+log=$(mktemp)
 trap 'rm -f -- "$log"' EXIT
 
 apt() {
