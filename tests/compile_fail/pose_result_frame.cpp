@@ -11,4 +11,6 @@ using Named = Pose<BlankFrame, PartFrame>;
 using Named = Pose<PartFrame, BlankFrame>;
 #endif
 
-Named part_from_blank(const Pose<BlankFrame, PartFrame>& blank_from_part) { return blank_from_part.inverse(); }
+Named part_from_blank(const Pose<BlankFrame, PartFrame>& blank_from_part) {
+  return blank_from_part.inverse();
+}
