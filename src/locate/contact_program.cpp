@@ -27,7 +27,7 @@ constexpr int kMostPivots = 2000;
 
 /// The same direction in [0, 2 pi).
 double wrap(double direction) {
-  direction -= kTwoPi * static_cast<double>(static_cast<int>(direction / kTwoPi));
+  direction -= kTwoPi * static_cast<double>(static_cast<int>(direction * (1 / kTwoPi)));
   if (direction < 0) direction += kTwoPi;
   return direction >= kTwoPi ? 0.0 : direction;
 }
@@ -75,6 +75,8 @@ void ContactProgram::collect_edges(const geom::Ring& blank) {
     offset_.push_back(dot(normal, blank[k]));
     normal_direction_.push_back(wrap(geom::direction_angle(normal.x, normal.y)));
   }
+  lowest_direction_ = static_cast<std::size_t>(
+      std::min_element(normal_direction_.begin(), normal_direction_.end()) - normal_direction_.begin());
   row_of_edge_.assign(n, kNoRow);
 }
 
@@ -87,20 +89,17 @@ void ContactProgram::choose_first_rows() {
   } else {
     // The first edge beyond each of some directions, and the one before it: no gap between neighbouring
     // normals is larger than in the whole blank, so the chosen ones span the plane positively too.
-    const auto first = static_cast<std::size_t>(
-        std::min_element(normal_direction_.begin(), normal_direction_.end()) - normal_direction_.begin());
-    std::size_t j = 0;
     for (int d = 0; d < kFirstDirections; ++d) {
-      while (j < n && normal_direction_[(first + j) % n] < d * kTwoPi / kFirstDirections) ++j;
-      chosen.push_back(static_cast<std::uint32_t>((first + j) % n));
-      chosen.push_back(static_cast<std::uint32_t>((first + j + n - 1) % n));
+      const std::size_t beyond = edge_beyond(d * kTwoPi / kFirstDirections);
+      chosen.push_back(static_cast<std::uint32_t>(beyond));
+      chosen.push_back(static_cast<std::uint32_t>((beyond + n - 1) % n));
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   }
+  first_edges_ = chosen;
   for (const std::uint32_t k : chosen) add_row(k);
   place(Angle::of(0));
-  first_edges_ = chosen;
 
   // Edge e0, the last edge turned by less than a half turn from it, and the next one.
   const std::size_t count = chosen.size();
@@ -114,6 +113,20 @@ void ContactProgram::choose_first_rows() {
   for (std::size_t j = 0; j < 3; ++j) tableau.row[j] = row_of_edge_[edges[j]];
   meet(tableau);
   first_basis_ = basis_of(tableau);
+}
+
+std::size_t ContactProgram::edge_beyond(double direction) const {
+  const std::size_t n = normal_direction_.size();
+  std::size_t low = 0, high = n;  // counted from lowest_direction_
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (normal_direction_[(lowest_direction_ + middle) % n] < direction) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return (lowest_direction_ + low) % n;
 }
 
 std::uint32_t ContactProgram::add_row(std::uint32_t edge) {
@@ -166,12 +179,11 @@ std::uint32_t ContactProgram::outermost_vertex(double qx, double qy, std::size_t
   return vertex;
 }
 
-void ContactProgram::change_vertex(std::size_t row, const Angle& angle) {
+void ContactProgram::change_vertex(std::size_t row, const Angle& angle, std::uint32_t hint) {
   const double c = angle.direction.cosine, s = angle.direction.sine;
   const double nx = row_nx_[row], ny = row_ny_[row];
   const std::uint32_t edge = row_edge_[row];
-  const std::uint32_t vertex =
-      outermost_vertex(c * nx + s * ny, c * ny - s * nx, edge, angle.theta, row_vertex_[row]);
+  const std::uint32_t vertex = outermost_vertex(c * nx + s * ny, c * ny - s * nx, edge, angle.theta, hint);
   row_vertex_[row] = vertex;
   row_cosine_[row] = nx * vertex_x_[vertex] + ny * vertex_y_[vertex];
   row_sine_[row] = ny * vertex_x_[vertex] - nx * vertex_y_[vertex];
@@ -190,8 +202,11 @@ void ContactProgram::change_vertex(std::size_t row, const Angle& angle) {
 void ContactProgram::place(const Angle& angle, std::size_t first) {
   const double c = angle.direction.cosine, s = angle.direction.sine, theta = angle.theta;
   const std::size_t count = row_edge_.size();
+  // Rows of all edges stand in order: the vertex of one is at most a few steps from that of the one before.
+  const bool in_order = count == normal_x_.size() && count == first_edges_.size();
   for (std::size_t row = first; row < count; ++row)
-    if (!(row_from_[row] <= theta && theta <= row_to_[row])) change_vertex(row, angle);
+    if (!(row_from_[row] <= theta && theta <= row_to_[row]))
+      change_vertex(row, angle, row_vertex_[in_order && row > 0 ? row - 1 : row]);
   for (std::size_t row = first; row < count; ++row)
     row_open_[row] = row_cosine_[row] * c + row_sine_[row] * s - row_offset_[row];
 }
@@ -349,18 +364,50 @@ bool ContactProgram::add_violated(const Angle& angle, Point shift, double value)
   return true;
 }
 
+void ContactProgram::add_contact(Basis& basis, std::size_t j, std::uint32_t edge, std::uint32_t vertex,
+                                 double lambda) const {
+  const double nx = normal_x_[edge], ny = normal_y_[edge], vx = vertex_x_[vertex], vy = vertex_y_[vertex];
+  basis.edge[j] = edge, basis.vertex[j] = vertex, basis.lambda[j] = lambda;
+  basis.bound.mean -= lambda * offset_[edge];
+  basis.bound.a += lambda * (nx * vx + ny * vy);
+  basis.bound.b += lambda * (ny * vx - nx * vy);
+}
+
 Basis ContactProgram::basis_of(const Tableau& tableau) const {
   Basis basis;
   basis.shift = tableau.shift;
   for (std::size_t j = 0; j < 3; ++j) {
-    const std::uint32_t row = tableau.row[j], k = row_edge_[row], i = row_vertex_[row];
-    const double lambda = tableau.lambda[j];
-    basis.edge[j] = k, basis.vertex[j] = i, basis.lambda[j] = lambda;
-    basis.bound.mean -= lambda * offset_[k];
-    basis.bound.a += lambda * (normal_x_[k] * vertex_x_[i] + normal_y_[k] * vertex_y_[i]);
-    basis.bound.b += lambda * (normal_y_[k] * vertex_x_[i] - normal_x_[k] * vertex_y_[i]);
+    const std::uint32_t row = tableau.row[j];
+    add_contact(basis, j, row_edge_[row], row_vertex_[row], tableau.lambda[j]);
   }
   return basis;
+}
+
+Basis ContactProgram::braced(const Basis& basis, const Angle& angle) const {
+  const auto normal = [&](std::size_t edge) { return Point{normal_x_[edge], normal_y_[edge]}; };
+  const auto light = static_cast<std::size_t>(std::min_element(basis.lambda.begin(), basis.lambda.end()) -
+                                              basis.lambda.begin());
+  // The two others, the second counter-clockwise of the first, and the normal that stands most across them.
+  std::size_t p = (light + 1) % 3, q = (light + 2) % 3;
+  if (cross(normal(basis.edge[p]), normal(basis.edge[q])) < 0) std::swap(p, q);
+  const Point np = normal(basis.edge[p]), nq = normal(basis.edge[q]), across{np.y, -np.x};
+  const std::size_t n = normal_x_.size();
+  const std::size_t beyond = edge_beyond(wrap(geom::direction_angle(across.x, across.y)));
+  const std::size_t before = (beyond + n - 1) % n;
+  const bool nearer = dot(normal(beyond), across) >= dot(normal(before), across);
+  const auto edge = static_cast<std::uint32_t>(nearer ? beyond : before);
+  const Point nl = normal(edge);
+  const double c = angle.direction.cosine, s = angle.direction.sine;
+  const std::uint32_t vertex =
+      outermost_vertex(c * nl.x + s * nl.y, c * nl.y - s * nl.x, edge, angle.theta, basis.vertex[light]);
+  const std::array<double, 3> weight = {cross(nq, nl), cross(nl, np), cross(np, nq)};
+  const double sum = weight[0] + weight[1] + weight[2];
+  Basis braced;
+  braced.shift = basis.shift;
+  add_contact(braced, 0, basis.edge[p], basis.vertex[p], weight[0] / sum);
+  add_contact(braced, 1, basis.edge[q], basis.vertex[q], weight[1] / sum);
+  add_contact(braced, 2, edge, vertex, weight[2] / sum);
+  return braced;
 }
 
 ContactProgram::Solution ContactProgram::solve(const Angle& angle, const Basis& warm, double of_interest,

@@ -50,6 +50,11 @@ class ContactProgram {
 
   [[nodiscard]] Basis first_basis() const { return first_basis_; }
 
+  /// The basis with its lightest contact given to the edge that stands most across the other two, and those
+  /// two's multipliers adjusted: what rounding hides of two nearly opposite edges weighs least then. Its
+  /// bound at this angle is about the same when the lightest contact weighed nothing.
+  [[nodiscard]] Basis braced(const Basis& basis, const Angle& angle) const;
+
   /// Size of the shapes in the local frame: largest |coordinate|.
   [[nodiscard]] double scale() const { return scale_; }
 
@@ -71,7 +76,7 @@ class ContactProgram {
   std::uint32_t add_row(std::uint32_t edge);
   /// Sets row_open_ of all rows (from `first` on) for an angle.
   void place(const Angle& angle, std::size_t first = 0);
-  void change_vertex(std::size_t row, const Angle& angle);
+  void change_vertex(std::size_t row, const Angle& angle, std::uint32_t hint);
   bool walk_outwards(double qx, double qy, std::uint32_t& vertex, std::uint32_t limit) const;
   [[nodiscard]] std::uint32_t outermost_vertex(double qx, double qy, std::size_t edge, double theta,
                                                std::uint32_t hint) const;
@@ -104,6 +109,10 @@ class ContactProgram {
   /// Takes edges outside the program that are violated at (shift, value) into it, the worst of each stretch
   /// between the first rows. False when no edge is violated.
   bool add_violated(const Angle& angle, geom::Point shift, double value);
+  /// The first edge, in order of direction, whose normal's direction is at least this one, in [0, 2 pi).
+  [[nodiscard]] std::size_t edge_beyond(double direction) const;
+  void add_contact(Basis& basis, std::size_t j, std::uint32_t edge, std::uint32_t vertex,
+                   double lambda) const;
   [[nodiscard]] Basis basis_of(const Tableau& tableau) const;
 
   // The part: vertices, and sides from vertex i to i + 1.
@@ -113,6 +122,7 @@ class ContactProgram {
   // The blank: vertices, edge k from vertex k with the inward unit normal n, the points with n . p = offset.
   geom::Ring blank_;
   std::vector<double> normal_x_, normal_y_, offset_, normal_direction_;
+  std::size_t lowest_direction_ = 0;  ///< the edge whose normal's direction is least; from it they ascend
   std::vector<std::uint32_t> first_edges_;  ///< the first rows' edges, ascending
   // The rows in the program. row_vertex_ is outermost for angles in [row_from_, row_to_], where
   // n . R v = row_cosine_ cos + row_sine_ sin. row_open_ = n . R v - offset at the current angle: the opening

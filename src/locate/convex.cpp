@@ -23,6 +23,8 @@ constexpr double kUnit = 0x1p-53;
 /// Programs spent on alternatives, and how many are listed.
 constexpr std::uint64_t kAlternativesWork = 200'000;
 constexpr std::size_t kMostAlternatives = 64;
+/// A multiplier that only rounding keeps from 0: its contact holds nothing.
+constexpr double kNoForce = 1e-12;
 
 /// A ring moved so that the middle of its box is the origin. The search then sees numbers of the size of the
 /// shape, however far away it stands.
@@ -67,9 +69,9 @@ class Localiser {
     ConvexResult result;
     double upper = -std::numeric_limits<double>::infinity();
     search.run([&](const CoverPiece& piece) {
-      upper = std::max(
-          upper, proved_bound(piece.basis, piece.from, piece.to, part_.ring, blank_.ring, uncertainty_));
-      record(piece, result);
+      CoverPiece proved = piece;
+      upper = std::max(upper, prove(proved, search.best().value + options_.gap));
+      record(proved, result);
     });
     if (options_.keep_certificate && result.certificate_size > options_.certificate_limit)
       result.certificate.clear();
@@ -79,20 +81,43 @@ class Localiser {
     if (options_.alternatives) add_alternatives(search, result);
     result.work = search.work();
     result.shortfall = std::max(0.0, options_.min_allowance - result.best.clearance);
-    result.status = search.finished() ? Status::optimal : Status::stopped;
+    const bool closed = result.upper_bound - result.best.clearance <= std::max(options_.gap, least_gap());
+    result.status = search.finished() && closed ? Status::optimal : Status::stopped;
     if (result.upper_bound < options_.min_allowance) result.status = Status::infeasible;
     return result;
   }
 
  private:
-  /// The gap left to the search: what was asked for less what rounding the pose and proving the bound will
-  /// take.
+  /// What rounding the pose and proving the bound may take of the gap.
+  [[nodiscard]] double taken_by_rounding() const {
+    const double far = geom::largest_coordinate(problem_.part.vertices()) +
+                       geom::largest_coordinate(problem_.blank.vertices());
+    return 8 * kUnit * far + 128 * kUnit * program_.scale() +
+           6 * (problem_.part_coordinate_error + problem_.blank_coordinate_error);
+  }
+
+  /// The gap left to the search.
   [[nodiscard]] double search_gap() const {
-    double far = geom::largest_coordinate(problem_.part.vertices()) +
-                 geom::largest_coordinate(problem_.blank.vertices());
-    const double taken = 8 * kUnit * far + 128 * kUnit * program_.scale() +
-                         6 * (problem_.part_coordinate_error + problem_.blank_coordinate_error);
-    return std::max(options_.gap - taken, 8 * kUnit * program_.scale());
+    return std::max(options_.gap - taken_by_rounding(), 8 * kUnit * program_.scale());
+  }
+
+  /// The smallest gap that doubles can be asked for.
+  [[nodiscard]] double least_gap() const { return 2 * taken_by_rounding(); }
+
+  [[nodiscard]] double proved(const CoverPiece& piece) const {
+    return proved_bound(piece.basis, piece.from, piece.to, part_.ring, blank_.ring, uncertainty_);
+  }
+
+  /// What a piece of the cover proves, with the third contact braced where that proves more.
+  double prove(CoverPiece& piece, double enough) const {
+    const double bound = proved(piece);
+    if (bound <= enough) return bound;
+    CoverPiece other = piece;
+    other.basis = program_.braced(piece.basis, piece.from);
+    const double braced = proved(other);
+    if (!(braced < bound)) return bound;
+    piece = other;
+    return braced;
   }
 
   void record(const CoverPiece& piece, ConvexResult& result) const {
@@ -156,7 +181,7 @@ class Localiser {
     const auto add = [&](const Basis& basis, double factor) {
       for (std::size_t j = 0; j < 3; ++j) {
         const double multiplier = factor * std::max(0.0, basis.lambda[j]);
-        if (!(multiplier > 0)) continue;
+        if (!(multiplier > kNoForce)) continue;
         const auto same = std::find_if(merged.begin(), merged.end(), [&](const Contact& contact) {
           return contact.part_vertex == basis.vertex[j] && contact.blank_edge == basis.edge[j];
         });
