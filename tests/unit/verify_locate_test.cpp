@@ -26,7 +26,6 @@ void expect_finding(const Files& files, const std::string& words, const std::str
   EXPECT_NE(findings(report).find(words), std::string::npos) << what << ":\n" << findings(report);
 }
 
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;

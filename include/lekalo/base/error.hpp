@@ -32,11 +32,15 @@ using Result = tl::expected<T, Error>;
 /// 5 environment. (0 is a result, 1 a valid answer "no"; neither is an error.)
 [[nodiscard]] constexpr int exit_status(ErrorCode code) noexcept {
   switch (code) {
-    case ErrorCode::usage: return 2;
+    case ErrorCode::usage:
+      return 2;
     case ErrorCode::bad_input:
-    case ErrorCode::program_refused: return 3;
-    case ErrorCode::refuted: return 4;
-    case ErrorCode::environment: return 5;
+    case ErrorCode::program_refused:
+      return 3;
+    case ErrorCode::refuted:
+      return 4;
+    case ErrorCode::environment:
+      return 5;
   }
   return 5;
 }

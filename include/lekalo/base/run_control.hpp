@@ -16,7 +16,7 @@ struct Progress {
 /// Everything a long computation needs from outside: a stop flag, a listener, and a budget counted in units
 /// of work. A result depends on the budget, never on a clock; a clock may only set the stop flag.
 struct RunControl {
-  const std::atomic<bool>* stop = nullptr;        ///< looked at often; set it from any thread or a signal handler
+  const std::atomic<bool>* stop = nullptr;  ///< looked at often; set it from any thread or a signal handler
   std::function<void(const Progress&)> progress;  ///< called from the computing thread, may be empty
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
 

@@ -9,12 +9,12 @@
 
 namespace lekalo::verify {
 
-/// The independent checker. It reads the written bytes itself, exactly (decimals become rationals), and decides
-/// with outward rounding; it includes nothing of lekalo but base and shares no code with any solver or reader.
-/// Short and slow on purpose.
+/// The independent checker. It reads the written bytes itself, exactly (decimals become rationals), and
+/// decides with outward rounding; it includes nothing of lekalo but base and shares no code with any solver
+/// or reader. Short and slow on purpose.
 
 struct Document {
-  std::string name;        ///< for messages, and its ending (.csv .txt .xyz .json .dxf) chooses the format
+  std::string name;  ///< for messages, and its ending (.csv .txt .xyz .json .dxf) chooses the format
   std::string_view bytes;
 };
 
@@ -24,9 +24,9 @@ struct LocateInputs {
 };
 
 enum class Verdict {
-  confirmed,    ///< clearance, bound and certificate hold
-  unproved,     ///< the clearance holds; there is no certificate to check the bound with
-  refuted       ///< something written is not true
+  confirmed,  ///< clearance, bound and certificate hold
+  unproved,   ///< the clearance holds; there is no certificate to check the bound with
+  refuted     ///< something written is not true
 };
 
 struct LocateReport {
