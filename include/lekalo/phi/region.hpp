@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/geom/pose.hpp"
+#include "lekalo/geom/region_index.hpp"
+
+namespace lekalo::phi {
+
+/// Where the boundaries of a placed part and of its blank come close.
+struct RegionContact {
+  std::uint32_t part_edge = 0, blank_edge = 0;  ///< numbered as in RegionIndex
+  geom::Point part, blank;                      ///< the two points, each in its own frame
+  double distance = 0;                          ///< mm, not negative
+};
+
+/// Clearance of a part in a blank, both regions of lines and arcs with holes, in several pieces if need be:
+/// the least signed distance of any material point of the part from the boundary of the blank, positive
+/// inside. Where it is not negative it is the least distance between the boundaries.
+///
+/// Holds indices of both; evaluating a pose allocates nothing that it does not keep.
+class RegionClearance {
+ public:
+  /// \pre regions made by make_region, none crossing itself or another
+  RegionClearance(const std::vector<geom::Region>& part, const std::vector<geom::Region>& blank);
+
+  struct Value {
+    /// Least distance between the boundaries, within kEdgeDistanceError * size of the exact one; 0 where they
+    /// cross.
+    double distance = 0;
+    /// Whether the part lies in the blank's material; then `distance` is the clearance.
+    bool inside = false;
+  };
+  /// \param contacts  if given, filled with the pairs of points at most `margin` further apart than the
+  ///                  least distance: of every pair of edges the nearest two points, but for those that
+  ///                  another pair of edges has as well.
+  /// Cost: O((n + k) log m) for n edges of the part, m of the blank and k pairs that come close.
+  [[nodiscard]] Value at(const geom::BlankFromPart& pose, double margin = 0,
+                         std::vector<RegionContact>* contacts = nullptr) const;
+
+  /// A number that the part sticks out of the blank by at most, where it does: the largest distance of its
+  /// material from the blank's, by a quadtree, at most `tolerance` (and rounding) too large. 0 inside.
+  [[nodiscard]] double depth(const geom::BlankFromPart& pose, double tolerance) const;
+
+  [[nodiscard]] const geom::RegionIndex& part() const noexcept { return part_; }
+  [[nodiscard]] const geom::RegionIndex& blank() const noexcept { return blank_; }
+
+ private:
+  struct Disc {
+    geom::Point centre;
+    double radius = 0;
+  };
+  [[nodiscard]] bool inside(const geom::BlankFromPart& pose) const;
+
+  geom::RegionIndex part_, blank_;
+  std::vector<Disc> disc_;  ///< around each edge of the part
+};
+
+/// A curve moved by a pose.
+[[nodiscard]] geom::Curve placed(const geom::Curve& curve, const geom::BlankFromPart& pose) noexcept;
+
+}  // namespace lekalo::phi

@@ -1,0 +1,107 @@
+#include "lekalo/phi/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lekalo::phi {
+
+using geom::BlankFromPart;
+using geom::Curve;
+using geom::Point;
+
+geom::Curve placed(const Curve& curve, const BlankFromPart& pose) noexcept {
+  Curve moved = curve;
+  moved.edge.from = pose(curve.edge.from);
+  moved.edge.to = pose(curve.edge.to);
+  if (curve.edge.kind == geom::EdgeKind::line) {
+    moved.unit = pose.rotate(curve.unit);
+    return moved;
+  }
+  moved.edge.centre = pose(curve.edge.centre);
+  moved.first = pose.rotate(curve.first);
+  moved.last = pose.rotate(curve.last);
+  if (pose.mirrored) {  // what was counter-clockwise from first to last now is from last to first
+    std::swap(moved.first, moved.last);
+    moved.edge.kind = curve.edge.kind == geom::EdgeKind::arc_ccw ? geom::EdgeKind::arc_cw : geom::EdgeKind::arc_ccw;
+  }
+  return moved;
+}
+
+RegionClearance::RegionClearance(const std::vector<geom::Region>& part, const std::vector<geom::Region>& blank)
+    : part_(part), blank_(blank) {
+  for (const Curve& curve : part_.curves()) {
+    const geom::Box box = geom::curve_box(curve);
+    disc_.push_back({0.5 * (box.low + box.high), 0.5 * norm(box.high - box.low)});
+  }
+}
+
+bool RegionClearance::inside(const BlankFromPart& pose) const {
+  // The boundaries do not meet: each contour lies on one side of every other, and one point tells which.
+  const auto& part_starts = part_.contour_starts();
+  for (std::size_t c = 0; c + 1 < part_starts.size(); ++c)
+    if (!blank_.contains(pose(part_.curves()[part_starts[c]].edge.from))) return false;
+  const geom::Pose<geom::PartFrame, geom::BlankFrame> back = pose.inverse();
+  const auto& blank_starts = blank_.contour_starts();
+  for (std::size_t c = 0; c + 1 < blank_starts.size(); ++c)
+    if (part_.contains(back(blank_.curves()[blank_starts[c]].edge.from))) return false;
+  return true;
+}
+
+RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double margin,
+                                           std::vector<RegionContact>* contacts) const {
+  if (contacts != nullptr) contacts->clear();
+  double least = std::numeric_limits<double>::infinity(), limit = least;
+  const geom::Pose<geom::PartFrame, geom::BlankFrame> back = pose.inverse();
+  for (std::uint32_t i = 0; i < disc_.size(); ++i) {
+    const Curve moved = placed(part_.curves()[i], pose);
+    blank_.visit_within(pose(disc_[i].centre), disc_[i].radius, limit, [&](std::uint32_t j) {
+      const geom::ClosestPoints close = closest_points(moved, blank_.curves()[j]);
+      if (close.distance > limit) return;
+      if (close.distance < least) least = close.distance, limit = least + margin;
+      // A shared end belongs to the edge that begins there.
+      const Curve& other = blank_.curves()[j];
+      const bool elsewhere = (close.a == moved.edge.to && !moved.full) || (close.b == other.edge.to && !other.full);
+      if (contacts != nullptr && !elsewhere)
+        contacts->push_back({i, j, back(close.a), close.b, close.distance});
+    });
+  }
+  if (contacts != nullptr)
+    contacts->erase(std::remove_if(contacts->begin(), contacts->end(),
+                                   [&](const RegionContact& c) { return c.distance > limit; }),
+                    contacts->end());
+  return {least, least > 0 && inside(pose)};
+}
+
+double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const {
+  const auto outside = [&](Point p) {  // how far a point of the part's frame lies outside the blank
+    const Point q = pose(p);
+    const double distance = blank_.nearest(q).distance;
+    return blank_.contains(q) ? -distance : distance;
+  };
+  double reached = 0;
+  for (const Curve& curve : part_.curves()) reached = std::max(reached, outside(curve.edge.from));
+  struct Square {
+    Point centre;
+    double half = 0;
+  };
+  const geom::Box box = part_.bounds();
+  std::vector<Square> open{{0.5 * (box.low + box.high),
+                            0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y)}};
+  while (!open.empty()) {
+    const Square square = open.back();
+    open.pop_back();
+    const double radius = 1.4142135623730952 * square.half;
+    const double out = outside(square.centre);
+    if (out + radius <= reached + tolerance) continue;
+    const double to_part = part_.contains(square.centre) ? 0 : part_.nearest(square.centre).distance;
+    if (to_part > radius) continue;
+    reached = std::max(reached, out - to_part);  // of the nearest point of the material
+    const double quarter = 0.5 * square.half;
+    for (const double dx : {-quarter, quarter})
+      for (const double dy : {-quarter, quarter}) open.push_back({square.centre + Point{dx, dy}, quarter});
+  }
+  return reached + tolerance;
+}
+
+}  // namespace lekalo::phi
