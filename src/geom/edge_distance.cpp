@@ -154,8 +154,8 @@ Box curve_box(const Curve& curve) noexcept {
     if (faces(curve, {0, 1})) box.high.y = std::max(box.high.y, edge.centre.y + curve.radius);
     if (faces(curve, {0, -1})) box.low.y = std::min(box.low.y, edge.centre.y - curve.radius);
   }
-  const double far = std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
-                               std::abs(box.high.y), curve.radius});
+  const double far = std::max(
+      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y), curve.radius});
   const double margin = kEdgeDistanceError * far;
   return {box.low - Point{margin, margin}, box.high + Point{margin, margin}};
 }

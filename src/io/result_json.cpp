@@ -9,6 +9,7 @@
 #include "lekalo/base/assert.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/version.hpp"
+#include "lekalo/io/region_json.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -159,6 +160,10 @@ class ObjectText {
   void list(const char* key, const Items& items, AppendItem append_item) {
     append_list(begin(key), items, append_item);
   }
+  template <class Append>
+  void text(const char* key, Append append) {
+    append(begin(key));
+  }
   [[nodiscard]] std::string finish() && {
     text_ += "\n}\n";
     return std::move(text_);
@@ -195,7 +200,7 @@ void append_placement(ObjectText& out, const LocateDocument& d) {
   out.field("y", p.y);
   out.field("theta", p.theta);
   out.field("theta_deg", p.theta * kDegreesPerRadian);
-  out.field("mirrored", false);
+  out.field("mirrored", d.regions && d.regions->mirrored);
   out.field("clearance", p.clearance);
   out.field("upper_bound", d.upper_bound ? Json(*d.upper_bound) : Json(nullptr));
   out.field("gap", d.upper_bound ? Json(difference_rounded_up(*d.upper_bound, p.clearance)) : Json(nullptr));
@@ -204,7 +209,115 @@ void append_placement(ObjectText& out, const LocateDocument& d) {
   out.field("window_deg", {d.window_from_deg, d.window_to_deg});
 }
 
+void append_point(std::string& out, geom::Point p) {
+  out += '[';
+  append_number(out, p.x);
+  out += ", ";
+  append_number(out, p.y);
+  out += ']';
+}
+
+void append_touch(std::string& out, const locate::RegionTouch& touch) {
+  fmt::format_to(std::back_inserter(out), R"({{"part_edge": {}, "blank_edge": {}, "part_at": )",
+                 touch.part_edge, touch.blank_edge);
+  append_point(out, touch.part);
+  out += R"(, "blank_at": )";
+  append_point(out, touch.blank);
+  out += R"(, "distance": )";
+  append_number(out, touch.distance);
+  out += R"(, "multiplier": )";
+  append_number(out, touch.multiplier);
+  out += '}';
+}
+
+const char* name_of(locate::CoverTree::Axis axis) {
+  switch (axis) {
+    case locate::CoverTree::Axis::theta:
+      return "theta";
+    case locate::CoverTree::Axis::x:
+      return "x";
+    case locate::CoverTree::Axis::y:
+      return "y";
+    case locate::CoverTree::Axis::leaf:
+      break;
+  }
+  return "";
+}
+
+void append_node(std::string& out, const locate::CoverTree& tree, const locate::CoverTree::Node& node) {
+  if (node.axis != locate::CoverTree::Axis::leaf) {
+    fmt::format_to(std::back_inserter(out), R"(["{}", )", name_of(node.axis));
+    append_number(out, node.at);
+    out += ']';
+    return;
+  }
+  out += R"({"contacts": [)";
+  for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+    const locate::BallTerm& t = tree.terms[k];
+    const char* separator = k == node.first ? "[" : ", [";
+    for (const double value : {t.part_centre.x, t.part_centre.y, t.part_radius, t.blank_centre.x,
+                               t.blank_centre.y, t.blank_radius, t.multiplier}) {
+      out += separator;
+      append_number(out, value);
+      separator = ", ";
+    }
+    out += ']';
+  }
+  out += "]}";
+}
+
+void append_cover(std::string& out, const geom::Point& pivot, const std::vector<locate::CoverTree>& trees) {
+  out += R"({"pivot": )";
+  append_point(out, pivot);
+  out += R"(, "trees": [)";
+  const char* next = "";
+  for (const locate::CoverTree& tree : trees) {
+    fmt::format_to(std::back_inserter(out), R"({}{{"mirrored": {}, "theta": )", next, tree.mirrored);
+    append_point(out, {tree.theta_from, tree.theta_to});
+    out += R"(, "x": )";
+    append_point(out, {tree.box.low.x, tree.box.high.x});
+    out += R"(, "y": )";
+    append_point(out, {tree.box.low.y, tree.box.high.y});
+    out += R"(, "nodes": )";
+    append_list(out, tree.nodes, [&](std::string& text, const locate::CoverTree::Node& node) {
+      append_node(text, tree, node);
+    });
+    out += '}';
+    next = ", ";
+  }
+  out += "]}";
+}
+
+const char* name_of(locate::Mirror mirror) {
+  switch (mirror) {
+    case locate::Mirror::no:
+      return "no";
+    case locate::Mirror::yes:
+      return "yes";
+    case locate::Mirror::either:
+      break;
+  }
+  return "either";
+}
+
+void append_regions(ObjectText& out, const LocateDocument& d) {
+  const RegionRecord& r = *d.regions;
+  out.field("mirror", name_of(r.mirror));
+  out.field("tolerances", {{"part", r.part_tolerance}, {"blank", r.blank_tolerance}});
+  out.text("regions", [&](std::string& text) {
+    text += R"({"part": )" + regions_json(r.part) + R"(, "blank": )" + regions_json(r.blank) + "}";
+  });
+  out.list("contacts", r.contacts, append_touch);
+  if (r.certificate.empty()) {
+    out.field("certificate", nullptr);
+  } else {
+    out.text("certificate", [&](std::string& text) { append_cover(text, r.pivot, r.certificate); });
+  }
+  out.field("certificate_file", certificate_file_json(d));
+}
+
 void append_proof(ObjectText& out, const LocateDocument& d) {
+  if (d.regions) return append_regions(out, d);
   out.list("contacts", d.contacts, append_contact);
   if (d.certificate) {
     out.list("certificate", *d.certificate, append_interval);
@@ -293,6 +406,12 @@ std::string CertificateText::finish() && {
   return std::move(text_);
 }
 
+std::string cover_text(const geom::Point& pivot, const std::vector<locate::CoverTree>& trees) {
+  std::string text = "{\"format\": {\"name\": \"lekalo-certificate\", \"version\": 1},\n\"certificate\": ";
+  append_cover(text, pivot, trees);
+  return text + "\n}\n";
+}
+
 const InputRecord* WrittenResult::input(std::string_view role) const noexcept {
   for (const InputRecord& record : inputs) {
     if (record.role == role) return &record;
@@ -324,7 +443,9 @@ Result<WrittenResult> read_result(std::string_view bytes, const std::string& nam
   }
   result.placement = {read.number(json, "x"), read.number(json, "y"), read.number(json, "theta"),
                       read.number(json, "clearance")};
-  if (member(json, "mirrored") != false) read.complain("mirrored", "false");
+  const Json& mirrored = member(json, "mirrored");
+  if (!mirrored.is_boolean()) read.complain("mirrored", "true or false");
+  result.mirrored = mirrored == true;
   result.certificate_file = read.optional_file(member(json, "certificate_file"));
   const Json& nc = member(json, "nc");
   if (!nc.is_null()) result.nc_output = read.optional_file(member(nc, "output"));

@@ -61,7 +61,8 @@ double reach(const geom::RegionIndex& part) {
   double far = 0;
   for (const geom::Curve& curve : part.curves()) {
     const geom::Box box = curve_box(curve);
-    for (const Point& corner : {box.low, box.high, Point{box.low.x, box.high.y}, Point{box.high.x, box.low.y}})
+    for (const Point& corner :
+         {box.low, box.high, Point{box.low.x, box.high.y}, Point{box.high.x, box.low.y}})
       far = std::max(far, norm(corner));
   }
   return far;
@@ -95,8 +96,9 @@ void PoseSearch::collect_samples() {
     samples_.push_back({from, norm(from)});
     samples_.push_back({});
     const Point chord_middle = 0.5 * (from + to);
-    samples_.back().at = curve.edge.kind == geom::EdgeKind::line ? chord_middle
-                                                                 : nearest_on(curve, curve.full ? 2 * curve.edge.centre - from : chord_middle);
+    samples_.back().at = curve.edge.kind == geom::EdgeKind::line
+                             ? chord_middle
+                             : nearest_on(curve, curve.full ? 2 * curve.edge.centre - from : chord_middle);
     samples_.back().far = norm(samples_.back().at);
   }
   // The furthest first: they tell angles apart.
@@ -140,8 +142,7 @@ double PoseSearch::size(const PoseCell& cell) const {
 
 void PoseSearch::take(Node& node, double bound, const CellProof& proof) {
   // Below minus the radius of a ball the sum of distances no longer bounds the clearance.
-  for (std::size_t j = 0; j < proof.terms; ++j)
-    bound = std::max(bound, -proof.term[j].pair.blank.radius);
+  for (std::size_t j = 0; j < proof.terms; ++j) bound = std::max(bound, -proof.term[j].pair.blank.radius);
   if (!(bound < node.upper)) return;
   node.upper = bound;
   cover_[node.cover].proof = proof;
@@ -192,7 +193,9 @@ void PoseSearch::bound_by_voids(Node& node) {
     if (!(bound < node.upper)) continue;
     CellProof proof;
     proof.terms = 1;
-    proof.term[0] = {{value.signed_distance > 0 ? Ball{value.at, value.signed_distance} : Ball{value.nearest, 0}, ball}, 1};
+    proof.term[0] = {
+        {value.signed_distance > 0 ? Ball{value.at, value.signed_distance} : Ball{value.nearest, 0}, ball},
+        1};
     take(node, bound, proof);
     if (closed(node.upper)) return;
   }
@@ -213,13 +216,12 @@ CellRow PoseSearch::row_of(const BallPair& pair, const PoseCell& cell) const {
   // |w + d| <= u . (w + d) + |d across u|^2 / (2 u . (w + d)), d = slide + turn J p + a rest below
   // turn^2 / 2 |p|, of which along u only the part towards the middle of the turn counts.
   const double lever = dot(u, geom::perpendicular(p)), along_p = dot(u, p), rest = 0.5 * h * h * far;
-  const double along =
-      std::abs(u.x) * cell.half_x + std::abs(u.y) * cell.half_y + std::abs(lever) * h + rest;
+  const double along = std::abs(u.x) * cell.half_x + std::abs(u.y) * cell.half_y + std::abs(lever) * h + rest;
   const double across =
       std::abs(u.y) * cell.half_x + std::abs(u.x) * cell.half_y + std::abs(along_p) * h + rest;
   if (!(distance > along)) return row;
-  const double curved = across * across / (2 * (distance - along)) +
-                        0.5 * h * h * std::max(0.0, -along_p) + h * h * h / 6 * far;
+  const double curved = across * across / (2 * (distance - along)) + 0.5 * h * h * std::max(0.0, -along_p) +
+                        h * h * h / 6 * far;
   if (!(curved < anyway)) return row;
   row.slope = {u.x, u.y, lever / reach_};
   row.level = distance - radii + curved;
@@ -277,12 +279,10 @@ void PoseSearch::grow(Known& known) const {
   known.grown = true;
   const double most = kLargestBall * scale_, least = kSmallestBall * scale_;
   const Ball outside =
-      tangent_ball(clearance_.blank(), known.pair.blank.centre, -known.normal_of_blank, most, least,
-                                    doubt_);
+      tangent_ball(clearance_.blank(), known.pair.blank.centre, -known.normal_of_blank, most, least, doubt_);
   if (outside.radius > 0 && !clearance_.blank().contains(outside.centre)) known.pair.blank = outside;
   const Ball inside =
-      tangent_ball(clearance_.part(), known.pair.part.centre, known.normal_of_part, scale_, least,
-                                   doubt_);
+      tangent_ball(clearance_.part(), known.pair.part.centre, known.normal_of_part, scale_, least, doubt_);
   if (inside.radius > 0 && clearance_.part().contains(inside.centre)) known.pair.part = inside;
 }
 
@@ -424,8 +424,9 @@ void PoseSearch::polish(Found found, double trust) {
     for (const Contact& contact : contacts_) {
       const Point c = contact.part;
       const Point p{turn.cosine * c.x - turn.sine * c.y, turn.sine * c.x + turn.cosine * c.y};
-      rows.push_back({{contact.normal.x, contact.normal.y, dot(contact.normal, geom::perpendicular(p)) / reach_},
-                      contact.distance});
+      rows.push_back(
+          {{contact.normal.x, contact.normal.y, dot(contact.normal, geom::perpendicular(p)) / reach_},
+           contact.distance});
     }
     const double theta_low = root_.theta - root_.half_theta, theta_high = root_.theta + root_.half_theta;
     const CellSolution solution = solve_cell(rows, {trust, trust, trust});
@@ -512,8 +513,8 @@ std::vector<PoseSearch::Held> PoseSearch::held_at(const Found& found) {
   std::vector<Held> held;
   if (rows.empty()) return held;
   const double trust = 0.1 * fine_;
-  const CellSolution solution =
-      solve_cell(rows, {root_.half_x > 0 ? trust : 0, root_.half_y > 0 ? trust : 0, root_.half_theta > 0 ? trust : 0});
+  const CellSolution solution = solve_cell(
+      rows, {root_.half_x > 0 ? trust : 0, root_.half_y > 0 ? trust : 0, root_.half_theta > 0 ? trust : 0});
   for (std::size_t j = 0; j < solution.rows; ++j)
     held.push_back({contacts[solution.row[j]], solution.multiplier[j]});
   std::sort(held.begin(), held.end(), [](const Held& a, const Held& b) {

@@ -34,8 +34,8 @@ struct CellProof {
 struct CoverNode {
   enum class Axis : std::uint8_t { leaf, theta, x, y };
   Axis axis = Axis::leaf;
-  double at = 0;                   ///< where it is split
-  std::uint32_t low = 0, high = 0; ///< children
+  double at = 0;                    ///< where it is split
+  std::uint32_t low = 0, high = 0;  ///< children
   CellProof proof;
 };
 
@@ -44,8 +44,8 @@ class PoseSearch {
  public:
   struct Found {
     double theta = 0;
-    geom::Point pivot;        ///< in the blank's frame
-    double value = 0;         ///< signed clearance as measured; not yet rounded down
+    geom::Point pivot;  ///< in the blank's frame
+    double value = 0;   ///< signed clearance as measured; not yet rounded down
     bool inside = false;
   };
 

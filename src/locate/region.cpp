@@ -114,8 +114,11 @@ class RegionLocaliser {
     const Point half = 0.5 * (box.high - box.low);
     const double more = pivot_off_ + 0.0625 * std::max(half.x, half.y);
     const AngleWindow& window = problem_.window;
-    return {0.5 * (window.from + window.to), 0.5 * (window.to - window.from) * (1 + 0x1p-50), {0, 0},
-            half.x + more, half.y + more};
+    return {0.5 * (window.from + window.to),
+            0.5 * (window.to - window.from) * (1 + 0x1p-50),
+            {0, 0},
+            half.x + more,
+            half.y + more};
   }
 
   /// The pose in the file's coordinates, its doubles fixed first and its clearance measured at those.
@@ -128,8 +131,8 @@ class RegionLocaliser {
     const phi::RegionClearance::Value value = given_.at(pose);
     const double measured = value.inside ? value.distance : -given_.depth(pose, 0.25 * options_.gap);
     const double far = far_ + std::abs(placement.x) + std::abs(placement.y);
-    placement.clearance = measured - 4 * geom::kEdgeDistanceError * far - problem_.part_tolerance -
-                          problem_.blank_tolerance;
+    placement.clearance =
+        measured - 4 * geom::kEdgeDistanceError * far - problem_.part_tolerance - problem_.blank_tolerance;
     return placement;
   }
 

@@ -23,12 +23,14 @@ geom::Curve placed(const Curve& curve, const BlankFromPart& pose) noexcept {
   moved.last = pose.rotate(curve.last);
   if (pose.mirrored) {  // what was counter-clockwise from first to last now is from last to first
     std::swap(moved.first, moved.last);
-    moved.edge.kind = curve.edge.kind == geom::EdgeKind::arc_ccw ? geom::EdgeKind::arc_cw : geom::EdgeKind::arc_ccw;
+    moved.edge.kind =
+        curve.edge.kind == geom::EdgeKind::arc_ccw ? geom::EdgeKind::arc_cw : geom::EdgeKind::arc_ccw;
   }
   return moved;
 }
 
-RegionClearance::RegionClearance(const std::vector<geom::Region>& part, const std::vector<geom::Region>& blank)
+RegionClearance::RegionClearance(const std::vector<geom::Region>& part,
+                                 const std::vector<geom::Region>& blank)
     : part_(part), blank_(blank) {
   for (const Curve& curve : part_.curves()) {
     const geom::Box box = geom::curve_box(curve);
@@ -61,7 +63,8 @@ RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double mar
       if (close.distance < least) least = close.distance, limit = least + margin;
       // A shared end belongs to the edge that begins there.
       const Curve& other = blank_.curves()[j];
-      const bool elsewhere = (close.a == moved.edge.to && !moved.full) || (close.b == other.edge.to && !other.full);
+      const bool elsewhere =
+          (close.a == moved.edge.to && !moved.full) || (close.b == other.edge.to && !other.full);
       if (contacts != nullptr && !elsewhere)
         contacts->push_back({i, j, back(close.a), close.b, close.distance});
     });
@@ -86,8 +89,8 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
     double half = 0;
   };
   const geom::Box box = part_.bounds();
-  std::vector<Square> open{{0.5 * (box.low + box.high),
-                            0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y)}};
+  std::vector<Square> open{
+      {0.5 * (box.low + box.high), 0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y)}};
   while (!open.empty()) {
     const Square square = open.back();
     open.pop_back();

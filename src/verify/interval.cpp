@@ -33,6 +33,13 @@ Interval::Interval(const Integer& value, mpfr_prec_t precision) : Interval(preci
   mpfr_set_z(high_, value.get_mpz_t(), MPFR_RNDU);
 }
 
+Interval Interval::exactly(double value, mpfr_prec_t precision) {
+  Interval interval(precision);
+  mpfr_set_d(interval.low_, value, MPFR_RNDD);
+  mpfr_set_d(interval.high_, value, MPFR_RNDU);
+  return interval;
+}
+
 Interval::Interval(const Decimal& value, mpfr_prec_t precision) : Interval(value.digits, precision) {
   const Interval power(power_of_ten(static_cast<unsigned long>(std::abs(value.exponent))), precision);
   *this = value.exponent < 0 ? *this / power : *this * power;

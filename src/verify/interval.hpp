@@ -21,6 +21,8 @@ class Interval {
   ~Interval();
 
   static Interval pi(mpfr_prec_t precision);
+  /// \pre precision is 53 or more
+  static Interval exactly(double value, mpfr_prec_t precision);
 
   [[nodiscard]] mpfr_prec_t precision() const { return mpfr_get_prec(low_); }
   [[nodiscard]] mpfr_srcptr low() const { return low_; }

@@ -14,6 +14,7 @@
 #include "exact.hpp"
 #include "interval.hpp"
 #include "outline.hpp"
+#include "region_check.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -443,6 +444,8 @@ void LocateCheck::check_status(bool proved) {
 }  // namespace
 
 Result<LocateReport> verify_locate(const LocateInputs& inputs) {
+  const auto root = parse_json(inputs.result.bytes, inputs.result.name);
+  if (root && has_regions(*root)) return check_regions(inputs, *root);
   const auto result = read_result_document(inputs.result);
   if (!result) return tl::unexpected(result.error());
   return LocateCheck(inputs, *result).run();

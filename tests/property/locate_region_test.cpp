@@ -47,7 +47,8 @@ TEST(LocateRegionProperty, IsReachedAndNotBeaten) {
       ASSERT_GT(known, 0);
       RegionOptions options;
       options.run.work_limit = 60'000;
-      const RegionResult result = locate_regions({one.part, one.blank, {}, Mirror::no, 0, 0}, options).value();
+      const RegionResult result =
+          locate_regions({one.part, one.blank, {}, Mirror::no, 0, 0}, options).value();
       EXPECT_GE(result.upper_bound, known);
       EXPECT_GE(result.best.clearance, known - options.gap);
       EXPECT_LE(result.best.clearance, result.upper_bound);

@@ -16,11 +16,11 @@ namespace lekalo::cases {
 /// Random parts and blanks of lines and arcs with holes, and a pose at which the part is known to fit.
 
 enum class RegionKind {
-  near_net,   ///< star-shaped outline, round holes cored in the blank, 0.3 to 3 mm of stock
-  rounded,    ///< every corner an arc; the blank's corners are arcs of other radii
-  slotted,    ///< concave: slots from outside, the blank's narrower
-  roomy,      ///< a blank twice the size
-  pieces      ///< two parts of one blank with two pockets of material
+  near_net,  ///< star-shaped outline, round holes cored in the blank, 0.3 to 3 mm of stock
+  rounded,   ///< every corner an arc; the blank's corners are arcs of other radii
+  slotted,   ///< concave: slots from outside, the blank's narrower
+  roomy,     ///< a blank twice the size
+  pieces     ///< two parts of one blank with two pockets of material
 };
 inline constexpr std::array kRegionKinds{RegionKind::near_net, RegionKind::rounded, RegionKind::slotted,
                                          RegionKind::roomy, RegionKind::pieces};
@@ -102,7 +102,8 @@ inline geom::Contour moved(const geom::Contour& contour, const geom::BlankFromPa
 }  // namespace region_detail
 
 /// `edges` about that many of the outline; holes come on top.
-inline RegionCase region_case(std::uint64_t seed, std::uint64_t index, RegionKind kind, std::size_t edges = 40) {
+inline RegionCase region_case(std::uint64_t seed, std::uint64_t index, RegionKind kind,
+                              std::size_t edges = 40) {
   using namespace region_detail;
   Random random(seed, 1000 + index * 8 + static_cast<std::uint64_t>(kind));
   RegionCase made;
@@ -122,9 +123,8 @@ inline RegionCase region_case(std::uint64_t seed, std::uint64_t index, RegionKin
     double r = 45;
     for (std::size_t k = 0; k < 5; ++k) r += height[k] * std::cos(static_cast<double>(k + 1) * a + phase[k]);
     if (slots && i % 4 >= 2) r -= 12;
-    const double stock = kind == RegionKind::roomy
-                             ? 40.0
-                             : 2.2 + 0.9 * std::cos(a + first) + 0.8 * std::cos(3 * a + second);
+    const double stock =
+        kind == RegionKind::roomy ? 40.0 : 2.2 + 0.9 * std::cos(a + first) + 0.8 * std::cos(3 * a + second);
     inner.push_back(r * geom::Point{cosine, sine});
     outer.push_back((r + stock) * geom::Point{cosine, sine});
   }

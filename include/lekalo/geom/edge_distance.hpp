@@ -22,7 +22,7 @@ struct Curve {
   bool wide = false;         ///< the arc turns through a half turn or more
   bool beyond_half = false;  ///< more than a half turn, but not a full circle
   bool full = false;         ///< a full circle
-  Point first, last;         ///< an arc's end directions from its centre, counter-clockwise from first to last
+  Point first, last;  ///< an arc's end directions from its centre, counter-clockwise from first to last
 };
 [[nodiscard]] Curve make_curve(const Edge& edge) noexcept;
 

@@ -12,7 +12,8 @@ namespace lekalo::geom {
 /// The edges of regions in order, with a tree of boxes over them: neighbours along a contour are neighbours
 /// in the plane, so the order itself is the tree. Building: O(n); memory: about 200 bytes an edge.
 ///
-/// Edges are numbered through all pieces and contours, each outer contour before its holes, as flatten() does.
+/// Edges are numbered through all pieces and contours, each outer contour before its holes, as flatten()
+/// does.
 class RegionIndex {
  public:
   /// \pre regions made by make_region, of disjoint insides; fewer than 2^31 edges
@@ -57,7 +58,8 @@ class RegionIndex {
   [[nodiscard]] static double squared_distance(const Box& box, Point p) noexcept {
     const double left = box.low.x - p.x, right = p.x - box.high.x, below = box.low.y - p.y,
                  above = p.y - box.high.y;
-    const double dx = left > 0 ? left : (right > 0 ? right : 0), dy = below > 0 ? below : (above > 0 ? above : 0);
+    const double dx = left > 0 ? left : (right > 0 ? right : 0),
+                 dy = below > 0 ? below : (above > 0 ? above : 0);
     return dx * dx + dy * dy;
   }
 

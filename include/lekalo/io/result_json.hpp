@@ -11,6 +11,7 @@
 #include "lekalo/geom/polygon.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "lekalo/locate/placement.hpp"
+#include "lekalo/locate/region.hpp"
 
 namespace lekalo::io {
 
@@ -62,6 +63,18 @@ struct DeviationsRecord {
   double least = 0, greatest = 0;  ///< mm, positive outside the placed part
 };
 
+/// What only a localisation of regions has (docs/formats.md).
+struct RegionRecord {
+  std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
+  double part_tolerance = 0, blank_tolerance = 0;
+  locate::Mirror mirror = locate::Mirror::no;  ///< allowed
+  bool mirrored = false;                       ///< the placement
+  std::vector<locate::RegionTouch> contacts;
+  /// Empty: there is none, or it is in certificate_file.
+  std::vector<locate::CoverTree> certificate;
+  geom::Point pivot;  ///< of the certificate, part coordinates
+};
+
 struct LocateDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
   std::string method;  ///< certified, ipopt, icp
@@ -82,7 +95,8 @@ struct LocateDocument {
   std::optional<NcRecord> nc;
   std::optional<ComparisonRecord> comparison;
   std::optional<DeviationsRecord> deviations;
-  double seconds = 0;  ///< of this run; the only field that is not a function of the input
+  std::optional<RegionRecord> regions;  ///< then `contacts` and `certificate` above are not used
+  double seconds = 0;                   ///< of this run; the only field that is not a function of the input
   int threads = 1;
 };
 
@@ -105,11 +119,15 @@ class CertificateText {
   std::size_t intervals_ = 0;
 };
 
+/// The document of a certificate file of a localisation of regions.
+[[nodiscard]] std::string cover_text(const geom::Point& pivot, const std::vector<locate::CoverTree>& trees);
+
 /// What `verify` and `--compare` need of a written result; what is proved about the rest is verify's matter.
 struct WrittenResult {
   std::string status, method;
   std::vector<InputRecord> inputs;  ///< role and file only
   locate::Placement placement;
+  bool mirrored = false;
   std::optional<FileRecord> certificate_file, nc_output;
 
   /// The first input with this role, or nullptr.

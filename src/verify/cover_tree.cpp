@@ -1,0 +1,235 @@
+#include "cover_tree.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "interval.hpp"
+#include "shape_distance.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A leaf whose bound is not good enough over the whole cell is looked at in halves, this many times over.
+constexpr int kMostHalvings = 24;
+/// Terms of one leaf.
+constexpr std::size_t kMostTerms = 8;
+
+Span enclosed(const Decimal& value) {
+  const Interval interval(value, 64);
+  return {interval.low_double(), interval.high_double()};
+}
+
+/// A degree in radians.
+Span radians(const Decimal& degrees) {
+  const mpfr_prec_t wide = 128 + angle_bits(degrees);
+  const Interval angle = Interval(degrees, wide) * Interval::pi(wide) / Interval(Integer(180), wide);
+  return {angle.low_double(), angle.high_double()};
+}
+
+Span plus(Span a, double by) { return a + Span{by, by}; }
+double magnitude(Span a) { return std::max(std::abs(a.low), std::abs(a.high)); }
+/// Products and sums of numbers that are not negative, rounded up.
+double up(double value) { return std::nextafter(value, kInfinity); }
+
+}  // namespace
+
+void CoverTree::check(Json tree, const std::string& path, std::string& complaint) {
+  Fields fields(tree, path, complaint);
+  mirrored_ = fields.get("mirrored").is_bool() && fields.get("mirrored").is_true();
+  const auto range = [&](std::string_view key) {
+    std::vector<Decimal> ends;
+    fields.each(key, [&](Json item, const std::string& at) {
+      if (ends.size() < 3) ends.push_back(fields.number_of(item, at));
+    });
+    if (ends.size() != 2) return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
+    return Span{enclosed(ends[0]).low, enclosed(ends[1]).high};
+  };
+  const Span theta = range("theta"), x = range("x"), y = range("y");
+  const Json nodes = fields.get("nodes");
+  if (!nodes.is_array()) fields.complain(fmt::format("{} is not a list", fields.name("nodes")));
+  if (!complaint.empty()) return;
+  const Cell root{{theta.low, x.low, y.low}, {theta.high, x.high, y.high}};
+  check_root(root, path);
+
+  std::vector<Cell> open{root};
+  JsonItems items(nodes);
+  for (std::size_t i = 0; const auto item = items.next(); ++i) {
+    const std::string name = fmt::format("{}.nodes[{}]", path, i);
+    if (open.empty()) return fields.complain(name + " is one more than the subdivision needs");
+    const Cell cell = open.back();
+    open.pop_back();
+    if (item->is_array()) {  // ["x", at]
+      JsonItems split(*item);
+      const auto axis = split.next(), at = split.next();
+      const std::string which = axis && axis->is_string() ? json_text(*axis) : "";
+      const int k = which == "theta" ? 0 : (which == "x" ? 1 : (which == "y" ? 2 : -1));
+      if (k < 0 || !at || split.next()) return fields.complain(name + " is neither a split nor a leaf");
+      const Span place = enclosed(fields.number_of(*at, name));
+      Cell low = cell, high = cell;
+      low.high[k] = place.high, high.low[k] = place.low;
+      open.push_back(high);
+      open.push_back(low);
+      continue;
+    }
+    ++leaves_;
+    std::vector<Term> terms;
+    Fields leaf(*item, name, complaint);
+    if (!read_leaf(leaf.get("contacts"), terms, complaint, name)) return;
+    if (proved(cell, terms, 0)) continue;
+    if (++failed_ > 3) continue;
+    findings_.push_back(fmt::format(
+        "{}: its contacts do not prove that no placement with theta {} to {} and the pivot at x {} to {}, y {} to "
+        "{} has more clearance than {} mm",
+        name, cell.low[0], cell.high[0], cell.low[1], cell.high[1], cell.low[2], cell.high[2], problem_.bound));
+  }
+  if (!open.empty()) findings_.push_back(fmt::format("{}: the subdivision ends early, {} cells are missing", path, open.size()));
+}
+
+/// The root holds every pose of the window that could have more clearance than the bound.
+void CoverTree::check_root(const Cell& root, const std::string& path) {
+  const Span from = radians(problem_.window_from_deg), to = radians(problem_.window_to_deg);
+  const Span whole = radians(Decimal{36, 1});
+  const bool full = root.high[0] - root.low[0] >= whole.high;
+  if (!full && !(root.low[0] <= from.low && root.high[0] >= to.high)) {
+    findings_.push_back(fmt::format("{}: theta from {} to {} does not cover the window", path, root.low[0], root.high[0]));
+  }
+  // There the material lies in the blank, or sticks out by less than -bound, and the pivot is within
+  // pivot_off of it.
+  const double more = up(problem_.pivot_off + std::max(0.0, -problem_.bound));
+  const Shape& blank = problem_.blank;
+  if (!(root.low[1] <= blank.low_x - more && root.high[1] >= blank.high_x + more &&
+        root.low[2] <= blank.low_y - more && root.high[2] >= blank.high_y + more)) {
+    findings_.push_back(fmt::format("{}: the box of the pivot does not cover the blank", path));
+  }
+}
+
+bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path) {
+  const auto complain = [&](std::string_view what) {
+    if (complaint.empty()) complaint = fmt::format("{}: {}", path, what);
+    return false;
+  };
+  if (!contacts.is_array()) return complain("it has no list of contacts");
+  JsonItems items(contacts);
+  double sum = 0;
+  while (const auto item = items.next()) {
+    if (terms.size() == kMostTerms) return complain("it has more than eight contacts");
+    if (!item->is_array()) return complain("a contact is not a list");
+    std::array<Json, 7> value;
+    std::array<Span, 7> number;
+    JsonItems numbers(*item);
+    for (std::size_t k = 0; k < 7; ++k) {
+      const auto next = numbers.next();
+      const auto decimal = next && next->is_number() ? parse_decimal(next->text) : std::nullopt;
+      if (!decimal) return complain("a contact is not seven numbers");
+      value[k] = *next, number[k] = enclosed(*decimal);
+    }
+    if (numbers.next()) return complain("a contact is not seven numbers");
+    for (const std::size_t k : {2u, 5u, 6u})
+      if (number[k].low < 0 && number[k].high <= 0 && value[k].text != "0")
+        return complain("a radius or a multiplier is negative");
+    Term term;
+    const Vec part{number[0], number[1]}, blank{number[3], number[4]};
+    term.part_radius = part_radius(value[0], value[1], value[2], part, number[2].low);
+    term.blank_radius = blank_radius(value[3], value[4], value[5], blank, number[5].low);
+    term.multiplier = number[6].low;
+    term.part = part - problem_.pivot;
+    if (mirrored_) term.part.x = {-term.part.x.high, -term.part.x.low};
+    term.blank = blank;
+    sum += term.multiplier;
+    if (term.multiplier > 0) terms.push_back(term);
+  }
+  if (terms.empty() || !(sum > 0)) return complain("its multipliers sum to nothing");
+  for (Term& term : terms) term.multiplier /= sum;
+  return true;
+}
+
+/// What of a ball's radius really lies in the part's material; negative when its centre lies beside it.
+double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
+  const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
+  const auto known = part_radii_.find(key);
+  if (known != part_radii_.end()) return known->second;
+  const double real = std::min(std::max(0.0, written), signed_distance(centre, problem_.part).low);
+  return part_radii_.emplace(key, real).first->second;
+}
+
+double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
+  const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
+  const auto known = blank_radii_.find(key);
+  if (known != blank_radii_.end()) return known->second;
+  const double real = std::min(std::max(0.0, written), -signed_distance(centre, problem_.blank).high);
+  return blank_radii_.emplace(key, real).first->second;
+}
+
+bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int depth) const {
+  if (bound_over(cell, terms) <= problem_.bound) return true;
+  if (depth == kMostHalvings) return false;
+  // The widest direction, turning counted at the largest lever.
+  double lever = 0;
+  for (const Term& term : terms) lever = std::max(lever, length(term.part).high);
+  const double width[3] = {(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1], cell.high[2] - cell.low[2]};
+  int k = 0;
+  for (int i = 1; i < 3; ++i)
+    if (width[i] > width[k]) k = i;
+  const double middle = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
+  Cell low = cell, high = cell;
+  low.high[k] = high.low[k] = middle;
+  return proved(low, terms, depth + 1) && proved(high, terms, depth + 1);
+}
+
+/// With w the vector between two balls' centres at the cell's middle, u = w / |w|, and a pose off the middle
+/// by s in q and by phi in theta, the vector is w + s + (R(phi) - 1) p, p the part's centre from the pivot.
+///   |w + d| <= u . (w + d) + |d across u|^2 / (2 u . (w + d))        (from sqrt(a^2 + b^2) <= a + b^2 / 2a)
+///   (R(phi) - 1) p = phi J p + rest, |rest| <= phi^2 / 2 |p|,
+///   u . rest <= phi^2 / 2 max(0, -u . p) + |phi|^3 / 6 |p|.
+/// The terms linear in s and phi are summed over the balls before their largest value is taken.
+double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) const {
+  double middle[3], half[3];
+  for (int k = 0; k < 3; ++k) {
+    middle[k] = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
+    half[k] = up(std::max(cell.high[k] - middle[k], middle[k] - cell.low[k]));
+  }
+  const Turn turn = turn_by(Interval::exactly(middle[0], 80));
+  const Span c{turn.cosine.low_double(), turn.cosine.high_double()}, s{turn.sine.low_double(), turn.sine.high_double()};
+  const Span h{half[0], half[0]};
+  Span level{0, 0}, gx{0, 0}, gy{0, 0}, gt{0, 0};
+  double floor = -kInfinity;
+  for (const Term& term : terms) {
+    const Span m{term.multiplier, term.multiplier};
+    const Vec p{c * term.part.x - s * term.part.y, s * term.part.x + c * term.part.y};
+    const Vec w{plus(p.x, middle[1]) - term.blank.x, plus(p.y, middle[2]) - term.blank.y};
+    const Span apart = length(w), far = length(p);
+    const Span radii = Span{term.part_radius, term.part_radius} + Span{term.blank_radius, term.blank_radius};
+    floor = std::max(floor, -term.blank_radius);
+    // However the pose moves within the cell, the centre moves no further than this.
+    const Span slide = square_root(squared({half[1], half[1]}) + squared({half[2], half[2]}));
+    const Span anyway = slide + far * h;
+    bool curved_is_less = false;
+    if (apart.low > 0) {
+      const Vec u{w.x / apart, w.y / apart};
+      const Span lever = cross(p, u), along_p = dot(u, p), rest = Span{0.5, 0.5} * h * h * far;
+      const double ux = magnitude(u.x), uy = magnitude(u.y);
+      const Span along = Span{ux, ux} * Span{half[1], half[1]} + Span{uy, uy} * Span{half[2], half[2]} +
+                         Span{magnitude(lever), magnitude(lever)} * h + rest;
+      const Span across = Span{uy, uy} * Span{half[1], half[1]} + Span{ux, ux} * Span{half[2], half[2]} +
+                          Span{magnitude(along_p), magnitude(along_p)} * h + rest;
+      const Span left = apart - along;
+      if (left.low > 0) {
+        const double inwards = std::max(0.0, -along_p.low);
+        const Span curved = across * across / (left + left) + Span{0.5, 0.5} * h * h * Span{inwards, inwards} +
+                            h * h * h * far / Span{6, 6};
+        if (curved.high < anyway.high) {
+          curved_is_less = true;
+          level = level + m * (apart - radii + curved);
+          gx = gx + m * u.x, gy = gy + m * u.y, gt = gt + m * lever;
+        }
+      }
+    }
+    if (!curved_is_less) level = level + m * (apart - radii + anyway);
+  }
+  const Span linear = Span{magnitude(gx), magnitude(gx)} * Span{half[1], half[1]} +
+                      Span{magnitude(gy), magnitude(gy)} * Span{half[2], half[2]} + Span{magnitude(gt), magnitude(gt)} * h;
+  return std::max((level + linear).high, floor);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "shape.hpp"
+
+namespace lekalo::verify {
+
+/// The certificate of a localisation of regions: a subdivision of a box of poses whose leaves name pairs of
+/// balls: a part ball (centre a, radius r) in the part's material, a blank ball (centre c, radius s) in whose
+/// inside the blank has no material. For any pose T let D = |T a - c| and d = D - r - s. Then the clearance is
+/// at most max(d, -s):
+///   D >= r: the point of the part's ball nearest to c is D - r from it, so at most d from what is not
+///           material, or -d deep inside the blank ball;
+///   D < r:  c itself is a point of the part, and lies s deep in the blank ball.
+/// A sum of such d with multipliers m >= 0, sum m = 1, is at least the least of them; hence the clearance of
+/// every pose of a leaf is at most max(sum m d, -s of its balls). A centre that lies e beside the material (or
+/// beside what is not material) has radius -e: all of this still holds, because a signed distance changes by
+/// no more than its point moves.
+class CoverTree {
+ public:
+  struct Problem {
+    const Shape& part;   ///< as written
+    const Shape& blank;
+    Vec pivot;
+    double pivot_off = 0;       ///< how far the pivot is at most from the part's material
+    double bound = 0;           ///< to be proved, mm
+    Decimal window_from_deg, window_to_deg;
+  };
+  CoverTree(const Problem& problem, std::vector<std::string>& findings)
+      : problem_(problem), findings_(findings) {}
+
+  /// Checks one tree; complaints about its form go to `complaint`, what it fails to prove to the findings.
+  void check(Json tree, const std::string& path, std::string& complaint);
+
+  [[nodiscard]] std::size_t leaves() const { return leaves_; }
+
+ private:
+  /// Poses (theta, q): enclosing box in doubles.
+  struct Cell {
+    double low[3], high[3];  ///< theta, x, y
+  };
+  struct Term {
+    Vec part;  ///< from the pivot, mirrored if the tree is
+    Vec blank;
+    double part_radius = 0, blank_radius = 0, multiplier = 0;
+  };
+
+  void check_root(const Cell& root, const std::string& path);
+  bool read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path);
+  double part_radius(Json x, Json y, Json radius, const Vec& centre, double written);
+  double blank_radius(Json x, Json y, Json radius, const Vec& centre, double written);
+  [[nodiscard]] bool proved(const Cell& cell, const std::vector<Term>& terms, int depth) const;
+  [[nodiscard]] double bound_over(const Cell& cell, const std::vector<Term>& terms) const;
+
+  const Problem& problem_;
+  std::vector<std::string>& findings_;
+  bool mirrored_ = false;
+  std::size_t leaves_ = 0, failed_ = 0;
+  std::map<std::string, double, std::less<>> part_radii_, blank_radii_;  ///< by the text of the ball
+};
+
+}  // namespace lekalo::verify

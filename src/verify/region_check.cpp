@@ -1,0 +1,272 @@
+#include "region_check.hpp"
+
+#include <array>
+
+#include "cover_tree.hpp"
+#include "interval.hpp"
+#include "shape_distance.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// Derived fields and points that are printed for reading may be off by this, mm and relatively.
+constexpr double kReadingTolerance = 1e-6;
+/// The quadtree that looks for material sticking out gives up below this part of the part's size.
+constexpr int kMostQuarterings = 24;
+
+Span enclosed(const Decimal& value) {
+  const Interval interval(value, 64);
+  return {interval.low_double(), interval.high_double()};
+}
+
+struct WrittenTouch {
+  Vec part, blank;
+  double distance = 0, multiplier = 0;
+};
+
+struct RegionDocument {
+  std::string status;
+  Decimal x, y, theta, theta_deg;
+  bool mirrored = false;
+  Span clearance, upper_bound, gap, min_allowance, shortfall, part_tolerance, blank_tolerance;
+  std::string mirror;
+  Decimal window_from, window_to;
+  Shape part, blank;
+  std::vector<WrittenTouch> contacts;
+  Json certificate;
+  bool in_file = false;
+};
+
+class RegionCheck {
+ public:
+  RegionCheck(const LocateInputs& inputs, Json result) : inputs_(inputs), root_(result) {}
+
+  Result<LocateReport> run() {
+    read();
+    if (!complaint_.empty()) return bad(inputs_.result.name);
+    place();
+    check_clearance();
+    check_contacts();
+    check_derived();
+    const bool proved = check_certificate();
+    if (!complaint_.empty()) return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
+    check_status();
+    report_.verdict = !report_.findings.empty() ? Verdict::refuted
+                      : proved                  ? Verdict::confirmed
+                                                : Verdict::unproved;
+    return std::move(report_);
+  }
+
+ private:
+  tl::unexpected<Error> bad(const std::string& name) const {
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, complaint_));
+  }
+  template <class... Args>
+  void find(fmt::format_string<Args...> format, Args&&... args) {
+    report_.findings.push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  void read();
+  void place();
+  void check_clearance();
+  [[nodiscard]] bool sticks_out_by_at_most(double depth) const;
+  void check_contacts();
+  void check_derived();
+  bool check_certificate();
+  void check_status();
+
+  const LocateInputs& inputs_;
+  Json root_;
+  std::string complaint_;
+  RegionDocument r_;
+  Span cosine_, sine_;
+  Vec shift_;
+  Shape placed_;
+  LocateReport report_;
+};
+
+void RegionCheck::read() {
+  Fields fields(root_, "", complaint_);
+  r_.status = fields.text("status");
+  constexpr std::array<std::string_view, 3> kStatuses{"optimal", "stopped", "infeasible"};
+  if (std::find(kStatuses.begin(), kStatuses.end(), r_.status) == kStatuses.end())
+    fields.complain(fmt::format("\"{}\" is no status of a result", excerpt(r_.status)));
+  r_.x = fields.number("x"), r_.y = fields.number("y");
+  r_.theta = fields.number("theta"), r_.theta_deg = fields.number("theta_deg");
+  r_.mirrored = fields.get("mirrored").is_bool() && fields.get("mirrored").is_true();
+  r_.mirror = fields.text("mirror");
+  if (r_.mirror != "no" && r_.mirror != "yes" && r_.mirror != "either")
+    fields.complain("field mirror is none of \"no\", \"yes\", \"either\"");
+  for (auto [key, to] : {std::pair{"clearance", &r_.clearance}, {"upper_bound", &r_.upper_bound},
+                         {"gap", &r_.gap}, {"min_allowance", &r_.min_allowance}, {"shortfall", &r_.shortfall}})
+    *to = enclosed(fields.number(key));
+  std::vector<Decimal> ends;
+  fields.each("window_deg", [&](Json item, const std::string& path) { ends.push_back(fields.number_of(item, path)); });
+  if (ends.size() == 2) r_.window_from = ends[0], r_.window_to = ends[1];
+  if (ends.size() != 2 || compare(ends[0], ends[1]) > 0)
+    fields.complain("field window_deg is not two angles in ascending order");
+  Fields tolerances(fields.get("tolerances"), "tolerances", complaint_);
+  r_.part_tolerance = enclosed(tolerances.number("part")), r_.blank_tolerance = enclosed(tolerances.number("blank"));
+  Fields regions(fields.get("regions"), "regions", complaint_);
+  r_.part = read_shape(regions.get("part"), "regions.part", complaint_);
+  r_.blank = read_shape(regions.get("blank"), "regions.blank", complaint_);
+  fields.each("contacts", [&](Json item, const std::string& path) {
+    Fields contact(item, path, complaint_);
+    const auto point = [&](std::string_view key) {
+      std::vector<Span> numbers;
+      contact.each(key, [&](Json number, const std::string& at) { numbers.push_back(enclosed(contact.number_of(number, at))); });
+      if (numbers.size() != 2) return contact.complain(fmt::format("{} is not two numbers", contact.name(key))), Vec{};
+      return Vec{numbers[0], numbers[1]};
+    };
+    r_.contacts.push_back({point("part_at"), point("blank_at"), approximate(contact.number("distance")),
+                           approximate(contact.number("multiplier"))});
+  });
+  r_.certificate = fields.get("certificate");
+  r_.in_file = !fields.get("certificate_file").text.empty() && !fields.get("certificate_file").is_null();
+  if (r_.part_tolerance.low < 0 || r_.blank_tolerance.low < 0) fields.complain("a tolerance is negative");
+}
+
+void RegionCheck::place() {
+  const Turn turn = turn_by(Interval(r_.theta, 96 + angle_bits(r_.theta)));
+  cosine_ = {turn.cosine.low_double(), turn.cosine.high_double()};
+  sine_ = {turn.sine.low_double(), turn.sine.high_double()};
+  shift_ = {enclosed(r_.x), enclosed(r_.y)};
+  placed_ = placed(r_.part, cosine_, sine_, r_.mirrored, shift_);
+}
+
+void RegionCheck::check_clearance() {
+  const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
+  const Span claimed = r_.clearance + tolerances;  // of the regions as written
+  const Span apart = distance(placed_, r_.blank);
+  const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_, r_.blank) : std::nullopt;
+  const bool fits = inside && *inside;
+  if (fits) {
+    report_.clearance_low = fmt::format("{}", (apart - tolerances).low);
+    report_.clearance_high = fmt::format("{}", (apart - tolerances).high);
+    if (!(claimed.high <= apart.low))
+      find("clearance {} mm is above {} mm, the least distance between the outlines at its pose", r_.clearance.low, apart.low);
+    return;
+  }
+  if (claimed.high >= 0) {
+    find("clearance is {} mm, but the placed part {}", r_.clearance.low,
+         inside ? "is not inside the blank" : "meets the outline of the blank, or cannot be told from doing so");
+    return;
+  }
+  report_.clearance_low = fmt::format("{}", r_.clearance.low);
+  report_.clearance_high = "0";
+  if (!sticks_out_by_at_most(-claimed.high))
+    find("clearance is {} mm, but more of the placed part sticks out of the blank than that", r_.clearance.low);
+}
+
+/// By squares in the part's frame: material farther outside the blank than `depth` is in none of them.
+bool RegionCheck::sticks_out_by_at_most(double depth) const {
+  struct Square {
+    double x, y, half;
+    int level;
+  };
+  const double half = std::max(r_.part.high_x - r_.part.low_x, r_.part.high_y - r_.part.low_y) * 0.5000001;
+  std::vector<Square> open{{0.5 * (r_.part.low_x + r_.part.high_x), 0.5 * (r_.part.low_y + r_.part.high_y), half, 0}};
+  while (!open.empty()) {
+    const Square square = open.back();
+    open.pop_back();
+    const Vec centre{{square.x, square.x}, {square.y, square.y}};
+    const double radius = 1.4142136 * square.half;
+    if (signed_distance(centre, r_.part).high < -radius) continue;  // no material
+    const Span x = r_.mirrored ? Span{-square.x, -square.x} : centre.x;
+    const Vec place = Vec{cosine_ * x - sine_ * centre.y, sine_ * x + cosine_ * centre.y} + shift_;
+    if (signed_distance(place, r_.blank).low - radius >= -depth) continue;
+    if (square.level == kMostQuarterings) return false;
+    const double quarter = 0.5 * square.half;
+    for (const double dx : {-quarter, quarter})
+      for (const double dy : {-quarter, quarter})
+        open.push_back({square.x + dx, square.y + dy, quarter * 1.0000001, square.level + 1});
+  }
+  return true;
+}
+
+void RegionCheck::check_contacts() {
+  for (std::size_t i = 0; i < r_.contacts.size(); ++i) {
+    const WrittenTouch& contact = r_.contacts[i];
+    const double size = std::max(std::abs(r_.blank.high_x - r_.blank.low_x), std::abs(r_.blank.high_y - r_.blank.low_y));
+    const double slack = kReadingTolerance * std::max(1.0, size);
+    if (distance(contact.part, r_.part).low > slack) find("contact {}: part_at is not on the part's outline", i);
+    if (distance(contact.blank, r_.blank).low > slack) find("contact {}: blank_at is not on the blank's outline", i);
+    const Span x = r_.mirrored ? Span{-contact.part.x.high, -contact.part.x.low} : contact.part.x;
+    const Vec at = Vec{cosine_ * x - sine_ * contact.part.y, sine_ * x + cosine_ * contact.part.y} + shift_;
+    const Span apart = length(at - contact.blank);
+    if (apart.low > contact.distance + slack || apart.high < contact.distance - slack)
+      find("contact {}: its points are {} mm apart, not {}", i, apart.low, contact.distance);
+  }
+}
+
+void RegionCheck::check_derived() {
+  const auto differs = [](Span written, Span real) {
+    const double slack = 1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
+    return written.low > real.high + slack || written.high < real.low - slack;
+  };
+  const Span gap = r_.upper_bound - r_.clearance;
+  const Span widened{gap.low - 1e-15 * std::abs(r_.upper_bound.high), gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
+  if (differs(r_.gap, widened)) find("gap is not upper_bound less clearance");
+  const Span missing = r_.min_allowance - r_.clearance;
+  if (missing.high <= 0 ? r_.shortfall.high != 0 && r_.shortfall.low > 0
+                        : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
+    find("shortfall is not min_allowance less clearance");
+  const double degrees = approximate(r_.theta) * 57.29577951308232;
+  if (!(std::abs(degrees - approximate(r_.theta_deg)) <= 1e-13 * (1 + std::abs(degrees))))
+    find("theta_deg is {}, but theta means {} degrees", approximate(r_.theta_deg), degrees);
+  if (r_.mirrored != (r_.mirror == "yes") && r_.mirror != "either")
+    find("the placement is {}mirrored, which was not allowed", r_.mirrored ? "" : "not ");
+}
+
+bool RegionCheck::check_certificate() {
+  Json certificate = r_.certificate;
+  Json parsed;
+  if (certificate.is_null() && r_.in_file && inputs_.certificate) {
+    const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
+    if (!root) return complaint_ = "it is no JSON document", false;
+    Fields file(*root, "", complaint_);
+    certificate = file.get("certificate");
+  }
+  if (certificate.text.empty() || certificate.is_null()) return false;
+  Fields fields(certificate, "certificate", complaint_);
+  std::vector<Span> pivot;
+  fields.each("pivot", [&](Json item, const std::string& path) { pivot.push_back(enclosed(fields.number_of(item, path))); });
+  if (pivot.size() != 2) fields.complain("certificate.pivot is not two numbers");
+  if (!complaint_.empty()) return false;
+  const Vec at{pivot[0], pivot[1]};
+  CoverTree::Problem problem{r_.part, r_.blank, at, 0, 0, r_.window_from, r_.window_to};
+  problem.pivot_off = std::max(0.0, -signed_distance(at, r_.part).low);
+  problem.bound = ((r_.upper_bound - r_.part_tolerance) - r_.blank_tolerance).low;
+  CoverTree cover(problem, report_.findings);
+  bool plain = false, mirrored = false;
+  fields.each("trees", [&](Json item, const std::string& path) {
+    if (!complaint_.empty()) return;
+    Fields tree(item, path, complaint_);
+    const bool is_mirrored = tree.get("mirrored").is_bool() && tree.get("mirrored").is_true();
+    (is_mirrored ? mirrored : plain) = true;
+    cover.check(item, path, complaint_);
+  });
+  if (r_.mirror != "yes" && !plain) find("the certificate has no tree for the part as it is");
+  if (r_.mirror != "no" && !mirrored) find("the certificate has no tree for the mirrored part");
+  report_.intervals = cover.leaves();
+  report_.bound_high = fmt::format("{}", r_.upper_bound.high);
+  return true;
+}
+
+void RegionCheck::check_status() {
+  const bool out_of_reach = r_.upper_bound.high < r_.min_allowance.low;
+  if (r_.status == "infeasible" && !out_of_reach) find("status is infeasible, but upper_bound is not below min_allowance");
+  if (r_.status == "optimal" && out_of_reach) find("status is optimal, but upper_bound is below min_allowance");
+}
+
+}  // namespace
+
+bool has_regions(Json result) {
+  std::array<Json, 1> found;
+  constexpr std::array<std::string_view, 1> kKeys{"regions"};
+  return result.is_object() && find_members(result, kKeys, found) && found[0].is_object();
+}
+
+Result<LocateReport> check_regions(const LocateInputs& inputs, Json result) { return RegionCheck(inputs, result).run(); }
+
+}  // namespace lekalo::verify

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "shape.hpp"
+
+namespace lekalo::verify {
+
+/// Distances between points and outlines of shapes, enclosed: by the formulas of a textbook, every case that
+/// rounding leaves open taken into the lower end and left out of the upper one. No index, no search: each
+/// call looks at every side.
+
+[[nodiscard]] Span distance(const Vec& p, const Side& side);
+/// low is 0 where the sides meet or may meet.
+[[nodiscard]] Span distance(const Side& a, const Side& b);
+[[nodiscard]] Span distance(const Vec& p, const Shape& shape);
+[[nodiscard]] Span distance(const Shape& a, const Shape& b);
+
+/// Whether the material holds p; nothing when rounding leaves it open.
+[[nodiscard]] std::optional<bool> holds(const Shape& shape, const Vec& p);
+
+/// Distance from the outline, positive in the material.
+[[nodiscard]] Span signed_distance(const Vec& p, const Shape& shape);
+
+/// Whether all of `inner`'s material lies in `outer`'s. \pre their outlines do not meet
+[[nodiscard]] std::optional<bool> lies_within(const Shape& inner, const Shape& outer);
+
+}  // namespace lekalo::verify
