@@ -318,10 +318,10 @@ Result<Rewritten> rewrite_coordinates(const RewriteJob& job) {
     result.motions = motions.size();
     result.notes.push_back(frame_note(job.options));
     if (pass.most_decimals > 0)
-      result.notes.push_back(
-          fmt::format("rewritten numbers have {} to {} decimals; a control that reads fewer adds its "
-                      "own rounding",
-                      kLeastDecimals, pass.most_decimals));
+      result.notes.push_back(fmt::format(
+          "rewritten numbers have {} decimals; a control that reads fewer adds its own rounding",
+          pass.most_decimals > kLeastDecimals ? fmt::format("{} to {}", kLeastDecimals, pass.most_decimals)
+                                              : fmt::format("{}", kLeastDecimals)));
     return result;
   }
 }

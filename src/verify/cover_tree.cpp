@@ -42,7 +42,8 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     fields.each(key, [&](Json item, const std::string& at) {
       if (ends.size() < 3) ends.push_back(fields.number_of(item, at));
     });
-    if (ends.size() != 2) return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
+    if (ends.size() != 2)
+      return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
     return Span{enclosed(ends[0]).low, enclosed(ends[1]).high};
   };
   const Span theta = range("theta"), x = range("x"), y = range("y");
@@ -78,12 +79,16 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     if (!read_leaf(leaf.get("contacts"), terms, complaint, name)) return;
     if (proved(cell, terms, 0)) continue;
     if (++failed_ > 3) continue;
-    findings_.push_back(fmt::format(
-        "{}: its contacts do not prove that no placement with theta {} to {} and the pivot at x {} to {}, y {} to "
-        "{} has more clearance than {} mm",
-        name, cell.low[0], cell.high[0], cell.low[1], cell.high[1], cell.low[2], cell.high[2], problem_.bound));
+    findings_.push_back(
+        fmt::format("{}: its contacts do not prove that no placement with theta {} to {} and the pivot at x "
+                    "{} to {}, y {} to "
+                    "{} has more clearance than {} mm",
+                    name, cell.low[0], cell.high[0], cell.low[1], cell.high[1], cell.low[2], cell.high[2],
+                    problem_.bound));
   }
-  if (!open.empty()) findings_.push_back(fmt::format("{}: the subdivision ends early, {} cells are missing", path, open.size()));
+  if (!open.empty())
+    findings_.push_back(
+        fmt::format("{}: the subdivision ends early, {} cells are missing", path, open.size()));
 }
 
 /// The root holds every pose of the window that could have more clearance than the bound.
@@ -92,7 +97,8 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
   const Span whole = radians(Decimal{36, 1});
   const bool full = root.high[0] - root.low[0] >= whole.high;
   if (!full && !(root.low[0] <= from.low && root.high[0] >= to.high)) {
-    findings_.push_back(fmt::format("{}: theta from {} to {} does not cover the window", path, root.low[0], root.high[0]));
+    findings_.push_back(
+        fmt::format("{}: theta from {} to {} does not cover the window", path, root.low[0], root.high[0]));
   }
   // There the material lies in the blank, or sticks out by less than -bound, and the pivot is within
   // pivot_off of it.
@@ -104,7 +110,8 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
   }
 }
 
-bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path) {
+bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint,
+                          const std::string& path) {
   const auto complain = [&](std::string_view what) {
     if (complaint.empty()) complaint = fmt::format("{}: {}", path, what);
     return false;
@@ -167,7 +174,8 @@ bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int dep
   // The widest direction, turning counted at the largest lever.
   double lever = 0;
   for (const Term& term : terms) lever = std::max(lever, length(term.part).high);
-  const double width[3] = {(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1], cell.high[2] - cell.low[2]};
+  const double width[3] = {(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1],
+                           cell.high[2] - cell.low[2]};
   int k = 0;
   for (int i = 1; i < 3; ++i)
     if (width[i] > width[k]) k = i;
@@ -190,7 +198,8 @@ double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) c
     half[k] = up(std::max(cell.high[k] - middle[k], middle[k] - cell.low[k]));
   }
   const Turn turn = turn_by(Interval::exactly(middle[0], 80));
-  const Span c{turn.cosine.low_double(), turn.cosine.high_double()}, s{turn.sine.low_double(), turn.sine.high_double()};
+  const Span c{turn.cosine.low_double(), turn.cosine.high_double()},
+      s{turn.sine.low_double(), turn.sine.high_double()};
   const Span h{half[0], half[0]};
   Span level{0, 0}, gx{0, 0}, gy{0, 0}, gt{0, 0};
   double floor = -kInfinity;
@@ -216,8 +225,8 @@ double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) c
       const Span left = apart - along;
       if (left.low > 0) {
         const double inwards = std::max(0.0, -along_p.low);
-        const Span curved = across * across / (left + left) + Span{0.5, 0.5} * h * h * Span{inwards, inwards} +
-                            h * h * h * far / Span{6, 6};
+        const Span curved = across * across / (left + left) +
+                            Span{0.5, 0.5} * h * h * Span{inwards, inwards} + h * h * h * far / Span{6, 6};
         if (curved.high < anyway.high) {
           curved_is_less = true;
           level = level + m * (apart - radii + curved);
@@ -228,7 +237,8 @@ double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) c
     if (!curved_is_less) level = level + m * (apart - radii + anyway);
   }
   const Span linear = Span{magnitude(gx), magnitude(gx)} * Span{half[1], half[1]} +
-                      Span{magnitude(gy), magnitude(gy)} * Span{half[2], half[2]} + Span{magnitude(gt), magnitude(gt)} * h;
+                      Span{magnitude(gy), magnitude(gy)} * Span{half[2], half[2]} +
+                      Span{magnitude(gt), magnitude(gt)} * h;
   return std::max((level + linear).high, floor);
 }
 

@@ -10,23 +10,23 @@ namespace lekalo::verify {
 
 /// The certificate of a localisation of regions: a subdivision of a box of poses whose leaves name pairs of
 /// balls: a part ball (centre a, radius r) in the part's material, a blank ball (centre c, radius s) in whose
-/// inside the blank has no material. For any pose T let D = |T a - c| and d = D - r - s. Then the clearance is
-/// at most max(d, -s):
+/// inside the blank has no material. For any pose T let D = |T a - c| and d = D - r - s. Then the clearance
+/// is at most max(d, -s):
 ///   D >= r: the point of the part's ball nearest to c is D - r from it, so at most d from what is not
 ///           material, or -d deep inside the blank ball;
 ///   D < r:  c itself is a point of the part, and lies s deep in the blank ball.
 /// A sum of such d with multipliers m >= 0, sum m = 1, is at least the least of them; hence the clearance of
-/// every pose of a leaf is at most max(sum m d, -s of its balls). A centre that lies e beside the material (or
-/// beside what is not material) has radius -e: all of this still holds, because a signed distance changes by
-/// no more than its point moves.
+/// every pose of a leaf is at most max(sum m d, -s of its balls). A centre that lies e beside the material
+/// (or beside what is not material) has radius -e: all of this still holds, because a signed distance changes
+/// by no more than its point moves.
 class CoverTree {
  public:
   struct Problem {
-    const Shape& part;   ///< as written
+    const Shape& part;  ///< as written
     const Shape& blank;
     Vec pivot;
-    double pivot_off = 0;       ///< how far the pivot is at most from the part's material
-    double bound = 0;           ///< to be proved, mm
+    double pivot_off = 0;  ///< how far the pivot is at most from the part's material
+    double bound = 0;      ///< to be proved, mm
     Decimal window_from_deg, window_to_deg;
   };
   CoverTree(const Problem& problem, std::vector<std::string>& findings)

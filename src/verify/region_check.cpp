@@ -49,7 +49,8 @@ class RegionCheck {
     check_contacts();
     check_derived();
     const bool proved = check_certificate();
-    if (!complaint_.empty()) return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
+    if (!complaint_.empty())
+      return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
     check_status();
     report_.verdict = !report_.findings.empty() ? Verdict::refuted
                       : proved                  ? Verdict::confirmed
@@ -97,16 +98,21 @@ void RegionCheck::read() {
   r_.mirror = fields.text("mirror");
   if (r_.mirror != "no" && r_.mirror != "yes" && r_.mirror != "either")
     fields.complain("field mirror is none of \"no\", \"yes\", \"either\"");
-  for (auto [key, to] : {std::pair{"clearance", &r_.clearance}, {"upper_bound", &r_.upper_bound},
-                         {"gap", &r_.gap}, {"min_allowance", &r_.min_allowance}, {"shortfall", &r_.shortfall}})
+  for (auto [key, to] : {std::pair{"clearance", &r_.clearance},
+                         {"upper_bound", &r_.upper_bound},
+                         {"gap", &r_.gap},
+                         {"min_allowance", &r_.min_allowance},
+                         {"shortfall", &r_.shortfall}})
     *to = enclosed(fields.number(key));
   std::vector<Decimal> ends;
-  fields.each("window_deg", [&](Json item, const std::string& path) { ends.push_back(fields.number_of(item, path)); });
+  fields.each("window_deg",
+              [&](Json item, const std::string& path) { ends.push_back(fields.number_of(item, path)); });
   if (ends.size() == 2) r_.window_from = ends[0], r_.window_to = ends[1];
   if (ends.size() != 2 || compare(ends[0], ends[1]) > 0)
     fields.complain("field window_deg is not two angles in ascending order");
   Fields tolerances(fields.get("tolerances"), "tolerances", complaint_);
-  r_.part_tolerance = enclosed(tolerances.number("part")), r_.blank_tolerance = enclosed(tolerances.number("blank"));
+  r_.part_tolerance = enclosed(tolerances.number("part")),
+  r_.blank_tolerance = enclosed(tolerances.number("blank"));
   Fields regions(fields.get("regions"), "regions", complaint_);
   r_.part = read_shape(regions.get("part"), "regions.part", complaint_);
   r_.blank = read_shape(regions.get("blank"), "regions.blank", complaint_);
@@ -114,8 +120,11 @@ void RegionCheck::read() {
     Fields contact(item, path, complaint_);
     const auto point = [&](std::string_view key) {
       std::vector<Span> numbers;
-      contact.each(key, [&](Json number, const std::string& at) { numbers.push_back(enclosed(contact.number_of(number, at))); });
-      if (numbers.size() != 2) return contact.complain(fmt::format("{} is not two numbers", contact.name(key))), Vec{};
+      contact.each(key, [&](Json number, const std::string& at) {
+        numbers.push_back(enclosed(contact.number_of(number, at)));
+      });
+      if (numbers.size() != 2)
+        return contact.complain(fmt::format("{} is not two numbers", contact.name(key))), Vec{};
       return Vec{numbers[0], numbers[1]};
     };
     r_.contacts.push_back({point("part_at"), point("blank_at"), approximate(contact.number("distance")),
@@ -144,18 +153,21 @@ void RegionCheck::check_clearance() {
     report_.clearance_low = fmt::format("{}", (apart - tolerances).low);
     report_.clearance_high = fmt::format("{}", (apart - tolerances).high);
     if (!(claimed.high <= apart.low))
-      find("clearance {} mm is above {} mm, the least distance between the outlines at its pose", r_.clearance.low, apart.low);
+      find("clearance {} mm is above {} mm, the least distance between the outlines at its pose",
+           r_.clearance.low, apart.low);
     return;
   }
   if (claimed.high >= 0) {
     find("clearance is {} mm, but the placed part {}", r_.clearance.low,
-         inside ? "is not inside the blank" : "meets the outline of the blank, or cannot be told from doing so");
+         inside ? "is not inside the blank"
+                : "meets the outline of the blank, or cannot be told from doing so");
     return;
   }
   report_.clearance_low = fmt::format("{}", r_.clearance.low);
   report_.clearance_high = "0";
   if (!sticks_out_by_at_most(-claimed.high))
-    find("clearance is {} mm, but more of the placed part sticks out of the blank than that", r_.clearance.low);
+    find("clearance is {} mm, but more of the placed part sticks out of the blank than that",
+         r_.clearance.low);
 }
 
 /// By squares in the part's frame: material farther outside the blank than `depth` is in none of them.
@@ -165,7 +177,8 @@ bool RegionCheck::sticks_out_by_at_most(double depth) const {
     int level;
   };
   const double half = std::max(r_.part.high_x - r_.part.low_x, r_.part.high_y - r_.part.low_y) * 0.5000001;
-  std::vector<Square> open{{0.5 * (r_.part.low_x + r_.part.high_x), 0.5 * (r_.part.low_y + r_.part.high_y), half, 0}};
+  std::vector<Square> open{
+      {0.5 * (r_.part.low_x + r_.part.high_x), 0.5 * (r_.part.low_y + r_.part.high_y), half, 0}};
   while (!open.empty()) {
     const Square square = open.back();
     open.pop_back();
@@ -187,10 +200,13 @@ bool RegionCheck::sticks_out_by_at_most(double depth) const {
 void RegionCheck::check_contacts() {
   for (std::size_t i = 0; i < r_.contacts.size(); ++i) {
     const WrittenTouch& contact = r_.contacts[i];
-    const double size = std::max(std::abs(r_.blank.high_x - r_.blank.low_x), std::abs(r_.blank.high_y - r_.blank.low_y));
+    const double size =
+        std::max(std::abs(r_.blank.high_x - r_.blank.low_x), std::abs(r_.blank.high_y - r_.blank.low_y));
     const double slack = kReadingTolerance * std::max(1.0, size);
-    if (distance(contact.part, r_.part).low > slack) find("contact {}: part_at is not on the part's outline", i);
-    if (distance(contact.blank, r_.blank).low > slack) find("contact {}: blank_at is not on the blank's outline", i);
+    if (distance(contact.part, r_.part).low > slack)
+      find("contact {}: part_at is not on the part's outline", i);
+    if (distance(contact.blank, r_.blank).low > slack)
+      find("contact {}: blank_at is not on the blank's outline", i);
     const Span x = r_.mirrored ? Span{-contact.part.x.high, -contact.part.x.low} : contact.part.x;
     const Vec at = Vec{cosine_ * x - sine_ * contact.part.y, sine_ * x + cosine_ * contact.part.y} + shift_;
     const Span apart = length(at - contact.blank);
@@ -201,11 +217,13 @@ void RegionCheck::check_contacts() {
 
 void RegionCheck::check_derived() {
   const auto differs = [](Span written, Span real) {
-    const double slack = 1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
+    const double slack =
+        1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
     return written.low > real.high + slack || written.high < real.low - slack;
   };
   const Span gap = r_.upper_bound - r_.clearance;
-  const Span widened{gap.low - 1e-15 * std::abs(r_.upper_bound.high), gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
+  const Span widened{gap.low - 1e-15 * std::abs(r_.upper_bound.high),
+                     gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
   if (differs(r_.gap, widened)) find("gap is not upper_bound less clearance");
   const Span missing = r_.min_allowance - r_.clearance;
   if (missing.high <= 0 ? r_.shortfall.high != 0 && r_.shortfall.low > 0
@@ -230,7 +248,9 @@ bool RegionCheck::check_certificate() {
   if (certificate.text.empty() || certificate.is_null()) return false;
   Fields fields(certificate, "certificate", complaint_);
   std::vector<Span> pivot;
-  fields.each("pivot", [&](Json item, const std::string& path) { pivot.push_back(enclosed(fields.number_of(item, path))); });
+  fields.each("pivot", [&](Json item, const std::string& path) {
+    pivot.push_back(enclosed(fields.number_of(item, path)));
+  });
   if (pivot.size() != 2) fields.complain("certificate.pivot is not two numbers");
   if (!complaint_.empty()) return false;
   const Vec at{pivot[0], pivot[1]};
@@ -255,8 +275,10 @@ bool RegionCheck::check_certificate() {
 
 void RegionCheck::check_status() {
   const bool out_of_reach = r_.upper_bound.high < r_.min_allowance.low;
-  if (r_.status == "infeasible" && !out_of_reach) find("status is infeasible, but upper_bound is not below min_allowance");
-  if (r_.status == "optimal" && out_of_reach) find("status is optimal, but upper_bound is below min_allowance");
+  if (r_.status == "infeasible" && !out_of_reach)
+    find("status is infeasible, but upper_bound is not below min_allowance");
+  if (r_.status == "optimal" && out_of_reach)
+    find("status is optimal, but upper_bound is below min_allowance");
 }
 
 }  // namespace
@@ -267,6 +289,8 @@ bool has_regions(Json result) {
   return result.is_object() && find_members(result, kKeys, found) && found[0].is_object();
 }
 
-Result<LocateReport> check_regions(const LocateInputs& inputs, Json result) { return RegionCheck(inputs, result).run(); }
+Result<LocateReport> check_regions(const LocateInputs& inputs, Json result) {
+  return RegionCheck(inputs, result).run();
+}
 
 }  // namespace lekalo::verify

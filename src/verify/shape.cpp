@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "interval.hpp"
+#include "shape_distance.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -99,9 +100,16 @@ class ShapeReader {
     side.radius = Span{0.5, 0.5} * (ra + rb);
     side.off = 0.5 * std::max((ra - rb).high, (rb - ra).high);
     if (!(side.radius.low > 0)) return complain(name + " is an arc without a radius");
-    // The box of the whole circle is wide enough for its use.
-    const double r = side.radius.high + side.off;
-    add(side, side.centre.x.high + r, side.centre.y.high + r, side.centre.x.low - r, side.centre.y.low - r);
+    double high_x = std::max(side.from.x.high, side.to.x.high),
+           high_y = std::max(side.from.y.high, side.to.y.high),
+           low_x = std::min(side.from.x.low, side.to.x.low), low_y = std::min(side.from.y.low, side.to.y.low);
+    const double r = side.radius.high;
+    const Span zero{0, 0}, one{1, 1}, back{-1, -1};
+    if (may_face(side, {one, zero})) high_x = std::max(high_x, side.centre.x.high + r);
+    if (may_face(side, {zero, one})) high_y = std::max(high_y, side.centre.y.high + r);
+    if (may_face(side, {back, zero})) low_x = std::min(low_x, side.centre.x.low - r);
+    if (may_face(side, {zero, back})) low_y = std::min(low_y, side.centre.y.low - r);
+    add(side, high_x, high_y, low_x, low_y);
   }
 
   void add(const Side& side, double high_x, double high_y, double low_x, double low_y) {

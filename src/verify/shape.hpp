@@ -8,7 +8,8 @@
 
 namespace lekalo::verify {
 
-/// Regions of lines and arcs as they are written in a result, every number enclosed in doubles. Lengths in mm.
+/// Regions of lines and arcs as they are written in a result, every number enclosed in doubles. Lengths in
+/// mm.
 
 struct Vec {
   Span x, y;
@@ -37,13 +38,13 @@ struct Side {
 
 struct Shape {
   std::vector<Side> sides;
-  std::vector<std::size_t> contour_starts = {0};  ///< and the number of sides
+  std::vector<std::size_t> contour_starts = {0};        ///< and the number of sides
   double low_x = 0, low_y = 0, high_x = 0, high_y = 0;  ///< a box that holds it
 };
 
-/// Reads `{"units": "mm", "outer": [edges], "holes": [[edges], ...]}` or `{"units": "mm", "pieces": [{"outer",
-/// "holes"}, ...]}`. Contours must be closed: each edge begins with the very decimals at which the one before
-/// ends.
+/// Reads `{"units": "mm", "outer": [edges], "holes": [[edges], ...]}` or `{"units": "mm", "pieces":
+/// [{"outer", "holes"}, ...]}`. Contours must be closed: each edge begins with the very decimals at which the
+/// one before ends.
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint);
 
 /// The shape moved by the rotation (cosine, sine) of its points, mirrored in x before if asked for, and a

@@ -104,8 +104,8 @@ void add_line_arc(const Side& line, const Side& arc, Least& least) {
     const Span place = at + step;
     const Vec p = line.from + Vec{unit.x * place, unit.y * place} - arc.centre;
     const Sure crosses = height.high < arc.radius.low ? Sure::yes : Sure::maybe;
-    least.add({0, arc.off}, both(crosses, both(both(not_negative(place), not_negative(whole - place)),
-                                               faces(arc, p))));
+    least.add({0, arc.off},
+              both(crosses, both(both(not_negative(place), not_negative(whole - place)), faces(arc, p))));
   }
 }
 
@@ -124,7 +124,8 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
   axis(a.radius - apart - b.radius, between, between);
   axis(b.radius - apart - a.radius, back, back);
   if (apart.low > a.radius.high + b.radius.high + off) return;
-  if (a.radius.low > apart.high + b.radius.high + off || b.radius.low > apart.high + a.radius.high + off) return;
+  if (a.radius.low > apart.high + b.radius.high + off || b.radius.low > apart.high + a.radius.high + off)
+    return;
   if (!(apart.low > 0)) return least.add({0, kInfinity}, Sure::maybe);  // concentric and of one radius
   // Where the circles may cross.
   const Span along = (apart + (a.radius - b.radius) * (a.radius + b.radius) / apart) * Span{0.5, 0.5};
@@ -142,13 +143,15 @@ struct Reach {
 };
 Reach reach_of(const Side& side) {
   if (side.arc) {
-    return {side.centre.x.low, side.centre.y.low, 2 * (side.radius.high + side.off) +
-            (side.centre.x.high - side.centre.x.low) + (side.centre.y.high - side.centre.y.low)};
+    return {side.centre.x.low, side.centre.y.low,
+            2 * (side.radius.high + side.off) + (side.centre.x.high - side.centre.x.low) +
+                (side.centre.y.high - side.centre.y.low)};
   }
   const double x = 0.5 * (side.from.x.low + side.to.x.low), y = 0.5 * (side.from.y.low + side.to.y.low);
   const Vec half = side.to - side.from;
   const Span whole = length(half);
-  return {x, y, 0.51 * whole.high + (side.from.x.high - side.from.x.low) + (side.from.y.high - side.from.y.low)};
+  return {x, y,
+          0.51 * whole.high + (side.from.x.high - side.from.x.low) + (side.from.y.high - side.from.y.low)};
 }
 
 /// Some points of a side.
@@ -178,6 +181,8 @@ Sure crosses_right(const Side& arc, const Vec& p, Span step, Span height) {
 }
 
 }  // namespace
+
+bool may_face(const Side& arc, const Vec& direction) { return faces(arc, direction) != Sure::no; }
 
 Span distance(const Vec& p, const Side& side) {
   Least least;

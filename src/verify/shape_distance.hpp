@@ -10,6 +10,9 @@ namespace lekalo::verify {
 /// rounding leaves open taken into the lower end and left out of the upper one. No index, no search: each
 /// call looks at every side.
 
+/// False when the arc certainly has no point in this direction from its centre.
+[[nodiscard]] bool may_face(const Side& arc, const Vec& direction);
+
 [[nodiscard]] Span distance(const Vec& p, const Side& side);
 /// low is 0 where the sides meet or may meet.
 [[nodiscard]] Span distance(const Side& a, const Side& b);

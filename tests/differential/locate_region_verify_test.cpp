@@ -16,12 +16,14 @@ io::LocateDocument document_of(const cases::RegionCase& one, const locate::Regio
              : result.status == locate::Status::stopped ? "stopped"
                                                         : "infeasible";
   d.method = "certified";
-  d.inputs = {{"part", {"part.json", ""}, std::nullopt, 0, {}}, {"blank", {"blank.json", ""}, std::nullopt, 0, {}}};
+  d.inputs = {{"part", {"part.json", ""}, std::nullopt, 0, {}},
+              {"blank", {"blank.json", ""}, std::nullopt, 0, {}}};
   d.placement = result.best;
   d.upper_bound = result.upper_bound;
   d.shortfall = result.shortfall;
-  d.regions = io::RegionRecord{one.part, one.blank, 0, 0, locate::Mirror::no, result.mirrored, result.contacts,
-                               result.certificate, result.pivot};
+  d.regions = io::RegionRecord{
+      one.part,        one.blank,          0,           0, locate::Mirror::no, result.mirrored,
+      result.contacts, result.certificate, result.pivot};
   return d;
 }
 
@@ -41,7 +43,8 @@ TEST(LocateRegionsAndVerify, TheCheckerConfirmsEveryRandomCase) {
       SCOPED_TRACE(one.name);
       locate::RegionOptions options;
       options.run.work_limit = 60'000;
-      const auto result = locate::locate_regions({one.part, one.blank, {}, locate::Mirror::no, 0, 0}, options);
+      const auto result =
+          locate::locate_regions({one.part, one.blank, {}, locate::Mirror::no, 0, 0}, options);
       ASSERT_TRUE(result.has_value());
       const io::LocateDocument document = document_of(one, *result);
       const verify::LocateReport report = checked(document);

@@ -161,8 +161,7 @@ TEST(NcRewrite, keeps_the_half_circle_by_radius_a_half_circle) {
   for (int k = 0; k < 50; ++k) {
     const auto result = rewritten("G21\nG0 X-7 Y3\nG3 X13 Y3 R10\n", 0.1 * k, 0.2, 0.13 * k);
     EXPECT_LT(result.rounding_mm, 1e-4) << k;
-    EXPECT_EQ(result.notes.at(1).rfind("rewritten numbers have 5 to 5 decimals", 0), 0U)
-        << result.notes.at(1);
+    EXPECT_EQ(result.notes.at(1).rfind("rewritten numbers have 5 decimals", 0), 0U) << result.notes.at(1);
   }
 }
 
@@ -257,8 +256,7 @@ TEST(NcRewrite, says_in_which_frame_the_program_must_run) {
 TEST(NcRewrite, says_what_it_had_to_assume) {
   const auto notes = rewritten("G1 Z5 F100\nG0 X1 Y2.\nG41 D1 X5.\n", 1, 2, 0.5).notes;
   ASSERT_EQ(notes.size(), 6U);
-  EXPECT_EQ(notes[1],
-            "rewritten numbers have 5 to 5 decimals; a control that reads fewer adds its own rounding");
+  EXPECT_EQ(notes[1], "rewritten numbers have 5 decimals; a control that reads fewer adds its own rounding");
   EXPECT_EQ(notes[2].rfind("line 1: feeds from wherever the machine stands", 0), 0U) << notes[2];
   EXPECT_EQ(notes[3].rfind("the program names no unit before line 2: millimetres are assumed", 0), 0U)
       << notes[3];
