@@ -14,7 +14,10 @@
 #include "lekalo/io/result_json.hpp"
 #include "lekalo/locate/allowance.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "locate_regions.hpp"
 #include "outputs.hpp"
+#include "program.hpp"
+#include "shapes.hpp"
 #include "solve.hpp"
 #include "summary.hpp"
 
@@ -54,19 +57,27 @@ Result<std::string> read_if_named(const std::string& path) {
   return io::read_file(path);
 }
 
-Result<Inputs> read_inputs(const LocateOptions& o) {
-  Result<std::string> part_bytes = io::read_file(o.part);
-  if (!part_bytes) return tl::unexpected(part_bytes.error());
-  Result<std::string> blank_bytes = io::read_file(o.blank);
-  if (!blank_bytes) return tl::unexpected(blank_bytes.error());
+struct Files {
+  std::string part, blank;
+};
+
+Result<Files> read_files(const LocateOptions& o) {
+  Result<std::string> part = io::read_file(o.part);
+  if (!part) return tl::unexpected(part.error());
+  Result<std::string> blank = io::read_file(o.blank);
+  if (!blank) return tl::unexpected(blank.error());
+  return Files{std::move(*part), std::move(*blank)};
+}
+
+Result<Inputs> read_inputs(const LocateOptions& o, Files files) {
   Result<std::string> nc_bytes = read_if_named(o.nc);
   if (!nc_bytes) return tl::unexpected(nc_bytes.error());
   Result<std::string> last_bytes = read_if_named(o.compare);
   if (!last_bytes) return tl::unexpected(last_bytes.error());
 
-  Result<Contour> part = read_contour(*part_bytes, o.part, o.units, std::nullopt);
+  Result<Contour> part = read_contour(files.part, o.part, o.units, std::nullopt);
   if (!part) return tl::unexpected(part.error());
-  Result<Contour> blank = read_contour(*blank_bytes, o.blank, o.units, o.trim);
+  Result<Contour> blank = read_contour(files.blank, o.blank, o.units, o.trim);
   if (!blank) return tl::unexpected(blank.error());
   std::optional<io::WrittenResult> last;
   if (!o.compare.empty()) {
@@ -81,8 +92,8 @@ Result<Inputs> read_inputs(const LocateOptions& o) {
     }
     last = std::move(*read);
   }
-  return Inputs{std::move(*part_bytes), std::move(*blank_bytes), std::move(*nc_bytes), std::move(*last_bytes),
-                std::move(*part),       std::move(*blank),       std::move(last)};
+  return Inputs{std::move(files.part), std::move(files.blank), std::move(*nc_bytes), std::move(*last_bytes),
+                std::move(*part),      std::move(*blank),      std::move(last)};
 }
 
 io::InputRecord contour_record(const char* role, const std::string& path, std::string_view bytes,
@@ -200,37 +211,12 @@ void add_deviations(const LocateOptions& o, const Inputs& in, Product& product) 
       {o.deviations, io::sha256(product.deviations_text)}, deviations.size(), *least, *greatest};
 }
 
-/// Rewrites the NC program unless the placement misses the allowance, with or without the rounding of the
-/// program; then a warning says why there is none.
 Result<void> add_program(const LocateOptions& o, const Inputs& in, Product& product) {
   if (o.nc.empty()) return {};
-  io::LocateDocument& d = product.document;
-  if (d.shortfall > 0) {
-    product.program_withheld = true;
-    d.warnings.push_back("no NC program was written, because the allowance is not met");
-    return {};
-  }
-  const locate::Placement& p = d.placement;
-  Result<nc::Rewritten> rewritten = nc::rewrite_program(in.nc_bytes, o.nc, p.x, p.y, p.theta, o.rewrite);
-  if (!rewritten) return tl::unexpected(rewritten.error());
-  const double clearance = difference_rounded_down(p.clearance, rewritten->rounding_mm);
-  if (!(clearance >= o.min_allowance)) {
-    product.program_withheld = true;
-    d.warnings.push_back(
-        fmt::format("no NC program was written, because its rounding to the written decimals, up to {} mm, "
-                    "would leave {} mm",
-                    rewritten->rounding_mm, clearance));
-    return {};
-  }
-  product.program_text = std::move(rewritten->program);
-  d.nc = io::NcRecord{name_of(o.rewrite.mode),
-                      name_of(o.rewrite.scan_frame),
-                      o.rewrite.work_offset,
-                      rewritten->rounding_mm,
-                      clearance,
-                      rewritten->motions,
-                      std::move(rewritten->notes),
-                      {o.nc_out, io::sha256(product.program_text)}};
+  Result<RewrittenProgram> program = rewrite_for(o, in.nc_bytes, product.document);
+  if (!program) return tl::unexpected(program.error());
+  product.program_text = std::move(program->text);
+  product.program_withheld = program->withheld;
   return {};
 }
 
@@ -321,7 +307,12 @@ std::vector<std::string> written_files(const LocateOptions& o, const Product& pr
 
 Result<int> run_locate(const LocateOptions& o) {
   if (Result<void> fine = check_paths(o); !fine) return tl::unexpected(fine.error());
-  const Result<Inputs> in = read_inputs(o);
+  Result<Files> files = read_files(o);
+  if (!files) return tl::unexpected(files.error());
+  if (o.mirror != locate::Mirror::no || needs_regions(files->part, o.part) ||
+      needs_regions(files->blank, o.blank))
+    return run_locate_regions(o, files->part, files->blank);
+  const Result<Inputs> in = read_inputs(o, std::move(*files));
   if (!in) return tl::unexpected(in.error());
   const Result<Solution> found = solve(in->part, in->blank, o);
   if (!found) return tl::unexpected(found.error());

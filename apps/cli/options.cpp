@@ -33,6 +33,10 @@ constexpr std::array kModes{Word<nc::RewriteMode>{"coordinates", nc::RewriteMode
 constexpr std::array kScanFrames{Word<nc::ScanFrame>{"machine", nc::ScanFrame::machine},
                                  Word<nc::ScanFrame>{"wcs", nc::ScanFrame::wcs}};
 
+constexpr std::array kMirrors{Word<locate::Mirror>{"no", locate::Mirror::no},
+                              Word<locate::Mirror>{"yes", locate::Mirror::yes},
+                              Word<locate::Mirror>{"either", locate::Mirror::either}};
+
 template <class T, std::size_t N>
 const char* name_in(const std::array<Word<T>, N>& words, T value) noexcept {
   for (const Word<T>& word : words) {
@@ -53,7 +57,7 @@ std::string list_of(const std::array<Word<T>, N>& words, const char* separator) 
 struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
-      deviations, compare;
+      deviations, compare, mirror;
   std::vector<std::string> window;
   bool json = false;
 };
@@ -119,7 +123,10 @@ void read_window(const std::vector<std::string>& words, WordReader& read, Locate
 
 void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read_window(words.window, read, o);
-  read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0", o.gap);
+  if (!words.gap.empty())
+    read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0",
+                o.gap.emplace());
+  read.choice("--mirror", words.mirror, kMirrors, o.mirror);
   read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
               o.min_allowance);
   read.choice("--method", words.method, kMethods, o.method);
@@ -220,7 +227,7 @@ void add_input_options(CLI::App& locate, LocateWords& w) {
   const auto add = [&](const char* name, std::string& word, const char* help) {
     return locate.add_option(name, word, help)->group("What to place");
   };
-  add("--part", w.part, "Contour of the part: .csv .txt .xyz .json .dxf, convex")
+  add("--part", w.part, "Contour of the part: .csv .txt .xyz .dxf, convex; or .json, any shape")
       ->required()
       ->type_name("FILE");
   add("--blank", w.blank, "Contour of the blank as probed, the same formats")->required()->type_name("FILE");
@@ -241,7 +248,10 @@ void add_search_options(CLI::App& locate, LocateWords& w) {
       ->expected(2)
       ->type_name("DEG")
       ->group("How to search");
-  add("--gap", w.gap, "MM", "Stop when no other placement can be better by more than this [1e-9]");
+  add("--gap", w.gap, "MM",
+      "Stop when no other placement can be better by more than this [1e-9; 1e-3 where a shape is not "
+      "convex]");
+  add("--mirror", w.mirror, list_of(kMirrors, "|"), "Whether the part must or may lie mirrored [no]");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
   add("--method", w.method, list_of(kMethods, "|"),
       "certified proves its result; ipopt and icp are there for comparison [certified]");

@@ -10,6 +10,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/locate/reference.hpp"
+#include "lekalo/locate/region.hpp"
 #include "lekalo/nc/rewrite.hpp"
 
 namespace lekalo::cli {
@@ -22,7 +23,9 @@ struct LocateOptions {
   std::optional<LengthUnit> units;
   std::optional<double> trim;  ///< mm
   double window_from_deg = 0, window_to_deg = 360;
-  double gap = 1e-9, min_allowance = 0;  ///< mm
+  std::optional<double> gap;  ///< mm; each kind of shape has its own default
+  double min_allowance = 0;   ///< mm
+  locate::Mirror mirror = locate::Mirror::no;
   Method method = Method::certified;
   int starts = 10;
   locate::StartRule start_rule = locate::StartRule::random;

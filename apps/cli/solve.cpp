@@ -12,6 +12,10 @@
 namespace lekalo::cli {
 namespace {
 
+constexpr double kConvexGap = 1e-9;  ///< mm
+
+}  // namespace
+
 /// Angles in radians that hold the window in degrees for certain: the product is within 2^-51 of the exact
 /// one.
 locate::AngleWindow window_of(const LocateOptions& options) {
@@ -22,6 +26,20 @@ locate::AngleWindow window_of(const LocateOptions& options) {
   const double to = options.window_to_deg * kRadiansPerDegree;
   return {from - kBound * std::abs(from), to + kBound * std::abs(to)};
 }
+
+const char* name_of(locate::Status status) {
+  switch (status) {
+    case locate::Status::optimal:
+      return "optimal";
+    case locate::Status::stopped:
+      return "stopped";
+    case locate::Status::infeasible:
+      return "infeasible";
+  }
+  return "";
+}
+
+namespace {
 
 /// Contacts in polygon indices to contacts in the indices of the result document.
 class ResultIndices {
@@ -37,24 +55,12 @@ class ResultIndices {
   const Contour& blank_;
 };
 
-const char* name_of_status(locate::Status status) {
-  switch (status) {
-    case locate::Status::optimal:
-      return "optimal";
-    case locate::Status::stopped:
-      return "stopped";
-    case locate::Status::infeasible:
-      return "infeasible";
-  }
-  return "";
-}
-
 Result<Solution> solve_certified(const Contour& part, const Contour& blank, const LocateOptions& options,
                                  const RunControl& run) {
   const ResultIndices indices(part, blank);
   Solution solution;
   locate::ConvexOptions search;
-  search.gap = options.gap;
+  search.gap = options.gap.value_or(kConvexGap);
   search.min_allowance = options.min_allowance;
   search.alternatives = options.alternatives;
   search.keep_certificate = false;  // all of it comes through the sink
@@ -67,7 +73,7 @@ Result<Solution> solve_certified(const Contour& part, const Contour& blank, cons
       {part.polygon, blank.polygon, window_of(options), part.coordinate_error, blank.coordinate_error},
       search);
   if (!found) return tl::unexpected(found.error());
-  solution.status = name_of_status(found->status);
+  solution.status = name_of(found->status);
   solution.best = found->best;
   solution.upper_bound = found->upper_bound;
   solution.shortfall = found->shortfall;

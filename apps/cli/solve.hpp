@@ -27,6 +27,10 @@ struct Solution {
   double seconds = 0;
 };
 
+/// Angles in radians that hold the window in degrees for certain.
+[[nodiscard]] locate::AngleWindow window_of(const LocateOptions& options);
+[[nodiscard]] const char* name_of(locate::Status status);
+
 [[nodiscard]] Result<Solution> solve(const Contour& part, const Contour& blank, const LocateOptions& options);
 
 /// The clearance of a placement that some other computation gave, mm: never above the exact one, for any

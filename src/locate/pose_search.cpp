@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace lekalo::locate {
 namespace {
@@ -91,15 +92,14 @@ PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const PoseCell& ro
 }
 
 void PoseSearch::collect_samples() {
-  for (const geom::Curve& curve : clearance_.part().curves()) {
-    const Point from = curve.edge.from, to = curve.edge.to;
-    samples_.push_back({from, norm(from)});
-    samples_.push_back({});
-    const Point chord_middle = 0.5 * (from + to);
-    samples_.back().at = curve.edge.kind == geom::EdgeKind::line
-                             ? chord_middle
-                             : nearest_on(curve, curve.full ? 2 * curve.edge.centre - from : chord_middle);
-    samples_.back().far = norm(samples_.back().at);
+  const auto& curves = clearance_.part().curves();
+  for (std::uint32_t k = 0; k < curves.size(); ++k) {
+    const geom::Edge& edge = curves[k].edge;
+    const Point opposite = 2 * edge.centre - edge.from, middle = 0.5 * (edge.from + edge.to);
+    const bool line = edge.kind == geom::EdgeKind::line;
+    for (const Point& p :
+         {edge.from, line ? middle : nearest_on(curves[k], curves[k].full ? opposite : middle)})
+      samples_.push_back({p, norm(p), k});
   }
   // The furthest first: they tell angles apart.
   std::stable_sort(samples_.begin(), samples_.end(),
@@ -370,13 +370,15 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
     if (depth > 1e-9 * scale_) crossing.push_back({part, blank, (1 / depth) * in, -depth});
   };
   const auto back = pose.inverse();
-  const auto sticks_out = [&](Point p) {
+  /// The blank's edge nearest to a point of the part outside the blank.
+  const auto sticks_out = [&](Point p) -> std::optional<std::uint32_t> {
     const Point q = pose(p);
     const DistanceGrid::Value value = blank_grid_.near(q);
-    if (value.signed_distance > value.off) return;  // inside by the grid alone
-    if (value.signed_distance > -value.off && clearance_.blank().contains(q)) return;
+    if (value.signed_distance > value.off) return std::nullopt;  // inside by the grid alone
+    if (value.signed_distance > -value.off && clearance_.blank().contains(q)) return std::nullopt;
     const auto nearest = clearance_.blank().nearest(q, value.edge);
     add(p, nearest.point, nearest.distance);
+    return nearest.edge;
   };
   const auto sticks_in = [&](Point b) {
     const Point p = back(b);
@@ -384,17 +386,19 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
     const auto nearest = clearance_.part().nearest(p);
     add(nearest.point, b, nearest.distance);
   };
-  for (const Sample& sample : samples_) sticks_out(sample.at);
-  for (const geom::Curve& curve : clearance_.blank().curves()) sticks_in(curve.edge.from);
-  // Between its ends a curve is deepest behind the other one where that turns towards it.
-  for (const phi::RegionContact& pair : touching_) {
-    if (pair.distance > 1e-9 * scale_) continue;
-    const geom::Curve part = phi::placed(clearance_.part().curves()[pair.part_edge], pose);
-    const geom::Curve& blank = clearance_.blank().curves()[pair.blank_edge];
+  // Between its ends a curve is deepest behind another one where that turns towards it.
+  const auto deepest = [&](std::uint32_t part_edge, std::uint32_t blank_edge) {
+    const geom::Curve part = phi::placed(clearance_.part().curves()[part_edge], pose);
+    const geom::Curve& blank = clearance_.blank().curves()[blank_edge];
     std::array<Point, 2> point;
     for (std::size_t k = deepest_points(part, blank, point); k-- > 0;) sticks_out(back(point[k]));
     for (std::size_t k = deepest_points(blank, part, point); k-- > 0;) sticks_in(point[k]);
-  }
+  };
+  for (const Sample& sample : samples_)
+    if (const auto edge = sticks_out(sample.at)) deepest(sample.edge, *edge);
+  for (const geom::Curve& curve : clearance_.blank().curves()) sticks_in(curve.edge.from);
+  for (const phi::RegionContact& pair : touching_)
+    if (!(pair.distance > 1e-9 * scale_)) deepest(pair.part_edge, pair.blank_edge);
   const std::size_t kept = std::min(crossing.size(), kMostCrossings);
   std::partial_sort(crossing.begin(), crossing.begin() + static_cast<std::ptrdiff_t>(kept), crossing.end(),
                     [](const Contact& a, const Contact& b) {
@@ -403,6 +407,8 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
                     });
   crossing.resize(kept);
   found.value = crossing.empty() ? -1e-9 * scale_ : crossing.front().distance;
+  for (const Ball& ball : voids_)
+    if (clearance_.part().contains(back(ball.centre))) found.value = std::min(found.value, -ball.radius);
   contacts_.insert(contacts_.begin(), crossing.begin(), crossing.end());
 }
 

@@ -80,7 +80,8 @@ class PoseSearch {
   /// A point of the part by which large cells are bounded.
   struct Sample {
     geom::Point at;
-    double far = 0;  ///< from the pivot
+    double far = 0;          ///< from the pivot
+    std::uint32_t edge = 0;  ///< of the part
   };
   /// A place where the outlines come close, or cross: `distance` is negative where the part's point lies
   /// outside the blank or the blank's point inside the part. The normal points from the blank's outside to

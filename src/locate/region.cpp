@@ -91,6 +91,7 @@ class RegionLocaliser {
         result.contacts = contacts(search, mirrored);
       }
     }
+    result.upper_bound = std::max(result.upper_bound, -deepest());
     result.upper_bound += problem_.part_tolerance + problem_.blank_tolerance;
     result.upper_bound = std::nextafter(result.upper_bound, std::numeric_limits<double>::infinity());
     result.shortfall = std::max(0.0, options_.min_allowance - result.best.clearance);
@@ -107,12 +108,18 @@ class RegionLocaliser {
   }
   [[nodiscard]] double search_gap() const { return std::max(options_.gap - taken(), 0.25 * options_.gap); }
 
+  /// Placements where more of the part sticks out than this are not searched, mm.
+  [[nodiscard]] double deepest() const {
+    const Box box = given_.blank().bounds();
+    return 0.03125 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  }
+
   [[nodiscard]] PoseCell root() const {
-    // Wherever the part's material lies in the blank's, or sticks out by less than a sixteenth of its size,
-    // the pivot is no further outside the blank's box than it is from the material.
+    // Wherever no material of the part is deeper outside the blank than that, the pivot is no further outside
+    // the blank's box than it is from the material, and than that.
     const Box box = given_.blank().bounds();
     const Point half = 0.5 * (box.high - box.low);
-    const double more = pivot_off_ + 0.0625 * std::max(half.x, half.y);
+    const double more = pivot_off_ + deepest();
     const AngleWindow& window = problem_.window;
     return {0.5 * (window.from + window.to),
             0.5 * (window.to - window.from) * (1 + 0x1p-50),

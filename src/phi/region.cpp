@@ -82,6 +82,7 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
     const double distance = blank_.nearest(q).distance;
     return blank_.contains(q) ? -distance : distance;
   };
+  constexpr double kRelative = 1.0 / 256;
   double reached = 0;
   for (const Curve& curve : part_.curves()) reached = std::max(reached, outside(curve.edge.from));
   struct Square {
@@ -96,7 +97,7 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
     open.pop_back();
     const double radius = 1.4142135623730952 * square.half;
     const double out = outside(square.centre);
-    if (out + radius <= reached + tolerance) continue;
+    if (out + radius <= reached + std::max(tolerance, kRelative * reached)) continue;
     const double to_part = part_.contains(square.centre) ? 0 : part_.nearest(square.centre).distance;
     if (to_part > radius) continue;
     reached = std::max(reached, out - to_part);  // of the nearest point of the material
@@ -104,7 +105,7 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
     for (const double dx : {-quarter, quarter})
       for (const double dy : {-quarter, quarter}) open.push_back({square.centre + Point{dx, dy}, quarter});
   }
-  return reached + tolerance;
+  return reached + std::max(tolerance, kRelative * reached);
 }
 
 }  // namespace lekalo::phi

@@ -229,39 +229,81 @@ Span distance(const Shape& a, const Shape& b) {
   return least;
 }
 
-std::optional<bool> holds(const Shape& shape, const Vec& p) {
-  bool inside = false;
-  for (const Side& side : shape.sides) {
-    if (!side.arc) {
-      // Half-open in y: an end at p's height counts as below.
-      const auto above = [&](const Vec& end) {
-        return end.y.low > p.y.high ? Sure::yes : (end.y.high < p.y.low ? Sure::no : Sure::maybe);
-      };
-      const Sure from = above(side.from), to = above(side.to);
-      if (from == Sure::maybe || to == Sure::maybe) return std::nullopt;
-      if (from == to) continue;
-      const Span turn = cross(side.to - side.from, p - side.from);
-      if (turn.low <= 0 && turn.high >= 0) return std::nullopt;
-      if ((turn.low > 0) == (to == Sure::yes)) inside = !inside;
-      continue;
-    }
-    // Level with an end, which may be off the circle, nothing is counted.
-    const auto level = [&](const Vec& end) {
-      const Span gap = p.y - end.y;
-      return gap.low <= side.off && gap.high >= -side.off;
-    };
-    if (!side.full && (level(side.from) || level(side.to))) return std::nullopt;
-    const Span height = p.y - side.centre.y;
-    if (height.low > side.radius.high || height.high < -side.radius.high) continue;
-    if (height.high > side.radius.low || height.low < -side.radius.low) return std::nullopt;
-    const Span half = square_root((side.radius - height) * (side.radius + height));
-    for (const Span step : {half, Span{-half.high, -half.low}}) {
-      const Sure counts = crosses_right(side, p, step, height);
-      if (counts == Sure::maybe) return std::nullopt;
-      if (counts == Sure::yes) inside = !inside;
-    }
+namespace {
+
+/// v turned by so many quarters of a turn: exactly.
+Vec quarter_turned(const Vec& v, int quarters) {
+  switch (quarters) {
+    case 1:
+      return {{-v.y.high, -v.y.low}, v.x};
+    case 2:
+      return {{-v.x.high, -v.x.low}, {-v.y.high, -v.y.low}};
+    case 3:
+      return {v.y, {-v.x.high, -v.x.low}};
+    default:
+      return v;
   }
-  return inside;
+}
+
+Side quarter_turned(Side side, int quarters) {
+  for (Vec* v : {&side.from, &side.to, &side.centre, &side.first, &side.last})
+    *v = quarter_turned(*v, quarters);
+  return side;
+}
+
+/// How often the ray from p to the right crosses a side, modulo 2; nothing when rounding leaves it open.
+std::optional<bool> crosses(const Side& side, const Vec& p) {
+  if (!side.arc) {
+    if (side.from.x.high < p.x.low && side.to.x.high < p.x.low) return false;
+    // Half-open in y: an end at p's height counts as below.
+    const auto above = [&](const Vec& end) {
+      return end.y.low > p.y.high ? Sure::yes : (end.y.high < p.y.low ? Sure::no : Sure::maybe);
+    };
+    const Sure from = above(side.from), to = above(side.to);
+    if (from == Sure::maybe || to == Sure::maybe) return std::nullopt;
+    if (from == to) return false;
+    const Span turn = cross(side.to - side.from, p - side.from);
+    if (turn.low <= 0 && turn.high >= 0) return std::nullopt;
+    return (turn.low > 0) == (to == Sure::yes);
+  }
+  if (side.centre.x.high + side.radius.high + side.off < p.x.low) return false;
+  // Level with an end, which may be off the circle, nothing is counted.
+  const auto level = [&](const Vec& end) {
+    const Span gap = p.y - end.y;
+    return gap.low <= side.off && gap.high >= -side.off;
+  };
+  if (!side.full && (level(side.from) || level(side.to))) return std::nullopt;
+  const Span height = p.y - side.centre.y;
+  if (height.low > side.radius.high || height.high < -side.radius.high) return false;
+  if (height.high > side.radius.low || height.low < -side.radius.low) return std::nullopt;
+  const Span half = square_root((side.radius - height) * (side.radius + height));
+  bool odd = false;
+  for (const Span step : {half, Span{-half.high, -half.low}}) {
+    const Sure counts = crosses_right(side, p, step, height);
+    if (counts == Sure::maybe) return std::nullopt;
+    if (counts == Sure::yes) odd = !odd;
+  }
+  return odd;
+}
+
+}  // namespace
+
+std::optional<bool> holds(const Shape& shape, const Vec& p) {
+  // Rays to the right, down, left and up: where one grazes an end or a tangent, another does not.
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    const Vec q = quarter_turned(p, quarters);
+    bool inside = false, decided = true;
+    for (const Side& side : shape.sides) {
+      const std::optional<bool> odd = crosses(quarters == 0 ? side : quarter_turned(side, quarters), q);
+      if (!odd) {
+        decided = false;
+        break;
+      }
+      if (*odd) inside = !inside;
+    }
+    if (decided) return inside;
+  }
+  return std::nullopt;
 }
 
 Span signed_distance(const Vec& p, const Shape& shape) {

@@ -7,6 +7,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/polygon.hpp"
 #include "lekalo/locate/placement.hpp"
+#include "lekalo/locate/region.hpp"
 
 namespace lekalo::io {
 
@@ -32,6 +33,18 @@ struct LocatePicture {
   std::vector<std::uint32_t> vertex_numbers, edge_numbers;
 };
 
+/// The same for regions of lines and arcs.
+struct RegionPicture {
+  std::string part_name, blank_name;
+  std::string status;
+  std::vector<geom::Region> part, blank;  ///< mm, each in its own frame
+  locate::Placement result;
+  bool mirrored = false;
+  double upper_bound = 0;
+  double min_allowance = 0, shortfall = 0;
+  std::vector<locate::RegionTouch> contacts;
+};
+
 /// The picture as SVG text (250 x 160 mm): blank, start, result, contacts, the allowance along the contour in
 /// colour with a scale, and x, y, angle, minimum allowance, bound in print. The minimum allowance is the
 /// result's, rounded down to the printed digits, the bound is rounded up. Where the thinnest place is too
@@ -44,5 +57,11 @@ struct LocatePicture {
 /// bytes on a machine with the same libraries and fonts. ErrorCode::environment when the drawing library
 /// fails.
 [[nodiscard]] Result<std::string> picture_png(const LocatePicture& picture, int width_px = 1600);
+
+/// Blank and placed part with their holes, the part's outline in the colour of the allowance over it with a
+/// scale, contacts, and x, y, angle, minimum allowance and bound in print. Cost: O(p log n) for p points
+/// drawn.
+[[nodiscard]] std::string picture_svg(const RegionPicture& picture);
+[[nodiscard]] Result<std::string> picture_png(const RegionPicture& picture, int width_px = 1600);
 
 }  // namespace lekalo::io

@@ -40,7 +40,8 @@ class RegionClearance {
                          std::vector<RegionContact>* contacts = nullptr) const;
 
   /// A number that the part sticks out of the blank by at most, where it does: the largest distance of its
-  /// material from the blank's, by a quadtree, at most `tolerance` (and rounding) too large. 0 inside.
+  /// material from the blank's, by a quadtree, at most `tolerance` or a 256th part (and
+  /// rounding) too large.
   [[nodiscard]] double depth(const geom::BlankFromPart& pose, double tolerance) const;
 
   [[nodiscard]] const geom::RegionIndex& part() const noexcept { return part_; }

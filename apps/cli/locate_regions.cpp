@@ -1,0 +1,228 @@
+#include "locate_regions.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "interrupt.hpp"
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/io/files.hpp"
+#include "lekalo/io/picture.hpp"
+#include "lekalo/io/result_json.hpp"
+#include "lekalo/locate/region.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "outputs.hpp"
+#include "program.hpp"
+#include "shapes.hpp"
+#include "solve.hpp"
+#include "summary.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// Certificates of up to this many cells stand in the result itself.
+constexpr std::size_t kInlineCells = 10'000;
+constexpr double kRegionGap = 1e-3;  ///< mm
+
+struct Product {
+  io::LocateDocument document;
+  std::string result_text, certificate_text, program_text, picture_bytes;
+  bool program_withheld = false;
+};
+
+/// What convex contours alone can have.
+Result<void> check_options(const LocateOptions& o) {
+  const auto refuse = [](const char* option) {
+    return failure(ErrorCode::usage,
+                   fmt::format("{} is for convex contours; the part or the blank here is of another shape", option));
+  };
+  if (o.method != Method::certified) return refuse("--method ipopt or icp");
+  if (o.trim) return refuse("--trim");
+  if (o.alternatives) return refuse("--alternatives");
+  if (!o.deviations.empty()) return refuse("--deviations");
+  if (!o.compare.empty()) return refuse("--compare");
+  return {};
+}
+
+Result<locate::RegionResult> solve_regions(const Shape& part, const Shape& blank, const LocateOptions& o,
+                                           double& seconds) {
+  const StopRequests stop(o.seconds);
+  ProgressLine line("searching");
+  locate::RegionOptions options;
+  options.gap = o.gap.value_or(kRegionGap);
+  options.min_allowance = o.min_allowance;
+  options.run.stop = stop.flag();
+  options.run.progress = [&line](const Progress& progress) { line.show(progress); };
+  options.run.work_limit = o.work;
+  const auto start = std::chrono::steady_clock::now();
+  auto found = locate::locate_regions(
+      {part.regions, blank.regions, window_of(o), o.mirror, part.tolerance, blank.tolerance}, options);
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return found;
+}
+
+io::LocateDocument document_of(const LocateOptions& o, const Shape& part, const Shape& blank,
+                               const locate::RegionResult& found) {
+  io::LocateDocument d;
+  d.status = name_of(found.status);
+  d.method = name_of(o.method);
+  d.warnings = o.warnings;
+  for (const Shape* shape : {&part, &blank})
+    d.warnings.insert(d.warnings.end(), shape->notices.begin(), shape->notices.end());
+  d.seed = o.seed;
+  d.work = found.work;
+  d.placement = found.best;
+  d.upper_bound = found.upper_bound;
+  d.min_allowance = o.min_allowance;
+  d.shortfall = found.shortfall;
+  d.window_from_deg = o.window_from_deg;
+  d.window_to_deg = o.window_to_deg;
+  d.regions = io::RegionRecord{part.regions,   blank.regions,  part.tolerance,    blank.tolerance, o.mirror,
+                               found.mirrored, found.contacts, found.certificate, found.pivot};
+  return d;
+}
+
+std::size_t cells(const std::vector<locate::CoverTree>& trees) {
+  std::size_t count = 0;
+  for (const locate::CoverTree& tree : trees) count += tree.nodes.size() / 2 + 1;
+  return count;
+}
+
+void add_certificate(const LocateOptions& o, Product& product) {
+  io::LocateDocument& d = product.document;
+  io::RegionRecord& r = *d.regions;
+  d.certificate_intervals = cells(r.certificate);
+  if (o.certificate.empty() && d.certificate_intervals <= kInlineCells) return;
+  product.certificate_text = io::cover_text(r.pivot, r.certificate);
+  r.certificate.clear();
+  if (o.certificate.empty()) {
+    d.warnings.push_back(
+        fmt::format("the certificate has {} cells, more than the {} that go into a result, and is not kept; "
+                    "--certificate FILE keeps it",
+                    d.certificate_intervals, kInlineCells));
+    return;
+  }
+  d.certificate_file = io::FileRecord{o.certificate, io::sha256(product.certificate_text)};
+}
+
+/// Puts the bytes about to be written before the independent checker, with the proof even where it is not kept.
+Result<void> self_check(const LocateOptions& o, const std::string& part_bytes, const std::string& blank_bytes,
+                        const Product& product) {
+  verify::LocateInputs inputs{{"result", product.result_text}, {o.part, part_bytes}, {o.blank, blank_bytes}, {}};
+  std::string with_proof;
+  if (!product.certificate_text.empty()) {
+    inputs.certificate = {"certificate", product.certificate_text};
+    if (!product.document.certificate_file) {
+      io::LocateDocument document = product.document;
+      document.certificate_file = io::FileRecord{"certificate", io::sha256(product.certificate_text)};
+      with_proof = io::result_json(document);
+      inputs.result.bytes = with_proof;
+    }
+  }
+  const char* const ending = "; no file was written, and this is a mistake of lekalo worth reporting";
+  const Result<verify::LocateReport> report = verify::verify_locate(inputs);
+  if (!report) return failure(ErrorCode::refuted, "self-check: " + report.error().message + ending);
+  if (report->verdict == verify::Verdict::confirmed) return {};
+  return failure(ErrorCode::refuted,
+                 "self-check refuted the result: " +
+                     (report->findings.empty() ? "the proof is not complete" : report->findings.front()) + ending);
+}
+
+Result<void> add_program(const LocateOptions& o, const std::string& nc_bytes, Product& product) {
+  if (o.nc.empty()) return {};
+  if (product.document.regions->mirrored) {
+    product.program_withheld = true;
+    product.document.warnings.push_back(
+        "no NC program was written, because the part lies mirrored and a program for it would have to be "
+        "mirrored too");
+    return {};
+  }
+  Result<RewrittenProgram> program = rewrite_for(o, nc_bytes, product.document);
+  if (!program) return tl::unexpected(program.error());
+  product.program_text = std::move(program->text);
+  product.program_withheld = program->withheld;
+  return {};
+}
+
+Result<void> add_picture(const LocateOptions& o, Product& product) {
+  if (o.picture.empty()) return {};
+  const io::LocateDocument& d = product.document;
+  const io::RegionRecord& r = *d.regions;
+  io::RegionPicture picture;
+  picture.part_name = io::as_utf8(o.part);
+  picture.blank_name = io::as_utf8(o.blank);
+  picture.status = d.status;
+  picture.part = r.part;
+  picture.blank = r.blank;
+  picture.result = d.placement;
+  picture.mirrored = r.mirrored;
+  picture.upper_bound = *d.upper_bound;
+  picture.min_allowance = d.min_allowance;
+  picture.shortfall = d.shortfall;
+  picture.contacts = r.contacts;
+  if (o.picture.ends_with(".svg")) {
+    product.picture_bytes = io::picture_svg(picture);
+    return {};
+  }
+  Result<std::string> png = io::picture_png(picture);
+  if (!png) return tl::unexpected(png.error());
+  product.picture_bytes = std::move(*png);
+  return {};
+}
+
+Result<void> write_all(const LocateOptions& o, const Product& product) {
+  io::AtomicFiles files;
+  const auto add = [&files](const std::string& path, const std::string& bytes) -> Result<void> {
+    if (path.empty() || bytes.empty()) return {};
+    return files.add(path, bytes);
+  };
+  Result<void> done = add(o.output, product.result_text)
+                          .and_then([&] { return add(o.certificate, product.certificate_text); })
+                          .and_then([&] { return add(o.picture, product.picture_bytes); })
+                          .and_then([&] { return add(o.nc_out, product.program_text); });
+  if (done && o.json) done = print(product.result_text);
+  if (done) done = files.commit();
+  return done;
+}
+
+}  // namespace
+
+Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_bytes,
+                               const std::string& blank_bytes) {
+  if (Result<void> fine = check_options(o); !fine) return tl::unexpected(fine.error());
+  const Result<Shape> part = read_shape(part_bytes, o.part, o.units);
+  if (!part) return tl::unexpected(part.error());
+  const Result<Shape> blank = read_shape(blank_bytes, o.blank, o.units);
+  if (!blank) return tl::unexpected(blank.error());
+  Result<std::string> nc_bytes = o.nc.empty() ? Result<std::string>(std::string()) : io::read_file(o.nc);
+  if (!nc_bytes) return tl::unexpected(nc_bytes.error());
+
+  double seconds = 0;
+  const Result<locate::RegionResult> found = solve_regions(*part, *blank, o, seconds);
+  if (!found) return tl::unexpected(found.error());
+  Product product;
+  product.document = document_of(o, *part, *blank, *found);
+  product.document.seconds = seconds;
+  product.document.inputs = {{"part", {o.part, io::sha256(part_bytes)}, std::nullopt, 0, {}},
+                             {"blank", {o.blank, io::sha256(blank_bytes)}, std::nullopt, 0, {}}};
+  if (!o.nc.empty())
+    product.document.inputs.push_back({"nc", {o.nc, io::sha256(*nc_bytes)}, std::nullopt, 0, {}});
+  add_certificate(o, product);
+  if (Result<void> fine = add_program(o, *nc_bytes, product); !fine) return tl::unexpected(fine.error());
+  if (Result<void> fine = add_picture(o, product); !fine) return tl::unexpected(fine.error());
+  product.result_text = io::result_json(product.document);
+  if (Result<void> fine = self_check(o, part_bytes, blank_bytes, product); !fine)
+    return tl::unexpected(fine.error());
+  if (Result<void> fine = write_all(o, product); !fine) return tl::unexpected(fine.error());
+
+  std::vector<std::string> written;
+  for (const auto& [path, bytes] : {std::pair{&o.output, &product.result_text},
+                                    {&o.certificate, &product.certificate_text},
+                                    {&o.picture, &product.picture_bytes},
+                                    {&o.nc_out, &product.program_text}})
+    if (!path->empty() && !bytes->empty()) written.push_back(*path);
+  tell(locate_summary(product.document, written));
+  return product.document.shortfall > 0 || product.program_withheld ? 1 : 0;
+}
+
+}  // namespace lekalo::cli

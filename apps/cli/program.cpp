@@ -1,0 +1,38 @@
+#include "program.hpp"
+
+#include <fmt/format.h>
+
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/io/files.hpp"
+
+namespace lekalo::cli {
+
+Result<RewrittenProgram> rewrite_for(const LocateOptions& o, const std::string& nc_bytes, io::LocateDocument& d) {
+  if (d.shortfall > 0) {
+    d.warnings.push_back("no NC program was written, because the allowance is not met");
+    return RewrittenProgram{"", true};
+  }
+  const locate::Placement& p = d.placement;
+  Result<nc::Rewritten> rewritten = nc::rewrite_program(nc_bytes, o.nc, p.x, p.y, p.theta, o.rewrite);
+  if (!rewritten) return tl::unexpected(rewritten.error());
+  const double clearance = difference_rounded_down(p.clearance, rewritten->rounding_mm);
+  if (!(clearance >= o.min_allowance)) {
+    d.warnings.push_back(
+        fmt::format("no NC program was written, because its rounding to the written decimals, up to {} mm, "
+                    "would leave {} mm",
+                    rewritten->rounding_mm, clearance));
+    return RewrittenProgram{"", true};
+  }
+  RewrittenProgram program{std::move(rewritten->program), false};
+  d.nc = io::NcRecord{name_of(o.rewrite.mode),
+                      name_of(o.rewrite.scan_frame),
+                      o.rewrite.work_offset,
+                      rewritten->rounding_mm,
+                      clearance,
+                      rewritten->motions,
+                      std::move(rewritten->notes),
+                      {o.nc_out, io::sha256(program.text)}};
+  return program;
+}
+
+}  // namespace lekalo::cli
