@@ -33,8 +33,9 @@ struct Product {
 /// What convex contours alone can have.
 Result<void> check_options(const LocateOptions& o) {
   const auto refuse = [](const char* option) {
-    return failure(ErrorCode::usage,
-                   fmt::format("{} is for convex contours; the part or the blank here is of another shape", option));
+    return failure(
+        ErrorCode::usage,
+        fmt::format("{} is for convex contours; the part or the blank here is of another shape", option));
   };
   if (o.method != Method::certified) return refuse("--method ipopt or icp");
   if (o.trim) return refuse("--trim");
@@ -105,10 +106,12 @@ void add_certificate(const LocateOptions& o, Product& product) {
   d.certificate_file = io::FileRecord{o.certificate, io::sha256(product.certificate_text)};
 }
 
-/// Puts the bytes about to be written before the independent checker, with the proof even where it is not kept.
+/// Puts the bytes about to be written before the independent checker, with the proof even where it is not
+/// kept.
 Result<void> self_check(const LocateOptions& o, const std::string& part_bytes, const std::string& blank_bytes,
                         const Product& product) {
-  verify::LocateInputs inputs{{"result", product.result_text}, {o.part, part_bytes}, {o.blank, blank_bytes}, {}};
+  verify::LocateInputs inputs{
+      {"result", product.result_text}, {o.part, part_bytes}, {o.blank, blank_bytes}, {}};
   std::string with_proof;
   if (!product.certificate_text.empty()) {
     inputs.certificate = {"certificate", product.certificate_text};
@@ -125,7 +128,8 @@ Result<void> self_check(const LocateOptions& o, const std::string& part_bytes, c
   if (report->verdict == verify::Verdict::confirmed) return {};
   return failure(ErrorCode::refuted,
                  "self-check refuted the result: " +
-                     (report->findings.empty() ? "the proof is not complete" : report->findings.front()) + ending);
+                     (report->findings.empty() ? "the proof is not complete" : report->findings.front()) +
+                     ending);
 }
 
 Result<void> add_program(const LocateOptions& o, const std::string& nc_bytes, Product& product) {

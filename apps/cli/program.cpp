@@ -7,7 +7,8 @@
 
 namespace lekalo::cli {
 
-Result<RewrittenProgram> rewrite_for(const LocateOptions& o, const std::string& nc_bytes, io::LocateDocument& d) {
+Result<RewrittenProgram> rewrite_for(const LocateOptions& o, const std::string& nc_bytes,
+                                     io::LocateDocument& d) {
   if (d.shortfall > 0) {
     d.warnings.push_back("no NC program was written, because the allowance is not met");
     return RewrittenProgram{"", true};

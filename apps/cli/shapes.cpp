@@ -12,8 +12,8 @@
 namespace lekalo::cli {
 namespace {
 
-/// Points of curves move by no more than this many times what their edges' coordinates do: both coordinates of
-/// an end, and what an arc's centre and radius add.
+/// Points of curves move by no more than this many times what their edges' coordinates do: both coordinates
+/// of an end, and what an arc's centre and radius add.
 constexpr double kOutlinePerCoordinate = 4;
 
 bool is_region_form(std::string_view bytes, const std::string& path) {
@@ -73,8 +73,8 @@ Result<Shape> read_shape(std::string_view bytes, const std::string& path, std::o
   if (!file) return tl::unexpected(file.error());
   Result<std::vector<geom::Region>> regions = region_of_points(*file);
   if (!regions) return tl::unexpected(regions.error());
-  return checked({std::move(*regions), kOutlinePerCoordinate * file->coordinate_error, std::move(file->notices)},
-                 path);
+  return checked(
+      {std::move(*regions), kOutlinePerCoordinate * file->coordinate_error, std::move(file->notices)}, path);
 }
 
 }  // namespace lekalo::cli

@@ -17,11 +17,13 @@ class Names {
   explicit Names(const std::vector<Region>& regions) : several_(regions.size() > 1) {
     for (std::size_t p = 0; p < regions.size(); ++p) {
       contours_.push_back({p, "outer contour"});
-      for (std::size_t h = 0; h < regions[p].holes.size(); ++h) contours_.push_back({p, fmt::format("hole {}", h)});
+      for (std::size_t h = 0; h < regions[p].holes.size(); ++h)
+        contours_.push_back({p, fmt::format("hole {}", h)});
     }
   }
   [[nodiscard]] std::string contour(std::size_t c) const {
-    return several_ ? fmt::format("{} of piece {}", contours_[c].name, contours_[c].piece) : contours_[c].name;
+    return several_ ? fmt::format("{} of piece {}", contours_[c].name, contours_[c].piece)
+                    : contours_[c].name;
   }
   [[nodiscard]] std::size_t piece(std::size_t c) const { return contours_[c].piece; }
 
@@ -38,8 +40,8 @@ class Checker {
  public:
   explicit Checker(const std::vector<Region>& regions) : regions_(regions), index_(regions), names_(regions) {
     const Box box = index_.bounds();
-    limit_ = kEdgeDistanceError * std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
-                                            std::abs(box.high.y)});
+    limit_ = kEdgeDistanceError *
+             std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
   }
 
   std::optional<std::string> run() {
@@ -52,7 +54,8 @@ class Checker {
  private:
   [[nodiscard]] std::size_t contour_of(std::uint32_t edge) const {
     const auto& starts = index_.contour_starts();
-    return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), edge) - starts.begin()) - 1;
+    return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), edge) - starts.begin()) -
+           1;
   }
 
   std::optional<std::string> meets_another(std::size_t c, std::uint32_t i) {
@@ -60,22 +63,25 @@ class Checker {
     const Curve& curve = index_.curves()[i];
     const Box box = curve_box(curve);
     std::optional<std::string> fault;
-    index_.visit_within(0.5 * (box.low + box.high), 0.5 * norm(box.high - box.low), limit_, [&](std::uint32_t j) {
-      if (j <= i || fault) return;
-      const Curve& other = index_.curves()[j];
-      const bool neighbours = j < end && (j == i + 1 || (i == begin && j + 1 == end));
-      if (neighbours) {
-        if (curve.edge.kind != EdgeKind::line || other.edge.kind != EdgeKind::line || end - begin < 3) return;
-        if (segment_relation(curve.edge.from, curve.edge.to, other.edge.from, other.edge.to) != SegmentRelation::overlap)
-          return;
-      }
-      const ClosestPoints close = closest_points(curve, other);
-      if (close.distance > limit_) return;
-      const std::size_t d = contour_of(j);
-      fault = fmt::format("edge {} of the {} meets edge {} of the {} at ({}, {}) mm",
-                          i - begin, names_.contour(c), j - index_.contour_starts()[d], names_.contour(d), close.a.x,
-                          close.a.y);
-    });
+    index_.visit_within(
+        0.5 * (box.low + box.high), 0.5 * norm(box.high - box.low), limit_, [&](std::uint32_t j) {
+          if (j <= i || fault) return;
+          const Curve& other = index_.curves()[j];
+          const bool neighbours = j < end && (j == i + 1 || (i == begin && j + 1 == end));
+          if (neighbours) {
+            if (curve.edge.kind != EdgeKind::line || other.edge.kind != EdgeKind::line || end - begin < 3)
+              return;
+            if (segment_relation(curve.edge.from, curve.edge.to, other.edge.from, other.edge.to) !=
+                SegmentRelation::overlap)
+              return;
+          }
+          const ClosestPoints close = closest_points(curve, other);
+          if (close.distance > limit_) return;
+          const std::size_t d = contour_of(j);
+          fault = fmt::format("edge {} of the {} meets edge {} of the {} at ({}, {}) mm", i - begin,
+                              names_.contour(c), j - index_.contour_starts()[d], names_.contour(d), close.a.x,
+                              close.a.y);
+        });
     return fault;
   }
 

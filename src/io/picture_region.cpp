@@ -82,9 +82,10 @@ class RegionComposer {
 
   Scene compose() && {
     const locate::Placement& p = picture_.result;
-    scene_.title = fmt::format("lekalo locate: {} in {}", file_name(picture_.part_name), file_name(picture_.blank_name));
-    scene_.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad", picture_.status,
-                                     p.clearance, p.x, p.y, p.theta);
+    scene_.title =
+        fmt::format("lekalo locate: {} in {}", file_name(picture_.part_name), file_name(picture_.blank_name));
+    scene_.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad",
+                                     picture_.status, p.clearance, p.x, p.y, p.theta);
     Paint white;
     white.fill = kPaper, white.fill_alpha = 1;
     scene_.items.push_back(PathItem{{kPage.ring()}, true, white, {"page", ""}});
@@ -173,7 +174,8 @@ class RegionComposer {
       const Point a = view_(pose_(contact.part)), b = view_(contact.blank);
       Paint dot;
       dot.fill = kInk, dot.fill_alpha = 1;
-      scene_.items.push_back(PathItem{{{a, b}}, false, stroke(kInk, 0.4), {"contact", fmt::format("{} mm", contact.distance)}});
+      scene_.items.push_back(
+          PathItem{{{a, b}}, false, stroke(kInk, 0.4), {"contact", fmt::format("{} mm", contact.distance)}});
       scene_.items.push_back(DotItem{a, 0.7, dot, {"contact-part", ""}});
       scene_.items.push_back(DotItem{b, 0.7, dot, {"contact-blank", ""}});
       scene_.items.push_back(DotItem{0.5 * (a + b), 2.4, stroke(kOutside, 0.35), {"contact-ring", ""}});
@@ -181,12 +183,18 @@ class RegionComposer {
   }
 
   void text(const std::string& words, double size, Colour colour, bool bold = false, double x = kPanel.x) {
-    scene_.items.push_back(TextItem{{x, y_}, clean_text(words), fitting_size(words, size, kPanel.right() - x), Anchor::start,
-                                    colour, bold, {}});
+    scene_.items.push_back(TextItem{{x, y_},
+                                    clean_text(words),
+                                    fitting_size(words, size, kPanel.right() - x),
+                                    Anchor::start,
+                                    colour,
+                                    bold,
+                                    {}});
   }
   void line(const std::string& name, const std::string& value) {
     text(name, 3, kGrey);
-    scene_.items.push_back(TextItem{{kPanel.right(), y_}, value, fitting_size(value, 3.2, 36), Anchor::end, kInk, false, {}});
+    scene_.items.push_back(
+        TextItem{{kPanel.right(), y_}, value, fitting_size(value, 3.2, 36), Anchor::end, kInk, false, {}});
     y_ += 5;
   }
 
@@ -233,7 +241,8 @@ class RegionComposer {
     for (int k = 0; k <= kTicks; ++k) {
       const double value = scale_low_ + (high_ - scale_low_) * k / kTicks;
       const double at = y_ + height * (kTicks - k) / kTicks;
-      scene_.items.push_back(TextItem{{kPanel.x + 8, at + 1}, fmt::format("{:.3f}", value), 2.8, Anchor::start, kInk, false, {}});
+      scene_.items.push_back(TextItem{
+          {kPanel.x + 8, at + 1}, fmt::format("{:.3f}", value), 2.8, Anchor::start, kInk, false, {}});
     }
     if (low_ < 0) {
       Paint paint;
@@ -241,7 +250,12 @@ class RegionComposer {
       const Rect bar{kPanel.x, y_ + height + 2, 6, 3};
       scene_.items.push_back(PathItem{{bar.ring()}, true, paint, {"scale", ""}});
       scene_.items.push_back(TextItem{{kPanel.x + 8, y_ + height + 4.6},
-                                      fmt::format("sticks out, up to {:.3f}", -low_), 2.8, Anchor::start, kInk, false, {}});
+                                      fmt::format("sticks out, up to {:.3f}", -low_),
+                                      2.8,
+                                      Anchor::start,
+                                      kInk,
+                                      false,
+                                      {}});
     }
     y_ += height;
   }
@@ -250,8 +264,8 @@ class RegionComposer {
   geom::RegionIndex blank_;
   geom::BlankFromPart pose_;
   View view_;
-  std::vector<Ring> outline_;                    ///< of the placed part, blank frame
-  std::vector<std::vector<double>> allowance_;   ///< at its points
+  std::vector<Ring> outline_;                   ///< of the placed part, blank frame
+  std::vector<std::vector<double>> allowance_;  ///< at its points
   double low_ = 1e300, high_ = -1e300, scale_low_ = 0;
   double y_ = kPanel.y + 3;
   Scene scene_;

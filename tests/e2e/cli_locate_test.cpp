@@ -322,9 +322,10 @@ TEST_F(Plate, IndicesCountTheFileWhicheverWayItRuns) {
   write_bytes(folder_ / "blank.csv", "100 100\n100 150\n145 150\n190 150\n190 100\n100 100\n");
   const Ran ran = locate({"--json", "-o", "out.json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
-  EXPECT_EQ(ran.json()["inputs"][1]["dropped"], Json::array({2, 5}));
-  EXPECT_FALSE(ran.json()["warnings"].empty());
-  for (const Json& contact : ran.json()["contacts"]) {
+  const Json result = ran.json();
+  EXPECT_EQ(result["inputs"][1]["dropped"], Json::array({2, 5}));
+  EXPECT_FALSE(result["warnings"].empty());
+  for (const Json& contact : result["contacts"]) {
     EXPECT_NE(contact["blank_edge"], 2);
     EXPECT_LE(contact["blank_edge"], 4);
   }
@@ -412,7 +413,8 @@ TEST_F(Plate, PictureNumbersContactsLikeTheResult) {
   ASSERT_EQ(ran.status, 0) << ran.err;
   const std::string picture = read_bytes(folder_ / "out.svg");
   ASSERT_FALSE(ran.json()["contacts"].empty());
-  for (const Json& contact : ran.json()["contacts"]) {
+  const Json result = ran.json();
+  for (const Json& contact : result["contacts"]) {
     const std::string label = "v" + contact["part_vertex"].dump() + " e" + contact["blank_edge"].dump();
     EXPECT_NE(picture.find(label), std::string::npos) << label;
   }

@@ -20,8 +20,7 @@ using geom::Point;
 /// concave, so two nested golden sections find its maximum. Knows nothing of linear programs.
 class ConcaveSweep {
  public:
-  ConcaveSweep(const cases::LocateCase& one)
-      : one_(one), part_(one.part.vertices()), blank_(one.blank.vertices()) {
+  ConcaveSweep(const cases::LocateCase& one) : part_(one.part.vertices()), blank_(one.blank.vertices()) {
     p0_ = middle(part_), b0_ = middle(blank_);
     for (Point& p : part_) p = p - p0_, size_ = std::max(size_, norm(p));
     for (Point& p : blank_) p = p - b0_, size_ = std::max(size_, norm(p));
@@ -77,7 +76,6 @@ class ConcaveSweep {
     return value;
   }
 
-  const cases::LocateCase& one_;
   geom::Ring part_, blank_;
   Point p0_, b0_;
   double size_ = 0;
