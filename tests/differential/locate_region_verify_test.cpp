@@ -36,7 +36,7 @@ verify::LocateReport checked(const io::LocateDocument& document) {
 }
 
 TEST(LocateRegionsAndVerify, TheCheckerConfirmsEveryRandomCase) {
-  const std::size_t count = cases::case_count(4);
+  const std::size_t count = cases::region_case_count(4);
   for (const cases::RegionKind kind : cases::kRegionKinds) {
     for (std::size_t i = 0; i < count; ++i) {
       const cases::RegionCase one = cases::region_case(cases::seed() + 1, i, kind, 24);

@@ -37,7 +37,7 @@ double climbed(const phi::RegionClearance& clearance, double theta, Point shift,
 }
 
 TEST(LocateRegionProperty, IsReachedAndNotBeaten) {
-  const std::size_t count = cases::case_count(4);
+  const std::size_t count = cases::region_case_count(4);
   for (const cases::RegionKind kind : cases::kRegionKinds) {
     for (std::size_t i = 0; i < count; ++i) {
       const cases::RegionCase one = cases::region_case(cases::seed(), i, kind);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -100,6 +101,11 @@ inline geom::Contour moved(const geom::Contour& contour, const geom::BlankFromPa
 }
 
 }  // namespace region_detail
+
+/// Cases of each kind: a thousand of all kinds together at most, since one takes a tenth of a second.
+inline std::size_t region_case_count(std::size_t quick) {
+  return std::min<std::size_t>(case_count(quick), 1000 / kRegionKinds.size());
+}
 
 /// `edges` about that many of the outline; holes come on top.
 inline RegionCase region_case(std::uint64_t seed, std::uint64_t index, RegionKind kind,
