@@ -7,7 +7,6 @@ failed=()
 
 export LEKALO_SEED=${LEKALO_SEED:-1}
 export LEKALO_CASES=${LEKALO_CASES:-10000}
-export LEKALO_SHARED_DATA=${LEKALO_SHARED_DATA:-$(dirname -- "$root")/shared/data}
 sanitizer_cases=${LEKALO_SANITIZER_CASES:-500}
 fuzz_seconds=${LEKALO_FUZZ_SECONDS:-60}
 
@@ -30,13 +29,6 @@ step() {
     tail -n 30 "$log" >&2
   fi
   grep -E '^[0-9]+% tests passed|^Total Test time' "$log" | sed 's/^/    /' | tee -a "$summary" || true
-}
-
-shared_data_present() {
-  [ -d "$LEKALO_SHARED_DATA" ] || {
-    say "the folder $LEKALO_SHARED_DATA is missing; LEKALO_SHARED_DATA says where the shared data lie"
-    return 1
-  }
 }
 
 build_and_test() {
@@ -68,7 +60,6 @@ mkdir -p "$out"
 : >"$summary"
 "$root/tools/setup.sh" --full
 describe_run
-step shared-data shared_data_present
 step dev build_and_test dev
 step clang few_cases clang
 step asan few_cases asan
