@@ -45,6 +45,8 @@ class RegionCheck {
     read();
     if (!complaint_.empty()) return bad(inputs_.result.name);
     place();
+    check_input("part", inputs_.part, r_.part, r_.part_tolerance);
+    check_input("blank", inputs_.blank, r_.blank, r_.blank_tolerance);
     check_clearance();
     check_contacts();
     check_derived();
@@ -69,6 +71,7 @@ class RegionCheck {
 
   void read();
   void place();
+  void check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
   void check_clearance();
   [[nodiscard]] bool sticks_out_by_at_most(double depth) const;
   void check_contacts();
@@ -141,6 +144,17 @@ void RegionCheck::place() {
   sine_ = {turn.sine.low_double(), turn.sine.high_double()};
   shift_ = {enclosed(r_.x), enclosed(r_.y)};
   placed_ = placed(r_.part, cosine_, sine_, r_.mirrored, shift_);
+}
+
+/// Where the input is a region file in millimetres the shape used must be its shape. How other files become
+/// regions is not rechecked here.
+void RegionCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
+  const auto root = parse_json(file.bytes, file.name);
+  if (!root || !root->is_object()) return;
+  std::string complaint;
+  const Shape written = read_shape(*root, file.name, complaint);
+  if (!complaint.empty()) return;
+  if (!same_edges(written, used, tolerance.high)) find("the {} used is not the shape in {}", role, file.name);
 }
 
 void RegionCheck::check_clearance() {

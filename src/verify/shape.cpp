@@ -44,8 +44,10 @@ class ShapeReader {
 
   void read_piece(Fields& piece, const std::string& path) {
     read_contour(piece.get("outer"), path + ".outer");
-    if (piece.get("holes").text.empty()) return;
-    piece.each("holes", [&](Json hole, const std::string& at) { read_contour(hole, at); });
+    for (const char* key : {"holes", "islands"}) {  // two words for one thing
+      if (piece.get(key).text.empty()) continue;
+      piece.each(key, [&](Json hole, const std::string& at) { read_contour(hole, at); });
+    }
   }
 
   WrittenPoint point(Fields& fields, std::string_view key) {
@@ -137,6 +139,33 @@ class ShapeReader {
 
 Shape read_shape(Json value, const std::string& path, std::string& complaint) {
   return ShapeReader(path, complaint).read(value);
+}
+
+bool same_edges(const Shape& a, const Shape& b, double tolerance) {
+  const auto near = [&](const Vec& p, const Vec& q) {
+    const Vec d = p - q;
+    return std::max({std::abs(d.x.low), std::abs(d.x.high), std::abs(d.y.low), std::abs(d.y.high)}) <=
+           tolerance;
+  };
+  const auto same = [&](const Side& one, const Side& other, bool reversed) {
+    if (one.arc != other.arc || one.full != other.full) return false;
+    if (!near(one.from, reversed ? other.to : other.from) || !near(one.to, reversed ? other.from : other.to))
+      return false;
+    // Counter-clockwise ends are the same ends, whichever way the arc is written.
+    return !one.arc ||
+           (near(one.centre, other.centre) && near(one.first, other.first) && near(one.last, other.last));
+  };
+  if (a.contour_starts != b.contour_starts) return false;
+  for (std::size_t c = 0; c + 1 < a.contour_starts.size(); ++c) {
+    const std::size_t begin = a.contour_starts[c], end = a.contour_starts[c + 1];
+    bool forwards = true, backwards = true;
+    for (std::size_t k = begin; k < end; ++k) {
+      forwards = forwards && same(a.sides[k], b.sides[k], false);
+      backwards = backwards && same(a.sides[k], b.sides[begin + end - 1 - k], true);
+    }
+    if (!forwards && !backwards) return false;
+  }
+  return true;
 }
 
 Shape placed(const Shape& shape, Span cosine, Span sine, bool mirrored, const Vec& shift) {

@@ -47,6 +47,10 @@ struct Shape {
 /// one before ends.
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint);
 
+/// Whether two shapes have the same edges in the same order, each contour in either direction from the same
+/// first point, with coordinates equal to `tolerance` mm.
+[[nodiscard]] bool same_edges(const Shape& a, const Shape& b, double tolerance);
+
 /// The shape moved by the rotation (cosine, sine) of its points, mirrored in x before if asked for, and a
 /// shift.
 [[nodiscard]] Shape placed(const Shape& shape, Span cosine, Span sine, bool mirrored, const Vec& shift);

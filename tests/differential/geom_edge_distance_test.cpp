@@ -19,14 +19,16 @@ Edge random_edge(Random& random) {
   const auto point = [&] { return Point{random.uniform(-10, 10), random.uniform(-10, 10)}; };
   if (random.below(3) == 0) return {EdgeKind::line, point(), point(), {}};
   const Point centre = point();
-  const double radius = random.uniform(0.5, 9), first = random.uniform(0, kTurn), sweep = random.uniform(0.05, 6.2);
+  const double radius = random.uniform(0.5, 9), first = random.uniform(0, kTurn),
+               sweep = random.uniform(0.05, 6.2);
   const auto at = [&](double angle) {
     const auto [sine, cosine] = sincos(angle);
     return centre + radius * Point{cosine, sine};
   };
   if (random.below(8) == 0) return {EdgeKind::arc_cw, at(first), at(first), centre};
   const bool ccw = random.below(2) == 0;
-  return {ccw ? EdgeKind::arc_ccw : EdgeKind::arc_cw, at(first), at(ccw ? first + sweep : first - sweep), centre};
+  return {ccw ? EdgeKind::arc_ccw : EdgeKind::arc_cw, at(first), at(ccw ? first + sweep : first - sweep),
+          centre};
 }
 
 /// Points of an edge at n + 1 equal parameters: nothing of the formulas.
@@ -66,7 +68,8 @@ TEST(EdgeDistance, NoWalkFindsLessAndTheClosestPointsLieOnTheEdges) {
     const auto pa = walked(a, kSteps), pb = walked(b, kSteps);
     for (const Point& p : pa)
       for (const Point& q : pb) least = std::min(least, norm(q - p));
-    for (int i = 0; i < kSteps; ++i) step = std::max({step, norm(pa[i + 1] - pa[i]), norm(pb[i + 1] - pb[i])});
+    for (int i = 0; i < kSteps; ++i)
+      step = std::max({step, norm(pa[i + 1] - pa[i]), norm(pb[i + 1] - pb[i])});
     EXPECT_LE(close.distance, least + 1e-12);
     EXPECT_GE(close.distance, least - step);
     if (close.distance == 0) ++crossing;
@@ -110,7 +113,8 @@ TEST(RegionIndexDifferential, PointsAreInsideWhereTheOutlineWindsAround) {
         Contour out;
         for (const Edge& e : contour) {
           EdgeKind kind = e.kind;
-          if (mirror && kind != EdgeKind::line) kind = kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+          if (mirror && kind != EdgeKind::line)
+            kind = kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
           out.push_back({kind, place(e.from), place(e.to), place(e.centre)});
         }
         return out;
@@ -123,7 +127,8 @@ TEST(RegionIndexDifferential, PointsAreInsideWhereTheOutlineWindsAround) {
           const Point p = place({i * 0.5, j * 0.5});
           const auto nearest = index.nearest(p);
           if (nearest.distance < 0.02) continue;
-          const bool inside = std::abs(winding(region->outer, p)) > 0.5 && std::abs(winding(region->holes[0], p)) < 0.5;
+          const bool inside =
+              std::abs(winding(region->outer, p)) > 0.5 && std::abs(winding(region->holes[0], p)) < 0.5;
           EXPECT_EQ(index.contains(p), inside) << quarter << mirror << ' ' << i << ' ' << j;
           double least = 1e300;
           for (const Curve& curve : index.curves()) least = std::min(least, norm(nearest_on(curve, p) - p));

@@ -48,7 +48,8 @@ TEST(CellProgram, BoundsWhatAGridFindsAndReachesIt) {
     double best = -1e300;
     for (int x = -8; x <= 8; ++x)
       for (int y = -8; y <= 8; ++y)
-        for (int t = -8; t <= 8; ++t) best = std::max(best, lowest({half[0] * x / 8, half[1] * y / 8, half[2] * t / 8}));
+        for (int t = -8; t <= 8; ++t)
+          best = std::max(best, lowest({half[0] * x / 8, half[1] * y / 8, half[2] * t / 8}));
     EXPECT_GE(solution.bound, best - 1e-12);
     EXPECT_NEAR(lowest(solution.z), solution.bound, 1e-9);
   }

@@ -42,7 +42,8 @@ TEST(RegionClearanceDifferential, ThePrunedSearchFindsWhatAllPairsFind) {
         const geom::Box box = clearance.part().bounds();
         for (int x = 0; x <= 40; ++x)
           for (int y = 0; y <= 40; ++y) {
-            const Point p = box.low + Point{(box.high.x - box.low.x) * x / 40, (box.high.y - box.low.y) * y / 40};
+            const Point p =
+                box.low + Point{(box.high.x - box.low.x) * x / 40, (box.high.y - box.low.y) * y / 40};
             if (!clearance.part().contains(p) || clearance.blank().contains(pose(p))) continue;
             found = std::max(found, clearance.blank().nearest(pose(p)).distance);
           }

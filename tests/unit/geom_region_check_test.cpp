@@ -11,12 +11,16 @@ Contour polygon(const std::vector<Point>& points) {
     contour.push_back({EdgeKind::line, points[i], points[(i + 1) % points.size()], {}});
   return contour;
 }
-Contour square(double x, double y, double side) { return polygon({{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}); }
+Contour square(double x, double y, double side) {
+  return polygon({{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}});
+}
 Contour circle(Point centre, double radius) {
   const Point from = centre + Point{radius, 0};
   return {{EdgeKind::arc_ccw, from, from, centre}};
 }
-Region region(Contour outer, std::vector<Contour> holes = {}) { return make_region(std::move(outer), std::move(holes)).value(); }
+Region region(Contour outer, std::vector<Contour> holes = {}) {
+  return make_region(std::move(outer), std::move(holes)).value();
+}
 
 TEST(RegionCheck, AcceptsWhatIsInOrder) {
   EXPECT_EQ(fault_of({region(square(0, 0, 10), {circle({5, 5}, 2)})}), std::nullopt);
