@@ -31,8 +31,14 @@ done
 show "$lekalo" locate --part $data/example-1-part.csv --blank $data/example-1-blank.csv \
   --picture demo-out/example-1.png
 
+regions=examples/regions
+show "$lekalo" locate --part $regions/bracket.json --blank $regions/casting.json --min-allowance 1.5 \
+  --nc $regions/bracket.nc --nc-out demo-out/bracket.nc --picture demo-out/bracket.svg -o demo-out/bracket.json
+show "$lekalo" verify demo-out/bracket.json
+
 say ""
 say "Written to $root/demo-out:"
 say "  example-1.svg ... example-6.svg    blank, start, result, contacts and allowance; example-1.png the first as PNG"
 say "  example-1.json ... example-6.json  pose, clearance, upper bound, contacts and certificate"
 say "  part.nc                            $data/part.nc in the machine's frame"
+say "  bracket.svg, bracket.json, bracket.nc  a part with arcs, a slot and holes in a cored casting"

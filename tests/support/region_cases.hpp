@@ -84,9 +84,7 @@ inline geom::Contour rounded(const geom::Ring& ring, double most) {
 }
 
 inline geom::Region region(geom::Contour outer, std::vector<geom::Contour> holes = {}) {
-  auto made = geom::make_region(std::move(outer), std::move(holes));
-  EXPECT_TRUE(made.has_value()) << (made ? "" : made.error().message);
-  return made.value();
+  return geom::make_region(std::move(outer), std::move(holes)).value();
 }
 
 inline geom::Contour moved(const geom::Contour& contour, const geom::BlankFromPart& pose) {

@@ -16,7 +16,8 @@ namespace {
 /// A ring of radii 5 and 10 in a ring of radii 4 and 12 about (100, 50): its clearance there is 1 mm.
 struct Rings {
   std::string status = "optimal", mirror = "no", mirrored = "false";
-  std::string x = "100", y = "50", theta = "0", theta_deg = "0", clearance = "1", upper = "1.001", gap = "0.001";
+  std::string x = "100", y = "50", theta = "0", theta_deg = "0", clearance = "1", upper = "1.001",
+              gap = "0.001";
   std::string part_radius = "10", tolerances = R"({"part": 0, "blank": 0})";
   std::string contacts = R"([{"part_at": [10, 0], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
   std::string tree = leaf();
@@ -25,27 +26,34 @@ struct Rings {
 
   static std::string circle(const std::string& x, const std::string& y, double radius) {
     const double from = std::stod(x) + radius;
-    return fmt::format(R"([{{"arc": {{"from": [{0}, {1}], "to": [{0}, {1}], "centre": [{2}, {1}], "ccw": true}}}}])", from, y, x);
+    return fmt::format(
+        R"([{{"arc": {{"from": [{0}, {1}], "to": [{0}, {1}], "centre": [{2}, {1}], "ccw": true}}}}])", from,
+        y, x);
   }
   /// One cell for all poses: proves far less than the bound claimed.
   static std::string leaf() {
     return R"({"contacts": [[0, 5, 0, 100, 50, 4, 0.5], [0, -5, 0, 100, 50, 4, 0.5]]})";
   }
   [[nodiscard]] std::string part() const {
-    return fmt::format(R"({{"units": "mm", "outer": {}, "holes": [{}]}})", circle("0", "0", std::stod(part_radius)), circle("0", "0", 5));
+    return fmt::format(R"({{"units": "mm", "outer": {}, "holes": [{}]}})",
+                       circle("0", "0", std::stod(part_radius)), circle("0", "0", 5));
   }
   [[nodiscard]] std::string text() const {
-    const std::string blank = fmt::format(R"({{"units": "mm", "outer": {}, "holes": [{}]}})", circle("100", "50", 12), circle("100", "50", 4));
-    return fmt::format(R"({{"format": {{"name": "lekalo-locate", "version": 1}}, "status": "{}", "units": "mm",
+    const std::string blank = fmt::format(R"({{"units": "mm", "outer": {}, "holes": [{}]}})",
+                                          circle("100", "50", 12), circle("100", "50", 4));
+    return fmt::format(
+        R"({{"format": {{"name": "lekalo-locate", "version": 1}}, "status": "{}", "units": "mm",
  "x": {}, "y": {}, "theta": {}, "theta_deg": {}, "mirrored": {}, "mirror": "{}", "clearance": {}, "upper_bound": {},
  "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
  "regions": {{"part": {}, "blank": {}}}, "contacts": {},
  "certificate": {{"pivot": [0, 5], "trees": [{{"mirrored": false, {}, "nodes": [{}]}}]}}, "certificate_file": null}})",
-                       status, x, y, theta, theta_deg, mirrored, mirror, clearance, upper, gap, tolerances, part(), blank, contacts, box, tree);
+        status, x, y, theta, theta_deg, mirrored, mirror, clearance, upper, gap, tolerances, part(), blank,
+        contacts, box, tree);
   }
   [[nodiscard]] Result<LocateReport> report() const {
     const std::string result = text();
-    return verify_locate({{"result.json", result}, {"part.json", part_file}, {"blank.json", "[]"}, std::nullopt});
+    return verify_locate(
+        {{"result.json", result}, {"part.json", part_file}, {"blank.json", "[]"}, std::nullopt});
   }
   [[nodiscard]] std::string first_finding() const {
     const auto checked = report();
@@ -61,25 +69,30 @@ TEST(VerifyRegions, TheClearanceOfRingsIsKnownToTheLastDigits) {
   ASSERT_TRUE(report.has_value()) << report.error().message;
   EXPECT_NEAR(std::stod(report->clearance_low), 1, 1e-13);
   EXPECT_NEAR(std::stod(report->clearance_high), 1, 1e-13);
-  for (const std::string& finding : report->findings) EXPECT_EQ(finding.find("clearance 0.9"), std::string::npos) << finding;
+  for (const std::string& finding : report->findings)
+    EXPECT_EQ(finding.find("clearance 0.9"), std::string::npos) << finding;
   rings.clearance = "1.0000000000001";
-  EXPECT_NE(rings.first_finding().find("clearance 1.0000000000001 mm is above"), std::string::npos) << rings.first_finding();
+  EXPECT_NE(rings.first_finding().find("clearance 1.0000000000001 mm is above"), std::string::npos)
+      << rings.first_finding();
 }
 
 TEST(VerifyRegions, AHoleUnderMaterialIsSeen) {
   Rings rings;
   rings.part_radius = "9";
   rings.x = "105";  // the part's hole has left the blank's: its material lies over it
-  EXPECT_NE(rings.first_finding().find("meets the outline of the blank"), std::string::npos) << rings.first_finding();
+  EXPECT_NE(rings.first_finding().find("meets the outline of the blank"), std::string::npos)
+      << rings.first_finding();
 }
 
 TEST(VerifyRegions, EveryFalseClaimIsFound) {
   const std::vector<std::pair<std::function<void(Rings&)>, std::string>> table{
-      {[](Rings& r) { r.box = R"("theta": [0, 6.28], "x": [80, 120], "y": [30, 70])"; }, "does not cover the window"},
+      {[](Rings& r) { r.box = R"("theta": [0, 6.28], "x": [80, 120], "y": [30, 70])"; },
+       "does not cover the window"},
       {[](Rings& r) { r.box = R"("theta": [0, 6.2831853071795872], "x": [89, 120], "y": [30, 70])"; },
        "the box of the pivot does not cover the blank"},
       {[](Rings& r) { r.tree = R"(["x", 100], )" + Rings::leaf(); }, "the subdivision ends early"},
-      {[](Rings& r) { r.tree = Rings::leaf() + ", " + Rings::leaf(); }, "one more than the subdivision needs"},
+      {[](Rings& r) { r.tree = Rings::leaf() + ", " + Rings::leaf(); },
+       "one more than the subdivision needs"},
       {[](Rings& r) { r.tree = R"({"contacts": [[0, 5, 0, 100, 50, 4, -1]]})"; }, "multiplier is negative"},
       {[](Rings& r) { r.tree = R"({"contacts": [[0, 5, 0, 100, 50, 4, 0]]})"; }, "sum to nothing"},
       {[](Rings& r) { r.tree = R"({"contacts": []})"; }, "sum to nothing"},
@@ -92,9 +105,13 @@ TEST(VerifyRegions, EveryFalseClaimIsFound) {
       {[](Rings& r) { r.status = "fine"; }, "no status of a result"},
       {[](Rings& r) { r.tolerances = R"({"part": -1, "blank": 0})"; }, "tolerance is negative"},
       {[](Rings& r) { r.tolerances = R"({"part": 0.1, "blank": 0})"; }, "clearance 1 mm is above"},
-      {[](Rings& r) { r.contacts = R"([{"part_at": [10, 1], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])"; },
+      {[](Rings& r) {
+         r.contacts = R"([{"part_at": [10, 1], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
+       },
        "part_at is not on the part's outline"},
-      {[](Rings& r) { r.contacts = R"([{"part_at": [10, 0], "blank_at": [112, 50], "distance": 2.1, "multiplier": 1}])"; },
+      {[](Rings& r) {
+         r.contacts = R"([{"part_at": [10, 0], "blank_at": [112, 50], "distance": 2.1, "multiplier": 1}])";
+       },
        "apart, not 2.1"},
       {[](Rings& r) { r.part_file = R"({"units": "mm", "outer": )" + Rings::circle("0", "0", 9) + "}"; },
        "the part used is not the shape in part.json"},
@@ -129,9 +146,16 @@ TEST(VerifyRegions, PointsOnGrazingRaysAreDecided) {
     {"arc": {"from": [3, -4], "to": [-3, -4], "centre": [0, 0], "ccw": true}},
     {"line": {"from": [-3, -4], "to": [-3, -12]}}, {"line": {"from": [-3, -12], "to": [3, -12]}},
     {"line": {"from": [3, -12], "to": [3, -4]}}]})");
-  for (const auto& [x, y, inside] : {std::tuple{0.0, 0.0, true}, {-9.0, 5.0, false}, {0.0, -4.0, true}, {0.0, 4.5, true},
-                                     {-20.0, 5.0, false}, {-8.0, -4.0, false}, {8.0, -4.0, false}, {2.0, -12.5, false},
-                                     {-2.0, -11.5, true}, {-7.0, 0.0, false}}) {
+  for (const auto& [x, y, inside] : {std::tuple{0.0, 0.0, true},
+                                     {-9.0, 5.0, false},
+                                     {0.0, -4.0, true},
+                                     {0.0, 4.5, true},
+                                     {-20.0, 5.0, false},
+                                     {-8.0, -4.0, false},
+                                     {8.0, -4.0, false},
+                                     {2.0, -12.5, false},
+                                     {-2.0, -11.5, true},
+                                     {-7.0, 0.0, false}}) {
     const auto answer = holds(keyhole, at(x, y));
     ASSERT_TRUE(answer.has_value()) << x << ' ' << y;
     EXPECT_EQ(*answer, inside) << x << ' ' << y;
