@@ -252,7 +252,6 @@ void RegionCheck::check_derived() {
 
 bool RegionCheck::check_certificate() {
   Json certificate = r_.certificate;
-  Json parsed;
   if (certificate.is_null() && r_.in_file && inputs_.certificate) {
     const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
     if (!root) return complaint_ = "it is no JSON document", false;

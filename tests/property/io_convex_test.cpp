@@ -211,10 +211,14 @@ TEST(IoTrimProperty, TheTrimmedPolygonLiesInsideAndLosesWhatItSays) {
         cases::regular_ngon(3 + random.below(12), random.uniform(1, 500),
                             {random.uniform(-1e4, 1e4), random.uniform(-1, 1)}, random.uniform(0, 1));
     const double size = geom::bounds(base.vertices()).high.x - geom::bounds(base.vertices()).low.x;
-    const double noise = size * std::pow(10.0, -random.uniform(1.5, 14));
     io::ContourFile file;
     file.name = "probed.csv";
     file.points = cases::with_points_on_edges(base, 10 + random.below(150));
+    // Noise of the size of the probe's step would make contours that cross themselves.
+    double step = size;
+    for (std::size_t k = 0; k + 1 < file.points.size(); ++k)
+      step = std::min(step, norm(file.points[k + 1] - file.points[k]));
+    const double noise = std::min(0.25 * step, size * std::pow(10.0, -random.uniform(1.5, 14)));
     for (geom::Point& p : file.points)
       p = p + geom::Point{random.uniform(-noise, noise), random.uniform(-noise, noise)};
     if (c % 2 == 1) std::reverse(file.points.begin(), file.points.end());

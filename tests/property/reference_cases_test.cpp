@@ -18,8 +18,8 @@ TEST(Cases, the_known_pose_has_the_promised_allowance) {
     const auto c = cases::random_case(cases::seed(), index);
     ASSERT_GT(c.allowance, 0) << c.name;
     const auto clearance = phi::clearance_enclosure(c.part, c.blank, c.x, c.y, c.theta);
-    ASSERT_GE(clearance.low, c.allowance - 0x1p-46 * c.largest_coordinate)
-        << c.name;  // rounding of the blank's corners
+    // Rounding of the blank's corners, which neighbouring edges of nearly one direction magnify.
+    ASSERT_GE(clearance.low, c.allowance - 0x1p-42 * c.largest_coordinate) << c.name;
     const double unit = c.kind == cases::Kind::tiny ? 1e-7 : c.kind == cases::Kind::huge ? 1e6 : 1;
     ASSERT_GE(c.allowance, 0.0999 * unit) << c.name;
     ASSERT_LE(c.allowance, 5 * unit) << c.name;
