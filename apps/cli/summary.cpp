@@ -69,6 +69,17 @@ std::string contact_lines(const io::LocateDocument& d) {
   return text.empty() ? text : text + "\n";
 }
 
+std::string touch_lines(const io::LocateDocument& d) {
+  if (!d.regions) return "";
+  std::string text;
+  for (const locate::RegionTouch& touch : d.regions->contacts) {
+    text += fmt::format("{}({:.3f}, {:.3f})", text.empty() ? "  nearest at         blank " : ", ",
+                        touch.blank.x, touch.blank.y);
+  }
+  if (d.regions->mirrored) text = "  mirrored           in x, before it is turned\n" + text;
+  return text.empty() ? text : text + "\n";
+}
+
 std::string alternative_lines(const io::LocateDocument& d) {
   std::string text;
   for (const locate::Placement& p : d.alternatives) {
@@ -128,8 +139,8 @@ std::string decimals_up(double value, int decimals) {
 
 std::string locate_summary(const io::LocateDocument& d, const std::vector<std::string>& written) {
   std::string text = headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + contact_lines(d) +
-                     alternative_lines(d) + trim_line(d) + comparison_lines(d) + deviation_line(d) +
-                     program_lines(d);
+                     touch_lines(d) + alternative_lines(d) + trim_line(d) + comparison_lines(d) +
+                     deviation_line(d) + program_lines(d);
   for (const std::string& warning : d.warnings) text += "  note               " + warning + "\n";
   for (const std::string& path : written) text += "  wrote              " + path + "\n";
   return text;

@@ -231,23 +231,15 @@ Span distance(const Shape& a, const Shape& b) {
 
 namespace {
 
-/// v turned by so many quarters of a turn: exactly.
-Vec quarter_turned(const Vec& v, int quarters) {
-  switch (quarters) {
-    case 1:
-      return {{-v.y.high, -v.y.low}, v.x};
-    case 2:
-      return {{-v.x.high, -v.x.low}, {-v.y.high, -v.y.low}};
-    case 3:
-      return {v.y, {-v.x.high, -v.x.low}};
-    default:
-      return v;
-  }
+/// A ray's direction as a rotation that takes it to the right.
+struct Ray {
+  Span cosine, sine;
+};
+Vec turned(const Vec& v, const Ray& ray) {
+  return {ray.cosine * v.x - ray.sine * v.y, ray.sine * v.x + ray.cosine * v.y};
 }
-
-Side quarter_turned(Side side, int quarters) {
-  for (Vec* v : {&side.from, &side.to, &side.centre, &side.first, &side.last})
-    *v = quarter_turned(*v, quarters);
+Side turned(Side side, const Ray& ray) {
+  for (Vec* v : {&side.from, &side.to, &side.centre, &side.first, &side.last}) *v = turned(*v, ray);
   return side;
 }
 
@@ -289,12 +281,17 @@ std::optional<bool> crosses(const Side& side, const Vec& p) {
 }  // namespace
 
 std::optional<bool> holds(const Shape& shape, const Vec& p) {
-  // Rays to the right, down, left and up: where one grazes an end or a tangent, another does not.
-  for (int quarters = 0; quarters < 4; ++quarters) {
-    const Vec q = quarter_turned(p, quarters);
+  // Where one ray grazes an end or a tangent, another does not: the first along x, the others of Pythagorean
+  // triples, whose angles are no fractions of a turn as the corners of regular shapes are.
+  constexpr std::array<std::array<double, 3>, 6> kTriples{
+      {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
+  for (const auto& [a, b, c] : kTriples) {
+    const bool straight = b == 0;
+    const Ray ray{Span{a, a} / Span{c, c}, Span{b, b} / Span{c, c}};
+    const Vec q = straight ? p : turned(p, ray);
     bool inside = false, decided = true;
     for (const Side& side : shape.sides) {
-      const std::optional<bool> odd = crosses(quarters == 0 ? side : quarter_turned(side, quarters), q);
+      const std::optional<bool> odd = straight ? crosses(side, q) : crosses(turned(side, ray), q);
       if (!odd) {
         decided = false;
         break;

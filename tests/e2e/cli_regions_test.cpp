@@ -6,13 +6,16 @@
 namespace lekalo::test {
 namespace {
 
-std::string example(const std::string& name) { return std::string(LEKALO_SOURCE_DIR) + "/examples/regions/" + name; }
+std::string example(const std::string& name) {
+  return std::string(LEKALO_SOURCE_DIR) + "/examples/regions/" + name;
+}
 
 TEST(Regions, TheBracketInItsCastingGetsEveryOutputAndVerifyConfirmsIt) {
   const TemporaryFolder folder;
-  const Ran ran = run(folder.path(), {"locate", "--part", example("bracket.json"), "--blank", example("casting.json"), "--nc",
-                                      example("bracket.nc"), "--nc-out", "out.nc", "--picture", "out.svg", "-o", "out.json",
-                                      "--certificate", "out.cert", "--json"});
+  const Ran ran =
+      run(folder.path(), {"locate", "--part", example("bracket.json"), "--blank", example("casting.json"),
+                          "--nc", example("bracket.nc"), "--nc-out", "out.nc", "--picture", "out.svg", "-o",
+                          "out.json", "--certificate", "out.cert", "--json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto files = folder.files();
   EXPECT_EQ(files.size(), 4U);
@@ -31,8 +34,9 @@ TEST(Regions, TheBracketInItsCastingGetsEveryOutputAndVerifyConfirmsIt) {
   EXPECT_EQ(run(folder.path(), {"verify", "out.json"}).status, 0);
 
   // The same bytes again, and with the proof inside.
-  const Ran again = run(folder.path(), {"locate", "--part", example("bracket.json"), "--blank", example("casting.json"), "-o",
-                                        "inside.json", "--picture", "again.svg"});
+  const Ran again =
+      run(folder.path(), {"locate", "--part", example("bracket.json"), "--blank", example("casting.json"),
+                          "-o", "inside.json", "--picture", "again.svg"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(read_bytes(folder / "again.svg"), files.at("out.svg"));
   EXPECT_EQ(run(folder.path(), {"verify", "inside.json"}).status, 0);
@@ -47,16 +51,19 @@ TEST(Regions, TheBracketInItsCastingGetsEveryOutputAndVerifyConfirmsIt) {
 
 TEST(Regions, ABlankWithTooLargeACoreIsProvedScrapWithAPicture) {
   const TemporaryFolder folder;
-  write_bytes(folder / "part.json",
-              R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [60, 0]}}, {"line": {"from": [60, 0], "to": [60, 40]}},
+  write_bytes(
+      folder / "part.json",
+      R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [60, 0]}}, {"line": {"from": [60, 0], "to": [60, 40]}},
  {"line": {"from": [60, 40], "to": [0, 40]}}, {"line": {"from": [0, 40], "to": [0, 0]}}],
  "holes": [[{"arc": {"from": [35, 20], "to": [35, 20], "centre": [30, 20], "ccw": true}}]]})");
-  write_bytes(folder / "blank.json",
-              R"({"units": "mm", "outer": [{"line": {"from": [-2, -2], "to": [62, -2]}}, {"line": {"from": [62, -2], "to": [62, 42]}},
+  write_bytes(
+      folder / "blank.json",
+      R"({"units": "mm", "outer": [{"line": {"from": [-2, -2], "to": [62, -2]}}, {"line": {"from": [62, -2], "to": [62, 42]}},
  {"line": {"from": [62, 42], "to": [-2, 42]}}, {"line": {"from": [-2, 42], "to": [-2, -2]}}],
  "holes": [[{"arc": {"from": [37, 20], "to": [37, 20], "centre": [30, 20], "ccw": true}}]]})");
-  const Ran ran = run(folder.path(), {"locate", "--part", "part.json", "--blank", "blank.json", "--json", "-o", "out.json",
-                                      "--picture", "out.svg", "--nc", example("bracket.nc"), "--nc-out", "out.nc"});
+  const Ran ran = run(folder.path(),
+                      {"locate", "--part", "part.json", "--blank", "blank.json", "--json", "-o", "out.json",
+                       "--picture", "out.svg", "--nc", example("bracket.nc"), "--nc-out", "out.nc"});
   EXPECT_EQ(ran.status, 1) << ran.err;
   const Json result = ran.json();
   EXPECT_EQ(result["status"], "infeasible");
@@ -78,7 +85,8 @@ TEST(Regions, AMirroredPlacementIsFoundAndItsProgramWithheld) {
  {"line": {"from": [-21, 16], "to": [-61, 16]}}, {"line": {"from": [-61, 16], "to": [-61, -1]}}, {"line": {"from": [-61, -1], "to": [1, -1]}}]})");
   const Words words{"locate", "--part", "part.json", "--blank", "blank.json", "--json"};
   EXPECT_EQ(run(folder.path(), words).json()["status"], "infeasible");
-  const Ran ran = run(folder.path(), words + Words{"--mirror", "either", "-o", "out.json", "--nc", example("bracket.nc"), "--nc-out", "out.nc"});
+  const Ran ran = run(folder.path(), words + Words{"--mirror", "either", "-o", "out.json", "--nc",
+                                                   example("bracket.nc"), "--nc-out", "out.nc"});
   EXPECT_EQ(ran.status, 1) << ran.err;
   const Json result = ran.json();
   EXPECT_EQ(result["status"], "optimal");
@@ -97,13 +105,17 @@ TEST(Regions, BadShapesAndOptionsAreRefusedInOneSentence) {
     std::string sentence;
   };
   const std::string line = R"({"line": {"from": [)";
-  const std::string bow = R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [10, 10]}}, {"line": {"from": [10, 10], "to": [10, 0]}},
+  const std::string bow =
+      R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [10, 10]}}, {"line": {"from": [10, 10], "to": [10, 0]}},
  {"line": {"from": [10, 0], "to": [3, 9]}}, {"line": {"from": [3, 9], "to": [0, 0]}}]})";
   const std::string good = read_bytes(example("bracket.json"));
   const std::vector<Case> table{
       {bow, {}, 3, "meets edge"},
       {R"({"units": "mm", "outer": []})", {}, 3, "part.json"},
-      {R"({"units": "mm", "outer": [{"arc": {"from": [1, 0], "to": [0, 2], "centre": [0, 0], "ccw": true}}, {"line": {"from": [0, 2], "to": [1, 0]}}]})", {}, 3, "part.json"},
+      {R"({"units": "mm", "outer": [{"arc": {"from": [1, 0], "to": [0, 2], "centre": [0, 0], "ccw": true}}, {"line": {"from": [0, 2], "to": [1, 0]}}]})",
+       {},
+       3,
+       "part.json"},
       {R"({"units": "mm", "outer": [{"spline": {}}]})", {}, 3, "part.json"},
       {good.substr(0, good.size() / 2), {}, 3, "part.json"},
       {good, {"--method", "icp"}, 2, "is for convex contours"},
@@ -115,7 +127,9 @@ TEST(Regions, BadShapesAndOptionsAreRefusedInOneSentence) {
   for (const Case& one : table) {
     const TemporaryFolder folder;
     write_bytes(folder / "part.json", one.part);
-    const Ran ran = run(folder.path(), Words{"locate", "--part", "part.json", "--blank", example("casting.json"), "-o", "out.json"} + one.more);
+    const Ran ran = run(folder.path(), Words{"locate", "--part", "part.json", "--blank",
+                                             example("casting.json"), "-o", "out.json"} +
+                                           one.more);
     EXPECT_EQ(ran.status, one.status) << ran.err;
     EXPECT_NE(ran.err.find(one.sentence), std::string::npos) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;

@@ -21,10 +21,13 @@ enum class RegionKind {
   rounded,   ///< every corner an arc; the blank's corners are arcs of other radii
   slotted,   ///< concave: slots from outside, the blank's narrower
   roomy,     ///< a blank twice the size
-  pieces     ///< two parts of one blank with two pockets of material
+  pieces,    ///< two parts of one blank with two pockets of material
+  toothed,   ///< a toothed wheel on a cored hole: as many best angles as teeth
+  turning    ///< a ring in a ring: every angle is as good
 };
 inline constexpr std::array kRegionKinds{RegionKind::near_net, RegionKind::rounded, RegionKind::slotted,
-                                         RegionKind::roomy, RegionKind::pieces};
+                                         RegionKind::roomy,    RegionKind::pieces,  RegionKind::toothed,
+                                         RegionKind::turning};
 
 struct RegionCase {
   std::string name;
@@ -114,6 +117,28 @@ inline RegionCase region_case(std::uint64_t seed, std::uint64_t index, RegionKin
   made.name = "region case " + std::to_string(static_cast<int>(kind)) + " " + std::to_string(index);
   made.theta = random.uniform(0, 6.283185307179586);
   made.shift = {random.uniform(-30, 30), random.uniform(-30, 30)};
+  if (kind == RegionKind::turning) {
+    const geom::Point off{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)};
+    made.part = {region(circle({0, 0}, 30), {circle({0, 0}, 10)})};
+    made.blank = {region(circle(made.shift, 32), {circle(made.shift + off, 8)})};
+    return made;
+  }
+  if (kind == RegionKind::toothed) {
+    const auto wheel = [&](std::size_t teeth, double high, double low) {
+      geom::Ring ring;
+      for (std::size_t i = 0; i < 4 * teeth; ++i) {
+        const auto [sine, cosine] =
+            geom::sincos(6.283185307179586 * static_cast<double>(i) / static_cast<double>(4 * teeth));
+        ring.push_back((i % 4 < 2 ? high : low) * geom::Point{cosine, sine});
+      }
+      return ring;
+    };
+    const std::size_t teeth = 3 + random.below(4);
+    const geom::BlankFromPart pose = made.pose();
+    made.part = {region(polygon(wheel(teeth, 40, 34)), {circle({0, 0}, 10)})};
+    made.blank = {region(moved(polygon(wheel(teeth, 42, 36.5)), pose), {moved(circle({0.2, 0}, 8), pose)})};
+    return made;
+  }
   std::array<double, 5> phase{}, height{};
   for (std::size_t i = 0; i < 5; ++i)
     phase[i] = random.uniform(0, 6.28), height[i] = random.uniform(0, 8) / static_cast<double>(i + 1);
