@@ -76,20 +76,14 @@ std::uint32_t RegionIndex::build(std::uint32_t begin, std::uint32_t end) {
   return at;
 }
 
-RegionIndex::Nearest RegionIndex::nearest(Point p) const {
-  Nearest best;
-  double limit = best.distance;
-  visit_within(p, 0, limit, [&](std::uint32_t edge) {
-    const Point point = nearest_on(curves_[edge], p);
-    const double distance = norm(p - point);
-    if (distance < best.distance) best = {distance, point, edge}, limit = distance;
-  });
-  return best;
-}
+RegionIndex::Nearest RegionIndex::nearest(Point p) const { return nearer(p, {}); }
 
 RegionIndex::Nearest RegionIndex::nearest(Point p, std::uint32_t likely) const {
   const Point first = nearest_on(curves_[likely], p);
-  Nearest best{norm(p - first), first, likely};
+  return nearer(p, {norm(p - first), first, likely});
+}
+
+RegionIndex::Nearest RegionIndex::nearer(Point p, Nearest best) const {
   double limit = best.distance;
   visit_within(p, 0, limit, [&](std::uint32_t edge) {
     const Point point = nearest_on(curves_[edge], p);

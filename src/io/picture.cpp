@@ -233,10 +233,6 @@ std::string picture_svg(const LocatePicture& picture) {
 }
 
 Result<std::string> picture_png(const LocatePicture& picture, int width_px) {
-  if (width_px < 100 || width_px > 20'000) {
-    return failure(ErrorCode::usage,
-                   fmt::format("a picture {} pixels wide cannot be drawn; choose 100 to 20000", width_px));
-  }
   return detail::scene_png(detail::Composer(picture).compose(), width_px);
 }
 

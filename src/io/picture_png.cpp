@@ -90,6 +90,10 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
 }  // namespace
 
 Result<std::string> scene_png(const Scene& scene, int width_px) {
+  if (width_px < 100 || width_px > 20'000) {
+    return failure(ErrorCode::usage,
+                   fmt::format("a picture {} pixels wide cannot be drawn; choose 100 to 20000", width_px));
+  }
   const double scale = width_px / scene.width;
   const int height_px = static_cast<int>(std::lround(scene.height * scale));
   const std::unique_ptr<cairo_surface_t, Free> surface(

@@ -279,10 +279,6 @@ std::string picture_svg(const RegionPicture& picture) {
 }
 
 Result<std::string> picture_png(const RegionPicture& picture, int width_px) {
-  if (width_px < 100 || width_px > 20'000) {
-    return failure(ErrorCode::usage,
-                   fmt::format("a picture {} pixels wide cannot be drawn; choose 100 to 20000", width_px));
-  }
   return detail::scene_png(detail::RegionComposer(picture).compose(), width_px);
 }
 

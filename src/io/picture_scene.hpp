@@ -75,7 +75,8 @@ struct Scene {
 };
 
 [[nodiscard]] std::string scene_svg(const Scene& scene);
-/// PNG bytes, `width_px` wide. ErrorCode::environment when the drawing library fails.
+/// PNG bytes, `width_px` wide (100 to 20000, else ErrorCode::usage). ErrorCode::environment when the drawing
+/// library fails.
 [[nodiscard]] Result<std::string> scene_png(const Scene& scene, int width_px);
 
 }  // namespace lekalo::io::detail

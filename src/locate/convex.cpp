@@ -1,7 +1,5 @@
 #include "lekalo/locate/convex.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "proof.hpp"
+#include "search_limits.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -246,17 +245,8 @@ class Localiser {
 }  // namespace
 
 Result<ConvexResult> locate_convex(const ConvexProblem& problem, const ConvexOptions& options) {
-  const AngleWindow& window = problem.window;
-  if (!(window.from <= window.to) || !(std::abs(window.from) <= geom::kMaxAngle) ||
-      !(std::abs(window.to) <= geom::kMaxAngle))
-    return failure(ErrorCode::usage, fmt::format("angle window from {} to {} rad is empty or not finite",
-                                                 window.from, window.to));
-  if (window.to - window.from > 6.2831853071795872)
-    return failure(ErrorCode::usage, "angle window is wider than a full circle");
-  if (!(options.gap > 0) || !std::isfinite(options.gap))
-    return failure(ErrorCode::usage, fmt::format("gap {} mm must be a positive number", options.gap));
-  if (!std::isfinite(options.min_allowance))
-    return failure(ErrorCode::usage, "minimum allowance is not a finite number");
+  if (auto fine = check_limits(problem.window, options.gap, options.min_allowance); !fine)
+    return tl::unexpected(std::move(fine.error()));
   if (!(problem.part_coordinate_error >= 0) || !(problem.blank_coordinate_error >= 0))
     return failure(ErrorCode::usage, "coordinate errors must not be negative");
   return Localiser(problem, options).run();

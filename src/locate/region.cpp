@@ -1,13 +1,12 @@
 #include "lekalo/locate/region.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "lekalo/phi/region.hpp"
 #include "pose_search.hpp"
+#include "search_limits.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -207,17 +206,8 @@ class RegionLocaliser {
 }  // namespace
 
 Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOptions& options) {
-  const AngleWindow& window = problem.window;
-  if (!(window.from <= window.to) || !(std::abs(window.from) <= geom::kMaxAngle) ||
-      !(std::abs(window.to) <= geom::kMaxAngle))
-    return failure(ErrorCode::usage, fmt::format("angle window from {} to {} rad is empty or not finite",
-                                                 window.from, window.to));
-  if (window.to - window.from > 6.2831853071795872)
-    return failure(ErrorCode::usage, "angle window is wider than a full circle");
-  if (!(options.gap > 0) || !std::isfinite(options.gap))
-    return failure(ErrorCode::usage, fmt::format("gap {} mm must be a positive number", options.gap));
-  if (!std::isfinite(options.min_allowance))
-    return failure(ErrorCode::usage, "minimum allowance is not a finite number");
+  if (auto fine = check_limits(problem.window, options.gap, options.min_allowance); !fine)
+    return tl::unexpected(std::move(fine.error()));
   if (!(problem.part_tolerance >= 0) || !(problem.blank_tolerance >= 0))
     return failure(ErrorCode::usage, "tolerances must not be negative");
   if (problem.part.empty() || problem.blank.empty())

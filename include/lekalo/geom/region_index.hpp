@@ -54,6 +54,8 @@ class RegionIndex {
   static constexpr std::uint32_t kLeaf = 2;
 
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+  /// The nearest boundary point that is nearer than `best`, or `best`.
+  [[nodiscard]] Nearest nearer(Point p, Nearest best) const;
 
   [[nodiscard]] static double squared_distance(const Box& box, Point p) noexcept {
     const double left = box.low.x - p.x, right = p.x - box.high.x, below = box.low.y - p.y,
