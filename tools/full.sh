@@ -40,6 +40,22 @@ few_cases() {
   LEKALO_CASES=$sanitizer_cases build_and_test "$1"
 }
 
+# Two compilers, the same bytes: results of the examples, but for the field that varies from run to run.
+builds_agree() {
+  local data=$root/examples build
+  for build in dev clang; do
+    mkdir -p "$out/agree-$build"
+    for n in 1 2 3 4 5 6; do
+      (cd "$data/localisation" && "$root/build/$build/lekalo" locate --part "example-$n-part.csv" \
+        --blank "example-$n-blank.csv" --json --picture "$out/agree-$build/$n.svg") |
+        grep -v '"run":' >"$out/agree-$build/$n.json"
+    done
+    (cd "$data/regions" && "$root/build/$build/lekalo" locate --part bracket.json --blank casting.json --json \
+      --mirror either --picture "$out/agree-$build/bracket.svg") | grep -v '"run":' >"$out/agree-$build/bracket.json"
+  done
+  diff -r "$out/agree-dev" "$out/agree-clang"
+}
+
 fuzz_all() {
   build_preset fuzz
   "$root/fuzz/run.sh" "$fuzz_seconds"
@@ -62,6 +78,7 @@ mkdir -p "$out"
 describe_run
 step dev build_and_test dev
 step clang few_cases clang
+step builds-agree builds_agree
 step asan few_cases asan
 step tsan few_cases tsan
 step fuzz fuzz_all

@@ -139,6 +139,7 @@ TEST(VerifyRecheck, the_stranger_agrees_on_random_cases_true_and_falsified) {
       Files files = honest;
       files["clearance"] = text_of(s.clearance + 1e-9 * family.size);
       files["gap"] = text_of(s.upper_bound - std::stod(files["clearance"]));
+      files["shortfall"] = text_of(std::max(0.0, -std::stod(files["clearance"])));
       compare_opinions(files, what + ", clearance raised");
       files = honest;
       files.certificate.erase(files.certificate.begin() +
