@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "complaint.hpp"
 #include "completion.hpp"
 #include "lekalo/base/version.hpp"
 
@@ -309,15 +310,6 @@ std::string first_empty_option(const CLI::App& command) {
   return {};
 }
 
-/// One line out of CLI11's message, whose own ends are sometimes line breaks.
-std::string sentence(std::string message) {
-  while (!message.empty() && (message.back() == '\n' || message.back() == '.')) message.pop_back();
-  for (char& c : message) {
-    if (c == '\n') c = ' ';
-  }
-  return message;
-}
-
 }  // namespace
 
 const char* name_of(Method method) noexcept { return name_in(kMethods, method); }
@@ -358,15 +350,8 @@ Result<Command> parse_command_line(int argc, char** argv) {
     return PrintText{std::string(version.what()) + "\n"};
   } catch (const CLI::CallForHelp&) {
     return PrintText{app.help()};
-  } catch (const CLI::RequiredError& error) {
-    if (!app.get_subcommands().empty()) {
-      return failure(ErrorCode::usage, sentence(error.what()) + " (see lekalo --help)");
-    }
-    const std::string given =
-        argc > 1 ? fmt::format("there is no command \"{}\"", argv[1]) : "a command is missing";
-    return failure(ErrorCode::usage, given + ", only locate, verify and completion (see lekalo --help)");
   } catch (const CLI::ParseError& error) {
-    return failure(ErrorCode::usage, sentence(error.what()) + " (see lekalo --help)");
+    return failure(ErrorCode::usage, complaint(app, error, argc, argv));
   }
   for (const CLI::App* command : app.get_subcommands()) {
     const std::string empty = first_empty_option(*command);

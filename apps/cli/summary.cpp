@@ -12,13 +12,34 @@ namespace {
 
 constexpr int kLengthDecimals = 9;
 
-std::string mm_down(double value) { return decimals_down(value, kLengthDecimals) + " mm"; }
-std::string mm_up(double value) { return decimals_up(value, kLengthDecimals) + " mm"; }
-
 double read_back(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
+}
+
+/// Below this a length has no digits left in kLengthDecimals and is printed with an exponent.
+constexpr double kTiny = 1e-7;
+
+/// Two digits and an exponent, never above the value.
+std::string tiny_down(double value) {
+  std::string text = fmt::format("{:.1e}", value);
+  for (double lower = value; read_back(text) > value; text = fmt::format("{:.1e}", lower)) {
+    lower -= 0.02 * std::abs(value);
+  }
+  return text;
+}
+std::string tiny_up(double value) {
+  const std::string negated = tiny_down(-value);
+  return negated.front() == '-' ? negated.substr(1) : "-" + negated;
+}
+
+bool tiny(double value) { return value != 0 && std::abs(value) < kTiny; }
+std::string mm_down(double value) {
+  return (tiny(value) ? tiny_down(value) : decimals_down(value, kLengthDecimals)) + " mm";
+}
+std::string mm_up(double value) {
+  return (tiny(value) ? tiny_up(value) : decimals_up(value, kLengthDecimals)) + " mm";
 }
 
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
@@ -55,7 +76,9 @@ std::string bound_line(const io::LocateDocument& d) {
 
 std::string demand_line(const io::LocateDocument& d) {
   if (d.shortfall > 0) {
-    return fmt::format("  demanded           {} mm: {} are missing\n", d.min_allowance, mm_up(d.shortfall));
+    const bool open = d.upper_bound && *d.upper_bound >= d.min_allowance;
+    return fmt::format("  demanded           {} mm: {} are missing{}\n", d.min_allowance, mm_up(d.shortfall),
+                       open ? "; the proved bound leaves open whether another placement has them" : "");
   }
   return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
 }

@@ -210,8 +210,8 @@ class Interpreter {
   Fault set_work_offset(int number) {
     if (number == options_.work_offset) return {};
     return fmt::format(
-        "{} is selected, but the motion is computed for {}: several work offsets cannot be rewritten; "
-        "if this is the only one, name it with the work offset option ({})",
+        "{0} is selected, but the motion is computed for {1}: several work offsets cannot be rewritten; "
+        "if {0} is the only one, choose it (work offset {2}: --wcs {2})",
         work_offset_name(number), work_offset_name(options_.work_offset), number);
   }
 

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A leaf whose bound is not good enough over the whole cell is looked at in halves, this many times over.
-constexpr int kMostHalvings = 24;
+constexpr int kMostHalvings = 18;
+/// After so many leaves that prove too little the certificate has failed; the others are only read.
+constexpr std::size_t kMostFailures = 3;
 /// Terms of one leaf.
 constexpr std::size_t kMostTerms = 8;
 
@@ -77,8 +79,8 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     std::vector<Term> terms;
     Fields leaf(*item, name, complaint);
     if (!read_leaf(leaf.get("contacts"), terms, complaint, name)) return;
-    if (proved(cell, terms, 0)) continue;
-    if (++failed_ > 3) continue;
+    if (failed_ == kMostFailures || proved(cell, terms, 0)) continue;
+    ++failed_;
     findings_.push_back(
         fmt::format("{}: its contacts do not prove that no placement with theta {} to {} and the pivot at x "
                     "{} to {}, y {} to "
@@ -169,8 +171,9 @@ double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, d
 }
 
 bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int depth) const {
-  if (bound_over(cell, terms) <= problem_.bound) return true;
-  if (depth == kMostHalvings) return false;
+  const Bound bound = bound_over(cell, terms);
+  if (bound.everywhere <= problem_.bound) return true;
+  if (depth == kMostHalvings || bound.in_the_middle > problem_.bound) return false;
   // The widest direction, turning counted at the largest lever.
   double lever = 0;
   for (const Term& term : terms) lever = std::max(lever, length(term.part).high);
@@ -191,7 +194,7 @@ bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int dep
 ///   (R(phi) - 1) p = phi J p + rest, |rest| <= phi^2 / 2 |p|,
 ///   u . rest <= phi^2 / 2 max(0, -u . p) + |phi|^3 / 6 |p|.
 /// The terms linear in s and phi are summed over the balls before their largest value is taken.
-double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) const {
+CoverTree::Bound CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) const {
   double middle[3], half[3];
   for (int k = 0; k < 3; ++k) {
     middle[k] = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
@@ -201,7 +204,7 @@ double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) c
   const Span c{turn.cosine.low_double(), turn.cosine.high_double()},
       s{turn.sine.low_double(), turn.sine.high_double()};
   const Span h{half[0], half[0]};
-  Span level{0, 0}, gx{0, 0}, gy{0, 0}, gt{0, 0};
+  Span middle_value{0, 0}, level{0, 0}, gx{0, 0}, gy{0, 0}, gt{0, 0};
   double floor = -kInfinity;
   for (const Term& term : terms) {
     const Span m{term.multiplier, term.multiplier};
@@ -210,6 +213,7 @@ double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) c
     const Span apart = length(w), far = length(p);
     const Span radii = Span{term.part_radius, term.part_radius} + Span{term.blank_radius, term.blank_radius};
     floor = std::max(floor, -term.blank_radius);
+    middle_value = middle_value + m * (apart - radii);
     // However the pose moves within the cell, the centre moves no further than this.
     const Span slide = square_root(squared({half[1], half[1]}) + squared({half[2], half[2]}));
     const Span anyway = slide + far * h;
@@ -239,7 +243,7 @@ double CoverTree::bound_over(const Cell& cell, const std::vector<Term>& terms) c
   const Span linear = Span{magnitude(gx), magnitude(gx)} * Span{half[1], half[1]} +
                       Span{magnitude(gy), magnitude(gy)} * Span{half[2], half[2]} +
                       Span{magnitude(gt), magnitude(gt)} * h;
-  return std::max((level + linear).high, floor);
+  return {std::max((level + linear).high, floor), std::max(middle_value.low, floor)};
 }
 
 }  // namespace lekalo::verify

@@ -53,7 +53,11 @@ class CoverTree {
   double part_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   double blank_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   [[nodiscard]] bool proved(const Cell& cell, const std::vector<Term>& terms, int depth) const;
-  [[nodiscard]] double bound_over(const Cell& cell, const std::vector<Term>& terms) const;
+  /// What the terms prove over a cell, and what they prove at its middle: nobody proves less for the cell.
+  struct Bound {
+    double everywhere = 0, in_the_middle = 0;
+  };
+  [[nodiscard]] Bound bound_over(const Cell& cell, const std::vector<Term>& terms) const;
 
   const Problem& problem_;
   std::vector<std::string>& findings_;

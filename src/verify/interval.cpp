@@ -16,7 +16,7 @@ mpfr_prec_t common_precision(const Interval& a, const Interval& b) {
 std::string decimal_text(mpfr_srcptr value, const char* format) {
   std::array<char, 64> buffer{};
   mpfr_snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
+  return mpfr_zero_p(value) != 0 ? "0" : buffer.data();  // not "-0"
 }
 
 }  // namespace

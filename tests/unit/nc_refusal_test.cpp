@@ -45,12 +45,10 @@ TEST(NcRefusal, of_words_that_mean_another_frame) {
       {"G54.1 P3\n", "1: G54.1: extended work offsets are not rewritten; use G54 to G59.3"},
       {"G54\nG0 X0 Y0\nG55\n",
        "3: G55 is selected, but the motion is computed for G54: several work offsets cannot be rewritten; if "
-       "this is the "
-       "only one, name it with the work offset option (2)"},
+       "G55 is the only one, choose it (work offset 2: --wcs 2)"},
       {"G59.3\n",
        "1: G59.3 is selected, but the motion is computed for G54: several work offsets cannot be rewritten; "
-       "if this is the "
-       "only one, name it with the work offset option (9)"},
+       "if G59.3 is the only one, choose it (work offset 9: --wcs 9)"},
   });
 }
 
