@@ -9,8 +9,10 @@ namespace {
 
 using namespace lekalo;
 
-/// Case `index` of a kind; window in degrees about the known angle, 360 for the full circle; gap 10^-digits mm.
-void locate(benchmark::State& state, cases::RegionKind kind, std::size_t edges, double window_deg, int digits) {
+/// Case `index` of a kind; window in degrees about the known angle, 360 for the full circle; gap 10^-digits
+/// mm.
+void locate(benchmark::State& state, cases::RegionKind kind, std::size_t edges, double window_deg,
+            int digits) {
   std::uint64_t index = 0, work = 0, closed = 0;
   double gap = 1;
   for (int k = 0; k < digits; ++k) gap /= 10;
@@ -29,7 +31,8 @@ void locate(benchmark::State& state, cases::RegionKind kind, std::size_t edges, 
     closed += result.status == locate::Status::optimal ? 1 : 0;
   }
   state.counters["work"] = benchmark::Counter(static_cast<double>(work), benchmark::Counter::kAvgIterations);
-  state.counters["closed"] = benchmark::Counter(static_cast<double>(closed), benchmark::Counter::kAvgIterations);
+  state.counters["closed"] =
+      benchmark::Counter(static_cast<double>(closed), benchmark::Counter::kAvgIterations);
 }
 
 void NearNet(benchmark::State& state) {
