@@ -58,9 +58,8 @@ std::string wrong_count(const CLI::App& command, const std::string& message) {
   const int wanted = option->get_expected_max();
   const std::size_t given = option->results().size();
   if (wanted == 1 && given > 1) return name + ": given more than once";
-  return fmt::format("{}: needs {} after it", name,
-                     wanted == 1 ? "a value, " + option->get_type_name()
-                                 : fmt::format("{} values, {} each", wanted, option->get_type_name()));
+  return fmt::format("{}: needs {} after it ({})", name,
+                     wanted == 1 ? "a value" : fmt::format("{} values", wanted), option->get_type_name());
 }
 
 /// One line out of CLI11's message, whose own ends are sometimes line breaks.

@@ -60,6 +60,16 @@ TEST_P(Examples, AreWrittenAsPngToo) {
 
 INSTANTIATE_TEST_SUITE_P(Published, Examples, testing::Range(1, 7));
 
+std::string regular_polygon(int corners, double radius) {
+  std::ostringstream text;
+  text.precision(17);
+  for (int k = 0; k < corners; ++k) {
+    text << radius * std::cos(2 * kPi * k / corners) << ' ' << radius * std::sin(2 * kPi * k / corners)
+         << '\n';
+  }
+  return text.str();
+}
+
 class Plate : public testing::Test {
  protected:
   void SetUp() override { write_plate(folder_); }
@@ -172,6 +182,41 @@ TEST_F(Plate, PartLargerThanTheBlankIsInfeasibleAndSticksOut) {
   EXPECT_EQ(verify("out.json"), 0);
 }
 
+TEST_F(Plate, PartThatJustFitsMeetsItsDemand) {
+  // The search alone would say -5e-13 mm; the checker knows that it is 0.
+  const fs::path part = example(1, "part");
+  const Ran exact = run(folder_.path(), {"locate", "--part", part, "--blank", part, "--nc", "part.nc",
+                                         "--nc-out", "out.nc", "--json", "-o", "out.json"});
+  EXPECT_EQ(exact.status, 0) << exact.err;
+  EXPECT_EQ(exact.json()["clearance"], 0);
+  EXPECT_EQ(exact.json()["shortfall"], 0);
+  EXPECT_EQ(exact.out.find(": -0,"), std::string::npos) << exact.out;
+  EXPECT_TRUE(fs::exists(folder_ / "out.nc"));
+  const Ran verified = run(folder_.path(), {"verify", "out.json"});
+  EXPECT_EQ(verified.status, 0) << verified.err;
+  EXPECT_NE(verified.err.find("between 0 and 0 mm"), std::string::npos) << verified.err;
+}
+
+TEST_F(Plate, PartThatMissesItsDemandByLastDigitsIsToldSoInDigits) {
+  write_bytes(folder_ / "blank.csv", "0 0\n79.9999999995 0\n79.9999999995 40\n0 40\n");
+  const Ran missed = locate({"--json", "-o", "out.json", "--nc", "part.nc", "--nc-out", "out.nc"});
+  EXPECT_EQ(missed.status, 1);
+  EXPECT_EQ(missed.json()["status"], "infeasible");
+  EXPECT_NE(missed.err.find("-2.6e-10 mm: the part sticks out"), std::string::npos) << missed.err;
+  EXPECT_NE(missed.err.find("2.6e-10 mm are missing"), std::string::npos) << missed.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out.nc"));
+}
+
+TEST_F(Plate, DemandBetweenClearanceAndBoundIsCalledOpen) {
+  write_bytes(folder_ / "part.csv", regular_polygon(97, 90));
+  write_bytes(folder_ / "blank.csv", regular_polygon(100, 100));
+  const Ran ran = locate({"--min-allowance", "9.96", "--gap", "1", "--json"});
+  ASSERT_GT(ran.json()["upper_bound"], 9.96);
+  ASSERT_LT(ran.json()["clearance"], 9.96);
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("leaves open"), std::string::npos) << ran.err;
+}
+
 TEST_F(Plate, WindowHoldsTheAngle) {
   const Ran ran = locate({"--window", "170", "190", "--json", "-o", "out.json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
@@ -206,16 +251,6 @@ TEST_F(Plate, AlternativesListTheOtherWayRound) {
 }
 
 /// A regular polygon as a text file.
-std::string regular_polygon(int corners, double radius) {
-  std::ostringstream text;
-  text.precision(17);
-  for (int k = 0; k < corners; ++k) {
-    text << radius * std::cos(2 * kPi * k / corners) << ' ' << radius * std::sin(2 * kPi * k / corners)
-         << '\n';
-  }
-  return text.str();
-}
-
 TEST_F(Plate, StoppedByItsBudgetIsAValidResultWithAValidBound) {
   write_bytes(folder_ / "part.csv", regular_polygon(97, 90));
   write_bytes(folder_ / "blank.csv", regular_polygon(100, 100));
@@ -250,8 +285,7 @@ TEST_F(Plate, CtrlCStopsWithTheBestSoFarAndWritesIt) {
   write_bytes(folder_ / "part.csv", regular_polygon(4999, 90));
   write_bytes(folder_ / "blank.csv", regular_polygon(5000, 100));
   Program program(folder_.path(), kLocatePlate + Words{"--gap", "1e-13", "-o", "out.json", "--json"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  program.send(SIGINT);
+  program.send_when_caught(SIGINT);
   const Ran ran = program.wait();
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_TRUE(fs::exists(folder_ / "out.json"));

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -96,7 +97,12 @@ class Program {
     execv(argv[0], argv.data());
     _exit(127);
   }
-  void send(int signal_number) const { kill(process_, signal_number); }
+  /// Sends a signal once the program has a handler for it; before, it would only be killed. One that ends
+  /// without ever having one shows in its exit status.
+  void send_when_caught(int signal_number) const {
+    while (running() && !catches(signal_number)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    kill(process_, signal_number);
+  }
   [[nodiscard]] Ran wait() {
     int state = 0;
     waitpid(process_, &state, 0);
@@ -105,6 +111,23 @@ class Program {
   }
 
  private:
+  /// A field of the kernel's word about the process, for instance "State".
+  [[nodiscard]] std::string status_field(const std::string& name) const {
+    std::ifstream lines("/proc/" + std::to_string(process_) + "/status");
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind(name + ":\t", 0) == 0) return line.substr(name.size() + 2);
+    }
+    return {};
+  }
+  [[nodiscard]] bool running() const {
+    const std::string state = status_field("State");
+    return !state.empty() && state.front() != 'Z';
+  }
+  [[nodiscard]] bool catches(int signal_number) const {
+    const auto caught = std::strtoull(("0x0" + status_field("SigCgt")).c_str(), nullptr, 16);
+    return (caught >> (signal_number - 1) & 1) != 0;
+  }
+
   TemporaryFolder streams_;
   pid_t process_ = 0;
 };

@@ -16,7 +16,7 @@ namespace lekalo {
 
 /// a - b, rounded down where it is not a double: never above the exact difference.
 [[nodiscard]] inline double difference_rounded_down(double a, double b) noexcept {
-  return -difference_rounded_up(b, a);
+  return 0.0 - difference_rounded_up(b, a);  // 0 where they are equal, not -0
 }
 
 }  // namespace lekalo
