@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
+#include "region_reader.hpp"
 
 namespace lekalo::io {
 
@@ -20,149 +18,6 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 using geom::Region;
-using Json = nlohmann::json;
-
-tl::unexpected<Error> refuse(const std::string& where, const std::string& why) {
-  return failure(ErrorCode::bad_input, where + ": " + why);
-}
-
-/// Parses JSON in which no object says a key twice (the standard leaves open which one counts).
-Result<Json> parse_json(std::string_view bytes, const std::string& name) {
-  std::vector<std::set<std::string>> keys;
-  std::string repeated;
-  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second) {
-      repeated = value.get<std::string>();
-    }
-    return true;
-  };
-  try {
-    Json json = Json::parse(bytes.begin(), bytes.end(), watch);
-    if (!repeated.empty())
-      return refuse(name, fmt::format("the key \"{}\" stands twice in one object", repeated));
-    return json;
-  } catch (const Json::parse_error& error) {
-    const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, bytes.size()));
-    return refuse(fmt::format("{}, line {}", name, 1 + std::count(bytes.begin(), end, '\n')),
-                  "this is not JSON from here on");
-  } catch (const Json::exception& error) {
-    return refuse(name, fmt::format("this JSON cannot be read: {}", error.what()));
-  }
-}
-
-/// Refuses values that are not objects, and words nobody here knows.
-Result<void> expect_object(const Json& json, const std::string& where,
-                           std::initializer_list<std::string_view> known) {
-  if (!json.is_object()) return refuse(where, fmt::format("an object is needed, not {}", json.type_name()));
-  for (const auto& item : json.items()) {
-    if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
-    return refuse(where,
-                  fmt::format("unknown word \"{}\"; known here: {}", item.key(), fmt::join(known, ", ")));
-  }
-  return {};
-}
-
-class Reader {
- public:
-  explicit Reader(LengthUnit unit) : scale_(millimetres_per(unit)) {}
-
-  [[nodiscard]] Result<Region> region(const Json& json, const std::string& where) const {
-    if (!json.contains("outer"))
-      return refuse(where, "\"outer\", the list of edges of the outline, is missing");
-    if (json.contains("holes") && json.contains("islands")) {
-      return refuse(where, "\"holes\" and \"islands\" mean the same; use one of them");
-    }
-    auto outer = contour(json["outer"], where + ", outer contour");
-    if (!outer) return tl::unexpected(std::move(outer.error()));
-    std::vector<Contour> holes;
-    const char* const key = json.contains("islands") ? "islands" : "holes";
-    const Json none = Json::array();
-    const Json& lists = json.contains(key) ? json[key] : none;
-    if (!lists.is_array()) return refuse(where, fmt::format("\"{}\" is not a list of contours", key));
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-      auto hole = contour(lists[i], fmt::format("{}, hole {}", where, i));
-      if (!hole) return tl::unexpected(std::move(hole.error()));
-      holes.push_back(std::move(*hole));
-    }
-    return geom::make_region(std::move(*outer), std::move(holes)).map_error([&](Error error) {
-      return Error{error.code, where + ", " + error.message};
-    });
-  }
-
- private:
-  [[nodiscard]] Result<Contour> contour(const Json& json, const std::string& where) const {
-    if (!json.is_array()) return refuse(where, "a list of edges is needed");
-    Contour edges;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-      auto read = edge(json[i], fmt::format("{}, edge {}", where, i));
-      if (!read) return tl::unexpected(std::move(read.error()));
-      edges.push_back(*read);
-    }
-    return edges;
-  }
-
-  [[nodiscard]] Result<Edge> edge(const Json& json, const std::string& where) const {
-    if (const auto known = expect_object(json, where, {"line", "arc"}); !known)
-      return tl::unexpected(known.error());
-    if (json.size() != 1) return refuse(where, "an edge is one \"line\" or one \"arc\"");
-    return json.contains("line") ? line(json["line"], where) : arc(json["arc"], where);
-  }
-
-  [[nodiscard]] Result<Edge> line(const Json& json, const std::string& where) const {
-    if (const auto known = expect_object(json, where, {"from", "to"}); !known)
-      return tl::unexpected(known.error());
-    Edge edge;
-    if (const auto got = points(json, where, {{"from", &edge.from}, {"to", &edge.to}}); !got) {
-      return tl::unexpected(got.error());
-    }
-    return edge;
-  }
-
-  [[nodiscard]] Result<Edge> arc(const Json& json, const std::string& where) const {
-    if (const auto known = expect_object(json, where, {"from", "to", "centre", "ccw"}); !known) {
-      return tl::unexpected(known.error());
-    }
-    if (!json.contains("ccw") || !json["ccw"].is_boolean()) {
-      return refuse(where, "\"ccw\" must say true (counter-clockwise) or false");
-    }
-    Edge edge;
-    edge.kind = json["ccw"].get<bool>() ? EdgeKind::arc_ccw : EdgeKind::arc_cw;
-    const auto got = points(json, where, {{"from", &edge.from}, {"to", &edge.to}, {"centre", &edge.centre}});
-    if (!got) return tl::unexpected(got.error());
-    return edge;
-  }
-
-  [[nodiscard]] Result<void> points(const Json& json, const std::string& where,
-                                    std::initializer_list<std::pair<const char*, Point*>> wanted) const {
-    for (const auto& [key, point] : wanted) {
-      const Json nothing;
-      const Json& value = json.contains(key) ? json[key] : nothing;
-      if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
-        return refuse(where, fmt::format("\"{}\" must be a point [x, y] of two numbers", key));
-      }
-      *point = {scale_ * value[0].get<double>(), scale_ * value[1].get<double>()};
-    }
-    return {};
-  }
-
-  double scale_;
-};
-
-Result<LengthUnit> unit_of(const Json& json, const std::string& name, std::optional<LengthUnit> said) {
-  if (!json.contains("units")) return said.value_or(LengthUnit::millimetre);
-  const Json& units = json["units"];
-  if (units != "mm" && units != "inch") {
-    return refuse(name, fmt::format("\"units\" is {}; \"mm\" and \"inch\" are known", units.dump()));
-  }
-  const LengthUnit unit = units == "mm" ? LengthUnit::millimetre : LengthUnit::inch;
-  if (said && *said != unit) {
-    return refuse(
-        name, fmt::format("the file says \"units\": {}, which contradicts the unit asked for", units.dump()));
-  }
-  return unit;
-}
 
 double largest_coordinate(const std::vector<Region>& regions) {
   double largest = 0;
@@ -219,6 +74,7 @@ std::string region_json(const Region& region, const std::string& indent) {
 
 Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name,
                                  std::optional<LengthUnit> unit) {
+  using namespace detail;
   const auto json = parse_json(bytes, name);
   if (!json) return tl::unexpected(json.error());
   const bool several = json->is_object() && json->contains("pieces");
@@ -230,9 +86,8 @@ Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name
   if (!file_unit) return tl::unexpected(file_unit.error());
 
   RegionFile file{name, *file_unit, {}, 0};
-  const Reader reader(*file_unit);
   const auto add = [&](const Json& piece, const std::string& where) -> Result<void> {
-    auto region = reader.region(piece, where);
+    auto region = read_region(piece, where, millimetres_per(*file_unit));
     if (!region) return tl::unexpected(std::move(region.error()));
     file.regions.push_back(std::move(*region));
     return {};

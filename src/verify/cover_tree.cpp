@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "interval.hpp"
-#include "shape_distance.hpp"
+#include "shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -14,6 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostHalvings = 18;
 /// After so many leaves that prove too little the certificate has failed; the others are only read.
 constexpr std::size_t kMostFailures = 3;
+/// Cells that are looked at in all, beyond so many for each leaf: a certificate that needs more is none.
+constexpr std::size_t kMostCells = 1'000'000, kMostCellsALeaf = 64;
 /// Terms of one leaf.
 constexpr std::size_t kMostTerms = 8;
 
@@ -29,8 +31,8 @@ Span radians(const Decimal& degrees) {
   return {angle.low_double(), angle.high_double()};
 }
 
-Span plus(Span a, double by) { return a + Span{by, by}; }
-double magnitude(Span a) { return std::max(std::abs(a.low), std::abs(a.high)); }
+Span plus(Span a, double by) { return a + just(by); }
+double magnitude(Span a) { return absolute(a).high; }
 /// Products and sums of numbers that are not negative, rounded up.
 double up(double value) { return std::nextafter(value, kInfinity); }
 
@@ -46,6 +48,9 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     });
     if (ends.size() != 2)
       return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
+    for (const Decimal& end : ends)
+      if (!(std::abs(approximate(end)) <= kLargestCoordinate))
+        fields.complain(fmt::format("{} is beyond {}", fields.name(key), kLargestCoordinate));
     return Span{enclosed(ends[0]).low, enclosed(ends[1]).high};
   };
   const Span theta = range("theta"), x = range("x"), y = range("y");
@@ -106,8 +111,10 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
   // pivot_off of it.
   const double more = up(problem_.pivot_off + std::max(0.0, -problem_.bound));
   const Shape& blank = problem_.blank;
-  if (!(root.low[1] <= blank.low_x - more && root.high[1] >= blank.high_x + more &&
-        root.low[2] <= blank.low_y - more && root.high[2] >= blank.high_y + more)) {
+  if (!(root.low[1] <= plus(just(blank.low_x), -more).low &&
+        root.high[1] >= plus(just(blank.high_x), more).high &&
+        root.low[2] <= plus(just(blank.low_y), -more).low &&
+        root.high[2] >= plus(just(blank.high_y), more).high)) {
     findings_.push_back(fmt::format("{}: the box of the pivot does not cover the blank", path));
   }
 }
@@ -120,7 +127,6 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
   };
   if (!contacts.is_array()) return complain("it has no list of contacts");
   JsonItems items(contacts);
-  double sum = 0;
   while (const auto item = items.next()) {
     if (terms.size() == kMostTerms) return complain("it has more than eight contacts");
     if (!item->is_array()) return complain("a contact is not a list");
@@ -132,25 +138,24 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
       const auto decimal = next && next->is_number() ? parse_decimal(next->text) : std::nullopt;
       if (!decimal) return complain("a contact is not seven numbers");
       value[k] = *next, number[k] = enclosed(*decimal);
+      if (!(number[k].low >= -kLargestCoordinate && number[k].high <= kLargestCoordinate))
+        return complain("a contact is beyond all bounds");
+      const bool may_be_negative = k != 2 && k != 5 && k != 6;
+      if (!may_be_negative && sgn(decimal->digits) < 0)
+        return complain("a radius or a multiplier is negative");
     }
     if (numbers.next()) return complain("a contact is not seven numbers");
-    for (const std::size_t k : {2u, 5u, 6u})
-      if (number[k].low < 0 && number[k].high <= 0 && value[k].text != "0")
-        return complain("a radius or a multiplier is negative");
     Term term;
     const Vec part{number[0], number[1]}, blank{number[3], number[4]};
     term.part_radius = part_radius(value[0], value[1], value[2], part, number[2].low);
     term.blank_radius = blank_radius(value[3], value[4], value[5], blank, number[5].low);
-    term.multiplier = number[6].low;
+    term.multiplier = number[6];
     term.part = part - problem_.pivot;
     if (mirrored_) term.part.x = {-term.part.x.high, -term.part.x.low};
     term.blank = blank;
-    sum += term.multiplier;
-    if (term.multiplier > 0) terms.push_back(term);
+    if (term.multiplier.low > 0) terms.push_back(term);
   }
-  if (terms.empty() || !(sum > 0)) return complain("its multipliers sum to nothing");
-  for (Term& term : terms) term.multiplier /= sum;
-  return true;
+  return !terms.empty() || complain("its multipliers sum to nothing");
 }
 
 /// What of a ball's radius really lies in the part's material; negative when its centre lies beside it.
@@ -170,7 +175,8 @@ double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, d
   return blank_radii_.emplace(key, real).first->second;
 }
 
-bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int depth) const {
+bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int depth) {
+  if (++cells_ > kMostCells + kMostCellsALeaf * leaves_) return false;
   const Bound bound = bound_over(cell, terms);
   if (bound.everywhere <= problem_.bound) return true;
   if (depth == kMostHalvings || bound.in_the_middle > problem_.bound) return false;
@@ -203,34 +209,35 @@ CoverTree::Bound CoverTree::bound_over(const Cell& cell, const std::vector<Term>
   const Turn turn = turn_by(Interval::exactly(middle[0], 80));
   const Span c{turn.cosine.low_double(), turn.cosine.high_double()},
       s{turn.sine.low_double(), turn.sine.high_double()};
-  const Span h{half[0], half[0]};
-  Span middle_value{0, 0}, level{0, 0}, gx{0, 0}, gy{0, 0}, gt{0, 0};
+  const Span h = just(half[0]);
+  Span sum{0, 0}, middle_value{0, 0}, level{0, 0}, gx{0, 0}, gy{0, 0}, gt{0, 0};
   double floor = -kInfinity;
   for (const Term& term : terms) {
-    const Span m{term.multiplier, term.multiplier};
+    const Span m = term.multiplier;
+    sum = sum + m;
     const Vec p{c * term.part.x - s * term.part.y, s * term.part.x + c * term.part.y};
     const Vec w{plus(p.x, middle[1]) - term.blank.x, plus(p.y, middle[2]) - term.blank.y};
     const Span apart = length(w), far = length(p);
-    const Span radii = Span{term.part_radius, term.part_radius} + Span{term.blank_radius, term.blank_radius};
+    const Span radii = just(term.part_radius) + just(term.blank_radius);
     floor = std::max(floor, -term.blank_radius);
     middle_value = middle_value + m * (apart - radii);
     // However the pose moves within the cell, the centre moves no further than this.
-    const Span slide = square_root(squared({half[1], half[1]}) + squared({half[2], half[2]}));
+    const Span slide = length({just(half[1]), just(half[2])});
     const Span anyway = slide + far * h;
     bool curved_is_less = false;
     if (apart.low > 0) {
-      const Vec u{w.x / apart, w.y / apart};
-      const Span lever = cross(p, u), along_p = dot(u, p), rest = Span{0.5, 0.5} * h * h * far;
+      const Vec u = unit(w);
+      const Span lever = cross(p, u), along_p = dot(u, p), rest = just(0.5) * h * h * far;
       const double ux = magnitude(u.x), uy = magnitude(u.y);
-      const Span along = Span{ux, ux} * Span{half[1], half[1]} + Span{uy, uy} * Span{half[2], half[2]} +
-                         Span{magnitude(lever), magnitude(lever)} * h + rest;
-      const Span across = Span{uy, uy} * Span{half[1], half[1]} + Span{ux, ux} * Span{half[2], half[2]} +
-                          Span{magnitude(along_p), magnitude(along_p)} * h + rest;
+      const Span along =
+          just(ux) * just(half[1]) + just(uy) * just(half[2]) + just(magnitude(lever)) * h + rest;
+      const Span across =
+          just(uy) * just(half[1]) + just(ux) * just(half[2]) + just(magnitude(along_p)) * h + rest;
       const Span left = apart - along;
       if (left.low > 0) {
         const double inwards = std::max(0.0, -along_p.low);
-        const Span curved = across * across / (left + left) +
-                            Span{0.5, 0.5} * h * h * Span{inwards, inwards} + h * h * h * far / Span{6, 6};
+        const Span curved =
+            across * across / (left + left) + just(0.5) * h * h * just(inwards) + h * h * h * far / just(6);
         if (curved.high < anyway.high) {
           curved_is_less = true;
           level = level + m * (apart - radii + curved);
@@ -240,10 +247,9 @@ CoverTree::Bound CoverTree::bound_over(const Cell& cell, const std::vector<Term>
     }
     if (!curved_is_less) level = level + m * (apart - radii + anyway);
   }
-  const Span linear = Span{magnitude(gx), magnitude(gx)} * Span{half[1], half[1]} +
-                      Span{magnitude(gy), magnitude(gy)} * Span{half[2], half[2]} +
-                      Span{magnitude(gt), magnitude(gt)} * h;
-  return {std::max((level + linear).high, floor), std::max(middle_value.low, floor)};
+  const Span linear =
+      just(magnitude(gx)) * just(half[1]) + just(magnitude(gy)) * just(half[2]) + just(magnitude(gt)) * h;
+  return {std::max(((level + linear) / sum).high, floor), std::max((middle_value / sum).low, floor)};
 }
 
 }  // namespace lekalo::verify

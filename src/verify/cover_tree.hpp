@@ -45,14 +45,15 @@ class CoverTree {
   struct Term {
     Vec part;  ///< from the pivot, mirrored if the tree is
     Vec blank;
-    double part_radius = 0, blank_radius = 0, multiplier = 0;
+    double part_radius = 0, blank_radius = 0;
+    Span multiplier;  ///< as written: sums are divided by their sum
   };
 
   void check_root(const Cell& root, const std::string& path);
   bool read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path);
   double part_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   double blank_radius(Json x, Json y, Json radius, const Vec& centre, double written);
-  [[nodiscard]] bool proved(const Cell& cell, const std::vector<Term>& terms, int depth) const;
+  [[nodiscard]] bool proved(const Cell& cell, const std::vector<Term>& terms, int depth);
   /// What the terms prove over a cell, and what they prove at its middle: nobody proves less for the cell.
   struct Bound {
     double everywhere = 0, in_the_middle = 0;
@@ -62,7 +63,7 @@ class CoverTree {
   const Problem& problem_;
   std::vector<std::string>& findings_;
   bool mirrored_ = false;
-  std::size_t leaves_ = 0, failed_ = 0;
+  std::size_t leaves_ = 0, failed_ = 0, cells_ = 0;
   std::map<std::string, double, std::less<>> part_radii_, blank_radii_;  ///< by the text of the ball
 };
 

@@ -4,15 +4,17 @@
 
 #include "cover_tree.hpp"
 #include "interval.hpp"
+#include "region_clearance.hpp"
 #include "shape_distance.hpp"
+#include "shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {
 
 /// Derived fields and points that are printed for reading may be off by this, mm and relatively.
 constexpr double kReadingTolerance = 1e-6;
-/// The quadtree that looks for material sticking out gives up below this part of the part's size.
-constexpr int kMostQuarterings = 24;
+/// An angle of the pose may be off the window by the rounding of degrees and radians, relatively.
+constexpr double kAngleTolerance = 4e-15;
 
 Span enclosed(const Decimal& value) {
   const Interval interval(value, 64);
@@ -44,12 +46,15 @@ class RegionCheck {
   Result<LocateReport> run() {
     read();
     if (!complaint_.empty()) return bad(inputs_.result.name);
+    check_shape("part", r_.part);
+    check_shape("blank", r_.blank);
     place();
     check_input("part", inputs_.part, r_.part, r_.part_tolerance);
     check_input("blank", inputs_.blank, r_.blank, r_.blank_tolerance);
     check_clearance();
     check_contacts();
     check_derived();
+    check_angle();
     const bool proved = check_certificate();
     if (!complaint_.empty())
       return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
@@ -71,9 +76,10 @@ class RegionCheck {
 
   void read();
   void place();
+  void check_shape(const char* role, const Shape& shape);
   void check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
   void check_clearance();
-  [[nodiscard]] bool sticks_out_by_at_most(double depth) const;
+  void check_angle();
   void check_contacts();
   void check_derived();
   bool check_certificate();
@@ -83,8 +89,7 @@ class RegionCheck {
   Json root_;
   std::string complaint_;
   RegionDocument r_;
-  Span cosine_, sine_;
-  Vec shift_;
+  Motion motion_;
   Shape placed_;
   LocateReport report_;
 };
@@ -117,8 +122,14 @@ void RegionCheck::read() {
   r_.part_tolerance = enclosed(tolerances.number("part")),
   r_.blank_tolerance = enclosed(tolerances.number("blank"));
   Fields regions(fields.get("regions"), "regions", complaint_);
-  r_.part = read_shape(regions.get("part"), "regions.part", complaint_);
-  r_.blank = read_shape(regions.get("blank"), "regions.blank", complaint_);
+  for (const auto& [key, to] : {std::pair{"part", &r_.part}, {"blank", &r_.blank}}) {
+    const std::string path = fmt::format("regions.{}", key);
+    if (Fields(regions.get(key), path, complaint_).text("units") != "mm")
+      fields.complain(fmt::format("the units of {} are not mm", path));
+    *to = read_shape(regions.get(key), path, complaint_);
+  }
+  if (const Json locked = fields.get("locked"); !locked.text.empty() && !locked.is_null())
+    fields.complain("field locked says something that this checker does not know");
   fields.each("contacts", [&](Json item, const std::string& path) {
     Fields contact(item, path, complaint_);
     const auto point = [&](std::string_view key) {
@@ -139,76 +150,76 @@ void RegionCheck::read() {
 }
 
 void RegionCheck::place() {
-  const Turn turn = turn_by(Interval(r_.theta, 96 + angle_bits(r_.theta)));
-  cosine_ = {turn.cosine.low_double(), turn.cosine.high_double()};
-  sine_ = {turn.sine.low_double(), turn.sine.high_double()};
-  shift_ = {enclosed(r_.x), enclosed(r_.y)};
-  placed_ = placed(r_.part, cosine_, sine_, r_.mirrored, shift_);
+  motion_ =
+      motion_of(Interval(r_.theta, 96 + angle_bits(r_.theta)), enclosed(r_.x), enclosed(r_.y), r_.mirrored);
+  placed_ = placed(r_.part, motion_);
 }
 
-/// Where the input is a region file in millimetres the shape used must be its shape. How other files become
-/// regions is not rechecked here.
+void RegionCheck::check_shape(const char* role, const Shape& shape) {
+  if (const auto fault = fault_of(shape)) find("the outline of the {} is none: {}", role, *fault);
+}
+
+/// Where the input is a region file the shape used must be its shape. How other files become regions is not
+/// rechecked here.
 void RegionCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
   const auto root = parse_json(file.bytes, file.name);
-  if (!root || !root->is_object()) return;
+  const auto has = [&](std::string_view key) {
+    std::array<Json, 1> found;
+    return root && root->is_object() && find_members(*root, std::array{key}, found) && !found[0].text.empty();
+  };
+  if (!has("outer") && !has("pieces")) {
+    report_.notes.push_back(
+        fmt::format("how {} became the region of the {} was not rechecked", file.name, role));
+    return;
+  }
+  // A file that does not say its unit may have been told one.
   std::string complaint;
-  const Shape written = read_shape(*root, file.name, complaint);
-  if (!complaint.empty()) return;
-  if (!same_edges(written, used, tolerance.high)) find("the {} used is not the shape in {}", role, file.name);
+  const bool said = has("units");
+  bool same = false;
+  for (const bool inch : {false, true}) {
+    if (inch && said) continue;
+    const Shape written = read_shape(*root, file.name, complaint, inch);
+    if (!complaint.empty()) return find("the {} used is not the shape in {}: {}", role, file.name, complaint);
+    same = same || same_edges(written, used, tolerance.high);
+  }
+  if (!same) find("the {} used is not the shape in {}", role, file.name);
 }
 
 void RegionCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
   const Span claimed = r_.clearance + tolerances;  // of the regions as written
-  const Span apart = distance(placed_, r_.blank);
-  const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_, r_.blank) : std::nullopt;
-  const bool fits = inside && *inside;
-  if (fits) {
-    report_.clearance_low = fmt::format("{}", (apart - tolerances).low);
-    report_.clearance_high = fmt::format("{}", (apart - tolerances).high);
-    if (!(claimed.high <= apart.low))
-      find("clearance {} mm is above {} mm, the least distance between the outlines at its pose",
-           r_.clearance.low, apart.low);
-    return;
-  }
-  if (claimed.high >= 0) {
-    find("clearance is {} mm, but the placed part {}", r_.clearance.low,
-         inside ? "is not inside the blank"
-                : "meets the outline of the blank, or cannot be told from doing so");
-    return;
-  }
-  report_.clearance_low = fmt::format("{}", r_.clearance.low);
-  report_.clearance_high = "0";
-  if (!sticks_out_by_at_most(-claimed.high))
-    find("clearance is {} mm, but more of the placed part sticks out of the blank than that",
-         r_.clearance.low);
+  const Span exact = clearance(placed_, r_.blank);
+  const Span less = exact - tolerances;
+  report_.clearance_low = fmt::format("{}", less.low);
+  report_.clearance_high = fmt::format("{}", less.high);
+  if (claimed.high <= exact.low) return;
+  if (exact.low > 0)
+    find(
+        "clearance {} mm is above {} mm, the least distance between the outlines at its pose, less the "
+        "tolerances",
+        r_.clearance.low, less.low);
+  else
+    find(
+        "clearance is {} mm, but the placed part {}: the exact one is between {} and {} mm, less the "
+        "tolerances",
+        r_.clearance.low,
+        exact.high < 0 ? "sticks out of the blank by more"
+                       : "meets the outline of the blank, or cannot be told from doing so",
+        less.low, less.high);
 }
 
-/// By squares in the part's frame: material farther outside the blank than `depth` is in none of them.
-bool RegionCheck::sticks_out_by_at_most(double depth) const {
-  struct Square {
-    double x, y, half;
-    int level;
-  };
-  const double half = std::max(r_.part.high_x - r_.part.low_x, r_.part.high_y - r_.part.low_y) * 0.5000001;
-  std::vector<Square> open{
-      {0.5 * (r_.part.low_x + r_.part.high_x), 0.5 * (r_.part.low_y + r_.part.high_y), half, 0}};
-  while (!open.empty()) {
-    const Square square = open.back();
-    open.pop_back();
-    const Vec centre{{square.x, square.x}, {square.y, square.y}};
-    const double radius = 1.4142136 * square.half;
-    if (signed_distance(centre, r_.part).high < -radius) continue;  // no material
-    const Span x = r_.mirrored ? Span{-square.x, -square.x} : centre.x;
-    const Vec place = Vec{cosine_ * x - sine_ * centre.y, sine_ * x + cosine_ * centre.y} + shift_;
-    if (signed_distance(place, r_.blank).low - radius >= -depth) continue;
-    if (square.level == kMostQuarterings) return false;
-    const double quarter = 0.5 * square.half;
-    for (const double dx : {-quarter, quarter})
-      for (const double dy : {-quarter, quarter})
-        open.push_back({square.x + dx, square.y + dy, quarter * 1.0000001, square.level + 1});
-  }
-  return true;
+void RegionCheck::check_angle() {
+  const mpfr_prec_t wide = 128 + angle_bits(r_.theta);
+  const Interval degrees = Interval(r_.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
+  const double theta = degrees.high_double();
+  if (!(std::abs((degrees - Interval(r_.theta_deg, 128 + angle_bits(r_.theta_deg))).high_double()) <=
+        1e-14 * std::abs(theta)))
+    find("theta_deg is {}, but theta means {} degrees", approximate(r_.theta_deg), theta);
+  const double from = approximate(r_.window_from), to = approximate(r_.window_to);
+  if (to - from >= 360) return;
+  const double slack = kAngleTolerance * std::max({std::abs(from), std::abs(to), 1.0});
+  if (!(theta >= from - slack && theta <= to + slack))
+    find("theta is {} degrees, outside the window from {} to {}", theta, from, to);
 }
 
 void RegionCheck::check_contacts() {
@@ -217,14 +228,12 @@ void RegionCheck::check_contacts() {
     const double size =
         std::max(std::abs(r_.blank.high_x - r_.blank.low_x), std::abs(r_.blank.high_y - r_.blank.low_y));
     const double slack = kReadingTolerance * std::max(1.0, size);
-    if (distance(contact.part, r_.part).low > slack)
+    if (!(distance(contact.part, r_.part).low <= slack))
       find("contact {}: part_at is not on the part's outline", i);
-    if (distance(contact.blank, r_.blank).low > slack)
+    if (!(distance(contact.blank, r_.blank).low <= slack))
       find("contact {}: blank_at is not on the blank's outline", i);
-    const Span x = r_.mirrored ? Span{-contact.part.x.high, -contact.part.x.low} : contact.part.x;
-    const Vec at = Vec{cosine_ * x - sine_ * contact.part.y, sine_ * x + cosine_ * contact.part.y} + shift_;
-    const Span apart = length(at - contact.blank);
-    if (apart.low > contact.distance + slack || apart.high < contact.distance - slack)
+    const Span apart = length(verify::placed(contact.part, motion_) - contact.blank);
+    if (!(apart.low <= contact.distance + slack && apart.high >= contact.distance - slack))
       find("contact {}: its points are {} mm apart, not {}", i, apart.low, contact.distance);
   }
 }
@@ -243,9 +252,6 @@ void RegionCheck::check_derived() {
   if (missing.high <= 0 ? r_.shortfall.high != 0 && r_.shortfall.low > 0
                         : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
     find("shortfall is not min_allowance less clearance");
-  const double degrees = approximate(r_.theta) * 57.29577951308232;
-  if (!(std::abs(degrees - approximate(r_.theta_deg)) <= 1e-13 * (1 + std::abs(degrees))))
-    find("theta_deg is {}, but theta means {} degrees", approximate(r_.theta_deg), degrees);
   if (r_.mirrored != (r_.mirror == "yes") && r_.mirror != "either")
     find("the placement is {}mirrored, which was not allowed", r_.mirrored ? "" : "not ");
 }

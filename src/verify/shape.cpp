@@ -1,6 +1,5 @@
 #include "shape.hpp"
 
-#include <array>
 #include <limits>
 
 #include "interval.hpp"
@@ -9,18 +8,41 @@
 namespace lekalo::verify {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 Span enclosed(const Decimal& value) {
   const Interval interval(value, 64);
   return {interval.low_double(), interval.high_double()};
 }
 
+struct WrittenPoint {
+  Decimal x, y;
+  friend bool operator==(const WrittenPoint& a, const WrittenPoint& b) {
+    return compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0;
+  }
+  [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
+};
+
+/// The decimals as integers of one unit, which is theirs.
+Point in_common_units(const WrittenPoint& a, const WrittenPoint& origin) {
+  const Decimal x = a.x - origin.x, y = a.y - origin.y;
+  const long unit = std::min(x.exponent, y.exponent);
+  return {in_units(x, unit), in_units(y, unit)};
+}
+
 class ShapeReader {
  public:
-  ShapeReader(const std::string& path, std::string& complaint) : path_(path), complaint_(complaint) {}
+  ShapeReader(const std::string& path, std::string& complaint, bool inch)
+      : path_(path), complaint_(complaint), inch_(inch) {}
 
   Shape read(Json value) {
     Fields fields(value, path_, complaint_);
-    if (fields.text("units") != "mm") fields.complain(fmt::format("the units of {} are not mm", path_));
+    const Json units = fields.get("units");
+    if (!units.text.empty()) {
+      const std::string name = fields.text("units");
+      if (name != "mm" && name != "inch") complain(fmt::format("the units of {} are not mm or inch", path_));
+      inch_ = name == "inch";
+    }
     if (fields.get("pieces").text.empty()) {
       read_piece(fields, path_);
     } else {
@@ -29,25 +51,19 @@ class ShapeReader {
         read_piece(piece, path);
       });
     }
-    if (shape_.sides.empty()) fields.complain(fmt::format("{} has no edges", path_));
+    if (shape_.sides.empty()) complain(fmt::format("{} has no edges", path_));
+    bound();
     return std::move(shape_);
   }
 
  private:
-  struct WrittenPoint {
-    Decimal x, y;
-    friend bool operator==(const WrittenPoint& a, const WrittenPoint& b) {
-      return compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0;
-    }
-    [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
-  };
-
   void read_piece(Fields& piece, const std::string& path) {
     read_contour(piece.get("outer"), path + ".outer");
     for (const char* key : {"holes", "islands"}) {  // two words for one thing
       if (piece.get(key).text.empty()) continue;
       piece.each(key, [&](Json hole, const std::string& at) { read_contour(hole, at); });
     }
+    shape_.piece_starts.push_back(shape_.contour_starts.size() - 1);
   }
 
   WrittenPoint point(Fields& fields, std::string_view key) {
@@ -55,13 +71,20 @@ class ShapeReader {
     fields.each(key, [&](Json item, const std::string& path) {
       if (numbers.size() < 3) numbers.push_back(fields.number_of(item, path));
     });
-    if (numbers.size() == 2) return {numbers[0], numbers[1]};
-    fields.complain(fmt::format("{} is not two numbers", fields.name(key)));
-    return {};
+    if (numbers.size() != 2) {
+      complain(fmt::format("{} is not two numbers", fields.name(key)));
+      return {};
+    }
+    for (Decimal& number : numbers) {
+      if (inch_) number.digits *= 254, --number.exponent;
+      if (!(std::abs(approximate(number)) <= kLargestCoordinate))
+        complain(
+            fmt::format("{} is farther than {} mm from the origin", fields.name(key), kLargestCoordinate));
+    }
+    return {numbers[0], numbers[1]};
   }
 
   void read_contour(Json value, const std::string& path) {
-    std::string complaint;
     if (!value.is_array()) return complain(path + " is not a list of edges");
     JsonItems items(value);
     std::optional<WrittenPoint> begin, at;
@@ -69,11 +92,13 @@ class ShapeReader {
       const std::string name = fmt::format("{}[{}]", path, i);
       Fields edge(*item, name, complaint_);
       const bool arc = !edge.get("arc").text.empty();
+      if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
       Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
       const WrittenPoint from = point(inner, "from"), to = point(inner, "to");
       if (at && !(*at == from)) return complain(name + " does not begin where the edge before it ends");
       if (!begin) begin = from;
       at = to;
+      if (!complaint_.empty()) return;
       arc ? add_arc(inner, from, to, name) : add_line(from, to, name);
     }
     if (!begin || !(*begin == *at)) return complain(path + " is not closed");
@@ -82,48 +107,72 @@ class ShapeReader {
 
   void add_line(const WrittenPoint& from, const WrittenPoint& to, const std::string& name) {
     if (from == to) return complain(name + " has no length");
+    add_line(from.enclosed(), to.enclosed(), true);
+  }
+
+  void add_line(const Vec& from, const Vec& to, bool written) {
     Side side;
-    side.from = from.enclosed(), side.to = to.enclosed();
-    add(side, std::max(side.from.x.high, side.to.x.high), std::max(side.from.y.high, side.to.y.high),
-        std::min(side.from.x.low, side.to.x.low), std::min(side.from.y.low, side.to.y.low));
+    side.from = side.written_from = from, side.to = side.written_to = to;
+    side.written = written;
+    shape_.sides.push_back(side);
   }
 
   void add_arc(Fields& fields, const WrittenPoint& from, const WrittenPoint& to, const std::string& name) {
-    Side side;
-    side.arc = true;
-    side.from = from.enclosed(), side.to = to.enclosed();
-    side.centre = point(fields, "centre").enclosed();
-    side.full = from == to;
     const Json ccw = fields.get("ccw");
     if (!ccw.is_bool()) return complain(name + ".ccw is neither true nor false");
+    Side side;
+    side.arc = true;
+    side.ccw = ccw.is_true();
+    side.from = side.written_from = from.enclosed(), side.to = side.written_to = to.enclosed();
+    const WrittenPoint centre = point(fields, "centre");
+    if (!complaint_.empty()) return;
+    side.centre = centre.enclosed();
+    const auto sweep = sweep_of(side.ccw ? from : to, side.ccw ? to : from, centre);
+    if (!sweep) return complain(name + " is an arc that is a full circle or nothing");
+    side.sweep = *sweep;
     const Vec a = side.from - side.centre, b = side.to - side.centre;
-    side.first = ccw.is_true() ? a : b, side.last = ccw.is_true() ? b : a;
     const Span ra = length(a), rb = length(b);
-    side.radius = Span{0.5, 0.5} * (ra + rb);
-    side.off = 0.5 * std::max((ra - rb).high, (rb - ra).high);
-    if (!(side.radius.low > 0)) return complain(name + " is an arc without a radius");
-    double high_x = std::max(side.from.x.high, side.to.x.high),
-           high_y = std::max(side.from.y.high, side.to.y.high),
-           low_x = std::min(side.from.x.low, side.to.x.low), low_y = std::min(side.from.y.low, side.to.y.low);
-    const double r = side.radius.high;
-    const Span zero{0, 0}, one{1, 1}, back{-1, -1};
-    if (may_face(side, {one, zero})) high_x = std::max(high_x, side.centre.x.high + r);
-    if (may_face(side, {zero, one})) high_y = std::max(high_y, side.centre.y.high + r);
-    if (may_face(side, {back, zero})) low_x = std::min(low_x, side.centre.x.low - r);
-    if (may_face(side, {zero, back})) low_y = std::min(low_y, side.centre.y.low - r);
-    add(side, high_x, high_y, low_x, low_y);
+    side.radius = just(0.5) * (ra + rb);
+    if (!(ra.low > 0 && rb.low > 0)) return complain(name + " is an arc without a radius");
+    const Vec ua = unit(a), ub = unit(b);
+    side.first = side.ccw ? ua : ub, side.last = side.ccw ? ub : ua;
+    add_joined(side, ua, ub, ra, rb);
   }
 
-  void add(const Side& side, double high_x, double high_y, double low_x, double low_y) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    if (shape_.sides.empty()) {
-      shape_.low_x = shape_.low_y = kInfinity, shape_.high_x = shape_.high_y = -kInfinity;
+  /// Counter-clockwise about the centre.
+  static std::optional<Sweep> sweep_of(const WrittenPoint& from, const WrittenPoint& to,
+                                       const WrittenPoint& centre) {
+    if (from == to) return Sweep::full;
+    const Point a = in_common_units(from, centre), b = in_common_units(to, centre);
+    const int side = sgn(cross(a, b));  // each has a unit of its own, of which the sign knows nothing
+    if (side != 0) return side > 0 ? Sweep::less : Sweep::more;
+    if (sgn(dot(a, b)) < 0) return Sweep::half;
+    return std::nullopt;
+  }
+
+  /// The arc with what joins its ends to its circle: lines where they are long enough to be told apart.
+  void add_joined(Side side, const Vec& ua, const Vec& ub, Span ra, Span rb) {
+    const double off = absolute(just(0.5) * (ra - rb)).high;
+    const double blur = (ra.high - ra.low) + (rb.high - rb.low);
+    if (!(off > 64 * blur)) {
+      side.off = off;
+      shape_.sides.push_back(side);
+      return;
     }
+    const Vec from = side.from, to = side.to;
+    side.from = side.centre + ua * side.radius, side.to = side.centre + ub * side.radius;
+    add_line(from, side.from, false);
     shape_.sides.push_back(side);
-    shape_.high_x = std::max(shape_.high_x, std::nextafter(high_x, kInfinity));
-    shape_.high_y = std::max(shape_.high_y, std::nextafter(high_y, kInfinity));
-    shape_.low_x = std::min(shape_.low_x, std::nextafter(low_x, -kInfinity));
-    shape_.low_y = std::min(shape_.low_y, std::nextafter(low_y, -kInfinity));
+    add_line(side.to, to, false);
+  }
+
+  void bound() {
+    shape_.low_x = shape_.low_y = kInfinity, shape_.high_x = shape_.high_y = -kInfinity;
+    for (const Side& side : shape_.sides) {
+      const Box box = box_of(side);
+      shape_.low_x = std::min(shape_.low_x, box.low_x), shape_.high_x = std::max(shape_.high_x, box.high_x);
+      shape_.low_y = std::min(shape_.low_y, box.low_y), shape_.high_y = std::max(shape_.high_y, box.high_y);
+    }
   }
 
   void complain(const std::string& sentence) {
@@ -132,56 +181,94 @@ class ShapeReader {
 
   std::string path_;
   std::string& complaint_;
+  bool inch_;
   Shape shape_;
 };
 
 }  // namespace
 
-Shape read_shape(Json value, const std::string& path, std::string& complaint) {
-  return ShapeReader(path, complaint).read(value);
+Shape read_shape(Json value, const std::string& path, std::string& complaint, bool inch) {
+  return ShapeReader(path, complaint, inch).read(value);
 }
 
 bool same_edges(const Shape& a, const Shape& b, double tolerance) {
   const auto near = [&](const Vec& p, const Vec& q) {
     const Vec d = p - q;
-    return std::max({std::abs(d.x.low), std::abs(d.x.high), std::abs(d.y.low), std::abs(d.y.high)}) <=
-           tolerance;
+    return absolute(d.x).high <= tolerance && absolute(d.y).high <= tolerance;
   };
   const auto same = [&](const Side& one, const Side& other, bool reversed) {
-    if (one.arc != other.arc || one.full != other.full) return false;
-    if (!near(one.from, reversed ? other.to : other.from) || !near(one.to, reversed ? other.from : other.to))
+    if (one.arc != other.arc || (one.sweep == Sweep::full) != (other.sweep == Sweep::full)) return false;
+    if (!near(one.written_from, reversed ? other.written_to : other.written_from) ||
+        !near(one.written_to, reversed ? other.written_from : other.written_to))
       return false;
-    // Counter-clockwise ends are the same ends, whichever way the arc is written.
-    return !one.arc ||
-           (near(one.centre, other.centre) && near(one.first, other.first) && near(one.last, other.last));
+    if (!one.arc) return true;
+    // Both arcs between these ends, or the two that make up the circle: told apart by the direction.
+    return near(one.centre, other.centre) &&
+           (one.sweep == Sweep::full || one.ccw == (reversed ? !other.ccw : other.ccw));
   };
-  if (a.contour_starts != b.contour_starts) return false;
+  const auto written = [](const Shape& shape, std::size_t contour) {
+    std::vector<const Side*> sides;
+    for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k)
+      if (shape.sides[k].written) sides.push_back(&shape.sides[k]);
+    return sides;
+  };
+  if (a.piece_starts != b.piece_starts || a.contour_starts.size() != b.contour_starts.size()) return false;
   for (std::size_t c = 0; c + 1 < a.contour_starts.size(); ++c) {
-    const std::size_t begin = a.contour_starts[c], end = a.contour_starts[c + 1];
+    const std::vector<const Side*> one = written(a, c), other = written(b, c);
+    if (one.size() != other.size()) return false;
     bool forwards = true, backwards = true;
-    for (std::size_t k = begin; k < end; ++k) {
-      forwards = forwards && same(a.sides[k], b.sides[k], false);
-      backwards = backwards && same(a.sides[k], b.sides[begin + end - 1 - k], true);
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      forwards = forwards && same(*one[k], *other[k], false);
+      backwards = backwards && same(*one[k], *other[one.size() - 1 - k], true);
     }
     if (!forwards && !backwards) return false;
   }
   return true;
 }
 
-Shape placed(const Shape& shape, Span cosine, Span sine, bool mirrored, const Vec& shift) {
-  const auto turned = [&](const Vec& v) {
-    const Span x = mirrored ? Span{-v.x.high, -v.x.low} : v.x;
-    return Vec{cosine * x - sine * v.y, sine * x + cosine * v.y};
-  };
+namespace {
+
+Vec turned(const Vec& v, const Motion& motion) {
+  const Span x = motion.mirrored ? -v.x : v.x;
+  return {motion.cosine * x - motion.sine * v.y, motion.sine * x + motion.cosine * v.y};
+}
+
+}  // namespace
+
+Vec placed(const Vec& point, const Motion& motion) { return turned(point, motion) + motion.shift; }
+
+Shape placed(const Shape& shape, const Motion& motion) {
   Shape moved = shape;
   for (Side& side : moved.sides) {
-    side.from = turned(side.from) + shift, side.to = turned(side.to) + shift;
+    side.from = placed(side.from, motion), side.to = placed(side.to, motion);
     if (!side.arc) continue;
-    side.centre = turned(side.centre) + shift;
-    side.first = turned(side.first), side.last = turned(side.last);
-    if (mirrored) std::swap(side.first, side.last);
+    side.centre = placed(side.centre, motion);
+    side.first = turned(side.first, motion), side.last = turned(side.last, motion);
+    if (!motion.mirrored) continue;
+    std::swap(side.first, side.last);
+    side.ccw = !side.ccw;
+  }
+  moved.low_x = moved.low_y = kInfinity, moved.high_x = moved.high_y = -kInfinity;
+  for (const Side& side : moved.sides) {
+    const Box box = box_of(side);
+    moved.low_x = std::min(moved.low_x, box.low_x), moved.high_x = std::max(moved.high_x, box.high_x);
+    moved.low_y = std::min(moved.low_y, box.low_y), moved.high_y = std::max(moved.high_y, box.high_y);
   }
   return moved;
+}
+
+Box box_of(const Side& side) {
+  Box box{std::min(side.from.x.low, side.to.x.low), std::min(side.from.y.low, side.to.y.low),
+          std::max(side.from.x.high, side.to.x.high), std::max(side.from.y.high, side.to.y.high)};
+  if (!side.arc) return box;
+  const Span zero = just(0), one = just(1), back = just(-1);
+  if (may_face(side, {one, zero})) box.high_x = std::max(box.high_x, (side.centre.x + side.radius).high);
+  if (may_face(side, {zero, one})) box.high_y = std::max(box.high_y, (side.centre.y + side.radius).high);
+  if (may_face(side, {back, zero})) box.low_x = std::min(box.low_x, (side.centre.x - side.radius).low);
+  if (may_face(side, {zero, back})) box.low_y = std::min(box.low_y, (side.centre.y - side.radius).low);
+  const Span off{-side.off, side.off};
+  return {(just(box.low_x) + off).low, (just(box.low_y) + off).low, (just(box.high_x) + off).high,
+          (just(box.high_y) + off).high};
 }
 
 }  // namespace lekalo::verify

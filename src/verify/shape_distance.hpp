@@ -12,6 +12,8 @@ namespace lekalo::verify {
 
 /// False when the arc certainly has no point in this direction from its centre.
 [[nodiscard]] bool may_face(const Side& arc, const Vec& direction);
+/// True when it certainly has one.
+[[nodiscard]] bool surely_faces(const Side& arc, const Vec& direction);
 
 [[nodiscard]] Span distance(const Vec& p, const Side& side);
 /// low is 0 where the sides meet or may meet.
@@ -19,13 +21,7 @@ namespace lekalo::verify {
 [[nodiscard]] Span distance(const Vec& p, const Shape& shape);
 [[nodiscard]] Span distance(const Shape& a, const Shape& b);
 
-/// Whether the material holds p; nothing when rounding leaves it open.
-[[nodiscard]] std::optional<bool> holds(const Shape& shape, const Vec& p);
-
-/// Distance from the outline, positive in the material.
-[[nodiscard]] Span signed_distance(const Vec& p, const Shape& shape);
-
-/// Whether all of `inner`'s material lies in `outer`'s. \pre their outlines do not meet
-[[nodiscard]] std::optional<bool> lies_within(const Shape& inner, const Shape& outer);
+/// Some points of a side.
+[[nodiscard]] std::vector<Vec> points_of(const Side& side);
 
 }  // namespace lekalo::verify

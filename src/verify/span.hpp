@@ -20,6 +20,9 @@ struct Span {
   return {std::nextafter(low, -kInfinity), std::nextafter(high, kInfinity)};
 }
 
+/// Exactly this number.
+[[nodiscard]] inline Span just(double value) { return {value, value}; }
+
 /// Bits before the binary point.
 [[nodiscard]] inline long bits_of(const Integer& value) {
   return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
@@ -35,8 +38,14 @@ struct Span {
 
 [[nodiscard]] inline Span operator+(Span a, Span b) { return outwards(a.low + b.low, a.high + b.high); }
 [[nodiscard]] inline Span operator-(Span a, Span b) { return outwards(a.low - b.high, a.high - b.low); }
+[[nodiscard]] inline Span operator-(Span a) { return {-a.high, -a.low}; }
 [[nodiscard]] inline Span operator*(Span a, Span b) {
   const double ll = a.low * b.low, lh = a.low * b.high, hl = a.high * b.low, hh = a.high * b.high;
+  const double all = (ll + lh) + (hl + hh);
+  if (!(all - all == 0)) {  // 0 times infinity is any number here; min and max would drop the NaN
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {-kInfinity, kInfinity};
+  }
   return outwards(std::min(std::min(ll, lh), std::min(hl, hh)), std::max(std::max(ll, lh), std::max(hl, hh)));
 }
 /// \pre b > 0
@@ -45,6 +54,15 @@ struct Span {
 }
 [[nodiscard]] inline Span square_root(Span a) {
   return outwards(std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high));
+}
+[[nodiscard]] inline Span squared(Span a) {
+  const Span product = a * a;
+  return {std::max(0.0, product.low), product.high};
+}
+[[nodiscard]] inline Span absolute(Span a) {
+  if (a.low >= 0) return a;
+  if (a.high <= 0) return -a;
+  return {0, std::max(-a.low, a.high)};
 }
 
 }  // namespace lekalo::verify

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/region.hpp"
+
+namespace lekalo::geom {
+
+/// Regions grown by `distance` mm with round corners (all points within it of the material), or shrunk by
+/// -distance where it is negative (the points further than that from everything outside). Lines give lines,
+/// arcs arcs about the same centre, corners arcs about the corner. Pieces may touch or overlap, and count as
+/// their union; what grows together is one piece, what is cut apart is several.
+///
+/// Every boundary point of the result lies at |distance| from the boundary of the regions, within edge_error;
+/// pieces and gaps thinner than twice that may be missing or filled. corner_error as in boolean.hpp.
+///
+/// Fails as combine() does. Laws (tests/property/geom_offset_test.cpp): the distance just said; opening
+/// (shrink, then grow) lies inside and closing (grow, then shrink) around the regions; a convex region of
+/// boundary length L grows by L d + pi d^2; offset(offset(A, r), s) is offset(A, r + s) for r, s >= 0.
+/// Cost: O((n + k) log n) as combine(), about five edges for each. \pre regions made by make_region; a finite
+/// distance
+/// Source: the union of a region with what each edge and corner sweeps; every such set is bounded by lines
+/// and arcs, and sides that two of them share cancel.
+[[nodiscard]] Result<BooleanResult> offset(const std::vector<Region>& regions, double distance);
+
+}  // namespace lekalo::geom

@@ -1,0 +1,186 @@
+#include "arrangement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "box_tree.hpp"
+#include "point_table.hpp"
+
+namespace lekalo::geom::detail {
+namespace {
+
+Box grown(Box box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
+
+/// A vertex that a piece passes through.
+struct Stop {
+  std::uint32_t piece, vertex;
+  double along;
+};
+
+class Arranger {
+ public:
+  Arranger(const Outlines& outlines, double snap) : outlines_(outlines) { made_.snap = snap; }
+
+  Arrangement run() {
+    cut_into_pieces();
+    snap_points();
+    stop_at_vertices();
+    cut_into_stretches();
+    merge_coinciding();
+    return std::move(made_);
+  }
+
+ private:
+  void cut_into_pieces() {
+    for (std::uint32_t i = 0; i < outlines_.edges.size(); ++i)
+      append_pieces(outlines_.edges[i], i, 0.25 * made_.snap, made_.pieces);
+  }
+
+  /// The operands' own points first, so that they stay where they are.
+  void snap_points() {
+    PointTable table(made_.snap, 2 * made_.pieces.size());
+    for (const Edge& edge : outlines_.edges) table.snapped(edge.from);
+    for (const Piece& piece : made_.pieces)
+      ends_.push_back({table.snapped(piece.from), table.snapped(piece.to)});
+
+    std::vector<Box> boxes;
+    for (const Piece& piece : made_.pieces) boxes.push_back(grown(box_of(piece), made_.snap));
+    const BoxTree tree(std::move(boxes));
+    std::vector<Stop> crossed;
+    tree.visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+      const Crossings found = crossings(made_.pieces[i], made_.pieces[j], made_.snap);
+      for (int k = 0; k < found.count; ++k)
+        crossed.push_back({i, table.snapped(found.points[static_cast<std::size_t>(k)]), 0});
+    });
+    made_.vertices = table.points();
+    for (std::uint32_t v = 0; v < made_.vertices.size(); ++v) {
+      const Box around = grown({made_.vertices[v], made_.vertices[v]}, kHot * made_.snap);
+      tree.visit_meeting(around, [&](std::uint32_t i) { consider(i, v); });
+    }
+  }
+
+  /// Stops piece i at vertex v if it passes through.
+  void consider(std::uint32_t i, std::uint32_t v) {
+    const Piece& piece = made_.pieces[i];
+    if (v == ends_[i][0] || v == ends_[i][1]) return;
+    const Point p = made_.vertices[v];
+    if (!(std::abs(side(piece, p)) <= kHot * made_.snap)) return;
+    const double at = along(piece, p);
+    if (at > 0 && at < length_squared(piece)) stops_.push_back({i, v, at});
+  }
+
+  void stop_at_vertices() {
+    std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
+      if (a.piece != b.piece) return a.piece < b.piece;
+      return a.along != b.along ? a.along < b.along : a.vertex < b.vertex;
+    });
+  }
+
+  void cut_into_stretches() {
+    std::size_t stop = 0;
+    for (std::uint32_t i = 0; i < made_.pieces.size(); ++i) {
+      while (made_.origin_starts.size() <= made_.pieces[i].origin)
+        made_.origin_starts.push_back(static_cast<std::uint32_t>(made_.stretches.size()));
+      std::uint32_t at = ends_[i][0];
+      for (; stop < stops_.size() && stops_[stop].piece == i; ++stop)
+        at = stretch(i, at, stops_[stop].vertex);
+      stretch(i, at, ends_[i][1]);
+    }
+    while (made_.origin_starts.size() <= outlines_.edges.size())
+      made_.origin_starts.push_back(static_cast<std::uint32_t>(made_.stretches.size()));
+  }
+
+  std::uint32_t stretch(std::uint32_t i, std::uint32_t from, std::uint32_t to) {
+    if (from == to) return to;
+    Stretch s{from, to, i, false, 0};
+    const Piece& piece = made_.pieces[i];
+    if (is_arc(piece)) {
+      const double half = 0.5 * norm(made_.vertices[to] - made_.vertices[from]), r = piece.radius;
+      const double height = half * half / (r + std::sqrt(std::max(0.0, (r - half) * (r + half))));
+      s.curved = 2 * half >= kShortArc * made_.snap && height >= 0.25 * made_.snap;
+      if (s.curved) s.height = piece.kind == EdgeKind::arc_ccw ? -height : height;
+    }
+    made_.stretches.push_back(s);
+    return to;
+  }
+
+  /// Stretches between the same vertices whose middles are closer than two snaps become one edge.
+  void merge_coinciding() {
+    struct Candidate {
+      std::uint32_t low, high;  ///< vertices
+      double height;            ///< on the left from low to high
+      std::uint32_t stretch;
+    };
+    std::vector<Candidate> all;
+    for (std::uint32_t i = 0; i < made_.stretches.size(); ++i) {
+      const Stretch& s = made_.stretches[i];
+      all.push_back(s.from < s.to ? Candidate{s.from, s.to, s.height, i}
+                                  : Candidate{s.to, s.from, -s.height, i});
+    }
+    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+      if (a.low != b.low) return a.low < b.low;
+      if (a.high != b.high) return a.high < b.high;
+      return a.height != b.height ? a.height < b.height : a.stretch < b.stretch;
+    });
+    for (std::size_t i = 0; i < all.size();) {
+      std::size_t end = i;
+      MapEdge edge{all[i].stretch, {}};
+      std::array<std::int32_t, Outlines::kOperands> upwards{};  // from low to high
+      for (; end < all.size() && all[end].low == all[i].low && all[end].high == all[i].high &&
+             all[end].height - all[i].height <= 2 * made_.snap;
+           ++end) {
+        const Stretch& s = made_.stretches[all[end].stretch];
+        upwards[outlines_.operand[made_.pieces[s.piece].origin]] += s.from < s.to ? 1 : -1;
+        edge.stretch = std::min(edge.stretch, all[end].stretch);
+      }
+      const Stretch& shape = made_.stretches[edge.stretch];
+      bool any = false;
+      for (std::size_t k = 0; k < upwards.size(); ++k) {
+        edge.weight[k] = shape.from < shape.to ? upwards[k] : -upwards[k];
+        any = any || upwards[k] != 0;
+      }
+      if (any) made_.edges.push_back(edge);
+      i = end;
+    }
+    std::sort(made_.edges.begin(), made_.edges.end(),
+              [](const MapEdge& a, const MapEdge& b) { return a.stretch < b.stretch; });
+  }
+
+  const Outlines& outlines_;
+  Arrangement made_;
+  std::vector<std::array<std::uint32_t, 2>> ends_;  ///< vertices of pieces
+  std::vector<Stop> stops_;
+};
+
+}  // namespace
+
+void Outlines::add(const Contour& contour, std::uint8_t operand_of_all) {
+  const auto first = static_cast<std::uint32_t>(edges.size());
+  const auto count = static_cast<std::uint32_t>(contour.size());
+  edges.insert(edges.end(), contour.begin(), contour.end());
+  operand.insert(operand.end(), contour.size(), operand_of_all);
+  for (std::uint32_t i = 0; i < count; ++i) next.push_back(first + (i + 1 == count ? 0 : i + 1));
+}
+
+void Outlines::add(const std::vector<Region>& regions, std::uint8_t operand_of_all) {
+  for (const Region& region : regions) {
+    add(region.outer, operand_of_all);
+    for (const Contour& hole : region.holes) add(hole, operand_of_all);
+  }
+}
+
+double extent(const Outlines& outlines) noexcept {
+  double largest = 0;
+  const auto include = [&largest](Point p, double r) {
+    largest = std::max({largest, std::abs(p.x) + r, std::abs(p.y) + r});
+  };
+  for (const Edge& edge : outlines.edges) {
+    include(edge.from, 0);
+    if (edge.kind != EdgeKind::line) include(edge.centre, arc_radius(edge));
+  }
+  return largest;
+}
+
+Arrangement arrange(const Outlines& outlines, double snap) { return Arranger(outlines, snap).run(); }
+
+}  // namespace lekalo::geom::detail

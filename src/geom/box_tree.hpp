@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/geom/polygon.hpp"
+
+namespace lekalo::geom::detail {
+
+[[nodiscard]] inline bool boxes_meet(const Box& a, const Box& b) noexcept {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+/// A balanced tree of boxes in any order; what it visits comes in an order that depends on the boxes alone.
+/// Building: O(n log n).
+class BoxTree {
+ public:
+  explicit BoxTree(std::vector<Box> boxes);
+
+  /// visit(i) for every box i that meets `box`, touching included.
+  template <class Visit>
+  void visit_meeting(const Box& box, Visit&& visit) const {
+    if (!nodes_.empty()) descend(0, box, visit);
+  }
+  /// visit(i, j), i < j, once for every two boxes that meet.
+  template <class Visit>
+  void visit_pairs(Visit&& visit) const {
+    if (!nodes_.empty()) within(0, visit);
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t begin = 0, end = 0;  ///< in order_
+    std::uint32_t right = 0;           ///< the left child is the next node; 0 in a leaf
+  };
+  static constexpr std::uint32_t kLeaf = 4;
+
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+
+  template <class Visit>
+  void descend(std::uint32_t at, const Box& box, Visit& visit) const {
+    const Node& node = nodes_[at];
+    if (!boxes_meet(node.box, box)) return;
+    if (node.right != 0) {
+      descend(at + 1, box, visit);
+      descend(node.right, box, visit);
+      return;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+      if (boxes_meet(boxes_[order_[i]], box)) visit(order_[i]);
+  }
+
+  template <class Visit>
+  void pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
+    const std::uint32_t a = std::min(order_[i], order_[j]), b = std::max(order_[i], order_[j]);
+    if (boxes_meet(boxes_[a], boxes_[b])) visit(a, b);
+  }
+
+  template <class Visit>
+  void within(std::uint32_t at, Visit& visit) const {
+    const Node& node = nodes_[at];
+    if (node.right != 0) {
+      within(at + 1, visit);
+      within(node.right, visit);
+      between(at + 1, node.right, visit);
+      return;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+      for (std::uint32_t j = i + 1; j < node.end; ++j) pair(i, j, visit);
+  }
+
+  template <class Visit>
+  void between(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+    const Node &left = nodes_[a], &right = nodes_[b];
+    if (!boxes_meet(left.box, right.box)) return;
+    const bool split_left = left.right != 0 && left.end - left.begin >= right.end - right.begin;
+    if (split_left || (left.right != 0 && right.right == 0)) {
+      between(a + 1, b, visit);
+      between(left.right, b, visit);
+    } else if (right.right != 0) {
+      between(a, b + 1, visit);
+      between(a, right.right, visit);
+    } else {
+      for (std::uint32_t i = left.begin; i < left.end; ++i)
+        for (std::uint32_t j = right.begin; j < right.end; ++j) pair(i, j, visit);
+    }
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;  ///< preorder
+};
+
+}  // namespace lekalo::geom::detail

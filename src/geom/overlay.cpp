@@ -1,0 +1,96 @@
+#include "overlay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "around_vertex.hpp"
+#include "loop_contour.hpp"
+
+namespace lekalo::geom::detail {
+namespace {
+
+/// Each attempt snaps eight times as far as the one before: 2^21 times at last.
+constexpr int kAttempts = 8;
+constexpr double kCoarser = 8;
+
+double chord_length(const PlanarMap::Loop& loop, const Arrangement& a) {
+  double sum = 0;
+  for (const std::uint32_t h : loop.half_edges)
+    sum += norm(a.vertices[end_of(a, h)] - a.vertices[start_of(a, h)]);
+  return sum;
+}
+
+/// Outlines and holes of one group are one region. Nothing where a group has two outlines, or holes alone.
+std::optional<std::vector<Region>> regions_of(const std::vector<std::uint32_t>& groups,
+                                              std::vector<Contour> contours) {
+  std::map<std::uint32_t, std::size_t> owners;
+  std::vector<Region> regions;
+  std::vector<std::size_t> holes;
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    if (!(geom::signed_area(contours[i]) > 0)) {
+      holes.push_back(i);
+      continue;
+    }
+    if (!owners.emplace(groups[i], regions.size()).second) return std::nullopt;
+    regions.push_back({std::move(contours[i]), {}});
+  }
+  for (const std::size_t i : holes) {
+    const auto owner = owners.find(groups[i]);
+    if (owner == owners.end()) return std::nullopt;
+    regions[owner->second].holes.push_back(std::move(contours[i]));
+  }
+  return regions;
+}
+
+std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep, double snap,
+                                        double operand_error) {
+  const Arrangement arrangement = arrange(outlines, snap);
+  const auto map = PlanarMap::make(arrangement);
+  if (!map) return std::nullopt;
+  std::vector<PlanarMap::Loop> loops = map->loops(keep);
+  const auto first = [](const PlanarMap::Loop& loop) {
+    return *std::min_element(loop.half_edges.begin(), loop.half_edges.end());
+  };
+  std::sort(loops.begin(), loops.end(),
+            [&](const PlanarMap::Loop& a, const PlanarMap::Loop& b) { return first(a) < first(b); });
+
+  BooleanResult result;
+  const double thinnest = kEdgeErrorInSnaps * snap;
+  result.edge_error = thinnest + operand_error;
+  result.corner_error = result.edge_error;
+  std::vector<std::uint32_t> groups;
+  std::vector<Contour> contours;
+  for (const PlanarMap::Loop& loop : loops) {
+    LoopContour made = contour_of(loop, outlines, arrangement, result.edge_error);
+    // Thinner than what the edges may be off: nothing, or a crack in the material.
+    if (std::abs(geom::signed_area(made.contour)) <= thinnest * chord_length(loop, arrangement)) continue;
+    result.corner_error = std::max(result.corner_error, made.corner_error);
+    groups.push_back(loop.group);
+    contours.push_back(std::move(made.contour));
+  }
+  auto regions = regions_of(groups, std::move(contours));
+  if (!regions) return std::nullopt;
+  result.regions = std::move(*regions);
+  return result;
+}
+
+}  // namespace
+
+Result<BooleanResult> overlay(const Outlines& outlines, KeepRule keep, double operand_error) {
+  double snap = kBooleanSnap * extent(outlines);
+  if (snap == 0) return BooleanResult{};
+  for (int attempt = 0; attempt < kAttempts; ++attempt, snap *= kCoarser)
+    if (auto result = overlay_at(outlines, keep, snap, operand_error)) return *std::move(result);
+  return failure(
+      ErrorCode::bad_input,
+      fmt::format("the outlines are too tangled: points up to {:.3g} mm apart were joined and they still "
+                  "contradict each other; draw them with fewer coinciding edges",
+                  snap / kCoarser));
+}
+
+}  // namespace lekalo::geom::detail

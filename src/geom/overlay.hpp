@@ -1,0 +1,14 @@
+#pragma once
+
+#include "arrangement.hpp"
+#include "lekalo/geom/boolean.hpp"
+#include "planar_map.hpp"
+
+namespace lekalo::geom::detail {
+
+/// The regions of all points whose winding numbers `keep` accepts; it must refuse all zeros.
+/// What boolean.hpp says of results, errors and failure holds.
+[[nodiscard]] Result<BooleanResult> overlay(const Outlines& outlines, KeepRule keep,
+                                            double operand_error = 0);
+
+}  // namespace lekalo::geom::detail

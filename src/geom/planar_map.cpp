@@ -1,0 +1,241 @@
+#include "planar_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "around_vertex.hpp"
+#include "disjoint_sets.hpp"
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::geom::detail {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
+/// The stretch as a piece between its vertices.
+Piece piece_between(const Arrangement& a, const Stretch& s) {
+  Piece piece = a.pieces[s.piece];
+  piece.from = a.vertices[s.from];
+  piece.to = a.vertices[s.to];
+  if (!s.curved) piece.kind = EdgeKind::line;
+  return piece;
+}
+
+}  // namespace
+
+std::optional<PlanarMap> PlanarMap::make(const Arrangement& arrangement) {
+  PlanarMap map(arrangement);
+  map.sort_around_vertices();
+  map.trace_faces();
+  map.find_components();
+  if (!map.is_planar() || !map.find_windings()) return std::nullopt;
+  return map;
+}
+
+std::uint32_t PlanarMap::next(std::uint32_t half_edge) const noexcept {
+  // At its end turn clockwise from the way back: the next edge around the face on the left.
+  const std::uint32_t back = half_edge ^ 1, vertex = start_of(a_, back), place = place_[back];
+  return around_[place == around_starts_[vertex] ? around_starts_[vertex + 1] - 1 : place - 1];
+}
+
+void PlanarMap::sort_around_vertices() {
+  const auto count = static_cast<std::uint32_t>(2 * a_.edges.size());
+  around_starts_.assign(a_.vertices.size() + 1, 0);
+  for (std::uint32_t h = 0; h < count; ++h) ++around_starts_[start_of(a_, h) + 1];
+  for (std::size_t v = 0; v < a_.vertices.size(); ++v) around_starts_[v + 1] += around_starts_[v];
+  around_.resize(count);
+  std::vector<std::uint32_t> filled(around_starts_.begin(), around_starts_.end() - 1);
+  for (std::uint32_t h = 0; h < count; ++h) around_[filled[start_of(a_, h)]++] = h;
+  for (std::size_t v = 0; v < a_.vertices.size(); ++v)
+    sort_counter_clockwise(a_, around_.data() + around_starts_[v], around_.data() + around_starts_[v + 1]);
+  place_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) place_[around_[i]] = i;
+}
+
+void PlanarMap::trace_faces() {
+  face_.assign(around_.size(), kNone);
+  for (std::uint32_t h = 0; h < face_.size(); ++h) {
+    if (face_[h] != kNone) continue;
+    const auto face = static_cast<std::uint32_t>(face_starts_.size());
+    face_starts_.push_back(h);
+    for (std::uint32_t at = h; face_[at] == kNone; at = next(at)) face_[at] = face;
+  }
+}
+
+void PlanarMap::find_components() {
+  DisjointSets sets(a_.vertices.size());
+  for (std::uint32_t e = 0; e < a_.edges.size(); ++e) sets.join(start_of(a_, 2 * e), end_of(a_, 2 * e));
+  component_.assign(a_.vertices.size(), kNone);
+  const auto lower = [&](std::uint32_t v, std::uint32_t w) {
+    const Point p = a_.vertices[v], q = a_.vertices[w];
+    return p.y != q.y ? p.y < q.y : p.x < q.x;
+  };
+  for (std::uint32_t v = 0; v < a_.vertices.size(); ++v) {
+    if (around_starts_[v] == around_starts_[v + 1]) continue;
+    std::uint32_t& component = component_[sets.of(v)];  // the smallest of its set: the first to come here
+    if (component == kNone) {
+      component = static_cast<std::uint32_t>(components_.size());
+      components_.push_back({v, 0, 0, 0, 0});
+    }
+    component_[v] = component;
+    ++components_[component].vertices;
+    if (lower(v, components_[component].lowest)) components_[component].lowest = v;
+  }
+  for (std::uint32_t e = 0; e < a_.edges.size(); ++e) ++components_[component_[start_of(a_, 2 * e)]].edges;
+  for (const std::uint32_t h : face_starts_) ++components_[component_[start_of(a_, h)]].faces;
+  // Around its lowest vertex no edge runs down: the outside is where the order ends and begins.
+  for (Component& component : components_)
+    component.outside = around_[around_starts_[component.lowest + 1] - 1];
+  if (components_.size() < 2) return;
+  std::vector<Box> boxes;
+  for (const MapEdge& edge : a_.edges) {
+    const Point p = a_.vertices[a_.stretches[edge.stretch].from],
+                q = a_.vertices[a_.stretches[edge.stretch].to];
+    boxes.push_back({{std::min(p.x, q.x), std::min(p.y, q.y)}, {std::max(p.x, q.x), std::max(p.y, q.y)}});
+  }
+  tree_.emplace(std::move(boxes));
+}
+
+bool PlanarMap::is_planar() const {
+  return std::all_of(components_.begin(), components_.end(),
+                     [](const Component& c) { return c.vertices + c.faces == c.edges + 2; });
+}
+
+template <class Visit>
+void PlanarMap::cast_ray(std::uint32_t component, Visit&& visit) const {
+  if (!tree_) return;
+  const Point p = a_.vertices[components_[component].lowest];
+  tree_->visit_meeting({p, {std::numeric_limits<double>::infinity(), p.y}}, [&](std::uint32_t e) {
+    const Stretch& s = a_.stretches[a_.edges[e].stretch];
+    if (component_[s.from] == component) return;
+    if (crosses_ray(piece_between(a_, s), p)) visit(e, a_.vertices[s.from].y <= p.y);
+  });
+}
+
+bool PlanarMap::find_windings() {
+  constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+  Winding unknown;
+  unknown.fill(kUnknown);
+  winding_.assign(face_starts_.size(), unknown);
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    Winding outside{};
+    cast_ray(c, [&](std::uint32_t e, bool upwards) {
+      for (std::size_t k = 0; k < outside.size(); ++k)
+        outside[k] += upwards ? a_.edges[e].weight[k] : -a_.edges[e].weight[k];
+    });
+    winding_[face_[components_[c].outside]] = outside;
+    std::vector<std::uint32_t> waiting{components_[c].outside};
+    while (!waiting.empty()) {
+      const std::uint32_t first = waiting.back();
+      waiting.pop_back();
+      std::uint32_t h = first;
+      do {
+        Winding& there = winding_[face_[h ^ 1]];
+        const auto& weight = a_.edges[h / 2].weight;
+        Winding expected = winding_[face_[h]];
+        for (std::size_t k = 0; k < expected.size(); ++k) expected[k] -= h % 2 == 0 ? weight[k] : -weight[k];
+        if (there == unknown) {
+          there = expected;
+          waiting.push_back(h ^ 1);
+        } else if (there != expected) {
+          return false;
+        }
+        h = next(h);
+      } while (h != first);
+    }
+  }
+  return true;
+}
+
+std::vector<PlanarMap::Loop> PlanarMap::traced_loops(const std::vector<char>& kept) const {
+  const auto bounds_material = [&](std::uint32_t h) {
+    return kept[face_[h]] != 0 && kept[face_[h ^ 1]] == 0;
+  };
+  std::vector<Loop> loops;
+  std::vector<char> done(face_.size(), 0);
+  std::vector<std::uint32_t> place(a_.vertices.size(), kNone), chain;
+  const auto close_loop = [&](std::size_t begin) {
+    Loop loop;
+    for (std::size_t i = begin; i < chain.size(); ++i) {
+      loop.half_edges.push_back(chain[i]);
+      place[start_of(a_, chain[i])] = kNone;
+    }
+    chain.resize(begin);
+    loops.push_back(std::move(loop));
+  };
+  for (std::uint32_t h = 0; h < face_.size(); ++h) {
+    if (done[h] != 0 || !bounds_material(h)) continue;
+    for (std::uint32_t at = h; done[at] == 0;) {
+      done[at] = 1;
+      const std::uint32_t vertex = start_of(a_, at);
+      if (place[vertex] != kNone) close_loop(place[vertex]);
+      place[vertex] = static_cast<std::uint32_t>(chain.size());
+      chain.push_back(at);
+      at = next(at);
+      while (!bounds_material(at)) at = next(at ^ 1);  // on through the material
+    }
+    close_loop(0);
+  }
+  return loops;
+}
+
+double PlanarMap::signed_area(const Loop& loop) const {
+  const Point origin = a_.vertices[start_of(a_, loop.half_edges.front())];
+  double doubled = 0;
+  for (const std::uint32_t h : loop.half_edges) {
+    const Point from = a_.vertices[start_of(a_, h)] - origin, to = a_.vertices[end_of(a_, h)] - origin;
+    doubled += cross(from, to);
+    const Stretch& s = a_.stretches[a_.edges[h / 2].stretch];
+    if (!s.curved) continue;
+    const double half = 0.5 * norm(to - from), r = a_.pieces[s.piece].radius;
+    const double sweep = 2 * direction_angle(std::sqrt(std::max(0.0, (r - half) * (r + half))), half);
+    const double beside = r * r * (sweep - sincos(sweep).sine);
+    doubled += (s.height < 0) == (h % 2 == 0) ? beside : -beside;
+  }
+  return 0.5 * doubled;
+}
+
+void PlanarMap::link_components(const std::vector<char>& kept, std::vector<Loop>& loops,
+                                std::vector<std::uint32_t>& group_of_face) const {
+  DisjointSets groups(face_starts_.size());
+  for (std::uint32_t e = 0; e < a_.edges.size(); ++e)
+    if (kept[face_[2 * e]] != 0 && kept[face_[2 * e + 1]] != 0) groups.join(face_[2 * e], face_[2 * e + 1]);
+
+  std::vector<std::uint32_t> loop_of_edge(a_.edges.size(), kNone);
+  std::vector<double> areas;
+  for (std::uint32_t i = 0; i < loops.size(); ++i) {
+    for (const std::uint32_t h : loops[i].half_edges) loop_of_edge[h / 2] = i;
+    areas.push_back(std::abs(signed_area(loops[i])));
+  }
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    const std::uint32_t outside = face_[components_[c].outside];
+    if (kept[outside] == 0) continue;
+    // The material around it belongs to the smallest loop that holds it.
+    std::vector<std::uint32_t> crossed;
+    cast_ray(c, [&](std::uint32_t e, bool) {
+      if (loop_of_edge[e] != kNone) crossed.push_back(loop_of_edge[e]);
+    });
+    std::sort(crossed.begin(), crossed.end());
+    std::uint32_t innermost = kNone;
+    for (std::size_t i = 0, end = 0; i < crossed.size(); i = end) {
+      while (end < crossed.size() && crossed[end] == crossed[i]) ++end;
+      if ((end - i) % 2 != 0 && (innermost == kNone || areas[crossed[i]] < areas[innermost]))
+        innermost = crossed[i];
+    }
+    if (innermost != kNone) groups.join(outside, face_[loops[innermost].half_edges.front()]);
+  }
+  for (std::uint32_t f = 0; f < group_of_face.size(); ++f) group_of_face[f] = groups.of(f);
+}
+
+std::vector<PlanarMap::Loop> PlanarMap::loops(KeepRule keep) const {
+  std::vector<char> kept;
+  for (const Winding& winding : winding_) kept.push_back(keep(winding) ? 1 : 0);
+  std::vector<Loop> loops = traced_loops(kept);
+  std::vector<std::uint32_t> group_of_face(face_starts_.size());
+  link_components(kept, loops, group_of_face);
+  for (Loop& loop : loops) loop.group = group_of_face[face_[loop.half_edges.front()]];
+  return loops;
+}
+
+}  // namespace lekalo::geom::detail

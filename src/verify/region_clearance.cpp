@@ -1,0 +1,56 @@
+#include "region_clearance.hpp"
+
+#include "lekalo/verify/verify.hpp"
+#include "shape_distance.hpp"
+#include "shape_inside.hpp"
+#include "sticking_out.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+Result<Shape> shape_of(const Document& document) {
+  const auto root = parse_json(document.bytes, document.name);
+  if (!root) return tl::unexpected(root.error());
+  std::string complaint;
+  Shape shape = read_shape(*root, "the region", complaint);
+  if (complaint.empty()) complaint = fault_of(shape).value_or("");
+  if (complaint.empty()) return shape;
+  return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
+}
+
+/// What sticking out is enclosed to, mm.
+constexpr double kSticksOutTolerance = 1e-9;
+
+}  // namespace
+
+Motion motion_of(const Interval& theta, Span x, Span y, bool mirrored) {
+  const Turn turn = turn_by(theta);
+  return {{turn.cosine.low_double(), turn.cosine.high_double()},
+          {turn.sine.low_double(), turn.sine.high_double()},
+          mirrored,
+          {x, y}};
+}
+
+Span clearance(const Shape& placed_part, const Shape& blank) {
+  const Span apart = distance(placed_part, blank);
+  const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_part, blank) : std::nullopt;
+  if (inside && *inside) return apart;
+  // A point of the part is within apart.high of the boundary. More is known where it sticks out.
+  const Span out = sticking_out(placed_part, blank, kSticksOutTolerance);
+  return {-out.high, out.low > 0 ? -out.low : apart.high};
+}
+
+Result<Enclosure> verify_clearance(const Document& part, const Document& blank, const Placement& at) {
+  if (!(std::abs(at.x) <= kLargestCoordinate && std::abs(at.y) <= kLargestCoordinate &&
+        std::abs(at.theta) <= kLargestCoordinate))
+    return failure(ErrorCode::bad_input,
+                   fmt::format("a placement has coordinates up to {} only", kLargestCoordinate));
+  const Result<Shape> of_part = shape_of(part), of_blank = shape_of(blank);
+  if (!of_part) return tl::unexpected(of_part.error());
+  if (!of_blank) return tl::unexpected(of_blank.error());
+  const Motion motion = motion_of(Interval::exactly(at.theta, 128), just(at.x), just(at.y), at.mirrored);
+  const Span value = clearance(placed(*of_part, motion), *of_blank);
+  return Enclosure{value.low, value.high};
+}
+
+}  // namespace lekalo::verify

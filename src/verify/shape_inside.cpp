@@ -1,0 +1,256 @@
+#include "shape_inside.hpp"
+
+#include <array>
+
+#include "shape_distance.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// A ray's direction as a rotation that takes it to the right.
+struct Ray {
+  Span cosine, sine;
+};
+Vec turned(const Vec& v, const Ray& ray) {
+  return {ray.cosine * v.x - ray.sine * v.y, ray.sine * v.x + ray.cosine * v.y};
+}
+Side turned(Side side, const Ray& ray) {
+  for (Vec* v : {&side.from, &side.to, &side.centre, &side.first, &side.last}) *v = turned(*v, ray);
+  return side;
+}
+
+/// -1 certainly below, 1 certainly above, 0 cannot be told.
+int compare(Span a, Span b) { return a.high < b.low ? -1 : (a.low > b.high ? 1 : 0); }
+
+/// How often a line passes the ray from p to the right upwards, less downwards.
+std::optional<int> crossings_of_line(const Side& line, const Vec& p) {
+  if (line.from.x.high < p.x.low && line.to.x.high < p.x.low) return 0;
+  const int from = compare(line.from.y, p.y), to = compare(line.to.y, p.y);
+  if (from == 0 || to == 0) return std::nullopt;
+  if (from == to) return 0;
+  const Span turn = cross(line.to - line.from, p - line.from);
+  if (!(turn.low > 0 || turn.high < 0)) return std::nullopt;
+  return (turn.low > 0) == (to > 0) ? to : 0;
+}
+
+std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
+  // Level with an end, or with what joins it to the circle, nothing is counted.
+  const auto level = [&](const Vec& end) {
+    const Span gap = p.y - end.y;
+    return !(gap.low > arc.off || gap.high < -arc.off);
+  };
+  if (arc.sweep != Sweep::full && (level(arc.from) || level(arc.to))) return std::nullopt;
+  const Span height = p.y - arc.centre.y;
+  if (height.low > arc.radius.high || height.high < -arc.radius.high) return 0;
+  if (!(height.high < arc.radius.low && height.low > -arc.radius.low)) return std::nullopt;
+  const Span half = square_root((arc.radius - height) * (arc.radius + height));
+  int count = 0;
+  for (const bool right : {true, false}) {
+    const Span step = right ? half : -half;
+    const int beyond = compare(arc.centre.x + step, p.x);
+    if (beyond < 0 || !may_face(arc, {step, height})) continue;
+    if (beyond == 0 || !surely_faces(arc, {step, height})) return std::nullopt;
+    count += right == arc.ccw ? 1 : -1;
+  }
+  return count;
+}
+
+/// How often a contour winds about p.
+std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p, const Ray* ray) {
+  int sum = 0;
+  for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k) {
+    const Side side = ray != nullptr ? turned(shape.sides[k], *ray) : shape.sides[k];
+    const auto count = side.arc ? crossings_of_arc(side, p) : crossings_of_line(side, p);
+    if (!count) return std::nullopt;
+    sum += *count;
+  }
+  return sum;
+}
+
+/// Whether p is inside a contour. Where one ray grazes an end or a tangent, another does not: the first along
+/// x, the others of Pythagorean triples, whose angles are no fractions of a turn as the corners of regular
+/// shapes are.
+std::optional<bool> inside(const Shape& shape, std::size_t contour, const Vec& p) {
+  constexpr std::array<std::array<double, 3>, 6> kTriples{
+      {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
+  for (const auto& [a, b, c] : kTriples) {
+    const bool straight = b == 0;
+    const Ray ray{just(a) / just(c), just(b) / just(c)};
+    const auto turns =
+        straight ? winding(shape, contour, p, nullptr) : winding(shape, contour, turned(p, ray), &ray);
+    if (!turns) continue;
+    if (*turns == 0) return false;
+    if (*turns == 1 || *turns == -1) return true;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<bool> piece_holds(const Shape& shape, std::size_t piece, const Vec& p) {
+  const std::size_t outer = shape.piece_starts[piece];
+  const auto in = inside(shape, outer, p);
+  if (in && !*in) return false;
+  bool sure = in.has_value();
+  for (std::size_t hole = outer + 1; hole < shape.piece_starts[piece + 1]; ++hole) {
+    const auto in_hole = inside(shape, hole, p);
+    if (in_hole && *in_hole) return false;
+    sure = sure && in_hole.has_value();
+  }
+  if (sure) return true;
+  return std::nullopt;
+}
+
+/// The answer for any point of a contour, if rounding lets one of them be decided.
+template <class Question>
+std::optional<bool> for_any_point(const Shape& shape, std::size_t contour, Question question) {
+  for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k)
+    for (const Vec& p : points_of(shape.sides[k]))
+      if (const std::optional<bool> answer = question(p)) return answer;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<bool> holds(const Shape& shape, const Vec& p) {
+  bool sure = true;
+  for (std::size_t piece = 0; piece + 1 < shape.piece_starts.size(); ++piece) {
+    const auto in = piece_holds(shape, piece, p);
+    if (in && *in) return true;
+    sure = sure && in.has_value();
+  }
+  if (sure) return false;
+  return std::nullopt;
+}
+
+Span signed_distance(const Vec& p, const Shape& shape) {
+  const Span d = distance(p, shape);
+  const std::optional<bool> in = holds(shape, p);
+  if (!in) return {-d.high, d.high};
+  return *in ? d : -d;
+}
+
+std::optional<bool> lies_within(const Shape& inner, const Shape& outer) {
+  // A contour that meets no other lies on one side of it, and any of its points tells on which. Material of
+  // `inner` beyond `outer` would reach from where it is to an outline of `inner` not in `outer`, or fill a
+  // gap of `outer` up to an outline of `outer` in `inner`.
+  const auto all = [](const Shape& points, const Shape& shape, bool wanted) -> std::optional<bool> {
+    for (std::size_t c = 0; c + 1 < points.contour_starts.size(); ++c) {
+      const auto in = for_any_point(points, c, [&](const Vec& p) { return holds(shape, p); });
+      if (!in) return std::nullopt;
+      if (*in != wanted) return false;
+    }
+    return true;
+  };
+  const auto inside = all(inner, outer, true);
+  if (!inside || !*inside) return inside;
+  return all(outer, inner, false);
+}
+
+namespace {
+
+/// Neighbours that cross again, away from the end they share, make a loop. One this deep is a mistake, a
+/// smaller one what the digits of a drawing leave at a smooth joint; mm and of the radius, as for the ends of
+/// arcs (docs/design/geometry.md).
+constexpr double kLoop = 1e-3, kLoopOfRadius = 1e-6;
+
+bool surely_between(const Side& side, const Vec& p) {
+  if (side.arc) return surely_faces(side, p - side.centre);
+  const Vec along = side.to - side.from;
+  return dot(along, p - side.from).low > 0 && dot(along, side.to - p).low > 0;
+}
+
+bool cross_again(const Side& a, const Side& b, const Vec& shared) {
+  if (!a.arc) return b.arc && cross_again(b, a, shared);
+  const Vec along = b.arc ? b.centre - a.centre : b.to - b.from;
+  if (!(length(along).low > 0)) return false;
+  // Mirrored in the line of the centres, or in the perpendicular of the line through the arc's.
+  const Vec u = unit(along), w = shared - a.centre;
+  const Vec part = u * (dot(u, w) + dot(u, w));
+  const Vec other = b.arc ? a.centre + part - w : shared - part;
+  const Span apart = length(other - shared);
+  const Span depth = squared(apart) / (just(8) * a.radius);
+  return depth.low > kLoop + kLoopOfRadius * a.radius.high && surely_between(a, other) &&
+         surely_between(b, other);
+}
+
+std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i, std::size_t j) {
+  const Side &a = shape.sides[i], &b = shape.sides[j];
+  if (!a.written || !b.written) return std::nullopt;
+  if (a.arc || b.arc) {
+    if (!cross_again(a, b, a.written_to)) return std::nullopt;
+    return fmt::format("sides {} and {} cross", i, j);
+  }
+  const Vec u = a.to - a.from, v = b.to - b.from;
+  const Span turn = cross(u, v);
+  if (turn.low > 0 || turn.high < 0 || dot(u, v).low > 0) return std::nullopt;
+  return fmt::format("side {} runs back along side {}", j, i);
+}
+
+std::optional<std::string> misplaced(const Shape& shape) {
+  for (std::size_t p = 0; p + 1 < shape.piece_starts.size(); ++p) {
+    const std::size_t outer = shape.piece_starts[p], end = shape.piece_starts[p + 1];
+    for (std::size_t h = outer + 1; h < end; ++h) {
+      const auto in_outer = for_any_point(shape, h, [&](const Vec& at) { return inside(shape, outer, at); });
+      if (!in_outer || !*in_outer)
+        return fmt::format("hole {} of piece {} is not inside it", h - outer - 1, p);
+      for (std::size_t k = outer + 1; k < end; ++k) {
+        if (k == h) continue;
+        const auto in_hole = for_any_point(shape, h, [&](const Vec& at) { return inside(shape, k, at); });
+        if (!in_hole || *in_hole)
+          return fmt::format("hole {} of piece {} lies in its hole {}", h - outer - 1, p, k - outer - 1);
+      }
+    }
+    for (std::size_t q = 0; q + 1 < shape.piece_starts.size(); ++q) {
+      if (q == p) continue;
+      const auto in_piece =
+          for_any_point(shape, outer, [&](const Vec& at) { return piece_holds(shape, q, at); });
+      if (!in_piece || *in_piece) return fmt::format("piece {} lies in the material of piece {}", p, q);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The number of each side among the written ones of its contour; what joins an arc has the arc's.
+std::vector<std::size_t> numbers_of(const Shape& shape) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {
+    std::size_t number = 0;
+    for (std::size_t k = shape.contour_starts[c]; k < shape.contour_starts[c + 1]; ++k) {
+      numbers.push_back(number);
+      const bool last = k + 1 == shape.contour_starts[c + 1];
+      // A line that joins comes before its arc or after it.
+      const bool before = !shape.sides[k].written && !last && shape.sides[k + 1].arc;
+      const bool inside = shape.sides[k].arc && !last && !shape.sides[k + 1].written;
+      if (!before && !inside) ++number;
+    }
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::optional<std::string> fault_of(const Shape& shape) {
+  std::vector<Box> boxes;
+  for (const Side& side : shape.sides) boxes.push_back(box_of(side));
+  const std::vector<std::size_t> number = numbers_of(shape);
+  for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {
+    const std::size_t begin = shape.contour_starts[c], end = shape.contour_starts[c + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t j = i + 1; j < shape.sides.size(); ++j) {
+        const Box &a = boxes[i], &b = boxes[j];
+        if (a.low_x > b.high_x || b.low_x > a.high_x || a.low_y > b.high_y || b.low_y > a.high_y) continue;
+        const bool next = j < end && number[j] <= number[i] + 1;
+        const bool round = j < end && number[i] == 0 && number[j] == number[end - 1];
+        std::optional<std::string> fault;
+        if (next) fault = fault_of_neighbours(shape, i, j);
+        if (round && !fault) fault = fault_of_neighbours(shape, j, i);
+        if (!next && !round && !(distance(shape.sides[i], shape.sides[j]).low > 0))
+          fault = fmt::format("sides {} and {} meet, or cannot be told from it", i, j);
+        if (fault) return fault;
+      }
+    }
+  }
+  return misplaced(shape);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,320 @@
+#include "sticking_out.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <queue>
+
+#include "shape_distance.hpp"
+#include "shape_inside.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Pieces of the outline, and squares, that are looked at before the enclosure stays as wide as it is.
+constexpr std::size_t kMostPieces = 20'000;
+
+// ---- one stretch of the part's outline against the blank
+// ---------------------------------------------------
+
+/// Corners of a convex set that holds a line, or an arc of less than half a turn.
+struct Corners {
+  std::array<Vec, 3> at;
+  std::size_t count = 0;
+};
+
+Corners corners_of(const Side& piece) {
+  if (!piece.arc) return {{piece.from, piece.to, {}}, 2};
+  const Vec sum = piece.first + piece.last;
+  const Vec tip = sum * (piece.radius / (just(1) + dot(piece.first, piece.last)));
+  return {{piece.centre + piece.first * piece.radius, piece.centre + piece.last * piece.radius,
+           piece.centre + tip},
+          3};
+}
+
+/// No point of the piece is farther from c.
+double farthest(const Side& piece, const Vec& c) {
+  double most = std::max(length(piece.from - c).high, length(piece.to - c).high);
+  if (!piece.arc) return most;
+  const Vec away = piece.centre - c;
+  if (may_face(piece, away)) most = std::max(most, (length(away) + piece.radius).high);
+  return most + piece.off;
+}
+
+/// Whether all corners surely lie where an arc of a blank is nearest to along its radius.
+bool all_face(const Side& arc, const Corners& corners) {
+  if (arc.sweep == Sweep::full) return true;
+  bool after = true, before = true;
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const Vec d = corners.at[i] - arc.centre;
+    after = after && cross(arc.first, d).low >= 0;
+    before = before && cross(d, arc.last).low >= 0;
+  }
+  // A half-plane holds what lies between the corners; what an arc faces is both of two, or either.
+  return arc.sweep == Sweep::more ? after || before : after && before;
+}
+
+/// No point of the piece is farther from the side.
+double farthest(const Side& piece, const Corners& corners, const Side& side) {
+  double most = std::min(farthest(piece, side.from), farthest(piece, side.to));
+  if (!side.arc) {  // the distance from a line is a convex function: largest in a corner
+    double in_corners = 0;
+    for (std::size_t i = 0; i < corners.count; ++i)
+      in_corners = std::max(in_corners, distance(corners.at[i], side).high);
+    return std::min(most, (just(in_corners) + just(piece.off)).high);
+  }
+  if (!all_face(side, corners)) return most;
+  const double outside = (just(farthest(piece, side.centre)) - side.radius).high;
+  const double inside = (side.radius - just(distance(side.centre, piece).low)).high;
+  return std::min(most, (just(std::max({outside, inside, 0.0})) + just(piece.off)).high);
+}
+
+// ---- the outline
+// -------------------------------------------------------------------------------------------
+
+struct Stretch {
+  Side piece;
+  double high = 0;  ///< no point of it sticks out by more
+  friend bool operator<(const Stretch& a, const Stretch& b) { return a.high < b.high; }
+};
+
+/// Two halves; arcs of any sweep.
+std::array<Side, 2> halves(const Side& piece) {
+  std::array<Side, 2> two{piece, piece};
+  if (!piece.arc) {
+    two[0].to = two[1].from = (piece.from + piece.to) * just(0.5);
+    return two;
+  }
+  const Span turn = dot(piece.first, piece.last);
+  const Vec chord = piece.last - piece.first, sum = piece.first + piece.last;
+  Vec middle{chord.y, -chord.x};
+  if (piece.sweep == Sweep::full) middle = -piece.first;
+  if (piece.sweep == Sweep::less && turn.low > 0) middle = sum;
+  if (piece.sweep == Sweep::more && turn.low > 0) middle = -sum;
+  middle = unit(middle);
+  two[0].last = two[1].first = middle;
+  for (Side& half : two) {
+    half.sweep = piece.sweep == Sweep::full ? Sweep::half : Sweep::less;
+    half.from = half.centre + half.first * half.radius;
+    half.to = half.centre + half.last * half.radius;
+    half.ccw = true;
+  }
+  return two;
+}
+
+class Search {
+ public:
+  Search(const Shape& part, const Shape& blank, double tolerance)
+      : part_(part), blank_(blank), tolerance_(tolerance) {}
+
+  Span run() {
+    along_the_outline();
+    inside_the_outline();
+    return {low_, high_};
+  }
+
+ private:
+  [[nodiscard]] double goal() const { return low_ + tolerance_; }
+
+  /// A point of the part.
+  void reached_at(const Vec& p, double off) {
+    const double out = (distance(p, blank_) - just(off)).low;
+    if (!(out > low_)) return;
+    const auto in = holds(blank_, p);
+    if (in && !*in) low_ = out;
+  }
+
+  [[nodiscard]] double most_of(const Side& piece) const {
+    const Corners corners = corners_of(piece);
+    double most = kInfinity;
+    for (const Side& side : blank_.sides) most = std::min(most, farthest(piece, corners, side));
+    // All of it in the blank's material: none of it sticks out.
+    const Vec middle = (piece.from + piece.to) * just(0.5);
+    if (distance(middle, blank_).low > (just(farthest(piece, middle)) + just(piece.off)).high) {
+      const auto in = holds(blank_, middle);
+      if (in && *in) return 0;
+    }
+    return most;
+  }
+
+  void add(const Side& piece, double at_most, int cuts) {
+    if (cuts > 0 && piece.arc) {
+      for (const Side& half : halves(piece)) add(half, at_most, cuts - 1);
+      return;
+    }
+    reached_at(piece.from, piece.off);
+    open_.push({piece, std::min(at_most, most_of(piece))});
+  }
+
+  void along_the_outline() {
+    // Arcs in eighths of a turn at most.
+    for (const Side& side : part_.sides) add(side, kInfinity, side.sweep == Sweep::less ? 2 : 3);
+    for (std::size_t looked = 0; !open_.empty(); ++looked) {
+      const Stretch top = open_.top();
+      if (top.high <= goal() || looked == kMostPieces) break;
+      open_.pop();
+      for (const Side& half : halves(top.piece)) add(half, top.high, 0);
+    }
+    high_ = open_.empty() ? kInfinity : std::max(low_, open_.top().high);
+  }
+
+  struct Square {
+    Vec centre;
+    double half = 0, high = 0;
+    friend bool operator<(const Square& a, const Square& b) { return a.high < b.high; }
+  };
+
+  struct Nearest {
+    Vec from;         ///< the disc's centre - y
+    Vec away;         ///< its direction
+    double blur = 0;  ///< n . (x - y) may be less by that
+    Span curve;       ///< of the distance
+    bool bounds = false;
+  };
+  static void add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
+                          std::vector<Nearest>& near);
+  /// A bound for the distance from the blank where it has a local maximum in the disc; nothing if it has
+  /// none. `out` is the distance of its centre.
+  [[nodiscard]] std::optional<double> maximum_in(const Vec& centre, double radius, Span out) const;
+
+  void add(std::priority_queue<Square>& open, const Vec& centre, double half, double at_most) {
+    const double radius = 1.4142136 * half;
+    const Span out = distance(centre, blank_);
+    double high = std::min(at_most, (out + just(radius)).high);
+    if (high <= high_) return;  // no more than the outline has
+    const Span to_part = signed_distance(centre, part_);
+    if (to_part.high < -radius) return;  // no material
+    if (out.low > radius) {
+      const auto in = holds(blank_, centre);
+      if (in && *in) return;  // all of it in the blank
+    }
+    const std::optional<double> maximum = maximum_in(centre, radius, out);
+    if (!maximum) return;
+    high = std::min(high, *maximum);
+    if (to_part.low >= 0) reached_at(centre, 0);
+    open.push({centre, half, high});
+  }
+
+  void inside_the_outline() {
+    std::priority_queue<Square> open;
+    const Span x = just(0.5) * (just(part_.low_x) + just(part_.high_x)),
+               y = just(0.5) * (just(part_.low_y) + just(part_.high_y));
+    const double blur = (x.high - x.low) + (y.high - y.low);
+    const double half = 0.500001 * std::max((just(part_.high_x) - just(part_.low_x)).high,
+                                            (just(part_.high_y) - just(part_.low_y)).high) +
+                        2 * blur;
+    add(open, {x, y}, half, kInfinity);
+    for (std::size_t looked = 0; !open.empty(); ++looked) {
+      const Square top = open.top();
+      if (top.high <= std::max(goal(), high_) || looked == kMostPieces) break;
+      open.pop();
+      const double quarter = 0.5 * top.half;
+      for (const double dx : {-quarter, quarter})
+        for (const double dy : {-quarter, quarter})
+          add(open, top.centre + Vec{just(dx), just(dy)}, quarter, top.high);
+    }
+    if (!open.empty()) high_ = std::max(high_, open.top().high);
+    high_ = std::max(high_, low_);
+  }
+
+  const Shape& part_;
+  const Shape& blank_;
+  double tolerance_;
+  double low_ = 0, high_ = kInfinity;
+  std::priority_queue<Stretch> open_;
+};
+
+/// At a local maximum x the nearest points y of the blank are not all to one side: no n has n . (x - y) > 0
+/// for all. The point of a line nearest to x moves by no more than x does; that of an arc about c by no more
+/// than radius / |x - c| times as much, or it is an end.
+///
+/// A distance from a convex set, or from a circle, is at most d + u . s + s^2 curve / 2 a step s away, with
+/// its gradient u; so the least of two is at most half the sum of those. That is what a groove of even width
+/// needs, where the maximum is a ridge.
+std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span out) const {
+  std::vector<Nearest> near;
+  const Span reach = out + just(2 * radius);
+  std::size_t sides = 0;
+  for (const Side& side : blank_.sides) {
+    if (distance(centre, side).low > reach.high) continue;
+    ++sides;
+    if (side.arc && !(length(centre - side.centre).low > 2 * radius)) return kInfinity;  // near its centre
+    add_nearest(side, centre, radius, out, reach, near);
+  }
+  if (sides == 1) return std::nullopt;  // a line's distance has no maximum, an arc's has it in its centre
+  for (Nearest& one : near) {
+    if (!(length(one.from).low > 0)) return kInfinity;
+    one.away = unit(one.from);
+  }
+  // Two directions are tried: away from the nearest, and away from all.
+  std::array<Vec, 2> tries{Vec{just(0), just(0)}, Vec{just(0), just(0)}};
+  double nearest = kInfinity, least = kInfinity;
+  for (const Nearest& one : near) {
+    tries[1] = tries[1] + one.away;
+    const double apart = length(one.from).low;
+    if (apart < nearest) nearest = apart, tries[0] = one.away;
+  }
+  for (Vec& n : tries) {
+    if (!(length(n).low > 1e-6)) continue;
+    n = unit(n);
+    const bool all = std::all_of(near.begin(), near.end(), [&](const Nearest& one) {
+      return dot(n, one.from).low > one.blur * 1.000001;
+    });
+    if (all) return std::nullopt;
+  }
+  const Span r = just(radius);
+  for (const Nearest& a : near) {
+    for (const Nearest& b : near) {
+      if (!a.bounds || !b.bounds) continue;
+      const Span sum = length(a.from) + length(b.from) + length(a.away + b.away) * r +
+                       just(0.5) * (a.curve + b.curve) * r * r;
+      least = std::min(least, (just(0.5) * sum).high);
+    }
+  }
+  return least;
+}
+
+/// The points of a side that may be nearest to a point of the disc.
+void Search::add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
+                         std::vector<Nearest>& near) {
+  const auto curve_at = [&](Span apart) {  // of a distance from something convex
+    const Span left = apart - just(radius);
+    return left.low > 0 ? just(1) / left : just(kInfinity);
+  };
+  const auto add = [&](const Vec& from, double blur, Span curve) {
+    near.push_back({from, {}, blur, curve, curve.high < kInfinity});
+  };
+  if (!side.arc) {
+    const Vec along = side.to - side.from;
+    const Span whole = length(along);
+    const Span share = dot(along, centre - side.from) / squared(whole);
+    const Span clamped{std::clamp(share.low, 0.0, 1.0), std::clamp(share.high, 0.0, 1.0)};
+    const Vec from = centre - (side.from + along * clamped);
+    const Span play = just(radius) / whole;
+    const bool between = (share - play).low > 0 && (share + play).high < 1 && length(from).low > radius;
+    return add(from, 2 * radius, between ? just(0) : curve_at(length(from)));
+  }
+  const Vec w = centre - side.centre;
+  const Span far = length(w), apart = absolute(far - side.radius);
+  const double factor = (side.radius / (far - just(radius))).high, blur = (1 + factor) * radius;
+  if (!(apart.high + blur < out.low) && !(apart.low - blur > reach.high)) {
+    const bool after = cross(side.first, w).low > radius, before = cross(w, side.last).low > radius;
+    const bool facing =
+        side.sweep == Sweep::full || (side.sweep == Sweep::more ? after || before : after && before);
+    const bool one_side = apart.low > radius;
+    const Span curve = far.low > side.radius.high ? curve_at(far) : just(0);  // inside a circle it is concave
+    add(w - unit(w) * side.radius, blur, facing && one_side ? curve : just(kInfinity));
+  }
+  for (const Vec* end : {&side.from, &side.to})
+    if (!(length(centre - *end).low - side.off > reach.high))
+      add(centre - *end, radius + side.off, curve_at(length(centre - *end)));
+}
+
+}  // namespace
+
+Span sticking_out(const Shape& placed_part, const Shape& blank, double tolerance) {
+  return Search(placed_part, blank, tolerance).run();
+}
+
+}  // namespace lekalo::verify
