@@ -71,16 +71,19 @@ double reach(const geom::RegionIndex& part) {
 
 }  // namespace
 
-PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const PoseCell& root, double far, double gap,
-                       double at_least, const RunControl& run)
+PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const std::vector<Cap>& caps,
+                       const PoseCell& root, double far, double gap, double at_least, double enough,
+                       const RunControl& run)
     : clearance_(clearance),
+      caps_(caps),
       root_(root),
       gap_(gap),
       run_(run),
       reach_(reach(clearance.part())),
       blank_grid_(clearance.blank(), root.pivot, std::max(root.half_x, root.half_y) + reach_),
       part_grid_(clearance.part(), {0, 0}, reach_),
-      at_least_(at_least) {
+      at_least_(at_least),
+      enough_(enough) {
   best_.value = -kInfinity;
   const geom::Box box = clearance.blank().bounds();
   scale_ = std::max(norm(box.high - box.low), reach_);
@@ -93,14 +96,17 @@ PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const PoseCell& ro
 
 void PoseSearch::collect_samples() {
   const auto& curves = clearance_.part().curves();
-  for (std::uint32_t k = 0; k < curves.size(); ++k) {
+  const auto add = [&](std::uint32_t k, std::uint32_t cap) {
     const geom::Edge& edge = curves[k].edge;
     const Point opposite = 2 * edge.centre - edge.from, middle = 0.5 * (edge.from + edge.to);
     const bool line = edge.kind == geom::EdgeKind::line;
     for (const Point& p :
          {edge.from, line ? middle : nearest_on(curves[k], curves[k].full ? opposite : middle)})
-      samples_.push_back({p, norm(p), k});
-  }
+      samples_.push_back({p, norm(p), k, cap});
+  };
+  for (std::uint32_t k = 0; k < curves.size(); ++k) add(k, kNoCap);
+  for (std::uint32_t cap = 0; cap < caps_.size(); ++cap)
+    for (const std::uint32_t k : caps_[cap].edges) add(k, cap);
   // The furthest first: they tell angles apart.
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.far > b.far; });
@@ -140,9 +146,14 @@ double PoseSearch::size(const PoseCell& cell) const {
   return std::max({cell.half_x, cell.half_y, reach_ * cell.half_theta});
 }
 
+std::array<double, 3> PoseSearch::trusted(double half) const {
+  return {root_.half_x > 0 ? half : 0, root_.half_y > 0 ? half : 0, root_.half_theta > 0 ? half : 0};
+}
+
 void PoseSearch::take(Node& node, double bound, const CellProof& proof) {
   // Below minus the radius of a ball the sum of distances no longer bounds the clearance.
-  for (std::size_t j = 0; j < proof.terms; ++j) bound = std::max(bound, -proof.term[j].pair.blank.radius);
+  for (std::size_t j = 0; j < proof.terms; ++j)
+    if (proof.term[j].cap == kNoCap) bound = std::max(bound, -proof.term[j].pair.blank.radius);
   if (!(bound < node.upper)) return;
   node.upper = bound;
   cover_[node.cover].proof = proof;
@@ -154,7 +165,7 @@ void PoseSearch::bound_coarsely(Node& node) {
   if (!closed(node.upper)) bound_by_voids(node);
 }
 
-/// A point of the part is no further inside the blank than its distance from the boundary.
+/// A point of the part is no further inside the blank than its distance from the boundary, nor less.
 void PoseSearch::bound_by_samples(Node& node) {
   const PoseCell& cell = node.cell;
   const geom::SinCos turn = geom::sincos(cell.theta);
@@ -165,12 +176,19 @@ void PoseSearch::bound_by_samples(Node& node) {
     const Point q{turn.cosine * p.x - turn.sine * p.y + cell.pivot.x,
                   turn.sine * p.x + turn.cosine * p.y + cell.pivot.y};
     const DistanceGrid::Value value = blank_grid_.near(q);
-    const double bound = value.signed_distance + value.off + slide + per_far * samples_[k].far + rounding_;
+    const std::uint32_t cap = samples_[k].cap;
+    const double at_middle = cap == kNoCap ? value.signed_distance : caps_[cap].most - value.signed_distance;
+    const double bound = at_middle + value.off + slide + per_far * samples_[k].far + rounding_;
     if (!(bound < node.upper)) continue;
     CellProof proof;
     proof.terms = 1;
     const double depth = -value.signed_distance;
-    proof.term[0] = {{{p, 0}, depth > 0 ? Ball{value.at, depth} : Ball{value.nearest, 0}}, 1};
+    if (cap != kNoCap) {
+      if (!(depth < 0)) continue;
+      proof.term[0] = {{{p, 0}, {value.at, -depth - caps_[cap].most}}, 1, cap};
+    } else {
+      proof.term[0] = {{{p, 0}, depth > 0 ? Ball{value.at, depth} : Ball{value.nearest, 0}}, 1, kNoCap};
+    }
     take(node, bound, proof);
     if (closed(node.upper)) {
       std::swap(samples_[k], samples_[k / 2]);  // what closes often is tried early
@@ -195,7 +213,8 @@ void PoseSearch::bound_by_voids(Node& node) {
     proof.terms = 1;
     proof.term[0] = {
         {value.signed_distance > 0 ? Ball{value.at, value.signed_distance} : Ball{value.nearest, 0}, ball},
-        1};
+        1,
+        kNoCap};
     take(node, bound, proof);
     if (closed(node.upper)) return;
   }
@@ -238,8 +257,10 @@ bool PoseSearch::solve(Node& node, CellSolution& solution) {
   ++work_;
   solution = solve_cell(rows_, {cell.half_x, cell.half_y, reach_ * cell.half_theta});
   CellProof proof;
-  for (std::size_t j = 0; j < solution.rows; ++j)
-    proof.term[proof.terms++] = {known_[node.pairs[solution.row[j]]].pair, solution.multiplier[j]};
+  for (std::size_t j = 0; j < solution.rows; ++j) {
+    const Known& known = known_[node.pairs[solution.row[j]]];
+    proof.term[proof.terms++] = {known.pair, solution.multiplier[j], known.cap};
+  }
   take(node, solution.bound + rounding_, proof);
   return closed(node.upper);
 }
@@ -256,17 +277,16 @@ bool PoseSearch::add_contacts(Node& node, double theta, double within) {
     if (contact.distance > least + within) continue;
     Known known;
     known.pair = {{contact.part, 0}, {contact.blank, 0}};
+    known.part = contact.part, known.blank = contact.blank, known.cap = contact.cap;
     known.normal_of_blank = contact.normal;
     known.normal_of_part = {turn.cosine * contact.normal.x + turn.sine * contact.normal.y,
                             turn.cosine * contact.normal.y - turn.sine * contact.normal.x};
     const bool again = std::any_of(node.pairs.begin(), node.pairs.end(), [&](std::uint32_t k) {
-      // Balls touch where their points were.
       const Known& other = known_[k];
-      return near(other.pair.part.centre - other.pair.part.radius * other.normal_of_part, contact.part) &&
-             near(other.pair.blank.centre + other.pair.blank.radius * other.normal_of_blank, contact.blank);
+      return other.cap == contact.cap && near(other.part, contact.part) && near(other.blank, contact.blank);
     });
     if (again) continue;
-    if (contact.distance < 0) grow(known);
+    if (contact.distance < 0 || contact.cap != kNoCap) grow(known);
     node.pairs.push_back(static_cast<std::uint32_t>(known_.size()));
     known_.push_back(known);
     rows_.push_back(row_of(known.pair, node.cell));
@@ -278,6 +298,13 @@ bool PoseSearch::add_contacts(Node& node, double theta, double within) {
 void PoseSearch::grow(Known& known) const {
   known.grown = true;
   const double most = kLargestBall * scale_, least = kSmallestBall * scale_;
+  if (known.cap != kNoCap) {
+    // The ball in the material that touches the blank's outline where the point is nearest to it.
+    const Ball ball = tangent_ball(clearance_.blank(), known.blank, -known.normal_of_blank, most, 0, doubt_);
+    const bool held = ball.radius > 0 && clearance_.blank().contains(ball.centre);
+    known.pair.blank = {held ? ball.centre : known.blank, (held ? ball.radius : 0) - caps_[known.cap].most};
+    return;
+  }
   const Ball outside =
       tangent_ball(clearance_.blank(), known.pair.blank.centre, -known.normal_of_blank, most, least, doubt_);
   if (outside.radius > 0 && !clearance_.blank().contains(outside.centre)) known.pair.blank = outside;
@@ -356,18 +383,32 @@ PoseSearch::Found PoseSearch::measure(double theta, Point pivot, double margin) 
     const Point out = pose(touching.part) - touching.blank;
     const double distance = norm(out);
     if (!(distance > 1e-9 * scale_)) continue;  // no direction to be had
-    contacts_.push_back({touching.part, touching.blank, (1 / distance) * out, distance});
+    contacts_.push_back({touching.part, touching.blank, (1 / distance) * out, distance, kNoCap});
   }
   Found found{theta, pivot, value.distance, value.inside};
   if (!value.inside) measure_crossing(pose, found);
+  if (!caps_.empty()) measure_caps(pose, margin, found);
   return found;
+}
+
+void PoseSearch::measure_caps(const BlankFromPart& pose, double margin, Found& found) {
+  for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
+    const double most = caps_[cap].most;
+    const double deepest = clearance_.deepest(pose, caps_[cap].edges, 0.125 * gap_, margin, deepest_);
+    found.value = std::min(found.value, most - deepest);
+    for (const phi::RegionContact& at : deepest_) {
+      if (!(at.distance > 1e-9 * scale_)) continue;  // no direction to be had
+      contacts_.push_back(
+          {at.part, at.blank, (1 / at.distance) * (at.blank - pose(at.part)), most - at.distance, cap});
+    }
+  }
 }
 
 void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
   std::vector<Contact> crossing;
   const auto add = [&](Point part, Point blank, double depth) {
     const Point in = blank - pose(part);
-    if (depth > 1e-9 * scale_) crossing.push_back({part, blank, (1 / depth) * in, -depth});
+    if (depth > 1e-9 * scale_) crossing.push_back({part, blank, (1 / depth) * in, -depth, kNoCap});
   };
   const auto back = pose.inverse();
   /// The blank's edge nearest to a point of the part outside the blank.
@@ -394,8 +435,10 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
     for (std::size_t k = deepest_points(part, blank, point); k-- > 0;) sticks_out(back(point[k]));
     for (std::size_t k = deepest_points(blank, part, point); k-- > 0;) sticks_in(point[k]);
   };
-  for (const Sample& sample : samples_)
+  for (const Sample& sample : samples_) {
+    if (sample.cap != kNoCap) continue;  // its point is another sample too
     if (const auto edge = sticks_out(sample.at)) deepest(sample.edge, *edge);
+  }
   for (const geom::Curve& curve : clearance_.blank().curves()) sticks_in(curve.edge.from);
   for (const phi::RegionContact& pair : touching_)
     if (!(pair.distance > 1e-9 * scale_)) deepest(pair.part_edge, pair.blank_edge);
@@ -435,7 +478,7 @@ void PoseSearch::polish(Found found, double trust) {
            contact.distance});
     }
     const double theta_low = root_.theta - root_.half_theta, theta_high = root_.theta + root_.half_theta;
-    const CellSolution solution = solve_cell(rows, {trust, trust, trust});
+    const CellSolution solution = solve_cell(rows, trusted(trust));
     if (!(solution.bound > found.value + 0.1 * gap_)) break;
     const std::vector<Contact> here = contacts_;
     const double theta = std::clamp(found.theta + solution.z[2] / reach_, theta_low, theta_high);
@@ -507,22 +550,28 @@ std::vector<PoseSearch::Held> PoseSearch::held_at(const Found& found) {
   (void)measure(found.theta, found.pivot, margin);
   const BlankFromPart pose = pose_at(found.theta, found.pivot);
   std::vector<CellRow> rows;
-  std::vector<phi::RegionContact> contacts;
-  for (const phi::RegionContact& contact : touching_) {
+  std::vector<Held> near;
+  const auto add = [&](const phi::RegionContact& contact, std::uint32_t cap) {
     const Point out = pose(contact.part) - contact.blank;
-    const double distance = norm(out);
-    if (!(distance > 1e-9 * scale_)) continue;
-    const Point n = (1 / distance) * out, p = pose.rotate(contact.part);
-    rows.push_back({{n.x, n.y, dot(n, geom::perpendicular(p)) / reach_}, distance});
-    contacts.push_back(contact);
+    const double distance = norm(out), side = cap == kNoCap ? 1 : -1;
+    if (!(distance > 1e-9 * scale_)) return;
+    const Point n = (side / distance) * out, p = pose.rotate(contact.part);
+    const double left = cap == kNoCap ? distance : caps_[cap].most - distance;
+    rows.push_back({{n.x, n.y, dot(n, geom::perpendicular(p)) / reach_}, left});
+    near.push_back({contact, 0, cap});
+  };
+  for (const phi::RegionContact& contact : touching_) add(contact, kNoCap);
+  for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
+    (void)clearance_.deepest(pose, caps_[cap].edges, 0.125 * gap_, margin, deepest_);
+    for (const phi::RegionContact& contact : deepest_) add(contact, cap);
   }
   std::vector<Held> held;
   if (rows.empty()) return held;
-  const double trust = 0.1 * fine_;
-  const CellSolution solution = solve_cell(
-      rows, {root_.half_x > 0 ? trust : 0, root_.half_y > 0 ? trust : 0, root_.half_theta > 0 ? trust : 0});
-  for (std::size_t j = 0; j < solution.rows; ++j)
-    held.push_back({contacts[solution.row[j]], solution.multiplier[j]});
+  const CellSolution solution = solve_cell(rows, trusted(0.1 * fine_));
+  for (std::size_t j = 0; j < solution.rows; ++j) {
+    held.push_back(near[solution.row[j]]);
+    held.back().multiplier = solution.multiplier[j];
+  }
   std::sort(held.begin(), held.end(), [](const Held& a, const Held& b) {
     return a.contact.blank_edge != b.contact.blank_edge ? a.contact.blank_edge < b.contact.blank_edge
                                                         : a.contact.part_edge < b.contact.part_edge;
@@ -541,7 +590,7 @@ void PoseSearch::run() {
   finished_ = true;
   std::uint64_t divided = 0, next_dive = kFirstDive;
   while (!open.empty()) {
-    if (closed(open.front().upper)) break;
+    if (closed(open.front().upper) || best_.value >= enough_) break;
     if (work_ >= run_.work_limit || run_.stop_requested()) {
       finished_ = false;
       break;

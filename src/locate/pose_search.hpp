@@ -7,11 +7,17 @@
 #include "cell_program.hpp"
 #include "distance_grid.hpp"
 #include "lekalo/base/run_control.hpp"
+#include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
 #include "sinusoid.hpp"
 #include "tangent_balls.hpp"
 
 namespace lekalo::locate {
+
+/// Not a cap. A cap pair is a point of one of a cap's edges (part.radius 0) and a ball in the blank's
+/// material, its radius less by Cap::most: however the part lies, `most` less the depth of the point is at
+/// most the pair's distance.
+inline constexpr std::uint32_t kNoCap = 0xffffffff;
 
 /// A box of poses: where the part's pivot lies in the blank, and the angle; middle and half widths.
 struct PoseCell {
@@ -20,11 +26,12 @@ struct PoseCell {
   double half_x = 0, half_y = 0;
 };
 
-/// Pairs of balls with multipliers that sum to 1: the weighted sum of their distances bounds the clearance.
+/// Pairs of balls with multipliers that sum to 1: the weighted sum of their distances bounds the objective.
 struct CellProof {
   struct Term {
     BallPair pair;
     double multiplier = 0;
+    std::uint32_t cap = kNoCap;  ///< of the problem; then `pair` is a cap pair
   };
   std::array<Term, 4> term;
   std::size_t terms = 0;
@@ -40,20 +47,23 @@ struct CoverNode {
 };
 
 /// Best-first branch and bound over poses of a part in a blank of any shape (docs/design/locate-region.md).
+/// The objective is the least of the clearance and, of every cap, `most` less the greatest depth of its
+/// edges.
 class PoseSearch {
  public:
   struct Found {
     double theta = 0;
     geom::Point pivot;  ///< in the blank's frame
-    double value = 0;   ///< signed clearance as measured; not yet rounded down
+    double value = 0;   ///< the objective as measured; not yet rounded down
     bool inside = false;
   };
 
   /// \param clearance  part (its points counted from the pivot) and blank, in local coordinates
   /// \param far        largest |coordinate| of the problem in its own frames, which rounding follows
   /// \param at_least   a clearance known to be reachable: cells that prove no more need not be divided
-  PoseSearch(const phi::RegionClearance& clearance, const PoseCell& root, double far, double gap,
-             double at_least, const RunControl& run);
+  /// \param enough     the search ends when it has found so much
+  PoseSearch(const phi::RegionClearance& clearance, const std::vector<Cap>& caps, const PoseCell& root,
+             double far, double gap, double at_least, double enough, const RunControl& run);
 
   void run();
 
@@ -61,6 +71,7 @@ class PoseSearch {
   struct Held {
     phi::RegionContact contact;
     double multiplier = 0;
+    std::uint32_t cap = kNoCap;
   };
   [[nodiscard]] std::vector<Held> held_at(const Found& found);
 
@@ -82,6 +93,7 @@ class PoseSearch {
     geom::Point at;
     double far = 0;          ///< from the pivot
     std::uint32_t edge = 0;  ///< of the part
+    std::uint32_t cap = kNoCap;
   };
   /// A place where the outlines come close, or cross: `distance` is negative where the part's point lies
   /// outside the blank or the blank's point inside the part. The normal points from the blank's outside to
@@ -89,12 +101,17 @@ class PoseSearch {
   struct Contact {
     geom::Point part, blank, normal;
     double distance = 0;
+    /// Where a cap's edge lies deepest: `distance` is what the cap has left, the normal points from the
+    /// part's point to the blank's.
+    std::uint32_t cap = kNoCap;
   };
   /// A pair found at a contact. It begins as two points and gets its balls when its curvature matters.
   struct Known {
     BallPair pair;
+    geom::Point part, blank;  ///< the two points
     geom::Point normal_of_part, normal_of_blank;
     bool grown = false;
+    std::uint32_t cap = kNoCap;
   };
 
   void collect_samples();
@@ -112,14 +129,18 @@ class PoseSearch {
   void keep_relevant(Node& node) const;
   Found measure(double theta, geom::Point pivot, double margin);
   void measure_crossing(const geom::BlankFromPart& pose, Found& found);
+  void measure_caps(const geom::BlankFromPart& pose, double margin, Found& found);
   void offer(const Found& found, double trust);
   void polish(Found found, double trust);
   void report_progress(const PoseCell& closed_cell);
   std::array<Node, 2> split(const Node& node);
   [[nodiscard]] double size(const PoseCell& cell) const;
   [[nodiscard]] bool closed(double upper) const { return upper <= std::max(best_.value, at_least_) + gap_; }
+  /// Half widths of a box of steps that leaves what is locked as it is.
+  [[nodiscard]] std::array<double, 3> trusted(double half) const;
 
   const phi::RegionClearance& clearance_;
+  const std::vector<Cap>& caps_;
   PoseCell root_;
   double gap_;
   const RunControl& run_;
@@ -131,10 +152,10 @@ class PoseSearch {
   std::vector<Known> known_;
   std::vector<CoverNode> cover_;
   std::vector<Contact> contacts_;
-  std::vector<phi::RegionContact> touching_;
+  std::vector<phi::RegionContact> touching_, deepest_;
   std::vector<CellRow> rows_;
   Found best_;
-  double at_least_;
+  double at_least_, enough_;
   double upper_ = 0;
   bool finished_ = false;
   std::uint64_t work_ = 0, next_report_ = 0;

@@ -53,13 +53,22 @@ Point middle(const Box& box) {
   return {0.5 * box.low.x + 0.5 * box.high.x, 0.5 * box.low.y + 0.5 * box.high.y};
 }
 
+constexpr double kLargestShift = 1e9;  ///< mm
+
+std::optional<std::uint32_t> optional_cap(std::uint32_t cap) {
+  return cap == kNoCap ? std::nullopt : std::optional(cap);
+}
+
 class RegionLocaliser {
  public:
   RegionLocaliser(const RegionProblem& problem, const RegionOptions& options)
       : problem_(problem), options_(options), given_(problem.part, problem.blank) {
-    part_origin_ = middle(given_.part().bounds());
+    // A locked shift is that of the part's own origin: only that stays where it is when the part turns.
+    if (!problem.locked.x && !problem.locked.y) part_origin_ = middle(given_.part().bounds());
     blank_origin_ = middle(given_.blank().bounds());
     far_ = largest(given_.part().bounds()) + largest(given_.blank().bounds());
+    for (const std::optional<double>& locked : {problem.locked.x, problem.locked.y})
+      far_ += std::abs(locked.value_or(0));
     // The pivot need not be material: then the box grows by its distance from what is.
     pivot_off_ = given_.part().contains(part_origin_) ? 0 : given_.part().nearest(part_origin_).distance;
   }
@@ -77,7 +86,8 @@ class RegionLocaliser {
       RunControl run = options_.run;
       if (run.work_limit != std::numeric_limits<std::uint64_t>::max())
         run.work_limit = run.work_limit > result.work ? run.work_limit - result.work : 0;
-      PoseSearch search(local, root(), far_, search_gap(), best, run);
+      PoseSearch search(local, problem_.caps, root(), far_, search_gap(),
+                        std::max(best, options_.not_above - search_gap()), options_.enough + taken(), run);
       search.run();
       finished = finished && search.finished();
       result.work += search.work();
@@ -85,12 +95,13 @@ class RegionLocaliser {
       if (options_.keep_certificate) result.certificate.push_back(tree(search, mirrored));
       if (search.best().value > best) {
         best = search.best().value;
+        result.found = true;
         result.mirrored = mirrored;
         result.best = placement(search.best(), mirrored);
         result.contacts = contacts(search, mirrored);
       }
     }
-    result.upper_bound = std::max(result.upper_bound, -deepest());
+    result.upper_bound = std::max(result.upper_bound, -furthest_out());
     result.upper_bound += problem_.part_tolerance + problem_.blank_tolerance;
     result.upper_bound = std::nextafter(result.upper_bound, std::numeric_limits<double>::infinity());
     result.shortfall = std::max(0.0, options_.min_allowance - result.best.clearance);
@@ -108,7 +119,7 @@ class RegionLocaliser {
   [[nodiscard]] double search_gap() const { return std::max(options_.gap - taken(), 0.25 * options_.gap); }
 
   /// Placements where more of the part sticks out than this are not searched, mm.
-  [[nodiscard]] double deepest() const {
+  [[nodiscard]] double furthest_out() const {
     const Box box = given_.blank().bounds();
     return 0.03125 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   }
@@ -118,13 +129,17 @@ class RegionLocaliser {
     // the blank's box than it is from the material, and than that.
     const Box box = given_.blank().bounds();
     const Point half = 0.5 * (box.high - box.low);
-    const double more = pivot_off_ + deepest();
+    const double more = pivot_off_ + furthest_out();
     const AngleWindow& window = problem_.window;
-    return {0.5 * (window.from + window.to),
-            0.5 * (window.to - window.from) * (1 + 0x1p-50),
-            {0, 0},
-            half.x + more,
-            half.y + more};
+    PoseCell cell{0.5 * (window.from + window.to),
+                  0.5 * (window.to - window.from) * (1 + 0x1p-50),
+                  {0, 0},
+                  half.x + more,
+                  half.y + more};
+    const LockedShift& locked = problem_.locked;
+    if (locked.x) cell.pivot.x = *locked.x - blank_origin_.x, cell.half_x = 0;
+    if (locked.y) cell.pivot.y = *locked.y - blank_origin_.y, cell.half_y = 0;
+    return cell;
   }
 
   /// The pose in the file's coordinates, its doubles fixed first and its clearance measured at those.
@@ -132,10 +147,16 @@ class RegionLocaliser {
     const Point pivot = BlankFromPart::from_angle(found.theta, {}, mirrored).rotate(part_origin_);
     Placement placement{found.pivot.x + blank_origin_.x - pivot.x, found.pivot.y + blank_origin_.y - pivot.y,
                         found.theta, 0};
+    if (problem_.locked.x) placement.x = *problem_.locked.x;
+    if (problem_.locked.y) placement.y = *problem_.locked.y;
     const BlankFromPart pose =
         BlankFromPart::from_angle(placement.theta, {placement.x, placement.y}, mirrored);
     const phi::RegionClearance::Value value = given_.at(pose);
-    const double measured = value.inside ? value.distance : -given_.depth(pose, 0.25 * options_.gap);
+    double measured = value.inside ? value.distance : -given_.depth(pose, 0.25 * options_.gap);
+    std::vector<phi::RegionContact> places;
+    for (const Cap& cap : problem_.caps)
+      measured =
+          std::min(measured, cap.most - given_.deepest(pose, cap.edges, 0.125 * options_.gap, 0, places));
     const double far = far_ + std::abs(placement.x) + std::abs(placement.y);
     placement.clearance =
         measured - 4 * geom::kEdgeDistanceError * far - problem_.part_tolerance - problem_.blank_tolerance;
@@ -152,7 +173,7 @@ class RegionLocaliser {
     for (const PoseSearch::Held& held : search.held_at(search.best())) {
       const phi::RegionContact& c = held.contact;
       touches.push_back({c.part_edge, c.blank_edge, given_point(c.part, mirrored), c.blank + blank_origin_,
-                         c.distance, held.multiplier});
+                         c.distance, held.multiplier, optional_cap(held.cap)});
     }
     return touches;
   }
@@ -164,6 +185,8 @@ class RegionLocaliser {
     tree.theta_from = cell.theta - cell.half_theta, tree.theta_to = cell.theta + cell.half_theta;
     const Point half{cell.half_x, cell.half_y};
     tree.box = {blank_origin_ - half, blank_origin_ + half};
+    if (problem_.locked.x) tree.box.low.x = tree.box.high.x = *problem_.locked.x;
+    if (problem_.locked.y) tree.box.low.y = tree.box.high.y = *problem_.locked.y;
     std::vector<std::uint32_t> open{0};
     while (!open.empty()) {
       const CoverNode& node = search.cover()[open.back()];
@@ -174,9 +197,10 @@ class RegionLocaliser {
                                 static_cast<std::uint32_t>(node.proof.terms)});
           for (std::size_t j = 0; j < node.proof.terms; ++j) {
             const CellProof::Term& term = node.proof.term[j];
+            const double less = term.cap == kNoCap ? 0 : problem_.caps[term.cap].most;
             tree.terms.push_back({given_point(term.pair.part.centre, mirrored), term.pair.part.radius,
-                                  term.pair.blank.centre + blank_origin_, term.pair.blank.radius,
-                                  term.multiplier});
+                                  term.pair.blank.centre + blank_origin_, term.pair.blank.radius + less,
+                                  term.multiplier, optional_cap(term.cap)});
           }
           continue;
         }
@@ -212,6 +236,9 @@ Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOp
     return failure(ErrorCode::usage, "tolerances must not be negative");
   if (problem.part.empty() || problem.blank.empty())
     return failure(ErrorCode::bad_input, "part and blank must have an outline");
+  for (const std::optional<double>& locked : {problem.locked.x, problem.locked.y})
+    if (locked && !(std::abs(*locked) <= kLargestShift))
+      return failure(ErrorCode::usage, "a locked x or y must be a number up to 1e9");
   return RegionLocaliser(problem, options).run();
 }
 

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -20,18 +22,39 @@ namespace lekalo::locate {
 
 enum class Mirror { no, yes, either };  ///< mirrored parts are mirrored in x before they are turned
 
+/// No point of these edges of the part may lie more than `most` mm inside the blank: material that a cut
+/// cannot take, or a feature that is finished.
+struct Cap {
+  std::vector<std::uint32_t> edges;  ///< numbered through all pieces and contours as in RegionTouch
+  double most = 0;
+};
+
+/// Where a shift of the placement is given: x, y of p -> R(theta) p + (x, y), mm. (The angle is locked by a
+/// window of one angle.)
+struct LockedShift {
+  std::optional<double> x, y;
+};
+
 struct RegionProblem {
   std::vector<geom::Region> part, blank;
   AngleWindow window;
   Mirror mirror = Mirror::no;
   /// How far the true outlines may be from the regions, mm. Taken off the clearance and added to the bound.
   double part_tolerance = 0, blank_tolerance = 0;
+  LockedShift locked = {};
+  /// With caps the least of the clearance and what each cap has left (`most` less the greatest depth of its
+  /// edges) is maximised, and stands for the clearance everywhere here.
+  std::vector<Cap> caps = {};
 };
 
 struct RegionOptions {
   double gap = 1e-3;         ///< stop when upper bound - clearance is this small, mm, > 0
   double min_allowance = 0;  ///< mm; when provably not reachable the status is infeasible
   bool keep_certificate = true;
+  /// The search ends when a placement reaches `enough`; boxes that prove no more than `not_above` are closed.
+  /// Together they decide whether a clearance can be reached, for less than the largest one costs.
+  double enough = std::numeric_limits<double>::infinity();
+  double not_above = -std::numeric_limits<double>::infinity();
   RunControl run;  ///< one unit of work is one box bounded, one program solved or one pose measured
 };
 
@@ -39,19 +62,22 @@ struct RegionOptions {
 /// contours, each outer contour before its holes, in the order of the regions given.
 struct RegionTouch {
   std::uint32_t part_edge = 0, blank_edge = 0;
-  geom::Point part, blank;  ///< the two points, each in its own frame, mm
-  double distance = 0;      ///< mm, at the placement
-  double multiplier = 0;    ///< its share in what holds the placement; all sum to 1
+  geom::Point part, blank;           ///< the two points, each in its own frame, mm
+  double distance = 0;               ///< mm, at the placement
+  double multiplier = 0;             ///< its share in what holds the placement; all sum to 1
+  std::optional<std::uint32_t> cap;  ///< the cap that the part's point is deep for; none: it is near
 };
 
 /// One ball in the part's material, one in whose inside the blank has none, radii >= 0 (0: a point of the
-/// outline); part coordinates and blank coordinates.
+/// outline); part coordinates and blank coordinates. With a cap: a point of one of its edges, and a ball in
+/// the blank's material.
 struct BallTerm {
   geom::Point part_centre;
   double part_radius = 0;
   geom::Point blank_centre;
   double blank_radius = 0;
   double multiplier = 0;
+  std::optional<std::uint32_t> cap;
 };
 
 /// A subdivision of a box of poses in preorder: a split is followed by its low half and its high half. Poses
@@ -73,7 +99,8 @@ struct CoverTree {
 
 struct RegionResult {
   Status status = Status::stopped;
-  Placement best;  ///< clearance rounded down: an exact recheck never finds less
+  Placement best;      ///< clearance rounded down: an exact recheck never finds less
+  bool found = false;  ///< whether a placement was looked at at all
   bool mirrored = false;
   double upper_bound = 0;  ///< no placement in the window has more; rounded up
   double shortfall = 0;    ///< max(0, min_allowance - clearance)
