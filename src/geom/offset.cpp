@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lekalo/base/assert.hpp"
 #include "overlay.hpp"
 
 namespace lekalo::geom {
@@ -16,6 +17,8 @@ Edge line(Point from, Point to) { return {EdgeKind::line, from, to, {}}; }
 
 Point unit(Point v) { return (1 / norm(v)) * v; }
 Point right_of(Point direction) { return -perpendicular(direction); }
+
+bool is_circle(const Edge& edge) { return edge.kind != EdgeKind::line && edge.from == edge.to; }
 
 Point direction_at(const Edge& edge, Point at) {
   if (edge.kind == EdgeKind::line) return unit(edge.to - edge.from);
@@ -36,15 +39,22 @@ class Brush {
   void sweep(const Contour& contour) {
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Edge& edge = contour[i];
-      if (edge.kind == EdgeKind::line)
-        along_line(edge);
-      else if (edge.from == edge.to)
-        along_circle(edge);
-      else
-        along_arc(edge);
-      if (!(edge.kind != EdgeKind::line && edge.from == edge.to))
-        around_corner(edge, contour[i + 1 == contour.size() ? 0 : i + 1]);
+      sweep(edge);
+      if (!is_circle(edge)) around_corner(edge, contour[i + 1 == contour.size() ? 0 : i + 1]);
     }
+  }
+  /// On the right of one edge.
+  void sweep(const Edge& edge) {
+    if (edge.kind == EdgeKind::line)
+      along_line(edge);
+    else if (is_circle(edge))
+      along_circle(edge);
+    else
+      along_arc(edge);
+  }
+  void disc(Point centre) {
+    const Point from = centre + Point{radius_, 0};
+    add({{EdgeKind::arc_ccw, from, from, centre}});
   }
 
  private:
@@ -97,11 +107,8 @@ class Brush {
     const Point corner = in.to, arriving = direction_at(in, corner), leaving = direction_at(next, corner);
     const double turn = cross(arriving, leaving);
     constexpr double kNearlyBack = 1e-9;
-    if (dot(arriving, leaving) < 0 && std::abs(turn) < kNearlyBack) {  // a tip: rounding hides its side
-      const Point from = corner + Point{radius_, 0};
-      add({{EdgeKind::arc_ccw, from, from, corner}});
-      return;
-    }
+    if (dot(arriving, leaving) < 0 && std::abs(turn) < kNearlyBack)  // a tip: rounding hides its side
+      return disc(corner);
     if (!(turn > 0)) return;
     const Point from = corner + radius_ * right_of(arriving), to = corner + radius_ * right_of(leaving);
     if (!(from == to)) add({line(corner, from), {EdgeKind::arc_ccw, from, to, corner}, line(to, corner)});
@@ -140,7 +147,37 @@ Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance
       outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, whole->edge_error);
 }
 
+/// Adds all points within `distance` of an edge, on the sides asked for.
+void add_rim(const Edge& edge, double distance, std::uint8_t operand, bool both_sides, Outlines& outlines) {
+  Brush brush(distance, operand, outlines);
+  brush.sweep(edge);
+  if (both_sides) brush.sweep(reversed({edge}).front());
+  if (is_circle(edge)) return;
+  brush.disc(edge.from);
+  brush.disc(edge.to);
+}
+
 }  // namespace
+
+Result<BooleanResult> offset_edges(const std::vector<Region>& regions, const std::vector<double>& distances) {
+  std::vector<const Edge*> edges;
+  for_each_contour(regions, [&](const Contour& contour) {
+    for (const Edge& edge : contour) edges.push_back(&edge);
+  });
+  LEKALO_ASSERT(edges.size() == distances.size());
+  Outlines cut;
+  cut.add(regions, 0);
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    if (distances[k] < 0) add_rim(*edges[k], -distances[k], 1, true, cut);
+  const auto rest = detail::overlay(cut, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; });
+  if (!rest) return rest;
+  Outlines all;
+  all.add(rest->regions, 0);
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    if (distances[k] > 0) add_rim(*edges[k], distances[k], 0, false, all);
+  return detail::overlay(
+      all, [](const Winding& w) { return w[0] > 0; }, rest->edge_error);
+}
 
 Result<BooleanResult> offset(const std::vector<Region>& regions, double distance) {
   if (distance == 0) return united(regions);

@@ -71,7 +71,7 @@ double reach(const geom::RegionIndex& part) {
 
 }  // namespace
 
-PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const std::vector<Cap>& caps,
+PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const std::vector<LocalCap>& caps,
                        const PoseCell& root, double far, double gap, double at_least, double enough,
                        const RunControl& run)
     : clearance_(clearance),
@@ -95,8 +95,7 @@ PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const std::vector<
 }
 
 void PoseSearch::collect_samples() {
-  const auto& curves = clearance_.part().curves();
-  const auto add = [&](std::uint32_t k, std::uint32_t cap) {
+  const auto add = [&](const std::vector<geom::Curve>& curves, std::uint32_t k, std::uint32_t cap) {
     const geom::Edge& edge = curves[k].edge;
     const Point opposite = 2 * edge.centre - edge.from, middle = 0.5 * (edge.from + edge.to);
     const bool line = edge.kind == geom::EdgeKind::line;
@@ -104,9 +103,10 @@ void PoseSearch::collect_samples() {
          {edge.from, line ? middle : nearest_on(curves[k], curves[k].full ? opposite : middle)})
       samples_.push_back({p, norm(p), k, cap});
   };
-  for (std::uint32_t k = 0; k < curves.size(); ++k) add(k, kNoCap);
+  const auto& part = clearance_.part().curves();
+  for (std::uint32_t k = 0; k < part.size(); ++k) add(part, k, kNoCap);
   for (std::uint32_t cap = 0; cap < caps_.size(); ++cap)
-    for (const std::uint32_t k : caps_[cap].edges) add(k, cap);
+    for (std::uint32_t k = 0; k < caps_[cap].edges.size(); ++k) add(caps_[cap].edges, k, cap);
   // The furthest first: they tell angles apart.
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.far > b.far; });

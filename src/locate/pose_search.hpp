@@ -7,7 +7,6 @@
 #include "cell_program.hpp"
 #include "distance_grid.hpp"
 #include "lekalo/base/run_control.hpp"
-#include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
 #include "sinusoid.hpp"
 #include "tangent_balls.hpp"
@@ -15,9 +14,15 @@
 namespace lekalo::locate {
 
 /// Not a cap. A cap pair is a point of one of a cap's edges (part.radius 0) and a ball in the blank's
-/// material, its radius less by Cap::most: however the part lies, `most` less the depth of the point is at
-/// most the pair's distance.
+/// material, its radius less by LocalCap::most: however the part lies, `most` less the depth of the point is
+/// at most the pair's distance.
 inline constexpr std::uint32_t kNoCap = 0xffffffff;
+
+/// A cap in the local coordinates of a search.
+struct LocalCap {
+  std::vector<geom::Curve> edges;
+  double most = 0;
+};
 
 /// A box of poses: where the part's pivot lies in the blank, and the angle; middle and half widths.
 struct PoseCell {
@@ -62,7 +67,7 @@ class PoseSearch {
   /// \param far        largest |coordinate| of the problem in its own frames, which rounding follows
   /// \param at_least   a clearance known to be reachable: cells that prove no more need not be divided
   /// \param enough     the search ends when it has found so much
-  PoseSearch(const phi::RegionClearance& clearance, const std::vector<Cap>& caps, const PoseCell& root,
+  PoseSearch(const phi::RegionClearance& clearance, const std::vector<LocalCap>& caps, const PoseCell& root,
              double far, double gap, double at_least, double enough, const RunControl& run);
 
   void run();
@@ -92,7 +97,7 @@ class PoseSearch {
   struct Sample {
     geom::Point at;
     double far = 0;          ///< from the pivot
-    std::uint32_t edge = 0;  ///< of the part
+    std::uint32_t edge = 0;  ///< of the part, or of the cap
     std::uint32_t cap = kNoCap;
   };
   /// A place where the outlines come close, or cross: `distance` is negative where the part's point lies
@@ -140,7 +145,7 @@ class PoseSearch {
   [[nodiscard]] std::array<double, 3> trusted(double half) const;
 
   const phi::RegionClearance& clearance_;
-  const std::vector<Cap>& caps_;
+  const std::vector<LocalCap>& caps_;
   PoseCell root_;
   double gap_;
   const RunControl& run_;

@@ -18,28 +18,30 @@ using geom::Edge;
 using geom::Point;
 using geom::Region;
 
-/// Regions moved by -origin and, if asked for, mirrored in x afterwards.
-std::vector<Region> to_local(const std::vector<Region>& regions, Point origin, bool mirrored) {
+/// Edges moved by -origin and, if asked for, mirrored in x afterwards.
+std::vector<Edge> to_local(const std::vector<Edge>& edges, Point origin, bool mirrored) {
   const auto moved = [&](Point p) {
     const Point q = p - origin;
     return mirrored ? Point{-q.x, q.y} : q;
   };
-  const auto contour = [&](const Contour& given) {
-    Contour out;
-    for (const Edge& edge : given) {
-      Edge e{edge.kind, moved(edge.from), moved(edge.to), {}};
-      if (edge.kind != geom::EdgeKind::line) e.centre = moved(edge.centre);
-      if (mirrored && edge.kind != geom::EdgeKind::line)
-        e.kind = edge.kind == geom::EdgeKind::arc_ccw ? geom::EdgeKind::arc_cw : geom::EdgeKind::arc_ccw;
-      out.push_back(e);
-    }
-    return out;  // material on the right where mirrored: nothing here asks for the side
-  };
+  std::vector<Edge> local;
+  for (const Edge& edge : edges) {
+    Edge e{edge.kind, moved(edge.from), moved(edge.to), {}};
+    if (edge.kind != geom::EdgeKind::line) e.centre = moved(edge.centre);
+    if (mirrored && edge.kind != geom::EdgeKind::line)
+      e.kind = edge.kind == geom::EdgeKind::arc_ccw ? geom::EdgeKind::arc_cw : geom::EdgeKind::arc_ccw;
+    local.push_back(e);
+  }
+  return local;
+}
+
+/// Mirrored ones have their material on the right: nothing here asks for the side.
+std::vector<Region> to_local(const std::vector<Region>& regions, Point origin, bool mirrored) {
   std::vector<Region> local;
   for (const Region& region : regions) {
     Region out;
-    out.outer = contour(region.outer);
-    for (const Contour& hole : region.holes) out.holes.push_back(contour(hole));
+    out.outer = to_local(region.outer, origin, mirrored);
+    for (const Contour& hole : region.holes) out.holes.push_back(to_local(hole, origin, mirrored));
     local.push_back(std::move(out));
   }
   return local;
@@ -86,8 +88,10 @@ class RegionLocaliser {
       RunControl run = options_.run;
       if (run.work_limit != std::numeric_limits<std::uint64_t>::max())
         run.work_limit = run.work_limit > result.work ? run.work_limit - result.work : 0;
-      PoseSearch search(local, problem_.caps, root(), far_, search_gap(),
-                        std::max(best, options_.not_above - search_gap()), options_.enough + taken(), run);
+      const std::vector<LocalCap> caps = local_caps(part_origin_, mirrored);
+      PoseSearch search(local, caps, root(), far_, search_gap(),
+                        std::max({best, options_.not_above - search_gap(), -furthest_out() - search_gap()}),
+                        options_.enough + taken(), run);
       search.run();
       finished = finished && search.finished();
       result.work += search.work();
@@ -112,6 +116,16 @@ class RegionLocaliser {
   }
 
  private:
+  [[nodiscard]] std::vector<LocalCap> local_caps(Point origin, bool mirrored) const {
+    std::vector<LocalCap> caps;
+    for (const Cap& cap : problem_.caps) {
+      caps.push_back({{}, cap.most});
+      for (const Edge& edge : to_local(cap.edges, origin, mirrored))
+        caps.back().edges.push_back(geom::make_curve(edge));
+    }
+    return caps;
+  }
+
   /// What rounding and the tolerances take of the gap.
   [[nodiscard]] double taken() const {
     return 64 * geom::kEdgeDistanceError * far_ + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
@@ -154,7 +168,7 @@ class RegionLocaliser {
     const phi::RegionClearance::Value value = given_.at(pose);
     double measured = value.inside ? value.distance : -given_.depth(pose, 0.25 * options_.gap);
     std::vector<phi::RegionContact> places;
-    for (const Cap& cap : problem_.caps)
+    for (const LocalCap& cap : local_caps({}, false))
       measured =
           std::min(measured, cap.most - given_.deepest(pose, cap.edges, 0.125 * options_.gap, 0, places));
     const double far = far_ + std::abs(placement.x) + std::abs(placement.y);

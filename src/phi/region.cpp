@@ -76,6 +76,15 @@ RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double mar
   return {least, least > 0 && inside(pose)};
 }
 
+double RegionClearance::edge_distance(const BlankFromPart& pose, std::uint32_t part_edge) const {
+  const Curve moved = placed(part_.curves()[part_edge], pose);
+  double least = std::numeric_limits<double>::infinity();
+  blank_.visit_within(pose(disc_[part_edge].centre), disc_[part_edge].radius, least, [&](std::uint32_t j) {
+    least = std::min(least, closest_points(moved, blank_.curves()[j]).distance);
+  });
+  return least;
+}
+
 double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const {
   const auto outside = [&](Point p) {  // how far a point of the part's frame lies outside the blank
     const Point q = pose(p);

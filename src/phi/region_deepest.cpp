@@ -174,10 +174,10 @@ class Deepest {
 
 }  // namespace
 
-double RegionClearance::deepest(const geom::BlankFromPart& pose, const std::vector<std::uint32_t>& part_edges,
+double RegionClearance::deepest(const geom::BlankFromPart& pose, const std::vector<Curve>& edges,
                                 double tolerance, double margin, std::vector<RegionContact>& points) const {
   Deepest search(blank_, tolerance, margin);
-  for (const std::uint32_t edge : part_edges) search.add(placed(part_.curves()[edge], pose), edge);
+  for (std::uint32_t k = 0; k < edges.size(); ++k) search.add(placed(edges[k], pose), k);
   const double deepest = search.run();
   const auto back = pose.inverse();
   points.clear();

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
@@ -15,9 +14,9 @@ namespace {
 using geom::BlankFromPart;
 using geom::Point;
 
-std::vector<std::uint32_t> all_edges(const phi::RegionClearance& clearance) {
-  std::vector<std::uint32_t> edges(clearance.part().curves().size());
-  std::iota(edges.begin(), edges.end(), 0u);
+std::vector<geom::Edge> all_edges(const phi::RegionClearance& clearance) {
+  std::vector<geom::Edge> edges;
+  for (const geom::Curve& curve : clearance.part().curves()) edges.push_back(curve.edge);
   return edges;
 }
 
@@ -44,8 +43,11 @@ double objective(const phi::RegionClearance& clearance, const std::vector<Cap>& 
   const auto value = clearance.at(pose);
   double least = value.inside ? value.distance : -1;
   std::vector<phi::RegionContact> places;
-  for (const Cap& cap : caps)
-    least = std::min(least, cap.most - clearance.deepest(pose, cap.edges, 1e-5, 0, places));
+  for (const Cap& cap : caps) {
+    std::vector<geom::Curve> curves;
+    for (const geom::Edge& edge : cap.edges) curves.push_back(geom::make_curve(edge));
+    least = std::min(least, cap.most - clearance.deepest(pose, curves, 1e-5, 0, places));
+  }
   return least;
 }
 
@@ -63,7 +65,7 @@ TEST(LocateCaps, TheDeepestPlaceIsWhereDenseSamplesSay) {
             one.shift + Point{off * random.uniform(-1, 1), off * random.uniform(-1, 1)});
         for (std::uint32_t edge = 0; edge < clearance.part().curves().size(); edge += 3) {
           std::vector<phi::RegionContact> places;
-          const double depth = clearance.deepest(pose, {edge}, 1e-4, 1e-3, places);
+          const double depth = clearance.deepest(pose, {clearance.part().curves()[edge]}, 1e-4, 1e-3, places);
           const double sampled = sampled_depth(clearance, pose, edge, 400);
           const geom::Curve& curve = clearance.part().curves()[edge];
           const double step =

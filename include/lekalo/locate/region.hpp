@@ -22,10 +22,10 @@ namespace lekalo::locate {
 
 enum class Mirror { no, yes, either };  ///< mirrored parts are mirrored in x before they are turned
 
-/// No point of these edges of the part may lie more than `most` mm inside the blank: material that a cut
-/// cannot take, or a feature that is finished.
+/// No point of these edges may lie more than `most` mm inside the blank: material that a cut cannot take, or
+/// a feature that is finished. They need not be edges of the part.
 struct Cap {
-  std::vector<std::uint32_t> edges;  ///< numbered through all pieces and contours as in RegionTouch
+  std::vector<geom::Edge> edges;  ///< part coordinates
   double most = 0;
 };
 
@@ -62,10 +62,11 @@ struct RegionOptions {
 /// contours, each outer contour before its holes, in the order of the regions given.
 struct RegionTouch {
   std::uint32_t part_edge = 0, blank_edge = 0;
-  geom::Point part, blank;           ///< the two points, each in its own frame, mm
-  double distance = 0;               ///< mm, at the placement
-  double multiplier = 0;             ///< its share in what holds the placement; all sum to 1
-  std::optional<std::uint32_t> cap;  ///< the cap that the part's point is deep for; none: it is near
+  geom::Point part, blank;  ///< the two points, each in its own frame, mm
+  double distance = 0;      ///< mm, at the placement
+  double multiplier = 0;    ///< its share in what holds the placement; all sum to 1
+  /// The cap that the part's point is deep for, `part_edge` counted in its list; none: it is near.
+  std::optional<std::uint32_t> cap;
 };
 
 /// One ball in the part's material, one in whose inside the blank has none, radii >= 0 (0: a point of the

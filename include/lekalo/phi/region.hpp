@@ -44,15 +44,19 @@ class RegionClearance {
   /// rounding) too large.
   [[nodiscard]] double depth(const geom::BlankFromPart& pose, double tolerance) const;
 
-  /// How deep the points of some edges of the part lie in the blank at most: their largest distance from its
-  /// boundary inside its material, 0 where none is inside. Never too small, too large by at most `tolerance`
-  /// (and rounding); if that takes more than kMostPieces pieces of edges, by more.
+  /// Distance of one edge of the part, placed, from the blank's boundary; 0 where it crosses it. Error as at().
+  [[nodiscard]] double edge_distance(const geom::BlankFromPart& pose, std::uint32_t part_edge) const;
+
+  /// How deep the points of some edges, moved as the part is, lie in the blank at most: their largest
+  /// distance from its boundary inside its material, 0 where none is inside. Never too small, too large by at
+  /// most `tolerance` (and rounding); if that takes more than kMostPieces pieces of edges, by more.
   ///
-  /// \param points  filled with one point for each place that may be within `margin` of the deepest; `distance`
-  ///                is that from `blank`, the nearest boundary point
+  /// \param points  filled with one point for each place that may be within `margin` of the deepest;
+  /// `distance`
+  ///                is that from `blank`, the nearest boundary point, `part_edge` counted in `edges`
   /// Cost: O(log m) a piece; a few pieces an edge, more where the boundary runs like the edge but for arcs.
-  double deepest(const geom::BlankFromPart& pose, const std::vector<std::uint32_t>& part_edges,
-                 double tolerance, double margin, std::vector<RegionContact>& points) const;
+  double deepest(const geom::BlankFromPart& pose, const std::vector<geom::Curve>& edges, double tolerance,
+                 double margin, std::vector<RegionContact>& points) const;
   static constexpr std::size_t kMostPieces = 100'000;
 
   [[nodiscard]] const geom::RegionIndex& part() const noexcept { return part_; }

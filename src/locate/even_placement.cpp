@@ -1,0 +1,210 @@
+#include "even_placement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::locate {
+namespace {
+
+using geom::BlankFromPart;
+using geom::Point;
+
+constexpr int kMostSteps = 60;
+/// Sweeps of the dual method over the rows of one step.
+constexpr int kMostSweeps = 200;
+/// Steps shorter than that are the end, mm.
+constexpr double kShortest = 1e-7;
+
+using Vector3 = std::array<double, 3>;
+
+/// How the allowance of a point changes with a step (x, y, turn about the pivot).
+struct Row {
+  Vector3 slope{};
+  double level = 0;
+};
+
+double product(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Solves a symmetric positive definite system.
+Vector3 solve(std::array<Vector3, 3> a, Vector3 b) {
+  for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t k = j + 1; k < 3; ++k) {
+      const double f = a[k][j] / a[j][j];
+      for (std::size_t i = j; i < 3; ++i) a[k][i] -= f * a[j][i];
+      b[k] -= f * b[j];
+    }
+  for (std::size_t j = 3; j-- > 0;) {
+    for (std::size_t i = j + 1; i < 3; ++i) b[j] -= a[j][i] * b[i];
+    b[j] /= a[j][j];
+  }
+  return b;
+}
+
+/// Minimises z H z / 2 + g z subject to level + slope z >= 0 for every row, by Hildreth's dual coordinate
+/// ascent; what it returns may break a row a little.
+Vector3 constrained_step(const std::array<Vector3, 3>& h, const Vector3& g, const std::vector<Row>& rows) {
+  const Vector3 free = solve(h, {-g[0], -g[1], -g[2]});
+  std::vector<Vector3> reach;  // H^-1 slope
+  for (const Row& row : rows) reach.push_back(solve(h, row.slope));
+  std::vector<double> multiplier(rows.size(), 0.0);
+  Vector3 z = free;
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double change = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double curvature = product(rows[k].slope, reach[k]);
+      if (!(curvature > 0)) continue;
+      const double wanted = -(rows[k].level + product(rows[k].slope, z)) / curvature;
+      const double step = std::max(wanted, -multiplier[k]);
+      multiplier[k] += step;
+      for (std::size_t i = 0; i < 3; ++i) z[i] += step * reach[k][i];
+      change = std::max(change, std::abs(step) * std::sqrt(curvature));
+    }
+    if (change < 1e-12) break;
+  }
+  return z;
+}
+
+/// The allowances of all samples at a pose, signed, with how they change.
+class Measurement {
+ public:
+  Measurement(const EvenSamples& samples, const phi::RegionClearance& clearance, const BlankFromPart& pose)
+      : samples_(samples.samples) {
+    std::uint32_t likely = 0;
+    double length = 0, sum = 0;
+    for (const EvenSamples::Sample& sample : samples_) {
+      const Point q = pose(sample.at);
+      const auto nearest = clearance.blank().nearest(q, likely);
+      likely = nearest.edge;
+      const bool inside = clearance.blank().contains(q);
+      allowance_.push_back(inside ? nearest.distance : -nearest.distance);
+      const double d = allowance_.back();
+      normal_.push_back(nearest.distance > 0 ? (1 / d) * (q - nearest.point) : Point{});
+      if (!sample.has_target) length += sample.length, sum += sample.length * d;
+    }
+    mean_ = length > 0 ? sum / length : 0;
+  }
+
+  [[nodiscard]] double deviation() const {
+    double length = 0, sum = 0;
+    for (std::size_t k = 0; k < samples_.size(); ++k)
+      length += samples_[k].length, sum += samples_[k].length * residual(k) * residual(k);
+    return length > 0 ? std::sqrt(sum / length) : 0;
+  }
+
+  [[nodiscard]] double residual(std::size_t k) const {
+    return allowance_[k] - (samples_[k].has_target ? samples_[k].target : mean_);
+  }
+
+  /// Slopes with respect to (x, y, turn), the turn in units of 1 / reach about `pivot`.
+  [[nodiscard]] Vector3 slope(std::size_t k, const BlankFromPart& pose, Point pivot, double reach) const {
+    const Point p = pose.rotate(samples_[k].at - pivot);
+    return {normal_[k].x, normal_[k].y, dot(normal_[k], geom::perpendicular(p)) / reach};
+  }
+
+ private:
+  const std::vector<EvenSamples::Sample>& samples_;
+  std::vector<double> allowance_;
+  std::vector<Point> normal_;  ///< direction in which the allowance grows
+  double mean_ = 0;
+};
+
+}  // namespace
+
+void EvenSamples::add(const geom::Edge& edge, double step, const std::optional<double>& target) {
+  const bool line = edge.kind == geom::EdgeKind::line;
+  const double sweep = line ? 0 : geom::arc_sweep(edge);
+  const double length = line ? norm(edge.to - edge.from) : sweep * geom::arc_radius(edge);
+  const auto count = static_cast<int>(std::clamp(std::ceil(length / step), 1.0, 1000.0));
+  for (int i = 0; i < count; ++i) {
+    const double t = (i + 0.5) / count;
+    Point at = (1 - t) * edge.from + t * edge.to;
+    if (!line) {
+      const geom::SinCos turn = geom::sincos((edge.kind == geom::EdgeKind::arc_ccw ? t : -t) * sweep);
+      const Point out = edge.from - edge.centre;
+      at = edge.centre +
+           Point{turn.cosine * out.x - turn.sine * out.y, turn.sine * out.x + turn.cosine * out.y};
+    }
+    samples.push_back({at, length / count, target.value_or(0), target.has_value()});
+  }
+}
+
+double deviation_at(const EvenSamples& samples, const phi::RegionClearance& clearance,
+                    const BlankFromPart& pose) {
+  return Measurement(samples, clearance, pose).deviation();
+}
+
+EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clearance, const Placement& start,
+                   bool mirrored, double give_up, const std::array<bool, 3>& free, const AngleWindow& window,
+                   const std::function<bool(const Placement&)>& allowed) {
+  const geom::Box box = clearance.part().bounds();
+  const Point pivot = 0.5 * (box.low + box.high);
+  const double reach = std::max(0.5 * norm(box.high - box.low), 1e-9);
+  const auto pose_of = [&](const Placement& p) {
+    return BlankFromPart::from_angle(p.theta, {p.x, p.y}, mirrored);
+  };
+  EvenPose best{start, deviation_at(samples, clearance, pose_of(start))};
+  const double floor = clearance.at(pose_of(start)).distance - give_up;
+  double trust = 0.05 * reach;
+  for (int step = 0; step < kMostSteps && trust > kShortest; ++step) {
+    const BlankFromPart pose = pose_of(best.at);
+    const Measurement here(samples, clearance, pose);
+    std::array<Vector3, 3> h{};
+    Vector3 g{};
+    Vector3 mean_slope{};
+    double length = 0;
+    for (std::size_t k = 0; k < samples.samples.size(); ++k) {
+      if (samples.samples[k].has_target) continue;
+      const Vector3 s = here.slope(k, pose, pivot, reach);
+      length += samples.samples[k].length;
+      for (std::size_t i = 0; i < 3; ++i) mean_slope[i] += samples.samples[k].length * s[i];
+    }
+    double total = 0;
+    for (std::size_t k = 0; k < samples.samples.size(); ++k) {
+      const EvenSamples::Sample& sample = samples.samples[k];
+      Vector3 s = here.slope(k, pose, pivot, reach);
+      for (std::size_t i = 0; i < 3; ++i)
+        s[i] = free[i] ? s[i] - (sample.has_target ? 0 : mean_slope[i] / length) : 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        g[i] += sample.length * here.residual(k) * s[i];
+        for (std::size_t j = 0; j < 3; ++j) h[i][j] += sample.length * s[i] * s[j];
+      }
+      total += sample.length;
+    }
+    for (std::size_t i = 0; i < 3; ++i) h[i][i] += 1e-9 * total;
+    std::vector<Row> rows;
+    std::vector<phi::RegionContact> contacts;
+    (void)clearance.at(pose, 2 * trust, &contacts);
+    for (const phi::RegionContact& contact : contacts) {
+      const Point out = pose(contact.part) - contact.blank;
+      if (!(contact.distance > 0)) continue;
+      const Point n = (1 / contact.distance) * out, p = pose.rotate(contact.part - pivot);
+      rows.push_back({{n.x, n.y, dot(n, geom::perpendicular(p)) / reach}, contact.distance - floor});
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const double side : {1.0, -1.0}) {
+        Row row;
+        row.slope[i] = side, row.level = free[i] ? trust : 0;
+        rows.push_back(row);
+      }
+    const Vector3 z = constrained_step(h, g, rows);
+    Placement next = best.at;
+    next.theta = std::clamp(next.theta + (free[2] ? z[2] / reach : 0), window.from, window.to);
+    // The pivot moves by (z0, z1) while the part turns about it.
+    const Point to = pose(pivot) + Point{z[0], z[1]};
+    const Point turned = BlankFromPart::from_angle(next.theta, {}, mirrored).rotate(pivot);
+    if (free[0]) next.x = to.x - turned.x;
+    if (free[1]) next.y = to.y - turned.y;
+    const double deviation = deviation_at(samples, clearance, pose_of(next));
+    if (deviation < best.deviation && allowed(next)) {
+      best = {next, deviation};
+    } else {
+      trust *= 0.5;
+    }
+  }
+  return best;
+}
+
+}  // namespace lekalo::locate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "lekalo/geom/pose.hpp"
+#include "lekalo/locate/region.hpp"
+#include "lekalo/phi/region.hpp"
+
+namespace lekalo::locate {
+
+/// Points of edges at equal steps, each with the stretch it stands for, and what their allowances should be.
+struct EvenSamples {
+  struct Sample {
+    geom::Point at;  ///< part coordinates
+    double length = 0, target = 0;
+    bool has_target = false;
+  };
+  std::vector<Sample> samples;
+
+  /// \param step  between samples, at most, mm
+  void add(const geom::Edge& edge, double step, const std::optional<double>& target);
+};
+
+struct EvenPose {
+  Placement at;  ///< its clearance is not set
+  double deviation =
+      0;  ///< root of the mean square of allowance - target; samples without one aim at the mean
+};
+
+/// The deviation at a pose.
+[[nodiscard]] double deviation_at(const EvenSamples& samples, const phi::RegionClearance& clearance,
+                                  const geom::BlankFromPart& pose);
+
+/// Lowers the deviation from a pose on by Gauss-Newton steps that keep `allowed` true: a local minimum,
+/// nothing is proved about others. Steps are limited by the part's contacts, so that they slide along what
+/// holds it. \param give_up  of the clearance at the start, mm: what steps aim to keep to; `allowed` decides
+/// \param free     x, y, angle: what may change
+[[nodiscard]] EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clearance,
+                                 const Placement& start, bool mirrored, double give_up,
+                                 const std::array<bool, 3>& free, const AngleWindow& window,
+                                 const std::function<bool(const Placement&)>& allowed);
+
+}  // namespace lekalo::locate
