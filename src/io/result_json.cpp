@@ -261,6 +261,7 @@ void append_node(std::string& out, const locate::CoverTree& tree, const locate::
       append_number(out, value);
       separator = ", ";
     }
+    if (t.cap) fmt::format_to(std::back_inserter(out), ", {}", *t.cap);
     out += ']';
   }
   out += "]}";
@@ -300,9 +301,67 @@ const char* name_of(locate::Mirror mirror) {
   return "either";
 }
 
+Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+
+const char* name_of(locate::Criterion criterion) {
+  switch (criterion) {
+    case locate::Criterion::smallest:
+      return "smallest";
+    case locate::Criterion::largest:
+      return "largest";
+    case locate::Criterion::even:
+      break;
+  }
+  return "even";
+}
+
+Json to_json(const locate::Feature& f) {
+  return {{"name", f.name},
+          {"edges", f.edges},
+          {"minimum", f.minimum},
+          {"target", or_null(f.target)},
+          {"maximum", or_null(f.maximum)},
+          {"scale", f.scale},
+          {"finished", or_null(f.finished)}};
+}
+
+Json to_json(const locate::TradeOff& point) {
+  Json json = to_json(point.at);
+  json["mirrored"] = point.mirrored;
+  json["margin"] = point.margin;
+  json["largest"] = point.largest;
+  json["largest_bound"] = point.largest_bound;
+  return json;
+}
+
+Json to_json(const DemandRecord& d) {
+  Json features = Json::array(), curve = Json::array();
+  for (const locate::Feature& f : d.features) features.push_back(to_json(f));
+  for (const locate::TradeOff& point : d.curve) curve.push_back(to_json(point));
+  return {{"minimum", d.minimum},
+          {"features", std::move(features)},
+          {"criterion", name_of(d.criterion)},
+          {"give_up", d.give_up},
+          {"margin", d.margin},
+          {"margin_bound", d.margin_bound},
+          {"largest", d.largest},
+          {"largest_bound", or_null(d.largest_bound)},
+          {"deviation", d.deviation},
+          {"trade_off", std::move(curve)},
+          {"grown_for", d.grown_for},
+          {"shift", d.shift},
+          {"bound", d.bound}};
+}
+
 void append_regions(ObjectText& out, const LocateDocument& d) {
   const RegionRecord& r = *d.regions;
   out.field("mirror", name_of(r.mirror));
+  if (r.locked.x || r.locked.y) {
+    out.field("locked", {{"x", or_null(r.locked.x)}, {"y", or_null(r.locked.y)}});
+  } else {
+    out.field("locked", nullptr);
+  }
+  out.field("demands", r.demands ? to_json(*r.demands) : Json(nullptr));
   out.field("tolerances", {{"part", r.part_tolerance}, {"blank", r.blank_tolerance}});
   out.text("regions", [&](std::string& text) {
     text += R"({"part": )" + regions_json(r.part) + R"(, "blank": )" + regions_json(r.blank) + "}";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interval.hpp"
+#include "shape_distance.hpp"
 #include "shape_inside.hpp"
 
 namespace lekalo::verify {
@@ -111,10 +112,12 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
   // pivot_off of it.
   const double more = up(problem_.pivot_off + std::max(0.0, -problem_.bound));
   const Shape& blank = problem_.blank;
-  if (!(root.low[1] <= plus(just(blank.low_x), -more).low &&
-        root.high[1] >= plus(just(blank.high_x), more).high &&
-        root.low[2] <= plus(just(blank.low_y), -more).low &&
-        root.high[2] >= plus(just(blank.high_y), more).high)) {
+  const auto covers = [&](int k, const std::optional<Decimal>& locked, double low, double high) {
+    if (locked) return root.low[k] <= enclosed(*locked).low && root.high[k] >= enclosed(*locked).high;
+    return root.low[k] <= plus(just(low), -more).low && root.high[k] >= plus(just(high), more).high;
+  };
+  if (!covers(1, problem_.locked_x, blank.low_x, blank.high_x) ||
+      !covers(2, problem_.locked_y, blank.low_y, blank.high_y)) {
     findings_.push_back(fmt::format("{}: the box of the pivot does not cover the blank", path));
   }
 }
@@ -130,9 +133,10 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
   while (const auto item = items.next()) {
     if (terms.size() == kMostTerms) return complain("it has more than eight contacts");
     if (!item->is_array()) return complain("a contact is not a list");
-    std::array<Json, 7> value;
-    std::array<Span, 7> number;
+    std::array<Json, 8> value;
+    std::array<Span, 8> number;
     JsonItems numbers(*item);
+    std::size_t cap = problem_.caps.size();
     for (std::size_t k = 0; k < 7; ++k) {
       const auto next = numbers.next();
       const auto decimal = next && next->is_number() ? parse_decimal(next->text) : std::nullopt;
@@ -144,11 +148,25 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
       if (!may_be_negative && sgn(decimal->digits) < 0)
         return complain("a radius or a multiplier is negative");
     }
-    if (numbers.next()) return complain("a contact is not seven numbers");
     Term term;
+    if (const auto eighth = numbers.next()) {
+      const auto index = eighth->is_number() ? parse_decimal(eighth->text) : std::nullopt;
+      if (!index || index->exponent < 0 || sgn(index->digits) < 0 ||
+          !(approximate(*index) < static_cast<double>(problem_.caps.size())))
+        return complain("a contact names no cap of the demands");
+      cap = static_cast<std::size_t>(approximate(*index));
+      term.capped = true;
+    }
+    if (numbers.next()) return complain("a contact has more than eight numbers");
     const Vec part{number[0], number[1]}, blank{number[3], number[4]};
-    term.part_radius = part_radius(value[0], value[1], value[2], part, number[2].low);
-    term.blank_radius = blank_radius(value[3], value[4], value[5], blank, number[5].low);
+    if (term.capped) {
+      term.part_radius = -off_cap(part, problem_.caps[cap]);
+      term.blank_radius =
+          material_radius(value[3], value[4], value[5], blank, number[5].low) - problem_.caps[cap].most;
+    } else {
+      term.part_radius = part_radius(value[0], value[1], value[2], part, number[2].low);
+      term.blank_radius = blank_radius(value[3], value[4], value[5], blank, number[5].low);
+    }
     term.multiplier = number[6];
     term.part = part - problem_.pivot;
     if (mirrored_) term.part.x = {-term.part.x.high, -term.part.x.low};
@@ -163,8 +181,43 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = part_radii_.find(key);
   if (known != part_radii_.end()) return known->second;
-  const double real = std::min(std::max(0.0, written), signed_distance(centre, problem_.part).low);
+  const double inside =
+      problem_.growth.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre);
+  const double real = std::min(std::max(0.0, written), inside);
   return part_radii_.emplace(key, real).first->second;
+}
+
+/// From a point of the part to what is not in the grown part one must cross a side and then go as far as it
+/// is grown; a point beside the part is in what a side has grown to. Less is known, never more.
+double CoverTree::grown_radius(const Vec& centre) const {
+  const std::vector<Side>& sides = problem_.part.sides;
+  double through = kInfinity, nearest = kInfinity, grown = -kInfinity;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Span d = distance(centre, sides[k]);
+    const double by = problem_.growth[k];
+    through = std::min(through, (just(d.low) + just(by)).low);
+    nearest = std::min(nearest, d.high);
+    if (by >= 0) grown = std::max(grown, (just(by) - just(d.high)).low);
+  }
+  const std::optional<bool> in = holds(problem_.part, centre);
+  // Beside the part its nearest point is off by that, and there the first rule holds.
+  const double to_part = in && *in ? 0 : nearest;
+  return std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);
+}
+
+double CoverTree::off_cap(const Vec& point, const Cap& cap) const {
+  double off = kInfinity;
+  for (const std::size_t k : cap.sides) off = std::min(off, distance(point, problem_.part.sides[k]).high);
+  return off;
+}
+
+/// What of a ball's radius really lies in the blank's material.
+double CoverTree::material_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
+  const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
+  const auto known = material_radii_.find(key);
+  if (known != material_radii_.end()) return known->second;
+  const double real = std::min(std::max(0.0, written), signed_distance(centre, problem_.blank).low);
+  return material_radii_.emplace(key, real).first->second;
 }
 
 double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
@@ -219,7 +272,7 @@ CoverTree::Bound CoverTree::bound_over(const Cell& cell, const std::vector<Term>
     const Vec w{plus(p.x, middle[1]) - term.blank.x, plus(p.y, middle[2]) - term.blank.y};
     const Span apart = length(w), far = length(p);
     const Span radii = just(term.part_radius) + just(term.blank_radius);
-    floor = std::max(floor, -term.blank_radius);
+    if (!term.capped) floor = std::max(floor, -term.blank_radius);
     middle_value = middle_value + m * (apart - radii);
     // However the pose moves within the cell, the centre moves no further than this.
     const Span slide = length({just(half[1]), just(half[2])});

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cover_tree.hpp"
+#include "demand_check.hpp"
 #include "interval.hpp"
 #include "region_clearance.hpp"
 #include "shape_distance.hpp"
@@ -37,6 +38,8 @@ struct RegionDocument {
   std::vector<WrittenTouch> contacts;
   Json certificate;
   bool in_file = false;
+  std::optional<Decimal> locked_x, locked_y;
+  std::optional<WrittenDemands> demands;
 };
 
 class RegionCheck {
@@ -54,8 +57,14 @@ class RegionCheck {
     check_clearance();
     check_contacts();
     check_derived();
-    check_angle();
-    const bool proved = check_certificate();
+    check_pose();
+    std::optional<DemandCheck> demands;
+    if (r_.demands) {
+      demands.emplace(*r_.demands, r_.part, placed_, r_.blank, r_.part_tolerance + r_.blank_tolerance,
+                      report_.findings);
+      demands->check_placement();
+    }
+    const bool proved = check_certificate(demands ? &*demands : nullptr);
     if (!complaint_.empty())
       return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
     check_status();
@@ -79,10 +88,11 @@ class RegionCheck {
   void check_shape(const char* role, const Shape& shape);
   void check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
   void check_clearance();
-  void check_angle();
+  void check_pose();
   void check_contacts();
   void check_derived();
-  bool check_certificate();
+  void check_side();
+  bool check_certificate(DemandCheck* demands);
   void check_status();
 
   const LocateInputs& inputs_;
@@ -107,8 +117,6 @@ void RegionCheck::read() {
   if (r_.mirror != "no" && r_.mirror != "yes" && r_.mirror != "either")
     fields.complain("field mirror is none of \"no\", \"yes\", \"either\"");
   for (auto [key, to] : {std::pair{"clearance", &r_.clearance},
-                         {"upper_bound", &r_.upper_bound},
-                         {"gap", &r_.gap},
                          {"min_allowance", &r_.min_allowance},
                          {"shortfall", &r_.shortfall}})
     *to = enclosed(fields.number(key));
@@ -128,8 +136,16 @@ void RegionCheck::read() {
       fields.complain(fmt::format("the units of {} are not mm", path));
     *to = read_shape(regions.get(key), path, complaint_);
   }
-  if (const Json locked = fields.get("locked"); !locked.text.empty() && !locked.is_null())
-    fields.complain("field locked says something that this checker does not know");
+  if (const Json locked = fields.get("locked"); !locked.text.empty() && !locked.is_null()) {
+    Fields shift(locked, "locked", complaint_);
+    r_.locked_x = shift.number_or_null("x"), r_.locked_y = shift.number_or_null("y");
+  }
+  const Json demands = fields.get("demands");
+  if (!demands.text.empty() && !demands.is_null()) {
+    r_.demands = read_demands(demands, complaint_);
+  } else {
+    r_.upper_bound = enclosed(fields.number("upper_bound")), r_.gap = enclosed(fields.number("gap"));
+  }
   fields.each("contacts", [&](Json item, const std::string& path) {
     Fields contact(item, path, complaint_);
     const auto point = [&](std::string_view key) {
@@ -208,7 +224,9 @@ void RegionCheck::check_clearance() {
         less.low, less.high);
 }
 
-void RegionCheck::check_angle() {
+void RegionCheck::check_pose() {
+  for (const auto& [locked, is] : {std::pair{&r_.locked_x, &r_.x}, {&r_.locked_y, &r_.y}})
+    if (*locked && compare(**locked, *is) != 0) find("the placement is not where it is locked");
   const mpfr_prec_t wide = 128 + angle_bits(r_.theta);
   const Interval degrees = Interval(r_.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
   const double theta = degrees.high_double();
@@ -244,6 +262,7 @@ void RegionCheck::check_derived() {
         1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
     return written.low > real.high + slack || written.high < real.low - slack;
   };
+  if (r_.demands) return check_side();
   const Span gap = r_.upper_bound - r_.clearance;
   const Span widened{gap.low - 1e-15 * std::abs(r_.upper_bound.high),
                      gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
@@ -252,11 +271,15 @@ void RegionCheck::check_derived() {
   if (missing.high <= 0 ? r_.shortfall.high != 0 && r_.shortfall.low > 0
                         : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
     find("shortfall is not min_allowance less clearance");
+  check_side();
+}
+
+void RegionCheck::check_side() {
   if (r_.mirrored != (r_.mirror == "yes") && r_.mirror != "either")
     find("the placement is {}mirrored, which was not allowed", r_.mirrored ? "" : "not ");
 }
 
-bool RegionCheck::check_certificate() {
+bool RegionCheck::check_certificate(DemandCheck* demands) {
   Json certificate = r_.certificate;
   if (certificate.is_null() && r_.in_file && inputs_.certificate) {
     const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
@@ -273,9 +296,19 @@ bool RegionCheck::check_certificate() {
   if (pivot.size() != 2) fields.complain("certificate.pivot is not two numbers");
   if (!complaint_.empty()) return false;
   const Vec at{pivot[0], pivot[1]};
-  CoverTree::Problem problem{r_.part, r_.blank, at, 0, 0, r_.window_from, r_.window_to};
+  CoverTree::Problem problem{r_.part,        r_.blank,     at,          0,          0,
+                             r_.window_from, r_.window_to, r_.locked_x, r_.locked_y};
+  if ((r_.locked_x || r_.locked_y) &&
+      !(pivot[0].low == 0 && pivot[0].high == 0 && pivot[1].low == 0 && pivot[1].high == 0))
+    find("a shift is locked, but the pivot of the certificate is not the part's origin");
   problem.pivot_off = std::max(0.0, -signed_distance(at, r_.part).low);
-  problem.bound = ((r_.upper_bound - r_.part_tolerance) - r_.blank_tolerance).low;
+  const Span proved = r_.demands ? r_.demands->bound : r_.upper_bound;
+  problem.bound = ((proved - r_.part_tolerance) - r_.blank_tolerance).low;
+  if (demands != nullptr) {
+    demands->check_bound();
+    problem.growth = demands->growth(), problem.caps = demands->caps();
+    problem.pivot_off = demands->off_grown_part(at);
+  }
   CoverTree cover(problem, report_.findings);
   bool plain = false, mirrored = false;
   fields.each("trees", [&](Json item, const std::string& path) {
@@ -288,16 +321,19 @@ bool RegionCheck::check_certificate() {
   if (r_.mirror != "yes" && !plain) find("the certificate has no tree for the part as it is");
   if (r_.mirror != "no" && !mirrored) find("the certificate has no tree for the mirrored part");
   report_.intervals = cover.leaves();
-  report_.bound_high = fmt::format("{}", r_.upper_bound.high);
+  report_.bound_high = fmt::format("{}", r_.demands ? r_.demands->margin_bound.high : r_.upper_bound.high);
   return true;
 }
 
 void RegionCheck::check_status() {
-  const bool out_of_reach = r_.upper_bound.high < r_.min_allowance.low;
+  const bool out_of_reach =
+      r_.demands ? r_.demands->margin_bound.high < 0 : r_.upper_bound.high < r_.min_allowance.low;
   if (r_.status == "infeasible" && !out_of_reach)
-    find("status is infeasible, but upper_bound is not below min_allowance");
+    find("status is infeasible, but {}",
+         r_.demands ? "margin_bound is not below 0" : "upper_bound is not below min_allowance");
   if (r_.status == "optimal" && out_of_reach)
-    find("status is optimal, but upper_bound is below min_allowance");
+    find("status is optimal, but {}",
+         r_.demands ? "margin_bound is below 0" : "upper_bound is below min_allowance");
 }
 
 }  // namespace

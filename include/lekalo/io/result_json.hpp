@@ -10,6 +10,7 @@
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/polygon.hpp"
 #include "lekalo/locate/convex.hpp"
+#include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/placement.hpp"
 #include "lekalo/locate/region.hpp"
 
@@ -63,6 +64,18 @@ struct DeviationsRecord {
   double least = 0, greatest = 0;  ///< mm, positive outside the placed part
 };
 
+/// Demands and what became of them. A trade-off curve and `contacts` as in DemandResult.
+struct DemandRecord {
+  double minimum = 0;
+  std::vector<locate::Feature> features;
+  locate::Criterion criterion = locate::Criterion::smallest;
+  double give_up = 0;
+  double margin = 0, margin_bound = 0, largest = 0, deviation = 0;
+  std::optional<double> largest_bound;
+  std::vector<locate::TradeOff> curve;
+  double grown_for = 0, shift = 0, bound = 0;  ///< of DemandProof
+};
+
 /// What only a localisation of regions has (docs/formats.md).
 struct RegionRecord {
   std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
@@ -73,6 +86,8 @@ struct RegionRecord {
   /// Empty: there is none, or it is in certificate_file.
   std::vector<locate::CoverTree> certificate;
   geom::Point pivot;  ///< of the certificate, part coordinates
+  locate::LockedShift locked;
+  std::optional<DemandRecord> demands;  ///< then upper_bound of the document is not used
 };
 
 struct LocateDocument {

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cover_tree.hpp"
+#include "shape.hpp"
+
+namespace lekalo::verify {
+
+/// What each feature of a part demands, as written in a result (docs/formats.md, "demands").
+struct WrittenFeature {
+  std::string name;
+  std::vector<std::size_t> edges;
+  Span minimum, scale;
+  std::optional<Span> maximum, finished;
+};
+
+struct WrittenDemands {
+  Span minimum;
+  std::vector<WrittenFeature> features;
+  Span margin, margin_bound, largest;
+  Span grown_for, shift, bound;
+};
+[[nodiscard]] WrittenDemands read_demands(Json value, std::string& complaint);
+
+/// Rechecks what a result claims of its demands: at the placement, edge by edge, and of all placements.
+class DemandCheck {
+ public:
+  /// \param off  how far the true outlines of part and blank may be from those written, together
+  DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part, const Shape& blank,
+              Span off, std::vector<std::string>& findings);
+
+  /// Where the margin is not negative: every minimum, with its share of the margin, every maximum and the
+  /// largest allowance hold at the placement.
+  void check_placement();
+
+  /// What a certificate is to be checked with: by how much each side of the part is grown, and the caps.
+  [[nodiscard]] std::vector<double> growth() const;
+  [[nodiscard]] std::vector<CoverTree::Cap> caps() const;
+  /// A number that p is no further from the grown part than.
+  [[nodiscard]] double off_grown_part(const Vec& p) const;
+  /// Whether `bound` of what the certificate bounds makes margin_bound a bound of the margin.
+  void check_bound();
+
+ private:
+  template <class... Args>
+  void find(fmt::format_string<Args...> format, Args&&... args) {
+    findings_.push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+  [[nodiscard]] bool any_finished() const;
+  void check_minima();
+  void check_material();
+  void check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose);
+  [[nodiscard]] bool beside_finished(const Side& piece, std::size_t& looked) const;
+
+  const WrittenDemands& d_;
+  const Shape& part_;
+  const Shape& placed_;
+  const Shape& blank_;
+  Span off_;
+  std::vector<std::string>& findings_;
+  std::vector<std::vector<std::size_t>> sides_of_edge_;
+  std::vector<const WrittenFeature*> feature_of_edge_;  ///< nullptr: none
+};
+
+}  // namespace lekalo::verify

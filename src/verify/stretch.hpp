@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "shape.hpp"
+
+namespace lekalo::verify {
+
+/// Stretches of outlines: lines, and arcs of less than half a turn, and how far they reach.
+
+/// Corners of a convex set that holds a line, or an arc of less than half a turn.
+struct Corners {
+  std::array<Vec, 3> at;
+  std::size_t count = 0;
+};
+[[nodiscard]] Corners corners_of(const Side& piece);
+
+/// No point of the piece is farther from c.
+[[nodiscard]] double farthest(const Side& piece, const Vec& c);
+/// No point of the piece is farther from the side.
+[[nodiscard]] double farthest(const Side& piece, const Corners& corners, const Side& side);
+
+/// Two halves; arcs of any sweep.
+[[nodiscard]] std::array<Side, 2> halves(const Side& piece);
+
+}  // namespace lekalo::verify
