@@ -38,6 +38,10 @@ constexpr std::array kMirrors{Word<locate::Mirror>{"no", locate::Mirror::no},
                               Word<locate::Mirror>{"yes", locate::Mirror::yes},
                               Word<locate::Mirror>{"either", locate::Mirror::either}};
 
+constexpr std::array kCriteria{Word<locate::Criterion>{"smallest", locate::Criterion::smallest},
+                               Word<locate::Criterion>{"largest", locate::Criterion::largest},
+                               Word<locate::Criterion>{"even", locate::Criterion::even}};
+
 template <class T, std::size_t N>
 const char* name_in(const std::array<Word<T>, N>& words, T value) noexcept {
   for (const Word<T>& word : words) {
@@ -58,7 +62,7 @@ std::string list_of(const std::array<Word<T>, N>& words, const char* separator) 
 struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
-      deviations, compare, mirror;
+      deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up, trade_off;
   std::vector<std::string> window;
   bool json = false;
 };
@@ -128,6 +132,19 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
     read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0",
                 o.gap.emplace());
   read.choice("--mirror", words.mirror, kMirrors, o.mirror);
+  for (const auto& [option, word, to] :
+       {std::tuple{"--lock-x", &words.lock_x, &o.locked.x}, {"--lock-y", &words.lock_y, &o.locked.y}})
+    if (!word->empty())
+      read.number(option, *word, -kLargestLength, kLargestLength, "a coordinate in mm up to 1e9",
+                  to->emplace());
+  o.features = words.features;
+  read.choice("--criterion", words.criterion, kCriteria, o.criterion);
+  read.number("--give-up", words.give_up, 0.0, kLargestLength, "a length in mm of 0 or more", o.give_up);
+  read.require(
+      words.give_up.empty() || o.criterion != locate::Criterion::smallest,
+      "--give-up is for --criterion largest and even: what they may take off the smallest allowance");
+  read.number("--trade-off", words.trade_off, std::size_t{2}, std::size_t{100},
+              "a whole number from 2 to 100", o.trade_off);
   read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
               o.min_allowance);
   read.choice("--method", words.method, kMethods, o.method);
@@ -192,6 +209,15 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
   no_effect(!words.work.empty() && o.method == Method::icp, "--work");
 }
 
+}  // namespace
+
+bool has_demands(const LocateOptions& o) {
+  return o.locked.x || o.locked.y || !o.features.empty() || o.criterion != locate::Criterion::smallest ||
+         o.trade_off > 0;
+}
+
+namespace {
+
 Result<LocateOptions> to_options(const LocateWords& words) {
   LocateOptions o;
   WordReader read;
@@ -253,6 +279,14 @@ void add_search_options(CLI::App& locate, LocateWords& w) {
       "Stop when no other placement can be better by more than this [1e-9; 1e-3 where a shape is not "
       "convex]");
   add("--mirror", w.mirror, list_of(kMirrors, "|"), "Whether the part must or may lie mirrored [no]");
+  add("--lock-x", w.lock_x, "MM", "x of the placement is given");
+  add("--lock-y", w.lock_y, "MM", "y of the placement is given");
+  add("--features", w.features, "FILE",
+      "Demands by feature: minimum, target, maximum, scale, finished (JSON)");
+  add("--criterion", w.criterion, list_of(kCriteria, "|"),
+      "After the largest smallest allowance: the smallest largest one, or the most even [smallest]");
+  add("--give-up", w.give_up, "MM", "What the second criterion may take off the smallest allowance [0]");
+  add("--trade-off", w.trade_off, "N", "Also N points of the curve of smallest against largest allowance");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
   add("--method", w.method, list_of(kMethods, "|"),
       "certified proves its result; ipopt and icp are there for comparison [certified]");

@@ -9,6 +9,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
+#include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/nc/rewrite.hpp"
@@ -26,6 +27,11 @@ struct LocateOptions {
   std::optional<double> gap;  ///< mm; each kind of shape has its own default
   double min_allowance = 0;   ///< mm
   locate::Mirror mirror = locate::Mirror::no;
+  locate::LockedShift locked;
+  std::string features;  ///< file
+  locate::Criterion criterion = locate::Criterion::smallest;
+  double give_up = 0;         ///< mm
+  std::size_t trade_off = 0;  ///< points
   Method method = Method::certified;
   int starts = 10;
   locate::StartRule start_rule = locate::StartRule::random;
@@ -45,6 +51,9 @@ struct VerifyOptions {
   std::string part, blank, certificate;  ///< instead of the paths in the result; may be empty
   bool json = false;
 };
+
+/// Whether anything was asked for that takes the shapes as regions, convex or not.
+[[nodiscard]] bool has_demands(const LocateOptions& options);
 
 /// Text for stdout and nothing else to do: help, version, a completion script.
 struct PrintText {
