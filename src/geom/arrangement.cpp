@@ -66,7 +66,12 @@ class Arranger {
     const Point p = made_.vertices[v];
     if (!(std::abs(side(piece, p)) <= kHot * made_.snap)) return;
     const double at = along(piece, p);
-    if (at > 0 && at < length_squared(piece)) stops_.push_back({i, v, at});
+    if (!(at > 0 && at < length_squared(piece))) return;
+    // Two pieces from one vertex whose other ends are near each other must not each pass through the end of
+    // the other: the wedge between them would be turned inside out, and open a crack as long as they are.
+    const Point from = made_.vertices[ends_[i][0]], to = made_.vertices[ends_[i][1]];
+    const double whole = norm(to - from);
+    if (norm(p - from) < whole && norm(p - to) < whole) stops_.push_back({i, v, at});
   }
 
   void stop_at_vertices() {
@@ -139,7 +144,8 @@ class Arranger {
         edge.weight[k] = shape.from < shape.to ? upwards[k] : -upwards[k];
         any = any || upwards[k] != 0;
       }
-      if (any) made_.edges.push_back(edge);
+      const double length = norm(made_.vertices[shape.to] - made_.vertices[shape.from]);
+      if (any || length <= kShortGap * made_.snap) made_.edges.push_back(edge);
       i = end;
     }
     std::sort(made_.edges.begin(), made_.edges.end(),
@@ -153,6 +159,14 @@ class Arranger {
 };
 
 }  // namespace
+
+Piece piece_between(const Arrangement& a, const Stretch& s) {
+  Piece piece = a.pieces[s.piece];
+  piece.from = a.vertices[s.from];
+  piece.to = a.vertices[s.to];
+  if (!s.curved) piece.kind = EdgeKind::line;
+  return piece;
+}
 
 void Outlines::add(const Contour& contour, std::uint8_t operand_of_all) {
   const auto first = static_cast<std::uint32_t>(edges.size());

@@ -32,6 +32,10 @@ struct Stretch {
   double height = 0;    ///< of its middle above the chord, positive on the left of its direction
 };
 
+struct Arrangement;
+/// The stretch as a piece between its vertices.
+[[nodiscard]] Piece piece_between(const Arrangement& a, const Stretch& s);
+
 /// A stretch, or several that coincide: how much the winding number of each operand is higher on the left.
 struct MapEdge {
   std::uint32_t stretch = 0;  ///< the first of them, whose direction and shape it has
@@ -46,8 +50,11 @@ struct Arrangement {
   std::vector<Point> vertices;
   std::vector<Stretch> stretches;            ///< along each outline edge, outline edge after outline edge
   std::vector<std::uint32_t> origin_starts;  ///< per outline edge its first stretch; one more at the end
-  std::vector<MapEdge> edges;                ///< in the order of their stretches; none without weight
+  std::vector<MapEdge> edges;  ///< in the order of their stretches; those without weight only if short
 };
+/// In snaps. Edges that cancel are left out, but not across the mouth of a crack: they make a face of it, and
+/// a thin face is turned over (PlanarMap::loops).
+inline constexpr double kShortGap = 4;
 inline constexpr double kHot = 1.25;
 /// Arcs shorter than this many snaps become lines, less than a quarter of their length away.
 inline constexpr double kShortArc = 16;

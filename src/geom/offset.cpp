@@ -1,10 +1,13 @@
 #include "lekalo/geom/offset.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/geom/predicates.hpp"
+#include "lekalo/geom/region_check.hpp"
 #include "overlay.hpp"
 
 namespace lekalo::geom {
@@ -26,6 +29,30 @@ Point direction_at(const Edge& edge, Point at) {
   return edge.kind == EdgeKind::arc_ccw ? left : -left;
 }
 
+/// An arc's ends may miss its mean circle (region.hpp): what joins them to it are edges of their own here, so
+/// that discs are swept along what is meant.
+Contour with_joints(const Contour& contour) {
+  Contour made;
+  for (const Edge& edge : contour) {
+    if (edge.kind == EdgeKind::line || edge.from == edge.to) {
+      made.push_back(edge);
+      continue;
+    }
+    const double r = arc_radius(edge), off = std::abs(norm(edge.from - edge.centre) - r);
+    constexpr double kRoundedAlready = 0x1p-36;  // of the radius: rounding, not drawing
+    const Edge arc{edge.kind, edge.centre + r * unit(edge.from - edge.centre),
+                   edge.centre + r * unit(edge.to - edge.centre), edge.centre};
+    if (off <= kRoundedAlready * r || arc.from == edge.from || arc.to == edge.to || arc.from == arc.to) {
+      made.push_back(edge);
+      continue;
+    }
+    made.push_back(line(edge.from, arc.from));
+    made.push_back(arc);
+    made.push_back(line(arc.to, edge.to));
+  }
+  return made;
+}
+
 /// A circle of smaller radius than this part of the arc's is its centre: not further off than points that are
 /// snapped together.
 constexpr double kNoRadius = kBooleanSnap;
@@ -36,7 +63,8 @@ class Brush {
   Brush(double radius, std::uint8_t operand, Outlines& outlines)
       : radius_(radius), operand_(operand), outlines_(outlines) {}
 
-  void sweep(const Contour& contour) {
+  void sweep(const Contour& drawn) {
+    const Contour contour = with_joints(drawn);
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Edge& edge = contour[i];
       sweep(edge);
@@ -64,7 +92,7 @@ class Brush {
   void strip(const Edge& edge, const Edge& parallel) {
     Contour contour = reversed({edge});
     contour.push_back(line(edge.from, parallel.from));
-    contour.push_back(parallel);
+    if (!(parallel.from == parallel.to)) contour.push_back(parallel);
     contour.push_back(line(parallel.to, edge.to));
     add(contour);
   }
@@ -89,8 +117,12 @@ class Brush {
       return;
     }
     const double out = arc.kind == EdgeKind::arc_ccw ? radius_ : -radius_;
-    const Edge parallel{arc.kind, arc.from + out * unit(arc.from - arc.centre),
-                        arc.to + out * unit(arc.to - arc.centre), arc.centre};
+    Edge parallel{arc.kind, arc.from + out * unit(arc.from - arc.centre),
+                  arc.to + out * unit(arc.to - arc.centre), arc.centre};
+    // An arc of a few last places may come out turned round, and would be all of the circle but these.
+    if (dot(arc.from - arc.centre, arc.to - arc.centre) > 0 &&
+        orientation(arc.centre, parallel.from, parallel.to) != orientation(arc.centre, arc.from, arc.to))
+      parallel = line(parallel.from, parallel.to);
     strip(arc, parallel);
   }
 
@@ -127,24 +159,49 @@ void for_each_contour(const std::vector<Region>& regions, Visit&& visit) {
   }
 }
 
-Result<BooleanResult> grown(const std::vector<Region>& regions, double distance) {
+/// Regions whose edges may be swept. Their union is what counts, but taking it blunts the tips of needles,
+/// which a large disc would show; so it is taken only where edges bound no material.
+struct Material {
+  std::vector<Region> regions;
+  double error = 0;
+};
+
+Result<Material> material_of(const std::vector<Region>& regions, detail::KeepRule is_wrong, bool meeting) {
   Outlines outlines;
   outlines.add(regions, 0);
-  Brush brush(distance, 0, outlines);
-  for_each_contour(regions, [&](const Contour& contour) { brush.sweep(contour); });
-  return detail::overlay(outlines, [](const Winding& w) { return w[0] > 0; });
+  const auto wrong = detail::overlay(outlines, is_wrong);
+  if (!wrong) return tl::unexpected(wrong.error());
+  if (wrong->regions.empty() && !(meeting && fault_of(regions))) return Material{regions, 0};
+  auto whole = united(regions);
+  if (!whole) return tl::unexpected(whole.error());
+  return Material{std::move(whole->regions), whole->corner_error};
 }
 
-/// The outside grown into the material. Edges between two pieces are not outside, hence the union first.
-Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance) {
-  const auto whole = united(regions);
-  if (!whole) return whole;
+/// A loop that winds the other way is no material, and what its edges sweep is none either. (Edges inside
+/// material sweep what belongs to the result.)
+Result<BooleanResult> grown(const std::vector<Region>& regions, double distance) {
+  const auto material = material_of(
+      regions, [](const Winding& w) { return w[0] < 0; }, false);
+  if (!material) return tl::unexpected(material.error());
   Outlines outlines;
-  outlines.add(whole->regions, 0);
+  outlines.add(material->regions, 0);
   Brush brush(distance, 1, outlines);
-  for_each_contour(whole->regions, [&](const Contour& contour) { brush.sweep(reversed(contour)); });
+  for_each_contour(material->regions, [&](const Contour& contour) { brush.sweep(contour); });
   return detail::overlay(
-      outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, whole->edge_error);
+      outlines, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, material->error);
+}
+
+/// The outside grown into the material. Edges between two pieces, or inside one, are not outside.
+Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance) {
+  const auto material = material_of(
+      regions, [](const Winding& w) { return w[0] < 0 || w[0] > 1; }, true);
+  if (!material) return tl::unexpected(material.error());
+  Outlines outlines;
+  outlines.add(material->regions, 0);
+  Brush brush(distance, 1, outlines);
+  for_each_contour(material->regions, [&](const Contour& contour) { brush.sweep(reversed(contour)); });
+  return detail::overlay(
+      outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, material->error);
 }
 
 /// Adds all points within `distance` of an edge, on the sides asked for.
@@ -174,12 +231,16 @@ Result<BooleanResult> offset_edges(const std::vector<Region>& regions, const std
   Outlines all;
   all.add(rest->regions, 0);
   for (std::size_t k = 0; k < edges.size(); ++k)
-    if (distances[k] > 0) add_rim(*edges[k], distances[k], 0, false, all);
+    if (distances[k] > 0) add_rim(*edges[k], distances[k], 1, false, all);
   return detail::overlay(
-      all, [](const Winding& w) { return w[0] > 0; }, rest->edge_error);
+      all, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, rest->edge_error);
 }
 
 Result<BooleanResult> offset(const std::vector<Region>& regions, double distance) {
+  if (!is_exact_coordinate(distance))
+    return failure(ErrorCode::bad_input,
+                   fmt::format("an offset by {} mm: it takes 0 or a number from {:.1g} to {:.1g}", distance,
+                               kSmallestExactCoordinate, kLargestExactCoordinate));
   if (distance == 0) return united(regions);
   return distance > 0 ? grown(regions, distance) : shrunk(regions, -distance);
 }

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "around_vertex.hpp"
 #include "loop_contour.hpp"
 
 namespace lekalo::geom::detail {
@@ -17,13 +16,6 @@ namespace {
 /// Each attempt snaps eight times as far as the one before: 2^21 times at last.
 constexpr int kAttempts = 8;
 constexpr double kCoarser = 8;
-
-double chord_length(const PlanarMap::Loop& loop, const Arrangement& a) {
-  double sum = 0;
-  for (const std::uint32_t h : loop.half_edges)
-    sum += norm(a.vertices[end_of(a, h)] - a.vertices[start_of(a, h)]);
-  return sum;
-}
 
 /// Outlines and holes of one group are one region. Nothing where a group has two outlines, or holes alone.
 std::optional<std::vector<Region>> regions_of(const std::vector<std::uint32_t>& groups,
@@ -60,21 +52,24 @@ std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep,
             [&](const PlanarMap::Loop& a, const PlanarMap::Loop& b) { return first(a) < first(b); });
 
   BooleanResult result;
-  const double thinnest = kEdgeErrorInSnaps * snap;
-  result.edge_error = thinnest + operand_error;
+  result.edge_error = kEdgeErrorInSnaps * snap + operand_error;
   result.corner_error = result.edge_error;
   std::vector<std::uint32_t> groups;
   std::vector<Contour> contours;
   for (const PlanarMap::Loop& loop : loops) {
     LoopContour made = contour_of(loop, outlines, arrangement, result.edge_error);
-    // Thinner than what the edges may be off: nothing, or a crack in the material.
-    if (std::abs(geom::signed_area(made.contour)) <= thinnest * chord_length(loop, arrangement)) continue;
+    if (PlanarMap::is_thin(arrangement, loop)) continue;  // nothing, or a crack in the material
     result.corner_error = std::max(result.corner_error, made.corner_error);
     groups.push_back(loop.group);
     contours.push_back(std::move(made.contour));
   }
   auto regions = regions_of(groups, std::move(contours));
   if (!regions) return std::nullopt;
+  // What is so thin that rounding could turn it is no region; further apart points may tell.
+  for (const Region& region : *regions) {
+    const auto again = make_region(region.outer, region.holes);
+    if (!again || !(*again == region)) return std::nullopt;
+  }
   result.regions = std::move(*regions);
   return result;
 }

@@ -3,23 +3,57 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "around_vertex.hpp"
 #include "disjoint_sets.hpp"
+#include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "thin_loop.hpp"
 
 namespace lekalo::geom::detail {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-/// The stretch as a piece between its vertices.
-Piece piece_between(const Arrangement& a, const Stretch& s) {
-  Piece piece = a.pieces[s.piece];
-  piece.from = a.vertices[s.from];
-  piece.to = a.vertices[s.to];
-  if (!s.curved) piece.kind = EdgeKind::line;
-  return piece;
+double chord_length(const Arrangement& a, std::uint32_t h) {
+  return norm(a.vertices[end_of(a, h)] - a.vertices[start_of(a, h)]);
+}
+double chord_length(const Arrangement& a, const PlanarMap::Loop& loop) {
+  double sum = 0;
+  for (const std::uint32_t h : loop.half_edges) sum += chord_length(a, h);
+  return sum;
+}
+
+double signed_area(const Arrangement& a, const PlanarMap::Loop& loop) {
+  const Point origin = a.vertices[start_of(a, loop.half_edges.front())];
+  double doubled = 0;
+  for (const std::uint32_t h : loop.half_edges) {
+    const Point from = a.vertices[start_of(a, h)] - origin, to = a.vertices[end_of(a, h)] - origin;
+    doubled += cross(from, to);
+    const Stretch& s = a.stretches[a.edges[h / 2].stretch];
+    if (!s.curved) continue;
+    const double half = 0.5 * norm(to - from), r = a.pieces[s.piece].radius;
+    const double sweep = 2 * direction_angle(std::sqrt(std::max(0.0, (r - half) * (r + half))), half);
+    const double beside = r * r * (sweep - sincos(sweep).sine);
+    doubled += (s.height < 0) == (h % 2 == 0) ? beside : -beside;
+  }
+  return 0.5 * doubled;
+}
+
+/// The loop, or the loop turned round.
+std::vector<Piece> chain_of(const Arrangement& a, const PlanarMap::Loop& loop, bool turned) {
+  std::vector<Piece> chain;
+  for (const std::uint32_t h : loop.half_edges) {
+    Piece piece = piece_between(a, a.stretches[a.edges[h / 2].stretch]);
+    if ((h % 2 != 0) != turned) {
+      std::swap(piece.from, piece.to);
+      if (is_arc(piece)) piece.kind = piece.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+    }
+    chain.push_back(piece);
+  }
+  if (turned) std::reverse(chain.begin(), chain.end());
+  return chain;
 }
 
 }  // namespace
@@ -84,9 +118,18 @@ void PlanarMap::find_components() {
   }
   for (std::uint32_t e = 0; e < a_.edges.size(); ++e) ++components_[component_[start_of(a_, 2 * e)]].edges;
   for (const std::uint32_t h : face_starts_) ++components_[component_[start_of(a_, h)]].faces;
-  // Around its lowest vertex no edge runs down: the outside is where the order ends and begins.
+  // Around its lowest vertex no edge runs down: the outside is where the order ends and begins. Where that
+  // vertex is among others that are hardly apart the order says little, and areas say more.
   for (Component& component : components_)
     component.outside = around_[around_starts_[component.lowest + 1] - 1];
+  std::vector<double> least(components_.size(), 0);
+  for (std::uint32_t f = 0; f < face_starts_.size(); ++f) {
+    const Loop walk = walk_around(f);
+    const double area = signed_area(a_, walk);
+    const std::uint32_t c = component_[start_of(a_, walk.half_edges.front())];
+    if (area < least[c] && area < -a_.snap * chord_length(a_, walk))
+      least[c] = area, components_[c].outside = walk.half_edges.front();
+  }
   if (components_.size() < 2) return;
   std::vector<Box> boxes;
   for (const MapEdge& edge : a_.edges) {
@@ -97,9 +140,33 @@ void PlanarMap::find_components() {
   tree_.emplace(std::move(boxes));
 }
 
+PlanarMap::Loop PlanarMap::walk_around(std::uint32_t face) const {
+  Loop walk;
+  std::uint32_t h = face_starts_[face];
+  do {
+    walk.half_edges.push_back(h);
+    h = next(h);
+  } while (h != face_starts_[face]);
+  return walk;
+}
+
 bool PlanarMap::is_planar() const {
   return std::all_of(components_.begin(), components_.end(),
-                     [](const Component& c) { return c.vertices + c.faces == c.edges + 2; });
+                     [](const Component& c) { return c.vertices + c.faces == c.edges + 2; }) &&
+         has_one_outside();
+}
+
+/// Turned inside out, an order of edges around vertices is as planar as the right one; but then a face that
+/// is no component's outside is run around clockwise.
+bool PlanarMap::has_one_outside() const {
+  for (std::uint32_t f = 0; f < face_starts_.size(); ++f) {
+    const Loop walk = walk_around(f);
+    const std::uint32_t c = component_[start_of(a_, walk.half_edges.front())];
+    const double noise = kEdgeErrorInSnaps * a_.snap * chord_length(a_, walk);
+    const double area = signed_area(a_, walk);
+    if (f == face_[components_[c].outside] ? area > noise : area < -noise) return false;
+  }
+  return true;
 }
 
 template <class Visit>
@@ -180,20 +247,41 @@ std::vector<PlanarMap::Loop> PlanarMap::traced_loops(const std::vector<char>& ke
   return loops;
 }
 
-double PlanarMap::signed_area(const Loop& loop) const {
-  const Point origin = a_.vertices[start_of(a_, loop.half_edges.front())];
-  double doubled = 0;
-  for (const std::uint32_t h : loop.half_edges) {
-    const Point from = a_.vertices[start_of(a_, h)] - origin, to = a_.vertices[end_of(a_, h)] - origin;
-    doubled += cross(from, to);
-    const Stretch& s = a_.stretches[a_.edges[h / 2].stretch];
-    if (!s.curved) continue;
-    const double half = 0.5 * norm(to - from), r = a_.pieces[s.piece].radius;
-    const double sweep = 2 * direction_angle(std::sqrt(std::max(0.0, (r - half) * (r + half))), half);
-    const double beside = r * r * (sweep - sincos(sweep).sine);
-    doubled += (s.height < 0) == (h % 2 == 0) ? beside : -beside;
+bool PlanarMap::is_thin(const Arrangement& a, const Loop& loop) {
+  const double thinnest = kEdgeErrorInSnaps * a.snap, area = signed_area(a, loop);
+  // A disc of that radius has more area; and inside a chain of length l whose inside is within t of it there
+  // is no more than t l. Between the two area does not tell: a long tail makes any thickness look thin.
+  constexpr double kLessThanPi = 3.1, kArcInChords = 1.12;
+  if (std::abs(area) <= kLessThanPi * thinnest * thinnest) return true;
+  if (std::abs(area) > kArcInChords * thinnest * chord_length(a, loop)) return false;
+  constexpr double kOff = 2;  // what pieces may be off, in snaps: kHot and rounding
+  return detail::is_thin(chain_of(a, loop, area < 0), thinnest - kOff * a.snap, a.snap);
+}
+
+void PlanarMap::turn_thin_faces(std::vector<char>& kept) const {
+  std::vector<char> is_outside(face_starts_.size(), 0);
+  for (const Component& component : components_) is_outside[face_[component.outside]] = 1;
+  std::vector<std::uint32_t> thin;
+  std::vector<Loop> walks;
+  for (std::uint32_t f = 0; f < face_starts_.size(); ++f) {
+    if (is_outside[f] != 0) continue;
+    Loop walk = walk_around(f);
+    if (!is_thin(a_, walk)) continue;
+    thin.push_back(f);
+    walks.push_back(std::move(walk));
   }
-  return 0.5 * doubled;
+  // Each turn makes the boundary shorter, so it ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < thin.size(); ++i) {
+      double other = 0, same = 0;
+      for (const std::uint32_t h : walks[i].half_edges)
+        (kept[face_[h ^ 1]] != kept[thin[i]] ? other : same) += chord_length(a_, h);
+      if (!(other > same * (1 + 1e-9))) continue;
+      kept[thin[i]] = kept[thin[i]] == 0 ? 1 : 0;
+      changed = true;
+    }
+  }
 }
 
 void PlanarMap::link_components(const std::vector<char>& kept, std::vector<Loop>& loops,
@@ -206,7 +294,7 @@ void PlanarMap::link_components(const std::vector<char>& kept, std::vector<Loop>
   std::vector<double> areas;
   for (std::uint32_t i = 0; i < loops.size(); ++i) {
     for (const std::uint32_t h : loops[i].half_edges) loop_of_edge[h / 2] = i;
-    areas.push_back(std::abs(signed_area(loops[i])));
+    areas.push_back(std::abs(signed_area(a_, loops[i])));
   }
   for (std::uint32_t c = 0; c < components_.size(); ++c) {
     const std::uint32_t outside = face_[components_[c].outside];
@@ -231,6 +319,7 @@ void PlanarMap::link_components(const std::vector<char>& kept, std::vector<Loop>
 std::vector<PlanarMap::Loop> PlanarMap::loops(KeepRule keep) const {
   std::vector<char> kept;
   for (const Winding& winding : winding_) kept.push_back(keep(winding) ? 1 : 0);
+  turn_thin_faces(kept);
   std::vector<Loop> loops = traced_loops(kept);
   std::vector<std::uint32_t> group_of_face(face_starts_.size());
   link_components(kept, loops, group_of_face);

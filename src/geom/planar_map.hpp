@@ -26,7 +26,12 @@ class PlanarMap {
     std::vector<std::uint32_t> half_edges;
     std::uint32_t group = 0;  ///< loops of one group bound one connected piece of material
   };
+  /// Of faces that are thin, those are turned over that are enclosed by others: what is left of edges that
+  /// were drawn apart by less than snapping tells.
   [[nodiscard]] std::vector<Loop> loops(KeepRule keep) const;
+
+  /// Whether all points inside the loop are within kEdgeErrorInSnaps of its edges. A no may be wrong.
+  [[nodiscard]] static bool is_thin(const Arrangement& arrangement, const Loop& loop);
 
  private:
   explicit PlanarMap(const Arrangement& arrangement) : a_(arrangement) {}
@@ -34,7 +39,9 @@ class PlanarMap {
   void sort_around_vertices();
   void trace_faces();
   void find_components();
+  [[nodiscard]] Loop walk_around(std::uint32_t face) const;
   [[nodiscard]] bool is_planar() const;
+  [[nodiscard]] bool has_one_outside() const;
   [[nodiscard]] bool find_windings();
   [[nodiscard]] std::uint32_t next(std::uint32_t half_edge) const noexcept;
   /// visit(edge, upwards) for the edges of other components that a ray from the component's lowest vertex to
@@ -42,7 +49,7 @@ class PlanarMap {
   template <class Visit>
   void cast_ray(std::uint32_t component, Visit&& visit) const;
   [[nodiscard]] std::vector<Loop> traced_loops(const std::vector<char>& kept) const;
-  [[nodiscard]] double signed_area(const Loop& loop) const;
+  void turn_thin_faces(std::vector<char>& kept) const;
   void link_components(const std::vector<char>& kept, std::vector<Loop>& loops,
                        std::vector<std::uint32_t>& group_of_face) const;
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "box_tree.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_index.hpp"
 
@@ -85,29 +87,60 @@ class Checker {
     return fault;
   }
 
-  std::optional<std::string> misplaced() {
-    std::vector<RegionIndex> outlines, materials;
-    for (const Region& region : regions_) {
-      outlines.emplace_back(std::vector<Region>{{region.outer, {}}});
-      materials.emplace_back(std::vector<Region>{region});
+  /// Outlines of which each was asked for, and a tree of their boxes to know whom to ask.
+  class Outlines {
+   public:
+    explicit Outlines(std::vector<Region> outlines)
+        : outlines_(std::move(outlines)), indices_(outlines_.size()), tree_(boxes_of(outlines_)) {}
+    /// visit(i) for every outline that holds p, but not `own`.
+    template <class Visit>
+    void visit_holding(Point p, std::size_t own, Visit&& visit) {
+      tree_.visit_meeting({p, p}, [&](std::uint32_t i) {
+        if (i == own) return;
+        if (!indices_[i]) indices_[i].emplace(std::vector<Region>{outlines_[i]});
+        if (indices_[i]->contains(p)) visit(i);
+      });
     }
+
+   private:
+    static std::vector<Box> boxes_of(const std::vector<Region>& outlines) {
+      std::vector<Box> boxes;
+      for (const Region& r : outlines) {
+        boxes.push_back(RegionIndex({{r.outer, {}}}).bounds());  // with its margin for rounding
+      }
+      return boxes;
+    }
+    std::vector<Region> outlines_;
+    std::vector<std::optional<RegionIndex>> indices_;
+    detail::BoxTree tree_;
+  };
+
+  std::optional<std::string> misplaced() {
+    Outlines materials(regions_);
     for (std::size_t p = 0; p < regions_.size(); ++p) {
       const auto& holes = regions_[p].holes;
       const std::string of = regions_.size() > 1 ? fmt::format(" of piece {}", p) : "";
+      const RegionIndex outline({{regions_[p].outer, {}}});
+      std::vector<Region> as_regions;
+      for (const Contour& hole : holes) as_regions.push_back({hole, {}});
+      Outlines all(std::move(as_regions));
       for (std::size_t h = 0; h < holes.size(); ++h) {
         const Point at = holes[h].front().from;
-        if (!outlines[p].contains(at))
+        if (!outline.contains(at))
           return fmt::format("hole {}{} lies outside the outer contour, at ({}, {}) mm", h, of, at.x, at.y);
-        for (std::size_t k = 0; k < holes.size(); ++k) {
-          if (k == h || !RegionIndex({{holes[k], {}}}).contains(at)) continue;
-          return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", h, of, k, at.x, at.y);
-        }
+        std::size_t around = holes.size();
+        all.visit_holding(at, h, [&](std::size_t k) { around = std::min(around, k); });
+        if (around < holes.size())
+          return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", h, of, around, at.x, at.y);
       }
-      for (std::size_t q = 0; q < regions_.size(); ++q) {
-        const Point at = regions_[q].outer.front().from;
-        if (q != p && materials[p].contains(at))
-          return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", q, p, at.x, at.y);
-      }
+    }
+    for (std::size_t q = 0; q < regions_.size(); ++q) {
+      const Point at = regions_[q].outer.front().from;
+      std::size_t around = regions_.size();
+      materials.visit_holding(at, q, [&](std::size_t p) { around = std::min(around, p); });
+      if (around < regions_.size())
+        return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", q, around, at.x,
+                           at.y);
     }
     return std::nullopt;
   }

@@ -20,7 +20,7 @@ enum class BooleanOperation {
 /// Regions and how far they may be from the exact ones, millimetres.
 ///
 /// `edge_error`: every point further than this from all edges of the operands is in `regions` exactly when it
-/// is in the exact result. Pieces and gaps thinner than twice this may be missing or filled.
+/// is in the exact result. Pieces and gaps no disc of this radius fits into may be missing or filled.
 /// `corner_error`: apart from those, every boundary point of either lies within this of the other boundary.
 /// It is larger where edges cross at a small angle: moving both by e moves a corner of opening alpha by
 /// e / sin(alpha / 2).

@@ -19,8 +19,7 @@ namespace lekalo::geom {
 /// Fails as combine() does. Laws (tests/property/geom_offset_test.cpp): the distance just said; opening
 /// (shrink, then grow) lies inside and closing (grow, then shrink) around the regions; a convex region of
 /// boundary length L grows by L d + pi d^2; offset(offset(A, r), s) is offset(A, r + s) for r, s >= 0.
-/// Cost: O((n + k) log n) as combine(), about five edges for each. \pre regions made by make_region; a finite
-/// distance
+/// Cost: O((n + k) log n) as combine(), about five edges for each. \pre regions made by make_region
 /// Source: the union of a region with what each edge and corner sweeps; every such set is bounded by lines
 /// and arcs, and sides that two of them share cancel.
 [[nodiscard]] Result<BooleanResult> offset(const std::vector<Region>& regions, double distance);
