@@ -135,7 +135,7 @@ void find_missing(Report& report) {
     if (least.allowance < report.demanded[k])
       places.push_back({least.in_part, least.in_blank, report.demanded[k] - least.allowance});
   }
-  const double size = size_of(report.shapes.part), apart = size / 8;
+  const double size = size_of(report.shapes.part), apart = size / 4;
   if (report.document.placement.clearance < 0) {
     for (locate::MissingPlace place :
          locate::missing_material(report.shapes.part, report.shapes.blank, pose_of(report),

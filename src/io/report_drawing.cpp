@@ -24,6 +24,15 @@ constexpr Colour kMissingFill{250, 190, 196};
 
 enum Level : int { kSticksOut = -2, kTooThin = -1 };  ///< else a step of the colour scale
 
+/// Of blank and placed part.
+geom::Box bounds_of(const Report& report) {
+  geom::Box box = geom::bounds(report.shapes.blank.front().outer);
+  for (const geom::Region& region : report.shapes.blank) box = joined(box, geom::bounds(region.outer));
+  for (const locate::EdgeAllowance& edge : report.edges)
+    for (const locate::OutlinePoint& p : edge.samples) box = joined(box, {p.in_blank, p.in_blank});
+  return box;
+}
+
 class Drawing {
  public:
   Drawing(const Report& report, const ReportLook& look, const Rect& frame, Sheet& sheet)
@@ -40,8 +49,8 @@ class Drawing {
   }
 
   void draw() {
-    items_.push_back(PathItem{{frame_.ring()}, true, stroked(kRule, 0.3), {"frame", ""}});
     shapes();
+    items_.push_back(PathItem{{frame_.ring()}, true, stroked(kRule, 0.3), {"frame", ""}});
     contacts();
     labels();
     strip();
@@ -49,13 +58,9 @@ class Drawing {
 
  private:
   void choose_view() {
-    geom::Box box = geom::bounds(report_.shapes.blank.front().outer);
-    for (const geom::Region& region : report_.shapes.blank) box = joined(box, geom::bounds(region.outer));
-    for (const locate::EdgeAllowance& edge : report_.edges)
-      for (const locate::OutlinePoint& p : edge.samples) box = joined(box, {p.in_blank, p.in_blank});
     const Rect room{frame_.x + kRoomSide, frame_.y + kRoomTop, frame_.width - 2 * kRoomSide,
                     frame_.height - 2 * kRoomTop - kStrip};
-    view_ = fitted(box, room);
+    view_ = fitted(bounds_of(report_), room);
   }
 
   /// Twice the area over the perimeter: less than the width of a long shape.
@@ -75,6 +80,8 @@ class Drawing {
     items_.push_back(ClipBegin{blank_});
     items_.push_back(PathItem{part_, true, filled(kPaper), {"part", "part at the result"}});
     items_.push_back(ClipEnd{});
+    for (std::size_t edge = 0; edge < report_.edges.size(); ++edge)
+      corner(edge, thin ? kThinBand : 2 * kBand);
     for (std::size_t edge = 0; edge < report_.edges.size(); ++edge) band(edge, thin ? kThinBand : 2 * kBand);
     if (!thin) {
       // The half of the band outside the part is painted over. (A clip along the part for every piece of the
@@ -103,6 +110,16 @@ class Drawing {
     if (allowance < 0) return kSticksOut;
     if (allowance < demanded) return kTooThin;
     return scale_step(allowance, look_.range.low, look_.range.high);
+  }
+
+  /// Under the band where an edge begins, so that corners inwards are not left open.
+  void corner(std::size_t edge, double width) {
+    const locate::OutlinePoint& begin = report_.edges[edge].samples.front();
+    const int level = level_of(begin.allowance, report_.demanded[edge]);
+    items_.push_back(DotItem{view_(begin.in_blank),
+                             width / 2,
+                             filled(level < 0 ? kOutside : scale_colour(level)),
+                             {"corner", ""}});
   }
 
   /// An edge in pieces of one colour, each drawn a little into the next so that no seam shows.
@@ -249,6 +266,13 @@ class Drawing {
 };
 
 }  // namespace
+
+double placement_height(const Report& report, double width) {
+  const geom::Box box = bounds_of(report);
+  const geom::Point size = box.high - box.low;
+  return (width - 2 * kRoomSide) * (size.x > 0 ? std::min(size.y / size.x, 10.0) : 10) + 2 * kRoomTop +
+         kStrip;
+}
 
 void draw_placement(const Report& report, const ReportLook& look, const Rect& frame, Sheet& sheet) {
   Drawing(report, look, frame, sheet).draw();

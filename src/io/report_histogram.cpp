@@ -59,13 +59,14 @@ double draw_histogram(const Report& report, const ReportLook& look, const Rect& 
   const double most = *std::max_element(h.share.begin(), h.share.end());
   y += kReportSmall + 0.8;
   const double demanded = report.document.min_allowance;
-  const bool demand_shown = demanded > h.low && demanded < h.high;
+  const bool demand_shown = demanded > 0 && demanded > h.low && demanded < h.high;
   sheet.text(column.x, y, column.width,
              fmt::format("share of the outline's length; the highest bar is {:.0f} %{}", 100 * most,
-                         demand_shown ? "; dashed: what is demanded" : ""),
+                         demand_shown ? "; dashed: demanded" : ""),
              {.size = kReportSmall, .colour = kGrey, .kind = "histogram-title"});
   y += 1.2;
   const double base = y + kHeight;
+  const double too_thin = *std::min_element(report.demanded.begin(), report.demanded.end());
   const auto x_of = [&](double value) {
     return column.x + column.width * std::clamp((value - h.low) / (h.high - h.low), 0.0, 1.0);
   };
@@ -73,7 +74,7 @@ double draw_histogram(const Report& report, const ReportLook& look, const Rect& 
     if (!(h.share[k] > 0)) continue;
     const double from = h.low + static_cast<double>(k) * h.width(), middle = from + 0.5 * h.width();
     const Colour colour =
-        middle < 0 ? kOutside : scale_colour(scale_step(middle, look.range.low, look.range.high));
+        middle < too_thin ? kOutside : scale_colour(scale_step(middle, look.range.low, look.range.high));
     const double height = std::max(0.15, kHeight * h.share[k] / most);
     const Rect bar{x_of(from), base - height, column.width / kBins, height};
     sheet.items().push_back(PathItem{

@@ -15,7 +15,7 @@ constexpr double kBetween = 5;
 constexpr Rect kLeft{kBody.x, 0, 0.5 * (kBody.width - kBetween), 0};
 constexpr Rect kRight{kBody.x + kLeft.width + kBetween, 0, kLeft.width, 0};
 constexpr double kFooter = 4;
-constexpr double kLeastDrawing = 92, kMostDrawing = 150;  ///< height, mm
+constexpr double kLeastDrawing = 70, kUsualDrawing = 92, kMostDrawing = 150;  ///< height, mm
 
 Colour colour_of_status(const std::string& status) {
   if (status == "optimal") return kGood;
@@ -38,7 +38,7 @@ class Page {
     const double bottom = kBody.bottom() - kFooter;
     choose_rows(bottom - top);
     const double below = height_below();
-    const double height = std::min(kMostDrawing, bottom - top - below);
+    const double height = std::min(most_drawing(), bottom - top - below);
     draw_placement(report_, look_, {kBody.x, top, kBody.width, height}, sheet);
     sections(top + height + 3, sheet);
     footer(sheet);
@@ -82,10 +82,13 @@ class Page {
     Sheet scratch(items);
     return sections(0, scratch) + 3;
   }
-  /// As much of the lists as leaves the drawing its least height.
+  [[nodiscard]] double most_drawing() const {
+    return std::clamp(placement_height(report_, kBody.width), kLeastDrawing, kMostDrawing);
+  }
+  /// As much of the lists as leaves the drawing its usual height.
   void choose_rows(double room) {
     constexpr std::size_t kFewest = 3;
-    while (height_below() + kLeastDrawing > room) {
+    while (height_below() + std::min(kUsualDrawing, most_drawing()) > room) {
       std::size_t& most = lines_ >= rows_ ? lines_ : rows_;
       if (most <= kFewest) break;
       --most;

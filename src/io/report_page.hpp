@@ -27,6 +27,10 @@ struct ReportLook {
 /// A length as printed, with its unit.
 [[nodiscard]] std::string length_text(double mm, int decimals, Rounding rounding = Rounding::nearest);
 
+/// How high a frame of this width the shapes fill, at most (part and blank may be higher than wide: 10
+/// widths).
+[[nodiscard]] double placement_height(const Report& report, double width);
+
 /// The sections. Each draws from `top` downwards in its column and returns where it ends.
 void draw_placement(const Report& report, const ReportLook& look, const Rect& frame, Sheet& sheet);
 double draw_histogram(const Report& report, const ReportLook& look, const Rect& column, double top,

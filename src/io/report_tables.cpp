@@ -108,13 +108,13 @@ double draw_proof(const Report& report, const Rect& column, double top, Sheet& s
 double draw_contacts(const Report& report, const ReportLook& look, const Rect& column, double top,
                      std::size_t most_rows, Sheet& sheet) {
   if (report.contacts.empty()) return top;
-  double y = sheet.heading(column, top, "Contacts: where the part is nearest to the blank");
+  double y = sheet.heading(column, top, "Contacts, mm: where the part is nearest");
   Table table({{"", 0.5, false},
                {report.contacts_at_vertices ? "part vertex" : "part edge", 2},
                {"blank edge", 2},
-               {"distance, mm", 2},
-               {"x in the blank", 2},
-               {"y", 2}},
+               {"distance", 2},
+               {"x in blank", 2.1},
+               {"y", 1.9}},
               column, sheet);
   y = table.titles(y);
   const std::size_t shown = std::min(report.contacts.size(), most_rows);
@@ -194,7 +194,8 @@ double draw_inputs(const Report& report, const Rect& column, double top, Sheet& 
   double y = sheet.heading(column, top, "Input files and SHA-256 of their bytes");
   for (const InputRecord& input : report.document.inputs) {
     y += kReportLine;
-    constexpr double kDigest = 88, kRole = 17;
+    // 64 hexadecimal digits must not be shortened: they are at most 0.66 of the size wide.
+    constexpr double kDigestSize = 1.95, kDigest = 64 * 0.66 * kDigestSize + 1, kRole = 17;
     sheet.text(column.x, y - 1, kRole - 1, input.role, {.size = kReportSmall, .colour = kGrey});
     std::string words = as_utf8(input.file.path);
     if (input.unit)
@@ -203,7 +204,7 @@ double draw_inputs(const Report& report, const Rect& column, double top, Sheet& 
     sheet.text(column.x + kRole, y - 1, column.width - kRole - kDigest - 2, words,
                {.size = kReportSmall, .kind = "input"});
     sheet.text(column.right(), y - 1, kDigest, input.file.sha256,
-               {.size = kReportSmall, .colour = kGrey, .anchor = Anchor::end, .kind = "sha256"});
+               {.size = kDigestSize, .colour = kGrey, .anchor = Anchor::end, .kind = "sha256"});
   }
   return y;
 }
@@ -228,10 +229,10 @@ double draw_notes(const Report& report, const Rect& column, double top, std::siz
     y += kReportSmallLine;
   }
   const std::string measured = fmt::format(
-      "Allowance along the outline: distance to the blank's boundary, minima rounded down, maxima to {} mm "
-      "and up, "
-      "means and shares from points at most {} mm apart.",
-      report.tolerance, report.step);
+      "Allowance along the outline: distance to the blank's boundary; minima rounded down, maxima up, both "
+      "within {} "
+      "mm; means and shares from points at most {} mm apart.",
+      short_number_up(report.tolerance), short_number_up(report.step));
   y = sheet.paragraph(column, y, measured, {.size = kReportSmall, .colour = kGrey, .kind = "assumption"},
                       kReportSmallLine, 2);
   return y - kReportSmall;

@@ -10,6 +10,9 @@
 namespace lekalo::io::detail {
 namespace {
 
+/// So long that the digest after it finds room.
+std::string name_of(const FileRecord& file) { return shortened(file_name(as_utf8(file.path)), 30); }
+
 std::string where_looked(const LocateDocument& d) {
   std::string text = d.window_from_deg == 0 && d.window_to_deg == 360
                          ? "at any angle"
@@ -40,13 +43,15 @@ std::string this_has(const LocateDocument& d, int decimals) {
 
 std::string verdict(const LocateDocument& d, int decimals) {
   if (!d.upper_bound) {
-    return fmt::format(
-        "Nothing is proved about other placements: the method {} does not. Of the written pose, {}.",
-        d.method, this_has(d, decimals));
+    return fmt::format("Nothing is proved about other placements: the method {} cannot; {}.", d.method,
+                       this_has(d, decimals));
   }
   if (d.status == "infeasible") {
-    return fmt::format("Proved: the demanded {} mm cannot be had; {}. The best found: {}.", d.min_allowance,
-                       none_has(d, decimals), this_has(d, decimals));
+    const std::string what = d.min_allowance > 0
+                                 ? fmt::format("the demanded {} mm cannot be had", d.min_allowance)
+                                 : std::string("the part does not fit");
+    return fmt::format("Proved: {}; {}. The best found: {}.", what, none_has(d, decimals),
+                       this_has(d, decimals));
   }
   const double gap = difference_rounded_up(*d.upper_bound, d.placement.clearance);
   if (d.status == "optimal") {
@@ -64,8 +69,8 @@ std::string proof_place(const LocateDocument& d) {
   const std::size_t count = regions || !d.certificate ? d.certificate_intervals : d.certificate->size();
   const std::string what = fmt::format("{} {}", count, regions ? "boxes of poses" : "intervals of the angle");
   if (d.certificate_file) {
-    return fmt::format("The proof, {}, is in {}, SHA-256 {}.", what,
-                       file_name(as_utf8(d.certificate_file->path)), d.certificate_file->sha256);
+    return fmt::format("The proof, {}, is in {}, SHA-256 {}.", what, name_of(*d.certificate_file),
+                       d.certificate_file->sha256);
   }
   if (inside) return fmt::format("The proof, {}, is in the result.", what);
   return "The proof was checked, but is too long for the result and was not kept.";
@@ -111,7 +116,7 @@ std::vector<std::string> assumption_sentences(const LocateDocument& d, int decim
         "NC program {}, SHA-256 {}: scan in {} coordinates, work offset {}, points rounded by up to {} mm; "
         "it "
         "keeps {} mm.",
-        file_name(as_utf8(d.nc->output.path)), d.nc->output.sha256, d.nc->scan_frame, d.nc->work_offset,
+        name_of(d.nc->output), d.nc->output.sha256, d.nc->scan_frame, d.nc->work_offset,
         short_number_up(d.nc->rounding_mm), decimal(d.nc->clearance, decimals, Rounding::down)));
     for (const std::string& note : d.nc->notes) sentences.push_back("NC program: " + note);
   }
