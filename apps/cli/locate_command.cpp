@@ -17,6 +17,7 @@
 #include "locate_regions.hpp"
 #include "outputs.hpp"
 #include "program.hpp"
+#include "report.hpp"
 #include "shapes.hpp"
 #include "solve.hpp"
 #include "summary.hpp"
@@ -40,6 +41,7 @@ struct Inputs {
 struct Product {
   io::LocateDocument document;
   std::string result_text, certificate_text, program_text, deviations_text, picture_bytes;
+  ReportFiles reports;
   bool program_withheld = false;
 };
 
@@ -47,6 +49,8 @@ Result<void> check_paths(const LocateOptions& o) {
   return check_outputs({{"-o", o.output},
                         {"--certificate", o.certificate},
                         {"--picture", o.picture},
+                        {"--report", o.report},
+                        {"--allowances", o.allowances},
                         {"--deviations", o.deviations},
                         {"--nc-out", o.nc_out}},
                        {{"--part", o.part}, {"--blank", o.blank}, {"--nc", o.nc}, {"--compare", o.compare}});
@@ -304,6 +308,8 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
   Result<void> done = add(o.output, product.result_text)
                           .and_then([&] { return add(o.certificate, product.certificate_text); })
                           .and_then([&] { return add(o.picture, product.picture_bytes); })
+                          .and_then([&] { return add(o.report, product.reports.report); })
+                          .and_then([&] { return add(o.allowances, product.reports.allowances); })
                           .and_then([&] { return add(o.deviations, product.deviations_text); });
   if (done && product.document.nc) done = add(o.nc_out, product.program_text);
   if (done && o.json) done = print(product.result_text);
@@ -313,7 +319,7 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
 
 std::vector<std::string> written_files(const LocateOptions& o, const Product& product) {
   std::vector<std::string> files;
-  for (const std::string& path : {o.output, o.certificate, o.picture, o.deviations}) {
+  for (const std::string& path : {o.output, o.certificate, o.picture, o.report, o.allowances, o.deviations}) {
     if (!path.empty()) files.push_back(path);
   }
   if (product.document.nc) files.push_back(o.nc_out);
@@ -342,6 +348,9 @@ Result<int> run_locate(const LocateOptions& o) {
   add_deviations(o, *in, product);
   if (Result<void> fine = add_program(o, *in, product); !fine) return tl::unexpected(fine.error());
   if (Result<void> fine = add_picture(o, *in, *found, product); !fine) return tl::unexpected(fine.error());
+  Result<ReportFiles> reports = make_reports(o, product.document, in->part, in->blank);
+  if (!reports) return tl::unexpected(reports.error());
+  product.reports = std::move(*reports);
   product.result_text = io::result_json(product.document);
 
   if (Result<void> fine = self_check(o, *in, *found, product); !fine) return tl::unexpected(fine.error());

@@ -13,6 +13,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "outputs.hpp"
 #include "program.hpp"
+#include "report.hpp"
 #include "shapes.hpp"
 #include "solve.hpp"
 #include "summary.hpp"
@@ -27,6 +28,7 @@ constexpr double kRegionGap = 1e-3;  ///< mm
 struct Product {
   io::LocateDocument document;
   std::string result_text, certificate_text, program_text, picture_bytes;
+  ReportFiles reports;
   bool program_withheld = false;
 };
 
@@ -183,6 +185,8 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
   Result<void> done = add(o.output, product.result_text)
                           .and_then([&] { return add(o.certificate, product.certificate_text); })
                           .and_then([&] { return add(o.picture, product.picture_bytes); })
+                          .and_then([&] { return add(o.report, product.reports.report); })
+                          .and_then([&] { return add(o.allowances, product.reports.allowances); })
                           .and_then([&] { return add(o.nc_out, product.program_text); });
   if (done && o.json) done = print(product.result_text);
   if (done) done = files.commit();
@@ -214,6 +218,9 @@ Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_b
   add_certificate(o, product);
   if (Result<void> fine = add_program(o, *nc_bytes, product); !fine) return tl::unexpected(fine.error());
   if (Result<void> fine = add_picture(o, product); !fine) return tl::unexpected(fine.error());
+  Result<ReportFiles> reports = make_reports(o, product.document);
+  if (!reports) return tl::unexpected(reports.error());
+  product.reports = std::move(*reports);
   product.result_text = io::result_json(product.document);
   if (Result<void> fine = self_check(o, part_bytes, blank_bytes, product); !fine)
     return tl::unexpected(fine.error());
@@ -223,6 +230,8 @@ Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_b
   for (const auto& [path, bytes] : {std::pair{&o.output, &product.result_text},
                                     {&o.certificate, &product.certificate_text},
                                     {&o.picture, &product.picture_bytes},
+                                    {&o.report, &product.reports.report},
+                                    {&o.allowances, &product.reports.allowances},
                                     {&o.nc_out, &product.program_text}})
     if (!path->empty() && !bytes->empty()) written.push_back(*path);
   tell(locate_summary(product.document, written));

@@ -62,7 +62,8 @@ std::string list_of(const std::array<Word<T>, N>& words, const char* separator) 
 struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
-      deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up, trade_off;
+      report, allowances, deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up,
+      trade_off;
   std::vector<std::string> window;
   bool json = false;
 };
@@ -184,12 +185,20 @@ void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) 
   o.output = words.output;
   o.certificate = words.certificate;
   o.picture = words.picture;
+  o.report = words.report;
+  o.allowances = words.allowances;
   o.deviations = words.deviations;
   o.compare = words.compare;
   o.json = words.json;
   const std::string ending = std::filesystem::path(o.picture).extension().string();
   read.require(o.picture.empty() || ending == ".svg" || ending == ".png",
                fmt::format("--picture: the name \"{}\" ends neither in .svg nor in .png", o.picture));
+  const std::string page = std::filesystem::path(o.report).extension().string();
+  read.require(
+      o.report.empty() || page == ".svg" || page == ".pdf" || page == ".png",
+      fmt::format("--report: the name \"{}\" ends neither in .svg nor in .pdf nor in .png", o.report));
+  read.require(o.allowances.empty() || std::filesystem::path(o.allowances).extension() == ".csv",
+               fmt::format("--allowances: the name \"{}\" does not end in .csv", o.allowances));
 }
 
 /// A file that a method cannot make is refused; a number that it does not look at is only worth a word.
@@ -318,6 +327,9 @@ void add_output_options(CLI::App& locate, LocateWords& w) {
   };
   add("-o,--output", w.output, "Write the result as JSON to this file");
   add("--picture", w.picture, "Draw blank, part and allowance: .svg or .png");
+  add("--report", w.report,
+      "One page with placement, features, histogram, contacts and what is proved: .svg, .pdf or .png");
+  add("--allowances", w.allowances, "CSV: the allowance along the part's outline");
   add("--certificate", w.certificate, "Write the proof to this file instead of into the result");
   add("--deviations", w.deviations, "CSV: signed distance of every probed point from the placed part");
   locate.add_flag("--json", w.json, "Print the result as JSON on stdout")->group("Output");

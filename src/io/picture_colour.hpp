@@ -20,4 +20,12 @@ inline constexpr int kColourSteps = 64;
 /// The step for a value of the range, clamped.
 [[nodiscard]] int scale_step(double value, double low, double high);
 
+/// What the colours of a picture stand for, mm, low < high.
+struct ColourRange {
+  double low = 0, high = 1;
+};
+/// For allowances from `least` to `greatest` in a blank of this size; what is below 0 has no colour of the
+/// scale.
+[[nodiscard]] ColourRange colour_range(double least, double greatest, double rounding, double size);
+
 }  // namespace lekalo::io::detail

@@ -66,12 +66,10 @@ void set_range(Located& shapes) {
   shapes.thinnest = static_cast<std::size_t>(thin - shapes.samples.begin());
   shapes.least = thin->allowance;
   shapes.greatest = thick->allowance;
-  shapes.low = std::max(0.0, shapes.least);
-  shapes.high = std::max(0.0, shapes.greatest);
-  // An even allowance would stretch differences nobody can measure over all colours: it is shown as one.
-  if (!(shapes.high - shapes.low > 0.02 * shapes.high)) shapes.low = 0;
-  // No allowance anywhere: all of it thin, on a scale that fits the size of the blank.
-  if (!(shapes.high > shapes.rounding)) shapes.high = 0.01 * extent(shapes.blank);
+  const ColourRange range =
+      colour_range(shapes.least, shapes.greatest, shapes.rounding, extent(shapes.blank));
+  shapes.low = range.low;
+  shapes.high = range.high;
 }
 
 /// Of places that are equally thin a vertex in contact is the one to show.

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "lekalo/geom/predicates.hpp"
-#include "picture_colour.hpp"
 #include "picture_text.hpp"
 
 namespace lekalo::io::detail {
@@ -28,7 +27,18 @@ class Places {
   };
 
   std::optional<Place> find(const Label& label, double width, double height) {
-    const Point out = (1 / geom::norm(label.outward)) * label.outward, aside = perpendicular(out);
+    const Point out = (1 / geom::norm(label.outward)) * label.outward;
+    const Point sides[] = {out, -out, perpendicular(out), -perpendicular(out)};
+    for (const Point side : sides) {
+      if (const auto place = find(label, side, width, height)) return place;
+      if (!label.any_side) break;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<Place> find(const Label& label, Point out, double width, double height) {
+    const Point aside = perpendicular(out);
     const double reach = (std::abs(out.x) * width + std::abs(out.y) * height) / 2;
     for (const double off : kStandOff) {
       for (const double step : kAside) {
@@ -43,7 +53,6 @@ class Places {
     return std::nullopt;
   }
 
- private:
   static Segment leader(Point from, Point centre, double width, double height) {
     const Rect box{centre.x - width / 2, centre.y - height / 2, width, height};
     const Point to{std::clamp(from.x, box.x, box.right()), std::clamp(from.y, box.y, box.bottom())};
@@ -96,9 +105,9 @@ void place_labels(const std::vector<Label>& labels, double size, const Obstacles
                              label.text,
                              size,
                              Anchor::middle,
-                             kInk,
+                             label.colour,
                              false,
-                             {"contact-label", ""}});
+                             {label.kind, ""}});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "picture_colour.hpp"
 #include "picture_scene.hpp"
 #include "picture_view.hpp"
 
@@ -13,6 +14,9 @@ struct Label {
   geom::Point at;       ///< paper
   geom::Point outward;  ///< direction on the paper in which there is room, any length above 0
   std::string text;
+  const char* kind = "contact-label";
+  Colour colour = kInk;
+  bool any_side = false;  ///< rather on another side than nowhere
 };
 
 /// What labels keep off, closed lines on paper.

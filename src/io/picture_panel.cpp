@@ -154,7 +154,7 @@ class Panel {
     if (shapes_.sticks_out()) outside_key();
   }
   void scale() {
-    const double step = tick_step();
+    const double step = tick_step(shapes_.low, shapes_.high, room_.width, kSmall);
     const LengthScale unit = length_scale(step, shapes_.high);
     y_ += 5;
     text(room_.x, "allowance along the contour, " + unit.unit_name, kBody, kInk, Anchor::start, false,
@@ -173,18 +173,6 @@ class Panel {
       tick(k * step, unit, bar + 3.6);
     }
     y_ += 0.6;
-  }
-  /// Round, three to seven on the scale, fewer where their numbers are long.
-  [[nodiscard]] double tick_step() const {
-    const double range = shapes_.high - shapes_.low;
-    double share = 3;
-    double step = round_length(range / share);
-    for (; share > 0.4; share *= 0.7) {
-      step = round_length(range / share);
-      const double widest = kSmall * text_width(length_scale(step, shapes_.high).text(shapes_.high));
-      if (step / range * room_.width > 1.3 * widest) break;
-    }
-    return step;
   }
   void tick(double value, const LengthScale& unit, double top) {
     const double share = (value - shapes_.low) / (shapes_.high - shapes_.low);

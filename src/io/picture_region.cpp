@@ -9,6 +9,7 @@
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/picture.hpp"
 #include "picture_colour.hpp"
+#include "picture_region_rings.hpp"
 #include "picture_scene.hpp"
 #include "picture_text.hpp"
 #include "picture_view.hpp"
@@ -33,39 +34,6 @@ Paint stroke(Colour colour, double width) {
   paint.width = width;
   paint.round = true;
   return paint;
-}
-
-/// Points along an edge, without its end: chords no further than `sag` off and no longer than `step`, mm.
-void append_points(const geom::Edge& edge, double sag, double step, Ring& ring) {
-  if (edge.kind == geom::EdgeKind::line) {
-    const Point along = edge.to - edge.from;
-    const auto pieces = std::max(1, static_cast<int>(std::ceil(std::min(1e4, norm(along) / step))));
-    for (int k = 0; k < pieces; ++k) ring.push_back(edge.from + (static_cast<double>(k) / pieces) * along);
-    return;
-  }
-  const double radius = arc_radius(edge), sweep = arc_sweep(edge);
-  const double by_sag = std::sqrt(8 * std::min(sag, radius) / radius);
-  const double turn = std::min({by_sag, step / radius, 1.0});
-  const auto pieces = std::max(1, static_cast<int>(std::ceil(std::min(1e4, sweep / turn))));
-  const double from = geom::direction_angle(edge.from.x - edge.centre.x, edge.from.y - edge.centre.y);
-  const double sign = edge.kind == geom::EdgeKind::arc_ccw ? 1 : -1;
-  for (int k = 0; k < pieces; ++k) {
-    const auto [sine, cosine] = geom::sincos(from + sign * sweep * k / pieces);
-    ring.push_back(edge.centre + radius * Point{cosine, sine});
-  }
-}
-
-std::vector<Ring> rings_of(const std::vector<geom::Region>& regions, double sag, double step) {
-  std::vector<Ring> rings;
-  const auto add = [&](const geom::Contour& contour) {
-    Ring& ring = rings.emplace_back();
-    for (const geom::Edge& edge : contour) append_points(edge, sag, step, ring);
-  };
-  for (const geom::Region& region : regions) {
-    add(region.outer);
-    for (const geom::Contour& hole : region.holes) add(hole);
-  }
-  return rings;
 }
 
 class RegionComposer {
@@ -105,7 +73,7 @@ class RegionComposer {
   }
 
   [[nodiscard]] std::vector<Ring> placed_rings(double sag, double step) const {
-    std::vector<Ring> rings = rings_of(picture_.part, sag, step);
+    std::vector<Ring> rings = region_rings(picture_.part, sag, step);
     for (Ring& ring : rings)
       for (Point& p : ring) p = pose_(p);
     return rings;
@@ -136,7 +104,8 @@ class RegionComposer {
     Paint paint = stroke(kBlankLine, 0.3);
     paint.fill = kBlankFill, paint.fill_alpha = 1;
     std::vector<Ring> lines;
-    for (const Ring& ring : rings_of(picture_.blank, kSag / view_.scale, 1e300)) lines.push_back(paper(ring));
+    for (const Ring& ring : region_rings(picture_.blank, kSag / view_.scale, 1e300))
+      lines.push_back(paper(ring));
     scene_.items.push_back(PathItem{std::move(lines), true, paint, {"blank", "blank"}});
   }
 

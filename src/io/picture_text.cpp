@@ -11,7 +11,7 @@
 namespace lekalo::io::detail {
 namespace {
 
-constexpr char32_t kReplacement = 0xFFFD;
+constexpr char32_t kReplacement = 0xFFFD, kEllipsis = 0x2026;
 
 int continuation_bytes(unsigned char lead) {
   if (lead < 0x80) return 0;
@@ -187,7 +187,6 @@ double fitting_size(std::string_view utf8, double size, double width) {
 std::string shortened(std::string_view utf8, double width) {
   const std::vector<char32_t> codes = characters(utf8);
   if (width_of(codes) <= width) return to_utf8(codes);
-  constexpr char32_t kEllipsis = 0x2026;
   const double room = width - width_of(kEllipsis);
   std::size_t head = 0, tail = codes.size();
   double used_head = 0, used_tail = 0;
@@ -207,6 +206,39 @@ std::string shortened(std::string_view utf8, double width) {
   kept.push_back(kEllipsis);
   kept.insert(kept.end(), codes.begin() + static_cast<std::ptrdiff_t>(tail), codes.end());
   return to_utf8(kept);
+}
+
+std::vector<std::string> wrapped(std::string_view utf8, double width, std::size_t most_lines) {
+  const std::vector<char32_t> codes = characters(utf8);
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  while (begin < codes.size()) {
+    if (codes[begin] == ' ') {
+      ++begin;
+      continue;
+    }
+    std::size_t end = begin, blank = begin;  // the line would be [begin, end), or end at the last blank
+    double used = 0;
+    const bool last = lines.size() + 1 == most_lines;
+    while (end < codes.size() && used + width_of(codes[end]) <= width) {
+      if (codes[end] == ' ') blank = end;
+      used += width_of(codes[end++]);
+    }
+    if (end < codes.size() && last) {
+      while (end > begin && used + width_of(kEllipsis) > width) used -= width_of(codes[--end]);
+    } else if (end < codes.size() && blank > begin && codes[end] != ' ') {
+      end = blank;
+    }
+    end = std::max(end, begin + 1);  // a letter wider than the line still gets one
+    std::vector<char32_t> line(codes.begin() + static_cast<std::ptrdiff_t>(begin),
+                               codes.begin() + static_cast<std::ptrdiff_t>(end));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (last && end < codes.size()) line.push_back(kEllipsis);
+    lines.push_back(to_utf8(line));
+    if (last) break;
+    begin = end;
+  }
+  return lines;
 }
 
 std::string file_name(std::string_view path) {
@@ -261,6 +293,18 @@ double round_length(double value) {
     if (factor * power <= value) return factor * power;
   }
   return power;
+}
+
+double tick_step(double low, double high, double width, double font_size) {
+  const double range = high - low, largest = std::max(std::abs(low), std::abs(high));
+  double share = 3;
+  double step = round_length(range / share);
+  for (; share > 0.4; share *= 0.7) {
+    step = round_length(range / share);
+    const double widest = font_size * text_width(length_scale(step, largest).text(low < 0 ? low : high));
+    if (step / range * width > 1.3 * widest) break;
+  }
+  return step;
 }
 
 }  // namespace lekalo::io::detail

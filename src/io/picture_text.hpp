@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lekalo::io::detail {
 
@@ -19,6 +20,9 @@ namespace lekalo::io::detail {
 /// The text with its middle replaced by an ellipsis until it is at most `width` wide; the end keeps a little
 /// more than half, because names differ in their ends.
 [[nodiscard]] std::string shortened(std::string_view utf8, double width);
+/// The text in lines at most `width` wide, broken at blanks, and inside words that are longer than a line.
+/// What finds no room in `most_lines` >= 1 lines ends in an ellipsis.
+[[nodiscard]] std::vector<std::string> wrapped(std::string_view utf8, double width, std::size_t most_lines);
 /// The part of a path after the last folder.
 [[nodiscard]] std::string file_name(std::string_view path);
 
@@ -45,5 +49,8 @@ struct LengthScale {
 [[nodiscard]] LengthScale length_scale(double step, double largest);
 /// 1, 2 or 5 times a power of ten, the largest at most `value` > 0.
 [[nodiscard]] double round_length(double value);
+/// Between the ticks of an axis from low to high, mm, that is `width` mm of paper long: round, three to seven
+/// ticks, fewer where their numbers are long.
+[[nodiscard]] double tick_step(double low, double high, double width, double font_size);
 
 }  // namespace lekalo::io::detail
