@@ -240,20 +240,23 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
   }
   auto band = geom::united(pieces);
   if (!band) return tl::unexpected(std::move(band.error()));
-  // The holes of the band that lie inside the outlines, without the parts of the band that lie in them.
+  // The holes of the band that lie inside the outlines; where parts of the band lie in them, without those.
   const ParityIndex parity(points, loops_of(loops));
-  std::vector<geom::Region> faces, islands;
+  std::vector<geom::Region> faces;
+  bool islands = false;
   for (const geom::Region& piece : band->regions) {
+    islands = islands || parity.odd(piece.outer.front().from);
     for (const geom::Contour& hole : piece.holes) {
       if (!parity.odd(hole.front().from)) continue;
       auto face = geom::make_region(hole);
       if (face) faces.push_back(*std::move(face));  // slivers without area hold nothing worth having
     }
-    if (parity.odd(piece.outer.front().from)) islands.push_back(piece);
   }
-  if (islands.empty() || faces.empty()) return faces;
-  auto rest = geom::combine(faces, islands, geom::BooleanOperation::subtract, band->edge_error);
+  if (!islands || faces.empty()) return faces;
+  auto rest = geom::combine(faces, band->regions, geom::BooleanOperation::subtract, band->edge_error);
   if (!rest) return tl::unexpected(std::move(rest.error()));
+  std::erase_if(rest->regions,
+                [&](const geom::Region& piece) { return !parity.odd(piece.outer.front().from); });
   return std::move(rest->regions);
 }
 
