@@ -32,7 +32,8 @@ const Scanned& scanned(std::size_t count, bool shuffle) {
   one.shapes.blank = cases::without_sharp_dents(one.shapes.blank, 3);
   double length = 0;
   Random random(5);
-  for (const auto& list : cases::sample(one.shapes.blank, {0.01}, random)) length += 0.01 * static_cast<double>(list.size());
+  for (const auto& list : cases::sample(one.shapes.blank, {0.01}, random))
+    length += 0.01 * static_cast<double>(list.size());
   cases::Sampling how{length / static_cast<double>(count), 0.5, 0, kSigma};
   const auto lists = cases::sample(one.shapes.blank, how, random);
   locate::ScanPoints scan = cases::scan_of(lists);
@@ -77,7 +78,8 @@ void chain(benchmark::State& state, bool shuffle) {
 
 void Parse(benchmark::State& state) {
   const Scanned& one = scanned(static_cast<std::size_t>(state.range(0)), true);
-  for (auto _ : state) benchmark::DoNotOptimize(io::parse_scan(one.bytes, "scan.xyz", std::nullopt, std::nullopt));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(io::parse_scan(one.bytes, "scan.xyz", std::nullopt, std::nullopt));
 }
 void Shuffled(benchmark::State& state) { chain(state, true); }
 void InOrder(benchmark::State& state) { chain(state, false); }

@@ -1,4 +1,5 @@
-// Scans of any bytes: read or refused with a sentence, and what is called guaranteed keeps away from every point.
+// Scans of any bytes: read or refused with a sentence, and what is called guaranteed keeps away from every
+// point.
 
 #include <algorithm>
 #include <cmath>

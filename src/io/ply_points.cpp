@@ -36,11 +36,11 @@ constexpr std::size_t kMostHeaderLines = 2000, kMostProperties = 256;
 
 std::optional<Scalar> scalar_named(std::string_view name) {
   constexpr std::pair<std::string_view, Scalar> kNames[] = {
-      {"char", Scalar::int8},     {"int8", Scalar::int8},       {"uchar", Scalar::uint8},
-      {"uint8", Scalar::uint8},   {"short", Scalar::int16},     {"int16", Scalar::int16},
-      {"ushort", Scalar::uint16}, {"uint16", Scalar::uint16},   {"int", Scalar::int32},
-      {"int32", Scalar::int32},   {"uint", Scalar::uint32},     {"uint32", Scalar::uint32},
-      {"float", Scalar::float32}, {"float32", Scalar::float32}, {"double", Scalar::float64},
+      {"char", Scalar::int8},      {"int8", Scalar::int8},       {"uchar", Scalar::uint8},
+      {"uint8", Scalar::uint8},    {"short", Scalar::int16},     {"int16", Scalar::int16},
+      {"ushort", Scalar::uint16},  {"uint16", Scalar::uint16},   {"int", Scalar::int32},
+      {"int32", Scalar::int32},    {"uint", Scalar::uint32},     {"uint32", Scalar::uint32},
+      {"float", Scalar::float32},  {"float32", Scalar::float32}, {"double", Scalar::float64},
       {"float64", Scalar::float64}};
   for (const auto& [word, type] : kNames)
     if (word == name) return type;
@@ -130,8 +130,8 @@ class PlyReader {
     for (const Element& element : elements_) {
       if (element.name != "vertex") {
         if (element.rows > 0)
-          notices.push_back(
-              fmt::format("{}: {} of the element {} are ignored", name_, element.rows, excerpt(element.name)));
+          notices.push_back(fmt::format("{}: {} of the element {} are ignored", name_, element.rows,
+                                        excerpt(element.name)));
       }
     }
     for (const Element& element : elements_) {
@@ -170,11 +170,12 @@ class PlyReader {
       }
       if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
       if (words_[0] == "end_header") break;
-      auto done = words_[0] == "format"     ? read_format(has_format)
-                  : words_[0] == "element"  ? read_element()
-                  : words_[0] == "property" ? read_property()
-                                            : Result<void>(refuse_here(
-                                                  fmt::format("unknown word {} in the header", excerpt(words_[0]))));
+      auto done =
+          words_[0] == "format"    ? read_format(has_format)
+          : words_[0] == "element" ? read_element()
+          : words_[0] == "property"
+              ? read_property()
+              : Result<void>(refuse_here(fmt::format("unknown word {} in the header", excerpt(words_[0]))));
       if (!done) return done;
     }
     if (!has_format) return refuse(name_, "the header of this PLY has no format line");
@@ -249,14 +250,16 @@ class PlyReader {
       for (std::size_t axis = 0; axis < (wants_z ? 3U : 2U); ++axis) {
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
           if (element.properties[i].name != kAxes[axis]) continue;
-          if (column_[axis]) return refuse(name_, fmt::format("the vertices have two properties {}", kAxes[axis]));
+          if (column_[axis])
+            return refuse(name_, fmt::format("the vertices have two properties {}", kAxes[axis]));
           column_[axis] = i;
         }
         if (!column_[axis])
           return refuse(name_, fmt::format("the vertices of this PLY have no property {}", kAxes[axis]));
       }
       if (element.rows > kMostScanPoints)
-        return refuse(name_, fmt::format("{} vertices; at most {} can be read", element.rows, kMostScanPoints));
+        return refuse(name_,
+                      fmt::format("{} vertices; at most {} can be read", element.rows, kMostScanPoints));
       return {};
     }
     return refuse(name_, "there is no element vertex in this PLY");
@@ -279,8 +282,9 @@ class PlyReader {
           const std::size_t size = size_of(*property.count);
           if (rest_.size() < size) return ends_early(element, row);
           const double count = scalar_value(rest_.data(), *property.count, encoding_ == Encoding::big_endian);
-          if (!(count >= 0)) return refuse(name_, fmt::format("row {} of the element {} has a list of {} items", row,
-                                                              excerpt(element.name), count));
+          if (!(count >= 0))
+            return refuse(name_, fmt::format("row {} of the element {} has a list of {} items", row,
+                                             excerpt(element.name), count));
           items = static_cast<std::uint64_t>(count);
           rest_.remove_prefix(size);
         }
@@ -299,7 +303,8 @@ class PlyReader {
       if (!line) return ends_early(element, row);
       split_words(*line, words_);
       if (words_.size() != element.properties.size())
-        return refuse_here(fmt::format("{} numbers where a vertex has {}", words_.size(), element.properties.size()));
+        return refuse_here(
+            fmt::format("{} numbers where a vertex has {}", words_.size(), element.properties.size()));
       PlyPoint point;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!column_[axis]) continue;
@@ -326,8 +331,9 @@ class PlyReader {
       PlyPoint point;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!column_[axis]) continue;
-        const double value = scalar_value(rest_.data() + at[*column_[axis]], element.properties[*column_[axis]].type,
-                                          encoding_ == Encoding::big_endian);
+        const double value =
+            scalar_value(rest_.data() + at[*column_[axis]], element.properties[*column_[axis]].type,
+                         encoding_ == Encoding::big_endian);
         const double scaled = value * millimetres_per(unit_);
         if (!(std::abs(scaled) <= kLargestMillimetres)) {
           return refuse(name_, fmt::format("vertex {}: {} is not a finite number up to {:g} mm", row, value,

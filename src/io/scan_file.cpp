@@ -20,7 +20,8 @@ std::string plural(std::size_t count, const char* word) {
 
 class ScanReader {
  public:
-  ScanReader(const std::string& name, LengthUnit unit, const std::optional<ScanSlice>& slice) : slice_(slice) {
+  ScanReader(const std::string& name, LengthUnit unit, const std::optional<ScanSlice>& slice)
+      : slice_(slice) {
     file_.name = name;
     file_.unit = unit;
     file_.points.contour_starts.clear();
@@ -47,7 +48,8 @@ class ScanReader {
     const auto take = [&](const PlyPoint& p, std::size_t vertex) {
       return add(p.xyz[0], p.xyz[1], p.xyz[2], p.error, vertex, false);
     };
-    if (auto read = read_ply_points(bytes, file_.name, file_.unit, slice_.has_value(), take, file_.notices); !read)
+    if (auto read = read_ply_points(bytes, file_.name, file_.unit, slice_.has_value(), take, file_.notices);
+        !read)
       return tl::unexpected(std::move(read.error()));
     return finish();
   }
@@ -76,16 +78,17 @@ class ScanReader {
     const std::size_t kept = file_.points.points.size();
     if (slice_) {
       if (kept == 0) {
-        return refuse(file_.name, fmt::format("no point lies in the slice at height {:g} mm, {:g} mm thick; z runs from "
-                                              "{:g} to {:g} mm",
-                                              slice_->height, slice_->thickness, least_z_, greatest_z_));
+        return refuse(file_.name,
+                      fmt::format("no point lies in the slice at height {:g} mm, {:g} mm thick; z runs from "
+                                  "{:g} to {:g} mm",
+                                  slice_->height, slice_->thickness, least_z_, greatest_z_));
       }
-      file_.notices.push_back(fmt::format("{}: {} of {} lie in the slice at height {:g} mm, {:g} mm thick", file_.name,
-                                          kept, plural(file_.points_in_file, "point"), slice_->height,
-                                          slice_->thickness));
+      file_.notices.push_back(fmt::format("{}: {} of {} lie in the slice at height {:g} mm, {:g} mm thick",
+                                          file_.name, kept, plural(file_.points_in_file, "point"),
+                                          slice_->height, slice_->thickness));
     } else if (with_z_ > 0) {
-      file_.notices.push_back(fmt::format("{}: the third number of {} (z) is ignored", file_.name,
-                                          plural(with_z_, "line")));
+      file_.notices.push_back(
+          fmt::format("{}: the third number of {} (z) is ignored", file_.name, plural(with_z_, "line")));
     }
     return std::move(file_);
   }
@@ -99,8 +102,8 @@ class ScanReader {
 
 std::string where(const ScanFile& file, std::uint32_t point) {
   const geom::Point p = file.points.points[point];
-  return fmt::format("{} {} ({:.6g}, {:.6g})", file.places_are_lines ? "line" : "vertex", file.places[point], p.x,
-                     p.y);
+  return fmt::format("{} {} ({:.6g}, {:.6g})", file.places_are_lines ? "line" : "vertex", file.places[point],
+                     p.x, p.y);
 }
 
 }  // namespace
@@ -109,9 +112,11 @@ Result<ScanFile> parse_scan(std::string_view bytes, const std::string& name, std
                             const std::optional<ScanSlice>& slice) {
   if (slice && !(slice->thickness > 0 && slice->thickness <= kLargestMillimetres &&
                  std::abs(slice->height) <= kLargestMillimetres)) {
-    return failure(ErrorCode::usage,
-                   fmt::format("a slice at height {} mm, {} mm thick: the height must be finite and the thickness above 0",
-                               slice->height, slice->thickness));
+    return failure(
+        ErrorCode::usage,
+        fmt::format(
+            "a slice at height {} mm, {} mm thick: the height must be finite and the thickness above 0",
+            slice->height, slice->thickness));
   }
   const std::string ending = ending_of(name);
   ScanReader reader(name, unit.value_or(LengthUnit::millimetre), slice);
@@ -141,13 +146,14 @@ Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& nam
   for (const std::string& notice : made.blank.notices) made.notices.push_back(name + ": " + notice);
   if (options.slice) {
     made.blank.assumptions.push_back(
-        fmt::format("the surface stands upright within the slice: points up to {:g} mm above and below height {:g} mm count "
+        fmt::format("the surface stands upright within the slice: points up to {:g} mm above and below "
+                    "height {:g} mm count "
                     "as points of one contour",
                     0.5 * options.slice->thickness, options.slice->height));
   }
   for (const locate::UnknownStretch& u : made.blank.unknown) {
-    made.unknown.push_back(fmt::format("{}: not measured: from {} to {}, {:.6g} mm", name, where(made.file, u.from),
-                                       where(made.file, u.to), u.width));
+    made.unknown.push_back(fmt::format("{}: not measured: from {} to {}, {:.6g} mm", name,
+                                       where(made.file, u.from), where(made.file, u.to), u.width));
   }
   for (const std::uint32_t i : made.blank.dropped)
     made.dropped.push_back(fmt::format("{}: left out: {}", name, where(made.file, i)));

@@ -78,8 +78,8 @@ bool begins_like_number(std::string_view line) {
 
 class TextReader {
  public:
-  TextReader(const std::string& name, LengthUnit unit, const std::function<Result<void>(const TextRow&)>& take,
-             std::vector<std::string>& notices)
+  TextReader(const std::string& name, LengthUnit unit,
+             const std::function<Result<void>(const TextRow&)>& take, std::vector<std::string>& notices)
       : name_(name), unit_(unit), take_(take), notices_(notices) {}
 
   Result<void> read(std::string_view bytes) {

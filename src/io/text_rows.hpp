@@ -14,9 +14,9 @@ namespace lekalo::io {
 /// A line of a text file of points (docs/formats.md): two or three numbers.
 struct TextRow {
   Millimetres numbers[3];
-  std::size_t count = 0;      ///< 2 or 3
-  std::size_t line = 0;       ///< 1-based
-  bool after_a_gap = false;   ///< an empty line (not a comment) stands between this row and the one before
+  std::size_t count = 0;     ///< 2 or 3
+  std::size_t line = 0;      ///< 1-based
+  bool after_a_gap = false;  ///< an empty line (not a comment) stands between this row and the one before
 };
 
 /// Calls take(row) for every point of the text, until it fails. Adds a notice for a header that holds digits.

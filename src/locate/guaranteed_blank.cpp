@@ -48,10 +48,11 @@ Result<void> check_options(const ScanOptions& o) {
     return refuse("the reading error", o.reading_error, "a length of 0 mm or more");
   const double guard = o.coverage_factor * o.uncertainty + o.reading_error;
   if (o.min_radius && !(*o.min_radius > guard && finite(*o.min_radius))) {
-    return failure(ErrorCode::usage,
-                   fmt::format("a min-radius of {} mm is not above the guard of {:.4g} mm (coverage factor times "
-                               "uncertainty)",
-                               *o.min_radius, guard));
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a min-radius of {} mm is not above the guard of {:.4g} mm (coverage factor times "
+                    "uncertainty)",
+                    *o.min_radius, guard));
   }
   if (o.max_dip && !(*o.max_dip >= 0 && finite(*o.max_dip)))
     return refuse("max-dip", *o.max_dip, "a length of 0 mm or more");
@@ -67,9 +68,10 @@ Result<void> check_points(const ScanPoints& scan) {
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Point p = scan.points[i];
     if (!geom::is_exact(p) || !(std::max(std::abs(p.x), std::abs(p.y)) <= kLargestCoordinate)) {
-      return bad(fmt::format("point {} at ({}, {}) is out of range: coordinates are finite, up to 1e9 mm and not "
-                             "below 1e-100 mm other than 0",
-                             i, p.x, p.y));
+      return bad(
+          fmt::format("point {} at ({}, {}) is out of range: coordinates are finite, up to 1e9 mm and not "
+                      "below 1e-100 mm other than 0",
+                      i, p.x, p.y));
     }
   }
   return {};
@@ -120,10 +122,10 @@ class Maker {
       }
       const Crossing c = **crossing;
       const Point a = points_[loops_[c.loop_a][c.edge_a]], b = points_[loops_[c.loop_b][c.edge_b]];
-      const std::string where =
-          fmt::format("the outline through the points in file order meets itself: the edges that begin at {} and "
-                      "{} cross or touch",
-                      place(a), place(b));
+      const std::string where = fmt::format(
+          "the outline through the points in file order meets itself: the edges that begin at {} and "
+          "{} cross or touch",
+          place(a), place(b));
       if (options_.order == PointOrder::given)
         return bad(where + "; read the points as points in no order, or leave out the faulty ones");
       made_.notices.push_back(where + "; the points are taken as points in no order");
@@ -136,8 +138,9 @@ class Maker {
     loops_.clear();
     std::vector<double> spacing;
     for (std::size_t c = 0; c < scan_.contour_starts.size(); ++c) {
-      const std::size_t begin = scan_.contour_starts[c],
-                        end = c + 1 < scan_.contour_starts.size() ? scan_.contour_starts[c + 1] : points_.size();
+      const std::size_t begin = scan_.contour_starts[c], end = c + 1 < scan_.contour_starts.size()
+                                                                   ? scan_.contour_starts[c + 1]
+                                                                   : points_.size();
       Loop loop;
       for (std::size_t i = begin; i < end; ++i) {
         if (!keep_[i] || (!loop.empty() && points_[loop.back()] == points_[i])) continue;
@@ -176,16 +179,17 @@ class Maker {
     if (sorted.size() < 3)
       return bad(fmt::format("{} different points; three are needed to enclose material", sorted.size()));
     made_.median_spacing = median_nearest(points_, sorted);
-    made_.step = options_.step.value_or(
-        std::max(kStepInSpacings * made_.median_spacing, kStepInGuards * made_.guard));
+    made_.step =
+        options_.step.value_or(std::max(kStepInSpacings * made_.median_spacing, kStepInGuards * made_.guard));
     const double spread = std::max(kSpreadInGuards * made_.guard, kSpreadInSteps * made_.step);
     auto loops = order_points(points_, sorted, spread, made_.step + 2 * spread);
     if (!loops) return tl::unexpected(std::move(loops.error()));
     loops_ = *std::move(loops);
     if (const auto c = first_crossing(points_, loops_)) {
-      return bad(fmt::format("the contours cannot be told from each other near {}: outlines through neighbouring "
-                             "points meet there; give the points in order, or a smaller step",
-                             place(points_[loops_[c->loop_a][c->edge_a]])));
+      return bad(
+          fmt::format("the contours cannot be told from each other near {}: outlines through neighbouring "
+                      "points meet there; give the points in order, or a smaller step",
+                      place(points_[loops_[c->loop_a][c->edge_a]])));
     }
     attach(sorted, spread);
     return {};
@@ -279,14 +283,16 @@ class Maker {
       if (!regions) return tl::unexpected(std::move(regions.error()));
       made_.regions = cut_corners(*regions, 0.5 * options_.simplify);
       if (made_.regions.empty()) {
-        return bad(fmt::format("nothing of the blank is proved to be material: the outline loses up to {:.4g} mm on "
-                               "every side (guard {:.4g} mm and dip {:.4g} mm)",
-                               made_.guard + made_.deepest, made_.guard, made_.deepest));
+        return bad(
+            fmt::format("nothing of the blank is proved to be material: the outline loses up to {:.4g} mm on "
+                        "every side (guard {:.4g} mm and dip {:.4g} mm)",
+                        made_.guard + made_.deepest, made_.guard, made_.deepest));
       }
       if (keeps_out(points_, guarded_, made_.guard, made_.regions)) return {};
     }
-    return bad(fmt::format("the outlines run too close to themselves to be cut apart by rounded numbers; near {}",
-                           place(points_[loops_.front().front()])));
+    return bad(
+        fmt::format("the outlines run too close to themselves to be cut apart by rounded numbers; near {}",
+                    place(points_[loops_.front().front()])));
   }
 
   void measure_loss() {
@@ -351,18 +357,21 @@ void Maker::state_assumptions() {
   auto& say = made_.assumptions;
   const double ku = options_.coverage_factor * options_.uncertainty;
   std::string guard = fmt::format(
-      "each measured point lies within {:.4g} mm of the true surface point it stands for ({:g} times the probe's "
+      "each measured point lies within {:.4g} mm of the true surface point it stands for ({:g} times the "
+      "probe's "
       "standard uncertainty of {:.4g} mm",
       made_.guard, options_.coverage_factor, options_.uncertainty);
-  if (options_.reading_error > 0) guard += fmt::format(", and {:.2g} mm for reading the file", options_.reading_error);
+  if (options_.reading_error > 0)
+    guard += fmt::format(", and {:.2g} mm for reading the file", options_.reading_error);
   if (options_.factor_covers_all) {
     guard += "), all points together at the confidence the coverage factor was chosen for";
   } else {
     // Two-sided probability of the normal distribution.
     const double outside = std::erfc(options_.coverage_factor / std::sqrt(2.0));
-    guard += fmt::format("); for errors with a normal distribution that is {:.4g} % for each point by itself, not for all "
-                         "{} together",
-                         100 * (1 - outside), points_.size());
+    guard += fmt::format(
+        "); for errors with a normal distribution that is {:.4g} % for each point by itself, not for all "
+        "{} together",
+        100 * (1 - outside), points_.size());
   }
   if (options_.uncertainty == 0)
     guard = "the points lie exactly on the true surface (no uncertainty was stated)" +
@@ -370,44 +379,48 @@ void Maker::state_assumptions() {
                             ? fmt::format(", but for {:.2g} mm of reading the file", options_.reading_error)
                             : "");
   say.push_back(std::move(guard));
-  say.push_back(made_.ordered
-                    ? fmt::format("the points stand in order along {} closed contour{}, and there are no other contours",
-                                  loops_.size(), loops_.size() == 1 ? "" : "s")
-                    : fmt::format("the blank has {} closed contour{}, measured all round but for the unknown "
-                                  "stretches, and walls and slots wider than {:.3g} mm",
-                                  loops_.size(), loops_.size() == 1 ? "" : "s",
-                                  made_.step + 2 * std::max(kSpreadInGuards * made_.guard,
-                                                            kSpreadInSteps * made_.step)));
+  say.push_back(
+      made_.ordered
+          ? fmt::format(
+                "the points stand in order along {} closed contour{}, and there are no other contours",
+                loops_.size(), loops_.size() == 1 ? "" : "s")
+          : fmt::format(
+                "the blank has {} closed contour{}, measured all round but for the unknown "
+                "stretches, and walls and slots wider than {:.3g} mm",
+                loops_.size(), loops_.size() == 1 ? "" : "s",
+                made_.step + 2 * std::max(kSpreadInGuards * made_.guard, kSpreadInSteps * made_.step)));
   if (options_.min_radius) {
-    say.push_back(fmt::format("a disc of radius {:g} mm rolls along the whole contour from outside (no dent, and no hole, is "
-                              "sharper or narrower): between points up to {:.4g} mm apart the contour lies at most "
-                              "{:.3g} mm further in than their chord",
-                              *options_.min_radius, made_.widest, made_.deepest));
+    say.push_back(fmt::format(
+        "a disc of radius {:g} mm rolls along the whole contour from outside (no dent, and no hole, is "
+        "sharper or narrower): between points up to {:.4g} mm apart the contour lies at most "
+        "{:.3g} mm further in than their chord",
+        *options_.min_radius, made_.widest, made_.deepest));
   }
   if (options_.max_dip) {
-    say.push_back(fmt::format("between neighbouring points the contour dips at most {:g} mm below their chord",
-                              *options_.max_dip));
+    say.push_back(fmt::format(
+        "between neighbouring points the contour dips at most {:g} mm below their chord", *options_.max_dip));
   }
   if (!options_.min_radius && !options_.max_dip) {
-    say.push_back(fmt::format("between neighbouring points up to {:.4g} mm apart ({}) the contour does not dip below {}",
-                              made_.step,
-                              options_.step ? "the step stated"
-                                            : fmt::format("chosen from the median spacing of {:.3g} mm",
-                                                          made_.median_spacing),
-                              made_.ordered ? "their chord" : "the innermost of them and their chords"));
+    say.push_back(fmt::format(
+        "between neighbouring points up to {:.4g} mm apart ({}) the contour does not dip below {}",
+        made_.step,
+        options_.step ? "the step stated"
+                      : fmt::format("chosen from the median spacing of {:.3g} mm", made_.median_spacing),
+        made_.ordered ? "their chord" : "the innermost of them and their chords"));
   }
   if (!made_.unknown.empty()) {
     double width = 0;
     for (const UnknownStretch& u : made_.unknown) width += u.width;
-    say.push_back(fmt::format("NOT PROVED: {} stretch{} of contour, {:.4g} mm in all, {} not measured; the outline goes straight "
-                              "across, and no clearance is proved until it is measured or bounded (--max-dip)",
-                              made_.unknown.size(), made_.unknown.size() == 1 ? "" : "es", width,
-                              made_.unknown.size() == 1 ? "is" : "are"));
+    say.push_back(fmt::format(
+        "NOT PROVED: {} stretch{} of contour, {:.4g} mm in all, {} not measured; the outline goes straight "
+        "across, and no clearance is proved until it is measured or bounded (--max-dip)",
+        made_.unknown.size(), made_.unknown.size() == 1 ? "" : "es", width,
+        made_.unknown.size() == 1 ? "is" : "are"));
   }
   if (!made_.dropped.empty()) {
     say.push_back(fmt::format("{} point{} without another within {:g} mm {} left out on request",
-                              made_.dropped.size(), made_.dropped.size() == 1 ? "" : "s", *options_.drop_outliers,
-                              made_.dropped.size() == 1 ? "is" : "are"));
+                              made_.dropped.size(), made_.dropped.size() == 1 ? "" : "s",
+                              *options_.drop_outliers, made_.dropped.size() == 1 ? "is" : "are"));
   }
 }
 

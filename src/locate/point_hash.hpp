@@ -34,7 +34,8 @@ class PointHash {
   /// visit(item) for everything in cells that meet the square of half width `radius` about p.
   template <class Visit>
   void visit_near(geom::Point p, double radius, Visit&& visit) const {
-    const std::int64_t x_end = index(p.x + radius), y_end = index(p.y + radius), y_begin = index(p.y - radius);
+    const std::int64_t x_end = index(p.x + radius), y_end = index(p.y + radius),
+                       y_begin = index(p.y - radius);
     for (std::int64_t x = index(p.x - radius); x <= x_end; ++x)
       for (std::int64_t y = y_begin; y <= y_end; ++y)
         for (std::uint32_t at = head(x, y); at != kNone; at = next_[at]) visit(item_[at]);

@@ -61,7 +61,8 @@ Fit fit_slab(const geom::Ring& points, const GuardedLoop& loop, std::size_t firs
 geom::Contour rectangle(const Slab& s, double margin) {
   const Point d = s.along, n = perpendicular(d);
   const double back = s.back - margin, front = s.front + margin, low = s.low - margin, high = s.high + margin;
-  const Point corners[4] = {back * d + low * n, front * d + low * n, front * d + high * n, back * d + high * n};
+  const Point corners[4] = {back * d + low * n, front * d + low * n, front * d + high * n,
+                            back * d + high * n};
   geom::Contour contour;
   for (std::size_t i = 0; i < 4; ++i)
     contour.push_back({geom::EdgeKind::line, corners[i], corners[(i + 1) % 4], {}});
@@ -142,15 +143,18 @@ class CornerCutter {
     return count;
   }
   static double cell_of(const std::vector<geom::Region>& regions) {
-    double length = 0;
+    double length = 0, longest = 0;
     const auto add = [&](const geom::Contour& c) {
-      for (const geom::Edge& e : c) length += norm(e.to - e.from);
+      for (const geom::Edge& e : c) {
+        length += norm(e.to - e.from);
+        longest = std::max(longest, norm(e.to - e.from));
+      }
     };
     for (const geom::Region& region : regions) {
       add(region.outer);
       for (const geom::Contour& hole : region.holes) add(hole);
     }
-    return 2 * length / static_cast<double>(count_of(regions));
+    return std::max(2 * length / static_cast<double>(count_of(regions)), longest / 64);
   }
 
   void add(const geom::Contour& contour) {

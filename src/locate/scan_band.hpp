@@ -30,18 +30,20 @@ struct Slab {
 
 /// Covers what a loop keeps out by slabs, as few as a greedy walk finds whose inner side is nowhere more than
 /// `tolerance` further in than what it covers at that place. Cost: O(n log n).
-[[nodiscard]] std::vector<Slab> cover_by_slabs(const geom::Ring& points, const GuardedLoop& loop, double guard,
-                                               double tolerance);
+[[nodiscard]] std::vector<Slab> cover_by_slabs(const geom::Ring& points, const GuardedLoop& loop,
+                                               double guard, double tolerance);
 
 /// What lies inside the outlines and outside all slabs; regions of lines. Slabs are made wider by `margin`.
 /// Fails as the Booleans do. Cost: O((n + k) log n), k pairs of slabs that meet.
 [[nodiscard]] Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
                                                                 const std::vector<GuardedLoop>& loops,
-                                                                const std::vector<Slab>& slabs, double margin);
+                                                                const std::vector<Slab>& slabs,
+                                                                double margin);
 
 /// Cuts corners of the regions off, material only, where that takes vertices away and no cut is deeper than
 /// `tolerance`. Cost: O(n log n) where corners are not crowded.
-[[nodiscard]] std::vector<geom::Region> cut_corners(const std::vector<geom::Region>& regions, double tolerance);
+[[nodiscard]] std::vector<geom::Region> cut_corners(const std::vector<geom::Region>& regions,
+                                                    double tolerance);
 
 /// The proof that nothing else relies on: whether every edge of the loops is at least its reach, every point
 /// beside them at least the guard away from the regions, and every piece lies inside the outlines; each

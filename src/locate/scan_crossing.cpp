@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lekalo/geom/predicates.hpp"
 #include "point_hash.hpp"
@@ -10,14 +11,18 @@ namespace {
 
 using geom::Point;
 
-double median_length(const geom::Ring& points, const std::vector<Loop>& loops) {
+/// Twice the median length of the edges, but so large that all of them together run through a few cells an
+/// edge.
+double cell_size(const geom::Ring& points, const std::vector<Loop>& loops) {
   std::vector<double> lengths;
   for (const Loop& loop : loops)
     for (std::size_t i = 0; i < loop.size(); ++i)
       lengths.push_back(norm(points[loop[(i + 1) % loop.size()]] - points[loop[i]]));
+  const double mean =
+      std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return std::max(2 * *middle, mean / 8);
 }
 
 class EdgeCells {
@@ -44,7 +49,8 @@ class EdgeCells {
         y1 = low.y + (to - low.x) * slope;
       }
       const double slack = 1e-3 * cell_;
-      for (std::int64_t y = hash_.index(std::min(y0, y1) - slack), top = hash_.index(std::max(y0, y1) + slack);
+      for (std::int64_t y = hash_.index(std::min(y0, y1) - slack),
+                        top = hash_.index(std::max(y0, y1) + slack);
            y <= top && !found; ++y) {
         hash_.visit_cell(x, y, [&](std::uint32_t other) {
           if (!found && other != id && meet(other, loop, edge, a, b))
@@ -64,7 +70,8 @@ class EdgeCells {
     const Loop& l = loops_[loop];
     return {points_[l[edge]], points_[l[(edge + 1) % l.size()]]};
   }
-  [[nodiscard]] bool meet(std::uint32_t other, std::uint32_t loop, std::uint32_t edge, Point a, Point b) const {
+  [[nodiscard]] bool meet(std::uint32_t other, std::uint32_t loop, std::uint32_t edge, Point a,
+                          Point b) const {
     const auto [c, d] = ends(edges_[other].loop, edges_[other].edge);
     const geom::SegmentRelation relation = geom::segment_relation(a, b, c, d);
     if (relation == geom::SegmentRelation::disjoint) return false;
@@ -93,7 +100,7 @@ std::optional<Crossing> first_crossing(const geom::Ring& points, const std::vect
     }
   const double extent = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   // An edge passes through at most 2^15 columns and as many rows, however short the others are.
-  EdgeCells cells(points, loops, std::max(2 * median_length(points, loops), 0x1p-15 * extent));
+  EdgeCells cells(points, loops, std::max(cell_size(points, loops), 0x1p-15 * extent));
   for (std::uint32_t l = 0; l < loops.size(); ++l)
     for (std::uint32_t e = 0; e < loops[l].size(); ++e)
       if (const auto found = cells.add(l, e)) return found;

@@ -62,18 +62,18 @@ class Links {
       std::size_t degree = 0;
       for (std::size_t k = 0; k < near.size(); ++k) {
         const auto [d, j] = near[k];
-        const bool blocked = std::any_of(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(k),
-                                         [&](const auto& third) {
-                                           return third.first < d && distance(at(third.second), at(j)) < d;
-                                         });
+        const bool blocked = std::any_of(
+            near.begin(), near.begin() + static_cast<std::ptrdiff_t>(k),
+            [&](const auto& third) { return third.first < d && distance(at(third.second), at(j)) < d; });
         if (blocked) continue;
         if (degree == 2) {
           return failure(
               ErrorCode::bad_input,
-              fmt::format("near {} the neighbours of a point cannot be told: walls, corners or noise there are "
-                          "finer than {:.3g} mm; give the points in order along the contour, a smaller --step, "
-                          "or the probe's true uncertainty",
-                          place(at(i)), link));
+              fmt::format(
+                  "near {} the neighbours of a point cannot be told: walls, corners or noise there are "
+                  "finer than {:.3g} mm; give the points in order along the contour, a smaller --step, "
+                  "or the probe's true uncertainty",
+                  place(at(i)), link));
         }
         links_[i][degree++] = j;
       }
@@ -155,11 +155,13 @@ class Links {
     const std::uint32_t far_a = other_end(a), far_b = other_end(b);
     for (const std::uint32_t c : ends) {
       if (c == a || c == b || c == far_a || c == far_b) continue;
-      if (distance(at(a), at(c)) < kClearlyNearer * least || distance(at(b), at(c)) < kClearlyNearer * least) {
-        return failure(ErrorCode::bad_input,
-                       fmt::format("the contour is not measured near {}, and how it goes on there is not clear: "
-                                   "loose ends at {} and {}; measure there, or give the points in order",
-                                   place(at(a)), place(at(b)), place(at(c))));
+      if (distance(at(a), at(c)) < kClearlyNearer * least ||
+          distance(at(b), at(c)) < kClearlyNearer * least) {
+        return failure(
+            ErrorCode::bad_input,
+            fmt::format("the contour is not measured near {}, and how it goes on there is not clear: "
+                        "loose ends at {} and {}; measure there, or give the points in order",
+                        place(at(a)), place(at(b)), place(at(c))));
       }
     }
     for (const auto& [i, j] : {std::pair(a, b), std::pair(b, a)}) {

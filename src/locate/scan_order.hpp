@@ -39,7 +39,8 @@ struct Crossing {
 };
 /// The first found, going along the loops: early for points in no order. Exact predicates.
 /// Cost: O(n) for edges of about the same length.
-[[nodiscard]] std::optional<Crossing> first_crossing(const geom::Ring& points, const std::vector<Loop>& loops);
+[[nodiscard]] std::optional<Crossing> first_crossing(const geom::Ring& points,
+                                                     const std::vector<Loop>& loops);
 
 /// Whether each loop runs around material: counter-clockwise if an even number of the others is around it,
 /// clockwise if an odd one. Turns those around that do not. \pre no two edges meet

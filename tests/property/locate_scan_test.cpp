@@ -20,8 +20,8 @@ using geom::Point;
 using geom::Region;
 using Lists = std::vector<std::vector<cases::SampledPoint>>;
 
-/// How far the regions stick out of the truth (at most 0: nowhere), and how far inside it their boundary lies at
-/// most; by points along both boundaries.
+/// How far the regions stick out of the truth (at most 0: nowhere), and how far inside it their boundary lies
+/// at most; by points along both boundaries.
 struct Compared {
   double outside = 0, deepest = 0;
 };
@@ -70,10 +70,12 @@ TEST(GuaranteedBlank, LiesInsideTheTrueBlankWhenNoDentIsSharperThanStated) {
       const cases::RegionCase one = cases::region_case(seed, 500 + index, kind, 30);
       SCOPED_TRACE(titled(one, seed));
       Random random(seed, 9000 + index * 8 + static_cast<std::uint64_t>(kind));
-      const double radius = random.uniform(1.5, 3.5), guard = random.below(3) == 0 ? 0 : random.uniform(0.001, 0.06);
+      const double radius = random.uniform(1.5, 3.5),
+                   guard = random.below(3) == 0 ? 0 : random.uniform(0.001, 0.06);
       const std::vector<Region> truth = cases::without_sharp_dents(one.blank, radius);
       Sampling how{random.uniform(0.15, 1.0), random.uniform(0, 1), guard, 0};
-      const Lists lists = with_gaps(cases::sample(truth, how, random), random.uniform(0.9, 1.6) * radius, random);
+      const Lists lists =
+          with_gaps(cases::sample(truth, how, random), random.uniform(0.9, 1.6) * radius, random);
       locate::ScanOptions options;
       options.uncertainty = guard / 2;
       options.min_radius = radius;
@@ -131,7 +133,8 @@ TEST(GuaranteedBlank, MostScansWithoutOrderAreUnderstood) {
       // The same contours, and about the same material: what differs is corners between points.
       EXPECT_EQ(found->outlines.size(), given->outlines.size()) << titled(one, seed);
       EXPECT_NEAR(cases::area_of(found->regions), cases::area_of(given->regions),
-                  0.1 * cases::length_of(given->regions)) << titled(one, seed);
+                  0.1 * cases::length_of(given->regions))
+          << titled(one, seed);
     }
   }
   EXPECT_GE(10 * understood, 9 * all) << understood << " of " << all;
@@ -196,14 +199,15 @@ TEST(GuaranteedBlank, HoldsAndIsTightForTheDeepestDentsADiscCanMake) {
         const Compared compared = compare(blank->regions, one.truth, radius * share / 20);
         EXPECT_LE(compared.outside, 1e-9) << radius << " " << share << " " << guard;
         // The deepest place of each dent is given away by no more than the simplification and the noise that
-        // might have been elsewhere: true tips lie a guard below the points, the formula allows for a guard at
-        // every point of the disc.
+        // might have been elsewhere: true tips lie a guard below the points, the formula allows for a guard
+        // at every point of the disc.
         const geom::RegionIndex truth(one.truth);
         double least = 1e9;
         Random random(1);
         for (const auto& list : cases::sample(blank->regions, {radius * share / 200}, random))
           for (const auto& p : list) least = std::min(least, truth.nearest(p.truth).distance);
-        EXPECT_LE(least, 3 * options.simplify + 0.5 * guard / (1 - share)) << radius << " " << share << " " << guard;
+        EXPECT_LE(least, 3 * options.simplify + 0.5 * guard / (1 - share))
+            << radius << " " << share << " " << guard;
       }
     }
   }
@@ -236,7 +240,8 @@ TEST(GuaranteedBlank, LiesInsideTheTrueBlankWhenNoDipIsDeeperThanStated) {
     for (std::size_t i = 0; i < tips.size(); ++i) {
       const Point a = tips[i], b = tips[(i + 1) % tips.size()], d = (1 / norm(b - a)) * (b - a);
       ring.push_back(a);
-      ring.push_back(a + random.uniform(0.2, 0.8) * (b - a) + random.uniform(0.9, 1) * dip * perpendicular(d));
+      ring.push_back(a + random.uniform(0.2, 0.8) * (b - a) +
+                     random.uniform(0.9, 1) * dip * perpendicular(d));
       const auto [sine, cosine] = geom::sincos(random.uniform(0, 6.28));
       scan.points.push_back(a + guard * Point{cosine, sine});
     }
@@ -273,8 +278,8 @@ TEST(GuaranteedBlank, DenseNoisyScansLieInsideTheTrueBlank) {
     EXPECT_EQ(blank->outlines.size(), 3U);
     const Compared compared = compare(blank->regions, truth, 0.1);
     EXPECT_LE(compared.outside, 0);
-    // Errors of 4.5 times 0.02 inwards, the guard, the simplification, and corners cut between points that are
-    // 6 guards apart.
+    // Errors of 4.5 times 0.02 inwards, the guard, the simplification, and corners cut between points that
+    // are 6 guards apart.
     EXPECT_LE(compared.deepest, 0.09 + 0.04 + options.simplify + 0.5 * blank->widest);
     std::size_t edges = 0;
     for (const Region& r : blank->regions) {

@@ -19,10 +19,10 @@ namespace lekalo::cases {
 /// Points of the contours of regions, and what a probe makes of them.
 
 struct Sampling {
-  double spacing = 1;      ///< mm, along the contour
-  double jitter = 0;       ///< share of the spacing by which points are moved along
-  double noise = 0;        ///< points anywhere in a disc of this radius, mm
-  double gaussian = 0;     ///< or (and) normal errors of this standard deviation in x and y, mm
+  double spacing = 1;   ///< mm, along the contour
+  double jitter = 0;    ///< share of the spacing by which points are moved along
+  double noise = 0;     ///< points anywhere in a disc of this radius, mm
+  double gaussian = 0;  ///< or (and) normal errors of this standard deviation in x and y, mm
 };
 
 struct SampledPoint {
@@ -36,8 +36,8 @@ inline geom::Point normal_pair(Random& random) {
 }
 
 /// One list a contour, in the contour's order.
-inline std::vector<std::vector<SampledPoint>> sample(const std::vector<geom::Region>& regions, const Sampling& how,
-                                                     Random& random) {
+inline std::vector<std::vector<SampledPoint>> sample(const std::vector<geom::Region>& regions,
+                                                     const Sampling& how, Random& random) {
   std::vector<std::vector<SampledPoint>> lists;
   const auto contour = [&](const geom::Contour& c) {
     std::vector<SampledPoint> list;
@@ -50,7 +50,8 @@ inline std::vector<std::vector<SampledPoint>> sample(const std::vector<geom::Reg
         const double s = std::clamp(at + how.jitter * how.spacing * random.uniform(-0.5, 0.5), 0.0, length);
         geom::Point p = e.from + (s / std::max(length, 1e-300)) * (e.to - e.from);
         if (!line) {
-          const auto [sine, cosine] = geom::sincos(e.kind == geom::EdgeKind::arc_ccw ? s / radius : -s / radius);
+          const auto [sine, cosine] =
+              geom::sincos(e.kind == geom::EdgeKind::arc_ccw ? s / radius : -s / radius);
           const geom::Point arm = e.from - e.centre;
           p = e.centre + geom::Point{cosine * arm.x - sine * arm.y, sine * arm.x + cosine * arm.y};
         }
@@ -85,7 +86,8 @@ inline locate::ScanPoints scan_of(const std::vector<std::vector<SampledPoint>>& 
 }
 
 inline locate::ScanPoints shuffled(locate::ScanPoints scan, Random& random) {
-  for (std::size_t i = scan.points.size(); i > 1; --i) std::swap(scan.points[i - 1], scan.points[random.below(i)]);
+  for (std::size_t i = scan.points.size(); i > 1; --i)
+    std::swap(scan.points[i - 1], scan.points[random.below(i)]);
   scan.contour_starts = {0};
   return scan;
 }

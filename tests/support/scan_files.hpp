@@ -35,7 +35,8 @@ struct Vertex {
 inline std::string ply_ascii(const std::vector<Vertex>& vertices) {
   std::string out = fmt::format(
       "ply\nformat ascii 1.0\ncomment made by a test\nelement vertex {}\nproperty float x\nproperty float y\n"
-      "property float z\nproperty uchar red\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n",
+      "property float z\nproperty uchar red\nelement face 1\nproperty list uchar int "
+      "vertex_indices\nend_header\n",
       vertices.size());
   for (const Vertex& v : vertices) out += fmt::format("{} {} {} 255\n", v.x, v.y, v.z);
   return out + "3 0 1 2\n";
@@ -44,8 +45,10 @@ inline std::string ply_ascii(const std::vector<Vertex>& vertices) {
 /// Doubles, an element with a list before the vertices, a byte between the coordinates.
 inline std::string ply_binary(const std::vector<Vertex>& vertices, bool big) {
   std::string out = fmt::format(
-      "ply\r\nformat binary_{}_endian 1.0\r\nelement camera 2\r\nproperty list uchar short path\r\nproperty int id\r\n"
-      "element vertex {}\r\nproperty double x\r\nproperty uchar red\r\nproperty double y\r\nproperty double z\r\n"
+      "ply\r\nformat binary_{}_endian 1.0\r\nelement camera 2\r\nproperty list uchar short path\r\nproperty "
+      "int id\r\n"
+      "element vertex {}\r\nproperty double x\r\nproperty uchar red\r\nproperty double y\r\nproperty double "
+      "z\r\n"
       "end_header\r\n",
       big ? "big" : "little", vertices.size());
   for (int k = 0; k < 2; ++k) {

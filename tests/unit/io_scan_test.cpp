@@ -13,8 +13,8 @@ namespace {
 using namespace std::string_literals;
 using scan_files::Vertex;
 
-io::ScanFile parsed(const std::string& bytes, const std::string& name, std::optional<io::ScanSlice> slice = {},
-                    std::optional<LengthUnit> unit = {}) {
+io::ScanFile parsed(const std::string& bytes, const std::string& name,
+                    std::optional<io::ScanSlice> slice = {}, std::optional<LengthUnit> unit = {}) {
   auto file = io::parse_scan(bytes, name, unit, slice);
   EXPECT_TRUE(file) << file.error().message;
   return file ? *std::move(file) : io::ScanFile{};
@@ -35,8 +35,10 @@ TEST(ScanFile, ASliceTakesThePointsWithinHalfItsThickness) {
   EXPECT_EQ(file.places, (std::vector<std::size_t>{2, 3, 4}));
   EXPECT_FALSE(file.has_order);
   ASSERT_EQ(file.notices.size(), 1U);
-  EXPECT_NE(file.notices[0].find("3 of 5 points lie in the slice at height 10 mm, 1 mm thick"), std::string::npos);
-  EXPECT_NE(parsed(bytes, "a.xyz").notices[0].find("third number of 5 lines (z) is ignored"), std::string::npos);
+  EXPECT_NE(file.notices[0].find("3 of 5 points lie in the slice at height 10 mm, 1 mm thick"),
+            std::string::npos);
+  EXPECT_NE(parsed(bytes, "a.xyz").notices[0].find("third number of 5 lines (z) is ignored"),
+            std::string::npos);
 }
 
 TEST(ScanFile, EveryKindOfPlyGivesTheSamePoints) {
@@ -73,7 +75,11 @@ TEST(ScanFile, WhatCannotBeReadIsRefusedWithPlaceAndReason) {
       {"ending", "a.stl", "0 0\n", {"a.stl", ".ply files, not from '.stl'"}},
       {"text errors as in contours", "a.xyz", "0 0\n1 x\n", {"line 2", "'x' is not a number"}},
       {"no z for a slice", "a.xyz", "0 0 1\n1 1\n", {"line 2", "no z"}, io::ScanSlice{1, 1}},
-      {"slice beside the scan", "a.xyz", "0 0 1\n1 1 2\n", {"no point lies in the slice", "from 1 to 2"}, io::ScanSlice{9, 1}},
+      {"slice beside the scan",
+       "a.xyz",
+       "0 0 1\n1 1 2\n",
+       {"no point lies in the slice", "from 1 to 2"},
+       io::ScanSlice{9, 1}},
       {"binary text", "a.csv", "0\0 0\n"s, {"zero bytes"}},
       {"not a ply", "a.ply", "solid\n", {"this is no PLY"}},
       {"empty ply", "a.ply", "", {"no end_header"}},
@@ -87,23 +93,39 @@ TEST(ScanFile, WhatCannotBeReadIsRefusedWithPlaceAndReason) {
       {"twice", "a.ply", head + xy + "element vertex 2\n", {"line 6", "declared twice"}},
       {"property alone", "a.ply", head + "property float x\n", {"line 3", "before the first element"}},
       {"type", "a.ply", head + "element vertex 1\nproperty real x\n", {"line 4", "'real'"}},
-      {"float counts", "a.ply", head + "element f 1\nproperty list float int v\n", {"line 4", "cannot count"}},
+      {"float counts",
+       "a.ply",
+       head + "element f 1\nproperty list float int v\n",
+       {"line 4", "cannot count"}},
       {"list in vertex", "a.ply", head + xy + "property list uchar int v\n" + end, {"list ('v')"}},
       {"no x", "a.ply", head + "element vertex 1\nproperty float y\n" + end + "0\n", {"no property x"}},
       {"two x", "a.ply", head + xy + "property float x\n" + end, {"two properties x"}},
       {"no z", "a.ply", head + xy + end + "0 0\n1 1\n", {"no property z"}, io::ScanSlice{1, 1}},
       {"no vertex", "a.ply", head + "element face 0\nproperty int a\n" + end, {"no element vertex"}},
-      {"no properties", "a.ply", head + "element a 18446744073709551615\n" + xy + end, {"'a' has no properties"}},
-      {"too many", "a.ply", head + "element vertex 20000001\nproperty float x\nproperty float y\n" + end, {"20000001 vertices"}},
+      {"no properties",
+       "a.ply",
+       head + "element a 18446744073709551615\n" + xy + end,
+       {"'a' has no properties"}},
+      {"too many",
+       "a.ply",
+       head + "element vertex 20000001\nproperty float x\nproperty float y\n" + end,
+       {"20000001 vertices"}},
       {"short row", "a.ply", head + xy + end + "0 0\n1\n", {"line 8", "1 numbers where a vertex has 2"}},
       {"word in row", "a.ply", head + xy + end + "0 0\n1 one\n", {"line 8", "'one' is not a number"}},
       {"rows missing", "a.ply", head + xy + end + "0 0\n", {"ends in row 1 of 2"}},
       {"binary cut", "a.ply", little + xy + end + "12345678abc", {"ends in row 1 of 2"}},
-      {"binary nan", "a.ply", little + xy + end + "\0\0\xc0\x7f\0\0\0\0\0\0\0\0\0\0\0\0"s, {"vertex 0", "not a finite"}},
-      {"list count negative", "a.ply",
-       little + "element f 1\nproperty list char int v\n" + xy + end + "\xff", {"row 0", "list of -1"}},
-      {"list longer than the file", "a.ply",
-       little + "element f 1\nproperty list uint double v\n" + xy + end + "\xff\xff\xff\xff", {"ends in row 0 of 1"}},
+      {"binary nan",
+       "a.ply",
+       little + xy + end + "\0\0\xc0\x7f\0\0\0\0\0\0\0\0\0\0\0\0"s,
+       {"vertex 0", "not a finite"}},
+      {"list count negative",
+       "a.ply",
+       little + "element f 1\nproperty list char int v\n" + xy + end + "\xff",
+       {"row 0", "list of -1"}},
+      {"list longer than the file",
+       "a.ply",
+       little + "element f 1\nproperty list uint double v\n" + xy + end + "\xff\xff\xff\xff",
+       {"ends in row 0 of 1"}},
   };
   for (const Bad& bad : all) {
     const auto file = io::parse_scan(bad.bytes, bad.name, std::nullopt, bad.slice);
@@ -111,7 +133,8 @@ TEST(ScanFile, WhatCannotBeReadIsRefusedWithPlaceAndReason) {
     EXPECT_EQ(file.error().code, ErrorCode::bad_input) << bad.title;
     EXPECT_EQ(file.error().message.rfind(bad.name, 0), 0U) << file.error().message;
     for (const char* part : bad.says)
-      EXPECT_NE(file.error().message.find(part), std::string::npos) << bad.title << ": " << file.error().message;
+      EXPECT_NE(file.error().message.find(part), std::string::npos)
+          << bad.title << ": " << file.error().message;
   }
   for (const io::ScanSlice slice : {io::ScanSlice{0, 0}, io::ScanSlice{NAN, 1}, io::ScanSlice{0, INFINITY}}) {
     const auto file = io::parse_scan("0 0 0\n", "a.xyz", std::nullopt, slice);
@@ -121,7 +144,8 @@ TEST(ScanFile, WhatCannotBeReadIsRefusedWithPlaceAndReason) {
 }
 
 TEST(ScanBlank, ACoredCastingFromTextAndFromASliceOfAPly) {
-  const geom::Ring outer = scan_files::rectangle(0, 0, 60, 40, 1), hole = scan_files::rectangle(20, 10, 20, 20, 1);
+  const geom::Ring outer = scan_files::rectangle(0, 0, 60, 40, 1),
+                   hole = scan_files::rectangle(20, 10, 20, 20, 1);
   io::ScanBlankOptions options;
   options.scan.uncertainty = 0.01;
   const std::string bytes = scan_files::text(outer) + "\n" + scan_files::text(hole);

@@ -34,7 +34,8 @@ locate::GuaranteedBlank made(const ScanPoints& scan, const ScanOptions& options)
   return blank ? *std::move(blank) : locate::GuaranteedBlank{};
 }
 
-std::string refusal(const ScanPoints& scan, const ScanOptions& options, ErrorCode code = ErrorCode::bad_input) {
+std::string refusal(const ScanPoints& scan, const ScanOptions& options,
+                    ErrorCode code = ErrorCode::bad_input) {
   const auto blank = locate::guaranteed_blank(scan, options);
   EXPECT_FALSE(blank);
   if (blank) return {};
@@ -81,7 +82,8 @@ TEST(GuaranteedBlank, APointInsideIsADentAndNotNoise) {
   const geom::RegionIndex index(blank.regions);
   EXPECT_FALSE(index.contains({10, 2.9}));
   EXPECT_TRUE(index.contains({10, 3.1}));
-  // Without order such a point makes the contour ambiguous, and a step that does not reach it leaves it alone.
+  // Without order such a point makes the contour ambiguous, and a step that does not reach it leaves it
+  // alone.
   options.order = PointOrder::none;
   EXPECT_NE(refusal(contours({ring}), options).find("cannot be told"), std::string::npos);
   ring.push_back({10, 10});
@@ -151,7 +153,8 @@ TEST(GuaranteedBlank, NothingIsLeftOfABlankThinnerThanItsGuards) {
 
 TEST(GuaranteedBlank, OptionsOutOfRangeAreUsageErrors) {
   const ScanPoints scan = contours({rectangle(0, 0, 10, 10, 1)});
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1.0, nan, infinity}) {
     ScanOptions o;
     o.uncertainty = bad;
@@ -217,8 +220,8 @@ TEST(GuaranteedBlank, TheAssumptionsSayWhatWasAssumed) {
   const auto blank = made(contours({rectangle(0, 0, 20, 20, 1)}), options);
   std::string all;
   for (const std::string& sentence : blank.assumptions) all += sentence + "\n";
-  for (const char* part : {"within 0.04 mm", "2 times", "95.45 % for each point by itself", "1 closed contour",
-                           "disc of radius 3 mm rolls", "no dent"})
+  for (const char* part : {"within 0.04 mm", "2 times", "95.45 % for each point by itself",
+                           "1 closed contour", "disc of radius 3 mm rolls", "no dent"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
 }
 

@@ -39,10 +39,10 @@ struct ScanPoints {
 };
 
 struct ScanOptions {
-  double uncertainty = 0;          ///< standard uncertainty of one point, mm, >= 0
-  double coverage_factor = 2;      ///< k, > 0
-  bool factor_covers_all = false;  ///< k was chosen for all points together, not for each by itself
-  double reading_error = 0;        ///< mm, distance; added to the guard as it is
+  double uncertainty = 0;            ///< standard uncertainty of one point, mm, >= 0
+  double coverage_factor = 2;        ///< k, > 0
+  bool factor_covers_all = false;    ///< k was chosen for all points together, not for each by itself
+  double reading_error = 0;          ///< mm, distance; added to the guard as it is
   std::optional<double> min_radius;  ///< R, mm
   std::optional<double> max_dip;     ///< H, mm, >= 0
   /// Neighbours further apart are not taken as neighbours: the stretch is unknown unless R or H bounds it.
@@ -56,7 +56,7 @@ struct ScanOptions {
 
 /// A stretch of contour of which the measurement says nothing.
 struct UnknownStretch {
-  std::uint32_t contour = 0;     ///< of GuaranteedBlank::outlines
+  std::uint32_t contour = 0;       ///< of GuaranteedBlank::outlines
   std::uint32_t from = 0, to = 0;  ///< indices of measured points
   geom::Point from_at, to_at;
   double width = 0;  ///< mm
@@ -81,10 +81,10 @@ struct GuaranteedBlank {
   [[nodiscard]] bool proved() const noexcept { return unknown.empty(); }
 };
 
-/// Fails with ErrorCode::usage for options out of range; with bad_input, naming a place in mm, for points that
-/// are not is_exact or beyond 1e9 mm, fewer than three, outlines that meet themselves or each other, points
-/// without order whose neighbours cannot be told (walls, corners or noise finer than the spacing), and when
-/// nothing is left.
+/// Fails with ErrorCode::usage for options out of range; with bad_input, naming a place in mm, for points
+/// that are not is_exact or beyond 1e9 mm, fewer than three, outlines that meet themselves or each other,
+/// points without order whose neighbours cannot be told (walls, corners or noise finer than the spacing), and
+/// when nothing is left.
 ///
 /// The regions do not depend on the order of points without order.
 /// Cost: O(n log n). 100,000 points in 0.1 s.
