@@ -6,7 +6,7 @@ set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 cmake --preset bench > /dev/null
-cmake --build --preset bench --target bench_locate bench_locate_region bench_compare > /dev/null
+cmake --build --preset bench --target bench_locate bench_locate_region bench_scan bench_compare > /dev/null
 echo "commit $(git rev-parse --short HEAD), $(c++ --version | head -1), $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2), seed ${LEKALO_SEED:-1}"
 echo
 build/bench/bench/bench_compare "${1:-200}"
@@ -14,3 +14,5 @@ echo
 build/bench/bench/bench_locate --benchmark_counters_tabular=true
 echo
 build/bench/bench/bench_locate_region --benchmark_counters_tabular=true
+echo
+build/bench/bench/bench_scan --benchmark_counters_tabular=true

@@ -5,7 +5,6 @@
 #include "contour_points.hpp"
 
 namespace lekalo::io {
-namespace {
 
 std::string ending_of(const std::string& name) {
   const std::size_t slash = name.find_last_of('/');
@@ -18,11 +17,12 @@ std::string ending_of(const std::string& name) {
   return ending;
 }
 
+namespace {
 bool begins_with(std::string_view bytes, std::string_view mark) {
   return bytes.substr(0, mark.size()) == mark;
 }
+}  // namespace
 
-/// Files of these programs that are not text, whatever their name says; empty for anything else.
 std::string wrong_encoding(std::string_view bytes) {
   using namespace std::string_view_literals;
   if (begins_with(bytes, "AutoCAD Binary DXF"sv)) {
@@ -39,6 +39,8 @@ std::string wrong_encoding(std::string_view bytes) {
   if (bytes.find('\0') != std::string_view::npos) return "this is not a text file, it holds zero bytes";
   return {};
 }
+
+namespace {
 
 Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
                              std::optional<LengthUnit> unit) {
