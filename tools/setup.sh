@@ -13,6 +13,7 @@ packages=(
   libmpfr-dev libgmp-dev                                     # exact checks
   libssl-dev                                                 # SHA-256 of inputs
   libcairo2-dev                                              # PNG pictures
+  libexpat1-dev                                              # XML of SVG drawings
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
   libgtest-dev
