@@ -22,7 +22,21 @@ bool begins_with(std::string_view bytes, std::string_view mark) {
   return bytes.substr(0, mark.size()) == mark;
 }
 
-/// Files of these programs that are not text, whatever their name says; empty for anything else.
+Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
+                             std::optional<LengthUnit> unit) {
+  const std::string ending = ending_of(name);
+  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") {
+    return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
+  }
+  if (ending == ".json") return read_json_contour(bytes, name, unit);
+  if (ending == ".dxf") return read_dxf_contour(bytes, name, unit);
+  return refuse(name,
+                fmt::format("contours are read from .csv, .txt, .xyz, .json and .dxf files, not from {}",
+                            ending.empty() ? "a name without ending" : excerpt(ending)));
+}
+
+}  // namespace
+
 std::string wrong_encoding(std::string_view bytes) {
   using namespace std::string_view_literals;
   if (begins_with(bytes, "AutoCAD Binary DXF"sv)) {
@@ -39,21 +53,6 @@ std::string wrong_encoding(std::string_view bytes) {
   if (bytes.find('\0') != std::string_view::npos) return "this is not a text file, it holds zero bytes";
   return {};
 }
-
-Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
-                             std::optional<LengthUnit> unit) {
-  const std::string ending = ending_of(name);
-  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") {
-    return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
-  }
-  if (ending == ".json") return read_json_contour(bytes, name, unit);
-  if (ending == ".dxf") return read_dxf_contour(bytes, name, unit);
-  return refuse(name,
-                fmt::format("contours are read from .csv, .txt, .xyz, .json and .dxf files, not from {}",
-                            ending.empty() ? "a name without ending" : excerpt(ending)));
-}
-
-}  // namespace
 
 Result<LengthUnit> agree_on_unit(const std::string& name, std::optional<LengthUnit> file_says,
                                  const std::string& where, std::optional<LengthUnit> user_says) {
