@@ -18,6 +18,7 @@ packages=(
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
   libgtest-dev
   python3            # a third opinion on results, written by a stranger
+  python3-ezdxf python3-gdal # the same on DXF drawings
   fonts-dejavu-core  # texts in PNG pictures, Cyrillic too
 )
 full_packages=(clang libclang-rt-14-dev llvm libbenchmark-dev)

@@ -5,6 +5,7 @@
 #include "contour_points.hpp"
 
 namespace lekalo::io {
+namespace {
 
 std::string ending_of(const std::string& name) {
   const std::size_t slash = name.find_last_of('/');
@@ -17,10 +18,23 @@ std::string ending_of(const std::string& name) {
   return ending;
 }
 
-namespace {
 bool begins_with(std::string_view bytes, std::string_view mark) {
   return bytes.substr(0, mark.size()) == mark;
 }
+
+Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
+                             std::optional<LengthUnit> unit) {
+  const std::string ending = ending_of(name);
+  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") {
+    return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
+  }
+  if (ending == ".json") return read_json_contour(bytes, name, unit);
+  if (ending == ".dxf") return read_dxf_contour(bytes, name, unit);
+  return refuse(name,
+                fmt::format("contours are read from .csv, .txt, .xyz, .json and .dxf files, not from {}",
+                            ending.empty() ? "a name without ending" : excerpt(ending)));
+}
+
 }  // namespace
 
 std::string wrong_encoding(std::string_view bytes) {
@@ -39,23 +53,6 @@ std::string wrong_encoding(std::string_view bytes) {
   if (bytes.find('\0') != std::string_view::npos) return "this is not a text file, it holds zero bytes";
   return {};
 }
-
-namespace {
-
-Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
-                             std::optional<LengthUnit> unit) {
-  const std::string ending = ending_of(name);
-  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") {
-    return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
-  }
-  if (ending == ".json") return read_json_contour(bytes, name, unit);
-  if (ending == ".dxf") return read_dxf_contour(bytes, name, unit);
-  return refuse(name,
-                fmt::format("contours are read from .csv, .txt, .xyz, .json and .dxf files, not from {}",
-                            ending.empty() ? "a name without ending" : excerpt(ending)));
-}
-
-}  // namespace
 
 Result<LengthUnit> agree_on_unit(const std::string& name, std::optional<LengthUnit> file_says,
                                  const std::string& where, std::optional<LengthUnit> user_says) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/geom/double_double.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -65,20 +66,58 @@ std::optional<Decimal> read_decimal(std::string_view text) {
   return decimal;
 }
 
-/// Times 25.4, exactly: 254 as schoolbook multiplication, the point moved by one.
-void inches_to_millimetres(Decimal& decimal) {
-  unsigned carry = 0;
+/// Exactly: schoolbook multiplication, the point moved.
+void multiply(Decimal& decimal, DecimalFactor factor) {
+  std::uint64_t carry = 0;
   for (auto digit = decimal.digits.rbegin(); digit != decimal.digits.rend(); ++digit) {
-    carry += 254U * static_cast<unsigned>(*digit - '0');
+    carry += std::uint64_t{factor.multiplier} * static_cast<unsigned>(*digit - '0');
     *digit = static_cast<char>('0' + carry % 10);
     carry /= 10;
   }
   if (carry > 0) decimal.digits.insert(0, std::to_string(carry));
-  --decimal.exponent;
+  decimal.exponent += factor.exponent;
   while (!decimal.digits.empty() && decimal.digits.back() == '0') {
     decimal.digits.pop_back();
     ++decimal.exponent;
   }
+}
+
+constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/// What nearly all numbers of drawings are: no exponent, and an integer below 2^53 over a power of ten that
+/// is a double, so that one division rounds as wanted. Nothing for others and for what is out of range.
+std::optional<Millimetres> read_short(std::string_view text, DecimalFactor factor) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (negative || (!text.empty() && text.front() == '+')) text.remove_prefix(1);
+  if (text.empty() || text.size() > 19) return std::nullopt;
+  std::uint64_t mantissa = 0;
+  std::size_t places = 0, digits = 0;
+  bool after_point = false;
+  for (const char c : text) {
+    if (is_digit(c)) {
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');
+      ++digits;
+      if (after_point) ++places;
+    } else if (c == '.' && !after_point) {
+      after_point = true;
+    } else {
+      return std::nullopt;
+    }
+  }
+  constexpr std::uint64_t kLimit = std::uint64_t{1} << 53;
+  if (digits == 0 || mantissa > kLimit / factor.multiplier) return std::nullopt;
+  auto whole = static_cast<double>(mantissa * factor.multiplier);
+  const int exponent = factor.exponent - static_cast<int>(places);
+  if (exponent > 0) whole *= kPowersOfTen[exponent];  // exact, or too large
+  const double power = exponent < 0 ? kPowersOfTen[std::min(-exponent, 22)] : 1;
+  if (-exponent > 22 || whole > kLargestMillimetres * power || (exponent > 0 && whole >= 0x1p53))
+    return std::nullopt;
+  Millimetres result{whole / power, 0};
+  const geom::DoubleDouble product = geom::two_product(result.value, power);
+  if (product.hi != whole || product.lo != 0) result.error = std::ldexp(1.0, std::ilogb(result.value) - 53);
+  if (negative && mantissa != 0) result.value = -result.value;
+  return result;
 }
 
 /// True only when the decimal is a double: an odd number below 2^53 times a power of two.
@@ -107,38 +146,6 @@ double nearest_double(const Decimal& decimal) {
   return value;
 }
 
-/// Powers of ten that are doubles.
-constexpr double kPowerOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-/// What scans are full of: a few digits with a point and no exponent. The digits and the power of ten are
-/// doubles then, so one division rounds to the nearest (Clinger 1990). Nothing for all else.
-std::optional<Millimetres> read_short(std::string_view text) {
-  std::size_t at = 0;
-  bool negative = false, after_point = false, any_digit = false;
-  if (at < text.size() && (text[at] == '-' || text[at] == '+')) negative = text[at++] == '-';
-  std::uint64_t digits = 0, fives = 1;
-  std::size_t places = 0;
-  for (; at < text.size(); ++at) {
-    if (text[at] == '.' && !after_point) {
-      after_point = true;
-      continue;
-    }
-    if (!is_digit(text[at]) || places == 22) return std::nullopt;
-    any_digit = true;
-    digits = digits * 10 + static_cast<std::uint64_t>(text[at] - '0');
-    if (digits >= std::uint64_t{1} << 53) return std::nullopt;
-    if (after_point) ++places, fives *= 5;
-  }
-  if (!any_digit) return std::nullopt;
-  if (digits == 0) return Millimetres{};
-  const double value = static_cast<double>(digits) / kPowerOfTen[places];
-  if (!(value <= kLargestMillimetres)) return std::nullopt;
-  Millimetres result{negative ? -value : value, 0};
-  if (digits % fives != 0) result.error = std::ldexp(1.0, std::ilogb(value) - 53);
-  return result;
-}
-
 /// Bytes of the UTF-8 sequence that begins here, 0 when it is none or not printable.
 std::size_t printable_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
@@ -164,16 +171,14 @@ bool is_not_finite(std::string_view text) {
   return name == "nan" || name == "inf" || name == "infinity";
 }
 
-tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text, LengthUnit unit) {
-  if (unit == LengthUnit::millimetre) {
-    if (const auto number = read_short(text)) return *number;
-  }
+tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text, DecimalFactor factor) {
+  if (const auto result = read_short(text, factor)) return *result;
   auto decimal = read_decimal(text);
   if (!decimal) {
     return tl::unexpected(is_not_finite(text) ? NumberFault::not_finite : NumberFault::not_a_number);
   }
   if (decimal->digits.empty()) return Millimetres{};
-  if (unit == LengthUnit::inch) inches_to_millimetres(*decimal);
+  multiply(*decimal, factor);
   // The number lies in [10^(places - 1), 10^places).
   const std::int64_t places = static_cast<std::int64_t>(decimal->digits.size()) + decimal->exponent;
   if (places > 10) return tl::unexpected(NumberFault::too_large);

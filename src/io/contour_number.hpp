@@ -23,8 +23,23 @@ struct Millimetres {
 
 enum class NumberFault { not_a_number, not_finite, too_large };
 
+/// multiplier times 10^exponent: millimetres in a unit of length whose ratio is a decimal, {1, 0} for numbers
+/// that are no lengths.
+struct DecimalFactor {
+  unsigned multiplier = 1;  ///< at most 10^8
+  int exponent = 0;         ///< from -15 to 15
+};
+[[nodiscard]] constexpr DecimalFactor decimal_factor(LengthUnit unit) noexcept {
+  return unit == LengthUnit::inch ? DecimalFactor{254, -1} : DecimalFactor{};
+}
+
 /// Grammar: [+-] digits [. digits] [e|E [+-] digits], with at least one digit before the exponent.
-[[nodiscard]] tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text, LengthUnit unit);
+[[nodiscard]] tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,
+                                                                      DecimalFactor factor);
+[[nodiscard]] inline tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,
+                                                                             LengthUnit unit) {
+  return read_millimetres(text, decimal_factor(unit));
+}
 
 [[nodiscard]] bool is_number(std::string_view text);
 /// nan, inf or infinity, with or without a sign, in any case.

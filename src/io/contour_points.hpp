@@ -39,6 +39,10 @@ namespace lekalo::io {
   return fmt::format("more than {} points; thin the contour out first", kMostContourPoints);
 }
 
+/// Why bytes are not text that can be read, whatever the file's name says: a binary DXF, a DWG, UTF-16, zero
+/// bytes; empty for anything else.
+[[nodiscard]] std::string wrong_encoding(std::string_view bytes);
+
 /// The unit that holds when the file says one (or nothing) and the user says one (or nothing).
 [[nodiscard]] Result<LengthUnit> agree_on_unit(const std::string& name, std::optional<LengthUnit> file_says,
                                                const std::string& where, std::optional<LengthUnit> user_says);
