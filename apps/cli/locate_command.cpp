@@ -53,7 +53,11 @@ Result<void> check_paths(const LocateOptions& o) {
                         {"--allowances", o.allowances},
                         {"--deviations", o.deviations},
                         {"--nc-out", o.nc_out}},
-                       {{"--part", o.part}, {"--blank", o.blank}, {"--nc", o.nc}, {"--compare", o.compare}});
+                       {{"--part", o.part},
+                        {"--blank", o.blank},
+                        {"--nc", o.nc},
+                        {"--compare", o.compare},
+                        {"--features", o.features}});
 }
 
 Result<std::string> read_if_named(const std::string& path) {
@@ -332,8 +336,8 @@ Result<int> run_locate(const LocateOptions& o) {
   if (Result<void> fine = check_paths(o); !fine) return tl::unexpected(fine.error());
   Result<Files> files = read_files(o);
   if (!files) return tl::unexpected(files.error());
-  if (o.mirror != locate::Mirror::no || needs_regions(files->part, o.part) ||
-      needs_regions(files->blank, o.blank))
+  if (o.mirror != locate::Mirror::no || has_demands(o) || needs_regions(files->part, o.part, o.of_part()) ||
+      (!o.trim && needs_regions(files->blank, o.blank, o.of_blank())))
     return run_locate_regions(o, files->part, files->blank);
   const Result<Inputs> in = read_inputs(o, std::move(*files));
   if (!in) return tl::unexpected(in.error());

@@ -6,9 +6,11 @@
 
 #include "interrupt.hpp"
 #include "lekalo/base/rounding.hpp"
+#include "lekalo/io/feature_file.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/picture.hpp"
 #include "lekalo/io/result_json.hpp"
+#include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "outputs.hpp"
@@ -37,7 +39,10 @@ Result<void> check_options(const LocateOptions& o) {
   const auto refuse = [](const char* option) {
     return failure(
         ErrorCode::usage,
-        fmt::format("{} is for convex contours; the part or the blank here is of another shape", option));
+        fmt::format(
+            "{} is for convex contours; the part or the blank here is of another shape, or is placed with "
+            "demands as one",
+            option));
   };
   if (o.method != Method::certified) return refuse("--method ipopt or icp");
   if (o.trim) return refuse("--trim");
@@ -47,8 +52,83 @@ Result<void> check_options(const LocateOptions& o) {
   return {};
 }
 
-Result<locate::RegionResult> solve_regions(const Shape& part, const Shape& blank, const LocateOptions& o,
-                                           double& seconds) {
+/// What was read, with the features found in it.
+struct Shapes {
+  Shape part, blank;
+  std::vector<locate::Feature> features;
+  double minimum = 0;     ///< of edges without a feature, mm
+  bool part_cut = false;  ///< something of the part is ignored
+};
+
+/// Finds the features' edges, and takes off what is ignored.
+Result<void> apply_features(const LocateOptions& o, const std::string& bytes, Shapes& s) {
+  s.minimum = o.min_allowance;
+  if (o.features.empty()) return {};
+  const Result<io::FeatureFile> file = io::parse_features(bytes, o.features, o.units);
+  if (!file) return tl::unexpected(file.error());
+  if (file->minimum) s.minimum = std::max(s.minimum, *file->minimum);
+  Result<std::vector<locate::Feature>> features = io::find_features(*file, s.part.regions, s.part.labels);
+  if (!features) return tl::unexpected(features.error());
+  s.features = std::move(*features);
+  if (file->ignored.empty()) return {};
+  Result<io::RestOfPart> rest = io::without_ignored(*file, s.part.regions);
+  if (!rest) return tl::unexpected(rest.error());
+  for (locate::Feature& feature : s.features) {
+    std::vector<std::uint32_t> left;
+    for (std::uint32_t k = 0; k < rest->edge_of.size(); ++k)
+      if (rest->edge_of[k] && std::count(feature.edges.begin(), feature.edges.end(), *rest->edge_of[k]) > 0)
+        left.push_back(k);
+    feature.edges = std::move(left);
+    if (feature.edges.empty())
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}, feature \"{}\": all of it is ignored", o.features, feature.name));
+  }
+  s.part.regions = std::move(rest->regions);
+  s.part.tolerance += rest->tolerance;
+  s.part_cut = true;
+  return {};
+}
+
+/// One of the two ways to place regions, and what the document needs of it.
+struct Found {
+  locate::Status status = locate::Status::stopped;
+  locate::Placement best;
+  bool mirrored = false;
+  std::vector<locate::RegionTouch> contacts;
+  std::vector<locate::CoverTree> certificate;
+  geom::Point pivot;
+  std::optional<double> upper_bound;
+  double shortfall = 0;
+  std::optional<io::DemandRecord> demands;
+  std::uint64_t work = 0;
+};
+
+Found found_plainly(locate::RegionResult&& r) {
+  return {r.status, r.best,        r.mirrored,  std::move(r.contacts), std::move(r.certificate),
+          r.pivot,  r.upper_bound, r.shortfall, std::nullopt,          r.work};
+}
+
+Found found_with_demands(const locate::DemandProblem& problem, locate::DemandResult&& r) {
+  io::DemandRecord record;
+  record.minimum = problem.minimum, record.features = problem.features;
+  record.criterion = problem.criterion, record.give_up = problem.give_up;
+  record.margin = r.margin, record.margin_bound = r.margin_bound;
+  record.largest = r.largest, record.largest_bound = r.largest_bound, record.deviation = r.deviation;
+  record.curve = std::move(r.curve);
+  record.grown_for = r.proof.grown_for, record.shift = r.proof.shift, record.bound = r.proof.bound;
+  return {r.status,
+          r.best,
+          r.mirrored,
+          std::move(r.contacts),
+          std::move(r.proof.certificate),
+          r.proof.pivot,
+          std::nullopt,
+          std::max(0.0, -r.margin),
+          std::move(record),
+          r.work};
+}
+
+Result<Found> solve_regions(const Shapes& s, const LocateOptions& o, double& seconds) {
   const StopRequests stop(o.seconds);
   ProgressLine line("searching");
   locate::RegionOptions options;
@@ -57,20 +137,31 @@ Result<locate::RegionResult> solve_regions(const Shape& part, const Shape& blank
   options.run.stop = stop.flag();
   options.run.progress = [&line](const Progress& progress) { line.show(progress); };
   options.run.work_limit = o.work;
+  const locate::RegionProblem shapes{s.part.regions,   s.blank.regions,   window_of(o), o.mirror,
+                                     s.part.tolerance, s.blank.tolerance, o.locked,     {}};
   const auto start = std::chrono::steady_clock::now();
-  auto found = locate::locate_regions(
-      {part.regions, blank.regions, window_of(o), o.mirror, part.tolerance, blank.tolerance}, options);
-  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return found;
+  const auto taken = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  if (s.features.empty() && !s.part_cut && o.criterion == locate::Criterion::smallest && o.trade_off == 0) {
+    auto found = locate::locate_regions(shapes, options);
+    seconds = taken();
+    if (!found) return tl::unexpected(std::move(found.error()));
+    return found_plainly(std::move(*found));
+  }
+  const locate::DemandProblem problem{shapes, s.features, s.minimum, o.criterion, o.give_up, o.trade_off};
+  auto found = locate::locate_demands(problem, options);
+  seconds = taken();
+  if (!found) return tl::unexpected(std::move(found.error()));
+  return found_with_demands(problem, std::move(*found));
 }
 
-io::LocateDocument document_of(const LocateOptions& o, const Shape& part, const Shape& blank,
-                               const locate::RegionResult& found) {
+io::LocateDocument document_of(const LocateOptions& o, const Shapes& s, Found&& found) {
   io::LocateDocument d;
   d.status = name_of(found.status);
   d.method = name_of(o.method);
   d.warnings = o.warnings;
-  for (const Shape* shape : {&part, &blank})
+  for (const Shape* shape : {&s.part, &s.blank})
     d.warnings.insert(d.warnings.end(), shape->notices.begin(), shape->notices.end());
   d.seed = o.seed;
   d.work = found.work;
@@ -80,8 +171,11 @@ io::LocateDocument document_of(const LocateOptions& o, const Shape& part, const 
   d.shortfall = found.shortfall;
   d.window_from_deg = o.window_from_deg;
   d.window_to_deg = o.window_to_deg;
-  d.regions = io::RegionRecord{part.regions,   blank.regions,  part.tolerance,    blank.tolerance, o.mirror,
-                               found.mirrored, found.contacts, found.certificate, found.pivot};
+  d.regions = io::RegionRecord{
+      s.part.regions, s.blank.regions, s.part.tolerance,          s.blank.tolerance,
+      o.mirror,       found.mirrored,  std::move(found.contacts), std::move(found.certificate),
+      found.pivot,    o.locked,        std::move(found.demands),  s.part_cut,
+      s.blank.scan};
   return d;
 }
 
@@ -136,6 +230,12 @@ Result<void> self_check(const LocateOptions& o, const std::string& part_bytes, c
 
 Result<void> add_program(const LocateOptions& o, const std::string& nc_bytes, Product& product) {
   if (o.nc.empty()) return {};
+  if (const auto& scan = product.document.regions->scan; scan && !scan->proved) {
+    product.program_withheld = true;
+    product.document.warnings.push_back(
+        "no NC program was written, because stretches of the blank are unknown");
+    return {};
+  }
   if (product.document.regions->mirrored) {
     product.program_withheld = true;
     product.document.warnings.push_back(
@@ -162,7 +262,8 @@ Result<void> add_picture(const LocateOptions& o, Product& product) {
   picture.blank = r.blank;
   picture.result = d.placement;
   picture.mirrored = r.mirrored;
-  picture.upper_bound = *d.upper_bound;
+  picture.upper_bound = d.upper_bound;
+  if (r.demands) picture.margin = r.demands->margin, picture.margin_bound = r.demands->margin_bound;
   picture.min_allowance = d.min_allowance;
   picture.shortfall = d.shortfall;
   picture.contacts = r.contacts;
@@ -198,23 +299,35 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
 Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_bytes,
                                const std::string& blank_bytes) {
   if (Result<void> fine = check_options(o); !fine) return tl::unexpected(fine.error());
-  const Result<Shape> part = read_shape(part_bytes, o.part, o.units);
-  if (!part) return tl::unexpected(part.error());
-  const Result<Shape> blank = read_shape(blank_bytes, o.blank, o.units);
-  if (!blank) return tl::unexpected(blank.error());
-  Result<std::string> nc_bytes = o.nc.empty() ? Result<std::string>(std::string()) : io::read_file(o.nc);
-  if (!nc_bytes) return tl::unexpected(nc_bytes.error());
+  Shapes shapes;
+  for (const auto& [to, bytes, path, how] : {std::tuple{&shapes.part, &part_bytes, &o.part, o.of_part()},
+                                             {&shapes.blank, &blank_bytes, &o.blank, o.of_blank()}}) {
+    Result<Shape> shape = read_shape(*bytes, *path, how);
+    if (!shape) return tl::unexpected(shape.error());
+    *to = std::move(*shape);
+  }
+  const auto read_if_named = [](const std::string& path) {
+    return path.empty() ? Result<std::string>(std::string()) : io::read_file(path);
+  };
+  const Result<std::string> nc_bytes = read_if_named(o.nc), feature_bytes = read_if_named(o.features);
+  for (const auto* bytes : {&nc_bytes, &feature_bytes})
+    if (!*bytes) return tl::unexpected(bytes->error());
+  if (Result<void> fine = apply_features(o, *feature_bytes, shapes); !fine)
+    return tl::unexpected(fine.error());
 
   double seconds = 0;
-  const Result<locate::RegionResult> found = solve_regions(*part, *blank, o, seconds);
+  Result<Found> found = solve_regions(shapes, o, seconds);
   if (!found) return tl::unexpected(found.error());
   Product product;
-  product.document = document_of(o, *part, *blank, *found);
+  product.document = document_of(o, shapes, std::move(*found));
   product.document.seconds = seconds;
   product.document.inputs = {{"part", {o.part, io::sha256(part_bytes)}, std::nullopt, 0, {}},
                              {"blank", {o.blank, io::sha256(blank_bytes)}, std::nullopt, 0, {}}};
   if (!o.nc.empty())
     product.document.inputs.push_back({"nc", {o.nc, io::sha256(*nc_bytes)}, std::nullopt, 0, {}});
+  if (!o.features.empty())
+    product.document.inputs.push_back(
+        {"features", {o.features, io::sha256(*feature_bytes)}, std::nullopt, 0, {}});
   add_certificate(o, product);
   if (Result<void> fine = add_program(o, *nc_bytes, product); !fine) return tl::unexpected(fine.error());
   if (Result<void> fine = add_picture(o, product); !fine) return tl::unexpected(fine.error());
@@ -235,7 +348,8 @@ Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_b
                                     {&o.nc_out, &product.program_text}})
     if (!path->empty() && !bytes->empty()) written.push_back(*path);
   tell(locate_summary(product.document, written));
-  return product.document.shortfall > 0 || product.program_withheld ? 1 : 0;
+  const bool known = !product.document.regions->scan || product.document.regions->scan->proved;
+  return product.document.shortfall > 0 || product.program_withheld || !known ? 1 : 0;
 }
 
 }  // namespace lekalo::cli

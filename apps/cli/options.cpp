@@ -63,7 +63,9 @@ struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
       report, allowances, deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up,
-      trade_off;
+      trade_off, join, curve, uncertainty, coverage, min_radius, max_dip, step, drop_outliers, simplify,
+      slice_height, slice_thickness;
+  std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window;
   bool json = false;
 };
@@ -163,6 +165,43 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   }
 }
 
+void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  const auto length = [&](const char* option, const std::string& word, double least,
+                          std::optional<double>& to) {
+    if (word.empty()) return;
+    read.number(option, word, least, kLargestLength,
+                least > 0 ? "a length in mm above 0" : "a length in mm of 0 or more", to.emplace());
+  };
+  length("--join", words.join, 0, o.join);
+  length("--curve-tolerance", words.curve, kSmallestLength, o.curve);
+  o.part_layers = words.part_layers, o.blank_layers = words.blank_layers;
+
+  ScanWords scan;
+  locate::ScanOptions& m = scan.measurement;
+  std::optional<double> uncertainty, simplify, height, thickness;
+  length("--uncertainty", words.uncertainty, 0, uncertainty);
+  length("--min-radius", words.min_radius, kSmallestLength, m.min_radius);
+  length("--max-dip", words.max_dip, 0, m.max_dip);
+  length("--step", words.step, kSmallestLength, m.step);
+  length("--drop-outliers", words.drop_outliers, kSmallestLength, m.drop_outliers);
+  length("--simplify", words.simplify, kSmallestLength, simplify);
+  read.number("--coverage", words.coverage, 1e-3, 100.0, "a factor from 0.001 to 100", m.coverage_factor);
+  if (!words.slice_height.empty())
+    read.number("--slice-height", words.slice_height, -kLargestLength, kLargestLength,
+                "a height in mm up to 1e9", height.emplace());
+  length("--slice-thickness", words.slice_thickness, kSmallestLength, thickness);
+  if (uncertainty) m.uncertainty = *uncertainty;
+  if (simplify) m.simplify = *simplify;
+  read.require(height.has_value() == thickness.has_value(),
+               "--slice-height and --slice-thickness need each other");
+  if (height && thickness) scan.slice = io::ScanSlice{*height, *thickness};
+  const bool other =
+      m.min_radius || m.max_dip || m.step || m.drop_outliers || simplify || height || !words.coverage.empty();
+  read.require(uncertainty || !other,
+               "a scan needs --uncertainty MM, the standard uncertainty of one measured point");
+  if (uncertainty) o.scan = scan;
+}
+
 void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) {
   o.nc = words.nc;
   o.nc_out = words.nc_out;
@@ -237,6 +276,7 @@ Result<LocateOptions> to_options(const LocateWords& words) {
     read.number("--trim", words.trim, kSmallestLength, kLargestLength, "a length in mm above 0",
                 o.trim.emplace());
   }
+  read_shapes(words, read, o);
   read_search(words, read, o);
   read_program(words, read, o);
   read_outputs(words, read, o);
@@ -263,16 +303,44 @@ void add_input_options(CLI::App& locate, LocateWords& w) {
   const auto add = [&](const char* name, std::string& word, const char* help) {
     return locate.add_option(name, word, help)->group("What to place");
   };
-  add("--part", w.part, "Contour of the part: .csv .txt .xyz .dxf, convex; or .json, any shape")
+  add("--part", w.part,
+      "The part: points (.csv .txt .xyz), drawing (.dxf .svg), or .json: regions, primitives")
       ->required()
       ->type_name("FILE");
-  add("--blank", w.blank, "Contour of the blank as probed, the same formats")->required()->type_name("FILE");
+  add("--blank", w.blank, "The blank: its outline in the same formats, or a scan (also .ply, see below)")
+      ->required()
+      ->type_name("FILE");
+  locate.add_option("--part-layers", w.part_layers, "Layers of the part's drawing [all that are shown]")
+      ->type_name("NAME")
+      ->group("What to place");
+  locate.add_option("--blank-layers", w.blank_layers, "Layers of the blank's drawing [all that are shown]")
+      ->type_name("NAME")
+      ->group("What to place");
+  add("--join", w.join, "Loose ends of a drawing this near are joined [0.01]")->type_name("MM");
+  add("--curve-tolerance", w.curve, "Lines and arcs may be this far from an ellipse or spline [0.001]")
+      ->type_name("MM");
   add("--units", w.units, "Unit of contour files that do not name theirs [mm]")
       ->type_name(list_of(kUnits, "|"));
   add("--trim", w.trim,
       "Cut dents of the blank up to this deep inwards to a convex contour; the loss is reported")
       ->type_name("MM");
   add("--compare", w.compare, "Result of an earlier probing: report the shift since then")->type_name("FILE");
+}
+
+void add_scan_options(CLI::App& locate, LocateWords& w) {
+  const auto add = [&](const char* name, std::string& word, const char* type, const char* help) {
+    locate.add_option(name, word, help)->type_name(type)->group("A blank from a scan");
+  };
+  add("--uncertainty", w.uncertainty, "MM", "The blank is a scan; standard uncertainty of one point");
+  add("--coverage", w.coverage, "K", "The surface lies within K times that of each point [2]");
+  add("--min-radius", w.min_radius, "MM", "No dent of the blank is sharper than this radius");
+  add("--max-dip", w.max_dip, "MM", "Between neighbouring points the surface dips at most this deep");
+  add("--step", w.step, "MM",
+      "Neighbours further apart leave the blank unknown between them [3 median spacings]");
+  add("--drop-outliers", w.drop_outliers, "MM", "Leave out and list points with no other this near [none]");
+  add("--simplify", w.simplify, "MM", "The outline may be drawn this much further in than it must [0.02]");
+  add("--slice-height", w.slice_height, "MM", "Take the points of a 3D scan about this height");
+  add("--slice-thickness", w.slice_thickness, "MM", "and this far up and down together");
 }
 
 void add_search_options(CLI::App& locate, LocateWords& w) {
@@ -372,6 +440,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
   CLI::App& locate = *app.add_subcommand(
       "locate", "Place a part in a probed blank with the largest possible minimum allowance, and prove it");
   add_input_options(locate, words);
+  add_scan_options(locate, words);
   add_search_options(locate, words);
   add_program_options(locate, words);
   add_output_options(locate, words);

@@ -9,7 +9,9 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
+#include "lekalo/io/scan_file.hpp"
 #include "lekalo/locate/demand.hpp"
+#include "lekalo/locate/guaranteed_blank.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/nc/rewrite.hpp"
@@ -18,11 +20,28 @@ namespace lekalo::cli {
 
 enum class Method { certified, ipopt, icp };
 
+/// How a blank was measured.
+struct ScanWords {
+  locate::ScanOptions measurement;
+  std::optional<io::ScanSlice> slice;
+};
+
+/// How a part's or a blank's file is read.
+struct ShapeOptions {
+  std::optional<LengthUnit> units;
+  std::optional<double> join, curve;  ///< of drawings, mm
+  std::vector<std::string> layers;    ///< of drawings; empty: all that are shown
+  std::optional<ScanWords> scan;      ///< the file holds measured points
+};
+
 /// What `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
   std::string part, blank;
   std::optional<LengthUnit> units;
   std::optional<double> trim;  ///< mm
+  std::optional<double> join, curve;
+  std::vector<std::string> part_layers, blank_layers;
+  std::optional<ScanWords> scan;  ///< the blank is a scan
   double window_from_deg = 0, window_to_deg = 360;
   std::optional<double> gap;  ///< mm; each kind of shape has its own default
   double min_allowance = 0;   ///< mm
@@ -44,6 +63,9 @@ struct LocateOptions {
   std::string output, certificate, picture, report, allowances, deviations, compare;
   bool json = false;
   std::vector<std::string> warnings;  ///< options that have no effect here
+
+  [[nodiscard]] ShapeOptions of_part() const { return {units, join, curve, part_layers, {}}; }
+  [[nodiscard]] ShapeOptions of_blank() const { return {units, join, curve, blank_layers, scan}; }
 };
 
 struct VerifyOptions {

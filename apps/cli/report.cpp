@@ -8,9 +8,9 @@ namespace {
 /// Both coordinates of a point move it by no more than this many times what one of them does.
 constexpr double kOutlinePerCoordinate = 2;
 
-Result<ReportFiles> make(const LocateOptions& o, const io::LocateDocument& document,
-                         io::ReportShapes shapes) {
-  const Result<io::Report> report = io::make_report(document, std::move(shapes));
+Result<ReportFiles> make(const LocateOptions& o, const io::LocateDocument& document, io::ReportShapes shapes,
+                         std::vector<io::ReportFeature> features = {}) {
+  const Result<io::Report> report = io::make_report(document, std::move(shapes), std::move(features));
   if (!report) return tl::unexpected(report.error());
   ReportFiles files;
   if (!o.allowances.empty()) files.allowances = io::allowances_csv(*report);
@@ -21,6 +21,29 @@ Result<ReportFiles> make(const LocateOptions& o, const io::LocateDocument& docum
   if (!page) return tl::unexpected(page.error());
   files.report = std::move(*page);
   return files;
+}
+
+/// Those of the demands, and one of all other edges.
+std::vector<io::ReportFeature> all_features(const io::DemandRecord& demands,
+                                            const std::vector<geom::Region>& part) {
+  std::size_t edges = 0;
+  for (const geom::Region& region : part) {
+    edges += region.outer.size();
+    for (const geom::Contour& hole : region.holes) edges += hole.size();
+  }
+  std::vector<bool> taken(edges, false);
+  std::vector<io::ReportFeature> features;
+  for (const locate::Feature& f : demands.features) {
+    for (const std::uint32_t edge : f.edges) taken[edge] = true;
+    io::ReportFeature row{f.name, f.edges, f.minimum, f.target, f.maximum};
+    if (f.finished) row.minimum = -*f.finished, row.maximum = *f.finished;
+    features.push_back(std::move(row));
+  }
+  io::ReportFeature rest{"all other edges", {}, demands.minimum, {}, {}};
+  for (std::uint32_t edge = 0; edge < edges; ++edge)
+    if (!taken[edge]) rest.edges.push_back(edge);
+  if (!rest.edges.empty()) features.push_back(std::move(rest));
+  return features;
 }
 
 bool asked_for(const LocateOptions& o) { return !o.report.empty() || !o.allowances.empty(); }
@@ -39,7 +62,10 @@ Result<std::vector<geom::Region>> as_region(const geom::ConvexPolygon& polygon) 
 Result<ReportFiles> make_reports(const LocateOptions& o, const io::LocateDocument& document) {
   if (!asked_for(o)) return ReportFiles{};
   const io::RegionRecord& r = *document.regions;
-  return make(o, document, {r.part, r.blank, r.part_tolerance + r.blank_tolerance, {}, {}, {}});
+  std::vector<io::ReportFeature> features;
+  if (r.demands && !r.demands->features.empty()) features = all_features(*r.demands, r.part);
+  return make(o, document, {r.part, r.blank, r.part_tolerance + r.blank_tolerance, {}, {}, {}},
+              std::move(features));
 }
 
 Result<ReportFiles> make_reports(const LocateOptions& o, const io::LocateDocument& document,

@@ -7,7 +7,12 @@
 
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/drawing.hpp"
+#include "lekalo/io/drawing_regions.hpp"
 #include "lekalo/io/region_json.hpp"
+#include "lekalo/io/scan_file.hpp"
+#include "lekalo/io/shape_tree.hpp"
+#include "lekalo/io/svg.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -16,12 +21,23 @@ namespace {
 /// of an end, and what an arc's centre and radius add.
 constexpr double kOutlinePerCoordinate = 4;
 
-bool is_region_form(std::string_view bytes, const std::string& path) {
+enum class Kind { regions, tree, drawing, points, scan };
+
+std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".json" && (bytes.find("\"outer\"") != std::string_view::npos ||
-                               bytes.find("\"pieces\"") != std::string_view::npos);
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
+}
+
+Kind kind_of(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  const std::string ending = ending_of(path);
+  if (options.scan || ending == ".ply") return Kind::scan;
+  if (ending == ".dxf" || ending == ".svg") return Kind::drawing;
+  const auto says = [&](std::string_view word) { return bytes.find(word) != std::string_view::npos; };
+  if (ending == ".json" && says("\"shape\"")) return Kind::tree;
+  if (ending == ".json" && (says("\"outer\"") || says("\"pieces\""))) return Kind::regions;
+  return Kind::points;
 }
 
 bool is_convex_polygon(const std::vector<geom::Region>& regions) {
@@ -34,47 +50,140 @@ bool is_convex_polygon(const std::vector<geom::Region>& regions) {
   return true;
 }
 
-Result<std::vector<geom::Region>> region_of_points(const io::ContourFile& file) {
+Result<Shape> shape_of_points(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  Result<io::ContourFile> file = io::parse_contour(bytes, path, options.units);
+  if (!file) return tl::unexpected(file.error());
   geom::Ring ring;
-  for (const geom::Point& p : file.points)
+  for (const geom::Point& p : file->points)
     if (ring.empty() || !(p == ring.back())) ring.push_back(p);
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
   if (ring.size() < 3)
-    return failure(ErrorCode::bad_input, fmt::format("{}: fewer than three different points", file.name));
+    return failure(ErrorCode::bad_input, fmt::format("{}: fewer than three different points", path));
   geom::Contour outer;
   for (std::size_t k = 0; k < ring.size(); ++k)
     outer.push_back({geom::EdgeKind::line, ring[k], ring[(k + 1) % ring.size()], {}});
   Result<geom::Region> region = geom::make_region(std::move(outer));
-  if (!region) return failure(region.error().code, file.name + ": " + region.error().message);
-  return std::vector<geom::Region>{std::move(*region)};
+  if (!region) return failure(region.error().code, path + ": " + region.error().message);
+  Shape shape;
+  shape.regions.push_back(std::move(*region));
+  shape.tolerance = kOutlinePerCoordinate * file->coordinate_error;
+  shape.notices = std::move(file->notices);
+  return shape;
 }
 
-Result<Shape> checked(Shape shape, const std::string& path) {
-  if (const auto fault = geom::fault_of(shape.regions))
-    return failure(ErrorCode::bad_input, fmt::format("{}: {}; outlines must not meet", path, *fault));
+Result<Shape> shape_of_regions(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  Result<io::RegionFile> file = io::parse_regions(bytes, path, options.units);
+  if (!file) return tl::unexpected(file.error());
+  Shape shape;
+  shape.regions = std::move(file->regions);
+  shape.tolerance = kOutlinePerCoordinate * file->coordinate_error;
   return shape;
+}
+
+Result<Shape> shape_of_tree(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  Result<io::ShapeFile> file = io::parse_shape_tree(bytes, path, options.units);
+  if (!file) return tl::unexpected(file.error());
+  Shape shape;
+  shape.regions = std::move(file->regions);
+  shape.tolerance = file->tolerance;
+  for (const std::uint32_t name : file->name_of_edge)
+    shape.labels.push_back(name == io::kNoName ? "" : file->names[name]);
+  return shape;
+}
+
+Result<Shape> shape_of_drawing(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  const Result<io::Drawing> drawing = ending_of(path) == ".svg" ? io::parse_svg(bytes, path, options.units)
+                                                                : io::parse_dxf(bytes, path, options.units);
+  if (!drawing) return tl::unexpected(drawing.error());
+  io::DrawingOptions how;
+  if (options.join) how.join_tolerance = *options.join;
+  if (options.curve) how.curve_tolerance = *options.curve;
+  how.take = options.layers;
+  Result<io::DrawnRegions> drawn = io::make_regions(*drawing, how);
+  if (!drawn) return tl::unexpected(drawn.error());
+  Shape shape;
+  shape.regions = std::move(drawn->regions);
+  shape.tolerance = drawn->tolerance;
+  for (const std::uint32_t curve : drawn->curve_of_edge)
+    shape.labels.push_back(drawing->layers[drawing->curves[curve].layer].name);
+  shape.notices = std::move(drawn->notices);
+  return shape;
+}
+
+Result<Shape> shape_of_scan(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  io::ScanBlankOptions how;
+  how.unit = options.units;
+  if (options.scan) {
+    how.scan = options.scan->measurement;
+    how.slice = options.scan->slice;
+  }
+  Result<io::ScanBlank> scan = io::read_scan_blank(bytes, path, how);
+  if (!scan) return tl::unexpected(scan.error());
+  locate::GuaranteedBlank& blank = scan->blank;
+  Shape shape;
+  shape.regions = std::move(blank.regions);
+  shape.notices = std::move(scan->notices);
+  shape.scan = io::ScanRecord{scan->file.points.points.size(),
+                              blank.proved(),
+                              blank.ordered,
+                              blank.guard,
+                              blank.step,
+                              blank.median_spacing,
+                              blank.widest,
+                              blank.deepest,
+                              blank.loss,
+                              std::move(blank.assumptions),
+                              scan->unknown,
+                              scan->dropped};
+  return shape;
+}
+
+Result<Shape> parsed(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  switch (kind_of(bytes, path, options)) {
+    case Kind::regions:
+      return shape_of_regions(bytes, path, options);
+    case Kind::tree:
+      return shape_of_tree(bytes, path, options);
+    case Kind::drawing:
+      return shape_of_drawing(bytes, path, options);
+    case Kind::scan:
+      return shape_of_scan(bytes, path, options);
+    case Kind::points:
+      break;
+  }
+  return shape_of_points(bytes, path, options);
+}
+
+std::size_t edge_count(const std::vector<geom::Region>& regions) {
+  std::size_t count = 0;
+  for (const geom::Region& region : regions) {
+    count += region.outer.size();
+    for (const geom::Contour& hole : region.holes) count += hole.size();
+  }
+  return count;
 }
 
 }  // namespace
 
-bool needs_regions(std::string_view bytes, const std::string& path) {
-  if (!is_region_form(bytes, path)) return false;
-  const Result<io::RegionFile> file = io::parse_regions(bytes, path, std::nullopt);
-  return !file || !is_convex_polygon(file->regions);
+bool needs_regions(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  const Kind kind = kind_of(bytes, path, options);
+  if (kind == Kind::scan || kind == Kind::tree) return true;
+  if (kind == Kind::drawing) {
+    // Polygons that the reader of convex contours reads too keep their fast path.
+    const bool plain = ending_of(path) == ".dxf" && options.layers.empty() && !options.join;
+    if (!plain || !io::parse_contour(bytes, path, options.units)) return true;
+  }
+  const Result<Shape> shape = parsed(bytes, path, options);
+  return shape ? !is_convex_polygon(shape->regions) : kind == Kind::regions;
 }
 
-Result<Shape> read_shape(std::string_view bytes, const std::string& path, std::optional<LengthUnit> unit) {
-  if (is_region_form(bytes, path)) {
-    Result<io::RegionFile> file = io::parse_regions(bytes, path, unit);
-    if (!file) return tl::unexpected(file.error());
-    return checked({std::move(file->regions), kOutlinePerCoordinate * file->coordinate_error, {}}, path);
-  }
-  Result<io::ContourFile> file = io::parse_contour(bytes, path, unit);
-  if (!file) return tl::unexpected(file.error());
-  Result<std::vector<geom::Region>> regions = region_of_points(*file);
-  if (!regions) return tl::unexpected(regions.error());
-  return checked(
-      {std::move(*regions), kOutlinePerCoordinate * file->coordinate_error, std::move(file->notices)}, path);
+Result<Shape> read_shape(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+  Result<Shape> shape = parsed(bytes, path, options);
+  if (!shape) return shape;
+  if (const auto fault = geom::fault_of(shape->regions))
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}; outlines must not meet", path, *fault));
+  if (shape->labels.empty()) shape->labels.assign(edge_count(shape->regions), "");
+  return shape;
 }
 
 }  // namespace lekalo::cli

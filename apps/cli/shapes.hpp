@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
-#include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
+#include "lekalo/io/result_json.hpp"
+#include "options.hpp"
 
 namespace lekalo::cli {
 
@@ -15,16 +16,20 @@ namespace lekalo::cli {
 struct Shape {
   std::vector<geom::Region> regions;  ///< mm
   double tolerance = 0;               ///< the true outline is within this of the regions', mm
+  std::vector<std::string> labels;    ///< of every edge: its layer, or the name of its primitive; "" for none
   std::vector<std::string> notices;
+  std::optional<io::ScanRecord> scan;  ///< of a blank that was measured
 };
 
-/// Whether the bytes are JSON in the region form (docs/formats.md) of a shape that is not a convex polygon:
-/// arcs, holes, several pieces, or a corner inwards.
-[[nodiscard]] bool needs_regions(std::string_view bytes, const std::string& path);
+/// Whether a file has to be placed as regions: what it holds is not one convex polygon, or is read by what
+/// the options say of drawings and scans. A file that cannot be read at all says no: the reader of convex
+/// contours has the better words for it.
+[[nodiscard]] bool needs_regions(std::string_view bytes, const std::string& path,
+                                 const ShapeOptions& options);
 
-/// Reads a region file, or the points of any contour file as one outline without holes. bad_input where
+/// Reads regions, trees of primitives, drawings, points along one outline, or a scan. bad_input where
 /// outlines cross or touch, with the place.
 [[nodiscard]] Result<Shape> read_shape(std::string_view bytes, const std::string& path,
-                                       std::optional<LengthUnit> unit);
+                                       const ShapeOptions& options);
 
 }  // namespace lekalo::cli

@@ -46,6 +46,11 @@ double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
 std::string headline(const io::LocateDocument& d) {
   if (d.status == "optimal") return "The best placement was found and proved.";
+  const bool demands = d.regions && d.regions->demands;
+  if (d.regions && d.regions->scan && !d.regions->scan->proved)
+    return "Stretches of the blank are unknown: what follows holds for the rest of it, and is no yes.";
+  if (d.status == "infeasible" && demands)
+    return "No placement meets the demands; this is proved. The one that misses least:";
   if (d.status == "infeasible") {
     return fmt::format("No placement reaches the demanded allowance of {} mm; this is proved.",
                        d.min_allowance);
@@ -75,12 +80,48 @@ std::string bound_line(const io::LocateDocument& d) {
 }
 
 std::string demand_line(const io::LocateDocument& d) {
+  if (d.regions && d.regions->demands) return "";
   if (d.shortfall > 0) {
     const bool open = d.upper_bound && *d.upper_bound >= d.min_allowance;
     return fmt::format("  demanded           {} mm: {} are missing{}\n", d.min_allowance, mm_up(d.shortfall),
                        open ? "; the proved bound leaves open whether another placement has them" : "");
   }
   return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
+}
+
+std::string criteria_lines(const io::LocateDocument& d) {
+  if (!d.regions || !d.regions->demands) return "";
+  const io::DemandRecord& r = *d.regions->demands;
+  std::string text =
+      r.margin >= 0
+          ? fmt::format(
+                "  demands            met, with a margin of {:.6f}; no placement {} has more than {:.6f}\n",
+                r.margin - 5e-7, window_text(d), r.margin_bound + 5e-7)
+          : fmt::format("  demands            {} are missing{}\n", mm_up(d.shortfall),
+                        r.margin_bound >= 0
+                            ? "; the proved bound leaves open whether another placement meets them"
+                            : "");
+  text += fmt::format("  largest allowance  {}", mm_up(r.largest));
+  if (r.largest_bound)
+    text += fmt::format("; with this margin none below {} is possible", mm_down(*r.largest_bound));
+  text += "\n";
+  for (const locate::TradeOff& point : r.curve)
+    text +=
+        fmt::format("  trade-off          margin {:.4f}: largest allowance {:.4f} mm (none below {:.4f})\n",
+                    point.margin - 5e-5, point.largest + 5e-5, point.largest_bound - 5e-5);
+  return text;
+}
+
+std::string scan_lines(const io::LocateDocument& d) {
+  if (!d.regions || !d.regions->scan) return "";
+  const io::ScanRecord& scan = *d.regions->scan;
+  std::string text =
+      fmt::format("  scan               {} points, guard {:.6g} mm, up to {:.6g} mm drawn further in\n",
+                  scan.points, scan.guard, scan.loss);
+  for (const std::string& sentence : scan.assumptions) text += "  assumed            " + sentence + "\n";
+  for (const std::string& sentence : scan.unknown) text += "  unknown            " + sentence + "\n";
+  for (const std::string& sentence : scan.dropped) text += "  left out           " + sentence + "\n";
+  return text;
 }
 
 std::string contact_lines(const io::LocateDocument& d) {
@@ -161,9 +202,9 @@ std::string decimals_up(double value, int decimals) {
 }
 
 std::string locate_summary(const io::LocateDocument& d, const std::vector<std::string>& written) {
-  std::string text = headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + contact_lines(d) +
-                     touch_lines(d) + alternative_lines(d) + trim_line(d) + comparison_lines(d) +
-                     deviation_line(d) + program_lines(d);
+  std::string text = headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + criteria_lines(d) +
+                     scan_lines(d) + contact_lines(d) + touch_lines(d) + alternative_lines(d) + trim_line(d) +
+                     comparison_lines(d) + deviation_line(d) + program_lines(d);
   for (const std::string& warning : d.warnings) text += "  note               " + warning + "\n";
   for (const std::string& path : written) text += "  wrote              " + path + "\n";
   return text;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "box_tree.hpp"
+#include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/trig.hpp"
 

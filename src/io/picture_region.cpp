@@ -184,7 +184,11 @@ class RegionComposer {
     if (picture_.mirrored) line("mirrored", "in x, before turning");
     y_ += 2;
     line("minimum allowance", decimal(p.clearance, decimals, Rounding::down) + " mm");
-    line("proved: none above", decimal(picture_.upper_bound, decimals, Rounding::up) + " mm");
+    if (picture_.upper_bound)
+      line("proved: none above", decimal(*picture_.upper_bound, decimals, Rounding::up) + " mm");
+    if (picture_.margin) line("margin of the demands", decimal(*picture_.margin, decimals, Rounding::down));
+    if (picture_.margin_bound)
+      line("proved: none above", decimal(*picture_.margin_bound, decimals, Rounding::up));
     if (picture_.min_allowance > 0) line("demanded", decimal(picture_.min_allowance, decimals) + " mm");
     if (picture_.shortfall > 0) line("missing", decimal(picture_.shortfall, decimals, Rounding::up) + " mm");
     y_ += 6;

@@ -204,6 +204,10 @@ Result<Report> make_report(const LocateDocument& document, ReportShapes shapes,
   report.document = without_lists(document);
   report.shapes = std::move(shapes);
   report.mirrored = document.regions && document.regions->mirrored;
+  if (document.regions && document.regions->demands) {
+    report.margin = document.regions->demands->margin;
+    report.margin_bound = document.regions->demands->margin_bound;
+  }
   const double size = size_of(report.shapes.part);
   report.step = detail::round_length(length_of(report.shapes.part) / kSamplesAround);
   report.tolerance = std::max(std::min(kTolerance, kToleranceOfSize * size), kLargestOfSize * size);

@@ -83,6 +83,10 @@ double draw_numbers(const Report& report, const ReportLook& look, const Rect& co
     const double gap = difference_rounded_up(*d.upper_bound, p.clearance);
     rows.add("proven upper bound", length_text(*d.upper_bound, look.decimals, Rounding::up), "upper-bound");
     rows.add("gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap");
+  } else if (report.margin) {
+    rows.add("margin of the demands", decimal(*report.margin, look.decimals, Rounding::down), "margin");
+    rows.add("proven bound of it", decimal(*report.margin_bound, look.decimals, Rounding::up),
+             "margin-bound");
   } else {
     rows.add("proven upper bound", "not proved", "upper-bound");
   }

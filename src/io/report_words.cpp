@@ -41,7 +41,30 @@ std::string this_has(const LocateDocument& d, int decimals) {
   return fmt::format("this one leaves at least {} mm", decimal(clearance, decimals, Rounding::down));
 }
 
+std::string demand_verdict(const LocateDocument& d, const DemandRecord& demands, int decimals) {
+  const std::string bound = decimal(demands.margin_bound, decimals, Rounding::up);
+  if (d.status == "infeasible")
+    return fmt::format("Proved: no placement {} meets the demands; {} mm are missing at the best one found.",
+                       where_looked(d), decimal(d.shortfall, decimals, Rounding::up));
+  const std::string has =
+      demands.margin >= 0 ? fmt::format("every demand is met, with a margin of {}",
+                                        decimal(demands.margin, decimals, Rounding::down))
+                          : fmt::format("{} mm are missing", decimal(d.shortfall, decimals, Rounding::up));
+  const std::string lead =
+      d.status == "optimal" ? "Proved" : "Stopped before the search was complete; proved so far";
+  std::string text = fmt::format("{}: no placement {} has a margin above {}. This one: {}.", lead,
+                                 where_looked(d), bound, has);
+  if (demands.largest_bound)
+    text += fmt::format(
+        " Its largest allowance is {} mm; none below {} mm is possible at this margin (by the "
+        "solver's own proof, which is not kept).",
+        decimal(demands.largest, decimals, Rounding::up),
+        decimal(*demands.largest_bound, decimals, Rounding::down));
+  return text;
+}
+
 std::string verdict(const LocateDocument& d, int decimals) {
+  if (d.regions && d.regions->demands) return demand_verdict(d, *d.regions->demands, decimals);
   if (!d.upper_bound) {
     return fmt::format("Nothing is proved about other placements: the method {} cannot; {}.", d.method,
                        this_has(d, decimals));
@@ -63,7 +86,7 @@ std::string verdict(const LocateDocument& d, int decimals) {
 }
 
 std::string proof_place(const LocateDocument& d) {
-  if (!d.upper_bound) return {};
+  if (!d.upper_bound && !(d.regions && d.regions->demands)) return {};
   const bool regions = d.regions.has_value();
   const bool inside = regions ? !d.regions->certificate.empty() : d.certificate.has_value();
   const std::size_t count = regions || !d.certificate ? d.certificate_intervals : d.certificate->size();
@@ -96,6 +119,13 @@ std::vector<std::string> assumption_sentences(const LocateDocument& d, int decim
         "The true outlines lie within {} mm (part) and {} mm (blank) of those used; this is taken off "
         "the allowance and added to the bound.",
         short_number_up(d.regions->part_tolerance), short_number_up(d.regions->blank_tolerance)));
+  }
+  if (d.regions && d.regions->scan) {
+    const ScanRecord& scan = *d.regions->scan;
+    sentences.insert(sentences.end(), scan.assumptions.begin(), scan.assumptions.end());
+    if (!scan.proved)
+      sentences.push_back(fmt::format(
+          "{} stretches of the blank are unknown; nothing here is proved of them.", scan.unknown.size()));
   }
   if (d.trim) {
     sentences.push_back(

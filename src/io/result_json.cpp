@@ -353,6 +353,15 @@ Json to_json(const DemandRecord& d) {
           {"bound", d.bound}};
 }
 
+Json to_json(const ScanRecord& scan) {
+  return {{"points", scan.points},   {"proved", scan.proved},
+          {"ordered", scan.ordered}, {"guard", scan.guard},
+          {"step", scan.step},       {"median_spacing", scan.median_spacing},
+          {"widest", scan.widest},   {"deepest", scan.deepest},
+          {"loss", scan.loss},       {"assumptions", scan.assumptions},
+          {"unknown", scan.unknown}, {"dropped", scan.dropped}};
+}
+
 void append_regions(ObjectText& out, const LocateDocument& d) {
   const RegionRecord& r = *d.regions;
   out.field("mirror", name_of(r.mirror));
@@ -361,6 +370,8 @@ void append_regions(ObjectText& out, const LocateDocument& d) {
   } else {
     out.field("locked", nullptr);
   }
+  out.field("part_cut", r.part_cut);
+  out.field("scan", r.scan ? to_json(*r.scan) : Json(nullptr));
   out.field("demands", r.demands ? to_json(*r.demands) : Json(nullptr));
   out.field("tolerances", {{"part", r.part_tolerance}, {"blank", r.blank_tolerance}});
   out.text("regions", [&](std::string& text) {

@@ -40,6 +40,7 @@ struct RegionDocument {
   bool in_file = false;
   std::optional<Decimal> locked_x, locked_y;
   std::optional<WrittenDemands> demands;
+  bool part_cut = false;
 };
 
 class RegionCheck {
@@ -140,6 +141,7 @@ void RegionCheck::read() {
     Fields shift(locked, "locked", complaint_);
     r_.locked_x = shift.number_or_null("x"), r_.locked_y = shift.number_or_null("y");
   }
+  r_.part_cut = fields.get("part_cut").is_bool() && fields.get("part_cut").is_true();
   const Json demands = fields.get("demands");
   if (!demands.text.empty() && !demands.is_null()) {
     r_.demands = read_demands(demands, complaint_);
@@ -183,7 +185,8 @@ void RegionCheck::check_input(const char* role, const Document& file, const Shap
     std::array<Json, 1> found;
     return root && root->is_object() && find_members(*root, std::array{key}, found) && !found[0].text.empty();
   };
-  if (!has("outer") && !has("pieces")) {
+  const bool cut = role == std::string_view("part") && r_.part_cut;
+  if (cut || (!has("outer") && !has("pieces"))) {
     report_.notes.push_back(
         fmt::format("how {} became the region of the {} was not rechecked", file.name, role));
     return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,18 @@ namespace lekalo::geom {
 /// place in millimetres.
 ///
 /// Outlines that come closer than kEdgeDistanceError times the largest coordinate count as touching. Two
-/// neighbouring edges meet at the end they share; that they also cross elsewhere is seen for lines alone.
+/// neighbouring edges meet at the end they share; that one of two lines runs back along the other is decided
+/// exactly, a second crossing where one is an arc counts when it cuts off more than kArcConsistency allows.
 /// Cost: O((n + k) log n) for n edges and k pairs whose boxes meet.
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<Region>& regions);
+
+/// Two edges that cross or touch, numbered through all pieces and contours as flatten() does, a < b.
+struct MeetingEdges {
+  std::uint32_t a = 0, b = 0;
+  Point at;  ///< mm, on a
+};
+
+/// The first such pair (smallest a, then b), by the rule and at the cost of fault_of.
+[[nodiscard]] std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions);
 
 }  // namespace lekalo::geom

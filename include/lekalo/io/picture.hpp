@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ struct RegionPicture {
   std::vector<geom::Region> part, blank;  ///< mm, each in its own frame
   locate::Placement result;
   bool mirrored = false;
-  double upper_bound = 0;
+  std::optional<double> upper_bound;           ///< of the clearance
+  std::optional<double> margin, margin_bound;  ///< of demands by feature
   double min_allowance = 0, shortfall = 0;
   std::vector<locate::RegionTouch> contacts;
 };

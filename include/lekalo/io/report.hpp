@@ -55,6 +55,7 @@ struct Report {
   LocateDocument document;  ///< without shapes and certificate
   ReportShapes shapes;
   bool mirrored = false;
+  std::optional<double> margin, margin_bound;  ///< of demands by feature
   bool contacts_at_vertices = false;
   std::vector<ReportContact> contacts;
   std::vector<std::string> proof, assumptions;  ///< sentences

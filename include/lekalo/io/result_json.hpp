@@ -76,6 +76,14 @@ struct DemandRecord {
   double grown_for = 0, shift = 0, bound = 0;  ///< of DemandProof
 };
 
+/// A blank that was measured (GuaranteedBlank). Lengths in mm.
+struct ScanRecord {
+  std::size_t points = 0;
+  bool proved = false, ordered = false;
+  double guard = 0, step = 0, median_spacing = 0, widest = 0, deepest = 0, loss = 0;
+  std::vector<std::string> assumptions, unknown, dropped;  ///< sentences
+};
+
 /// What only a localisation of regions has (docs/formats.md).
 struct RegionRecord {
   std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
@@ -88,6 +96,8 @@ struct RegionRecord {
   geom::Point pivot;  ///< of the certificate, part coordinates
   locate::LockedShift locked;
   std::optional<DemandRecord> demands;  ///< then upper_bound of the document is not used
+  bool part_cut = false;                ///< `part` is without what a file of features says to ignore
+  std::optional<ScanRecord> scan;       ///< what `blank` was made from
 };
 
 struct LocateDocument {
