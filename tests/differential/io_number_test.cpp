@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <string>
 
+#include "io/contour_number.hpp"
 #include "lekalo/io/contour_file.hpp"
 #include "support/cases.hpp"
 
@@ -125,6 +127,46 @@ TEST(IoNumber, IsTheNearestDoubleWithASoundErrorThatIsZeroOnlyWhenExact) {
     ++total;
   }
   EXPECT_GT(exact_found, total / 20);
+}
+
+TEST(IoNumber, ShortDecimalsInAnyUnitAreTheNearestDoublesToo) {
+  constexpr io::DecimalFactor kFactors[] = {{1, 0},  {254, -1}, {3048, -1}, {1609344, 0}, {1, 3},
+                                            {1, -3}, {254, -4}, {254, -7},  {1, -7},      {1, 6}};
+  const std::uint64_t seed = cases::seed();
+  for (std::size_t c = 0; c < cases::case_count(20'000); ++c) {
+    Random random(seed, c + 1'000'000);
+    const io::DecimalFactor factor = kFactors[random.below(std::size(kFactors))];
+    std::string digits;
+    const std::size_t count = 1 + random.below(19);
+    for (std::size_t i = 0; i < count; ++i) digits += static_cast<char>('0' + random.below(10));
+    if (c % 3 == 0) digits = fmt::format("{}", random.below(1 << 20) * 125);
+    const std::size_t after = random.below(digits.size() + 1);
+    const bool negative = random.below(2) == 0;
+    std::string text = (negative ? "-" : "") + digits;
+    text.insert(text.size() - after, after > 0 || random.below(2) == 0 ? "." : "");
+    SCOPED_TRACE(
+        fmt::format("seed {} case {}: {} times {}e{}", seed, c, text, factor.multiplier, factor.exponent));
+    Rational exact, times, here, other;
+    set_exact(exact, {(negative ? "-" : "") + digits, factor.exponent - static_cast<int>(after)}, false);
+    mpq_set_ui(times.get(), factor.multiplier, 1);
+    mpq_mul(exact.get(), exact.get(), times.get());
+    const auto number = io::read_millimetres(text, factor);
+    if (!number) {
+      set_difference(here, 0, exact);
+      EXPECT_FALSE(at_most(here, 1e9));
+      continue;
+    }
+    set_difference(here, number->value, exact);
+    EXPECT_TRUE(at_most(here, number->error));
+    EXPECT_LE(number->error, std::abs(number->value) * 0x1p-53);
+    if (mpq_sgn(here.get()) == 0 && count < 12) {
+      EXPECT_EQ(number->error, 0);
+    }
+    for (const double direction : {-HUGE_VAL, HUGE_VAL}) {
+      set_difference(other, std::nextafter(number->value, direction), exact);
+      EXPECT_LE(mpq_cmp(here.get(), other.get()), 0) << "no double is nearer";
+    }
+  }
 }
 
 }  // namespace

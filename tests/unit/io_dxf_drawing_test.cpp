@@ -372,6 +372,13 @@ TEST(IoDxfDrawing, UnknownEntitiesAreCountedWithTheirCopies) {
       (Counts{{"TEXT", 7}, {"HATCH", 6}, {"ATTRIB", 1}, {"INSERT (of a block that is not in the file)", 1}}));
 }
 
+TEST(IoDxfDrawing, BlocksMayStandBehindTheEntities) {
+  const auto drawing =
+      read(section("ENTITIES", "0 INSERT 8 0 2 Arrow 10 5 20 0") + section("BLOCKS", kArrow));
+  ASSERT_EQ(drawing.curves.size(), 2U);
+  EXPECT_EQ(edge(drawing, 0).from, (Point{5, 0}));
+}
+
 TEST(IoDxfDrawing, ABlockWithoutCopiesCountsForNothing) {
   const auto drawing =
       read(file_of("0 LINE 8 0 10 0 20 0 11 1 21 0", kArrow + " 0 BLOCK 2 N 10 0 20 0 0 TEXT 8 0 0 "
