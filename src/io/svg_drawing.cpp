@@ -242,28 +242,37 @@ class SvgReader {
   Failure shape(const SvgElement& element, const Context& context) {
     const auto shapes = read_svg_shape(element, context.viewport);
     if (!shapes) return fault(element, shapes.error());
-    if (shapes->empty()) {
-      count_unread(element.name + " (without length)", element);
-      return std::nullopt;
-    }
     if (drawing_.curves.size() + shapes->size() > kMostCurves)
       return fault(element, fmt::format("more than {} curves, copies counted", kMostCurves));
-    const std::string* id = element.attribute("id");
-    const auto entity = static_cast<std::uint32_t>(drawing_.entities.size());
-    drawing_.entities.push_back({element.name, id == nullptr ? "" : *id, element.line});
-    const std::uint32_t layer = layer_index(context.layer, !context.shown || !context.visible);
+    std::vector<BoundedShape> placed_shapes;
     for (const BoundedShape& one : *shapes) {
-      const auto placed_shape = image(context.map, one);
+      auto placed_shape = image(context.map, one);
       if (!placed_shape) {
         return fault(element, fmt::format("its transforms make it flat, or bring it beyond {:g} mm",
                                           kLargestMillimetres));
       }
       if (!std::isfinite(placed_shape->error)) return fault(element, "its numbers are too large to be drawn");
-      const auto* edge = std::get_if<geom::Edge>(&placed_shape->shape);
-      if (edge != nullptr && edge->kind == geom::EdgeKind::line && edge->from == edge->to) continue;
-      drawing_.curves.push_back({placed_shape->shape, entity, layer, placed_shape->error});
+      if (!is_point(placed_shape->shape)) placed_shapes.push_back(*std::move(placed_shape));
     }
+    if (placed_shapes.empty()) {
+      count_unread(element.name + " (without length)", element);
+      return std::nullopt;
+    }
+    const std::string* id = element.attribute("id");
+    const auto entity = static_cast<std::uint32_t>(drawing_.entities.size());
+    drawing_.entities.push_back({element.name, id == nullptr ? "" : *id, element.line});
+    const std::uint32_t layer = layer_index(context.layer, !context.shown || !context.visible);
+    for (BoundedShape& one : placed_shapes)
+      drawing_.curves.push_back({std::move(one.shape), entity, layer, one.error});
     return std::nullopt;
+  }
+
+  /// Lines and arcs of which rounding left nothing.
+  static bool is_point(const Shape& shape) {
+    const auto* edge = std::get_if<geom::Edge>(&shape);
+    if (edge == nullptr) return false;
+    if (edge->kind == geom::EdgeKind::line) return edge->from == edge->to;
+    return edge->from == edge->centre || edge->to == edge->centre;
   }
 
   std::uint32_t layer_index(const std::string& name, bool hidden) {

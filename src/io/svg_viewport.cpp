@@ -8,8 +8,6 @@
 namespace lekalo::io::detail {
 namespace {
 
-const Bounded kHalf{0.5, 0};
-
 Affine scaled_and_moved(const Bounded& sx, const Bounded& sy, const Bounded& tx, const Bounded& ty) {
   return {sx.value,
           0,

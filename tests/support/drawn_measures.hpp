@@ -60,24 +60,40 @@ inline PointAndSlope at(const io::Shape& shape, double t) {
 
 }  // namespace drawn_detail
 
-inline DrawnMeasures measure(const io::Shape& shape) {
-  // Gauss and Legendre, 8 points, on 256 parts.
+namespace drawn_detail {
+
+/// Gauss and Legendre, 8 points, over [low, high].
+inline DrawnMeasures gauss(const io::Shape& shape, double low, double high) {
   constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                          0.9602898564975363};
   constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                            0.1012285362903763};
-  constexpr int kParts = 256;
   DrawnMeasures sum;
-  for (int part = 0; part < kParts; ++part) {
-    for (std::size_t i = 0; i < 8; ++i) {
-      const double node = (i < 4 ? 1 : -1) * kNodes[i % 4];
-      const auto [p, d] = drawn_detail::at(shape, (part + 0.5 + 0.5 * node) / kParts);
-      sum.length += kWeights[i % 4] * norm(d) / (2 * kParts);
-      sum.area += kWeights[i % 4] * cross(p, d) / (4 * kParts);
-    }
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double node = (i < 4 ? 1 : -1) * kNodes[i % 4];
+    const auto [p, d] = at(shape, 0.5 * (low + high) + 0.5 * (high - low) * node);
+    sum.length += kWeights[i % 4] * norm(d) * (high - low) / 2;
+    sum.area += kWeights[i % 4] * cross(p, d) * (high - low) / 4;
   }
   return sum;
 }
+
+/// Halved until that changes nothing: Bezier curves may have a cusp, or nearly one.
+inline DrawnMeasures halved(const io::Shape& shape, double low, double high, int depth) {
+  const DrawnMeasures whole = gauss(shape, low, high);
+  const double middle = 0.5 * (low + high);
+  DrawnMeasures left = gauss(shape, low, middle), right = gauss(shape, middle, high);
+  const bool settled = std::abs(left.length + right.length - whole.length) < 1e-13 * (1 + whole.length);
+  if (depth < 3 || (!settled && depth < 30)) {
+    left = halved(shape, low, middle, depth + 1);
+    right = halved(shape, middle, high, depth + 1);
+  }
+  return {left.length + right.length, left.area + right.area};
+}
+
+}  // namespace drawn_detail
+
+inline DrawnMeasures measure(const io::Shape& shape) { return drawn_detail::halved(shape, 0, 1, 0); }
 
 inline geom::Point first_of(const io::Shape& shape) { return drawn_detail::at(shape, 0).at; }
 inline geom::Point last_of(const io::Shape& shape) { return drawn_detail::at(shape, 1).at; }

@@ -47,15 +47,24 @@ def curve(segment):
                       sweep * (math.cos(begin + t * sweep) * v - math.sin(begin + t * sweep) * u))
 
 
-def measure(f, page):
-    """Length, and the area swept as seen from the lower left corner of the page, px, y up."""
+def gauss(f, page, low, high):
     length = area = 0.0
-    for part in range(64):
-        for x, w in NODES:
-            p, d = f((part + 0.5 + 0.5 * x) / 64)
-            length += w * abs(d) / 128
-            area += w * (p.real * -d.imag - (page - p.imag) * d.real) / 256
+    for x, w in NODES:
+        p, d = f(0.5 * (low + high) + 0.5 * (high - low) * x)
+        length += w * abs(d) * (high - low) / 2
+        area += w * (p.real * -d.imag - (page - p.imag) * d.real) * (high - low) / 4
     return length, area
+
+
+def measure(f, page, low=0.0, high=1.0, depth=0):
+    """Length, and the area swept as seen from the lower left corner of the page, y up. Halved until that changes nothing:
+    Bezier curves may have a cusp, or nearly one."""
+    whole, middle = gauss(f, page, low, high), 0.5 * (low + high)
+    left, right = gauss(f, page, low, middle), gauss(f, page, middle, high)
+    if depth > 2 and (abs(left[0] + right[0] - whole[0]) < 1e-13 * (1 + whole[0]) or depth > 30):
+        return left[0] + right[0], left[1] + right[1]
+    left, right = measure(f, page, low, middle, depth + 1), measure(f, page, middle, high, depth + 1)
+    return left[0] + right[0], left[1] + right[1]
 
 
 def page_of(text):

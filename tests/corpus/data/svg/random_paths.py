@@ -31,11 +31,14 @@ def command(letter):
     parts = []
     for _ in range(count):
         if upper == "A":
-            radii = [f"{r.uniform(5, 60):.5g}", f"{r.uniform(5, 60):.5g}"]
+            # Radii that are too small: svgelements makes them larger by a little more than needed.
+            end = [number(), number()]
+            least = 0.55 * (float(end[0]) ** 2 + float(end[1]) ** 2) ** 0.5 + 1
+            radii = [f"{r.uniform(least, 60 + least):.5g}", f"{r.uniform(least, 60 + least):.5g}"]
             if r.random() < 0.4:
                 radii[1] = radii[0]
             flags = r.choice("01") + r.choice(["", " ", ","]) + r.choice("01")
-            parts += [radii[0], radii[1], f"{r.uniform(-200, 200):.4g}", flags + " " + number(), number()]
+            parts += [radii[0], radii[1], f"{r.uniform(-200, 200):.4g}", flags + " " + end[0], end[1]]
         else:
             parts += [number() for _ in range({"M": 2, "L": 2, "T": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4}[upper])]
     return letter + r.choice(["", " "]) + joined(parts)
@@ -56,8 +59,15 @@ def transform():
 lines = ['<svg xmlns="http://www.w3.org/2000/svg" width="500mm" height="400mm" viewBox="0 0 500 400">']
 for i in range(200):
     data = command(r.choice("Mm"))
+    last = "M"
     for _ in range(r.randrange(1, 8)):
-        data += r.choice(["", " "]) + (r.choice("Zz") if r.random() < 0.1 else command(r.choice("LlHhVvCcSsQqTtAaMm")))
+        letter = r.choice("LlHhVvCcSsQqTtaaMm")
+        # After a curve of the other degree there is no control point to mirror; svgelements takes that one.
+        if (letter in "Ss" and last in "QT") or (letter in "Tt" and last in "CS"):
+            letter = "l"
+        closing = r.random() < 0.1
+        last = "Z" if closing else letter.upper()
+        data += r.choice(["", " "]) + (r.choice("Zz") if closing else command(letter))
     lines.append(f'<path id="p{i}" transform="{transform()}" d="{data}"/>')
 lines.append("</svg>")
 pathlib.Path(__file__).with_name("random.svg").write_text("\n".join(lines) + "\n")
