@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -322,7 +323,7 @@ class Maker {
 void Maker::attach(const std::vector<std::uint32_t>& sorted, double spread) {
   std::vector<std::uint32_t> loop_of(points_.size(), 0), place_of(points_.size(), 0);
   std::vector<bool> corner(points_.size(), false);
-  PointHash hash(spread, 1024);
+  PointHash hash(spread, 1024, geom::largest_coordinate(points_));
   for (std::uint32_t l = 0; l < loops_.size(); ++l)
     for (std::uint32_t k = 0; k < loops_[l].size(); ++k) {
       const std::uint32_t i = loops_[l][k];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,8 +14,10 @@ namespace lekalo::locate {
 /// one point far away does no harm. What it visits comes in an order that depends on what was inserted only.
 class PointHash {
  public:
-  /// \pre cell > 0 and coordinates / cell below 2^62
-  PointHash(double cell, std::size_t capacity) : per_cell_(1 / cell) {
+  /// Cells are at least 2^-40 of `largest`, the largest coordinate of all that is inserted or asked for, so
+  /// that a cell's number is exact. \pre cell > 0
+  PointHash(double cell, std::size_t capacity, double largest)
+      : cell_(std::max(cell, 0x1p-40 * largest)), per_cell_(1 / cell_) {
     std::size_t size = 16;
     while (size < 2 * capacity) size *= 2;
     cells_.resize(size);
@@ -54,6 +57,7 @@ class PointHash {
     item_.push_back(item);
     cell.head = static_cast<std::uint32_t>(item_.size() - 1);
   }
+  [[nodiscard]] double cell() const noexcept { return cell_; }
   [[nodiscard]] std::int64_t index(double v) const noexcept {
     return static_cast<std::int64_t>(std::floor(v * per_cell_));
   }
@@ -97,7 +101,7 @@ class PointHash {
       if (cell.head != kNone) at(cell.x, cell.y) = cell;
   }
 
-  double per_cell_;
+  double cell_, per_cell_;
   std::vector<Cell> cells_;
   std::size_t used_ = 0;
   std::vector<std::uint32_t> next_, item_;

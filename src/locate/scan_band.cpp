@@ -81,7 +81,7 @@ std::vector<Loop> loops_of(const std::vector<GuardedLoop>& loops) {
 class CornerCutter {
  public:
   CornerCutter(const std::vector<geom::Region>& regions, double tolerance)
-      : tolerance_(tolerance), hash_(cell_of(regions), count_of(regions)) {
+      : tolerance_(tolerance), hash_(cell_of(regions), count_of(regions), largest_of(regions)) {
     for (const geom::Region& region : regions) {
       add(region.outer);
       for (const geom::Contour& hole : region.holes) add(hole);
@@ -141,6 +141,13 @@ class CornerCutter {
       for (const geom::Contour& hole : region.holes) count += hole.size();
     }
     return count;
+  }
+  static double largest_of(const std::vector<geom::Region>& regions) {
+    double largest = 0;
+    for (const geom::Region& region : regions)
+      for (const geom::Edge& e : region.outer)
+        largest = std::max({largest, std::abs(e.from.x), std::abs(e.from.y)});
+    return largest;
   }
   static double cell_of(const std::vector<geom::Region>& regions) {
     double length = 0, longest = 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "lekalo/geom/predicates.hpp"
 #include "point_hash.hpp"
@@ -28,11 +29,15 @@ double cell_size(const geom::Ring& points, const std::vector<Loop>& loops) {
 class EdgeCells {
  public:
   EdgeCells(const geom::Ring& points, const std::vector<Loop>& loops, double cell)
-      : points_(points), loops_(loops), hash_(cell, 1024), cell_(cell) {}
+      : points_(points),
+        loops_(loops),
+        hash_(cell, 1024, geom::largest_coordinate(points)),
+        cell_(hash_.cell()) {}
 
   /// Files the edge under the cells it runs through; what it meets there, if anything.
   std::optional<Crossing> add(std::uint32_t loop, std::uint32_t edge) {
-    const auto [a, b] = ends(loop, edge);
+    const std::pair<Point, Point> both = ends(loop, edge);
+    const Point a = both.first, b = both.second;
     const std::uint32_t id = static_cast<std::uint32_t>(edges_.size());
     edges_.push_back({loop, edge});
     std::optional<Crossing> found;
@@ -48,7 +53,7 @@ class EdgeCells {
         y0 = low.y + (from - low.x) * slope;
         y1 = low.y + (to - low.x) * slope;
       }
-      const double slack = 1e-3 * cell_;
+      const double slack = cell_ / 64;
       for (std::int64_t y = hash_.index(std::min(y0, y1) - slack),
                         top = hash_.index(std::max(y0, y1) + slack);
            y <= top && !found; ++y) {

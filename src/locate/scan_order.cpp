@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lekalo/geom/predicates.hpp"
@@ -28,7 +29,7 @@ double distance(Point a, Point b) { return norm(a - b); }
 std::vector<std::uint32_t> spread_points(const geom::Ring& points, const std::vector<std::uint32_t>& sorted,
                                          double spread) {
   std::vector<std::uint32_t> chosen;
-  PointHash hash(spread, 1024);
+  PointHash hash(spread, 1024, geom::largest_coordinate(points));
   for (const std::uint32_t i : sorted) {
     bool covered = false;
     hash.visit_near(points[i], spread,
@@ -49,7 +50,7 @@ class Links {
       : points_(points), chosen_(std::move(chosen)), links_(chosen_.size(), {kNone, kNone}) {}
 
   Result<void> link_relative_neighbours(double link) {
-    PointHash hash(link, chosen_.size());
+    PointHash hash(link, chosen_.size(), geom::largest_coordinate(points_));
     for (std::uint32_t i = 0; i < chosen_.size(); ++i) hash.insert(i, at(i));
     std::vector<std::pair<double, std::uint32_t>> near;
     for (std::uint32_t i = 0; i < chosen_.size(); ++i) {
@@ -61,7 +62,8 @@ class Links {
       std::sort(near.begin(), near.end());
       std::size_t degree = 0;
       for (std::size_t k = 0; k < near.size(); ++k) {
-        const auto [d, j] = near[k];
+        const double d = near[k].first;
+        const std::uint32_t j = near[k].second;
         const bool blocked = std::any_of(
             near.begin(), near.begin() + static_cast<std::ptrdiff_t>(k),
             [&](const auto& third) { return third.first < d && distance(at(third.second), at(j)) < d; });
@@ -195,8 +197,8 @@ double median_nearest(const geom::Ring& points, const std::vector<std::uint32_t>
   for (const std::uint32_t i : sorted)
     farthest = std::max({farthest, std::abs(points[i].x), std::abs(points[i].y)});
   double cell = 8 * std::max(extent(x), extent(y)) / static_cast<double>(n);
-  if (!(cell > 0x1p-50 * farthest)) cell = std::max(0x1p-50 * farthest, 1e-90);
-  PointHash hash(cell, n);
+  if (!(cell > 0x1p-40 * farthest)) cell = std::max(0x1p-40 * farthest, 1e-90);
+  PointHash hash(cell, n, farthest);
   for (const std::uint32_t i : sorted) hash.insert(i, points[i]);
   std::vector<double> nearest;
   const std::size_t stride = std::max<std::size_t>(1, n / 2000);
@@ -217,13 +219,14 @@ double median_nearest(const geom::Ring& points, const std::vector<std::uint32_t>
 
 std::vector<std::uint32_t> lonely_points(const geom::Ring& points, double reach) {
   // Points that share a small cell have company; the others look around.
-  PointHash firsts(reach / 2, points.size()), all(reach / 2, points.size());
+  const double largest = geom::largest_coordinate(points);
+  PointHash firsts(reach / 2, points.size(), largest), all(reach / 2, points.size(), largest);
   std::vector<bool> company(points.size(), false);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     bool empty = true;
     firsts.visit_cell(firsts.index(points[i].x), firsts.index(points[i].y), [&](std::uint32_t j) {
       empty = false;
-      company[i] = company[j] = true;
+      if (distance(points[i], points[j]) <= reach) company[i] = company[j] = true;
     });
     if (empty) firsts.insert(i, points[i]);
     all.insert(i, points[i]);

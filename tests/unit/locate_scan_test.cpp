@@ -213,6 +213,23 @@ TEST(GuaranteedBlank, HugeAndTinyAndLonelyPointsDoNotStopIt) {
   refusal(contours({cloud}), options);
 }
 
+TEST(GuaranteedBlank, FarFromTheOriginItIsTheSameButForDigits) {
+  for (const double far : {1e5, 1e8}) {
+    geom::Ring outer = rectangle(0, 0, 40, 40, 1), hole = rectangle(10, 10, 20, 20, 1);
+    for (geom::Ring* ring : {&outer, &hole})
+      for (geom::Point& p : *ring) p = p + geom::Point{far, -far};
+    for (const PointOrder order : {PointOrder::given, PointOrder::none}) {
+      ScanOptions options;
+      options.uncertainty = 0.01;
+      options.order = order;
+      const auto blank = made(contours({outer, hole}), options);
+      EXPECT_TRUE(blank.proved());
+      ASSERT_EQ(blank.regions.size(), 1U);
+      EXPECT_NEAR(geom::area(blank.regions[0]), 1600 - 400 - 0.02 * 240, 0.5);
+    }
+  }
+}
+
 TEST(GuaranteedBlank, TheAssumptionsSayWhatWasAssumed) {
   ScanOptions options;
   options.uncertainty = 0.02;
