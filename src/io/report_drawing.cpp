@@ -80,9 +80,7 @@ class Drawing {
     items_.push_back(ClipBegin{blank_});
     items_.push_back(PathItem{part_, true, filled(kPaper), {"part", "part at the result"}});
     items_.push_back(ClipEnd{});
-    for (std::size_t edge = 0; edge < report_.edges.size(); ++edge)
-      corner(edge, thin ? kThinBand : 2 * kBand);
-    for (std::size_t edge = 0; edge < report_.edges.size(); ++edge) band(edge, thin ? kThinBand : 2 * kBand);
+    bands(thin ? kThinBand : 2 * kBand);
     if (!thin) {
       // The half of the band outside the part is painted over. (A clip along the part for every piece of the
       // band would say the outline hundreds of times in a PDF.)
@@ -112,58 +110,72 @@ class Drawing {
     return scale_step(allowance, look_.range.low, look_.range.high);
   }
 
-  /// Under the band where an edge begins, so that corners inwards are not left open.
-  void corner(std::size_t edge, double width) {
-    const locate::OutlinePoint& begin = report_.edges[edge].samples.front();
-    const int level = level_of(begin.allowance, report_.demanded[edge]);
-    items_.push_back(DotItem{view_(begin.in_blank),
-                             width / 2,
-                             filled(level < 0 ? kOutside : scale_colour(level)),
-                             {"corner", ""}});
+  struct Stop {
+    Point at;
+    int level;
+  };
+  /// Points along a contour and the level from each to the next; closer ones are drawn as one, at the lowest
+  /// level.
+  [[nodiscard]] std::vector<Stop> stops(std::size_t first, std::size_t last) const {
+    constexpr double kNear = 0.15;
+    std::vector<Stop> found;
+    for (std::size_t edge = first; edge < last; ++edge) {
+      const auto& samples = report_.edges[edge].samples;
+      for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+        const double allowance = std::min(samples[k].allowance, samples[k + 1].allowance);
+        const Stop stop{view_(samples[k].in_blank), level_of(allowance, report_.demanded[edge])};
+        if (!found.empty() && norm(stop.at - found.back().at) < kNear) {
+          found.back().level = std::min(found.back().level, stop.level);
+        } else {
+          found.push_back(stop);
+        }
+      }
+    }
+    return found;
   }
 
-  /// An edge in pieces of one colour, each drawn a little into the next so that no seam shows.
-  void band(std::size_t edge, double width) {
-    const auto& samples = report_.edges[edge].samples;
+  /// A contour in pieces of one colour, each drawn a little into the next so that no seam shows.
+  void band(std::size_t first, std::size_t last, double width) {
+    const std::vector<Stop> around = stops(first, last);
+    const auto next = [&](std::size_t k) { return k + 1 == around.size() ? 0 : k + 1; };
     struct Piece {
       Ring line;
       int level;
     };
     std::vector<Piece> pieces;
-    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
-      const double allowance = std::min(samples[k].allowance, samples[k + 1].allowance);
-      const int level = level_of(allowance, report_.demanded[edge]);
-      const Point from = view_(samples[k].in_blank), to = view_(samples[k + 1].in_blank);
-      if (pieces.empty() || pieces.back().level != level) pieces.push_back({{from}, level});
-      Ring& line = pieces.back().line;
-      if (line.size() < 2 || k + 2 == samples.size() || norm(to - line.back()) > 0.04) {
-        line.push_back(to);
-      } else {
-        line.back() = to;
-      }
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      if (pieces.empty() || pieces.back().level != around[k].level)
+        pieces.push_back({{around[k].at}, around[k].level});
+      pieces.back().line.push_back(around[next(k)].at);
     }
     constexpr double kInto = 0.4;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      if (k + 1 < pieces.size()) {
-        const Ring& next = pieces[k + 1].line;
-        const Point along = next[1] - next[0];
-        const double length = norm(along);
-        if (length > 0) pieces[k].line.push_back(next[0] + std::min(1.0, kInto / length) * along);
-      }
-      if (pieces[k].level == kSticksOut) {
+      const Ring& following = pieces[k + 1 == pieces.size() ? 0 : k + 1].line;
+      const Point begin = following[0], along = following[1] - begin;
+      const double length = norm(along);
+      if (length > 0) pieces[k].line.push_back(begin + std::min(1.0, kInto / length) * along);
+    }
+    for (Piece& piece : pieces) {
+      const bool out = piece.level == kSticksOut;
+      if (out)
         items_.push_back(
-            PathItem{{pieces[k].line}, false, stroked(kOutsideBase, width), {"allowance-outside-base", ""}});
-        items_.push_back(PathItem{
-            {std::move(pieces[k].line)}, false, stroked(kOutside, width, 1.6), {"allowance-outside", ""}});
-      } else if (pieces[k].level == kTooThin) {
-        items_.push_back(PathItem{
-            {std::move(pieces[k].line)}, false, stroked(kOutside, width), {"allowance-too-thin", ""}});
-      } else {
-        items_.push_back(PathItem{{std::move(pieces[k].line)},
-                                  false,
-                                  stroked(scale_colour(pieces[k].level), width),
-                                  {"allowance", ""}});
-      }
+            PathItem{{piece.line}, false, stroked(kOutsideBase, width), {"allowance-outside-base", ""}});
+      const Colour colour = piece.level < 0 ? kOutside : scale_colour(piece.level);
+      const char* const kind =
+          out ? "allowance-outside" : (piece.level < 0 ? "allowance-too-thin" : "allowance");
+      items_.push_back(
+          PathItem{{std::move(piece.line)}, false, stroked(colour, width, out ? 1.6 : 0), {kind, ""}});
+    }
+  }
+  void bands(double width) {
+    std::size_t first = 0;
+    const auto add = [&](const geom::Contour& contour) {
+      band(first, first + contour.size(), width);
+      first += contour.size();
+    };
+    for (const geom::Region& region : report_.shapes.part) {
+      add(region.outer);
+      for (const geom::Contour& hole : region.holes) add(hole);
     }
   }
 
