@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "box_tree.hpp"
+#include "lekalo/geom/box_tree.hpp"
 #include "point_table.hpp"
 
 namespace lekalo::geom::detail {

@@ -1,9 +1,9 @@
-#include "box_tree.hpp"
+#include "lekalo/geom/box_tree.hpp"
 
 #include <numeric>
 #include <utility>
 
-namespace lekalo::geom::detail {
+namespace lekalo::geom {
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
@@ -43,4 +43,4 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end) {
   return at;
 }
 
-}  // namespace lekalo::geom::detail
+}  // namespace lekalo::geom

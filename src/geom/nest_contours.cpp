@@ -1,58 +1,17 @@
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "box_tree.hpp"
+#include "containment.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/region_check.hpp"
-#include "piece.hpp"
 
 namespace lekalo::geom {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-/// Which contours hold a point, by the parity of their edges on a ray to the right.
-class Containment {
- public:
-  explicit Containment(const std::vector<Contour>& contours)
-      : pieces_(pieces_of(contours)), tree_(boxes_of(pieces_)) {}
-
-  /// In ascending order; rounding decides on a contour.
-  [[nodiscard]] std::vector<std::size_t> holding(Point p) const {
-    std::vector<std::size_t> crossed, found;
-    tree_.visit_meeting({p, {std::numeric_limits<double>::infinity(), p.y}}, [&](std::uint32_t i) {
-      if (detail::crosses_ray(pieces_[i], p)) crossed.push_back(pieces_[i].origin);
-    });
-    std::sort(crossed.begin(), crossed.end());
-    for (std::size_t i = 0, end = 0; i < crossed.size(); i = end) {
-      while (end < crossed.size() && crossed[end] == crossed[i]) ++end;
-      if ((end - i) % 2 != 0) found.push_back(crossed[i]);
-    }
-    return found;
-  }
-
- private:
-  static std::vector<detail::Piece> pieces_of(const std::vector<Contour>& contours) {
-    std::vector<detail::Piece> pieces;
-    for (std::size_t c = 0; c < contours.size(); ++c)
-      for (const Edge& edge : contours[c])
-        detail::append_pieces(edge, static_cast<std::uint32_t>(c), 0, pieces);
-    return pieces;
-  }
-  static std::vector<Box> boxes_of(const std::vector<detail::Piece>& pieces) {
-    std::vector<Box> boxes;
-    for (const detail::Piece& piece : pieces) boxes.push_back(detail::box_of(piece));
-    return boxes;
-  }
-
-  std::vector<detail::Piece> pieces_;
-  detail::BoxTree tree_;
-};
 
 }  // namespace
 
@@ -68,7 +27,9 @@ Result<std::vector<Region>> nest_contours(std::vector<Contour> contours) {
     contours[i] = std::move(checked->outer);
     areas.push_back(signed_area(contours[i]));
   }
-  const Containment containment(contours);
+  std::vector<const Contour*> all;
+  for (const Contour& contour : contours) all.push_back(&contour);
+  const detail::Containment containment(all);
   std::vector<std::size_t> owner(contours.size(), kNone), region_of(contours.size(), kNone);
   std::vector<Region> regions;
   for (std::size_t i = 0; i < contours.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arrangement.hpp"
-#include "box_tree.hpp"
+#include "lekalo/geom/box_tree.hpp"
 
 namespace lekalo::geom::detail {
 

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "box_tree.hpp"
+#include "containment.hpp"
+#include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/predicates.hpp"
-#include "lekalo/geom/region_index.hpp"
 
 namespace lekalo::geom {
 namespace {
@@ -27,7 +28,6 @@ class Names {
     return several_ ? fmt::format("{} of piece {}", contours_[c].name, contours_[c].piece)
                     : contours_[c].name;
   }
-  [[nodiscard]] std::size_t piece(std::size_t c) const { return contours_[c].piece; }
 
  private:
   struct Contour {
@@ -40,118 +40,104 @@ class Names {
 
 class Checker {
  public:
-  explicit Checker(const std::vector<Region>& regions) : regions_(regions), index_(regions), names_(regions) {
-    const Box box = index_.bounds();
-    limit_ = kEdgeDistanceError *
-             std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+  explicit Checker(const std::vector<Region>& regions) : regions_(regions) {
+    for (const Region& region : regions) {
+      contours_.push_back(&region.outer);
+      for (const Contour& hole : region.holes) contours_.push_back(&hole);
+    }
+    for (const Contour* contour : contours_) {
+      for (const Edge& edge : *contour) {
+        contour_of_.push_back(static_cast<std::uint32_t>(starts_.size() - 1));
+        curves_.push_back(make_curve(edge));
+      }
+      starts_.push_back(static_cast<std::uint32_t>(curves_.size()));
+    }
   }
 
-  std::optional<std::string> run() {
-    for (std::size_t c = 0; c + 1 < index_.contour_starts().size(); ++c)
-      for (std::uint32_t i = index_.contour_starts()[c]; i < index_.contour_starts()[c + 1]; ++i)
-        if (auto fault = meets_another(c, i)) return fault;
+  [[nodiscard]] std::optional<MeetingEdges> first_meeting() const {
+    std::vector<Box> boxes;
+    boxes.reserve(curves_.size());
+    double largest = 0;
+    for (const Curve& curve : curves_) {
+      const Box box = boxes.emplace_back(curve_box(curve));
+      largest = std::max(
+          {largest, std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+    }
+    const double limit = kEdgeDistanceError * largest;
+    const Point margin{limit, limit};
+    for (Box& box : boxes) box = {box.low - margin, box.high + margin};
+    std::optional<MeetingEdges> first;
+    BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (first && std::pair(first->a, first->b) < std::pair(i, j)) return;
+      if (joined_only_at_their_end(i, j)) return;
+      const ClosestPoints close = closest_points(curves_[i], curves_[j]);
+      if (!(close.distance > limit)) first = MeetingEdges{i, j, close.a};
+    });
+    return first;
+  }
+
+  [[nodiscard]] std::optional<std::string> run() const {
+    const Names names(regions_);
+    if (const auto meeting = first_meeting()) {
+      const std::uint32_t c = contour_of_[meeting->a], d = contour_of_[meeting->b];
+      return fmt::format("edge {} of the {} meets edge {} of the {} at ({}, {}) mm", meeting->a - starts_[c],
+                         names.contour(c), meeting->b - starts_[d], names.contour(d), meeting->at.x,
+                         meeting->at.y);
+    }
     return misplaced();
   }
 
  private:
-  [[nodiscard]] std::size_t contour_of(std::uint32_t edge) const {
-    const auto& starts = index_.contour_starts();
-    return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), edge) - starts.begin()) -
-           1;
+  /// Neighbours along a contour that share an end, as far as is seen (fault_of).
+  [[nodiscard]] bool joined_only_at_their_end(std::uint32_t i, std::uint32_t j) const {
+    const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
+    if (j >= end || (j != i + 1 && (i != begin || j + 1 != end))) return false;
+    const Edge &a = curves_[i].edge, &b = curves_[j].edge;
+    return a.kind != EdgeKind::line || b.kind != EdgeKind::line || end - begin < 3 ||
+           segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::overlap;
   }
 
-  std::optional<std::string> meets_another(std::size_t c, std::uint32_t i) {
-    const std::uint32_t begin = index_.contour_starts()[c], end = index_.contour_starts()[c + 1];
-    const Curve& curve = index_.curves()[i];
-    const Box box = curve_box(curve);
-    std::optional<std::string> fault;
-    index_.visit_within(
-        0.5 * (box.low + box.high), 0.5 * norm(box.high - box.low), limit_, [&](std::uint32_t j) {
-          if (j <= i || fault) return;
-          const Curve& other = index_.curves()[j];
-          const bool neighbours = j < end && (j == i + 1 || (i == begin && j + 1 == end));
-          if (neighbours) {
-            if (curve.edge.kind != EdgeKind::line || other.edge.kind != EdgeKind::line || end - begin < 3)
-              return;
-            if (segment_relation(curve.edge.from, curve.edge.to, other.edge.from, other.edge.to) !=
-                SegmentRelation::overlap)
-              return;
-          }
-          const ClosestPoints close = closest_points(curve, other);
-          if (close.distance > limit_) return;
-          const std::size_t d = contour_of(j);
-          fault = fmt::format("edge {} of the {} meets edge {} of the {} at ({}, {}) mm", i - begin,
-                              names_.contour(c), j - index_.contour_starts()[d], names_.contour(d), close.a.x,
-                              close.a.y);
-        });
-    return fault;
-  }
-
-  /// Outlines of which each was asked for, and a tree of their boxes to know whom to ask.
-  class Outlines {
-   public:
-    explicit Outlines(std::vector<Region> outlines)
-        : outlines_(std::move(outlines)), indices_(outlines_.size()), tree_(boxes_of(outlines_)) {}
-    /// visit(i) for every outline that holds p, but not `own`.
-    template <class Visit>
-    void visit_holding(Point p, std::size_t own, Visit&& visit) {
-      tree_.visit_meeting({p, p}, [&](std::uint32_t i) {
-        if (i == own) return;
-        if (!indices_[i]) indices_[i].emplace(std::vector<Region>{outlines_[i]});
-        if (indices_[i]->contains(p)) visit(i);
-      });
-    }
-
-   private:
-    static std::vector<Box> boxes_of(const std::vector<Region>& outlines) {
-      std::vector<Box> boxes;
-      for (const Region& r : outlines) {
-        boxes.push_back(RegionIndex({{r.outer, {}}}).bounds());  // with its margin for rounding
-      }
-      return boxes;
-    }
-    std::vector<Region> outlines_;
-    std::vector<std::optional<RegionIndex>> indices_;
-    detail::BoxTree tree_;
-  };
-
-  std::optional<std::string> misplaced() {
-    Outlines materials(regions_);
+  [[nodiscard]] std::optional<std::string> misplaced() const {
+    // Contour numbers: piece p begins with its outer contour at outer[p], its holes follow.
+    std::vector<std::size_t> outer, piece_of;
     for (std::size_t p = 0; p < regions_.size(); ++p) {
-      const auto& holes = regions_[p].holes;
-      const std::string of = regions_.size() > 1 ? fmt::format(" of piece {}", p) : "";
-      const RegionIndex outline({{regions_[p].outer, {}}});
-      std::vector<Region> as_regions;
-      for (const Contour& hole : holes) as_regions.push_back({hole, {}});
-      Outlines all(std::move(as_regions));
-      for (std::size_t h = 0; h < holes.size(); ++h) {
-        const Point at = holes[h].front().from;
-        if (!outline.contains(at))
-          return fmt::format("hole {}{} lies outside the outer contour, at ({}, {}) mm", h, of, at.x, at.y);
-        std::size_t around = holes.size();
-        all.visit_holding(at, h, [&](std::size_t k) { around = std::min(around, k); });
-        if (around < holes.size())
-          return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", h, of, around, at.x, at.y);
-      }
+      outer.push_back(piece_of.size());
+      piece_of.insert(piece_of.end(), regions_[p].holes.size() + 1, p);
     }
-    for (std::size_t q = 0; q < regions_.size(); ++q) {
-      const Point at = regions_[q].outer.front().from;
-      std::size_t around = regions_.size();
-      materials.visit_holding(at, q, [&](std::size_t p) { around = std::min(around, p); });
-      if (around < regions_.size())
-        return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", q, around, at.x,
-                           at.y);
+    const detail::Containment containment(contours_);
+    for (std::size_t c = 0; c < contours_.size(); ++c) {
+      const std::size_t p = piece_of[c];
+      const Point at = contours_[c]->front().from;
+      const std::string of = regions_.size() > 1 ? fmt::format(" of piece {}", p) : "";
+      const auto around = containment.holding(at);
+      const auto inside = [&](std::size_t d) { return std::binary_search(around.begin(), around.end(), d); };
+      if (c != outer[p] && !inside(outer[p]))
+        return fmt::format("hole {}{} lies outside the outer contour, at ({}, {}) mm", c - outer[p] - 1, of,
+                           at.x, at.y);
+      for (std::size_t k = 0; k < around.size(); ++k) {
+        const std::size_t d = around[k], q = piece_of[d];
+        if (c != outer[p] && d != c && q == p && d != outer[p])
+          return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", c - outer[p] - 1, of,
+                             d - outer[p] - 1, at.x, at.y);
+        const bool in_hole = k + 1 < around.size() && piece_of[around[k + 1]] == q;
+        if (c == outer[p] && q != p && d == outer[q] && !in_hole)
+          return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", p, q, at.x, at.y);
+      }
     }
     return std::nullopt;
   }
 
   const std::vector<Region>& regions_;
-  RegionIndex index_;
-  Names names_;
-  double limit_ = 0;
+  std::vector<const Contour*> contours_;
+  std::vector<Curve> curves_;
+  std::vector<std::uint32_t> starts_{0}, contour_of_;
 };
 
 }  // namespace
+
+std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions) {
+  return Checker(regions).first_meeting();
+}
 
 std::optional<std::string> fault_of(const std::vector<Region>& regions) { return Checker(regions).run(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,5 +18,14 @@ namespace lekalo::geom {
 /// neighbouring edges meet at the end they share; that they also cross elsewhere is seen for lines alone.
 /// Cost: O((n + k) log n) for n edges and k pairs whose boxes meet.
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<Region>& regions);
+
+/// Two edges that cross or touch, numbered through all pieces and contours as flatten() does, a < b.
+struct MeetingEdges {
+  std::uint32_t a = 0, b = 0;
+  Point at;  ///< mm, on a
+};
+
+/// The first such pair (smallest a, then b), by the rule and at the cost of fault_of.
+[[nodiscard]] std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions);
 
 }  // namespace lekalo::geom

@@ -6,7 +6,7 @@
 
 #include "lekalo/geom/polygon.hpp"
 
-namespace lekalo::geom::detail {
+namespace lekalo::geom {
 
 [[nodiscard]] inline bool boxes_meet(const Box& a, const Box& b) noexcept {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
@@ -93,4 +93,4 @@ class BoxTree {
   std::vector<Node> nodes_;  ///< preorder
 };
 
-}  // namespace lekalo::geom::detail
+}  // namespace lekalo::geom
