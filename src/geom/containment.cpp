@@ -2,40 +2,37 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <utility>
 
 namespace lekalo::geom::detail {
 namespace {
 
-std::vector<Piece> pieces_of(const std::vector<const Contour*>& contours) {
-  std::vector<Piece> pieces;
-  for (std::size_t c = 0; c < contours.size(); ++c)
-    for (const Edge& edge : *contours[c]) append_pieces(edge, static_cast<std::uint32_t>(c), 0, pieces);
-  return pieces;
-}
-
-std::vector<Box> boxes_of(const std::vector<Piece>& pieces) {
+/// Grown by more than the rounding of bounds().
+std::vector<Box> boxes_of(const std::vector<const Contour*>& contours) {
   std::vector<Box> boxes;
-  boxes.reserve(pieces.size());
-  for (const Piece& piece : pieces) boxes.push_back(box_of(piece));
+  boxes.reserve(contours.size());
+  for (const Contour* contour : contours) {
+    const Box box = bounds(*contour);
+    const double margin = kEdgeDistanceError * (norm(box.low) + norm(box.high));
+    boxes.push_back({box.low - Point{margin, margin}, box.high + Point{margin, margin}});
+  }
   return boxes;
 }
 
 }  // namespace
 
-Containment::Containment(const std::vector<const Contour*>& contours)
-    : pieces_(pieces_of(contours)), tree_(boxes_of(pieces_)) {}
+Containment::Containment(std::vector<const Contour*> contours)
+    : contours_(std::move(contours)), tree_(boxes_of(contours_)), indices_(contours_.size()) {}
 
-std::vector<std::size_t> Containment::holding(Point p) const {
-  std::vector<std::size_t> crossed, found;
-  tree_.visit_meeting({p, {std::numeric_limits<double>::infinity(), p.y}}, [&](std::uint32_t i) {
-    if (crosses_ray(pieces_[i], p)) crossed.push_back(pieces_[i].origin);
+std::vector<std::size_t> Containment::around(std::size_t contour) {
+  const Point p = contours_[contour]->front().from;
+  std::vector<std::size_t> found;
+  tree_.visit_meeting({p, p}, [&](std::uint32_t c) {
+    if (c == contour) return;
+    if (!indices_[c]) indices_[c].emplace(std::vector<Region>{{*contours_[c], {}}});
+    if (indices_[c]->contains(p)) found.push_back(c);
   });
-  std::sort(crossed.begin(), crossed.end());
-  for (std::size_t i = 0, end = 0; i < crossed.size(); i = end) {
-    while (end < crossed.size() && crossed[end] == crossed[i]) ++end;
-    if ((end - i) % 2 != 0) found.push_back(crossed[i]);
-  }
+  std::sort(found.begin(), found.end());
   return found;
 }
 

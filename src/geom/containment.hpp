@@ -1,26 +1,29 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/region.hpp"
-#include "piece.hpp"
+#include "lekalo/geom/region_index.hpp"
 
 namespace lekalo::geom::detail {
 
-/// Which of many contours hold a point, by the parity of their edges on a ray to the right.
+/// Which of many contours hold a point. An index of a contour's edges is made when its box first holds one.
 class Containment {
  public:
-  explicit Containment(const std::vector<const Contour*>& contours);
+  /// \pre the contours outlive this
+  explicit Containment(std::vector<const Contour*> contours);
 
-  /// Numbers of the contours around p, ascending; rounding decides on a contour. O(log n + edges met by the
-  /// ray).
-  [[nodiscard]] std::vector<std::size_t> holding(Point p) const;
+  /// Numbers of the other contours around the first point of this one, ascending; rounding decides on a
+  /// contour. O(log n + boxes of contours around the point + their edges met by a ray).
+  [[nodiscard]] std::vector<std::size_t> around(std::size_t contour);
 
  private:
-  std::vector<Piece> pieces_;
-  BoxTree tree_;
+  std::vector<const Contour*> contours_;
+  BoxTree tree_;  ///< of the contours' boxes
+  std::vector<std::optional<RegionIndex>> indices_;
 };
 
 }  // namespace lekalo::geom::detail

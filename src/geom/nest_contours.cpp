@@ -29,18 +29,14 @@ Result<std::vector<Region>> nest_contours(std::vector<Contour> contours) {
   }
   std::vector<const Contour*> all;
   for (const Contour& contour : contours) all.push_back(&contour);
-  const detail::Containment containment(all);
+  detail::Containment containment(std::move(all));
   std::vector<std::size_t> owner(contours.size(), kNone), region_of(contours.size(), kNone);
   std::vector<Region> regions;
   for (std::size_t i = 0; i < contours.size(); ++i) {
-    const auto around = containment.holding(contours[i].front().from);
-    std::size_t depth = 0;
-    for (const std::size_t c : around) {
-      if (c == i) continue;
-      ++depth;
+    const auto around = containment.around(i);
+    for (const std::size_t c : around)
       if (owner[i] == kNone || areas[c] < areas[owner[i]]) owner[i] = c;
-    }
-    if (depth % 2 != 0) continue;
+    if (around.size() % 2 != 0) continue;
     owner[i] = i;
     region_of[i] = regions.size();
     regions.push_back({contours[i], {}});

@@ -104,19 +104,19 @@ class Checker {
       outer.push_back(piece_of.size());
       piece_of.insert(piece_of.end(), regions_[p].holes.size() + 1, p);
     }
-    const detail::Containment containment(contours_);
+    detail::Containment containment(contours_);
     for (std::size_t c = 0; c < contours_.size(); ++c) {
       const std::size_t p = piece_of[c];
       const Point at = contours_[c]->front().from;
       const std::string of = regions_.size() > 1 ? fmt::format(" of piece {}", p) : "";
-      const auto around = containment.holding(at);
+      const auto around = containment.around(c);
       const auto inside = [&](std::size_t d) { return std::binary_search(around.begin(), around.end(), d); };
       if (c != outer[p] && !inside(outer[p]))
         return fmt::format("hole {}{} lies outside the outer contour, at ({}, {}) mm", c - outer[p] - 1, of,
                            at.x, at.y);
       for (std::size_t k = 0; k < around.size(); ++k) {
         const std::size_t d = around[k], q = piece_of[d];
-        if (c != outer[p] && d != c && q == p && d != outer[p])
+        if (c != outer[p] && q == p && d != outer[p])
           return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", c - outer[p] - 1, of,
                              d - outer[p] - 1, at.x, at.y);
         const bool in_hole = k + 1 < around.size() && piece_of[around[k + 1]] == q;

@@ -154,10 +154,9 @@ class Joiner {
       if (!free(e) || starts[e] == starts[e + 1]) continue;
       const bool rival = std::any_of(of_end.begin() + starts[e], of_end.begin() + starts[e + 1],
                                      [&](std::uint32_t k) { return free(other(k, e)); });
-      (rival ? joins_.undecided : joins_.left_over).push_back(e);
+      if (rival) joins_.undecided.push_back(e);
     }
     std::sort(joins_.undecided.begin(), joins_.undecided.end());
-    std::sort(joins_.left_over.begin(), joins_.left_over.end());
   }
 
   const std::vector<OpenCurve>& curves_;

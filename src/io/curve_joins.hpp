@@ -24,8 +24,6 @@ struct CurveJoins {
   std::vector<EndNumber> partner;
   /// Ends near which another end is without a partner too: which is meant cannot be told. Ascending.
   std::vector<EndNumber> undecided;
-  /// Ends without a partner near which there are none but joined ones. Ascending.
-  std::vector<EndNumber> left_over;
   /// An end with more than kMostEndsNearby others about it; nothing was joined then.
   std::optional<EndNumber> crowded;
 };

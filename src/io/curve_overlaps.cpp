@@ -53,7 +53,7 @@ std::optional<double> arc_on_arc(const Curve& b, const Curve& a, double limit) {
   }
   const double radial = std::max(most - a.radius, a.radius - least);
   if (!(radial <= limit) || !(radial <= a.radius / 4)) return std::nullopt;
-  if (a.full) return radial;
+  if (a.full) return radial + 4 * geom::kEdgeDistanceError * (a.radius + b.radius);
   if (b.full) return std::nullopt;
   // b's ends and middle lie on a, and b does not pass through the middle of what a leaves out: then it leaves
   // a nowhere but, at an end, by at most the distance of that end.
@@ -62,7 +62,7 @@ std::optional<double> arc_on_arc(const Curve& b, const Curve& a, double limit) {
   for (const Point p : {b.edge.from, b.edge.to, middle})
     beyond = std::max(beyond, norm(p - nearest_on(a, p)));
   // Between that end and a's own the distance is at most that of b's end, by an arc instead of its chord.
-  const double bound = radial + 1.1 * beyond;
+  const double bound = radial + 1.1 * beyond + 4 * geom::kEdgeDistanceError * (a.radius + b.radius);
   if (!(bound <= limit) || faces(b, -towards_middle(a))) return std::nullopt;
   return bound;
 }
@@ -95,13 +95,23 @@ std::optional<double> same_edges(const std::vector<Edge>& a, const std::vector<E
   return largest;
 }
 
-/// Bound on how far b is from a, if it lies on it.
+/// Bound on how far b is from a, if it lies on it; but for rounding.
 std::optional<double> lies_on(const LaidCurve& b, const LaidCurve& a, double reach) {
   const double limit = std::min(reach, b.size / 16);
   if (a.edges->size() != b.edges->size()) return std::nullopt;
   if (b.edges->size() == 1) return edge_on_edge(b.edges->front(), a.edges->front(), limit);
   if (auto far = same_edges(*b.edges, *a.edges, limit)) return far;
   return same_edges(geom::reversed(*b.edges), *a.edges, limit);
+}
+
+/// Of the distances here (kEdgeDistanceError), a few of them and their products.
+double rounding(const Box& box) {
+  return 4 * geom::kEdgeDistanceError *
+         std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+}
+
+bool are_equal(const std::vector<Edge>& a, const std::vector<Edge>& b) {
+  return a == b || geom::reversed(a) == b;
 }
 
 }  // namespace
@@ -136,7 +146,8 @@ std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, doub
     if (!(box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x &&
           box.high.y <= room.high.y))
       return;
-    if (const auto far = lies_on(curves[b], curves[a], reach)) found.push_back({b, a, *far});
+    if (const auto far = lies_on(curves[b], curves[a], reach))
+      found.push_back({b, a, are_equal(*curves[b].edges, *curves[a].edges) ? 0 : *far + rounding(room)});
   });
   std::sort(found.begin(), found.end(), [&](const LyingOn& s, const LyingOn& t) {
     return s.curve != t.curve ? before(s.curve, t.curve) : before(s.on, t.on);
@@ -173,7 +184,8 @@ std::vector<Overlap> overlapping_ends(const std::vector<LooseEnd>& ends, double 
     const Point other = ends[j].at_end ? b.edge.from : b.edge.to;
     if (other == p) continue;
     taken[i] = taken[j] = true;
-    found.push_back({ends[i].curve, ends[j].curve, ends[i].at_end, ends[j].at_end, far});
+    found.push_back({ends[i].curve, ends[j].curve, ends[i].at_end, ends[j].at_end,
+                     far + rounding(wider(curve_box(a), reach))});
   }
   return found;
 }

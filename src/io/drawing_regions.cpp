@@ -174,9 +174,7 @@ class Assembly {
                         options_.join_tolerance));
       if (!drop_specks() && !cut_overlaps()) break;
     }
-    if (!joins_.undecided.empty()) return refuse(crowd_sentence(joins_.undecided.front()));
-    if (!joins_.left_over.empty() && !options_.leave_open_chains)
-      return refuse(crowd_sentence(joins_.left_over.front()));
+    if (!joins_.undecided.empty()) return refuse(crowd_sentence(end_point(joins_.undecided.front())));
     return std::nullopt;
   }
 
@@ -213,21 +211,25 @@ class Assembly {
     return !overlaps.empty();
   }
 
+  [[nodiscard]] std::vector<EndNumber> ends_near(Point at) const {
+    std::vector<EndNumber> found;
+    for (EndNumber e = 0; e < 2 * worked_.size(); ++e)
+      if (is_open(e / 2) && norm(end_point(e) - at) <= options_.join_tolerance) found.push_back(e);
+    return found;
+  }
+
   /// For a place with ends of which it cannot be told which belong together.
-  [[nodiscard]] std::string crowd_sentence(EndNumber end) const {
-    const Point at = end_point(end);
+  [[nodiscard]] std::string crowd_sentence(Point at) const {
+    const auto ends = ends_near(at);
     std::string names;
-    std::size_t count = 0;
-    for (EndNumber e = 0; e < 2 * worked_.size(); ++e) {
-      if (!is_open(e / 2) || !(norm(end_point(e) - at) <= options_.join_tolerance)) continue;
-      if (++count <= kMostNamed) names += (names.empty() ? "" : "; ") + name(e / 2);
-    }
-    if (count > kMostNamed) names += "; ...";
+    for (std::size_t i = 0; i < ends.size() && i < kMostNamed; ++i)
+      names += (i > 0 ? "; " : "") + name(ends[i] / 2);
+    if (ends.size() > kMostNamed) names += "; ...";
     return fmt::format(
         "{} ends of curves lie within {} mm of {}, where two belong to a contour: {}; remove what is too "
         "much, or leave "
         "out its layer, or use a smaller join tolerance",
-        count, options_.join_tolerance, text(at), names);
+        ends.size(), options_.join_tolerance, text(at), names);
   }
 
   // ---- chains ---------------------------------------------------------------------------------------------
@@ -275,6 +277,10 @@ class Assembly {
     if (open > 0 && !options_.leave_open_chains) {
       const Chain& chain =
           *std::find_if(chains_.begin(), chains_.end(), [](const Chain& c) { return !c.closed; });
+      // An end that would belong to a joint which is complete without it.
+      for (const bool last : {false, true})
+        if (ends_near(loose_end(chain, last)).size() > 1)
+          return refuse(crowd_sentence(loose_end(chain, last)));
       return refuse(open_sentence(chain, open));
     }
     for (const Chain& chain : chains_) {
