@@ -38,6 +38,26 @@ class Names {
   bool several_;
 };
 
+/// Whether two neighbours of which one is an arc cross again away from the end they share, by more than
+/// kArcConsistency allows the ends of arcs: smooth joints in drawings do, by what their digits leave.
+bool cross_again(const Curve& a, const Curve& b, Point shared) {
+  if (a.edge.kind == EdgeKind::line) return cross_again(b, a, shared);
+  const bool line = b.edge.kind == EdgeKind::line;
+  // The shared end mirrored in the line of the centres, or in the perpendicular from the centre to the line.
+  const Point axis = line ? b.unit : b.edge.centre - a.edge.centre;
+  const double squared = dot(axis, axis);
+  if (!(squared > 0)) return false;
+  const Point out = shared - a.edge.centre, part = (dot(out, axis) / squared) * axis;
+  const Point other = line ? shared - 2 * part : shared - 2 * (out - part);
+  const Point apart = other - shared;
+  if (!(dot(apart, apart) / (8 * a.radius) > kArcConsistency + kArcConsistencyRelative * a.radius))
+    return false;
+  if (!faces(a, other - a.edge.centre)) return false;
+  if (!line) return faces(b, other - b.edge.centre);
+  const double along = dot(other - b.edge.from, b.unit);
+  return along > 0 && along < b.length;
+}
+
 class Checker {
  public:
   explicit Checker(const std::vector<Region>& regions) : regions_(regions) {
@@ -93,8 +113,11 @@ class Checker {
     const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
     if (j >= end || (j != i + 1 && (i != begin || j + 1 != end))) return false;
     const Edge &a = curves_[i].edge, &b = curves_[j].edge;
-    return a.kind != EdgeKind::line || b.kind != EdgeKind::line || end - begin < 3 ||
-           segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::overlap;
+    // Two edges alone share both ends: where two circles or a circle and a line can meet at all.
+    if (end - begin < 3) return true;
+    if (a.kind == EdgeKind::line && b.kind == EdgeKind::line)
+      return segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::overlap;
+    return !cross_again(curves_[i], curves_[j], j == i + 1 ? a.to : a.from);
   }
 
   [[nodiscard]] std::optional<std::string> misplaced() const {

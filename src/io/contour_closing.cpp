@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "arc_middle.hpp"
+#include "lekalo/geom/edge_distance.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -12,69 +16,113 @@ using geom::Point;
 
 /// Distances here are rounded by 3 u at most.
 constexpr double kUp = 1 + 0x1p-50;
-/// An arc whose end moves by h lies within this times h of what it was, both ways, if the conditions of
-/// can_move hold: its mean radius changes by h / 2 (h if both ends move), its ends turn by at most
-/// asin(h / r) about the centre, which is 1.26 h along the curve.
-constexpr double kArcMoves = 2.5;
+/// Arcs on which a moved end would move other points by more than this times as much are halved first.
+constexpr double kMostLever = 2;
+/// Arcs whose ends are nearer than this many gaps are left alone.
+constexpr double kLeastChordInGaps = 4;
 
 bool is_line(const Edge& edge) { return edge.kind == EdgeKind::line; }
 
-bool is_consistent(const Edge& arc) {
-  const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
-  return std::abs(from - to) <= geom::kArcConsistency + geom::kArcConsistencyRelative * std::max(from, to);
+/// How far any point of an arc moves at most when one end moves by 1 and the other stays, all by one
+/// similarity map: its distance from the staying end over the chord.
+double lever(const Edge& arc) {
+  const geom::Curve curve = make_curve(arc);
+  return curve.wide ? 2 * curve.radius / norm(arc.to - arc.from) * kUp : 1;
 }
 
-/// Whether moving an end of the arc by half the gap keeps it nearly what it is. A short chord may belong to
-/// an arc of nearly a full turn, which a moved end could turn into nothing.
-bool can_move(const Edge& arc, double gap) {
-  const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
-  return norm(arc.to - arc.from) >= 8 * gap && std::max(from, to) <= 1.25 * std::min(from, to);
+/// The arc under the similarity map that keeps one end and takes the other where it is to be.
+Edge pulled(const Edge& arc, Point from, Point to) {
+  const Point before = arc.to - arc.from, after = to - from, out = arc.centre - arc.from;
+  const double squared = dot(before, before);
+  // The centre in the chord's frame.
+  const double along = dot(out, before) / squared, aside = cross(before, out) / squared;
+  return {arc.kind, from, to, from + along * after + aside * perpendicular(after)};
 }
 
-class Closing {
+class GapCloser {
  public:
-  explicit Closing(LooseContour& contour) : contour_(contour), line_after_(contour.edges.size(), false) {}
+  explicit GapCloser(LooseContour& contour) : contour_(contour) {
+    moved_.resize(contour.edges.size(), 0);
+    halve_wide_arcs();
+    line_after_.resize(contour.edges.size(), false);
+  }
 
-  std::vector<ClosedGap> run() {
+  Closing run() {
     const std::size_t n = contour_.edges.size();
-    for (std::size_t i = 0; i < n; ++i) close(i, i + 1 == n ? 0 : i + 1);
+    for (std::size_t i = 0; i < n; ++i) close(i, after(i));
+    for (std::size_t i = 0; i < n; ++i)
+      if (moved_[i] > 0) closing_.moved.push_back({contour_.curves[i], moved_[i]});
     rebuild();
-    return std::move(gaps_);
+    return std::move(closing_);
   }
 
  private:
+  [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == contour_.edges.size() ? 0 : i + 1; }
+
+  /// Where they meet an arc across a gap, so that only the half near it has to move.
+  void halve_wide_arcs() {
+    const geom::Contour& edges = contour_.edges;
+    std::vector<bool> halved(edges.size(), false);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const std::size_t next = after(i);
+      if (edges[i].to == edges[next].from || is_line(edges[i]) || is_line(edges[next])) continue;
+      for (const std::size_t k : {i, next})
+        if (lever(edges[k]) > kMostLever) halved[k] = true;
+    }
+    if (std::find(halved.begin(), halved.end(), true) == halved.end()) return;
+    LooseContour made;
+    moved_.clear();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      // The halves' mean radii lie between those of the ends.
+      const Edge& edge = edges[i];
+      const double steps =
+          halved[i] ? std::abs(norm(edge.from - edge.centre) - norm(edge.to - edge.centre)) : 0;
+      moved_.resize(moved_.size() + (halved[i] ? 2 : 1), steps);
+      made.edges.push_back(edge);
+      made.curves.resize(made.edges.size() + (halved[i] ? 1 : 0), contour_.curves[i]);
+      if (!halved[i]) continue;
+      Edge second = edges[i];
+      made.edges.back().to = second.from = middle_of(make_curve(edges[i]));
+      made.edges.push_back(second);
+    }
+    contour_ = std::move(made);
+  }
+
   void close(std::size_t i, std::size_t next) {
     Edge &a = contour_.edges[i], &b = contour_.edges[next];
     const Point p = a.to, q = b.from;
     if (p == q) return;
-    ClosedGap gap{0.5 * (p + q), norm(q - p) * kUp, contour_.curves[i], contour_.curves[next], 0, 0};
+    const ClosedGap gap{0.5 * (p + q), norm(q - p) * kUp, contour_.curves[i], contour_.curves[next]};
     const double to_middle = std::max(norm(gap.at - p), norm(gap.at - q)) * kUp;
+    // Points of a line move by no more than its ends do, whatever the other end does.
     if (is_line(a) && is_line(b)) {
       a.to = b.from = gap.at;
-      gap.moved_before = gap.moved_after = to_middle;
+      moved_[i] = std::max(moved_[i], to_middle);
+      moved_[next] = std::max(moved_[next], to_middle);
     } else if (is_line(a)) {
       a.to = q;
-      gap.moved_before = gap.size;
+      moved_[i] = std::max(moved_[i], gap.size);
     } else if (is_line(b)) {
       b.from = p;
-      gap.moved_after = gap.size;
-    } else if (i != next && arcs_meet(a, b, gap)) {
-      gap.moved_before = gap.moved_after = kArcMoves * to_middle;
+      moved_[next] = std::max(moved_[next], gap.size);
+    } else if (i != next && may_pull(a, gap) && may_pull(b, gap)) {
+      moved_[i] += lever(a) * to_middle + rounding(a);
+      moved_[next] += lever(b) * to_middle + rounding(b);
+      a = pulled(a, a.from, gap.at);
+      b = pulled(b, gap.at, b.to);
     } else {
       line_after_[i] = true;
-      gap.moved_before = to_middle;
+      moved_[i] = std::max(moved_[i], to_middle);
     }
-    gaps_.push_back(gap);
+    closing_.gaps.push_back(gap);
   }
 
-  static bool arcs_meet(Edge& a, Edge& b, const ClosedGap& gap) {
-    if (!can_move(a, gap.size) || !can_move(b, gap.size)) return false;
-    Edge moved_a = a, moved_b = b;
-    moved_a.to = moved_b.from = gap.at;
-    if (!is_consistent(moved_a) || !is_consistent(moved_b)) return false;
-    a = moved_a;
-    b = moved_b;
-    return true;
+  static bool may_pull(const Edge& arc, const ClosedGap& gap) {
+    return norm(arc.to - arc.from) >= kLeastChordInGaps * gap.size;
+  }
+  /// Of the new centre: a few units of its distances, as kEdgeDistanceError.
+  static double rounding(const Edge& arc) {
+    return geom::kEdgeDistanceError * (norm(arc.centre) + 2 * geom::arc_radius(arc));
   }
 
   void rebuild() {
@@ -86,7 +134,7 @@ class Closing {
         made.curves.push_back(contour_.curves[i]);
       }
       if (!line_after_[i]) continue;
-      const Point next = contour_.edges[i + 1 == contour_.edges.size() ? 0 : i + 1].from;
+      const Point next = contour_.edges[after(i)].from;
       made.edges.push_back({EdgeKind::line, edge.to, next, {}});
       made.curves.push_back(contour_.curves[i]);
     }
@@ -94,12 +142,13 @@ class Closing {
   }
 
   LooseContour& contour_;
+  std::vector<double> moved_;  ///< by edge
   std::vector<bool> line_after_;
-  std::vector<ClosedGap> gaps_;
+  Closing closing_;
 };
 
 }  // namespace
 
-std::vector<ClosedGap> close_gaps(LooseContour& contour) { return Closing(contour).run(); }
+Closing close_gaps(LooseContour& contour) { return GapCloser(contour).run(); }
 
 }  // namespace lekalo::io

@@ -13,17 +13,28 @@ struct LooseContour {
   std::vector<std::uint32_t> curves;
 };
 
-/// A gap between two neighbouring edges, and how far closing it moved something.
+/// A gap between two neighbouring edges.
 struct ClosedGap {
   geom::Point at;  ///< half way
   double size = 0;
-  std::uint32_t before = 0, after = 0;       ///< curves
-  double moved_before = 0, moved_after = 0;  ///< mm, bounds for either curve, both ways
+  std::uint32_t before = 0, after = 0;  ///< curves
+};
+
+/// A curve, and how far what stands for it in the contour is from what it was, mm, both ways.
+struct MovedCurve {
+  std::uint32_t curve = 0;
+  double moved = 0;
+};
+
+struct Closing {
+  std::vector<ClosedGap> gaps;    ///< in order, none of size 0
+  std::vector<MovedCurve> moved;  ///< a curve may come several times: the largest counts
 };
 
 /// Makes each edge begin where the one before ends. Two lines meet half way; a line goes to the end of an
-/// arc, which stays as it is; two arcs meet half way where that changes them little, and have a line between
-/// them otherwise. A line that came to nothing is left out. Returns the gaps in order, none of size 0.
-[[nodiscard]] std::vector<ClosedGap> close_gaps(LooseContour& contour);
+/// arc, which stays as it is; two arcs are turned and stretched a little, each about its other end, to meet
+/// half way, arcs of far more than half a turn halved before. An arc whose ends are nearer than four times
+/// the gap stays, with a line across the gap. A line that comes to nothing is left out.
+[[nodiscard]] Closing close_gaps(LooseContour& contour);
 
 }  // namespace lekalo::io

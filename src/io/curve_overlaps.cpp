@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "arc_middle.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 
@@ -24,14 +25,6 @@ Box joined(const Box& a, const Box& b) {
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 Box wider(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
-
-/// Direction from the centre to the middle of an arc that is not a full circle.
-Point towards_middle(const Curve& arc) {
-  const Point first = (1 / norm(arc.first)) * arc.first, last = (1 / norm(arc.last)) * arc.last;
-  const Point sum = first + last;
-  if (!(norm(sum) > 0x1p-20)) return perpendicular(first);  // half a turn, counter-clockwise from first
-  return arc.wide ? -sum : sum;
-}
 
 /// Bound on how far the points of arc b are from arc a, if that is at most `limit`.
 std::optional<double> arc_on_arc(const Curve& b, const Curve& a, double limit) {
@@ -58,8 +51,7 @@ std::optional<double> arc_on_arc(const Curve& b, const Curve& a, double limit) {
   // b's ends and middle lie on a, and b does not pass through the middle of what a leaves out: then it leaves
   // a nowhere but, at an end, by at most the distance of that end.
   double beyond = 0;
-  const Point middle = b.edge.centre + (b.radius / norm(towards_middle(b))) * towards_middle(b);
-  for (const Point p : {b.edge.from, b.edge.to, middle})
+  for (const Point p : {b.edge.from, b.edge.to, middle_of(b)})
     beyond = std::max(beyond, norm(p - nearest_on(a, p)));
   // Between that end and a's own the distance is at most that of b's end, by an arc instead of its chord.
   const double bound = radial + 1.1 * beyond + 4 * geom::kEdgeDistanceError * (a.radius + b.radius);

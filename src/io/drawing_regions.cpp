@@ -334,13 +334,12 @@ class Assembly {
         }
         contour.curves.resize(contour.edges.size(), link.curve);
       }
-      for (const ClosedGap& gap : close_gaps(contour)) {
-        Worked &before = worked_[gap.before], &after = worked_[gap.after];
-        before.moved = std::max(before.moved, gap.moved_before);
-        after.moved = std::max(after.moved, gap.moved_after);
-        if (gap.size > before.coordinate_error + after.coordinate_error)
+      const Closing closing = close_gaps(contour);
+      for (const MovedCurve& one : closing.moved)
+        worked_[one.curve].moved = std::max(worked_[one.curve].moved, one.moved);
+      for (const ClosedGap& gap : closing.gaps)
+        if (gap.size > worked_[gap.before].coordinate_error + worked_[gap.after].coordinate_error)
           result_.gaps.push_back({gap.at, gap.size, {gap.before, gap.after}});
-      }
       contours_.push_back(std::move(contour));
     }
   }

@@ -90,15 +90,33 @@ TEST(DrawingRegions, ArcsMeetHalfWayOrHaveALineBetweenThem) {
   const auto met = made(close);
   EXPECT_EQ(met.regions[0].outer.size(), 2u);
   EXPECT_EQ(met.regions[0].outer[0].to, (Point{0, 5e-6}));
-  EXPECT_LE(met.moved, 2.6 * 5e-6);
-  // Moving the ends by 4 micrometres would spoil arcs of this consistency.
-  Sketch far;
-  far.arc({10, 0}, {0, 0}, {5, 0}).arc({-0.008, 0}, {10.008, 0}, {5, 0});
-  const auto bridged = made(far);
+  EXPECT_NEAR(met.moved, 1e-5, 1e-9);
+  EXPECT_EQ(geom::arc_radius(met.regions[0].outer[0]), 5);
+  // Larger than what the ends of one arc may differ by in radius: still arcs, still consistent.
+  Sketch wide;
+  wide.arc({10, 0}, {0, 0}, {5, 0}).arc({-0.008, 0}, {10.008, 0}, {5, 0});
+  const auto pulled = made(wide);
+  ASSERT_EQ(pulled.regions[0].outer.size(), 2u);
+  EXPECT_EQ(pulled.regions[0].outer[0], (Edge{EdgeKind::arc_ccw, {10.004, 0}, {-0.004, 0}, {5, 0}}));
+  EXPECT_NEAR(pulled.moved, 0.008, 1e-9);
+  // An arc of nearly a full turn is halved, so that its end moves alone.
+  const auto [sine, cosine] = geom::sincos(0.02);
+  Sketch full;
+  full.arc({5, 0}, {5 * cosine, -5 * sine}, {0, 0})
+      .arc({5.004, -5 * sine}, {5.004, 0}, {5.004, -2.5 * sine}, false);
+  const auto halved = made(full);
+  EXPECT_EQ(halved.regions[0].outer.size(), 3u);
+  EXPECT_EQ(halved.curve_of_edge, (std::vector<std::uint32_t>{0, 0, 1}));
+  EXPECT_LE(halved.moved, 0.006);
+  // An arc no longer than a few gaps stays as it is.
+  Sketch tiny;
+  tiny.arc({5, 0}, {0, 0}, {2.5, 0})
+      .arc({-0.006, 0}, {-0.006, -0.02}, {-0.006, -0.01})
+      .line({-0.006, -0.02}, {5, 0});
+  const auto bridged = made(tiny);
   ASSERT_EQ(bridged.regions[0].outer.size(), 4u);
   EXPECT_EQ(bridged.regions[0].outer[1].kind, EdgeKind::line);
-  EXPECT_EQ(bridged.curve_of_edge, (std::vector<std::uint32_t>{0, 0, 1, 1}));
-  EXPECT_NEAR(bridged.moved, 0.004, 1e-9);
+  EXPECT_EQ(bridged.curve_of_edge, (std::vector<std::uint32_t>{0, 0, 1, 2}));
 }
 
 TEST(DrawingRegions, ThreeEndsInOnePlaceAreNamed) {

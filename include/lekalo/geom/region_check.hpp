@@ -15,7 +15,8 @@ namespace lekalo::geom {
 /// place in millimetres.
 ///
 /// Outlines that come closer than kEdgeDistanceError times the largest coordinate count as touching. Two
-/// neighbouring edges meet at the end they share; that they also cross elsewhere is seen for lines alone.
+/// neighbouring edges meet at the end they share; that one of two lines runs back along the other is decided
+/// exactly, a second crossing where one is an arc counts when it cuts off more than kArcConsistency allows.
 /// Cost: O((n + k) log n) for n edges and k pairs whose boxes meet.
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<Region>& regions);
 
