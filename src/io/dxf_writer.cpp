@@ -1,0 +1,271 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "contour_number.hpp"
+#include "written_contours.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+
+constexpr std::size_t kLongestName = 255;
+
+char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Layers of a drawing are the same whatever the case of A to Z.
+bool same_name(const std::string& a, const std::string& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return folded(x) == folded(y); });
+}
+
+/// The name in 7-bit letters, others as \U+XXXX, as files before 2007 have them.
+Result<std::string> escaped(const std::string& name) {
+  const auto refuse = [&](const std::string& why) {
+    return failure(ErrorCode::usage,
+                   fmt::format("{} cannot be the name of a layer in a DXF drawing: {}", excerpt(name), why));
+  };
+  const auto letters = letters_of(name);
+  if (!letters) return refuse("it is not UTF-8");
+  if (letters->empty() || letters->size() > kLongestName)
+    return refuse(fmt::format("it has {} characters; 1 to {} are allowed", letters->size(), kLongestName));
+  std::string text;
+  for (const std::uint32_t letter : *letters) {
+    if (letter < 0x20 || (letter >= 0x7f && letter < 0xa0)) return refuse("it holds a control character");
+    if (letter > 0xffff) return refuse("it holds a character beyond U+FFFF");
+    if (letter >= 0x80) {
+      text += fmt::format("\\U+{:04X}", letter);
+      continue;
+    }
+    const char c = static_cast<char>(letter);
+    if (std::string_view("<>/\\\":;?*|,=`").find(c) != std::string_view::npos)
+      return refuse(fmt::format("it holds {}", c));
+    text += c;
+  }
+  if (text.front() == ' ' || text.back() == ' ') return refuse("it begins or ends with a space");
+  return text;
+}
+
+class DxfWriter {
+ public:
+  DxfWriter(const WrittenDrawing& drawing, const std::vector<std::string>& layers)
+      : drawing_(drawing), layers_(layers) {
+    if (std::none_of(layers_.begin(), layers_.end(), [](const auto& name) { return name == "0"; }))
+      layers_.insert(layers_.begin(), "0");
+  }
+
+  std::string write() {
+    // The header states the next free handle, which is known when all else is written.
+    write_tables();
+    write_blocks();
+    write_entities();
+    write_objects();
+    std::string rest = std::move(text_);
+    text_.clear();
+    write_header();
+    return std::move(text_) + rest + "  0\nEOF\n";
+  }
+
+ private:
+  void group(int code, const std::string& value) {
+    fmt::format_to(std::back_inserter(text_), "{:3}\n{}\n", code, value);
+  }
+  void group(int code, const char* value) { group(code, std::string(value)); }
+  void group(int code, int value) { group(code, fmt::format("{:6}", value)); }
+  void group(int code, double value) { group(code, fmt::format("{}", value)); }
+  /// Points take code, code + 10 and, in space, code + 20.
+  void point(int code, Point p) { group(code, p.x), group(code + 10, p.y); }
+  void point_in_space(int code, Point p, double z = 0) { point(code, p), group(code + 20, z); }
+  std::string handle() { return fmt::format("{:X}", next_handle_++); }
+
+  void section(const char* name) { group(0, "SECTION"), group(2, name); }
+  void end_section() { group(0, "ENDSEC"); }
+
+  void write_header() {
+    section("HEADER");
+    const auto variable = [this](const char* name) { group(9, name); };
+    variable("$ACADVER"), group(1, "AC1015");
+    variable("$DWGCODEPAGE"), group(3, "ANSI_1252");
+    variable("$INSBASE"), point_in_space(10, {});
+    variable("$EXTMIN"), point_in_space(10, drawing_.box.low);
+    variable("$EXTMAX"), point_in_space(10, drawing_.box.high);
+    variable("$HANDSEED"), group(5, fmt::format("{:X}", next_handle_));
+    variable("$INSUNITS"), group(70, 4);
+    variable("$MEASUREMENT"), group(70, 1);
+    end_section();
+    section("CLASSES");
+    end_section();
+  }
+
+  /// Returns the table's handle.
+  std::string begin_table(const char* name, std::size_t entries) {
+    const std::string own = handle();
+    group(0, "TABLE"), group(2, name), group(5, own), group(330, "0");
+    group(100, "AcDbSymbolTable"), group(70, static_cast<int>(entries));
+    return own;
+  }
+  void end_table() { group(0, "ENDTAB"); }
+  /// DIMSTYLE has another code for its handle.
+  std::string entry(const char* type, const std::string& table, const char* kind, const std::string& name,
+                    int handle_code = 5) {
+    const std::string own = handle();
+    group(0, type), group(handle_code, own), group(330, table);
+    group(100, "AcDbSymbolTableRecord"), group(100, kind), group(2, name);
+    return own;
+  }
+
+  void write_tables() {
+    section("TABLES");
+    const Point middle = 0.5 * (drawing_.box.low + drawing_.box.high),
+                size = drawing_.box.high - drawing_.box.low;
+    std::string table = begin_table("VPORT", 1);
+    entry("VPORT", table, "AcDbViewportTableRecord", "*ACTIVE");
+    group(70, 0);
+    point(10, {0, 0}), point(11, {1, 1}), point(12, middle), point(13, {}), point(14, {10, 10}),
+        point(15, {10, 10});
+    point_in_space(16, {}, 1), point_in_space(17, {});
+    group(40, std::max({1.1 * size.y, 0.6 * size.x, 1.0})), group(41, 2.0), group(42, 50.0), group(43, 0.0);
+    group(44, 0.0), group(50, 0.0), group(51, 0.0);
+    group(71, 0), group(72, 100), group(73, 1), group(74, 3), group(75, 0), group(76, 0), group(77, 0),
+        group(78, 0);
+    end_table();
+
+    table = begin_table("LTYPE", 3);
+    for (const char* name : {"ByBlock", "ByLayer", "Continuous"}) {
+      entry("LTYPE", table, "AcDbLinetypeTableRecord", name);
+      group(70, 0), group(3, name == std::string("Continuous") ? "Solid line" : ""), group(72, 65),
+          group(73, 0);
+      group(40, 0.0);
+    }
+    end_table();
+
+    table = begin_table("LAYER", layers_.size());
+    for (const std::string& name : layers_) {
+      entry("LAYER", table, "AcDbLayerTableRecord", name);
+      group(70, 0), group(62, 7), group(6, "Continuous");
+    }
+    end_table();
+
+    table = begin_table("STYLE", 1);
+    entry("STYLE", table, "AcDbTextStyleTableRecord", "Standard");
+    group(70, 0), group(40, 0.0), group(41, 1.0), group(50, 0.0), group(71, 0), group(42, 2.5),
+        group(3, "txt"), group(4, "");
+    end_table();
+    begin_table("VIEW", 0);
+    end_table();
+    begin_table("UCS", 0);
+    end_table();
+    table = begin_table("APPID", 1);
+    entry("APPID", table, "AcDbRegAppTableRecord", "ACAD");
+    group(70, 0);
+    end_table();
+
+    table = begin_table("DIMSTYLE", 1);
+    group(100, "AcDbDimStyleTable"), group(71, 1);
+    entry("DIMSTYLE", table, "AcDbDimStyleTableRecord", "Standard", 105);
+    group(70, 0);
+    end_table();
+
+    table = begin_table("BLOCK_RECORD", 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      spaces_[i] = entry("BLOCK_RECORD", table, "AcDbBlockTableRecord", kSpaces[i]);
+      group(340, "0");
+    }
+    end_table();
+    end_section();
+  }
+
+  void write_blocks() {
+    section("BLOCKS");
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto common = [&](const char* type, const char* kind) {
+        group(0, type), group(5, handle()), group(330, spaces_[i]), group(100, "AcDbEntity");
+        if (i == 1) group(67, 1);
+        group(8, "0"), group(100, kind);
+      };
+      common("BLOCK", "AcDbBlockBegin");
+      group(2, kSpaces[i]), group(70, 0), point_in_space(10, {}), group(3, kSpaces[i]), group(1, "");
+      common("ENDBLK", "AcDbBlockEnd");
+    }
+    end_section();
+  }
+
+  void write_entities() {
+    section("ENTITIES");
+    for (const WrittenContour& contour : drawing_.contours) write(contour);
+    end_section();
+  }
+
+  void begin_entity(const char* type, const WrittenContour& contour, const char* kind) {
+    group(0, type), group(5, handle()), group(330, spaces_[0]), group(100, "AcDbEntity");
+    group(8, name_of(contour)), group(100, kind);
+  }
+  [[nodiscard]] const std::string& name_of(const WrittenContour& contour) const {
+    return layers_[contour.layer + layers_.size() - drawing_.layers.size()];
+  }
+
+  void write(const WrittenContour& contour) {
+    const Edge& first = contour.edges->front();
+    if (first.kind != EdgeKind::line && first.from == first.to) {
+      begin_entity("CIRCLE", contour, "AcDbCircle");
+      point_in_space(10, first.centre);
+      group(40, radius_of_circle(first));
+      return;
+    }
+    std::vector<std::pair<Point, double>> vertices;
+    for (const Edge& edge : *contour.edges) {
+      const double bulge = edge.kind == EdgeKind::line ? 0 : bulge_of(edge);
+      if (std::abs(bulge) <= kLargestBulge) {
+        vertices.emplace_back(edge.from, bulge);
+      } else {
+        for (const Edge& half : halves_of(edge)) vertices.emplace_back(half.from, bulge_of(half));
+      }
+    }
+    begin_entity("LWPOLYLINE", contour, "AcDbPolyline");
+    group(90, fmt::format("{}", vertices.size())), group(70, 1), group(43, 0.0);
+    for (const auto& [at, bulge] : vertices) {
+      point(10, at);
+      if (bulge != 0) group(42, bulge);
+    }
+  }
+
+  void write_objects() {
+    section("OBJECTS");
+    const std::string root = handle(), groups = handle();
+    group(0, "DICTIONARY"), group(5, root), group(330, "0"), group(100, "AcDbDictionary"), group(281, 1);
+    group(3, "ACAD_GROUP"), group(350, groups);
+    group(0, "DICTIONARY"), group(5, groups), group(330, root), group(100, "AcDbDictionary"), group(281, 1);
+    end_section();
+  }
+
+  static constexpr std::array<const char*, 2> kSpaces{"*Model_Space", "*Paper_Space"};
+
+  const WrittenDrawing& drawing_;
+  std::vector<std::string>
+      layers_;  ///< escaped; "0", which every drawing has, perhaps before those of the drawing
+  std::array<std::string, 2> spaces_;
+  std::uint64_t next_handle_ = 1;
+  std::string text_;
+};
+
+}  // namespace
+
+Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions) {
+  const auto drawing = written_drawing(regions, same_name);
+  if (!drawing) return tl::unexpected(drawing.error());
+  std::vector<std::string> layers;
+  for (const std::string& name : drawing->layers) {
+    auto text = escaped(name);
+    if (!text) return text;
+    layers.push_back(*std::move(text));
+  }
+  return DxfWriter(*drawing, layers).write();
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""What others find in a DXF drawing that lekalo wrote, as one JSON object on stdout.
+
+  written_oracle.py FILE
+
+{"version", "insunits", "errors": what ezdxf's audit found or repaired, "entities": [{"type", "layer", "closed",
+"vertices": [[x, y, bulge]...]} or {"type", "layer", "centre", "radius"}], "ogr": [{"layer", "closed", "box"}] or null}
+"""
+import json
+import sys
+
+import ezdxf
+from ezdxf import recover
+
+
+def listing(entity):
+    found = {"type": entity.dxftype(), "layer": entity.dxf.layer}
+    if found["type"] == "CIRCLE":
+        found.update(centre=list(entity.dxf.center)[:2], radius=entity.dxf.radius)
+    elif found["type"] == "LWPOLYLINE":
+        found.update(closed=entity.closed, vertices=[list(v) for v in entity.get_points("xyb")])
+    return found
+
+
+def by_ogr(path):
+    try:
+        from osgeo import gdal, ogr
+    except ImportError:
+        return None
+    gdal.UseExceptions()
+    found = []
+    for feature in ogr.Open(path).GetLayer(0):
+        geometry = feature.GetGeometryRef()
+        first, last = geometry.GetPoint(0), geometry.GetPoint(geometry.GetPointCount() - 1)
+        west, east, south, north = geometry.GetEnvelope()
+        found.append({"layer": feature.GetField("Layer"), "box": [west, south, east, north],
+                      "closed": max(abs(a - b) for a, b in zip(first, last)) < 1e-9})
+    return found
+
+
+def main(path):
+    # The strict loader first: it takes no file that has to be repaired to be read.
+    ezdxf.readfile(path)
+    document, auditor = recover.readfile(path)
+    auditor = document.audit()
+    print(json.dumps({
+        "version": document.dxfversion, "insunits": document.header.get("$INSUNITS"),
+        "errors": [str(e.message) for e in list(auditor.errors) + list(auditor.fixes)],
+        "entities": [listing(e) for e in document.modelspace()], "ogr": by_ogr(path)}))
+
+
+main(sys.argv[1])
