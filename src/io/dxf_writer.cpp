@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "contour_number.hpp"
 #include "written_contours.hpp"
@@ -25,8 +28,8 @@ bool same_name(const std::string& a, const std::string& b) {
                     [](char x, char y) { return folded(x) == folded(y); });
 }
 
-/// The name in 7-bit letters, others as \U+XXXX, as files before 2007 have them.
-Result<std::string> escaped(const std::string& name) {
+/// Nothing where the name will do.
+std::optional<tl::unexpected<Error>> fault_of_name(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
     return failure(ErrorCode::usage,
                    fmt::format("{} cannot be the name of a layer in a DXF drawing: {}", excerpt(name), why));
@@ -35,27 +38,19 @@ Result<std::string> escaped(const std::string& name) {
   if (!letters) return refuse("it is not UTF-8");
   if (letters->empty() || letters->size() > kLongestName)
     return refuse(fmt::format("it has {} characters; 1 to {} are allowed", letters->size(), kLongestName));
-  std::string text;
   for (const std::uint32_t letter : *letters) {
     if (letter < 0x20 || (letter >= 0x7f && letter < 0xa0)) return refuse("it holds a control character");
-    if (letter > 0xffff) return refuse("it holds a character beyond U+FFFF");
-    if (letter >= 0x80) {
-      text += fmt::format("\\U+{:04X}", letter);
-      continue;
-    }
-    const char c = static_cast<char>(letter);
-    if (std::string_view("<>/\\\":;?*|,=`").find(c) != std::string_view::npos)
-      return refuse(fmt::format("it holds {}", c));
-    text += c;
+    if (letter < 0x80 &&
+        std::string_view("<>/\\\":;?*|,=`").find(static_cast<char>(letter)) != std::string_view::npos)
+      return refuse(fmt::format("it holds {}", static_cast<char>(letter)));
   }
-  if (text.front() == ' ' || text.back() == ' ') return refuse("it begins or ends with a space");
-  return text;
+  if (name.front() == ' ' || name.back() == ' ') return refuse("it begins or ends with a space");
+  return std::nullopt;
 }
 
 class DxfWriter {
  public:
-  DxfWriter(const WrittenDrawing& drawing, const std::vector<std::string>& layers)
-      : drawing_(drawing), layers_(layers) {
+  explicit DxfWriter(const WrittenDrawing& drawing) : drawing_(drawing), layers_(drawing.layers) {
     if (std::none_of(layers_.begin(), layers_.end(), [](const auto& name) { return name == "0"; }))
       layers_.insert(layers_.begin(), "0");
   }
@@ -87,10 +82,17 @@ class DxfWriter {
   void section(const char* name) { group(0, "SECTION"), group(2, name); }
   void end_section() { group(0, "ENDSEC"); }
 
+  [[nodiscard]] bool is_ascii() const {
+    return std::all_of(layers_.begin(), layers_.end(), [](const std::string& name) {
+      return std::all_of(name.begin(), name.end(),
+                         [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    });
+  }
+
   void write_header() {
     section("HEADER");
     const auto variable = [this](const char* name) { group(9, name); };
-    variable("$ACADVER"), group(1, "AC1015");
+    variable("$ACADVER"), group(1, is_ascii() ? "AC1015" : "AC1021");
     variable("$DWGCODEPAGE"), group(3, "ANSI_1252");
     variable("$INSBASE"), point_in_space(10, {});
     variable("$EXTMIN"), point_in_space(10, drawing_.box.low);
@@ -259,13 +261,9 @@ class DxfWriter {
 Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions) {
   const auto drawing = written_drawing(regions, same_name);
   if (!drawing) return tl::unexpected(drawing.error());
-  std::vector<std::string> layers;
-  for (const std::string& name : drawing->layers) {
-    auto text = escaped(name);
-    if (!text) return text;
-    layers.push_back(*std::move(text));
-  }
-  return DxfWriter(*drawing, layers).write();
+  for (const std::string& name : drawing->layers)
+    if (auto fault = fault_of_name(name)) return *fault;
+  return DxfWriter(*drawing).write();
 }
 
 }  // namespace lekalo::io

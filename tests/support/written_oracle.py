@@ -10,7 +10,6 @@ import json
 import sys
 
 import ezdxf
-from ezdxf import recover
 
 
 def listing(entity):
@@ -29,7 +28,8 @@ def by_ogr(path):
         return None
     gdal.UseExceptions()
     found = []
-    for feature in ogr.Open(path).GetLayer(0):
+    source = ogr.Open(path)  # the layer does not keep it alive
+    for feature in source.GetLayer(0):
         geometry = feature.GetGeometryRef()
         first, last = geometry.GetPoint(0), geometry.GetPoint(geometry.GetPointCount() - 1)
         west, east, south, north = geometry.GetEnvelope()
@@ -39,9 +39,7 @@ def by_ogr(path):
 
 
 def main(path):
-    # The strict loader first: it takes no file that has to be repaired to be read.
-    ezdxf.readfile(path)
-    document, auditor = recover.readfile(path)
+    document = ezdxf.readfile(path)
     auditor = document.audit()
     print(json.dumps({
         "version": document.dxfversion, "insunits": document.header.get("$INSUNITS"),

@@ -34,10 +34,12 @@ struct LayeredRegion {
 inline constexpr double kWrittenArcError = 0x1p-44;
 
 /// DXF, AutoCAD 2000 (AC1015) in ASCII, millimetres: a closed LWPOLYLINE with bulges for every contour, a
-/// CIRCLE for a full circle. Numbers are the shortest decimals that read back to the same double.
+/// CIRCLE for a full circle. Numbers are the shortest decimals that read back to the same double. Where a
+/// layer's name is not ASCII, AutoCAD 2007 (AC1021), which is in UTF-8.
 ///
 /// Fails with ErrorCode::usage for a layer name that the format cannot hold: empty, longer than 255
-/// characters, with one of < > / \ " : ; ? * | , = ` or a control character, not UTF-8 or beyond U+FFFF; and
+/// characters, with one of < > / \ " : ; ? * | , = ` or a control character, a space at either end, or not
+/// UTF-8; and
 /// for hole_layers of another number than holes. Names that differ in case alone are one layer.
 /// \pre regions made by make_region
 [[nodiscard]] Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions);
