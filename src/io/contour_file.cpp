@@ -5,7 +5,6 @@
 #include "contour_points.hpp"
 
 namespace lekalo::io {
-namespace {
 
 std::string ending_of(const std::string& name) {
   const std::size_t slash = name.find_last_of('/');
@@ -17,6 +16,8 @@ std::string ending_of(const std::string& name) {
   }
   return ending;
 }
+
+namespace {
 
 bool begins_with(std::string_view bytes, std::string_view mark) {
   return bytes.substr(0, mark.size()) == mark;

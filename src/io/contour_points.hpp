@@ -23,8 +23,6 @@ namespace lekalo::io {
 
 /// The ending of a file's name in lower case, with its dot; empty without.
 [[nodiscard]] std::string ending_of(const std::string& name);
-/// What is wrong with files that are not text, whatever their name says; empty for text.
-[[nodiscard]] std::string wrong_encoding(std::string_view bytes);
 
 /// Adds a point to the file; false when it holds kMostContourPoints already.
 [[nodiscard]] inline bool append_point(ContourFile& file, Millimetres x, Millimetres y, std::size_t place) {
