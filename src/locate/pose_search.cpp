@@ -26,6 +26,8 @@ constexpr double kLargestBall = 200, kSmallestBall = 1e-3;
 /// Cells divided before the first climb from the most promising one; then every time twice as many. Where the
 /// bounds of large cells say little this finds a placement to measure them by.
 constexpr std::uint64_t kFirstDive = 256;
+/// Climbs where no cell promised anything.
+constexpr int kHopelessClimbs = 8;
 /// Units of work between two calls of the progress listener.
 constexpr std::uint64_t kReportEvery = 1024;
 
@@ -618,6 +620,18 @@ void PoseSearch::run() {
     }
   }
   for (const Node& node : open) upper_ = std::max(upper_, node.upper);
+  if (best_.value == -kInfinity) climb_from_anywhere();
+}
+
+/// Nowhere was there hope enough to look closely: the least bad placement that a few climbs find.
+void PoseSearch::climb_from_anywhere() {
+  const int count = root_.half_theta > 0 ? kHopelessClimbs : 1;
+  for (int k = 0; k < count; ++k) {
+    const double share = (2 * k + 1.0) / count - 1;
+    const Found start = measure(root_.theta + share * root_.half_theta, root_.pivot, fine_);
+    if (start.value > best_.value) best_ = start;
+    polish(start, 0.25 * scale_);
+  }
 }
 
 }  // namespace lekalo::locate

@@ -137,6 +137,7 @@ class PoseSearch {
   void measure_caps(const geom::BlankFromPart& pose, double margin, Found& found);
   void offer(const Found& found, double trust);
   void polish(Found found, double trust);
+  void climb_from_anywhere();
   void report_progress(const PoseCell& closed_cell);
   std::array<Node, 2> split(const Node& node);
   [[nodiscard]] double size(const PoseCell& cell) const;

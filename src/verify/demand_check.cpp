@@ -34,6 +34,7 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
                          {"shift", &d.shift},
                          {"bound", &d.bound}})
     *to = enclosed(fields.number(key));
+  if (d.grown_for.low < 0) fields.complain("demands.grown_for is negative");
   if (d.minimum.low < 0) fields.complain("demands.minimum is negative");
   fields.each("features", [&](Json item, const std::string& path) {
     Fields feature(item, path, complaint);
@@ -199,7 +200,9 @@ std::vector<double> DemandCheck::growth() const {
     const Span by = f == nullptr  ? d_.minimum + d_.grown_for
                     : f->finished ? -*f->finished
                                   : f->minimum + f->scale * d_.grown_for;
-    for (const std::size_t k : sides_of_edge_[edge]) growth[k] = by.low;
+    // Sums are rounded outwards: what grows by 0 is no rim.
+    const bool rim = f != nullptr && f->finished;
+    for (const std::size_t k : sides_of_edge_[edge]) growth[k] = rim ? by.low : std::max(0.0, by.low);
   }
   return growth;
 }
