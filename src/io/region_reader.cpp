@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "contour_number.hpp"
+
 namespace lekalo::io::detail {
 
 using geom::Contour;
@@ -58,8 +60,12 @@ Result<void> expect_object(const Json& json, const std::string& where,
 Result<LengthUnit> unit_of(const Json& json, const std::string& name, std::optional<LengthUnit> said) {
   if (!json.contains("units")) return said.value_or(LengthUnit::millimetre);
   const Json& units = json["units"];
+  if (!units.is_string())  // not printed: it may be brackets a million deep
+    return refuse(name,
+                  fmt::format("\"units\" is of type {}; \"mm\" and \"inch\" are known", units.type_name()));
   if (units != "mm" && units != "inch") {
-    return refuse(name, fmt::format("\"units\" is {}; \"mm\" and \"inch\" are known", units.dump()));
+    return refuse(name, fmt::format("\"units\" is {}; \"mm\" and \"inch\" are known",
+                                    excerpt(units.get_ref<const std::string&>())));
   }
   const LengthUnit unit = units == "mm" ? LengthUnit::millimetre : LengthUnit::inch;
   if (said && *said != unit) {

@@ -286,6 +286,10 @@ TEST(ShapeTree, BracketsWithoutEndAreRefused) {
   const std::string opened(1'000'000, '['), closed(1'000'000, ']');
   EXPECT_FALSE(parse_shape_tree(document(opened + closed), "p").has_value());
   EXPECT_FALSE(parse_shape_tree(opened, "p").has_value());
+  for (const char* key : {"units", "shape", "name"}) {
+    const std::string bytes = "{\"" + std::string(key) + "\": " + opened + closed + "}";
+    EXPECT_FALSE(parse_shape_tree(bytes, "p").has_value()) << key;
+  }
 }
 
 }  // namespace
