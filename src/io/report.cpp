@@ -92,13 +92,21 @@ FeatureRow row_of(ReportFeature feature, const Report& report) {
   return row;
 }
 
+/// Where the result says that every demand of a feature is met, a measurement that misses one by no more than
+/// its own tolerance does not say otherwise.
+double rounding_of(const Report& report) {
+  return report.margin && *report.margin >= 0 ? report.tolerance : 0;
+}
+
 /// By its own demand, else by that on the whole part. A part that just fits meets that where the checker says
 /// so: the rounding of the measurement here does not count then.
-void judge(const LocateDocument& document, FeatureRow& row) {
+void judge(const Report& report, FeatureRow& row) {
+  const LocateDocument& document = report.document;
   const ReportFeature& demand = row.feature;
   const double minimum = demand.minimum.value_or(document.min_allowance);
-  const bool enough = row.minimum >= minimum || (!demand.minimum && whole_is_met(document));
-  const bool too_much = demand.maximum && row.maximum > *demand.maximum;
+  const bool enough =
+      row.minimum >= minimum - rounding_of(report) || (!demand.minimum && whole_is_met(document));
+  const bool too_much = demand.maximum && row.maximum > *demand.maximum + rounding_of(report);
   row.met = enough && !too_much;
   if (!enough) {
     row.verdict = fmt::format("{} mm missing", detail::short_number_up(minimum - row.minimum));
@@ -124,7 +132,7 @@ void find_demands(Report& report) {
   // A measurement that misses by its rounding what the checker has confirmed is no lack.
   const double whole = whole_is_met(report.document) ? 0 : report.document.min_allowance;
   for (const std::optional<double>& demand : own)
-    report.demanded.push_back(std::max(0.0, demand.value_or(whole)));
+    report.demanded.push_back(demand ? *demand - rounding_of(report) : whole);
 }
 
 /// The worst places of the outline and, where the part sticks out, of its inside, no two close together.
@@ -137,9 +145,12 @@ void find_missing(Report& report) {
   }
   const double size = size_of(report.shapes.part), apart = size / 4;
   if (report.document.placement.clearance < 0) {
+    // The rim of a finished feature may stick out.
+    const double allowed = -*std::min_element(report.demanded.begin(), report.demanded.end());
     for (locate::MissingPlace place :
          locate::missing_material(report.shapes.part, report.shapes.blank, pose_of(report),
                                   kMostMissingPlaces, apart, 1e-6 * size)) {
+      if (place.depth <= allowed) continue;
       place.depth += std::max(0.0, report.document.min_allowance);
       places.push_back(place);
     }
@@ -218,7 +229,7 @@ Result<Report> make_report(const LocateDocument& document, ReportShapes shapes,
   if (features.empty()) features = contours_as_features(report.shapes.part);
   for (ReportFeature& feature : features) {
     report.features.push_back(row_of(std::move(feature), report));
-    judge(document, report.features.back());
+    judge(report, report.features.back());
   }
   find_demands(report);
   find_missing(report);

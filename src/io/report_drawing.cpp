@@ -105,8 +105,7 @@ class Drawing {
   }
 
   [[nodiscard]] int level_of(double allowance, double demanded) const {
-    if (allowance < 0) return kSticksOut;
-    if (allowance < demanded) return kTooThin;
+    if (allowance < demanded) return allowance < 0 ? kSticksOut : kTooThin;
     return scale_step(allowance, look_.range.low, look_.range.high);
   }
 

@@ -98,12 +98,7 @@ double largest_distance(Point a, Point b, const Curve& curve) {
 class EdgeSearch {
  public:
   EdgeSearch(const Curve& curve, const RegionIndex& blank, const BlankFromPart& pose, double rounding)
-      : curve_(curve),
-        placed_(phi::placed(curve, pose)),
-        track_(curve),
-        blank_(blank),
-        pose_(pose),
-        rounding_(rounding) {}
+      : placed_(phi::placed(curve, pose)), track_(curve), blank_(blank), pose_(pose), rounding_(rounding) {}
 
   EdgeAllowance measure(std::size_t stretches, double tolerance) {
     EdgeAllowance found;
@@ -235,7 +230,6 @@ class EdgeSearch {
     if (after == samples.end() || after->along != point.along) samples.insert(after, point);
   }
 
-  const Curve& curve_;
   Curve placed_;
   Track track_;
   const RegionIndex& blank_;

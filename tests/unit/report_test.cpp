@@ -53,6 +53,13 @@ std::vector<Region> plate(double low, double right, double top) {
   return {region(polygon({{low, low}, {right, low}, {right, top}, {low, top}}))};
 }
 
+locate::RegionTouch touch(std::uint32_t edge, Point part, Point blank, double distance) {
+  locate::RegionTouch made;
+  made.part_edge = made.blank_edge = edge;
+  made.part = part, made.blank = blank, made.distance = distance;
+  return made;
+}
+
 /// 40 x 20 with a hole of radius 5 in a blank with 2 mm all round and a core of radius 4.
 LocateDocument plate_with_hole() {
   const std::vector<Region> part{
@@ -60,7 +67,7 @@ LocateDocument plate_with_hole() {
   const std::vector<Region> blank{
       region(polygon({{-2, -2}, {42, -2}, {42, 22}, {-2, 22}}), {circle({10, 10}, 4)})};
   LocateDocument d = document_of(part, blank, 1);
-  d.regions->contacts = {{4, 4, {15, 10}, {14, 10}, 1, 1}};
+  d.regions->contacts = {touch(4, {15, 10}, {14, 10}, 1)};
   return d;
 }
 
@@ -111,6 +118,29 @@ TEST(Report, SaysWhichDemandsOfFeaturesAreMetAndByHowMuchNot) {
   EXPECT_FALSE(texts(page, "missing-label").empty());
   const std::string csv = allowances_csv(report);
   EXPECT_NE(csv.find(",\"bore, \"\"H7\"\"\"\n"), std::string::npos);
+}
+
+TEST(Report, OfDemandsThatAreMetFindsNothingMissingNeitherByRoundingNorOnTheRimOfAFinishedFeature) {
+  const std::vector<Region> part = plate(0, 40, 20);
+  const std::vector<Region> blank{region(polygon({{-2, -2}, {39.99, -2}, {39.99, 22}, {-2, 22}}))};
+  LocateDocument d = document_of(part, blank, -0.0101);
+  d.status = "optimal", d.shortfall = 0;
+  d.upper_bound.reset();
+  io::DemandRecord demands;
+  demands.margin = 0, demands.margin_bound = 1e-4;
+  d.regions->demands = demands;
+  const Report report = report_of(d, {{"face", {1}, -0.02, {}, 0.02}, {"sides", {0, 2, 3}, -0.0100, {}, {}}});
+  for (const io::FeatureRow& row : report.features) EXPECT_TRUE(row.met) << row.feature.name << row.verdict;
+  EXPECT_TRUE(report.missing.empty());
+  const XmlDocument page(report_svg(report));
+  EXPECT_TRUE(page.of("path", "allowance-outside").empty());
+  EXPECT_EQ(texts(page, "margin").size(), 1U);
+  // The same with a demand that is not met.
+  demands.margin = -0.005;
+  d.regions->demands = demands;
+  const Report missed = report_of(d, {{"face", {1}, -0.005, {}, {}}});
+  EXPECT_FALSE(missed.features[0].met);
+  EXPECT_FALSE(missed.missing.empty());
 }
 
 TEST(Report, ShowsWhereHowMuchIsMissingOutsideAndInsideThePart) {
@@ -272,7 +302,7 @@ TEST(Report, PutsNoTextOnAnotherOrOffThePage) {
             document_of(c.part, c.blank, off == 0 ? 0.1 : -off, {c.shift.x + off, c.shift.y, c.theta, 0});
         for (std::uint32_t k = 0; k < 9; ++k) {
           const Point p = c.part[0].outer[k % c.part[0].outer.size()].from;
-          d.regions->contacts.push_back({k, k, p, c.pose()(p), 0.1, 0});
+          d.regions->contacts.push_back(touch(k, p, c.pose()(p), 0.1));
         }
         expect_clear_page(report_of(d), c.name);
       }

@@ -64,7 +64,7 @@ struct Report {
   std::vector<locate::EdgeAllowance> edges;     ///< of the part
   std::vector<FeatureRow> features;
   /// Less than this is missing material, for each edge: the greatest minimum of its features, else that of
-  /// the whole part where it is not met, at least 0.
+  /// the whole part where it is not met; below 0 for a finished one.
   std::vector<double> demanded;
   std::vector<locate::MissingPlace> missing;  ///< places and how much is missing there, the worst first
 };
