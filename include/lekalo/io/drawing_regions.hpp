@@ -50,7 +50,7 @@ struct DrawnRegions {
   double moved = 0;             ///< by closing gaps and dropping duplicates
   double coordinate_error = 0;  ///< reading and rounding
 
-  /// Along the outlines; without those that the two curves' errors explain (reading and rounding).
+  /// Along the outlines; without those that the two curves' errors and the 16 digits of a decimal explain.
   std::vector<JoinedGap> gaps;
   /// Curves that lie on others within join_tolerance and were dropped, and lines that were cut where they
   /// begin to lie on another; ascending.
