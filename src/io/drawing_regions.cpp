@@ -337,9 +337,12 @@ class Assembly {
       const Closing closing = close_gaps(contour);
       for (const MovedCurve& one : closing.moved)
         worked_[one.curve].moved = std::max(worked_[one.curve].moved, one.moved);
-      for (const ClosedGap& gap : closing.gaps)
-        if (gap.size > worked_[gap.before].coordinate_error + worked_[gap.after].coordinate_error)
+      for (const ClosedGap& gap : closing.gaps) {
+        // Decimals of 16 digits do not meet better than this even where they mean the same point.
+        const double digits = geom::kEdgeDistanceError * (std::abs(gap.at.x) + std::abs(gap.at.y));
+        if (gap.size > worked_[gap.before].coordinate_error + worked_[gap.after].coordinate_error + digits)
           result_.gaps.push_back({gap.at, gap.size, {gap.before, gap.after}});
+      }
       contours_.push_back(std::move(contour));
     }
   }

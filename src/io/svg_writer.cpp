@@ -22,6 +22,8 @@ constexpr double kHalfTurn = 0x1p-46, kClearlyNoHalfTurn = 0x1p-8;
 /// A radius this much too small is enlarged to half the chord by every reader, beyond the doubt that its own
 /// rounding leaves.
 constexpr double kTooSmall = 1 - 0x1p-40;
+/// What rounding leaves below 0 does not move the page; mm.
+constexpr double kNoMatter = 0x1p-20;
 constexpr double kStrokeMm = 0.2;
 
 bool same_name(const std::string& a, const std::string& b) { return a == b; }
@@ -46,8 +48,8 @@ class SvgWriter {
 
   std::string write() {
     // Whole millimetres, so that readers place the page exactly.
-    const Point low{std::min(0.0, std::floor(drawing_.box.low.x)),
-                    std::min(0.0, std::floor(drawing_.box.low.y))};
+    const Point low{std::min(0.0, std::floor(drawing_.box.low.x + kNoMatter)),
+                    std::min(0.0, std::floor(drawing_.box.low.y + kNoMatter))};
     const Point high{std::max(low.x + 1, std::ceil(drawing_.box.high.x)),
                      std::max(low.y + 1, std::ceil(drawing_.box.high.y))};
     text_ = fmt::format(

@@ -6,6 +6,7 @@
 
 #include "lekalo/io/drawing_regions.hpp"
 #include "lekalo/io/drawing_writer.hpp"
+#include "lekalo/io/svg.hpp"
 #include "support/drawn_region_cases.hpp"
 
 // The laws of drawing_writer.hpp.
@@ -120,8 +121,7 @@ std::vector<Region> written_case(Random& random, std::uint64_t index) {
   return index % 2 == 0 ? cases::random_regions(random, index) : std::vector<Region>{ragged(random)};
 }
 
-std::vector<Region> read_dxf(const std::string& text) {
-  const auto drawing = parse_dxf(text, "written.dxf");
+std::vector<Region> read_back(const Result<Drawing>& drawing) {
   EXPECT_TRUE(drawing.has_value()) << (drawing ? "" : drawing.error().message);
   if (!drawing) return {};
   EXPECT_TRUE(drawing->unread.empty() && drawing->notices.empty());
@@ -130,6 +130,73 @@ std::vector<Region> read_dxf(const std::string& text) {
   if (!found) return {};
   EXPECT_EQ(found->moved, 0);
   return found->regions;
+}
+
+std::vector<Region> read_dxf(const std::string& text) { return read_back(parse_dxf(text, "written.dxf")); }
+std::vector<Region> read_svg(const std::string& text) { return read_back(parse_svg(text, "written.svg")); }
+
+/// Where nothing is negative the page begins at the origin.
+std::vector<Region> made_positive(const std::vector<Region>& regions) {
+  double low = 0;
+  for (const Region& region : regions)
+    low = std::min({low, geom::bounds(region.outer).low.x, geom::bounds(region.outer).low.y});
+  const Point by{std::ceil(-low), std::ceil(-low)};
+  std::vector<Region> moved;
+  for (const Region& region : regions) {
+    Region one;
+    for (const Edge& edge : region.outer) one.outer.push_back(cases::shifted(edge, by));
+    for (const Contour& hole : region.holes) {
+      one.holes.emplace_back();
+      for (const Edge& edge : hole) one.holes.back().push_back(cases::shifted(edge, by));
+    }
+    if (auto made = geom::make_region(one.outer, one.holes)) moved.push_back(*std::move(made));
+  }
+  return moved;
+}
+
+TEST(DrawingWriterLaws, SvgComesBackAsItWasWritten) {
+  for (std::uint64_t index = 0; index < case_count(150); ++index) {
+    Random random(seed(), 13000 + index);
+    const auto regions = made_positive(written_case(random, index));
+    if (regions.empty() || geom::fault_of(regions)) continue;
+    const auto text = svg_drawing(layered(regions));
+    ASSERT_TRUE(text.has_value()) << text.error().message;
+    expect_same(regions, read_svg(*text),
+                "seed " + std::to_string(seed()) + " case " + std::to_string(index));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(DrawingWriterLaws, SvgOfNegativePlacesIsMovedByWholeMillimetres) {
+  const auto square = cases::region_detail::region(cases::boolean_rectangle(-3.25, 2.5, 10, 20));
+  const auto read = read_svg(*svg_drawing({{square, "CUT", {}}}));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0], cases::region_detail::region(cases::boolean_rectangle(0.75, 2.5, 10, 20)));
+}
+
+TEST(DrawingWriterLaws, LayersComeBackInBothFormats) {
+  const auto region =
+      cases::region_detail::region(cases::boolean_rectangle(0, 0, 20, 10),
+                                   {cases::boolean_circle({5, 5}, 2), cases::boolean_circle({15, 5}, 2)});
+  const std::vector<LayeredRegion> regions{{region, "Контур <1>", {"inner", "INNER"}}};
+  const auto names = [](const Result<Drawing>& drawing) {
+    std::vector<std::string> found;
+    for (const Layer& layer : drawing->layers) found.push_back(layer.name);
+    return found;
+  };
+  EXPECT_EQ(names(parse_svg(*svg_drawing(regions), "x.svg")),
+            (std::vector<std::string>{"Контур <1>", "inner", "INNER"}));
+  EXPECT_EQ(dxf_drawing(regions).error().code, ErrorCode::usage);
+  auto allowed_names = regions;
+  allowed_names[0].layer = "Контур 1";
+  EXPECT_EQ(names(parse_dxf(*dxf_drawing(allowed_names), "x.dxf")),
+            (std::vector<std::string>{"Контур 1", "inner"}));
+  for (const char* name : {"", "a/b", "\xff", "a\nb", " a", "=", "\xed\xa0\x80"}) {
+    EXPECT_FALSE(dxf_drawing({{region, name, {}}}).has_value()) << name;
+  }
+  for (const char* name : {"", "\xff", "a\nb"})
+    EXPECT_FALSE(svg_drawing({{region, name, {}}}).has_value()) << name;
+  EXPECT_EQ(dxf_drawing({{region, "0", {"one"}}}).error().message, "1 layers are given for 2 holes");
 }
 
 TEST(DrawingWriterLaws, DxfComesBackAsItWasWritten) {

@@ -10,7 +10,7 @@
 
 namespace lekalo::io {
 
-/// From the curves of a drawing to regions; steps, bounds and what failed: docs/design/drawing.md.
+/// From the curves of a drawing to regions; steps, bounds and what failed: docs/design/drawing-regions.md.
 struct DrawingOptions {
   double join_tolerance = 0.01;  ///< mm, >= 0: loose ends at most this far apart are joined
   double curve_tolerance =
@@ -43,14 +43,14 @@ struct DrawnRegions {
   std::vector<std::uint32_t> curve_of_edge;
 
   /// mm, rounded up; the outlines of `regions` and the curves that the file means lie within `tolerance` of
-  /// each other, both ways: every point of one has a point of the other that near. Its parts, each the
-  /// largest of all curves:
+  /// each other, both ways: every point of one has a point of the other that near. Curves on layers left out,
+  /// specks and open chains are not counted among them. Its parts, each the largest of all curves:
   double tolerance = 0;         ///< at most the sum of the three
   double curve_tolerance = 0;   ///< lines and arcs instead of ellipses and splines; proven, not sampled
   double moved = 0;             ///< by closing gaps and dropping duplicates
   double coordinate_error = 0;  ///< reading and rounding
 
-  /// Along the outlines; without those that the two curves' errors explain (reading and rounding).
+  /// Along the outlines; without those that the two curves' errors and the 16 digits of a decimal explain.
   std::vector<JoinedGap> gaps;
   /// Curves that lie on others within join_tolerance and were dropped, and lines that were cut where they
   /// begin to lie on another; ascending.

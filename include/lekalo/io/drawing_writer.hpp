@@ -46,7 +46,7 @@ inline constexpr double kWrittenArcError = 0x1p-44;
 
 /// SVG 1.1 in millimetres: a path or circle for every contour, in a group for every layer that follows
 /// another. The page begins at the origin, or at the whole millimetre to the left of and below all that is
-/// negative: what is read back is then moved by that, within rounding.
+/// negative (by more than 2^-20 mm): what is read back is then moved by that, within rounding.
 ///
 /// Fails with ErrorCode::usage for a layer name that is empty, not UTF-8 or holds a control character, and as
 /// above. \pre regions made by make_region, not empty
