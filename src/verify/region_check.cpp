@@ -1,6 +1,7 @@
 #include "region_check.hpp"
 
 #include <array>
+#include <optional>
 
 #include "cover_tree.hpp"
 #include "interval.hpp"
@@ -21,6 +22,13 @@ Span enclosed(const Decimal& value) {
   return {interval.low_double(), interval.high_double()};
 }
 
+/// A field that is neither true nor false means one thing to one reader and another to the next.
+bool truth_of(Fields& fields, std::string_view key) {
+  const Json value = fields.get(key);
+  if (!value.is_bool()) fields.complain(fmt::format("field {} is neither true nor false", fields.name(key)));
+  return value.is_bool() && value.is_true();
+}
+
 struct WrittenTouch {
   Vec part, blank;
   double distance = 0, multiplier = 0;
@@ -37,6 +45,10 @@ struct RegionDocument {
   std::vector<WrittenTouch> contacts;
   Json certificate;
   bool in_file = false;
+  struct Program {
+    Span clearance, rounding;
+  };
+  std::optional<Program> program;
 };
 
 class RegionCheck {
@@ -96,13 +108,19 @@ class RegionCheck {
 
 void RegionCheck::read() {
   Fields fields(root_, "", complaint_);
+  std::string ignored;
+  Fields format(fields.get("format"), "format", ignored);
+  if (!format.get("name").is_string() || json_text(format.get("name")) != "lekalo-locate" ||
+      format.get("version").text != "1")
+    fields.complain("field format does not say lekalo-locate, version 1");
+  if (fields.text("units") != "mm") fields.complain("field units is not \"mm\"");
   r_.status = fields.text("status");
   constexpr std::array<std::string_view, 3> kStatuses{"optimal", "stopped", "infeasible"};
   if (std::find(kStatuses.begin(), kStatuses.end(), r_.status) == kStatuses.end())
     fields.complain(fmt::format("\"{}\" is no status of a result", excerpt(r_.status)));
   r_.x = fields.number("x"), r_.y = fields.number("y");
   r_.theta = fields.number("theta"), r_.theta_deg = fields.number("theta_deg");
-  r_.mirrored = fields.get("mirrored").is_bool() && fields.get("mirrored").is_true();
+  r_.mirrored = truth_of(fields, "mirrored");
   r_.mirror = fields.text("mirror");
   if (r_.mirror != "no" && r_.mirror != "yes" && r_.mirror != "either")
     fields.complain("field mirror is none of \"no\", \"yes\", \"either\"");
@@ -128,8 +146,13 @@ void RegionCheck::read() {
       fields.complain(fmt::format("the units of {} are not mm", path));
     *to = read_shape(regions.get(key), path, complaint_);
   }
-  if (const Json locked = fields.get("locked"); !locked.text.empty() && !locked.is_null())
-    fields.complain("field locked says something that this checker does not know");
+  for (const std::string_view key : {"locked", "trim"})
+    if (const Json value = fields.get(key); !value.text.empty() && !value.is_null())
+      fields.complain(fmt::format("field {} says something that this checker does not know", key));
+  if (const Json nc = fields.get("nc"); !nc.text.empty() && !nc.is_null()) {
+    Fields program(nc, "nc", complaint_);
+    r_.program = {enclosed(program.number("clearance")), enclosed(program.number("rounding_mm"))};
+  }
   fields.each("contacts", [&](Json item, const std::string& path) {
     Fields contact(item, path, complaint_);
     const auto point = [&](std::string_view key) {
@@ -188,7 +211,11 @@ void RegionCheck::check_input(const char* role, const Document& file, const Shap
 void RegionCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
   const Span claimed = r_.clearance + tolerances;  // of the regions as written
-  const Span exact = clearance(placed_, r_.blank);
+  std::optional<ExactShift> shift;
+  if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
+  // Where an outline is none nothing is proved by it, and a finding says so already.
+  if (!report_.findings.empty()) shift.reset();
+  const Span exact = clearance(r_.part, placed_, r_.blank, shift);
   const Span less = exact - tolerances;
   report_.clearance_low = fmt::format("{}", less.low);
   report_.clearance_high = fmt::format("{}", less.high);
@@ -249,9 +276,14 @@ void RegionCheck::check_derived() {
                      gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
   if (differs(r_.gap, widened)) find("gap is not upper_bound less clearance");
   const Span missing = r_.min_allowance - r_.clearance;
-  if (missing.high <= 0 ? r_.shortfall.high != 0 && r_.shortfall.low > 0
+  if (missing.high <= 0 ? r_.shortfall.low != 0 || r_.shortfall.high != 0
                         : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
     find("shortfall is not min_allowance less clearance");
+  if (r_.program) {
+    const Span left = r_.clearance - r_.program->rounding;
+    if (r_.program->clearance.low > left.high || r_.program->rounding.low < 0)
+      find("the program's clearance {} is above clearance less its rounding", r_.program->clearance.low);
+  }
   if (r_.mirrored != (r_.mirror == "yes") && r_.mirror != "either")
     find("the placement is {}mirrored, which was not allowed", r_.mirrored ? "" : "not ");
 }
@@ -281,7 +313,7 @@ bool RegionCheck::check_certificate() {
   fields.each("trees", [&](Json item, const std::string& path) {
     if (!complaint_.empty()) return;
     Fields tree(item, path, complaint_);
-    const bool is_mirrored = tree.get("mirrored").is_bool() && tree.get("mirrored").is_true();
+    const bool is_mirrored = truth_of(tree, "mirrored");
     (is_mirrored ? mirrored : plain) = true;
     cover.check(item, path, complaint_);
   });
