@@ -1,6 +1,7 @@
 #include "region_check.hpp"
 
 #include <array>
+#include <optional>
 
 #include "cover_tree.hpp"
 #include "demand_check.hpp"
@@ -22,6 +23,13 @@ Span enclosed(const Decimal& value) {
   return {interval.low_double(), interval.high_double()};
 }
 
+/// A field that is neither true nor false means one thing to one reader and another to the next.
+bool truth_of(Fields& fields, std::string_view key) {
+  const Json value = fields.get(key);
+  if (!value.is_bool()) fields.complain(fmt::format("field {} is neither true nor false", fields.name(key)));
+  return value.is_bool() && value.is_true();
+}
+
 struct WrittenTouch {
   Vec part, blank;
   double distance = 0, multiplier = 0;
@@ -41,6 +49,10 @@ struct RegionDocument {
   std::optional<Decimal> locked_x, locked_y;
   std::optional<WrittenDemands> demands;
   bool part_cut = false;
+  struct Program {
+    Span clearance, rounding;
+  };
+  std::optional<Program> program;
 };
 
 class RegionCheck {
@@ -107,13 +119,19 @@ class RegionCheck {
 
 void RegionCheck::read() {
   Fields fields(root_, "", complaint_);
+  std::string ignored;
+  Fields format(fields.get("format"), "format", ignored);
+  if (!format.get("name").is_string() || json_text(format.get("name")) != "lekalo-locate" ||
+      format.get("version").text != "1")
+    fields.complain("field format does not say lekalo-locate, version 1");
+  if (fields.text("units") != "mm") fields.complain("field units is not \"mm\"");
   r_.status = fields.text("status");
   constexpr std::array<std::string_view, 3> kStatuses{"optimal", "stopped", "infeasible"};
   if (std::find(kStatuses.begin(), kStatuses.end(), r_.status) == kStatuses.end())
     fields.complain(fmt::format("\"{}\" is no status of a result", excerpt(r_.status)));
   r_.x = fields.number("x"), r_.y = fields.number("y");
   r_.theta = fields.number("theta"), r_.theta_deg = fields.number("theta_deg");
-  r_.mirrored = fields.get("mirrored").is_bool() && fields.get("mirrored").is_true();
+  r_.mirrored = truth_of(fields, "mirrored");
   r_.mirror = fields.text("mirror");
   if (r_.mirror != "no" && r_.mirror != "yes" && r_.mirror != "either")
     fields.complain("field mirror is none of \"no\", \"yes\", \"either\"");
@@ -147,6 +165,12 @@ void RegionCheck::read() {
     r_.demands = read_demands(demands, complaint_);
   } else {
     r_.upper_bound = enclosed(fields.number("upper_bound")), r_.gap = enclosed(fields.number("gap"));
+  }
+  if (const Json trim = fields.get("trim"); !trim.text.empty() && !trim.is_null())
+    fields.complain("field trim says something that this checker does not know");
+  if (const Json nc = fields.get("nc"); !nc.text.empty() && !nc.is_null()) {
+    Fields program(nc, "nc", complaint_);
+    r_.program = {enclosed(program.number("clearance")), enclosed(program.number("rounding_mm"))};
   }
   fields.each("contacts", [&](Json item, const std::string& path) {
     Fields contact(item, path, complaint_);
@@ -207,7 +231,11 @@ void RegionCheck::check_input(const char* role, const Document& file, const Shap
 void RegionCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
   const Span claimed = r_.clearance + tolerances;  // of the regions as written
-  const Span exact = clearance(placed_, r_.blank);
+  std::optional<ExactShift> shift;
+  if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
+  // Where an outline is none nothing is proved by it, and a finding says so already.
+  if (!report_.findings.empty()) shift.reset();
+  const Span exact = clearance(r_.part, placed_, r_.blank, shift);
   const Span less = exact - tolerances;
   report_.clearance_low = fmt::format("{}", less.low);
   report_.clearance_high = fmt::format("{}", less.high);
@@ -271,13 +299,18 @@ void RegionCheck::check_derived() {
                      gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
   if (differs(r_.gap, widened)) find("gap is not upper_bound less clearance");
   const Span missing = r_.min_allowance - r_.clearance;
-  if (missing.high <= 0 ? r_.shortfall.high != 0 && r_.shortfall.low > 0
+  if (missing.high <= 0 ? r_.shortfall.low != 0 || r_.shortfall.high != 0
                         : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
     find("shortfall is not min_allowance less clearance");
   check_side();
 }
 
 void RegionCheck::check_side() {
+  if (r_.program) {
+    const Span left = r_.clearance - r_.program->rounding;
+    if (r_.program->clearance.low > left.high || r_.program->rounding.low < 0)
+      find("the program's clearance {} is above clearance less its rounding", r_.program->clearance.low);
+  }
   if (r_.mirrored != (r_.mirror == "yes") && r_.mirror != "either")
     find("the placement is {}mirrored, which was not allowed", r_.mirrored ? "" : "not ");
 }
@@ -317,7 +350,7 @@ bool RegionCheck::check_certificate(DemandCheck* demands) {
   fields.each("trees", [&](Json item, const std::string& path) {
     if (!complaint_.empty()) return;
     Fields tree(item, path, complaint_);
-    const bool is_mirrored = tree.get("mirrored").is_bool() && tree.get("mirrored").is_true();
+    const bool is_mirrored = truth_of(tree, "mirrored");
     (is_mirrored ? mirrored : plain) = true;
     cover.check(item, path, complaint_);
   });

@@ -1,5 +1,7 @@
 #include "region_clearance.hpp"
 
+#include <cmath>
+
 #include "lekalo/verify/verify.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
@@ -18,6 +20,23 @@ Result<Shape> shape_of(const Document& document) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
 }
 
+/// The decimal that a double is.
+Decimal exactly(double value) {
+  int exponent = 0;
+  const double mantissa = std::ldexp(std::frexp(value, &exponent), 53);
+  Decimal made{Integer(mantissa), 0};
+  exponent -= 53;
+  if (exponent > 0) made.digits <<= static_cast<unsigned long>(exponent);
+  for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {  // m / 2 is 5 m / 10
+    if (mpz_even_p(made.digits.get_mpz_t()) != 0) {
+      made.digits /= 2;
+    } else {
+      made.digits *= 5, --made.exponent;
+    }
+  }
+  return made;
+}
+
 /// What sticking out is enclosed to, mm.
 constexpr double kSticksOutTolerance = 1e-9;
 
@@ -31,10 +50,15 @@ Motion motion_of(const Interval& theta, Span x, Span y, bool mirrored) {
           {x, y}};
 }
 
-Span clearance(const Shape& placed_part, const Shape& blank) {
+Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
+               const std::optional<ExactShift>& shift) {
   const Span apart = distance(placed_part, blank);
   const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_part, blank) : std::nullopt;
   if (inside && *inside) return apart;
+  if (!(apart.low > 0) && shift) {
+    const Touch touch = touches_from_inside(part, blank, *shift);
+    if (touch.inside) return {0, touch.touches ? 0 : apart.high};
+  }
   // A point of the part is within apart.high of the boundary. More is known where it sticks out.
   const Span out = sticking_out(placed_part, blank, kSticksOutTolerance);
   return {-out.high, out.low > 0 ? -out.low : apart.high};
@@ -49,7 +73,9 @@ Result<Enclosure> verify_clearance(const Document& part, const Document& blank, 
   if (!of_part) return tl::unexpected(of_part.error());
   if (!of_blank) return tl::unexpected(of_blank.error());
   const Motion motion = motion_of(Interval::exactly(at.theta, 128), just(at.x), just(at.y), at.mirrored);
-  const Span value = clearance(placed(*of_part, motion), *of_blank);
+  std::optional<ExactShift> shift;
+  if (at.theta == 0) shift = ExactShift{exactly(at.x), exactly(at.y), at.mirrored};
+  const Span value = clearance(*of_part, placed(*of_part, motion), *of_blank, shift);
   return Enclosure{value.low, value.high};
 }
 

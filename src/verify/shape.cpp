@@ -100,6 +100,13 @@ class ShapeReader {
       at = to;
       if (!complaint_.empty()) return;
       arc ? add_arc(inner, from, to, name) : add_line(from, to, name);
+      // Lines that join an arc to its ends have the arc's decimals.
+      WrittenSide exact{arc, !arc || inner.get("ccw").is_true(), from.x, from.y, to.x, to.y, {}, {}};
+      if (arc && complaint_.empty()) {
+        const WrittenPoint centre = point(inner, "centre");
+        exact.centre_x = centre.x, exact.centre_y = centre.y;
+      }
+      shape_.exact.resize(shape_.sides.size(), exact);
     }
     if (!begin || !(*begin == *at)) return complain(path + " is not closed");
     shape_.contour_starts.push_back(shape_.sides.size());

@@ -46,9 +46,16 @@ struct Side {
   Vec written_from, written_to;
 };
 
+/// A side's decimals in mm, exactly as they stand in the file.
+struct WrittenSide {
+  bool arc = false, ccw = true;
+  Decimal from_x, from_y, to_x, to_y, centre_x, centre_y;
+};
+
 /// A set of pieces: inside the outer contour and in no hole of it. The outline belongs to it.
 struct Shape {
   std::vector<Side> sides;
+  std::vector<WrittenSide> exact;                       ///< of the same numbers, before any placement
   std::vector<std::size_t> contour_starts = {0};        ///< in sides; and the number of sides
   std::vector<std::size_t> piece_starts = {0};          ///< in contours; and the number of contours
   double low_x = 0, low_y = 0, high_x = 0, high_y = 0;  ///< a box that holds it

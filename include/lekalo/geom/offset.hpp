@@ -13,10 +13,13 @@ namespace lekalo::geom {
 /// arcs arcs about the same centre, corners arcs about the corner. Pieces may touch or overlap, and count as
 /// their union; what grows together is one piece, what is cut apart is several.
 ///
-/// Every boundary point of the result lies at |distance| from the boundary of the regions, within edge_error;
-/// pieces and gaps thinner than twice that may be missing or filled. corner_error as in boolean.hpp.
+/// Every boundary point of the result lies at |distance| from the boundary of the regions, within twice
+/// edge_error; pieces and gaps may be missing or filled, and corners are off, as in boolean.hpp. Where regions
+/// cross themselves, or shrink and touch or overlap, their union is taken first, and its corner_error is part
+/// of edge_error.
 ///
-/// Fails as combine() does. Laws (tests/property/geom_offset_test.cpp): the distance just said; opening
+/// Fails as combine() does, and with ErrorCode::bad_input for a distance that is not is_exact_coordinate
+/// (predicates.hpp): NaN, infinite, beyond 1e144. Laws (tests/property/geom_offset_test.cpp): the distance just said; opening
 /// (shrink, then grow) lies inside and closing (grow, then shrink) around the regions; a convex region of
 /// boundary length L grows by L d + pi d^2; offset(offset(A, r), s) is offset(A, r + s) for r, s >= 0.
 /// Cost: O((n + k) log n) as combine(), about five edges for each. \pre regions made by make_region

@@ -58,7 +58,9 @@ struct Enclosure {
 /// form of docs/design/geometry.md: the least signed distance of a point of the part from the boundary of the
 /// blank, positive inside. Where the part lies in the blank, the ends are a few last places of the
 /// coordinates apart; where it sticks out, 1e-9 mm, or more if that takes more than 20,000 pieces to tell.
-/// bad_input for documents that are no regions, and for outlines that meet themselves or one another.
+/// Where a part that is not rotated (theta 0) touches its blank from inside, exactly {0, 0}: decided with
+/// fractions of the written decimals. bad_input for documents that are no regions, and for outlines that meet
+/// themselves or one another.
 ///
 /// Cost: every edge of one against every edge of the other, below a millisecond for 20 by 20.
 [[nodiscard]] Result<Enclosure> verify_clearance(const Document& part, const Document& blank,

@@ -1,0 +1,296 @@
+#include "touching.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "shape_distance.hpp"
+#include "shape_inside.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+using Fraction = mpq_class;
+
+struct Spot {
+  Fraction x, y;
+};
+Spot operator+(const Spot& a, const Spot& b) { return {a.x + b.x, a.y + b.y}; }
+Spot operator-(const Spot& a, const Spot& b) { return {a.x - b.x, a.y - b.y}; }
+Spot operator*(const Fraction& by, const Spot& a) { return {by * a.x, by * a.y}; }
+bool operator==(const Spot& a, const Spot& b) { return a.x == b.x && a.y == b.y; }
+Fraction cross(const Spot& a, const Spot& b) { return a.x * b.y - a.y * b.x; }
+Fraction dot(const Spot& a, const Spot& b) { return a.x * b.x + a.y * b.y; }
+
+Fraction fraction(const Decimal& value) {
+  if (value.exponent >= 0) return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent));
+  Fraction made(value.digits, power_of_ten(static_cast<unsigned long>(-value.exponent)));
+  made.canonicalize();
+  return made;
+}
+Span enclosed(const Fraction& value) {
+  const double cut = value.get_d();  // towards zero, by less than one step
+  return outwards(cut, cut);
+}
+Vec enclosed(const Spot& spot) { return {enclosed(spot.x), enclosed(spot.y)}; }
+
+/// Sign of a + b sqrt(s), s >= 0.
+int sign(const Fraction& a, const Fraction& b, const Fraction& s) {
+  const int of_a = sgn(a), of_b = sgn(s) == 0 ? 0 : sgn(b);
+  if (of_a == of_b || of_b == 0) return of_a;
+  if (of_a == 0) return of_b;
+  const int larger = cmp(Fraction(a * a), Fraction(b * b * s));
+  return larger > 0 ? of_a : (larger < 0 ? of_b : 0);
+}
+/// A point rational + irrational sqrt(root).
+struct RootSpot {
+  Spot rational, irrational;
+  Fraction root;
+};
+
+/// A side in fractions, counter-clockwise if it is an arc, and where it is cut.
+struct ExactSide {
+  bool arc = false, full = false, known = true;  ///< known: an arc whose ends lie on one circle exactly
+  Spot from, to, centre;
+  Fraction squared_radius;
+  int turn = 0;  ///< of an arc: 1 less than half a turn, 0 half, -1 more
+  std::vector<Spot> cuts;
+
+  [[nodiscard]] Spot along() const { return to - from; }
+};
+
+ExactSide exact_side(const WrittenSide& written, const ExactShift& shift) {
+  const auto placed = [&](const Decimal& x, const Decimal& y) -> Spot {
+    const Fraction value = fraction(x);
+    return {(shift.mirrored ? Fraction(-value) : value) + fraction(shift.x), fraction(y) + fraction(shift.y)};
+  };
+  ExactSide side;
+  side.arc = written.arc;
+  side.from = placed(written.from_x, written.from_y), side.to = placed(written.to_x, written.to_y);
+  if (!side.arc) return side;
+  side.centre = placed(written.centre_x, written.centre_y);
+  if (written.ccw == shift.mirrored) std::swap(side.from, side.to);
+  const Spot a = side.from - side.centre, b = side.to - side.centre;
+  side.full = side.from == side.to;
+  side.squared_radius = dot(a, a);
+  side.known = side.squared_radius == dot(b, b);
+  side.turn = sgn(cross(a, b));
+  return side;
+}
+
+/// Where a point of the line or circle that carries a side stands: -1 beyond, 0 at an end, 1 between the
+/// ends.
+int standing(const ExactSide& side, const RootSpot& p) {
+  const auto sign_of = [&](auto&& linear) {
+    return sign(linear(p.rational - (side.arc ? side.centre : side.from)), linear(p.irrational), p.root);
+  };
+  if (!side.arc) {
+    const Spot u = side.along();
+    const int after = sign_of([&](const Spot& v) { return dot(u, v); });
+    const int before = sign(dot(u, side.to - p.rational), -dot(u, p.irrational), p.root);
+    return std::min(after, before);
+  }
+  if (side.full) return 1;  // its one end is no corner
+  const Spot first = side.from - side.centre, last = side.to - side.centre;
+  const int after = sign_of([&](const Spot&v) { return cross(first, v); }),
+            before = sign_of([&](const Spot&v) { return cross(v, last); });
+  const auto is_at = [&](const Spot& end) {
+    return sign_of([&](const Spot& v) { return cross(end, v); }) == 0 &&
+           sign_of([&](const Spot& v) { return dot(end, v); }) > 0;
+  };
+  if (is_at(first) || is_at(last)) return 0;
+  if (side.turn > 0) return after > 0 && before > 0 ? 1 : -1;
+  if (side.turn < 0) return after > 0 || before > 0 ? 1 : -1;
+  return after > 0 ? 1 : -1;
+}
+int standing(const ExactSide& side, const Spot& p) { return standing(side, {p, {0, 0}, 0}); }
+
+bool carries(const ExactSide& side, const Spot& p) {
+  if (!side.arc) return cross(side.along(), p - side.from) == 0;
+  const Spot out = p - side.centre;
+  return dot(out, out) == side.squared_radius;
+}
+bool same_carrier(const ExactSide& a, const ExactSide& b) {
+  if (a.arc != b.arc) return false;
+  if (a.arc) return a.centre == b.centre && a.squared_radius == b.squared_radius;
+  return cross(a.along(), b.along()) == 0 && cross(a.along(), b.from - a.from) == 0;
+}
+
+/// Cuts two sides where they touch. False where they cross inside both.
+bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
+  for (auto [one, other] : {std::pair{&a, &b}, {&b, &a}})
+    for (const Spot& end : {one->from, one->to})
+      if (carries(*other, end) && standing(*other, end) >= 0) {
+        other->cuts.push_back(end);
+        one->cuts.push_back(end);  // also the one end of a full circle
+      }
+  if (same_carrier(a, b)) return true;
+  const auto crosses = [&](const RootSpot& p) { return standing(a, p) > 0 && standing(b, p) > 0; };
+  if (!a.arc && !b.arc) {
+    const Fraction turn = cross(a.along(), b.along());
+    if (turn == 0) return true;
+    const Fraction share = cross(b.from - a.from, b.along()) / turn;
+    return !crosses({a.from + share * a.along(), {0, 0}, 0});
+  }
+  Spot middle, across;  // the carriers meet at middle +- sqrt(root) across
+  Fraction root;
+  if (a.arc && b.arc) {
+    const Spot between = b.centre - a.centre;
+    const Fraction apart = dot(between, between);
+    if (apart == 0) return true;
+    const Fraction share = (apart + a.squared_radius - b.squared_radius) / (2 * apart);
+    middle = a.centre + share * between, across = {-between.y, between.x};
+    root = a.squared_radius / apart - share * share;
+  } else {
+    const ExactSide &line = a.arc ? b : a, &arc = a.arc ? a : b;
+    across = line.along();
+    const Fraction whole = dot(across, across);
+    middle = line.from + Fraction(dot(arc.centre - line.from, across) / whole) * across;
+    const Spot height = middle - arc.centre;
+    root = (arc.squared_radius - dot(height, height)) / whole;
+  }
+  if (sgn(root) < 0) return true;
+  if (sgn(root) == 0) {  // they are tangent: touching, not crossing
+    if (standing(a, middle) >= 0 && standing(b, middle) >= 0)
+      a.cuts.push_back(middle), b.cuts.push_back(middle);
+    return true;
+  }
+  return !crosses({middle, across, root}) && !crosses({middle, Fraction(-1) * across, root});
+}
+
+/// Puts the ends and cuts in order along the side, each once.
+std::vector<Spot> stops_of(const ExactSide& side) {
+  std::vector<Spot> stops = side.cuts;
+  if (!side.full) stops.push_back(side.from), stops.push_back(side.to);
+  if (stops.empty()) stops.push_back(side.from);
+  const Spot u = side.along();
+  const Spot first = (side.full ? stops.front() : side.from) - side.centre;
+  const auto half = [&](const Spot& p) {  // from 0: at first, or less than half a turn on; 1: the other half
+    const Fraction turned = cross(first, p);
+    return turned > 0 || (turned == 0 && dot(first, p) > 0) ? 0 : 1;
+  };
+  std::sort(stops.begin(), stops.end(), [&](const Spot& p, const Spot& q) {
+    if (!side.arc) return dot(u, p - side.from) < dot(u, q - side.from);
+    const Spot v = p - side.centre, w = q - side.centre;
+    const int of_v = half(v), of_w = half(w);
+    if (of_v != of_w) return of_v < of_w;
+    return cross(v, w) > 0;
+  });
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+  if (side.full) stops.push_back(stops.front());
+  return stops;
+}
+
+/// The middle of a stretch and a direction across it.
+struct Middle {
+  Vec at, across;
+};
+Middle middle_of(const ExactSide& side, const Spot& from, const Spot& to) {
+  if (!side.arc) {
+    const Vec along = enclosed(to - from);
+    return {enclosed(from + Fraction(1, 2) * (to - from)), unit({-along.y, along.x})};
+  }
+  const Spot u = from - side.centre, v = to - side.centre;
+  // The chord turned to the right points outwards, however far the arc turns.
+  const Vec outwards_to = from == to ? -enclosed(u) : Vec{enclosed(v.y - u.y), enclosed(u.x - v.x)};
+  const Vec direction = unit(outwards_to);
+  return {enclosed(side.centre) + direction * square_root(enclosed(side.squared_radius)), direction};
+}
+
+class Touching {
+ public:
+  Touching(const Shape& part, const Shape& blank, const ExactShift& shift)
+      : part_(placed(
+            part,
+            {just(1), just(0), shift.mirrored, {enclosed(fraction(shift.x)), enclosed(fraction(shift.y))}})),
+        blank_(blank) {
+    for (const WrittenSide& side : part.exact) of_part_.push_back(exact_side(side, shift));
+    for (const WrittenSide& side : blank.exact) of_blank_.push_back(exact_side(side, {}));
+  }
+
+  [[nodiscard]] bool from_inside() {
+    for (std::size_t i = 0; i < of_part_.size(); ++i)
+      for (std::size_t j = 0; j < of_blank_.size(); ++j) {
+        if (distance(part_.sides[i], blank_.sides[j]).low > 0) continue;
+        const bool written = part_.sides[i].written && blank_.sides[j].written;
+        if (!written || !of_part_[i].known || !of_blank_[j].known) return false;
+        if (!cut_where_they_touch(of_part_[i], of_blank_[j])) return false;
+      }
+    return all(of_part_, part_,
+               [&](std::size_t i, const Middle& m) { return part_stretch_is_inside(i, m); }) &&
+           all(of_blank_, blank_, [&](std::size_t j, const Middle& m) {
+             return shared_by(of_part_, of_blank_[j], part_, m) != kNone || holds(part_, m.at) == false;
+           });
+  }
+
+  [[nodiscard]] bool touches() const {
+    return std::any_of(of_part_.begin(), of_part_.end(), [](const ExactSide& s) { return !s.cuts.empty(); });
+  }
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  template <class Check>
+  static bool all(const std::vector<ExactSide>& sides, const Shape& shape, Check&& check) {
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (!sides[i].known || !shape.sides[i].written) {  // touches nothing: any of its points tells
+        if (!check(i, {points_of(shape.sides[i]).front(), {}})) return false;
+        continue;
+      }
+      const std::vector<Spot> stops = stops_of(sides[i]);
+      for (std::size_t k = 0; k + 1 < stops.size(); ++k)
+        if (!check(i, middle_of(sides[i], stops[k], stops[k + 1]))) return false;
+    }
+    return true;
+  }
+
+  /// The side of `others` that a stretch of `side` lies on.
+  static std::size_t shared_by(const std::vector<ExactSide>& others, const ExactSide& side,
+                               const Shape& shape, const Middle& middle) {
+    for (std::size_t j = 0; j < others.size(); ++j) {
+      if (!side.known || !others[j].known || !shape.sides[j].written || !same_carrier(side, others[j]))
+        continue;
+      const Side& span = shape.sides[j];
+      if (span.arc) {
+        if (surely_faces(span, middle.at - span.centre)) return j;
+        continue;
+      }
+      const Vec along = span.to - span.from;
+      if (dot(along, middle.at - span.from).low > 0 && dot(along, span.to - middle.at).low > 0) return j;
+    }
+    return kNone;
+  }
+
+  [[nodiscard]] bool part_stretch_is_inside(std::size_t i, const Middle& middle) const {
+    const std::size_t j = shared_by(of_blank_, of_part_[i], blank_, middle);
+    if (j == kNone) return holds(blank_, middle.at) == true;
+    // Points to its left and right, nearer than any other side: where the part has material the blank has
+    // too.
+    double near = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < part_.sides.size(); ++k)
+      if (k != i) near = std::min(near, distance(middle.at, part_.sides[k]).low);
+    for (std::size_t k = 0; k < blank_.sides.size(); ++k)
+      if (k != j) near = std::min(near, distance(middle.at, blank_.sides[k]).low);
+    if (of_part_[i].arc) near = std::min(near, part_.sides[i].radius.low);
+    const Span& x = part_.sides[i].from.x;
+    if (!(near < std::numeric_limits<double>::infinity())) near = std::max(1.0, std::abs(x.high));
+    for (const double step : {near / 4, -near / 4}) {
+      const Vec beside = middle.at + middle.across * just(step);
+      if (holds(part_, beside) != false && holds(blank_, beside) != true) return false;
+    }
+    return true;
+  }
+
+  Shape part_;
+  const Shape& blank_;
+  std::vector<ExactSide> of_part_, of_blank_;
+};
+
+}  // namespace
+
+Touch touches_from_inside(const Shape& part, const Shape& blank, const ExactShift& shift) {
+  Touching touching(part, blank, shift);
+  const bool inside = touching.from_inside();
+  return {inside, inside && touching.touches()};
+}
+
+}  // namespace lekalo::verify

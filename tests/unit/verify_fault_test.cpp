@@ -1,0 +1,233 @@
+// What verify_clearance refuses, each sentence; and parts that touch their blank, where nothing may be lost.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "lekalo/verify/verify.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+std::string line(const std::string& from, const std::string& to) {
+  return fmt::format(R"({{"line": {{"from": [{}], "to": [{}]}}}})", from, to);
+}
+std::string arc(const std::string& from, const std::string& to, const std::string& centre, bool ccw = true) {
+  return fmt::format(R"({{"arc": {{"from": [{}], "to": [{}], "centre": [{}], "ccw": {}}}}})", from, to,
+                     centre, ccw);
+}
+std::string polygon(const std::vector<std::string>& points) {
+  std::string text;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    text += (i == 0 ? "" : ", ") + line(points[i], points[(i + 1) % points.size()]);
+  return "[" + text + "]";
+}
+std::string box(const char* x0, const char* y0, const char* x1, const char* y1) {
+  const auto at = [](const char* x, const char* y) { return std::string(x) + ", " + y; };
+  return polygon({at(x0, y0), at(x1, y0), at(x1, y1), at(x0, y1)});
+}
+std::string circle(double x, double y, double r) {
+  const std::string from = fmt::format("{}, {}", x + r, y);
+  return "[" + arc(from, from, fmt::format("{}, {}", x, y)) + "]";
+}
+std::string region(const std::string& outer, const std::vector<std::string>& holes = {}) {
+  std::string list;
+  for (const std::string& hole : holes) list += (list.empty() ? "" : ", ") + hole;
+  return fmt::format(R"({{"units": "mm", "outer": {}, "holes": [{}]}})", outer, list);
+}
+const std::string kBlank = region(box("-50", "-50", "50", "50"));
+
+std::string refusal(const std::string& part, const Placement& at = {}) {
+  const auto made = verify_clearance({"part.json", part}, {"blank.json", kBlank}, at);
+  return made ? "" : made.error().message;
+}
+
+// ---- sentences --------------------------------------------------------------------------------------------
+
+TEST(VerifyFault, EverySentenceOfTheReader) {
+  const std::string square = box("0", "0", "1", "1");
+  const std::vector<std::pair<std::string, std::string>> table{
+      {"{", "part.json"},
+      {R"({"units": "cm", "outer": )" + square + "}", "are not mm or inch"},
+      {R"({"units": "mm", "pieces": []})", "has no edges"},
+      {R"({"units": "mm", "outer": 5})", "is not a list of edges"},
+      {region(polygon({"0, 0, 0", "1, 0", "1, 1"})), "is not two numbers"},
+      {region(polygon({"0", "1, 0", "1, 1"})), "is not two numbers"},
+      {region(polygon({"0, 0", "1, \"a\"", "1, 1"})), "not a decimal number"},
+      {region(polygon({"0, 0", "1000000001, 0", "1, 1"})), "farther than 1000000000 mm from the origin"},
+      {R"({"units": "inch", "outer": )" + box("0", "0", "40000000", "1") + "}", "farther than"},
+      {region(R"([{"line": {"from": [0, 0], "to": [1, 0]}, "arc": {}}])"), "is a line and an arc"},
+      {region("[" + line("0, 0", "1, 0") + ", " + line("1.0000000000000001, 0", "0, 0") + "]"),
+       "does not begin where the edge before it ends"},
+      {region("[" + line("0, 0", "1, 0") + ", " + line("1, 0", "1, 1") + "]"), "is not closed"},
+      {region(polygon({"0, 0", "0, 0", "1, 1"})), "has no length"},
+      {region(R"([{"arc": {"from": [1, 0], "to": [1, 0], "centre": [0, 0], "ccw": 1}}])"),
+       "ccw is neither true nor false"},
+      {region("[" + arc("1, 0", "2, 0", "0, 0") + ", " + line("2, 0", "1, 0") + "]"),
+       "is an arc that is a full circle or nothing"},
+      {region("[" + arc("0, 0", "0, 0", "0, 0") + "]"), "is an arc without a radius"},
+  };
+  for (const auto& [part, sentence] : table)
+    EXPECT_NE(refusal(part).find(sentence), std::string::npos) << refusal(part);
+}
+
+TEST(VerifyFault, EverySentenceAboutOutlines) {
+  const std::string square = box("0", "0", "10", "10");
+  const std::string two = R"({{"units": "mm", "pieces": [{{"outer": {}}}, {{"outer": {}}}]}})";
+  const std::vector<std::pair<std::string, std::string>> table{
+      {region(polygon({"0, 0", "10, 0", "10, 10", "4, -5", "0, 10"})), "sides 0 and 2 meet"},
+      {region(polygon({"0, 0", "10, 0", "4, 0", "4, 8"})), "side 1 runs back along side 0"},
+      // Round the end of the list.
+      {region(polygon({"10, 0", "4, 0", "4, 8", "0, 0"})), "side 0 runs back along side 3"},
+      // Neighbours that meet again where they should not.
+      {region("[" + arc("5, 0", "0, 5", "0, 0", false) + ", " + line("0, 5", "3, -9") + ", " +
+              line("3, -9", "5, 0") + "]"),
+       "sides 0 and 1 cross"},
+      {region(square, {box("20", "0", "21", "1")}), "hole 0 of piece 0 is not inside it"},
+      {region(square, {box("1", "1", "9", "9"), box("2", "2", "3", "3")}),
+       "hole 1 of piece 0 lies in its hole 0"},
+      {region(square, {box("5", "5", "10", "6")}), "meet, or cannot be told from it"},
+      {region(square, {circle(8, 5, 2)}), "meet, or cannot be told from it"},
+      {fmt::format(fmt::runtime(two), square, box("2", "2", "3", "3")), "lies in the material of piece 0"},
+      {fmt::format(fmt::runtime(two), box("2", "2", "3", "3"), square), "lies in the material of piece 1"},
+      {fmt::format(fmt::runtime(two), square, box("9", "9", "12", "12")), "meet, or cannot be told from it"},
+      {fmt::format(fmt::runtime(two), square, square), "meet, or cannot be told from it"},
+  };
+  for (const auto& [part, sentence] : table)
+    EXPECT_NE(refusal(part).find(sentence), std::string::npos) << sentence << "\n"
+                                                               << refusal(part) << "\n"
+                                                               << part;
+  // In order: a piece in the hole of another, neighbours at a smooth joint, a hole close to its outline.
+  EXPECT_EQ(refusal(fmt::format(R"({{"pieces": [{{"outer": {}, "holes": [{}]}}, {{"outer": {}}}]}})", square,
+                                box("1", "1", "9", "9"), box("2", "2", "3", "3"))),
+            "");
+  EXPECT_EQ(refusal(region(square, {box("1e-9", "1", "9", "9")})), "");
+  EXPECT_EQ(refusal(region("[" + line("0, -5", "10, -5") + ", " + arc("10, -5", "10, 5", "10, 0") + ", " +
+                           line("10, 5", "0, 5") + ", " + arc("0, 5", "0, -5", "0, 0") + "]")),
+            "");
+}
+
+TEST(VerifyFault, PlacementsBeyondAllBoundsAreRefused) {
+  const double infinity = std::numeric_limits<double>::infinity(),
+               nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string square = region(box("0", "0", "1", "1"));
+  for (const double wild : {infinity, -infinity, nan, 1.1e9, -1.1e9}) {
+    EXPECT_NE(refusal(square, {wild, 0, 0, false}), "");
+    EXPECT_NE(refusal(square, {0, wild, 0, false}), "");
+    EXPECT_NE(refusal(square, {0, 0, wild, false}), "");
+  }
+  EXPECT_EQ(refusal(square, {30, 1e9, 1e9, true}), "");
+}
+
+// ---- touching ---------------------------------------------------------------------------------------------
+
+Enclosure clearance(const std::string& part, const std::string& blank, double x = 0, double y = 0,
+                    bool mirrored = false, double theta = 0) {
+  const auto made = verify_clearance({"part.json", part}, {"blank.json", blank}, {x, y, theta, mirrored});
+  EXPECT_TRUE(made.has_value()) << made.error().message;
+  return made.value_or(Enclosure{-1e9, -1e9});
+}
+void expect_touches(const std::string& part, const std::string& blank, double x = 0, double y = 0,
+                    bool mirrored = false) {
+  const Enclosure found = clearance(part, blank, x, y, mirrored);
+  EXPECT_EQ(found.low, 0) << part << "\n" << blank;
+  EXPECT_EQ(found.high, 0);
+}
+/// Not inside: nobody may say 0.
+void expect_less(const std::string& part, const std::string& blank, double x = 0, double y = 0,
+                 bool mirrored = false) {
+  EXPECT_LT(clearance(part, blank, x, y, mirrored).low, 0) << part << "\n" << blank;
+}
+
+const std::string kTenth = region(box("0.1", "0.1", "0.7", "0.3"));
+
+TEST(Touching, APartInABlankOfItsOwnShape) {
+  expect_touches(kTenth, kTenth);
+  expect_touches(region(circle(0.1, 0.2, 3)), region(circle(0.1, 0.2, 3)));
+  const std::string slotted =
+      region(box("0", "0", "10", "10"), {circle(3, 3, 1), box("5", "5", "7.3", "8.1")});
+  expect_touches(slotted, slotted);
+  // Mirrored, moved there and back.
+  const std::string triangle = region(polygon({"0, 0", "3, 0.1", "1, 2"})),
+                    mirrored = region(polygon({"4, 0.5", "1, 0.6", "3, 2.5"}));
+  expect_touches(triangle, mirrored, 4, 0.5, true);
+  expect_less(triangle, mirrored, 4, 0.5, false);
+}
+
+TEST(Touching, ByASideACornerATangent) {
+  const std::string blank = region(box("0", "0", "1", "1"));
+  expect_touches(kTenth, region(box("0.1", "0", "1", "1")));
+  expect_touches(region(polygon({"0, 0.5", "0.5, 0.25", "0.5, 0.75"})), blank);  // a corner on a side
+  expect_touches(region(polygon({"0, 0", "0.5, 0.25", "0.25, 0.5"})), blank);    // a corner in a corner
+  expect_touches(region(circle(0.5, 0.5, 0.5)), blank);                          // four tangents
+  expect_touches(region(circle(1, 0, 1)), region(circle(0, 0, 2)));              // a circle in a circle
+  expect_touches(region(box("-3", "-4", "3", "4")), region(circle(0, 0, 5)));    // corners on a circle
+  expect_touches(region(box("0", "0", "4", "4"), {box("1", "1", "3", "3")}),
+                 region(box("-1", "-1", "5", "5"), {circle(2, 2, 1)}));  // a core in a hole
+  // A reflex corner of the blank on a side of the part.
+  expect_touches(region(box("0", "0", "4", "2")),
+                 region(polygon({"-1, -1", "9, -1", "9, 9", "6, 9", "2, 2", "1, 9", "-1, 9"})));
+}
+
+TEST(Touching, TheFiftiethDigitDecides) {
+  const std::string blank = region(box("0", "0", "1", "1"));
+  const std::string tiny = "00000000000000000000000000000000000000000000001";
+  expect_touches(region(box("0", "0.2", "0.5", "0.5")), blank);
+  expect_less(region(box(("-0." + tiny).c_str(), "0.2", "0.5", "0.5")), blank);
+  // A line that would be tangent, and cuts the circle by as little.
+  const auto cut = [](const std::string& y) {
+    return region("[" + line("-1, " + y, "9, " + y) + ", " + line("9, " + y, "4, -9") + ", " +
+                  line("4, -9", "-1, " + y) + "]");
+  };
+  const std::string disc_and_more =
+      region(polygon({"-2, -10", "10, -10", "10, 11", "-2, 11"}), {circle(4, 5, 5)});
+  expect_touches(cut("0"), disc_and_more);
+  expect_less(cut("0." + tiny), disc_and_more);
+}
+
+TEST(Touching, WhatTouchesFromOutsideOrCrossesIsNotInside) {
+  const std::string blank = region(box("0", "0", "1", "1"));
+  expect_less(region(box("1", "0", "2", "1")), blank);  // side by side
+  expect_less(region(circle(1.5, 0.5, 0.5)), blank);    // tangent from outside
+  expect_less(region(circle(3, 0, 1)), region(circle(0, 0, 2)));
+  expect_less(blank, region(box("0", "0", "1", "0.5")));  // the part is the larger
+  expect_less(region(box("0", "0", "4", "4")), region(box("0", "0", "4", "4"), {box("1", "1", "3", "3")}));
+  // The part is what fills the hole of the blank: its outline is all on the blank's.
+  expect_less(region(box("1", "1", "3", "3")), region(box("0", "0", "4", "4"), {box("1", "1", "3", "3")}));
+  expect_less(region(circle(2, 2, 1)), region(box("0", "0", "4", "4"), {circle(2, 2, 1)}));
+  // Corners in corners, sides across.
+  expect_less(region(polygon({"0, 0", "1, 1", "-1, 1"})), blank);
+  expect_less(region(polygon({"0.5, 0", "1.5, 0.5", "0.5, 1"})), blank);
+  // A corner on the circle, the sides beyond it.
+  expect_less(region(polygon({"3, 4", "9, 0", "-3, 0"})), region(circle(0, 0, 5)));
+  // Half circles on one circle, one turned away.
+  const std::string right = region("[" + arc("0, -5", "0, 5", "0, 0") + ", " + line("0, 5", "0, -5") + "]"),
+                    left = region("[" + arc("0, 5", "0, -5", "0, 0") + ", " + line("0, -5", "0, 5") + "]");
+  expect_touches(right, right);
+  expect_less(right, left);
+  expect_touches(right, region(circle(0, 0, 5)));
+  expect_less(region(circle(0, 0, 5)), right);
+  // Two pieces, one inside and one outside.
+  expect_less(fmt::format(R"({{"pieces": [{{"outer": {}}}, {{"outer": {}}}]}})", box("0", "0", "0.2", "0.2"),
+                          box("1", "0.5", "1.5", "0.8")),
+              blank);
+}
+
+TEST(Touching, WhereFractionsDoNotHelpNothingIsClaimed) {
+  // Turned by an angle nothing is rational.
+  EXPECT_LT(clearance(kTenth, kTenth, 0, 0, false, 1e-300).low, 0);
+  // An arc that touches and whose ends lie on two circles.
+  const std::string odd =
+      region("[" + arc("0, -5", "0, 5.0000001", "0, 0") + ", " + line("0, 5.0000001", "0, -5") + "]");
+  EXPECT_LE(clearance(odd, odd).low, 0);
+  EXPECT_GE(clearance(odd, odd).low, -1e-6);
+  // One that touches nothing does no harm.
+  expect_touches(region(box("-9", "-9", "9", "9"), {"[" + arc("1, 0", "-1.0000001, 0", "0, 0") + ", " +
+                                                    line("-1.0000001, 0", "1, 0") + "]"}),
+                 region(box("-9", "-9", "9", "9")));
+}
+
+}  // namespace
+}  // namespace lekalo::verify
