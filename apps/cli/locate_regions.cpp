@@ -26,6 +26,8 @@ namespace {
 /// Certificates of up to this many cells stand in the result itself.
 constexpr std::size_t kInlineCells = 10'000;
 constexpr double kRegionGap = 1e-3;  ///< mm
+/// Work after which a search that does not close stops by itself: some minutes and some gigabytes.
+constexpr std::uint64_t kRegionWork = 2'000'000;
 
 struct Product {
   io::LocateDocument document;
@@ -136,7 +138,7 @@ Result<Found> solve_regions(const Shapes& s, const LocateOptions& o, double& sec
   options.min_allowance = o.min_allowance;
   options.run.stop = stop.flag();
   options.run.progress = [&line](const Progress& progress) { line.show(progress); };
-  options.run.work_limit = o.work;
+  options.run.work_limit = std::min(o.work, kRegionWork);
   const locate::RegionProblem shapes{s.part.regions,   s.blank.regions,   window_of(o), o.mirror,
                                      s.part.tolerance, s.blank.tolerance, o.locked,     {}};
   const auto start = std::chrono::steady_clock::now();

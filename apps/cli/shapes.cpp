@@ -19,7 +19,7 @@ namespace {
 
 /// Points of curves move by no more than this many times what their edges' coordinates do: both coordinates
 /// of an end, and what an arc's centre and radius add.
-constexpr double kOutlinePerCoordinate = 4;
+constexpr double kOutlinePerCoordinate = 5;
 
 enum class Kind { regions, tree, drawing, points, scan };
 

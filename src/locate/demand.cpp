@@ -179,7 +179,7 @@ class DemandLocaliser {
     problem.caps = std::move(caps);
     for (Cap& cap : problem.caps) cap.most += shift;
     RegionOptions options = options_;
-    options.min_allowance = -kLargest;
+    options.min_allowance = 0;
     options.gap = gap, options.enough = enough, options.not_above = not_above;
     if (options.run.work_limit != std::numeric_limits<std::uint64_t>::max())
       options.run.work_limit -= std::min(options.run.work_limit, result_.work);
@@ -439,8 +439,6 @@ class DemandLocaliser {
         add({place.part_edge, place.blank_edge, place.part, place.blank, place.distance, 0, cap});
     }
   }
-
-  static constexpr double kLargest = 1e300;
 
   const DemandProblem& problem_;
   const RegionProblem& shapes_;

@@ -11,7 +11,6 @@ namespace {
 using geom::BlankFromPart;
 using geom::Point;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Cells larger than this part of the shapes' size are bounded by single points, smaller ones by programs.
 constexpr double kFine = 1.0 / 128;
 /// Rounds of looking for contacts in one cell before it is split.
@@ -74,18 +73,15 @@ double reach(const geom::RegionIndex& part) {
 }  // namespace
 
 PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const std::vector<LocalCap>& caps,
-                       const PoseCell& root, double far, double gap, double at_least, double enough,
-                       const RunControl& run)
+                       const PoseCell& root, double far, const Goal& goal, const RunControl& run)
     : clearance_(clearance),
       caps_(caps),
       root_(root),
-      gap_(gap),
+      goal_(goal),
       run_(run),
       reach_(reach(clearance.part())),
       blank_grid_(clearance.blank(), root.pivot, std::max(root.half_x, root.half_y) + reach_),
-      part_grid_(clearance.part(), {0, 0}, reach_),
-      at_least_(at_least),
-      enough_(enough) {
+      part_grid_(clearance.part(), {0, 0}, reach_) {
   best_.value = -kInfinity;
   const geom::Box box = clearance.blank().bounds();
   scale_ = std::max(norm(box.high - box.low), reach_);
@@ -396,7 +392,7 @@ PoseSearch::Found PoseSearch::measure(double theta, Point pivot, double margin) 
 void PoseSearch::measure_caps(const BlankFromPart& pose, double margin, Found& found) {
   for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
     const double most = caps_[cap].most;
-    const double deepest = clearance_.deepest(pose, caps_[cap].edges, 0.125 * gap_, margin, deepest_);
+    const double deepest = clearance_.deepest(pose, caps_[cap].edges, 0.125 * goal_.gap, margin, deepest_);
     found.value = std::min(found.value, most - deepest);
     for (const phi::RegionContact& at : deepest_) {
       if (!(at.distance > 1e-9 * scale_)) continue;  // no direction to be had
@@ -481,7 +477,7 @@ void PoseSearch::polish(Found found, double trust) {
     }
     const double theta_low = root_.theta - root_.half_theta, theta_high = root_.theta + root_.half_theta;
     const CellSolution solution = solve_cell(rows, trusted(trust));
-    if (!(solution.bound > found.value + 0.1 * gap_)) break;
+    if (!(solution.bound > found.value + 0.1 * goal_.gap)) break;
     const std::vector<Contact> here = contacts_;
     const double theta = std::clamp(found.theta + solution.z[2] / reach_, theta_low, theta_high);
     const Found next = measure(theta, found.pivot + Point{solution.z[0], solution.z[1]}, margin);
@@ -548,7 +544,7 @@ void PoseSearch::report_progress(const PoseCell& closed_cell) {
 }
 
 std::vector<PoseSearch::Held> PoseSearch::held_at(const Found& found) {
-  const double margin = std::max(gap_, 1e-6 * scale_);
+  const double margin = std::max(goal_.gap, 1e-6 * scale_);
   (void)measure(found.theta, found.pivot, margin);
   const BlankFromPart pose = pose_at(found.theta, found.pivot);
   std::vector<CellRow> rows;
@@ -564,7 +560,7 @@ std::vector<PoseSearch::Held> PoseSearch::held_at(const Found& found) {
   };
   for (const phi::RegionContact& contact : touching_) add(contact, kNoCap);
   for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
-    (void)clearance_.deepest(pose, caps_[cap].edges, 0.125 * gap_, margin, deepest_);
+    (void)clearance_.deepest(pose, caps_[cap].edges, 0.125 * goal_.gap, margin, deepest_);
     for (const phi::RegionContact& contact : deepest_) add(contact, cap);
   }
   std::vector<Held> held;
@@ -592,7 +588,7 @@ void PoseSearch::run() {
   finished_ = true;
   std::uint64_t divided = 0, next_dive = kFirstDive;
   while (!open.empty()) {
-    if (closed(open.front().upper) || best_.value >= enough_) break;
+    if (closed(open.front().upper) || best_.value >= goal_.enough) break;
     if (work_ >= run_.work_limit || run_.stop_requested()) {
       finished_ = false;
       break;

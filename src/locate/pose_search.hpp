@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cell_program.hpp"
@@ -63,12 +64,16 @@ class PoseSearch {
     bool inside = false;
   };
 
+  struct Goal {
+    double gap = 0;       ///< how far the bound may lie above the best objective at the end
+    double at_least = 0;  ///< known to be reachable: cells that prove no more need not be divided
+    double enough = 0;    ///< the search ends when it has found so much
+    double demanded = 0;  ///< while that is not reached, cells that prove less are closed sooner
+  };
   /// \param clearance  part (its points counted from the pivot) and blank, in local coordinates
   /// \param far        largest |coordinate| of the problem in its own frames, which rounding follows
-  /// \param at_least   a clearance known to be reachable: cells that prove no more need not be divided
-  /// \param enough     the search ends when it has found so much
   PoseSearch(const phi::RegionClearance& clearance, const std::vector<LocalCap>& caps, const PoseCell& root,
-             double far, double gap, double at_least, double enough, const RunControl& run);
+             double far, const Goal& goal, const RunControl& run);
 
   void run();
 
@@ -87,6 +92,10 @@ class PoseSearch {
   [[nodiscard]] const std::vector<CoverNode>& cover() const { return cover_; }
 
  private:
+  /// Where the demand is not met, how much is missing is told to this part of it.
+  static constexpr double kOfWhatIsMissing = 1.0 / 16;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
   struct Node {
     PoseCell cell;
     double upper = 0;
@@ -141,14 +150,18 @@ class PoseSearch {
   void report_progress(const PoseCell& closed_cell);
   std::array<Node, 2> split(const Node& node);
   [[nodiscard]] double size(const PoseCell& cell) const;
-  [[nodiscard]] bool closed(double upper) const { return upper <= std::max(best_.value, at_least_) + gap_; }
+  [[nodiscard]] bool closed(double upper) const {
+    if (upper <= std::max(best_.value, goal_.at_least) + goal_.gap) return true;
+    const double missing = goal_.demanded - best_.value;
+    return missing < kInfinity && upper <= best_.value + kOfWhatIsMissing * missing;
+  }
   /// Half widths of a box of steps that leaves what is locked as it is.
   [[nodiscard]] std::array<double, 3> trusted(double half) const;
 
   const phi::RegionClearance& clearance_;
   const std::vector<LocalCap>& caps_;
   PoseCell root_;
-  double gap_;
+  Goal goal_;
   const RunControl& run_;
   double reach_;
   double scale_ = 0, doubt_ = 0, rounding_ = 0, fine_ = 0;
@@ -161,7 +174,6 @@ class PoseSearch {
   std::vector<phi::RegionContact> touching_, deepest_;
   std::vector<CellRow> rows_;
   Found best_;
-  double at_least_, enough_;
   double upper_ = 0;
   bool finished_ = false;
   std::uint64_t work_ = 0, next_report_ = 0;

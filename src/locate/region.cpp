@@ -89,9 +89,10 @@ class RegionLocaliser {
       if (run.work_limit != std::numeric_limits<std::uint64_t>::max())
         run.work_limit = run.work_limit > result.work ? run.work_limit - result.work : 0;
       const std::vector<LocalCap> caps = local_caps(part_origin_, mirrored);
-      PoseSearch search(local, caps, root(), far_, search_gap(),
-                        std::max({best, options_.not_above - search_gap(), -furthest_out() - search_gap()}),
-                        options_.enough + taken(), run);
+      const PoseSearch::Goal goal{
+          search_gap(), std::max({best, options_.not_above - search_gap(), -furthest_out() - search_gap()}),
+          options_.enough + taken(), options_.min_allowance};
+      PoseSearch search(local, caps, root(), far_, goal, run);
       search.run();
       finished = finished && search.finished();
       result.work += search.work();

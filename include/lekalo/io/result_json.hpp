@@ -94,10 +94,10 @@ struct RegionRecord {
   /// Empty: there is none, or it is in certificate_file.
   std::vector<locate::CoverTree> certificate;
   geom::Point pivot;  ///< of the certificate, part coordinates
-  locate::LockedShift locked;
-  std::optional<DemandRecord> demands;  ///< then upper_bound of the document is not used
-  bool part_cut = false;                ///< `part` is without what a file of features says to ignore
-  std::optional<ScanRecord> scan;       ///< what `blank` was made from
+  locate::LockedShift locked = {};
+  std::optional<DemandRecord> demands = {};  ///< then upper_bound of the document is not used
+  bool part_cut = false;                     ///< `part` is without what a file of features says to ignore
+  std::optional<ScanRecord> scan = {};       ///< what `blank` was made from
 };
 
 struct LocateDocument {
