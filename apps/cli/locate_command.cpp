@@ -330,15 +330,23 @@ std::vector<std::string> written_files(const LocateOptions& o, const Product& pr
   return files;
 }
 
+/// Outlines that are not convex keep to the reader of convex contours, and its words, where something is
+/// asked for that only convex contours have.
+bool takes_regions(const LocateOptions& o, const Files& files) {
+  const Need part = need_of(files.part, o.part, o.of_part()),
+             blank = need_of(files.blank, o.blank, o.of_blank());
+  if (o.mirror != locate::Mirror::no || has_demands(o) || part == Need::regions || blank == Need::regions)
+    return true;
+  return !needs_convex(o) && (part == Need::outline || blank == Need::outline);
+}
+
 }  // namespace
 
 Result<int> run_locate(const LocateOptions& o) {
   if (Result<void> fine = check_paths(o); !fine) return tl::unexpected(fine.error());
   Result<Files> files = read_files(o);
   if (!files) return tl::unexpected(files.error());
-  if (o.mirror != locate::Mirror::no || has_demands(o) || needs_regions(files->part, o.part, o.of_part()) ||
-      (!o.trim && needs_regions(files->blank, o.blank, o.of_blank())))
-    return run_locate_regions(o, files->part, files->blank);
+  if (takes_regions(o, *files)) return run_locate_regions(o, files->part, files->blank);
   const Result<Inputs> in = read_inputs(o, std::move(*files));
   if (!in) return tl::unexpected(in.error());
   Result<Solution> found = solve(in->part, in->blank, o);

@@ -259,6 +259,11 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 
 }  // namespace
 
+bool needs_convex(const LocateOptions& o) {
+  return o.method != Method::certified || o.trim || o.alternatives || !o.deviations.empty() ||
+         !o.compare.empty();
+}
+
 bool has_demands(const LocateOptions& o) {
   return o.locked.x || o.locked.y || !o.features.empty() || o.criterion != locate::Criterion::smallest ||
          o.trade_off > 0;

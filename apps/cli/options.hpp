@@ -77,6 +77,9 @@ struct VerifyOptions {
 /// Whether anything was asked for that takes the shapes as regions, convex or not.
 [[nodiscard]] bool has_demands(const LocateOptions& options);
 
+/// Whether anything was asked for that only convex contours have.
+[[nodiscard]] bool needs_convex(const LocateOptions& options);
+
 /// Text for stdout and nothing else to do: help, version, a completion script.
 struct PrintText {
   std::string text;

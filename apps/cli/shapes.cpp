@@ -68,6 +68,9 @@ Result<Shape> shape_of_points(std::string_view bytes, const std::string& path, c
   shape.regions.push_back(std::move(*region));
   shape.tolerance = kOutlinePerCoordinate * file->coordinate_error;
   shape.notices = std::move(file->notices);
+  if (!is_convex_polygon(shape.regions))
+    shape.notices.push_back(
+        path + " is not convex and is taken as it is; --trim MM cuts a blank inwards to a convex one");
   return shape;
 }
 
@@ -165,16 +168,19 @@ std::size_t edge_count(const std::vector<geom::Region>& regions) {
 
 }  // namespace
 
-bool needs_regions(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
+Need need_of(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
   const Kind kind = kind_of(bytes, path, options);
-  if (kind == Kind::scan || kind == Kind::tree) return true;
-  if (kind == Kind::drawing) {
-    // Polygons that the reader of convex contours reads too keep their fast path.
-    const bool plain = ending_of(path) == ".dxf" && options.layers.empty() && !options.join;
-    if (!plain || !io::parse_contour(bytes, path, options.units)) return true;
-  }
+  if (kind == Kind::scan || kind == Kind::tree) return Need::regions;
+  // Polygons that the reader of convex contours reads too keep their fast path.
+  const bool plain = options.layers.empty() && !options.join;
+  const bool contour = kind != Kind::drawing || (plain && io::parse_contour(bytes, path, options.units));
   const Result<Shape> shape = parsed(bytes, path, options);
-  return shape ? !is_convex_polygon(shape->regions) : kind == Kind::regions;
+  // What cannot be read at all is refused by the reader that suits what is asked for.
+  if (!shape && kind == Kind::drawing) return Need::outline;
+  if (!shape) return kind == Kind::regions ? Need::regions : Need::convex_contour;
+  if (!contour) return Need::regions;
+  if (is_convex_polygon(shape->regions)) return Need::convex_contour;
+  return kind == Kind::regions ? Need::regions : Need::outline;
 }
 
 Result<Shape> read_shape(std::string_view bytes, const std::string& path, const ShapeOptions& options) {

@@ -21,11 +21,13 @@ struct Shape {
   std::optional<io::ScanRecord> scan;  ///< of a blank that was measured
 };
 
-/// Whether a file has to be placed as regions: what it holds is not one convex polygon, or is read by what
-/// the options say of drawings and scans. A file that cannot be read at all says no: the reader of convex
-/// contours has the better words for it.
-[[nodiscard]] bool needs_regions(std::string_view bytes, const std::string& path,
-                                 const ShapeOptions& options);
+enum class Need {
+  convex_contour,  ///< one convex polygon, or a file that its reader has the better words for
+  outline,         ///< points along an outline that is not convex
+  regions          ///< arcs, holes, pieces, primitives, layers of a drawing, a scan
+};
+/// How a file has to be placed.
+[[nodiscard]] Need need_of(std::string_view bytes, const std::string& path, const ShapeOptions& options);
 
 /// Reads regions, trees of primitives, drawings, points along one outline, or a scan. bad_input where
 /// outlines cross or touch, with the place.

@@ -155,13 +155,15 @@ void RegionCheck::read() {
       fields.complain(fmt::format("the units of {} are not mm", path));
     *to = read_shape(regions.get(key), path, complaint_);
   }
-  if (const Json locked = fields.get("locked"); !locked.text.empty() && !locked.is_null()) {
+  for (const std::string_view key : {"locked", "demands", "scan", "part_cut"})
+    if (fields.get(key).text.empty()) fields.complain(fmt::format("field {} is missing", key));
+  if (const Json locked = fields.get("locked"); !locked.is_null()) {
     Fields shift(locked, "locked", complaint_);
     r_.locked_x = shift.number_or_null("x"), r_.locked_y = shift.number_or_null("y");
   }
   r_.part_cut = fields.get("part_cut").is_bool() && fields.get("part_cut").is_true();
   const Json demands = fields.get("demands");
-  if (!demands.text.empty() && !demands.is_null()) {
+  if (!demands.is_null()) {
     r_.demands = read_demands(demands, complaint_);
   } else {
     r_.upper_bound = enclosed(fields.number("upper_bound")), r_.gap = enclosed(fields.number("gap"));

@@ -63,6 +63,8 @@ const std::vector<std::pair<std::string, std::string>>& harmless() {
       {"/regions/part/holes/1/0/arc/ccw", "a full circle"},
       {"/regions/blank/holes/0/0/arc/ccw", "a full circle"},
       {"/regions/blank/holes/1/0/arc/ccw", "a full circle"},
+      {"/part_cut", "a note says that the part was then not compared with its file"},
+      {"/scan", "what a blank that is no region file was made from"},
       {"/comparison", "another method's result, for the reader"},
       {"/deviations", "for the reader"},
       {"/method", "how it was found"},

@@ -37,6 +37,10 @@ Words with_part(const std::string& path) {
   return Words{"locate", "--part", path, "--blank", "blank.csv"} + kOutputs;
 }
 
+Words plain(const std::string& part) {
+  return {"locate", "--part", part, "--blank", "blank.csv", "-o", "out.json"};
+}
+
 std::vector<BadInput> contour_cases() {
   const std::string dxf_bulge =
       "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n90\n3\n70\n1\n10\n0\n20\n0\n42\n1\n10\n9\n20\n0\n10\n5\n20\n9"
@@ -94,7 +98,49 @@ std::vector<BadInput> contour_cases() {
        with_part("p.dxf"),
        3,
        {"p.dxf"}},
-      {"a DXF with a bulge", {{"p.dxf", dxf_bulge}}, with_part("p.dxf"), 3, {"p.dxf"}},
+      {"an arc and what only convex contours have",
+       {{"p.dxf", dxf_bulge}},
+       with_part("p.dxf"),
+       2,
+       {"--deviations"}},
+      {"a DXF chain that does not close, any shape",
+       {{"p.dxf", dxf_open}},
+       plain("p.dxf"),
+       3,
+       {"p.dxf", "LINE"}},
+      {"a DXF layer that is not there",
+       {{"p.dxf", dxf_bulge}},
+       plain("p.dxf") + Words{"--part-layers", "CUT"},
+       3,
+       {"p.dxf", "CUT"}},
+      {"an SVG that is no XML", {{"p.svg", "<svg><path"}}, plain("p.svg"), 3, {"p.svg"}},
+      {"a tree of nothing",
+       {{"p.json", R"({"shape": {"union": []}})"}},
+       plain("p.json"),
+       3,
+       {"p.json", "union"}},
+      {"a scan that is cut off",
+       {{"s.ply",
+         "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nend_header\n0 0\n"}},
+       {"locate", "--part", "part.csv", "--blank", "s.ply", "--uncertainty", "0.01", "-o", "out.json"},
+       3,
+       {"s.ply"}},
+      {"a scan without uncertainty",
+       {},
+       {"locate", "--part", "part.csv", "--blank", "blank.csv", "--min-radius", "3", "-o", "out.json"},
+       2,
+       {"--uncertainty"}},
+      {"a feature with a word nobody knows",
+       {{"f.json", R"({"features": [{"name": "a", "edges": [0], "minimun": 1}]})"}},
+       plain("part.csv") + Words{"--features", "f.json"},
+       3,
+       {"f.json", "minimun"}},
+      {"a feature of an edge that the part has not",
+       {{"f.json", R"({"features": [{"name": "a", "edges": [99]}]})"}},
+       plain("part.csv") + Words{"--features", "f.json"},
+       3,
+       {"f.json", "99"}},
+      {"a trade-off of one point", {}, plain("part.csv") + Words{"--trade-off", "1"}, 2, {"--trade-off"}},
       {"a DXF chain that does not close", {{"p.dxf", dxf_open}}, with_part("p.dxf"), 3, {"p.dxf"}},
       {"a dent deeper than --trim",
        {{"blank.csv", "100 100\n145 103\n190 100\n190 150\n100 150\n"}},

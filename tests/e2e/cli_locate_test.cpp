@@ -302,7 +302,10 @@ TEST_F(Plate, TimeLimitStopsTheSearch) {
 
 TEST_F(Plate, DentedProbingIsTrimmedInwardsAndTheLossReported) {
   write_bytes(folder_ / "blank.csv", "100 100\n145 100.25\n190 100\n190 150\n100 150\n");
-  EXPECT_EQ(locate({}).status, 3);
+  const Ran as_it_is = locate({"--json"});
+  EXPECT_EQ(as_it_is.status, 0);
+  EXPECT_NEAR(as_it_is.json()["clearance"], 4.875, 2e-3);
+  EXPECT_NE(as_it_is.err.find("--trim"), std::string::npos) << as_it_is.err;
   const Ran ran = locate({"--trim", "0.5", "--json", "-o", "out.json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Json result = ran.json();

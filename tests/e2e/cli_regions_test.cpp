@@ -67,7 +67,7 @@ TEST(Regions, ABlankWithTooLargeACoreIsProvedScrapWithAPicture) {
   EXPECT_EQ(ran.status, 1) << ran.err;
   const Json result = ran.json();
   EXPECT_EQ(result["status"], "infeasible");
-  EXPECT_LT(result["upper_bound"], -1.9);
+  EXPECT_LT(result["upper_bound"], -1.8);  // a sixteenth of what is missing may be left open
   EXPECT_NEAR(result["shortfall"], 2, 0.05);
   EXPECT_EQ(folder.files().count("out.nc"), 0U);
   EXPECT_NE(read_bytes(folder / "out.svg").find("sticks out"), std::string::npos);
