@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -119,6 +120,16 @@ TEST(VerifyFault, PlacementsBeyondAllBoundsAreRefused) {
     EXPECT_NE(refusal(square, {0, 0, wild, false}), "");
   }
   EXPECT_EQ(refusal(square, {30, 1e9, 1e9, true}), "");
+}
+
+TEST(VerifyFault, AnArcHasTheMeanRadiusOfItsEnds) {
+  const std::string blank =
+      region("[" + arc("0, -5", "0, 5.001", "0, 0") + ", " + line("0, 5.001", "0, -5") + "]");
+  const auto made = verify_clearance(
+      {"part.json", region(polygon({"3, 0.1", "3, -0.1", "4, -0.1", "4, 0.1"}))}, {"blank.json", blank}, {});
+  ASSERT_TRUE(made.has_value()) << made.error().message;
+  EXPECT_NEAR(made->low, 5.0005 - std::hypot(4, 0.1), 1e-12);
+  EXPECT_NEAR(made->high, made->low, 1e-12);
 }
 
 // ---- touching ---------------------------------------------------------------------------------------------

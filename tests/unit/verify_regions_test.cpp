@@ -86,6 +86,27 @@ TEST(VerifyRegions, AHoleUnderMaterialIsSeen) {
       << rings.first_finding();
 }
 
+TEST(VerifyRegions, TouchingIsClearanceZeroOnlyWhereItIsProved) {
+  Rings rings;
+  rings.x = "101", rings.clearance = "0", rings.gap = "1.001";
+  const auto found = [&] {
+    const auto report = rings.report();
+    std::string all = report ? "" : report.error().message;
+    if (report)
+      for (const std::string& finding : report->findings)
+        if (finding.find("clearance is") == 0) all += finding;
+    return all;
+  };
+  EXPECT_EQ(found(), "");
+  rings.clearance = "1e-300";
+  EXPECT_NE(found(), "");
+  // Turned by anything there are no fractions, and what may be less than 0 is not 0.
+  rings.clearance = "0", rings.theta = "1e-200";
+  EXPECT_NE(found().find("meets the outline of the blank, or cannot be told from doing so"),
+            std::string::npos)
+      << found();
+}
+
 TEST(VerifyRegions, EveryFalseClaimIsFound) {
   const std::vector<std::pair<std::function<void(Rings&)>, std::string>> table{
       {[](Rings& r) { r.box = R"("theta": [0, 6.28], "x": [80, 120], "y": [30, 70])"; },
