@@ -220,6 +220,9 @@ TEST(Touching, WhatTouchesFromOutsideOrCrossesIsNotInside) {
   expect_less(right, left);
   expect_touches(right, region(circle(0, 0, 5)));
   expect_less(region(circle(0, 0, 5)), right);
+  // A slit runs into the part between the middles of all sides.
+  expect_less(region(box("0", "0", "9", "5")),
+              region(polygon({"0, 0", "10, 0", "10, 10", "1.2, 10", "1.1, 4", "1, 10", "0, 10"})));
   // Two pieces, one inside and one outside.
   expect_less(fmt::format(R"({{"pieces": [{{"outer": {}}}, {{"outer": {}}}]}})", box("0", "0", "0.2", "0.2"),
                           box("1", "0.5", "1.5", "0.8")),
