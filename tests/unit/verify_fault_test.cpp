@@ -110,6 +110,18 @@ TEST(VerifyFault, EverySentenceAboutOutlines) {
             "");
 }
 
+TEST(VerifyFault, AnArcAndItsChordInFewDigitsAreInOrder) {
+  EXPECT_EQ(refusal(region("[" + arc("3, -4", "3, 4.0000001", "0, 0") + ", " + line("3, 4.0000001", "3, -4") +
+                           "]")),
+            "");
+  EXPECT_EQ(refusal(region("[" + line("3, 4.0000001", "3, -4") + ", " + arc("3, -4", "3, 4.0000001", "0, 0") +
+                           "]")),
+            "");
+  EXPECT_EQ(refusal(region("[" + arc("3, -4", "3, 4.0009", "0, 0") + ", " +
+                           arc("3, 4.0009", "3, -4", "6, 0.0001") + "]")),
+            "");
+}
+
 TEST(VerifyFault, PlacementsBeyondAllBoundsAreRefused) {
   const double infinity = std::numeric_limits<double>::infinity(),
                nan = std::numeric_limits<double>::quiet_NaN();
@@ -237,6 +249,9 @@ TEST(Touching, WhereFractionsDoNotHelpNothingIsClaimed) {
       region("[" + arc("0, -5", "0, 5.0000001", "0, 0") + ", " + line("0, 5.0000001", "0, -5") + "]");
   EXPECT_LE(clearance(odd, odd).low, 0);
   EXPECT_GE(clearance(odd, odd).low, -1e-6);
+  // Its mean circle reaches 4e-8 beyond the tangent of the one its first end lies on.
+  expect_less(region("[" + arc("3, -4", "3, 4.0000001", "0, 0") + ", " + line("3, 4.0000001", "3, -4") + "]"),
+              region(box("-9", "-9", "5", "9")));
   // One that touches nothing does no harm.
   expect_touches(region(box("-9", "-9", "9", "9"), {"[" + arc("1, 0", "-1.0000001, 0", "0, 0") + ", " +
                                                     line("-1.0000001, 0", "1, 0") + "]"}),
