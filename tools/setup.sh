@@ -21,7 +21,10 @@ packages=(
   python3-ezdxf python3-gdal # the same on DXF drawings
   fonts-dejavu-core  # texts in PNG pictures, Cyrillic too
 )
-full_packages=(clang libclang-rt-14-dev llvm libbenchmark-dev)
+full_packages=(
+  clang libclang-rt-14-dev llvm libbenchmark-dev
+  libpolyclipping-dev libcgal-dev # rivals and oracle of Booleans; CGAL is under the GPL and linked by nothing that is shipped
+)
 
 case "${1-}" in
   "") ;;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cover_bound.hpp"
 #include "shape.hpp"
 
 namespace lekalo::verify {
@@ -54,17 +55,8 @@ class CoverTree {
   [[nodiscard]] std::size_t leaves() const { return leaves_; }
 
  private:
-  /// Poses (theta, q): enclosing box in doubles.
-  struct Cell {
-    double low[3], high[3];  ///< theta, x, y
-  };
-  struct Term {
-    Vec part;  ///< from the pivot, mirrored if the tree is
-    Vec blank;
-    double part_radius = 0, blank_radius = 0;
-    Span multiplier;  ///< as written: sums are divided by their sum
-    bool capped = false;
-  };
+  using Cell = PoseCell;
+  using Term = BallTerm;
 
   void check_root(const Cell& root, const std::string& path);
   bool read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path);
@@ -74,11 +66,6 @@ class CoverTree {
   double material_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   double blank_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   [[nodiscard]] bool proved(const Cell& cell, const std::vector<Term>& terms, int depth);
-  /// What the terms prove over a cell, and what they prove at its middle: nobody proves less for the cell.
-  struct Bound {
-    double everywhere = 0, in_the_middle = 0;
-  };
-  [[nodiscard]] Bound bound_over(const Cell& cell, const std::vector<Term>& terms) const;
 
   const Problem& problem_;
   std::vector<std::string>& findings_;

@@ -232,13 +232,15 @@ void RegionCheck::check_input(const char* role, const Document& file, const Shap
 
 void RegionCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
-  const Span claimed = r_.clearance + tolerances;  // of the regions as written
+  // Even adding nothing widens an enclosure, and a part that touches has nothing to spare.
+  const bool none = r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0;
+  const Span claimed = none ? r_.clearance : r_.clearance + tolerances;  // of the regions as written
   std::optional<ExactShift> shift;
   if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
   // Where an outline is none nothing is proved by it, and a finding says so already.
   if (!report_.findings.empty()) shift.reset();
   const Span exact = clearance(r_.part, placed_, r_.blank, shift);
-  const Span less = exact - tolerances;
+  const Span less = none ? exact : exact - tolerances;
   report_.clearance_low = fmt::format("{}", less.low);
   report_.clearance_high = fmt::format("{}", less.high);
   if (claimed.high <= exact.low) return;

@@ -173,10 +173,18 @@ bool cross_again(const Side& a, const Side& b, const Vec& shared) {
          surely_between(b, other);
 }
 
+/// Of the same decimals.
+bool same(const Vec& p, const Vec& q) {
+  return p.x.low == q.x.low && p.x.high == q.x.high && p.y.low == q.y.low && p.y.high == q.y.high;
+}
+
 std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i, std::size_t j) {
   const Side &a = shape.sides[i], &b = shape.sides[j];
   if (!a.written || !b.written) return std::nullopt;
   if (a.arc || b.arc) {
+    // Two that make up the whole contour meet at both ends, and curves like these meet nowhere else: what
+    // looks like a crossing beside the other end is the digits of the radii.
+    if (same(a.written_to, b.written_from) && same(a.written_from, b.written_to)) return std::nullopt;
     if (!cross_again(a, b, a.written_to)) return std::nullopt;
     return fmt::format("sides {} and {} cross", i, j);
   }

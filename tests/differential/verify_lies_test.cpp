@@ -9,6 +9,7 @@
 #include "lekalo/io/result_json.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "support/boolean_cases.hpp"
 #include "support/region_cases.hpp"
 
 namespace lekalo {
@@ -16,11 +17,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json true_result() {
-  const cases::RegionCase one = cases::region_case(3, 1, cases::RegionKind::near_net, 10);
+Json true_result(locate::Mirror mirror = locate::Mirror::no) {
+  cases::RegionCase one = cases::region_case(3, 1, cases::RegionKind::near_net, 10);
+  if (mirror != locate::Mirror::no)
+    one.part = cases::map_regions(one.part, geom::BlankFromPart::from_angle(0, {}, true));
   locate::RegionOptions options;
   options.gap = 0.05;
-  const auto result = locate::locate_regions({one.part, one.blank, {}, locate::Mirror::no, 0, 0}, options);
+  const auto result = locate::locate_regions({one.part, one.blank, {}, mirror, 0, 0}, options);
   EXPECT_TRUE(result.has_value());
   io::LocateDocument d;
   d.status = "optimal";
@@ -30,16 +33,18 @@ Json true_result() {
   d.placement = result->best;
   d.upper_bound = result->upper_bound;
   d.shortfall = result->shortfall;
-  d.regions = io::RegionRecord{one.part,
-                               one.blank,
-                               0,
-                               0,
-                               locate::Mirror::no,
-                               result->mirrored,
-                               result->contacts,
-                               result->certificate,
-                               result->pivot};
+  d.regions = io::RegionRecord{
+      one.part,     one.blank, 0, 0, mirror, result->mirrored, result->contacts, result->certificate,
+      result->pivot};
   return Json::parse(io::result_json(d));
+}
+
+std::string first_finding(const Json& document) {
+  const std::string text = document.dump();
+  const auto report =
+      verify::verify_locate({{"result.json", text}, {"part.json", "{}"}, {"blank.json", "{}"}, std::nullopt});
+  if (!report) return report.error().message;
+  return report->findings.empty() ? "" : report->findings.front();
 }
 
 /// refuted: a finding, or no document at all.
@@ -101,7 +106,16 @@ class Lies : public testing::Test {
 };
 Json* Lies::truth_ = nullptr;
 
-TEST_F(Lies, TheTruthIsConfirmed) { EXPECT_FALSE(is_refuted(*truth_)); }
+TEST_F(Lies, TheTruthIsConfirmed) {
+  EXPECT_FALSE(is_refuted(*truth_));
+  for (const locate::Mirror mirror : {locate::Mirror::yes, locate::Mirror::either}) {
+    Json mirrored = true_result(mirror);
+    EXPECT_TRUE(mirrored["mirrored"].get<bool>());
+    EXPECT_FALSE(is_refuted(mirrored)) << first_finding(mirrored);
+    for (Json& tree : mirrored["certificate"]["trees"]) tree["mirrored"] = !tree["mirrored"].get<bool>();
+    EXPECT_TRUE(is_refuted(mirrored));
+  }
+}
 
 TEST_F(Lies, NoFieldCanBeChangedUnseen) {
   const Json flat = truth_->flatten();

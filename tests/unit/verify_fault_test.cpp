@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -109,6 +110,18 @@ TEST(VerifyFault, EverySentenceAboutOutlines) {
             "");
 }
 
+TEST(VerifyFault, AnArcAndItsChordInFewDigitsAreInOrder) {
+  EXPECT_EQ(refusal(region("[" + arc("3, -4", "3, 4.0000001", "0, 0") + ", " + line("3, 4.0000001", "3, -4") +
+                           "]")),
+            "");
+  EXPECT_EQ(refusal(region("[" + line("3, 4.0000001", "3, -4") + ", " + arc("3, -4", "3, 4.0000001", "0, 0") +
+                           "]")),
+            "");
+  EXPECT_EQ(refusal(region("[" + arc("3, -4", "3, 4.0009", "0, 0") + ", " +
+                           arc("3, 4.0009", "3, -4", "6, 0.0001") + "]")),
+            "");
+}
+
 TEST(VerifyFault, PlacementsBeyondAllBoundsAreRefused) {
   const double infinity = std::numeric_limits<double>::infinity(),
                nan = std::numeric_limits<double>::quiet_NaN();
@@ -119,6 +132,16 @@ TEST(VerifyFault, PlacementsBeyondAllBoundsAreRefused) {
     EXPECT_NE(refusal(square, {0, 0, wild, false}), "");
   }
   EXPECT_EQ(refusal(square, {30, 1e9, 1e9, true}), "");
+}
+
+TEST(VerifyFault, AnArcHasTheMeanRadiusOfItsEnds) {
+  const std::string blank =
+      region("[" + arc("0, -5", "0, 5.001", "0, 0") + ", " + line("0, 5.001", "0, -5") + "]");
+  const auto made = verify_clearance(
+      {"part.json", region(polygon({"3, 0.1", "3, -0.1", "4, -0.1", "4, 0.1"}))}, {"blank.json", blank}, {});
+  ASSERT_TRUE(made.has_value()) << made.error().message;
+  EXPECT_NEAR(made->low, 5.0005 - std::hypot(4, 0.1), 1e-12);
+  EXPECT_NEAR(made->high, made->low, 1e-12);
 }
 
 // ---- touching ---------------------------------------------------------------------------------------------
@@ -209,6 +232,9 @@ TEST(Touching, WhatTouchesFromOutsideOrCrossesIsNotInside) {
   expect_less(right, left);
   expect_touches(right, region(circle(0, 0, 5)));
   expect_less(region(circle(0, 0, 5)), right);
+  // A slit runs into the part between the middles of all sides.
+  expect_less(region(box("0", "0", "9", "5")),
+              region(polygon({"0, 0", "10, 0", "10, 10", "1.2, 10", "1.1, 4", "1, 10", "0, 10"})));
   // Two pieces, one inside and one outside.
   expect_less(fmt::format(R"({{"pieces": [{{"outer": {}}}, {{"outer": {}}}]}})", box("0", "0", "0.2", "0.2"),
                           box("1", "0.5", "1.5", "0.8")),
@@ -223,6 +249,9 @@ TEST(Touching, WhereFractionsDoNotHelpNothingIsClaimed) {
       region("[" + arc("0, -5", "0, 5.0000001", "0, 0") + ", " + line("0, 5.0000001", "0, -5") + "]");
   EXPECT_LE(clearance(odd, odd).low, 0);
   EXPECT_GE(clearance(odd, odd).low, -1e-6);
+  // Its mean circle reaches 4e-8 beyond the tangent of the one its first end lies on.
+  expect_less(region("[" + arc("3, -4", "3, 4.0000001", "0, 0") + ", " + line("3, 4.0000001", "3, -4") + "]"),
+              region(box("-9", "-9", "5", "9")));
   // One that touches nothing does no harm.
   expect_touches(region(box("-9", "-9", "9", "9"), {"[" + arc("1, 0", "-1.0000001, 0", "0, 0") + ", " +
                                                     line("-1.0000001, 0", "1, 0") + "]"}),

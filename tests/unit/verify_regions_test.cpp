@@ -24,7 +24,7 @@ struct Rings {
   std::string contacts = R"([{"part_at": [10, 0], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
   std::string tree = leaf();
   std::string box = R"("theta": [0, 6.2831853071795872], "x": [88, 112], "y": [38, 62])";
-  std::string part_file = "[]";
+  std::string part_file = "[]", pivot = "[0, 5]";
 
   static std::string circle(const std::string& x, const std::string& y, double radius) {
     const double from = std::stod(x) + radius;
@@ -48,9 +48,9 @@ struct Rings {
  "x": {}, "y": {}, "theta": {}, "theta_deg": {}, "mirrored": {}, "mirror": "{}", "clearance": {}, "upper_bound": {},
  "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
  "regions": {{"part": {}, "blank": {}}}, "contacts": {},
- "certificate": {{"pivot": [0, 5], "trees": [{{"mirrored": false, {}, "nodes": [{}]}}]}}, "certificate_file": null}})",
+ "certificate": {{"pivot": {}, "trees": [{{"mirrored": false, {}, "nodes": [{}]}}]}}, "certificate_file": null}})",
         status, x, y, theta, theta_deg, mirrored, mirror, clearance, upper, gap, tolerances, part(), blank,
-        contacts, box, tree);
+        contacts, pivot, box, tree);
   }
   [[nodiscard]] Result<LocateReport> report() const {
     const std::string result = text();
@@ -86,11 +86,37 @@ TEST(VerifyRegions, AHoleUnderMaterialIsSeen) {
       << rings.first_finding();
 }
 
+TEST(VerifyRegions, TouchingIsClearanceZeroOnlyWhereItIsProved) {
+  Rings rings;
+  rings.x = "101", rings.clearance = "0", rings.gap = "1.001";
+  const auto found = [&] {
+    const auto report = rings.report();
+    std::string all = report ? "" : report.error().message;
+    if (report)
+      for (const std::string& finding : report->findings)
+        if (finding.find("clearance is") == 0) all += finding;
+    return all;
+  };
+  EXPECT_EQ(found(), "");
+  rings.clearance = "1e-300";
+  EXPECT_NE(found(), "");
+  // Turned by anything there are no fractions, and what may be less than 0 is not 0.
+  rings.clearance = "0", rings.theta = "1e-200";
+  EXPECT_NE(found().find("meets the outline of the blank, or cannot be told from doing so"),
+            std::string::npos)
+      << found();
+}
+
 TEST(VerifyRegions, EveryFalseClaimIsFound) {
   const std::vector<std::pair<std::function<void(Rings&)>, std::string>> table{
       {[](Rings& r) { r.box = R"("theta": [0, 6.28], "x": [80, 120], "y": [30, 70])"; },
        "does not cover the window"},
       {[](Rings& r) { r.box = R"("theta": [0, 6.2831853071795872], "x": [89, 120], "y": [30, 70])"; },
+       "the box of the pivot does not cover the blank"},
+      // A pivot in the part's hole may be 5 mm beyond the blank.
+      {[](Rings& r) {
+         r.pivot = "[0, 0]", r.box = R"("theta": [0, 6.2831853071795872], "x": [84, 116], "y": [34, 66])";
+       },
        "the box of the pivot does not cover the blank"},
       {[](Rings& r) { r.tree = R"(["x", 100], )" + Rings::leaf(); }, "the subdivision ends early"},
       {[](Rings& r) { r.tree = Rings::leaf() + ", " + Rings::leaf(); },
@@ -128,6 +154,53 @@ TEST(VerifyRegions, EveryFalseClaimIsFound) {
       for (const std::string& finding : report->findings) all += finding + "\n";
     EXPECT_NE(all.find(expected), std::string::npos) << expected << "\n" << all;
   }
+}
+
+/// A disc of 11 in a disc of 12 with a hole of 0.1 in its middle: no placement has more clearance than -0.1,
+/// and the balls that prove it overlap by much more.
+std::string pinned(const std::string& upper, const std::string& tolerance, const std::string& reach = "13") {
+  const std::string outside = R"({"contacts": [[0, 0, 11, %, 988, 1]]})";
+  const auto leaf = [&](const std::string& at) {
+    std::string text = outside;
+    return text.replace(text.find('%'), 1, at);
+  };
+  const std::string nodes = R"(["x", 7], ["x", -7], )" + leaf("-1000, 0") + R"(, ["y", 7], ["y", -7], )" +
+                            leaf("0, -1000") + R"(, {"contacts": [[0, 0, 11, 0, 0, 0.1, 1]]}, )" +
+                            leaf("0, 1000") + ", " + leaf("1000, 0");
+  return fmt::format(
+      R"({{"format": {{"name": "lekalo-locate", "version": 1}}, "status": "infeasible", "units": "mm", "x": 0, "y": 0,
+ "theta": 0, "theta_deg": 0, "mirrored": false, "mirror": "no", "clearance": -0.5, "upper_bound": {}, "gap": {},
+ "min_allowance": 0, "shortfall": 0.5, "window_deg": [0, 360], "tolerances": {{"part": {}, "blank": {}}},
+ "regions": {{"part": {{"units": "mm", "outer": {}}}, "blank": {{"units": "mm", "outer": {}, "holes": [{}]}}}},
+ "contacts": [], "certificate": {{"pivot": [0, 0], "trees": [{{"mirrored": false, "theta": [0, 6.2831853071795872],
+ "x": [-{}, {}], "y": [-{}, {}], "nodes": [{}]}}]}}, "certificate_file": null}})",
+      upper, std::stod(upper) + 0.5, tolerance, tolerance, Rings::circle("0", "0", 11),
+      Rings::circle("0", "0", 12), Rings::circle("0", "0", 0.1), reach, reach, reach, reach, nodes);
+}
+
+TEST(VerifyRegions, ABallInTheBlanksHoleProvesNoMoreThanItsRadius) {
+  const auto verdict = [](const std::string& upper, const std::string& tolerance) {
+    const std::string text = pinned(upper, tolerance);
+    const auto report = verify_locate({{"r", text}, {"part.json", "[]"}, {"blank.json", "[]"}, std::nullopt});
+    EXPECT_TRUE(report.has_value()) << report.error().message;
+    if (report && report->verdict == Verdict::refuted) {
+      EXPECT_NE(report->findings.front().find("its contacts do not prove"), std::string::npos)
+          << report->findings.front();
+    }
+    return report ? report->verdict : Verdict::unproved;
+  };
+  EXPECT_EQ(verdict("-0.099", "0"), Verdict::confirmed);
+  // A part that sticks out by less than 0.099 may have its pivot as much beyond the blank.
+  const std::string small = pinned("-0.099", "0", "12.09");
+  const auto near = verify_locate({{"r", small}, {"p", "[]"}, {"b", "[]"}, std::nullopt});
+  ASSERT_TRUE(near.has_value());
+  ASSERT_FALSE(near->findings.empty());
+  EXPECT_NE(near->findings[0].find("the box of the pivot does not cover the blank"), std::string::npos);
+  EXPECT_EQ(verdict("-0.101", "0"), Verdict::refuted);
+  EXPECT_EQ(verdict("-0.4", "0"), Verdict::refuted);
+  // The tolerances of part and blank come on top.
+  EXPECT_EQ(verdict("-0.079", "0.01"), Verdict::confirmed);
+  EXPECT_EQ(verdict("-0.081", "0.01"), Verdict::refuted);
 }
 
 constexpr double kTurn = 6.283185307179586;
