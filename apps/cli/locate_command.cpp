@@ -51,6 +51,7 @@ Result<void> check_paths(const LocateOptions& o) {
                         {"--picture", o.picture},
                         {"--report", o.report},
                         {"--allowances", o.allowances},
+                        {"--drawing", o.drawing},
                         {"--deviations", o.deviations},
                         {"--nc-out", o.nc_out}},
                        {{"--part", o.part},
@@ -314,6 +315,7 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
                           .and_then([&] { return add(o.picture, product.picture_bytes); })
                           .and_then([&] { return add(o.report, product.reports.report); })
                           .and_then([&] { return add(o.allowances, product.reports.allowances); })
+                          .and_then([&] { return add(o.drawing, product.reports.drawing); })
                           .and_then([&] { return add(o.deviations, product.deviations_text); });
   if (done && product.document.nc) done = add(o.nc_out, product.program_text);
   if (done && o.json) done = print(product.result_text);
@@ -323,7 +325,8 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
 
 std::vector<std::string> written_files(const LocateOptions& o, const Product& product) {
   std::vector<std::string> files;
-  for (const std::string& path : {o.output, o.certificate, o.picture, o.report, o.allowances, o.deviations}) {
+  for (const std::string& path :
+       {o.output, o.certificate, o.picture, o.report, o.allowances, o.drawing, o.deviations}) {
     if (!path.empty()) files.push_back(path);
   }
   if (product.document.nc) files.push_back(o.nc_out);

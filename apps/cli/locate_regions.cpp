@@ -290,6 +290,7 @@ Result<void> write_all(const LocateOptions& o, const Product& product) {
                           .and_then([&] { return add(o.picture, product.picture_bytes); })
                           .and_then([&] { return add(o.report, product.reports.report); })
                           .and_then([&] { return add(o.allowances, product.reports.allowances); })
+                          .and_then([&] { return add(o.drawing, product.reports.drawing); })
                           .and_then([&] { return add(o.nc_out, product.program_text); });
   if (done && o.json) done = print(product.result_text);
   if (done) done = files.commit();
@@ -347,6 +348,7 @@ Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_b
                                     {&o.picture, &product.picture_bytes},
                                     {&o.report, &product.reports.report},
                                     {&o.allowances, &product.reports.allowances},
+                                    {&o.drawing, &product.reports.drawing},
                                     {&o.nc_out, &product.program_text}})
     if (!path->empty() && !bytes->empty()) written.push_back(*path);
   tell(locate_summary(product.document, written));

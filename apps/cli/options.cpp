@@ -62,7 +62,7 @@ std::string list_of(const std::array<Word<T>, N>& words, const char* separator) 
 struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
-      report, allowances, deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up,
+      report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up,
       trade_off, join, curve, uncertainty, coverage, min_radius, max_dip, step, drop_outliers, simplify,
       slice_height, slice_thickness;
   std::vector<std::string> part_layers, blank_layers;
@@ -226,6 +226,7 @@ void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) 
   o.picture = words.picture;
   o.report = words.report;
   o.allowances = words.allowances;
+  o.drawing = words.drawing;
   o.deviations = words.deviations;
   o.compare = words.compare;
   o.json = words.json;
@@ -236,6 +237,8 @@ void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) 
   read.require(
       o.report.empty() || page == ".svg" || page == ".pdf" || page == ".png",
       fmt::format("--report: the name \"{}\" ends neither in .svg nor in .pdf nor in .png", o.report));
+  read.require(o.drawing.empty() || o.drawing.ends_with(".dxf") || o.drawing.ends_with(".svg"),
+               fmt::format("--drawing: the name \"{}\" ends neither in .dxf nor in .svg", o.drawing));
   read.require(o.allowances.empty() || std::filesystem::path(o.allowances).extension() == ".csv",
                fmt::format("--allowances: the name \"{}\" does not end in .csv", o.allowances));
 }
@@ -402,6 +405,7 @@ void add_output_options(CLI::App& locate, LocateWords& w) {
   add("--picture", w.picture, "Draw blank, part and allowance: .svg or .png");
   add("--report", w.report,
       "One page with placement, features, histogram, contacts and what is proved: .svg, .pdf or .png");
+  add("--drawing", w.drawing, "The blank and the part as it lies, on layers BLANK and PART: .dxf or .svg");
   add("--allowances", w.allowances, "CSV: the allowance along the part's outline");
   add("--certificate", w.certificate, "Write the proof to this file instead of into the result");
   add("--deviations", w.deviations, "CSV: signed distance of every probed point from the placed part");

@@ -60,7 +60,7 @@ struct LocateOptions {
   std::optional<double> alternatives;  ///< mm
   std::string nc, nc_out;
   nc::RewriteOptions rewrite;
-  std::string output, certificate, picture, report, allowances, deviations, compare;
+  std::string output, certificate, picture, report, allowances, drawing, deviations, compare;
   bool json = false;
   std::vector<std::string> warnings;  ///< options that have no effect here
 

@@ -1,6 +1,7 @@
 #include "report.hpp"
 
 #include "lekalo/io/report.hpp"
+#include "placed_drawing.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -10,9 +11,17 @@ constexpr double kOutlinePerCoordinate = 2;
 
 Result<ReportFiles> make(const LocateOptions& o, const io::LocateDocument& document, io::ReportShapes shapes,
                          std::vector<io::ReportFeature> features = {}) {
+  ReportFiles files;
+  if (!o.drawing.empty()) {
+    const bool mirrored = document.regions && document.regions->mirrored;
+    Result<std::string> drawing =
+        placed_drawing(o.drawing, shapes.part, shapes.blank, document.placement, mirrored);
+    if (!drawing) return tl::unexpected(drawing.error());
+    files.drawing = std::move(*drawing);
+  }
+  if (o.report.empty() && o.allowances.empty()) return files;
   const Result<io::Report> report = io::make_report(document, std::move(shapes), std::move(features));
   if (!report) return tl::unexpected(report.error());
-  ReportFiles files;
   if (!o.allowances.empty()) files.allowances = io::allowances_csv(*report);
   if (o.report.empty()) return files;
   Result<std::string> page = o.report.ends_with(".pdf")   ? io::report_pdf(*report)
@@ -46,7 +55,9 @@ std::vector<io::ReportFeature> all_features(const io::DemandRecord& demands,
   return features;
 }
 
-bool asked_for(const LocateOptions& o) { return !o.report.empty() || !o.allowances.empty(); }
+bool asked_for(const LocateOptions& o) {
+  return !o.report.empty() || !o.allowances.empty() || !o.drawing.empty();
+}
 
 Result<std::vector<geom::Region>> as_region(const geom::ConvexPolygon& polygon) {
   geom::Contour outer;

@@ -8,9 +8,9 @@
 
 namespace lekalo::cli {
 
-/// The bytes of --report and --allowances; empty where not asked for.
+/// The bytes of --report, --allowances and --drawing; empty where not asked for.
 struct ReportFiles {
-  std::string report, allowances;
+  std::string report, allowances, drawing;
 };
 
 /// Of regions: the document holds them.

@@ -45,10 +45,10 @@ std::string mm_up(double value) {
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
 std::string headline(const io::LocateDocument& d) {
-  if (d.status == "optimal") return "The best placement was found and proved.";
-  const bool demands = d.regions && d.regions->demands;
   if (d.regions && d.regions->scan && !d.regions->scan->proved)
     return "Stretches of the blank are unknown: what follows holds for the rest of it, and is no yes.";
+  if (d.status == "optimal") return "The best placement was found and proved.";
+  const bool demands = d.regions && d.regions->demands;
   if (d.status == "infeasible" && demands)
     return "No placement meets the demands; this is proved. The one that misses least:";
   if (d.status == "infeasible") {
