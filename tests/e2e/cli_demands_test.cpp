@@ -1,0 +1,164 @@
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "e2e/cli_run.hpp"
+
+/// `lekalo locate` with demands by feature, criteria, locked shifts, drawings and scans, as a person runs it.
+namespace lekalo::test {
+namespace {
+
+std::string example(const std::string& name) {
+  return std::string(LEKALO_SOURCE_DIR) + "/examples/regions/" + name;
+}
+Words bracket(const Words& more) {
+  Words words{"locate", "--part",  example("bracket.json"), "--blank", example("casting.json"), "--json",
+              "-o",     "out.json"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+class Demands : public testing::Test {
+ protected:
+  Json located(const Words& words, int status = 0) {
+    const Ran ran = run(folder_.path(), words);
+    EXPECT_EQ(ran.status, status) << ran.err;
+    said_ = ran.err;
+    return ran.out.empty() ? Json() : ran.json();
+  }
+  int verified() { return run(folder_.path(), {"verify", "out.json"}).status; }
+  /// The result with one field changed is refuted.
+  void expect_lie_is_seen(const std::string& path, const Json& value) {
+    Json wrong = Json::parse(read_bytes(folder_ / "out.json"));
+    wrong[Json::json_pointer(path)] = value;
+    write_bytes(folder_ / "wrong.json", wrong.dump());
+    EXPECT_EQ(run(folder_.path(), {"verify", "wrong.json"}).status, 4) << path;
+  }
+
+  TemporaryFolder folder_;
+  std::string said_;
+};
+
+TEST_F(Demands, EveryFeatureGetsItsAllowanceAndLiesAboutItAreSeen) {
+  write_bytes(folder_ / "features.json", R"({"units": "mm", "minimum": 0.3, "features": [
+    {"name": "bore", "contour": 1, "minimum": 0.5, "maximum": 3.5},
+    {"name": "base", "edges": [0, 2], "minimum": 0.4, "scale": 2}]})");
+  const Json result = located(bracket({"--features", "features.json", "--report", "out.svg"}));
+  EXPECT_EQ(result["status"], "optimal");
+  const Json& demands = result["demands"];
+  EXPECT_GT(demands["margin"], 0.5);
+  EXPECT_GE(demands["margin_bound"], demands["margin"]);
+  EXPECT_TRUE(result["upper_bound"].is_null());
+  EXPECT_EQ(verified(), 0);
+  const std::string page = read_bytes(folder_ / "out.svg");
+  for (const char* word : {"bore", "base", "all other edges"})
+    EXPECT_NE(page.find(word), std::string::npos) << word;
+
+  expect_lie_is_seen("/demands/margin", demands["margin"].get<double>() + 0.05);
+  expect_lie_is_seen("/demands/margin_bound", demands["margin_bound"].get<double>() - 0.2);
+  expect_lie_is_seen("/demands/largest", demands["largest"].get<double>() - 0.01);
+  expect_lie_is_seen("/demands/features/0/minimum", 3.0);
+  expect_lie_is_seen("/demands/features/0/maximum", 1.0);
+  expect_lie_is_seen("/demands/features/1/edges", Json::array({0, 0}));
+  expect_lie_is_seen("/demands/features/1/edges", Json::array({0, 999}));
+  expect_lie_is_seen("/demands/bound", -1.0);
+  expect_lie_is_seen("/x", result["x"].get<double>() + 1);
+}
+
+TEST_F(Demands, WhatCannotBeMetIsProvedAndNamed) {
+  write_bytes(folder_ / "features.json", R"({"features": [{"name": "bore", "contour": 1, "minimum": 2.5}]})");
+  const Json result = located(bracket({"--features", "features.json"}), 1);
+  EXPECT_EQ(result["status"], "infeasible");
+  EXPECT_LT(result["demands"]["margin_bound"], 0);
+  EXPECT_GT(result["shortfall"], 0);
+  EXPECT_NE(said_.find("No placement meets the demands"), std::string::npos) << said_;
+  EXPECT_EQ(verified(), 0);
+}
+
+TEST_F(Demands, IgnoredRegionsDoNotCount) {
+  // A pad over the end of the long leg: without it the part may go further that way.
+  write_bytes(folder_ / "features.json",
+              R"({"minimum": 0.2, "features": [{"name": "bore", "contour": 1, "minimum": 0.2}],
+    "ignore": [{"outer": [{"line": {"from": [-50, -50], "to": [500, -50]}}, {"line": {"from": [500, -50], "to": [500, 2]}},
+                          {"line": {"from": [500, 2], "to": [-50, 2]}}, {"line": {"from": [-50, 2], "to": [-50, -50]}}]}]})");
+  const Json result = located(bracket({"--features", "features.json"}));
+  EXPECT_EQ(result["part_cut"], true);
+  EXPECT_GT(result["demands"]["margin"], 1.4);
+  EXPECT_EQ(verified(), 0);
+}
+
+TEST_F(Demands, TheSecondCriterionGivesUpNoMoreThanAllowed) {
+  const Json plain = located(bracket({}));
+  const Json largest = located(bracket({"--criterion", "largest", "--give-up", "0.2", "--trade-off", "3"}));
+  EXPECT_GE(largest["clearance"], plain["clearance"].get<double>() - 0.2 - 2e-3);
+  EXPECT_LT(largest["demands"]["largest"], 22.6);
+  EXPECT_LE(largest["demands"]["largest_bound"], largest["demands"]["largest"]);
+  EXPECT_EQ(largest["demands"]["trade_off"].size(), 3U);
+  EXPECT_EQ(verified(), 0);
+  const Json even = located(bracket({"--criterion", "even", "--give-up", "0.5"}));
+  EXPECT_GE(even["clearance"], plain["clearance"].get<double>() - 0.5 - 2e-3);
+  EXPECT_EQ(verified(), 0);
+}
+
+TEST_F(Demands, ALockedShiftStaysAndIsSaidInTheResult) {
+  const Json free = located(bracket({}));
+  const Json result = located(bracket({"--lock-x", "211", "--lock-y", "95"}));
+  EXPECT_EQ(result["x"], 211);
+  EXPECT_EQ(result["y"], 95);
+  EXPECT_LT(result["clearance"], free["clearance"]);
+  EXPECT_EQ(verified(), 0);
+  expect_lie_is_seen("/locked/x", 212);
+  expect_lie_is_seen("/locked/y", nullptr);
+}
+
+TEST_F(Demands, ADrawingOfThePlacementCanBePlacedAgain) {
+  for (const std::string ending : {"dxf", "svg"}) {
+    SCOPED_TRACE(ending);
+    const Json first = located(bracket({"--drawing", "placed." + ending}));
+    const std::string drawing = "placed." + ending;
+    const Json again =
+        located({"locate", "--part", drawing, "--part-layers", "PART", "--blank", drawing, "--blank-layers",
+                 "BLANK", "--window", "-2", "2", "--json", "-o", "out.json"});
+    EXPECT_NEAR(again["clearance"], first["clearance"].get<double>(), 1.5e-3);
+    EXPECT_NEAR(again["theta"], 0, 1e-4);
+    EXPECT_EQ(verified(), 0);
+  }
+}
+
+/// n points around an ellipse, on the share of it that is measured.
+std::string ellipse_scan(int n, double share) {
+  std::ostringstream text;
+  text.precision(12);
+  for (int i = 0; i < n * share; ++i) {
+    const double t = 2 * std::numbers::pi * i / n;
+    text << 200 + 80 * std::cos(t) << ' ' << 100 + 62 * std::sin(t) << '\n';
+  }
+  return text.str();
+}
+
+TEST_F(Demands, AScanGivesWhatItProvesAndUnknownStretchesAreNoYes) {
+  write_bytes(
+      folder_ / "part.json",
+      R"({"shape": {"difference": [{"rectangle": {"size": [100, 60]}}, {"circle": {"radius": 10}}]}})");
+  write_bytes(folder_ / "scan.csv", ellipse_scan(600, 1));
+  const Words outline{"locate", "--part", "part.json", "--blank", "scan.csv", "--window",
+                      "-10",    "10",     "--json",    "-o",      "out.json"};
+  const double measured = located(outline)["clearance"];
+  Words words = outline;
+  words.insert(words.end(), {"--uncertainty", "0.01", "--min-radius", "5"});
+  const Json whole = located(words);
+  EXPECT_EQ(whole["scan"]["proved"], true);
+  EXPECT_LT(whole["clearance"], measured - 0.02);
+  EXPECT_GT(whole["clearance"], measured - 0.12);
+  EXPECT_FALSE(whole["scan"]["assumptions"].empty());
+  EXPECT_EQ(verified(), 0);
+
+  write_bytes(folder_ / "scan.csv", ellipse_scan(600, 0.95));
+  const Json gap = located(words, 1);
+  EXPECT_EQ(gap["scan"]["proved"], false);
+  EXPECT_EQ(gap["scan"]["unknown"].size(), 1U);
+  EXPECT_NE(said_.find("unknown"), std::string::npos) << said_;
+}
+
+}  // namespace
+}  // namespace lekalo::test
