@@ -75,6 +75,8 @@ const std::vector<std::pair<std::string, std::string>>& harmless() {
       {"/seed", "how it was found"},
       {"/work", "how it was found"},
       {"/version", "who wrote it"},
+      {"/part_cut", "a note says then that the part was not compared with its file"},
+      {"/scan", "what the blank was made from: for the reader"},
       {"/warnings", "for the reader"},
       {"/alternatives", "regions have none, and nothing is said of them"},
   };
