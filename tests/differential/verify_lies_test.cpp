@@ -160,6 +160,7 @@ TEST_F(Lies, SmallLiesAboutWhatIsClaimedAreSeen) {
 
 TEST_F(Lies, NothingCanBeLeftOut) {
   for (const auto& [key, value] : truth_->items()) {
+    if (value.is_null()) continue;  // left out it says the same
     Json wrong = *truth_;
     wrong.erase(key);
     const bool says_nothing = may_be_confirmed("/" + key) || may_be_confirmed("/" + key + "/") ||
