@@ -161,7 +161,7 @@ void RegionCheck::read() {
     Fields shift(locked, "locked", complaint_);
     r_.locked_x = shift.number_or_null("x"), r_.locked_y = shift.number_or_null("y");
   }
-  r_.part_cut = fields.get("part_cut").is_bool() && fields.get("part_cut").is_true();
+  if (!fields.get("part_cut").text.empty()) r_.part_cut = truth_of(fields, "part_cut");
   const Json demands = fields.get("demands");
   if (!demands.is_null()) {
     r_.demands = read_demands(demands, complaint_);
