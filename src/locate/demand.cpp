@@ -223,7 +223,7 @@ class DemandLocaliser {
     double least = kInfinity;
     for (std::uint32_t k = 0; k < edges_.size(); ++k) {
       if (demand_[k].finished) continue;
-      const double spare = clearance_.edge_distance(pose.map(), k) - demand_[k].minimum;
+      const double spare = clearance_.nearest(pose.map(), k).distance - demand_[k].minimum;
       least = std::min(least, spare / demand_[k].scale);
     }
     if (least == kInfinity) least = value.distance;
@@ -237,9 +237,12 @@ class DemandLocaliser {
     if (margin > result_.margin) pose_ = pose, result_.margin = margin;
   }
 
-  void take_proof(const Grown& grown, double grown_for, double shift, RegionResult& found, double bound) {
+  void take_proof(const Grown& grown, double grown_for, bool with_caps, double shift, RegionResult& found,
+                  double bound) {
     if (!(bound < result_.margin_bound)) return;
     result_.margin_bound = bound;
+    // Where no cap was asked, none can be the least, however much is added to what it has left.
+    if (!with_caps) shift = std::max(0.0, found.upper_bound);
     result_.proof = {grown.regions,
                      grown_for,
                      grown.tolerance,
@@ -261,7 +264,7 @@ class DemandLocaliser {
     take_pose(*first);
     const double free_bound = first->upper_bound;
     if (free_bound < 0 || !finished_)
-      take_proof(*base, 0, 0, *first, free_bound < 0 ? free_bound : free_bound / least_scale_);
+      take_proof(*base, 0, false, 0, *first, free_bound < 0 ? free_bound : free_bound / least_scale_);
     if (free_bound < 0) return settle();
     if (finished_) {  // no point is deeper in the blank than half its width
       const geom::Box box = clearance_.blank().bounds();
@@ -273,13 +276,15 @@ class DemandLocaliser {
       if (!with_caps) return tl::unexpected(std::move(with_caps.error()));
       take_pose(*with_caps);
       if (with_caps->upper_bound < 0) {
-        take_proof(*base, 0, 0, *with_caps, with_caps->upper_bound);
+        take_proof(*base, 0, true, 0, *with_caps, with_caps->upper_bound);
         return settle();
       }
     }
     if (result_.margin >= 0) {
-      const bool bisect = !caps_.empty() && result_.margin_bound - result_.margin > cap_gap_;
-      if (Result<void> done = bisect ? bisect_margin(*base) : grow(); !done) return done;
+      // Without its caps first: often they do not bind.
+      Result<void> done = finished_ ? Result<void>() : grow();
+      if (done && !caps_.empty()) done = bisect_margin(*base);
+      if (!done) return done;
     }
     return settle();
   }
@@ -287,14 +292,15 @@ class DemandLocaliser {
   /// Edges with scales: grown for the margin that the best pose has, no pose has more than the next bound.
   Result<void> grow() {
     for (int k = 0; scaled() && k < kMostGrowths && !stopped_; ++k) {
-      if (result_.margin_bound - result_.margin <= options_.gap) break;
-      const double margin = result_.margin;
+      const double margin = result_.margin, width = result_.margin_bound - margin;
+      if (width <= options_.gap) break;
       auto grown = grown_for(margin);
       if (!grown) return tl::unexpected(std::move(grown.error()));
       auto found = search(*grown, {}, 0, 0.5 * options_.gap * least_scale_);
       if (!found) return tl::unexpected(std::move(found.error()));
       take_pose(*found);
-      take_proof(*grown, margin, 0, *found, margin + std::max(0.0, found->upper_bound) / least_scale_);
+      take_proof(*grown, margin, false, 0, *found, margin + std::max(0.0, found->upper_bound) / least_scale_);
+      if (!(result_.margin_bound - result_.margin < width)) break;  // caps hold it, or rounding
     }
     return {};
   }
@@ -313,7 +319,7 @@ class DemandLocaliser {
       if (!found) return tl::unexpected(std::move(found.error()));
       take_pose(*found);
       if (found->upper_bound <= level + gap)
-        take_proof(*grown, scaled() ? margin : 0, level + gap, *found,
+        take_proof(*grown, scaled() ? margin : 0, true, level + gap, *found,
                    margin + std::max(0.0, found->upper_bound - level) / least_scale_);
       if (!(result_.margin_bound - result_.margin < before)) break;  // what is left is rounding
     }
@@ -322,7 +328,7 @@ class DemandLocaliser {
 
   Result<void> settle() {
     result_.margin_bound = std::nextafter(result_.margin_bound, kInfinity);
-    const double gap = caps_.empty() ? options_.gap : cap_gap_;
+    const double gap = caps_.empty() ? options_.gap : cap_gap_;  // what a bisection is content with
     const bool closed = result_.margin_bound - result_.margin <= 1.001 * gap;
     result_.status = result_.margin_bound < 0 ? Status::infeasible
                                               : (closed && !stopped_ ? Status::optimal : Status::stopped);
@@ -413,7 +419,8 @@ class DemandLocaliser {
     result_.deviation = deviation_at(even_samples(), clearance_, pose_.map());
   }
 
-  /// Where the demands hold the part: each place of the grown part by the nearest one of the part itself.
+  /// Where the demands hold the part; where they are not met, each place where the grown part is nearest, by
+  /// the nearest one of the part itself.
   void find_contacts() {
     const double margin = std::max(options_.gap, 1e-6 * far_);
     const BlankFromPart map = pose_.map();
@@ -426,9 +433,17 @@ class DemandLocaliser {
       });
       if (!known) touches.push_back(touch);
     };
-    for (const phi::RegionContact& place : places) {
-      const auto own = clearance_.part().nearest(place.part);
-      add({own.edge, place.blank_edge, own.point, place.blank, norm(map(own.point) - place.blank), 0, {}});
+    if (result_.margin < 0) {
+      for (const phi::RegionContact& place : places) {
+        const auto own = clearance_.part().nearest(place.part);
+        add({own.edge, place.blank_edge, own.point, place.blank, norm(map(own.point) - place.blank), 0, {}});
+      }
+    }
+    for (std::uint32_t k = 0; result_.margin >= 0 && k < edges_.size(); ++k) {
+      if (demand_[k].finished) continue;
+      const phi::RegionContact place = clearance_.nearest(map, k);
+      if ((place.distance - demand_[k].minimum) / demand_[k].scale <= result_.margin + margin)
+        add({k, place.blank_edge, place.part, place.blank, place.distance, 0, {}});
     }
     for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
       std::vector<geom::Curve> curves;

@@ -76,12 +76,15 @@ RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double mar
   return {least, least > 0 && inside(pose)};
 }
 
-double RegionClearance::edge_distance(const BlankFromPart& pose, std::uint32_t part_edge) const {
+RegionContact RegionClearance::nearest(const BlankFromPart& pose, std::uint32_t part_edge) const {
   const Curve moved = placed(part_.curves()[part_edge], pose);
-  double least = std::numeric_limits<double>::infinity();
-  blank_.visit_within(pose(disc_[part_edge].centre), disc_[part_edge].radius, least, [&](std::uint32_t j) {
-    least = std::min(least, closest_points(moved, blank_.curves()[j]).distance);
+  RegionContact least{part_edge, 0, {}, {}, std::numeric_limits<double>::infinity()};
+  const Disc& disc = disc_[part_edge];
+  blank_.visit_within(pose(disc.centre), disc.radius, least.distance, [&](std::uint32_t j) {
+    const geom::ClosestPoints close = closest_points(moved, blank_.curves()[j]);
+    if (close.distance < least.distance) least = {part_edge, j, close.a, close.b, close.distance};
   });
+  least.part = pose.inverse()(least.part);
   return least;
 }
 

@@ -44,8 +44,9 @@ class RegionClearance {
   /// rounding) too large.
   [[nodiscard]] double depth(const geom::BlankFromPart& pose, double tolerance) const;
 
-  /// Distance of one edge of the part, placed, from the blank's boundary; 0 where it crosses it. Error as at().
-  [[nodiscard]] double edge_distance(const geom::BlankFromPart& pose, std::uint32_t part_edge) const;
+  /// Where one edge of the part, placed, is nearest to the blank's boundary; distance 0 where it crosses it.
+  /// Error as at().
+  [[nodiscard]] RegionContact nearest(const geom::BlankFromPart& pose, std::uint32_t part_edge) const;
 
   /// How deep the points of some edges, moved as the part is, lie in the blank at most: their largest
   /// distance from its boundary inside its material, 0 where none is inside. Never too small, too large by at
