@@ -2,10 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/files.hpp"
 
 namespace lekalo::cli {
+namespace {
+
+/// How far the program may be off before a minimum that a feature demands is missed, mm.
+double spare_of_demands(const io::LocateDocument& d) {
+  if (!d.regions || !d.regions->demands) return std::numeric_limits<double>::infinity();
+  double least_scale = 1;
+  for (const locate::Feature& f : d.regions->demands->features) least_scale = std::min(least_scale, f.scale);
+  return d.regions->demands->margin * least_scale;
+}
+
+}  // namespace
 
 Result<RewrittenProgram> rewrite_for(const LocateOptions& o, const std::string& nc_bytes,
                                      io::LocateDocument& d) {
@@ -17,7 +31,7 @@ Result<RewrittenProgram> rewrite_for(const LocateOptions& o, const std::string& 
   Result<nc::Rewritten> rewritten = nc::rewrite_program(nc_bytes, o.nc, p.x, p.y, p.theta, o.rewrite);
   if (!rewritten) return tl::unexpected(rewritten.error());
   const double clearance = difference_rounded_down(p.clearance, rewritten->rounding_mm);
-  if (!(clearance >= o.min_allowance)) {
+  if (!(clearance >= o.min_allowance && spare_of_demands(d) >= rewritten->rounding_mm)) {
     d.warnings.push_back(
         fmt::format("no NC program was written, because its rounding to the written decimals, up to {} mm, "
                     "would leave {} mm",

@@ -191,7 +191,7 @@ std::string report_text(const Evidence& evidence, const verify::LocateReport& re
 }  // namespace
 
 Result<int> run_verify(const VerifyOptions& o) {
-  const Result<Evidence> evidence = gather(o);
+  Result<Evidence> evidence = gather(o);
   if (!evidence) return tl::unexpected(evidence.error());
   verify::LocateInputs inputs{{o.result, evidence->result_bytes},
                               {evidence->part.path, evidence->part.bytes},
@@ -200,6 +200,7 @@ Result<int> run_verify(const VerifyOptions& o) {
   if (evidence->certificate) inputs.certificate = {evidence->certificate->path, evidence->certificate->bytes};
   Result<verify::LocateReport> report = verify::verify_locate(inputs);
   if (!report) return tl::unexpected(report.error());
+  evidence->notes.insert(evidence->notes.begin(), report->notes.begin(), report->notes.end());
   report->findings.insert(report->findings.begin(), evidence->mismatches.begin(), evidence->mismatches.end());
   if (!report->findings.empty()) report->verdict = verify::Verdict::refuted;
   if (o.json) {

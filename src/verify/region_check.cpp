@@ -361,6 +361,10 @@ bool RegionCheck::check_certificate(DemandCheck* demands) {
   if (r_.mirror != "yes" && !plain) find("the certificate has no tree for the part as it is");
   if (r_.mirror != "no" && !mirrored) find("the certificate has no tree for the mirrored part");
   report_.intervals = cover.leaves();
+  if (r_.demands)
+    report_.notes.push_back(
+        "the bound is that of the margin of the demands; bounds of largest allowances and the points of a "
+        "trade-off curve were not rechecked");
   report_.bound_high = fmt::format("{}", r_.demands ? r_.demands->margin_bound.high : r_.upper_bound.high);
   return true;
 }
