@@ -39,7 +39,7 @@ Contour with_joints(const Contour& contour) {
       continue;
     }
     const double r = arc_radius(edge), off = std::abs(norm(edge.from - edge.centre) - r);
-    constexpr double kRoundedAlready = 0x1p-36;  // of the radius: rounding, not drawing
+    constexpr double kRoundedAlready = 0.25 * kEdgeErrorInSnaps * kBooleanSnap;  // of the radius
     const Edge arc{edge.kind, edge.centre + r * unit(edge.from - edge.centre),
                    edge.centre + r * unit(edge.to - edge.centre), edge.centre};
     if (off <= kRoundedAlready * r || arc.from == edge.from || arc.to == edge.to || arc.from == arc.to) {
