@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "lekalo/io/region_json.hpp"
@@ -76,7 +79,7 @@ struct Tally {
 void place_and_check(const cases::RegionCase& one, const std::vector<geom::Region>& given,
                      const std::vector<geom::Region>& truth, double loss, Random& random, Tally& tally) {
   locate::RegionOptions options;
-  options.run.work_limit = 60'000;
+  options.run.work_limit = 300'000;
   const auto result = locate::locate_regions({one.part, given, {}, locate::Mirror::no, 0, 0}, options);
   ASSERT_TRUE(result.has_value()) << result.error().message;
   const Point shift{result->best.x, result->best.y};
@@ -102,7 +105,7 @@ void place_and_check(const cases::RegionCase& one, const std::vector<geom::Regio
 }
 
 TEST(LocateThousand, OffsetShapes) {
-  const std::size_t count = count_of(14, 4);
+  const std::size_t count = count_of(7, 4);
   Tally tally;
   for (std::size_t i = 0; i < count; ++i) {
     const auto kind = cases::kRegionKinds[i % cases::kRegionKinds.size()];
@@ -116,14 +119,15 @@ TEST(LocateThousand, OffsetShapes) {
 }
 
 TEST(LocateThousand, BooleanTrees) {
-  const std::size_t count = count_of(12, 3);
+  const std::size_t count = count_of(6, 3);
   Tally tally;
   for (std::size_t i = 0; i < count; ++i) {
     const cases::GrownCase grown = cases::grown_case(cases::seed(), i, cases::kStockClasses[i % 3]);
     const cases::RegionCase& one = grown.shapes;
     SCOPED_TRACE(one.name);
-    // The case is what it says: the known pose has the allowance that the blank was grown by.
-    EXPECT_NEAR(checked(one.part, one.blank, one.theta, one.shift).low, grown.allowance, 1e-8);
+    // The case is what it says: the known pose has the least allowance the blank was grown by, or more where
+    // the neighbours' growth covers that edge.
+    EXPECT_GE(checked(one.part, one.blank, one.theta, one.shift).low, grown.allowance - 1e-8);
     Random random(cases::seed(), 20'000 + i);
     place_and_check(one, one.blank, one.blank, 0, random, tally);
     if (HasFatalFailure()) return;
@@ -133,7 +137,7 @@ TEST(LocateThousand, BooleanTrees) {
 
 TEST(LocateThousand, Scans) {
   constexpr double kNoise = 0.02, kRadius = 2;
-  const std::size_t count = count_of(8, 3);
+  const std::size_t count = count_of(3, 3);
   Tally tally;
   double loss_sum = 0, loss_most = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -267,7 +271,7 @@ Bounded brute_force(const Polygons& part, const Polygons& blank, double toleranc
 }
 
 TEST(LocateThousand, TinyCasesAgreeWithBruteForce) {
-  constexpr double kTolerance = 0.02;
+  constexpr double kTolerance = 0.002;
   const geom::Ring square{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
   const struct {
     const char* name;
@@ -286,8 +290,12 @@ TEST(LocateThousand, TinyCasesAgreeWithBruteForce) {
        {{{{-4, -3}, {4, -3}, {0, 5}}}},
        {{{{-6, -4}, {0, -3.6}, {6, -4.5}, {1.2, 6.5}, {-1, 6.2}}}}},
   };
-  for (const auto& one : tiny) {
+  Random random(cases::seed(), 40'000);
+  for (std::size_t k = 0; k < 4 * std::size(tiny); ++k) {
+    auto one = tiny[k % std::size(tiny)];
     SCOPED_TRACE(one.name);
+    if (k >= std::size(tiny))  // no two alike
+      for (Point& p : one.blank.rings[0]) p = p + Point{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)};
     const Bounded brute = brute_force(one.part, one.blank, kTolerance);
     ASSERT_GT(brute.reached, 0);
     const auto result =

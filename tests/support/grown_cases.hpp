@@ -28,7 +28,7 @@ inline constexpr std::array kStockClasses{StockClass{"0.1 to 5 mm", 0.1, 5},
 
 struct GrownCase {
   RegionCase shapes;
-  double allowance = 0;  ///< at the known pose, mm, but for the errors of the Booleans
+  double allowance = 0;  ///< at the known pose at least, mm, but for the errors of the Booleans
 };
 
 namespace grown_detail {
