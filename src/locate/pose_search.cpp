@@ -13,6 +13,9 @@ using geom::Point;
 
 /// Cells larger than this part of the shapes' size are bounded by single points, smaller ones by programs.
 constexpr double kFine = 1.0 / 128;
+/// Points of the part that bound large cells are no further apart along an edge than this part of its reach:
+/// two on a circle would say nothing about shifts across them.
+constexpr double kSampleSpacing = 0.2;
 /// Rounds of looking for contacts in one cell before it is split.
 constexpr int kRounds = 3;
 /// Pairs that one cell hands on to its halves.
@@ -94,12 +97,19 @@ PoseSearch::PoseSearch(const phi::RegionClearance& clearance, const std::vector<
 
 void PoseSearch::collect_samples() {
   const auto add = [&](const std::vector<geom::Curve>& curves, std::uint32_t k, std::uint32_t cap) {
-    const geom::Edge& edge = curves[k].edge;
-    const Point opposite = 2 * edge.centre - edge.from, middle = 0.5 * (edge.from + edge.to);
+    const geom::Curve& curve = curves[k];
+    const geom::Edge& edge = curve.edge;
     const bool line = edge.kind == geom::EdgeKind::line;
-    for (const Point& p :
-         {edge.from, line ? middle : nearest_on(curves[k], curves[k].full ? opposite : middle)})
+    const double sweep = line ? 0 : geom::arc_sweep(edge) * (edge.kind == geom::EdgeKind::arc_ccw ? 1 : -1);
+    const double length = line ? curve.length : curve.radius * std::abs(sweep);
+    const double pieces = std::max(2.0, std::ceil(length / (kSampleSpacing * reach_)));
+    samples_.push_back({edge.from, norm(edge.from), k, cap});
+    for (double j = 1; j < pieces; ++j) {
+      const Point p =
+          line ? edge.from + (j / pieces) * (edge.to - edge.from)
+               : nearest_on(curve, edge.centre + pose_at(j / pieces * sweep, {})(edge.from - edge.centre));
       samples_.push_back({p, norm(p), k, cap});
+    }
   };
   const auto& part = clearance_.part().curves();
   for (std::uint32_t k = 0; k < part.size(); ++k) add(part, k, kNoCap);
