@@ -48,7 +48,8 @@ struct Rings {
  "x": {}, "y": {}, "theta": {}, "theta_deg": {}, "mirrored": {}, "mirror": "{}", "clearance": {}, "upper_bound": {},
  "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
  "regions": {{"part": {}, "blank": {}}}, "contacts": {},
- "certificate": {{"pivot": {}, "trees": [{{"mirrored": false, {}, "nodes": [{}]}}]}}, "certificate_file": null}})",
+ "certificate": {{"pivot": {}, "trees": [{{"mirrored": false, {}, "nodes": [{}]}}]}}, "certificate_file": null,
+ "locked": null, "demands": null, "scan": null, "part_cut": false}})",
         status, x, y, theta, theta_deg, mirrored, mirror, clearance, upper, gap, tolerances, part(), blank,
         contacts, pivot, box, tree);
   }

@@ -14,17 +14,17 @@ namespace lekalo::geom {
 /// their union; what grows together is one piece, what is cut apart is several.
 ///
 /// Every boundary point of the result lies at |distance| from the boundary of the regions, within twice
-/// edge_error; pieces and gaps may be missing or filled, and corners are off, as in boolean.hpp. Where regions
-/// cross themselves, or shrink and touch or overlap, their union is taken first, and its corner_error is part
-/// of edge_error.
+/// edge_error; pieces and gaps may be missing or filled, and corners are off, as in boolean.hpp. Where
+/// regions cross themselves, or shrink and touch or overlap, their union is taken first, and its corner_error
+/// is part of edge_error.
 ///
 /// Fails as combine() does, and with ErrorCode::bad_input for a distance that is not is_exact_coordinate
-/// (predicates.hpp): NaN, infinite, beyond 1e144. Laws (tests/property/geom_offset_test.cpp): the distance just said; opening
-/// (shrink, then grow) lies inside and closing (grow, then shrink) around the regions; a convex region of
-/// boundary length L grows by L d + pi d^2; offset(offset(A, r), s) is offset(A, r + s) for r, s >= 0.
-/// Cost: O((n + k) log n) as combine(), about five edges for each. \pre regions made by make_region
-/// Source: the union of a region with what each edge and corner sweeps; every such set is bounded by lines
-/// and arcs, and sides that two of them share cancel.
+/// (predicates.hpp): NaN, infinite, beyond 1e144. Laws (tests/property/geom_offset_test.cpp): the distance
+/// just said; opening (shrink, then grow) lies inside and closing (grow, then shrink) around the regions; a
+/// convex region of boundary length L grows by L d + pi d^2; offset(offset(A, r), s) is offset(A, r + s) for
+/// r, s >= 0. Cost: O((n + k) log n) as combine(), about five edges for each. \pre regions made by
+/// make_region Source: the union of a region with what each edge and corner sweeps; every such set is bounded
+/// by lines and arcs, and sides that two of them share cancel.
 [[nodiscard]] Result<BooleanResult> offset(const std::vector<Region>& regions, double distance);
 
 /// The same with a distance for each edge, numbered as flatten() does: with those above 0 all points within
