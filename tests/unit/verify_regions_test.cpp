@@ -174,7 +174,8 @@ std::string pinned(const std::string& upper, const std::string& tolerance, const
  "min_allowance": 0, "shortfall": 0.5, "window_deg": [0, 360], "tolerances": {{"part": {}, "blank": {}}},
  "regions": {{"part": {{"units": "mm", "outer": {}}}, "blank": {{"units": "mm", "outer": {}, "holes": [{}]}}}},
  "contacts": [], "certificate": {{"pivot": [0, 0], "trees": [{{"mirrored": false, "theta": [0, 6.2831853071795872],
- "x": [-{}, {}], "y": [-{}, {}], "nodes": [{}]}}]}}, "certificate_file": null}})",
+ "x": [-{}, {}], "y": [-{}, {}], "nodes": [{}]}}]}}, "certificate_file": null,
+ "locked": null, "demands": null, "scan": null, "part_cut": false}})",
       upper, std::stod(upper) + 0.5, tolerance, tolerance, Rings::circle("0", "0", 11),
       Rings::circle("0", "0", 12), Rings::circle("0", "0", 0.1), reach, reach, reach, reach, nodes);
 }
