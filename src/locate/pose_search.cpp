@@ -274,7 +274,7 @@ bool PoseSearch::solve(Node& node, CellSolution& solution) {
 }
 
 /// Adds pairs for the contacts of the last measurement; false when all were known.
-bool PoseSearch::add_contacts(Node& node, double theta, double within) {
+bool PoseSearch::add_contacts(Node& node, double theta, Point pivot, double within) {
   const geom::SinCos turn = geom::sincos(theta);
   const double same = 1e-9 * scale_;
   const auto near = [&](Point a, Point b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) < same; };
@@ -295,6 +295,7 @@ bool PoseSearch::add_contacts(Node& node, double theta, double within) {
     });
     if (again) continue;
     if (contact.distance < 0 || contact.cap != kNoCap) grow(known);
+    if (contact.distance < 0 && contact.cap == kNoCap) grow_about_points(known, pose_at(theta, pivot));
     node.pairs.push_back(static_cast<std::uint32_t>(known_.size()));
     known_.push_back(known);
     rows_.push_back(row_of(known.pair, node.cell));
@@ -319,6 +320,21 @@ void PoseSearch::grow(Known& known) const {
   const Ball inside =
       tangent_ball(clearance_.part(), known.pair.part.centre, known.normal_of_part, scale_, least, doubt_);
   if (inside.radius > 0 && clearance_.part().contains(inside.centre)) known.pair.part = inside;
+}
+
+/// A crossing without balls that touch both outlines (a corner deep in a narrow notch) would be two points,
+/// whose distance says nothing. Then the empty disc about the part's point outside the blank tells, or that
+/// in the part about the blank's point.
+void PoseSearch::grow_about_points(Known& known, const BlankFromPart& pose) const {
+  if (known.pair.part.radius > 0 || known.pair.blank.radius > 0) return;
+  const Point part = pose(known.part), blank = pose.inverse()(known.blank);
+  if (!clearance_.blank().contains(part)) {
+    const double radius = clearance_.blank().nearest(part).distance - doubt_;
+    if (radius > 0) known.pair.blank = {part, radius};
+  } else if (clearance_.part().contains(blank)) {
+    const double radius = clearance_.part().nearest(blank).distance - doubt_;
+    if (radius > 0) known.pair.part = {blank, radius};
+  }
 }
 
 /// Of the pairs of a cell those that can be the least somewhere in it, the lowest ones first.
@@ -365,7 +381,7 @@ void PoseSearch::bound_closely(Node& node) {
     offer(found, size(cell));
     if (closed(node.upper)) return;
     contacts_ = here;
-    if (!add_contacts(node, theta, within)) break;
+    if (!add_contacts(node, theta, pivot, within)) break;
   }
   if (!solved) return;
   // The pairs that prove the bound, with their balls.

@@ -138,8 +138,9 @@ class PoseSearch {
   [[nodiscard]] CellRow row_of(const BallPair& pair, const PoseCell& cell) const;
   void fill_rows(const Node& node);
   bool solve(Node& node, CellSolution& solution);
-  bool add_contacts(Node& node, double theta, double within);
+  bool add_contacts(Node& node, double theta, geom::Point pivot, double within);
   void grow(Known& known) const;
+  void grow_about_points(Known& known, const geom::BlankFromPart& pose) const;
   void keep_relevant(Node& node) const;
   Found measure(double theta, geom::Point pivot, double margin);
   void measure_crossing(const geom::BlankFromPart& pose, Found& found);
