@@ -36,9 +36,19 @@ show "$lekalo" locate --part $regions/bracket.json --blank $regions/casting.json
   --nc $regions/bracket.nc --nc-out demo-out/bracket.nc --picture demo-out/bracket.svg -o demo-out/bracket.json
 show "$lekalo" verify demo-out/bracket.json
 
+# A part built from primitives by Booleans, in a casting that was probed, its program in the machine's frame.
+show "$lekalo" locate --part $regions/flange.json --blank $regions/flange-scan.csv --uncertainty 0.01 --min-radius 4 \
+  --min-allowance 1 --nc $regions/flange.nc --nc-out demo-out/flange.nc --picture demo-out/flange.svg \
+  --report demo-out/flange.pdf --allowances demo-out/flange.csv -o demo-out/flange.json
+show "$lekalo" verify demo-out/flange.json
+show "$lekalo" locate --part $regions/flange.json --blank $regions/flange-scan.csv --uncertainty 0.01 --min-radius 4 \
+  --min-allowance 1 --picture demo-out/flange.png --report demo-out/flange-report.png
+
 say ""
 say "Written to $root/demo-out:"
 say "  example-1.svg ... example-6.svg    blank, start, result, contacts and allowance; example-1.png the first as PNG"
 say "  example-1.json ... example-6.json  pose, clearance, upper bound, contacts and certificate"
 say "  part.nc                            $data/part.nc in the machine's frame"
 say "  bracket.svg, bracket.json, bracket.nc  a part with arcs, a slot and holes in a cored casting"
+say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of primitives in a probed casting: picture,"
+say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"

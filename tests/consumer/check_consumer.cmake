@@ -41,6 +41,17 @@ run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 message(STATUS "${output}")
 run(${prefix}/bin/lekalo --version)
+
+# The example program, built the same way.
+set(example ${CMAKE_CURRENT_LIST_DIR}/../../examples/library)
+run(${CMAKE_COMMAND} -S ${example} -B ${WORK}/place -G ${GENERATOR}
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=${TYPE}
+  -DCMAKE_PREFIX_PATH=${prefix})
+run(${CMAKE_COMMAND} --build ${WORK}/place)
+run(${WORK}/place/place ${example}/plate.json ${example}/casting.json)
+if(NOT output MATCHES "clearance 2\\.[0-9]+ mm, and no placement has more than 2\\.")
+  message(FATAL_ERROR "examples/library/place does not find the placement:\n${output}")
+endif()
 file(REMOVE_RECURSE ${WORK})
 
 # The README shows just these lines.

@@ -1,0 +1,92 @@
+%
+(flange: bore and outside with a 10 mm mill, slot, nut pocket, drilled holes)
+(part frame: zero in the middle of the bore, on top; 14 mm thick)
+G21 G17 G90 G94 G40 G49 G80
+T1 M6 (end mill 10 mm)
+S4500 M3
+G0 X0. Y0.
+G43 H1 Z20.
+M8
+(bore 62 mm, in the core)
+G1 Z-15. F800
+G1 X16. Y-10. F600
+G3 X26. Y0. I0. J10.
+G3 X26. Y0. I-26. J0.
+G3 X16. Y10. I-10. J0.
+G1 X0. Y0.
+G0 Z20.
+(outside, clockwise)
+G0 X85. Y10.
+G0 Z2.
+G1 Z-15. F800
+G1 X75. F600
+G3 X65. Y0. I0. J-10.
+G2 X29. Y-58.1722 I-65. J0.
+G1 Y-61.
+G2 X-29. I-29. J0.
+G1 Y-58.1722
+G2 X-56.3333 Y-32.4277 I29. J58.1722
+G2 X-57. Y-29.9333 I4.3333 J2.4944
+G1 Y29.9333
+G2 X-56.3333 Y32.4277 I5. J0.
+G2 X-29. Y58.1722 I56.3333 J-32.4277
+G1 Y61.
+G2 X29. I29. J0.
+G1 Y58.1722
+G2 X65. Y0. I-29. J-58.1722
+G3 X75. Y-10. I10. J0.
+G0 Z50. M9
+T2 M6 (end mill 6 mm)
+S6000 M3
+G0 X46. Y-8.
+G43 H2 Z2.
+M8
+(slot 8 mm)
+G1 Z0. F200
+G1 Y8. Z-5. F300
+G1 Y-8. Z-10.
+G1 Y8. Z-15.
+G1 X47. F500
+G3 X45. I-1. J0.
+G1 Y-8.
+G3 X47. I1. J0.
+G1 Y8.
+G0 Z50. M9
+T3 M6 (end mill 4 mm)
+S8000 M3
+G0 X0. Y-52.
+G43 H3 Z2.
+M8
+(nut pocket, 10 mm across flats)
+G1 Z-6. F100
+G1 X3. Y-50.268 F300
+G1 X0. Y-48.5359
+G1 X-3. Y-50.268
+G1 Y-53.732
+G1 X0. Y-55.4641
+G1 X3. Y-53.732
+G1 Y-50.268
+G0 Z50. M9
+T4 M6 (drill 9 mm)
+S1800 M3
+G0 X31.8198 Y31.8198
+G43 H4 Z20.
+M8
+G98 G83 Z-18. R2. Q5. F180
+X-31.8198
+Y-31.8198
+X31.8198
+G80
+G0 Z50. M9
+T5 M6 (drill 13 mm, in the cores)
+S1200 M3
+G0 X0. Y70.
+G43 H5 Z20.
+M8
+G98 G81 X0. Y70. Z-19. R2. F150
+X0. Y-70.
+G80
+G0 Z50. M9
+M5
+M30
+%
