@@ -112,6 +112,15 @@ std::vector<std::string> proof_sentences(const LocateDocument& d, int decimals) 
   return sentences;
 }
 
+namespace {
+
+std::string as_sentence(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text + ".";
+}
+
+}  // namespace
+
 std::vector<std::string> assumption_sentences(const LocateDocument& d, int decimals) {
   std::vector<std::string> sentences;
   if (d.regions && d.regions->part_tolerance + d.regions->blank_tolerance > 0) {
@@ -122,7 +131,7 @@ std::vector<std::string> assumption_sentences(const LocateDocument& d, int decim
   }
   if (d.regions && d.regions->scan) {
     const ScanRecord& scan = *d.regions->scan;
-    sentences.insert(sentences.end(), scan.assumptions.begin(), scan.assumptions.end());
+    for (const std::string& assumption : scan.assumptions) sentences.push_back(as_sentence(assumption));
     if (!scan.proved)
       sentences.push_back(fmt::format(
           "{} stretches of the blank are unknown; nothing here is proved of them.", scan.unknown.size()));
