@@ -193,13 +193,13 @@ Truth truth_of(const Outline& part, const Outline& blank, Random& random) {
   // Of many points the deepest, then a random walk downhill.
   const auto in_part = [&](RealPoint p) { return part.holds(p) ? depth(p) : Real(0); };
   std::vector<std::pair<Real, RealPoint>> deepest;
-  for (int k = 0; k < 600; ++k) {
+  for (int k = 0; k < 2000; ++k) {
     const RealPoint p{low_x + (high_x - low_x) * Real(random.uniform(0, 1)),
                       low_y + (high_y - low_y) * Real(random.uniform(0, 1))};
     deepest.push_back({in_part(p), p});
   }
   std::sort(deepest.begin(), deepest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  deepest.resize(6);
+  deepest.resize(24);
   for (auto& [best, p] : deepest) {
     Real step = 1;
     for (int failed = 0; step > 1e-6L && best < 0;) {
@@ -240,7 +240,8 @@ void check(const std::vector<geom::Region>& part, const std::vector<geom::Region
 }
 
 TEST(VerifyClearance, IsThatOfBruteForceOnRandomParts) {
-  const std::size_t count = cases::region_case_count(1);
+  // A second each.
+  const std::size_t count = std::min<std::size_t>(cases::region_case_count(1), 100);
   int inside = 0, outside = 0;
   for (const cases::RegionKind kind : cases::kRegionKinds)
     for (std::size_t i = 0; i < count; ++i) {
