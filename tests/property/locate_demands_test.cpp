@@ -20,8 +20,7 @@ using geom::Point;
 /// The demands, measured edge by edge.
 class Judge {
  public:
-  explicit Judge(const DemandProblem& problem)
-      : problem_(problem), clearance_(problem.shapes.part, problem.shapes.blank) {
+  explicit Judge(const DemandProblem& problem) : clearance_(problem.shapes.part, problem.shapes.blank) {
     for (std::uint32_t k = 0; k < clearance_.part().curves().size(); ++k) {
       Feature plain;
       plain.minimum = problem.minimum;
@@ -61,7 +60,6 @@ class Judge {
   }
 
  private:
-  const DemandProblem& problem_;
   phi::RegionClearance clearance_;
   std::vector<Feature> feature_;
 };
