@@ -189,8 +189,8 @@ TEST(IoDrawnShapes, ImagesOfCirclesArcsAndEllipsesAreWithinTheirErrors) {
     }
     EXPECT_LE(seen->error, 1e-11 * sizes) << "and not much more than rounding";
   }
-  EXPECT_GT(ellipses, 50U);
-  EXPECT_GT(circles, 50U);
+  EXPECT_GT(ellipses, cases::case_count(400) / 8);
+  EXPECT_GT(circles, cases::case_count(400) / 8);
 }
 
 TEST(IoDrawnShapes, PointsAndComposedMapsAreWithinTheirErrors) {
