@@ -1,0 +1,171 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/geom/grid_region.hpp"
+#include "lekalo/geom/region.hpp"
+
+namespace lekalo::layout {
+
+/// A cutting layout: what is cut, from what, by which rules, and where it lies. Values only; what they mean
+/// and how they are written: docs/design/layout.md and docs/formats.md. Outlines and lengths are on the grid
+/// of geom/grid.hpp.
+
+/// An outline as it counts (`polygon`) and as it was drawn. A placed outline is its polygon, turned and
+/// moved.
+struct Outline {
+  geom::GridRegion polygon;
+  /// The drawn outline where it has arcs, in the same place; `polygon` holds it (parts, defects, zones) or
+  /// lies in it (stock), within chord_tolerance_mm. Empty where the polygon is the drawing.
+  std::vector<geom::Region> curves;  ///< none or one
+  double chord_tolerance_mm = 0;
+  friend bool operator==(const Outline&, const Outline&) = default;
+};
+
+/// Angles from `from` counter-clockwise to `to`, degrees, ends included; from == to is one angle, to >= from
+/// + 360 is every angle. \pre from <= to
+struct AngleRange {
+  double from = 0, to = 0;
+  friend bool operator==(const AngleRange&, const AngleRange&) = default;
+};
+
+/// The quality a part or one of its areas needs. Zones of the stock carry a quality, higher is better;
+/// material outside every zone is the best; where zones overlap, the worst counts.
+inline constexpr int kBestQuality = std::numeric_limits<int>::max();
+inline constexpr int kAnyQuality = 0;
+
+/// An area of a part with a demand of its own, which there takes the place of the part's; where areas
+/// overlap, the highest counts.
+struct PartArea {
+  int quality = kAnyQuality;
+  Outline outline;  ///< in the part's frame; may reach beyond the part
+  friend bool operator==(const PartArea&, const PartArea&) = default;
+};
+
+/// A direction in the material or the part: grain, stretch. Turned by half a turn it is the same one.
+struct Grain {
+  double degrees = 0;            ///< in the part's frame
+  double tolerance_degrees = 0;  ///< in [0, 90]
+  friend bool operator==(const Grain&, const Grain&) = default;
+};
+
+struct Part {
+  std::string id;    ///< unique among parts, not empty
+  std::string name;  ///< for people; may be empty
+  Outline outline;
+  int quality = kAnyQuality;
+  std::vector<PartArea> areas;
+  std::vector<AngleRange> rotations;  ///< none: any angle. Of the part as placed, after mirroring.
+  bool may_mirror = false;
+  std::optional<Grain> grain;
+  int tolerated_severity = 0;  ///< defects of this severity or less may lie in the part
+  int priority = 0;            ///< higher first
+  std::int64_t demand = 0;     ///< pieces wanted beside those of kits
+  /// Own gaps in grid steps; the larger of two parts' gaps counts between them. Absent: the rules' gap.
+  std::optional<std::int64_t> gap, border_gap, defect_gap;
+  friend bool operator==(const Part&, const Part&) = default;
+};
+
+enum class StockKind : std::uint8_t {
+  strip,  ///< a rectangle from (0, 0), `height` across; its length is open up to the outline's
+  sheet,  ///< alike in all copies, usually a rectangle
+  hide    ///< irregular, with defects and zones
+};
+
+struct Defect {
+  std::string id;    ///< unique within its stock
+  int severity = 1;  ///< >= 1
+  Outline outline;
+  friend bool operator==(const Defect&, const Defect&) = default;
+};
+
+struct QualityZone {
+  std::string id;  ///< unique within its stock
+  int quality = 0;
+  Outline outline;
+  friend bool operator==(const QualityZone&, const QualityZone&) = default;
+};
+
+struct Stock {
+  std::string id;
+  std::string name;
+  StockKind kind = StockKind::sheet;
+  std::int64_t count = 1;    ///< copies that are there, >= 1; a strip has one
+  double cost = 1;           ///< of one copy, >= 0
+  Outline outline;           ///< material with holes; a strip's reaches to its longest length
+  bool open_length = false;  ///< a strip whose length nobody limits: the outline ends at kLongestStrip
+  std::optional<double> grain_degrees;
+  std::vector<Defect> defects;
+  std::vector<QualityZone> zones;
+  friend bool operator==(const Stock&, const Stock&) = default;
+};
+/// Where a strip of open length ends, in steps: 262,144 mm.
+inline constexpr std::int64_t kLongestStrip = geom::kGridLimit / 4;
+
+/// So many pieces of a part in one kit.
+struct KitPiece {
+  std::uint32_t part = 0;        ///< index into Document::parts
+  std::int64_t count = 1;        ///< >= 1
+  std::optional<bool> mirrored;  ///< left and right; absent: either serves
+  friend bool operator==(const KitPiece&, const KitPiece&) = default;
+};
+
+/// What makes one product.
+struct Kit {
+  std::string id;
+  std::string name;
+  std::int64_t demand = 1;  ///< kits wanted, >= 0
+  double value = 1;         ///< of one kit, >= 0
+  std::vector<KitPiece> pieces;
+  friend bool operator==(const Kit&, const Kit&) = default;
+};
+
+/// Gaps in grid steps, >= 0; 0 lets edges touch.
+struct Rules {
+  std::int64_t gap = 0;         ///< part to part
+  std::int64_t border_gap = 0;  ///< part to the border of the stock and of its holes
+  std::int64_t defect_gap = 0;  ///< part to defects it does not tolerate
+  friend bool operator==(const Rules&, const Rules&) = default;
+};
+
+struct Placement {
+  std::uint64_t id = 0;     ///< unique in the document, > 0, never used again
+  std::uint32_t part = 0;   ///< index into Document::parts
+  std::uint32_t stock = 0;  ///< index into Document::stocks
+  std::int64_t copy = 0;    ///< which of the stock's copies, in [0, count)
+  geom::GridRotation rotation;
+  bool mirrored = false;
+  geom::GridPoint at;  ///< added to the turned outline; |at| <= kGridLimit / 2
+  bool locked = false;
+  friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+struct Document {
+  std::string name;
+  std::vector<Stock> stocks;
+  std::vector<Part> parts;
+  std::vector<Kit> kits;
+  Rules rules;
+  std::vector<Placement> placements;  ///< ascending by id
+  std::uint64_t next_id = 1;          ///< above every placement's
+  friend bool operator==(const Document&, const Document&) = default;
+};
+
+/// The outline where it lies: turned, mirrored, moved.
+[[nodiscard]] geom::GridRegion placed_outline(const Part& part, const Placement& placement);
+
+/// Whether a part may lie at this rotation: its set of angles, decided on the exact pairs of the ends.
+[[nodiscard]] bool rotation_allowed(const Part& part, geom::GridRotation rotation);
+/// Whether its grain follows the stock's closely enough; true where either has none. A mirrored part's grain
+/// is mirrored with it.
+[[nodiscard]] bool grain_allowed(const Part& part, const Stock& stock, geom::GridRotation rotation,
+                                 bool mirrored);
+
+/// Pieces of a part that are wanted: its own demand and those of all kits wanted.
+[[nodiscard]] std::int64_t wanted(const Document& document, std::uint32_t part);
+
+}  // namespace lekalo::layout

@@ -1,0 +1,311 @@
+#include "lekalo/geom/grid_region.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::geom {
+namespace {
+
+using Loop = std::vector<GridPoint>;
+
+std::string loop_name(std::size_t loop) { return loop == 0 ? "outline" : fmt::format("hole {}", loop - 1); }
+
+std::string place(GridPoint p) {
+  const Point mm = mm_from_grid(p);
+  return fmt::format("({:.6g}, {:.6g})", mm.x, mm.y);
+}
+
+Int128 twice_area(const GridPoint* points, std::size_t n) noexcept {
+  Int128 sum = 0;
+  for (std::size_t i = 1; i + 1 < n; ++i) sum += cross(points[i] - points[0], points[i + 1] - points[0]);
+  return sum;
+}
+
+bool nearer_than_resolution(GridPoint a, GridPoint b) noexcept {
+  const GridPoint d = b - a;
+  return dot(d, d) < kGridResolution * kGridResolution;
+}
+
+/// Whether p is nearer to the segment a b than the resolution. Off by a rounding where the distance is that.
+bool nearer_than_resolution(GridPoint p, GridPoint a, GridPoint b) noexcept {
+  const GridPoint along = b - a, to = p - a;
+  const Int128 at = dot(to, along), length = dot(along, along);
+  if (at <= 0) return nearer_than_resolution(p, a);
+  if (at >= length) return nearer_than_resolution(p, b);
+  const double height = static_cast<double>(cross(along, to));
+  return height * height < kGridResolution * kGridResolution * static_cast<double>(length);
+}
+
+bool cross_each_other(GridPoint a, GridPoint b, GridPoint c, GridPoint d) noexcept {
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+}
+
+/// Points that follow one another too closely become the first of them.
+void thin(Loop& loop) {
+  Loop kept;
+  for (const GridPoint p : loop)
+    if (kept.empty() || !nearer_than_resolution(kept.back(), p)) kept.push_back(p);
+  while (kept.size() > 1 && nearer_than_resolution(kept.back(), kept.front())) kept.pop_back();
+  loop = std::move(kept);
+}
+
+std::optional<Error> fault_of_loop(const Loop& loop, std::size_t index) {
+  const auto fault = [](std::string message) { return Error{ErrorCode::bad_input, std::move(message)}; };
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    constexpr std::int64_t kMost = kGridLimit / 4;
+    if (loop[i].x < -kMost || loop[i].x > kMost || loop[i].y < -kMost || loop[i].y > kMost)
+      return fault(fmt::format("{}: point {} at {} mm is further from the origin than {} mm; check the units",
+                               loop_name(index), i, place(loop[i]), mm_from_grid(kMost)));
+  }
+  return std::nullopt;
+}
+
+struct Segment {
+  GridPoint from, to;
+  std::uint32_t loop = 0, index = 0;
+};
+
+/// The first two edges that meet or come nearer than the resolution without being neighbours.
+std::optional<Error> fault_between(const GridRegion& region) {
+  std::vector<Segment> edges;
+  std::vector<Box> boxes;
+  for (std::size_t l = 0; l < region.loops(); ++l) {
+    const std::uint32_t begin = region.loop_starts[l], end = region.loop_starts[l + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const GridPoint a = region.points[i], b = region.points[i + 1 == end ? begin : i + 1];
+      edges.push_back({a, b, static_cast<std::uint32_t>(l), i - begin});
+      constexpr double kMargin = kGridResolution;
+      boxes.push_back({{static_cast<double>(std::min(a.x, b.x)) - kMargin,
+                        static_cast<double>(std::min(a.y, b.y)) - kMargin},
+                       {static_cast<double>(std::max(a.x, b.x)), static_cast<double>(std::max(a.y, b.y))}});
+    }
+  }
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> first;
+  BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+    if (first && *first <= std::pair{i, j}) return;
+    const Segment &a = edges[i], &b = edges[j];
+    const bool a_then_b = a.to == b.from, b_then_a = b.to == a.from;
+    const bool near = (!a_then_b && !b_then_a && cross_each_other(a.from, a.to, b.from, b.to)) ||
+                      (!b_then_a && nearer_than_resolution(a.from, b.from, b.to)) ||
+                      (!a_then_b && nearer_than_resolution(a.to, b.from, b.to)) ||
+                      (!a_then_b && nearer_than_resolution(b.from, a.from, a.to)) ||
+                      (!b_then_a && nearer_than_resolution(b.to, a.from, a.to));
+    if (near) first = {i, j};
+  });
+  if (!first) return std::nullopt;
+  const Segment &a = edges[first->first], &b = edges[first->second];
+  return Error{
+      ErrorCode::bad_input,
+      fmt::format("{}: edge {} from {} and {} edge {} from {} (mm) cross, touch or come nearer than {:.1g} "
+                  "mm; an outline may not meet itself",
+                  loop_name(a.loop), a.index, place(a.from), a.loop == b.loop ? "its own" : loop_name(b.loop),
+                  b.index, place(b.from), mm_from_grid(kGridResolution))};
+}
+
+PointLocation locate_in_loop(const GridPoint* points, std::size_t n, GridPoint p) noexcept {
+  bool inside = false;
+  for (std::size_t i = 0, j = n - 1; i < n; j = i++) {
+    const GridPoint a = points[j], b = points[i];
+    if ((a.y > p.y) == (b.y > p.y)) {
+      // Both ends on one side, or both level with p, where p may lie on a level edge.
+      if (a.y == p.y && b.y == p.y && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x))
+        return PointLocation::boundary;
+      if (b == p) return PointLocation::boundary;
+      continue;
+    }
+    const int side = turn(a, b, p);
+    if (side == 0) return PointLocation::boundary;
+    if ((side > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside ? PointLocation::inside : PointLocation::outside;
+}
+
+const GridPoint* loop_begin(const GridRegion& region, std::size_t l) noexcept {
+  return region.points.data() + region.loop_starts[l];
+}
+std::size_t loop_size(const GridRegion& region, std::size_t l) noexcept {
+  return region.loop_starts[l + 1] - region.loop_starts[l];
+}
+
+std::optional<Error> fault_of_nesting(const GridRegion& region) {
+  const auto inside = [&](std::size_t hole, std::size_t loop) {
+    return locate_in_loop(loop_begin(region, loop), loop_size(region, loop), *loop_begin(region, hole)) ==
+           PointLocation::inside;
+  };
+  for (std::size_t h = 1; h < region.loops(); ++h) {
+    if (!inside(h, 0))
+      return Error{ErrorCode::bad_input, fmt::format("{}: it lies outside the outline, at {} mm",
+                                                     loop_name(h), place(*loop_begin(region, h)))};
+    for (std::size_t other = 1; other < region.loops(); ++other)
+      if (other != h && inside(h, other))
+        return Error{ErrorCode::bad_input, fmt::format("{}: it lies inside {}, at {} mm", loop_name(h),
+                                                       loop_name(other), place(*loop_begin(region, h)))};
+  }
+  return std::nullopt;
+}
+
+/// The points of an arc's chords between its ends; see grid_region_of_curves.
+class ArcChords {
+ public:
+  ArcChords(const Edge& arc, ChordSide side, double tolerance)
+      : arc_(arc), outside_((arc.kind == EdgeKind::arc_ccw) == (side == ChordSide::grow)) {
+    const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
+    radius_ = outside_ ? std::max(from, to) + kMargin : std::max(0.0, std::min(from, to) - kMargin);
+    // Sagitta of half an angle h: r (1 / cos h - 1) outside, r (1 - cos h) inside.
+    const double room = tolerance - std::abs(from - to) - kMargin;
+    const double most = std::max(from, to);
+    const double sine_half = std::sqrt(std::min(0.25, std::max(room, kMargin) / (3.0 * most)));
+    const double sweep = arc_sweep(arc);
+    const double count = std::ceil(sweep / (4.0 * sine_half));
+    pieces_ =
+        static_cast<std::size_t>(std::max({count, std::ceil(sweep / 1.6), arc.from == arc.to ? 3.0 : 1.0}));
+    step_ = (arc.kind == EdgeKind::arc_ccw ? sweep : -sweep) / static_cast<double>(pieces_);
+  }
+  [[nodiscard]] std::size_t count() const noexcept { return outside_ ? pieces_ : pieces_ - 1; }
+  [[nodiscard]] Point operator[](std::size_t i) const noexcept {
+    const double angle =
+        outside_ ? (static_cast<double>(i) + 0.5) * step_ : static_cast<double>(i + 1) * step_;
+    const double radius = outside_ ? radius_ / sincos(step_ / 2).cosine : radius_;
+    const Point out = arc_.from - arc_.centre;
+    const SinCos turn = sincos(angle);
+    const double scale = radius / norm(out);
+    return arc_.centre + Point{scale * (turn.cosine * out.x - turn.sine * out.y),
+                               scale * (turn.sine * out.x + turn.cosine * out.y)};
+  }
+
+ private:
+  /// Rounding to the grid, thinning, and the turned vertex's rounding, with 2 steps left.
+  static constexpr double kMargin = 8 * kGridStep;
+  const Edge& arc_;
+  bool outside_;
+  double radius_ = 0, step_ = 0;
+  std::size_t pieces_ = 1;
+};
+
+constexpr std::size_t kMostChords = 4'000'000;
+
+Result<Loop> grid_loop(const Contour& contour, std::size_t index, ChordSide side, double tolerance) {
+  Loop loop;
+  const auto add = [&](Point p) {
+    if (!fits_grid(p.x) || !fits_grid(p.y)) return false;
+    loop.push_back({grid_from_mm(p.x), grid_from_mm(p.y)});
+    return true;
+  };
+  for (std::size_t e = 0; e < contour.size(); ++e) {
+    bool fits = add(contour[e].from);
+    if (contour[e].kind != EdgeKind::line && fits) {
+      const ArcChords chords(contour[e], side, tolerance);
+      if (chords.count() + loop.size() > kMostChords)
+        return failure(
+            ErrorCode::bad_input,
+            fmt::format("{}: edge {} needs more than {} chords within {} mm; take a larger tolerance",
+                        loop_name(index), e, kMostChords, tolerance));
+      for (std::size_t i = 0; i < chords.count() && fits; ++i) fits = add(chords[i]);
+    }
+    if (!fits)
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("{}: edge {} from ({}, {}) reaches further from the origin than {} mm; check the units",
+                      loop_name(index), e, contour[e].from.x, contour[e].from.y, mm_from_grid(kGridLimit)));
+  }
+  return loop;
+}
+
+}  // namespace
+
+Result<GridRegion> make_grid_region(std::vector<Loop> loops) {
+  if (loops.empty()) return failure(ErrorCode::bad_input, "outline: it has no points");
+  GridRegion region;
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    Loop& loop = loops[l];
+    if (auto fault = fault_of_loop(loop, l)) return tl::unexpected(std::move(*fault));
+    thin(loop);
+    if (loop.size() < 3)
+      return failure(ErrorCode::bad_input, fmt::format("{}: it has {} different points; an area needs three",
+                                                       loop_name(l), loop.size()));
+    const Int128 area = twice_area(loop.data(), loop.size());
+    if (area == 0) return failure(ErrorCode::bad_input, fmt::format("{}: its area is 0", loop_name(l)));
+    if ((area > 0) != (l == 0)) std::reverse(loop.begin() + 1, loop.end());
+    region.points.insert(region.points.end(), loop.begin(), loop.end());
+    region.loop_starts.push_back(static_cast<std::uint32_t>(region.points.size()));
+  }
+  if (auto fault = fault_between(region)) return tl::unexpected(std::move(*fault));
+  if (auto fault = fault_of_nesting(region)) return tl::unexpected(std::move(*fault));
+  return region;
+}
+
+Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, double tolerance) {
+  if (!(tolerance >= 0x1p-16))
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("a chord tolerance of {} mm is below {} mm, 16 steps of the grid", tolerance, 0x1p-16));
+  std::vector<Loop> loops;
+  for (std::size_t l = 0; l <= region.holes.size(); ++l) {
+    auto loop = grid_loop(l == 0 ? region.outer : region.holes[l - 1], l, side, tolerance);
+    if (!loop) return tl::unexpected(loop.error());
+    loops.push_back(std::move(*loop));
+  }
+  return make_grid_region(std::move(loops));
+}
+
+GridBox bounds(const GridRegion& region) noexcept {
+  if (region.points.empty()) return {};
+  GridBox box{region.points[0], region.points[0]};
+  for (const GridPoint p : region.points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+Int128 twice_area(const GridRegion& region) noexcept {
+  Int128 sum = 0;
+  for (std::size_t l = 0; l < region.loops(); ++l)
+    sum += twice_area(loop_begin(region, l), loop_size(region, l));
+  return sum;
+}
+
+double area_mm2(const GridRegion& region) noexcept {
+  return static_cast<double>(twice_area(region)) * (0.5 * kGridStep * kGridStep);
+}
+
+GridRegion turned(const GridRegion& region, GridRotation rotation, bool mirrored) {
+  GridRegion result;
+  result.loop_starts = region.loop_starts;
+  result.points.reserve(region.points.size());
+  for (const GridPoint p : region.points) result.points.push_back(turned(p, rotation, mirrored));
+  if (mirrored)
+    for (std::size_t l = 0; l < result.loops(); ++l)
+      std::reverse(result.points.begin() + result.loop_starts[l] + 1,
+                   result.points.begin() + result.loop_starts[l + 1]);
+  return result;
+}
+
+GridRegion moved(GridRegion region, GridPoint by) noexcept {
+  for (GridPoint& p : region.points) p = p + by;
+  return region;
+}
+
+PointLocation locate_point(const GridRegion& region, GridPoint p) noexcept {
+  PointLocation location = PointLocation::outside;
+  for (std::size_t l = 0; l < region.loops(); ++l) {
+    const PointLocation in_loop = locate_in_loop(loop_begin(region, l), loop_size(region, l), p);
+    if (in_loop == PointLocation::boundary) return in_loop;
+    if (l == 0) {
+      if (in_loop == PointLocation::outside) return in_loop;
+      location = PointLocation::inside;
+    } else if (in_loop == PointLocation::inside) {
+      return PointLocation::outside;
+    }
+  }
+  return location;
+}
+
+}  // namespace lekalo::geom
