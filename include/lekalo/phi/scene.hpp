@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/geom/grid_region.hpp"
+
+namespace lekalo::phi {
+
+/// The collision engine: many bodies on one piece of stock, asked again and again. Same answers as
+/// phi/outline_relation.hpp, found faster. docs/design/scene.md.
+///
+/// A *shape* is an outline turned for good and moved freely; a *body* is a shape at a place. Bodies forbid:
+/// others may not overlap them, or, for a `container`, may not reach out of it; and they keep a gap. No
+/// exceptions, threads or library mathematics, so that it runs in a browser as it is.
+using ShapeIndex = std::uint32_t;
+using BodyIndex = std::uint32_t;
+inline constexpr BodyIndex kNoBody = ~BodyIndex{0};
+
+struct Body {
+  ShapeIndex shape = 0;
+  geom::GridPoint at;
+  std::int64_t gap = 0;      ///< the larger of both bodies' gaps counts between them
+  std::uint64_t layers = 1;  ///< met only by questions with a layer in common
+  bool container = false;    ///< the complement of the outline is what is forbidden
+};
+
+/// What a question asks about: a shape at a place.
+struct Probe {
+  ShapeIndex shape = 0;
+  geom::GridPoint at;
+  std::int64_t gap = 0;
+  std::uint64_t layers = 1;
+  BodyIndex except = kNoBody;  ///< a body that does not count: itself
+};
+
+class Scene {
+ public:
+  /// \param world  where most bodies will lie; others cost more, and count all the same
+  /// \param cells  about how many cells its index has; a few for each body is right
+  Scene(const geom::GridBox& world, std::size_t cells);
+
+  /// The outline counts as it is, around its own origin. \pre made by make_grid_region or turned()
+  ShapeIndex add_shape(geom::GridRegion outline);
+  [[nodiscard]] const geom::GridRegion& outline(ShapeIndex shape) const noexcept {
+    return shapes_[shape].outline;
+  }
+  [[nodiscard]] const geom::GridBox& box(ShapeIndex shape) const noexcept { return shapes_[shape].box; }
+
+  /// Cost of both: O(cells under the body's box). Indices of bodies taken out are used again.
+  BodyIndex put(const Body& body);
+  void take(BodyIndex body);
+  /// \pre put and not taken
+  [[nodiscard]] const Body& body(BodyIndex index) const noexcept { return bodies_[index]; }
+
+  /// Whether anything forbids the probe's place.
+  [[nodiscard]] bool forbidden(const Probe& probe) const;
+  /// Everything that does, ascending.
+  [[nodiscard]] std::vector<BodyIndex> forbidding(const Probe& probe) const;
+  /// Bodies whose boxes come within `reach` of `box`, of these layers, ascending; a container always does.
+  [[nodiscard]] std::vector<BodyIndex> near(const geom::GridBox& box, std::int64_t reach,
+                                            std::uint64_t layers) const;
+  /// Bodies with material at p, ascending; containers are not asked.
+  [[nodiscard]] std::vector<BodyIndex> at(geom::GridPoint p, std::uint64_t layers) const;
+
+ private:
+  struct Shape {
+    geom::GridRegion outline;
+    geom::GridBox box;
+  };
+  /// Columns and rows of cells, ends included.
+  struct Cells {
+    std::int64_t left = 0, right = 0, bottom = 0, top = 0;
+  };
+  [[nodiscard]] bool forbids(const Body& body, const Probe& probe) const;
+  /// visit(index) of every body whose cells meet the box, once each; stops when it returns true.
+  template <class Visit>
+  bool visit_near(const geom::GridBox& box, Visit&& visit) const;
+  [[nodiscard]] geom::GridBox placed_box(const Body& body) const noexcept;
+  /// The cells a box meets; what lies outside the world counts to the cells at its edge.
+  [[nodiscard]] Cells cells_of(const geom::GridBox& box) const noexcept;
+
+  geom::GridBox world_;
+  std::int64_t cell_ = 1, columns_ = 1, rows_ = 1;
+  std::vector<std::vector<BodyIndex>> cells_;  ///< row by row
+  std::vector<Shape> shapes_;
+  std::vector<Body> bodies_;
+  std::vector<char> is_in_;
+  std::vector<BodyIndex> free_;
+  std::vector<BodyIndex> containers_;
+  std::int64_t widest_gap_ = 0;  ///< of all bodies ever put
+};
+
+}  // namespace lekalo::phi
