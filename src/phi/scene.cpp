@@ -111,7 +111,7 @@ void Scene::take(BodyIndex index) {
 }
 
 bool Scene::forbids(const Body& body, const Probe& probe) const {
-  if ((body.layers & probe.layers) == 0) return false;
+  if ((body.layers & probe.layers) == 0 || body.rank <= probe.tolerates) return false;
   const GridPoint shift = probe.at - body.at;
   const geom::GridRegion& theirs = outline(body.shape);
   const geom::GridRegion& ours = outline(probe.shape);
@@ -142,7 +142,7 @@ std::vector<BodyIndex> Scene::forbidding(const Probe& probe) const {
   return found;
 }
 
-std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::uint64_t layers) const {
+std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::uint32_t layers) const {
   std::vector<BodyIndex> found;
   for (const BodyIndex index : containers_)
     if ((bodies_[index].layers & layers) != 0) found.push_back(index);
@@ -154,7 +154,7 @@ std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::
   return found;
 }
 
-std::vector<BodyIndex> Scene::at(GridPoint p, std::uint64_t layers) const {
+std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
   std::vector<BodyIndex> found;
   visit_near({p, p}, [&](BodyIndex index) {
     const Body& body = bodies_[index];

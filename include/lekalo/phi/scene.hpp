@@ -21,7 +21,8 @@ struct Body {
   ShapeIndex shape = 0;
   geom::GridPoint at;
   std::int64_t gap = 0;      ///< the larger of both bodies' gaps counts between them
-  std::uint64_t layers = 1;  ///< met only by questions with a layer in common
+  std::uint32_t layers = 1;  ///< met only by questions with a layer in common
+  std::int64_t rank = 1;     ///< and only by questions that tolerate less
   bool container = false;    ///< the complement of the outline is what is forbidden
 };
 
@@ -30,7 +31,8 @@ struct Probe {
   ShapeIndex shape = 0;
   geom::GridPoint at;
   std::int64_t gap = 0;
-  std::uint64_t layers = 1;
+  std::uint32_t layers = 1;
+  std::int64_t tolerates = 0;
   BodyIndex except = kNoBody;  ///< a body that does not count: itself
 };
 
@@ -59,9 +61,9 @@ class Scene {
   [[nodiscard]] std::vector<BodyIndex> forbidding(const Probe& probe) const;
   /// Bodies whose boxes come within `reach` of `box`, of these layers, ascending; a container always does.
   [[nodiscard]] std::vector<BodyIndex> near(const geom::GridBox& box, std::int64_t reach,
-                                            std::uint64_t layers) const;
+                                            std::uint32_t layers) const;
   /// Bodies with material at p, ascending; containers are not asked.
-  [[nodiscard]] std::vector<BodyIndex> at(geom::GridPoint p, std::uint64_t layers) const;
+  [[nodiscard]] std::vector<BodyIndex> at(geom::GridPoint p, std::uint32_t layers) const;
 
  private:
   struct Shape {

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "lekalo/layout/check.hpp"
+#include "lekalo/layout/document.hpp"
+#include "lekalo/phi/scene.hpp"
+
+namespace lekalo::layout {
+
+/// One copy of one stock.
+struct Sheet {
+  std::uint32_t stock = 0;
+  std::int64_t copy = 0;
+  friend auto operator<=>(const Sheet&, const Sheet&) = default;
+};
+
+/// Layers of the scenes below.
+inline constexpr std::uint32_t kPartLayer = 1, kBorderLayer = 2, kDefectLayer = 4, kZoneLayer = 8;
+
+/// A document and what answers questions about it at once: every sheet's scene, kept in step with the placements.
+/// Says the same as check() of the same document. Cost of a change: that of putting one body.
+class Workspace {
+ public:
+  /// \pre read or made as documents must be (io/layout_json.hpp refuses others)
+  explicit Workspace(Document document);
+
+  [[nodiscard]] const Document& document() const noexcept { return document_; }
+  /// The placement with this id, or none. Cost: O(log n).
+  [[nodiscard]] const Placement* find(std::uint64_t id) const noexcept;
+  /// Ids of the parts at a point of a sheet, edges included, ascending.
+  [[nodiscard]] std::vector<std::uint64_t> at(Sheet sheet, geom::GridPoint p) const;
+
+  /// Adds or replaces the placement with this id.
+  void set(const Placement& placement);
+  void erase(std::uint64_t id);
+  void set_next_id(std::uint64_t id) noexcept { document_.next_id = id; }
+
+  /// Whether these placements, in place of those with their ids, break no rule, neither against all others nor among
+  /// themselves. Their ids need not exist.
+  [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
+  /// Every violation that one of them has a part in, in the order of check().
+  [[nodiscard]] std::vector<Violation> violations_of(std::span<const std::uint64_t> ids) const;
+
+  /// The scene a sheet's bodies lie in, and the shape of a part turned; made when they are first asked for.
+  [[nodiscard]] const phi::Scene& scene(Sheet sheet) const;
+  [[nodiscard]] phi::ShapeIndex shape(Sheet sheet, const Placement& placement) const;
+  /// Id of the placement of a body; 0 for stock, defects and zones.
+  [[nodiscard]] std::uint64_t placement_of(Sheet sheet, phi::BodyIndex body) const;
+  /// The gap between a part and a body of the scene it would lie in, in steps.
+  [[nodiscard]] std::int64_t gap_to(const Part& part, Sheet sheet, phi::BodyIndex body) const;
+
+  /// Whether a body counts for a part at all: a defect it does not tolerate, a zone too bad for some of it.
+  [[nodiscard]] bool concerns(const Part& part, Sheet sheet, phi::BodyIndex body) const;
+
+  /// Takes placements out of their scenes while it lives, so that only the others forbid.
+  class Lifted {
+   public:
+    Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids);
+    ~Lifted();
+    Lifted(const Lifted&) = delete;
+    Lifted& operator=(const Lifted&) = delete;
+
+   private:
+    const Workspace& workspace_;
+    std::vector<std::uint64_t> ids_;
+  };
+  /// Whether one placement breaks no rule against what lies in its sheet's scene now.
+  [[nodiscard]] bool is_clear_of_scene(const Placement& placement) const;
+
+ private:
+  struct SheetScene {
+    explicit SheetScene(const geom::GridBox& world, std::size_t cells) : scene(world, cells) {}
+    phi::Scene scene;
+    std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t, bool>, phi::ShapeIndex> shapes;
+    std::map<std::uint64_t, phi::BodyIndex> bodies;  ///< by placement
+    std::vector<std::uint64_t> placements;           ///< by body; 0 for what belongs to the stock
+    std::vector<std::uint32_t> features;             ///< by body: index of the defect or zone
+  };
+  [[nodiscard]] SheetScene& sheet_scene(Sheet sheet) const;
+  void put(SheetScene& in, const Placement& placement) const;
+  void take(SheetScene& in, std::uint64_t id) const;
+
+  Document document_;
+  /// Caches: what they hold follows from the document.
+  mutable std::map<Sheet, SheetScene> scenes_;
+};
+
+}  // namespace lekalo::layout
