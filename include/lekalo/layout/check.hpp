@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -50,5 +51,13 @@ struct Violation {
 /// Every violation of a document, ordered by stock, copy, a, kind, b. Cost: O(n log n + pairs of parts whose
 /// boxes come within their gap, times their edges).
 [[nodiscard]] std::vector<Violation> check(const Document& document);
+
+/// Those of the violations of check() in which a placement of `of` has a part alone, or with one of `with`;
+/// both hold ids of the document, ascending. In the order of check().
+[[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const std::uint64_t> of,
+                                                std::span<const std::uint64_t> with);
+
+/// Whether a zone of its stock is too bad for some area of a placed part (rule 6 of docs/design/layout.md).
+[[nodiscard]] bool spoils(const Document& document, const Placement& placement, std::uint32_t zone);
 
 }  // namespace lekalo::layout

@@ -23,8 +23,8 @@ struct Sheet {
 /// Layers of the scenes below.
 inline constexpr std::uint32_t kPartLayer = 1, kBorderLayer = 2, kDefectLayer = 4, kZoneLayer = 8;
 
-/// A document and what answers questions about it at once: every sheet's scene, kept in step with the placements.
-/// Says the same as check() of the same document. Cost of a change: that of putting one body.
+/// A document and what answers questions about it at once: every sheet's scene, kept in step with the
+/// placements. Says the same as check() of the same document. Cost of a change: that of putting one body.
 class Workspace {
  public:
   /// \pre read or made as documents must be (io/layout_json.hpp refuses others)
@@ -41,8 +41,8 @@ class Workspace {
   void erase(std::uint64_t id);
   void set_next_id(std::uint64_t id) noexcept { document_.next_id = id; }
 
-  /// Whether these placements, in place of those with their ids, break no rule, neither against all others nor among
-  /// themselves. Their ids need not exist.
+  /// Whether these placements, in place of those with their ids, break no rule, neither against all others
+  /// nor among themselves. Their ids need not exist.
   [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
   /// Every violation that one of them has a part in, in the order of check().
   [[nodiscard]] std::vector<Violation> violations_of(std::span<const std::uint64_t> ids) const;

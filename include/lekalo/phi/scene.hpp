@@ -19,7 +19,7 @@ inline constexpr BodyIndex kNoBody = ~BodyIndex{0};
 
 struct Body {
   ShapeIndex shape = 0;
-  geom::GridPoint at;
+  geom::GridPoint at = {};
   std::int64_t gap = 0;      ///< the larger of both bodies' gaps counts between them
   std::uint32_t layers = 1;  ///< met only by questions with a layer in common
   std::int64_t rank = 1;     ///< and only by questions that tolerate less
@@ -29,7 +29,7 @@ struct Body {
 /// What a question asks about: a shape at a place.
 struct Probe {
   ShapeIndex shape = 0;
-  geom::GridPoint at;
+  geom::GridPoint at = {};
   std::int64_t gap = 0;
   std::uint32_t layers = 1;
   std::int64_t tolerates = 0;
@@ -54,6 +54,9 @@ class Scene {
   void take(BodyIndex body);
   /// \pre put and not taken
   [[nodiscard]] const Body& body(BodyIndex index) const noexcept { return bodies_[index]; }
+
+  /// The largest gap of all bodies ever put, in steps.
+  [[nodiscard]] std::int64_t widest_gap() const noexcept { return widest_gap_; }
 
   /// Whether anything forbids the probe's place.
   [[nodiscard]] bool forbidden(const Probe& probe) const;

@@ -1,0 +1,230 @@
+#include "lekalo/layout/workspace.hpp"
+
+#include <algorithm>
+
+#include "lekalo/base/assert.hpp"
+
+namespace lekalo::layout {
+namespace {
+
+using geom::GridBox;
+using geom::GridPoint;
+
+GridBox placed_box(const phi::Scene& scene, phi::ShapeIndex shape, GridPoint at) {
+  return {scene.box(shape).low + at, scene.box(shape).high + at};
+}
+
+/// A scene's index fits what lies on the sheet: an open strip is as long as what is on it.
+GridBox world_of(const Document& document, Sheet sheet) {
+  GridBox world = bounds(document.stocks[sheet.stock].outline.polygon);
+  if (!document.stocks[sheet.stock].open_length) return world;
+  std::int64_t length = 1;
+  for (const Placement& placement : document.placements)
+    if (placement.stock == sheet.stock && placement.copy == sheet.copy)
+      length = std::max(length, placement.at.x);
+  world.high.x = std::min(world.high.x, length + length / 2 + (world.high.y - world.low.y));
+  return world;
+}
+
+}  // namespace
+
+Workspace::Workspace(Document document) : document_(std::move(document)) {}
+
+const Placement* Workspace::find(std::uint64_t id) const noexcept {
+  const auto& all = document_.placements;
+  const auto at = std::lower_bound(
+      all.begin(), all.end(), id,
+      [](const Placement& placement, std::uint64_t wanted) { return placement.id < wanted; });
+  return at == all.end() || at->id != id ? nullptr : &*at;
+}
+
+Workspace::SheetScene& Workspace::sheet_scene(Sheet sheet) const {
+  if (const auto found = scenes_.find(sheet); found != scenes_.end()) return found->second;
+  std::size_t count = 0;
+  for (const Placement& placement : document_.placements)
+    count += placement.stock == sheet.stock && placement.copy == sheet.copy ? 1 : 0;
+  SheetScene& made = scenes_.try_emplace(sheet, world_of(document_, sheet), 4 * count + 64).first->second;
+  const Stock& stock = document_.stocks[sheet.stock];
+  const auto put_feature = [&](const Outline& outline, phi::Body body, std::size_t index) {
+    body.shape = made.scene.add_shape(outline.polygon);
+    const phi::BodyIndex at = made.scene.put(body);
+    LEKALO_ASSERT(at == made.placements.size());
+    made.placements.push_back(0);
+    made.features.push_back(static_cast<std::uint32_t>(index));
+  };
+  put_feature(stock.outline, {.layers = kBorderLayer, .container = true}, 0);
+  for (std::size_t i = 0; i < stock.defects.size(); ++i)
+    put_feature(stock.defects[i].outline, {.layers = kDefectLayer, .rank = stock.defects[i].severity}, i);
+  for (std::size_t i = 0; i < stock.zones.size(); ++i)
+    put_feature(stock.zones[i].outline, {.layers = kZoneLayer, .rank = -std::int64_t{stock.zones[i].quality}},
+                i);
+  for (const Placement& placement : document_.placements)
+    if (placement.stock == sheet.stock && placement.copy == sheet.copy) put(made, placement);
+  return made;
+}
+
+void Workspace::put(SheetScene& in, const Placement& placement) const {
+  const Part& part = document_.parts[placement.part];
+  const phi::BodyIndex body = in.scene.put({.shape = shape({placement.stock, placement.copy}, placement),
+                                            .at = placement.at,
+                                            .gap = part.gap.value_or(document_.rules.gap),
+                                            .layers = kPartLayer});
+  in.bodies[placement.id] = body;
+  if (body >= in.placements.size()) in.placements.resize(body + 1), in.features.resize(body + 1);
+  in.placements[body] = placement.id;
+}
+
+void Workspace::take(SheetScene& in, std::uint64_t id) const {
+  const auto at = in.bodies.find(id);
+  in.scene.take(at->second);
+  in.bodies.erase(at);
+}
+
+const phi::Scene& Workspace::scene(Sheet sheet) const { return sheet_scene(sheet).scene; }
+
+phi::ShapeIndex Workspace::shape(Sheet sheet, const Placement& placement) const {
+  // A scene under construction is asked for its shapes too: it is in the map by then.
+  SheetScene& in = scenes_.contains(sheet) ? scenes_.at(sheet) : sheet_scene(sheet);
+  const std::tuple key{placement.part, placement.rotation.c, placement.rotation.s, placement.mirrored};
+  if (const auto found = in.shapes.find(key); found != in.shapes.end()) return found->second;
+  const phi::ShapeIndex made = in.scene.add_shape(
+      geom::turned(document_.parts[placement.part].outline.polygon, placement.rotation, placement.mirrored));
+  in.shapes.emplace(key, made);
+  return made;
+}
+
+std::uint64_t Workspace::placement_of(Sheet sheet, phi::BodyIndex body) const {
+  return sheet_scene(sheet).placements[body];
+}
+
+std::vector<std::uint64_t> Workspace::at(Sheet sheet, GridPoint p) const {
+  const SheetScene& in = sheet_scene(sheet);
+  std::vector<std::uint64_t> ids;
+  for (const phi::BodyIndex body : in.scene.at(p, kPartLayer)) ids.push_back(in.placements[body]);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+void Workspace::set(const Placement& placement) {
+  auto& all = document_.placements;
+  const auto at = std::lower_bound(all.begin(), all.end(), placement.id,
+                                   [](const Placement& one, std::uint64_t id) { return one.id < id; });
+  if (at != all.end() && at->id == placement.id) {
+    if (const auto old = scenes_.find({at->stock, at->copy}); old != scenes_.end())
+      take(old->second, placement.id);
+    *at = placement;
+  } else {
+    all.insert(at, placement);
+  }
+  if (const auto in = scenes_.find({placement.stock, placement.copy}); in != scenes_.end())
+    put(in->second, placement);
+}
+
+void Workspace::erase(std::uint64_t id) {
+  const Placement* placement = find(id);
+  LEKALO_ASSERT(placement != nullptr);
+  if (const auto in = scenes_.find({placement->stock, placement->copy}); in != scenes_.end())
+    take(in->second, id);
+  document_.placements.erase(document_.placements.begin() + (placement - document_.placements.data()));
+}
+
+std::int64_t Workspace::gap_to(const Part& part, Sheet sheet, phi::BodyIndex body) const {
+  const phi::Body& other = sheet_scene(sheet).scene.body(body);
+  const Rules& rules = document_.rules;
+  if ((other.layers & kPartLayer) != 0) return std::max(other.gap, part.gap.value_or(rules.gap));
+  if ((other.layers & kBorderLayer) != 0) return part.border_gap.value_or(rules.border_gap);
+  if ((other.layers & kDefectLayer) != 0) return part.defect_gap.value_or(rules.defect_gap);
+  return 0;
+}
+
+bool Workspace::concerns(const Part& part, Sheet sheet, phi::BodyIndex body) const {
+  const phi::Body& other = sheet_scene(sheet).scene.body(body);
+  if ((other.layers & kDefectLayer) != 0) return other.rank > part.tolerated_severity;
+  if ((other.layers & kZoneLayer) == 0) return true;
+  const auto demands_more = [&](int quality) { return quality > -other.rank; };
+  return demands_more(part.quality) ||
+         std::any_of(part.areas.begin(), part.areas.end(),
+                     [&](const PartArea& area) { return demands_more(area.quality); });
+}
+
+bool Workspace::is_clear_of_scene(const Placement& placement) const {
+  const Part& part = document_.parts[placement.part];
+  const Stock& stock = document_.stocks[placement.stock];
+  if (placement.copy < 0 || placement.copy >= stock.count || (placement.mirrored && !part.may_mirror) ||
+      !rotation_allowed(part, placement.rotation) ||
+      !grain_allowed(part, stock, placement.rotation, placement.mirrored))
+    return false;
+  const Sheet sheet{placement.stock, placement.copy};
+  const phi::Scene& in = scene(sheet);
+  const Rules& rules = document_.rules;
+  phi::Probe probe{.shape = shape(sheet, placement), .at = placement.at};
+  probe.layers = kPartLayer, probe.gap = part.gap.value_or(rules.gap);
+  if (in.forbidden(probe)) return false;
+  probe.layers = kBorderLayer, probe.gap = part.border_gap.value_or(rules.border_gap);
+  if (in.forbidden(probe)) return false;
+  probe.layers = kDefectLayer, probe.gap = part.defect_gap.value_or(rules.defect_gap);
+  probe.tolerates = part.tolerated_severity;
+  if (!stock.defects.empty() && in.forbidden(probe)) return false;
+  if (stock.zones.empty()) return true;
+  if (!part.areas.empty()) {
+    const geom::GridBox box = placed_box(in, probe.shape, placement.at);
+    for (const phi::BodyIndex body : in.near(box, 0, kZoneLayer))
+      if (spoils(document_, placement, sheet_scene(sheet).features[body])) return false;
+    return true;
+  }
+  probe.layers = kZoneLayer, probe.gap = 0, probe.tolerates = -std::int64_t{part.quality};
+  return !in.forbidden(probe);
+}
+
+Workspace::Lifted::Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids)
+    : workspace_(workspace) {
+  for (const std::uint64_t id : ids) {
+    const Placement* placement = workspace.find(id);
+    if (placement == nullptr || std::find(ids_.begin(), ids_.end(), id) != ids_.end()) continue;
+    workspace.take(workspace.sheet_scene({placement->stock, placement->copy}), id);
+    ids_.push_back(id);
+  }
+}
+
+Workspace::Lifted::~Lifted() {
+  for (const std::uint64_t id : ids_) {
+    const Placement* placement = workspace_.find(id);
+    workspace_.put(workspace_.sheet_scene({placement->stock, placement->copy}), *placement);
+  }
+}
+
+bool Workspace::is_clear(std::span<const Placement> placements) const {
+  std::vector<std::uint64_t> ids;
+  ids.reserve(placements.size());
+  for (const Placement& placement : placements) ids.push_back(placement.id);
+  const Lifted lifted(*this, ids);
+  // One after the other, each against the scene and those put before it.
+  std::size_t clear = 0;
+  while (clear < placements.size() && is_clear_of_scene(placements[clear])) {
+    put(sheet_scene({placements[clear].stock, placements[clear].copy}), placements[clear]);
+    ++clear;
+  }
+  for (std::size_t i = 0; i < clear; ++i)
+    take(sheet_scene({placements[i].stock, placements[i].copy}), placements[i].id);
+  return clear == placements.size();
+}
+
+std::vector<Violation> Workspace::violations_of(std::span<const std::uint64_t> ids) const {
+  std::vector<std::uint64_t> around;
+  for (const std::uint64_t id : ids) {
+    const Placement* placement = find(id);
+    if (placement == nullptr) continue;
+    const Sheet sheet{placement->stock, placement->copy};
+    if (placement->copy < 0 || placement->copy >= document_.stocks[placement->stock].count) continue;
+    const phi::Scene& in = scene(sheet);
+    const std::int64_t own = document_.parts[placement->part].gap.value_or(document_.rules.gap);
+    for (const phi::BodyIndex body : in.near(placed_box(in, shape(sheet, *placement), placement->at),
+                                             std::max(own, in.widest_gap()), kPartLayer))
+      around.push_back(placement_of(sheet, body));
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return check_some(document_, ids, around);
+}
+
+}  // namespace lekalo::layout
