@@ -14,6 +14,13 @@ GridBox placed_box(const phi::Scene& scene, phi::ShapeIndex shape, GridPoint at)
   return {scene.box(shape).low + at, scene.box(shape).high + at};
 }
 
+/// For searches by id.
+Placement with_id(std::uint64_t id) {
+  Placement placement;
+  placement.id = id;
+  return placement;
+}
+
 /// A scene's index fits what lies on the sheet: an open strip is as long as what is on it.
 GridBox world_of(const Document& document, Sheet sheet) {
   GridBox world = bounds(document.stocks[sheet.stock].outline.polygon);
@@ -209,22 +216,26 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   return clear == placements.size();
 }
 
-std::vector<Violation> Workspace::violations_of(std::span<const std::uint64_t> ids) const {
+std::vector<Violation> Workspace::violations_of(std::span<const Placement> placements) const {
+  std::vector<Placement> of(placements.begin(), placements.end());
+  const auto by_id = [](const Placement& a, const Placement& b) { return a.id < b.id; };
+  std::sort(of.begin(), of.end(), by_id);
   std::vector<std::uint64_t> around;
-  for (const std::uint64_t id : ids) {
-    const Placement* placement = find(id);
-    if (placement == nullptr) continue;
-    const Sheet sheet{placement->stock, placement->copy};
-    if (placement->copy < 0 || placement->copy >= document_.stocks[placement->stock].count) continue;
+  for (const Placement& placement : of) {
+    if (placement.copy < 0 || placement.copy >= document_.stocks[placement.stock].count) continue;
+    const Sheet sheet{placement.stock, placement.copy};
     const phi::Scene& in = scene(sheet);
-    const std::int64_t own = document_.parts[placement->part].gap.value_or(document_.rules.gap);
-    for (const phi::BodyIndex body : in.near(placed_box(in, shape(sheet, *placement), placement->at),
-                                             std::max(own, in.widest_gap()), kPartLayer))
+    const std::int64_t own = document_.parts[placement.part].gap.value_or(document_.rules.gap);
+    const GridBox box = placed_box(in, shape(sheet, placement), placement.at);
+    for (const phi::BodyIndex body : in.near(box, std::max(own, in.widest_gap()), kPartLayer))
       around.push_back(placement_of(sheet, body));
   }
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
-  return check_some(document_, ids, around);
+  std::vector<Placement> with;
+  for (const std::uint64_t id : around)
+    if (!std::binary_search(of.begin(), of.end(), with_id(id), by_id)) with.push_back(*find(id));
+  return check_some(document_, of, with);
 }
 
 }  // namespace lekalo::layout

@@ -52,10 +52,11 @@ struct Violation {
 /// boxes come within their gap, times their edges).
 [[nodiscard]] std::vector<Violation> check(const Document& document);
 
-/// Those of the violations of check() in which a placement of `of` has a part alone, or with one of `with`;
-/// both hold ids of the document, ascending. In the order of check().
-[[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const std::uint64_t> of,
-                                                std::span<const std::uint64_t> with);
+/// What check() would say of a document with these placements, only of those that one of `of` has a part in:
+/// alone, with another of `of`, or with one of `with`. Both ascending by id; ids and the document's own
+/// placements do not matter. What lies on different sheets does not meet. In the order of check().
+[[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
+                                                std::span<const Placement> with);
 
 /// Whether a zone of its stock is too bad for some area of a placed part (rule 6 of docs/design/layout.md).
 [[nodiscard]] bool spoils(const Document& document, const Placement& placement, std::uint32_t zone);
