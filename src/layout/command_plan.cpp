@@ -395,11 +395,7 @@ Result<Change> plan(const Workspace& workspace, const Command& command, Mode mod
   if (!outcome) return tl::unexpected(outcome.error());
   const bool new_one = std::holds_alternative<PlaceCommand>(command);
   if (mode == Mode::strict && !outcome->breaks_no_rule && !workspace.is_clear(outcome->changed)) {
-    Workspace tried = workspace;
-    std::vector<std::uint64_t> ids;
-    for (const Placement& placement : outcome->changed) tried.set(placement), ids.push_back(placement.id);
-    std::sort(ids.begin(), ids.end());
-    const auto violations = tried.violations_of(ids);
+    const auto violations = workspace.violations_of(outcome->changed);
     return failure(
         ErrorCode::refuted,
         fmt::format("not admitted: {}{}", violations.empty() ? "a rule" : described(violations.front()),
