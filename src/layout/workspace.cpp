@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lekalo/base/assert.hpp"
+#include "quality.hpp"
 
 namespace lekalo::layout {
 namespace {
@@ -175,8 +176,10 @@ bool Workspace::is_clear_of_scene(const Placement& placement) const {
   if (stock.zones.empty()) return true;
   if (!part.areas.empty()) {
     const geom::GridBox box = placed_box(in, probe.shape, placement.at);
+    const geom::GridRegion outline = geom::moved(in.outline(probe.shape), placement.at);
     for (const phi::BodyIndex body : in.near(box, 0, kZoneLayer))
-      if (spoils(document_, placement, sheet_scene(sheet).features[body])) return false;
+      if (lacks_quality(part, placement, outline, stock.zones[sheet_scene(sheet).features[body]]))
+        return false;
     return true;
   }
   probe.layers = kZoneLayer, probe.gap = 0, probe.tolerates = -std::int64_t{part.quality};
