@@ -259,5 +259,125 @@ TEST(DrawingWriterLaws, OtherProgramsSeeTheSameCurvesWithinTheStatedError) {
   }
 }
 
+// Whichever of the two a program takes, the curve or what is stated beside it.
+TEST(DrawingWriterLaws, TheErrorOfAnExactArcReachesToTheCurveBesideIt) {
+  std::size_t compared = 0;
+  for (std::uint64_t index = 0; index < case_count(150); ++index) {
+    Random random(seed(), 11000 + index);
+    const auto regions = index % 2 == 0 ? std::vector<Region>{loose(random)} : exact_case(random, index);
+    const std::string dxf = *dxf_drawing(layered(regions)), svg = *svg_drawing(layered(regions));
+    const auto compare = [&](const Drawing& exact, const Drawing& plain) {
+      std::size_t k = 0;
+      for (const DrawnCurve& curve : exact.curves) {
+        const Edge& edge = std::get<Edge>(curve.shape);
+        std::vector<Edge> parts;
+        double error = curve.error;
+        do {
+          ASSERT_LT(k, plain.curves.size());
+          parts.push_back(std::get<Edge>(plain.curves[k].shape));
+          error = std::max(error, plain.curves[k++].error);
+        } while (parts.size() < 4 && parts.back().to != edge.to && parts.back().from != parts.back().to);
+        if (parts == std::vector<Edge>{edge}) continue;
+        ++compared;
+        const double size = norm(edge.from) + norm(edge.centre) + geom::arc_radius(edge);
+        for (const Point p : cases::points_of(edge, 12))
+          EXPECT_LE(cases::distance_to_edges(p, parts), curve.error + 1e-15 * size) << index;
+        for (const Edge& part : parts)
+          for (const Point p : cases::points_of(part, 12))
+            EXPECT_LE(cases::distance_to_edges(p, {edge}), curve.error + 1e-15 * size) << index;
+      }
+      EXPECT_EQ(k, plain.curves.size());
+    };
+    compare(*parse_dxf(dxf, "a.dxf"), *parse_dxf(as_others_read_dxf(dxf), "a.dxf"));
+    compare(*parse_svg(svg, "a.svg"), *parse_svg(as_others_read_svg(svg), "a.svg"));
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(compared, case_count(150) / 4);
+}
+
+TEST(DrawingWriterLaws, ExactArcsOfCurvesThatWereMovedSinceAreLeftOutAndSaidToBe) {
+  std::size_t moved = 0;
+  for (std::uint64_t index = 0; index < case_count(150); ++index) {
+    Random random(seed(), 14000 + index);
+    const std::vector<Region> regions{ragged(random)};
+    const std::string dxf = *dxf_drawing(layered(regions));
+    const std::size_t stated = count_of(dxf, "LEKALO_EXACT_ARCS") == 0 ? 0 : count_of(dxf, "cw ");
+    if (stated == 0) continue;
+    ++moved;
+    // Every vertex by a thousandth of a millimetre, as a program that keeps what it does not know does.
+    std::string edited;
+    const std::size_t begin = dxf.find("AcDbPolyline"), end = dxf.find("ENDSEC", begin);
+    for (std::size_t at = 0; at < dxf.size();) {
+      const std::size_t next = std::min(dxf.find('\n', at), dxf.size() - 1) + 1;
+      const std::string line = dxf.substr(at, next - at);
+      edited += line;
+      at = next;
+      if (at < begin || at > end || line != " 10\n") continue;
+      const std::size_t behind = dxf.find('\n', at) + 1;
+      edited += std::to_string(std::stod(dxf.substr(at, behind - at)) + 0.001) + "\n";
+      at = behind;
+    }
+    const auto drawing = parse_dxf(edited, "edited.dxf");
+    ASSERT_TRUE(drawing.has_value()) << drawing.error().message;
+    ASSERT_EQ(drawing->notices.size(), 1u) << index;
+    EXPECT_EQ(drawing->notices[0], "edited.dxf: the exact numbers of " + std::to_string(stated) +
+                                       " arcs do not fit their curves, which were changed since; the curves "
+                                       "count");
+    const auto plain = parse_dxf(as_others_read_dxf(edited), "edited.dxf");
+    ASSERT_EQ(drawing->curves.size(), plain->curves.size());
+    for (std::size_t i = 0; i < plain->curves.size(); ++i)
+      EXPECT_EQ(std::get<Edge>(drawing->curves[i].shape), std::get<Edge>(plain->curves[i].shape));
+  }
+  EXPECT_GT(moved, case_count(150) / 8);
+}
+
+TEST(DrawingWriterLaws, SvgIsReadByItsCurvesWhereTheyOrThePageWereChanged) {
+  const Point start{-3 + std::sqrt(2.0), 7 - std::sqrt(2.0)};
+  const auto disc = geom::make_region({{EdgeKind::arc_ccw, start, start, {-3, 7}}});
+  const std::string svg = *svg_drawing({{*disc, "CUT", {}}});
+  ASSERT_NE(svg.find("data-lekalo-arcs=\"0 1 start "), std::string::npos) << svg;
+  EXPECT_EQ(read_svg(svg), std::vector<Region>{*disc});
+  const auto changed = [&](const std::string& what, const std::string& by) {
+    std::string text = svg;
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what << svg;
+    return *parse_svg(text.replace(at, what.size(), by), "x.svg");
+  };
+  const auto circle_of = [](const Drawing& drawing) { return std::get<Edge>(drawing.curves.front().shape); };
+  const Drawing moved = changed("cx=\"-3\"", "cx=\"-3.5\"");
+  EXPECT_EQ(moved.notices,
+            std::vector<std::string>{"x.svg: the exact numbers of 1 arcs do not fit their curves, which were "
+                                     "changed since; the curves count"});
+  EXPECT_EQ(circle_of(moved).centre, Point(-3.5, 7));
+  for (const char* text : {"0 1 start nan 1", "0 1 ccw 1 2", "9 1 start 1 2", "0 0 start 1 2", "x", ";",
+                           "0 1 start 1 2 3", "0 5 start 1 2", "18446744073709551615 2 cw 1 2"}) {
+    const Drawing odd =
+        changed("data-lekalo-arcs=\"0 1 start", std::string("data-lekalo-arcs=\"") + text + "\" id=\"");
+    EXPECT_EQ(odd.notices.size(), 1u) << text;
+    EXPECT_EQ(circle_of(odd).from.y, 7) << text;
+  }
+  // A page cut to another size: where its corner was no longer says where it is.
+  const Drawing cut = changed("viewBox=\"-5 ", "viewBox=\"-6 ");
+  EXPECT_EQ(cut.notices,
+            std::vector<std::string>{"x.svg: its page was changed since it was written, and no longer says "
+                                     "where its corner lies; the origin is that corner"});
+  EXPECT_EQ(circle_of(cut).centre.x, 3);
+}
+
+// A file whose exact numbers are beside other entities, or beside none.
+TEST(DrawingWriterLaws, ExactArcsFindTheirEntitiesByHandle) {
+  const auto disc = *geom::make_region({{EdgeKind::arc_ccw, {1, 5}, {1, 5}, {1, 1}}});
+  const std::string dxf = *dxf_drawing({{disc, "CUT", {}}});
+  const std::size_t record = dxf.find(" 0 1 start 1 5");
+  ASSERT_NE(record, std::string::npos) << dxf;
+  EXPECT_EQ(read_dxf(dxf), std::vector<Region>{disc});
+  std::string other = dxf;
+  other.insert(record, "F");
+  const auto drawing = parse_dxf(other, "x.dxf");
+  ASSERT_TRUE(drawing.has_value());
+  EXPECT_EQ(drawing->notices.size(), 1u);
+  EXPECT_EQ(std::get<Edge>(drawing->curves[0].shape).from, Point(5, 1));
+}
+
 }  // namespace
 }  // namespace lekalo::io
