@@ -19,12 +19,9 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-/// Height of an arc's centre over its chord, in radii, below which the arc is half a turn; and above which
-/// its radius says well enough where the centre is.
-constexpr double kHalfTurn = 0x1p-46, kClearlyNoHalfTurn = 0x1p-8;
-/// A radius this much too small is enlarged to half the chord by every reader, beyond the doubt that its own
-/// rounding leaves.
-constexpr double kTooSmall = 1 - 0x1p-40;
+/// Height of an arc's centre over its chord, in radii, above which its radius says well enough where the
+/// centre is. At half a turn readers take the square root of what rounding left: 1e-8 of the radius.
+constexpr double kClearlyNoHalfTurn = 0x1p-8;
 /// What rounding leaves below 0 does not move the page; mm.
 constexpr double kNoMatter = 0x1p-20;
 constexpr double kStrokeMm = 0.2;
@@ -155,8 +152,7 @@ class SvgWriter {
     const double half = 0.5 * norm(chord);
     // Of the centre over the chord: what lies along the chord is the difference of the radii.
     const double height = std::abs(cross(chord, arc.centre - middle)) / (2 * half);
-    const bool half_turn = height <= kHalfTurn * curve.radius;
-    const bool unclear = !half_turn && height < kClearlyNoHalfTurn * curve.radius;
+    const bool unclear = height < kClearlyNoHalfTurn * curve.radius;
     const bool wide = std::abs(bulge_of(arc)) > kLargestBulge;
     if (halvings > 0 && (unclear || wide)) {
       // Nearly whole circles make halves that are nearly half turns.
@@ -164,7 +160,7 @@ class SvgWriter {
       for (const Edge& part : halves_of(arc)) pieces += write_arc(part, halvings - 1);
       return pieces;
     }
-    const double radius = half_turn ? kTooSmall * half : std::sqrt(half * half + height * height);
+    const double radius = std::sqrt(half * half + height * height);
     append("A{0} {0} 0 {1} {2} {3} {4}", radius, curve.beyond_half ? 1 : 0,
            arc.kind == EdgeKind::arc_ccw ? 0 : 1, arc.to.x, upright(arc.to.y));
     return 1;

@@ -184,7 +184,8 @@ TEST(DrawingWriterLaws, LayersComeBackInBothFormats) {
 /// Also ends that are off their circle by up to what regions allow, other places and sizes, and circles that
 /// begin anywhere.
 Region loose(Random& random) {
-  const double size = std::pow(2.0, random.uniform(-20, 20)), away = random.uniform(0, 1e6);
+  const double size = std::pow(2.0, random.uniform(-20, 20)),
+               away = random.uniform(0, std::min(1e3 * size, 1e6));
   const Point at{random.uniform(-away, away), random.uniform(-away, away)};
   const auto turn = [&] { return geom::sincos(random.uniform(0, 6.28)); };
   if (random.below(4) == 0) {
