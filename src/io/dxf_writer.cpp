@@ -235,9 +235,10 @@ class DxfWriter {
     };
     for (const Edge& edge : *contour.edges) {
       const std::size_t before = read.size();
-      const double bulge = edge.kind == EdgeKind::line ? 0 : bulge_of(edge);
-      if (std::abs(bulge) <= kLargestBulge) {
-        add(edge, bulge);
+      if (edge.kind == EdgeKind::line) {
+        add(edge, 0);
+      } else if (geom::arc_sweep(edge) <= kWidestPiece) {
+        add(edge, bulge_of(edge));
       } else {
         for (const Edge& half : halves_of(edge)) add(half, bulge_of(half));
       }

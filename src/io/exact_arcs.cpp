@@ -90,7 +90,12 @@ std::optional<BoundedShape> restored(const ExactArc& exact, const BoundedShape* 
     const Edge part{arc.kind, piece.from, piece.to, arc.centre};
     if (piece.from == piece.to || !is_sound(part) || (is_arc(piece) && piece.kind != arc.kind))
       return std::nullopt;
-    sweep += geom::arc_sweep(part);
+    // Otherwise two differences of radii are no bound: the level centre may be anywhere.
+    const double turned = geom::arc_sweep(part);
+    if (turned > kPi &&
+        !(turned <= kWidestPiece && norm(part.to - part.from) >= 4 * difference_of_radii(part)))
+      return std::nullopt;
+    sweep += turned;
     const Deviation one = deviation(part, piece);
     // From the part's mean radius to that of the arc.
     const double step = pieces.size() > 1 ? std::abs(geom::arc_radius(part) - geom::arc_radius(arc)) : 0;

@@ -21,6 +21,9 @@ namespace lekalo::io {
 [[nodiscard]] geom::DoubleDouble bulge_of_level(geom::DoubleDouble level, bool ccw) noexcept;
 
 inline constexpr std::size_t kMostPieces = 4;
+/// Arcs with a larger sweep, radians, are written in halves: a gap between their ends that is small against
+/// the difference of their radii leaves no bulge that means them.
+inline constexpr double kWidestPiece = 5.3;
 
 /// What the curves of an arc or circle in the file do not say.
 struct ExactArc {

@@ -153,7 +153,7 @@ class SvgWriter {
     // Of the centre over the chord: what lies along the chord is the difference of the radii.
     const double height = std::abs(cross(chord, arc.centre - middle)) / (2 * half);
     const bool unclear = height < kClearlyNoHalfTurn * curve.radius;
-    const bool wide = std::abs(bulge_of(arc)) > kLargestBulge;
+    const bool wide = geom::arc_sweep(arc) > kWidestPiece;
     if (halvings > 0 && (unclear || wide)) {
       // Nearly whole circles make halves that are nearly half turns.
       std::size_t pieces = 0;

@@ -193,6 +193,16 @@ Region loose(Random& random) {
     const Point start = at + size * Point{cosine, sine};
     if (auto made = geom::make_region({{EdgeKind::arc_ccw, start, start, at}})) return *std::move(made);
   }
+  if (random.below(4) == 0) {
+    // A circle whose end has missed its beginning.
+    const Point a = at + Point{size, 0};
+    const double gap = std::min(1e-3, 0.2 * size) * std::pow(2.0, random.uniform(-10, 0));
+    const auto [sine, cosine] = turn();
+    const Point b = a + gap * Point{cosine, sine};
+    if (auto made = geom::make_region({{EdgeKind::arc_ccw, a, b, at}, {EdgeKind::line, b, a, {}}});
+        made && !geom::fault_of({*made}))
+      return *std::move(made);
+  }
   const std::size_t n = 2 + random.below(5);
   geom::Ring corners;
   for (std::size_t i = 0; i < n; ++i) {
