@@ -8,6 +8,7 @@
 
 #include "lekalo/base/assert.hpp"
 #include "region_reader.hpp"
+#include "region_text.hpp"
 
 namespace lekalo::io {
 
@@ -15,7 +16,6 @@ namespace {
 
 using geom::Contour;
 using geom::Edge;
-using geom::EdgeKind;
 using geom::Point;
 using geom::Region;
 
@@ -39,19 +39,6 @@ double coordinate_error(const std::vector<Region>& regions, LengthUnit unit) {
   return largest_coordinate(regions) * (unit == LengthUnit::inch ? 0x4p-53 : 0x1p-53);
 }
 
-// "-0" would be read back as the integer 0.
-std::string number(double v) { return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v); }
-
-std::string point(Point p) { return fmt::format("[{}, {}]", number(p.x), number(p.y)); }
-
-std::string edge_json(const Edge& e) {
-  if (e.kind == EdgeKind::line) {
-    return fmt::format(R"({{"line": {{"from": {}, "to": {}}}}})", point(e.from), point(e.to));
-  }
-  return fmt::format(R"({{"arc": {{"from": {}, "to": {}, "centre": {}, "ccw": {}}}}})", point(e.from),
-                     point(e.to), point(e.centre), e.kind == EdgeKind::arc_ccw);
-}
-
 template <class T, class Write>
 std::string list_json(const std::vector<T>& items, const std::string& indent, const Write& write) {
   if (items.empty()) return "[]";
@@ -64,7 +51,7 @@ std::string list_json(const std::vector<T>& items, const std::string& indent, co
 
 std::string region_json(const Region& region, const std::string& indent) {
   const auto contour = [&indent](const std::string& more) {
-    return [inner = indent + more](const Contour& c) { return list_json(c, inner, edge_json); };
+    return [inner = indent + more](const Contour& c) { return list_json(c, inner, detail::edge_text); };
   };
   return fmt::format("{0}\"outer\": {1},\n{0}\"holes\": {2}", indent, contour("")(region.outer),
                      list_json(region.holes, indent, contour(" ")));

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "json_tree.hpp"
+#include "lekalo/geom/grid.hpp"
+
+namespace lekalo::io::detail {
+
+/// Longest text of a name or an id, bytes.
+inline constexpr std::size_t kLongestText = 1000;
+/// Counts, copies, qualities and the like.
+inline constexpr std::int64_t kLargestCount = 1'000'000'000;
+
+/// Takes values out of a tree and keeps the first fault: "FILE: PATH: what is wrong". After it everything
+/// reads as nothing, so that callers look once, at the end or before work that is long.
+class JsonReader {
+ public:
+  JsonReader(const JsonTree& tree, std::string name) : tree_(&tree), name_(std::move(name)) {}
+
+  [[nodiscard]] const JsonTree& tree() const noexcept { return *tree_; }
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] bool ok() const noexcept { return !fault_; }
+  /// \pre !ok()
+  [[nodiscard]] const Error& fault() const noexcept { return *fault_; }
+  void refuse(JsonValue at, const std::string& why);
+  /// Makes a fault of another reader's that lacks file and place, or has them.
+  void refuse(JsonValue at, const Error& error) { refuse(at, error.message); }
+  void take(Error error) {
+    if (ok()) fault_ = std::move(error);
+  }
+
+  /// Refuses what is no object and words that are not known. Fields that begin with x_ are counted instead.
+  bool expect_object(JsonValue value, std::initializer_list<std::string_view> known);
+  /// Refuses what is no list or has more items.
+  bool expect_list(JsonValue value, std::size_t most);
+  /// The member, refused where it is missing; what it is for is said.
+  std::optional<JsonValue> need(JsonValue object, std::string_view key, std::string_view what);
+
+  double number(JsonValue value, double low, double high);
+  std::int64_t integer(JsonValue value, std::int64_t low, std::int64_t high);
+  bool truth(JsonValue value);
+  /// At most kLongestText bytes, no control characters.
+  std::string text(JsonValue value);
+  std::string text_not_empty(JsonValue value);
+  /// In steps, of a number of file units of so many millimetres.
+  std::int64_t length(JsonValue value, double low_mm, double high_mm, double mm_per_unit = 1);
+  std::int64_t gap(JsonValue value, double mm_per_unit = 1);
+
+  /// "x_name (3)" of all that expect_object counted.
+  [[nodiscard]] std::vector<std::string> left_out() const;
+
+ private:
+  const JsonTree* tree_;
+  std::string name_;
+  std::optional<Error> fault_;
+  std::map<std::string, std::size_t, std::less<>> left_out_;
+};
+
+}  // namespace lekalo::io::detail
