@@ -34,9 +34,9 @@ bool JsonReader::expect_object(JsonValue value, std::initializer_list<std::strin
   }
   for (const JsonValue item : value) {
     if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
-    if (item.key().substr(0, 2) != "x_") {
-      refuse(value, fmt::format("unknown field {}; known here: {}, and x_... for notes of your own",
-                                excerpt(item.key()), fmt::join(known, ", ")));
+    if (item.key().substr(0, own_.size()) != own_) {
+      refuse(value, fmt::format("unknown field {}; known here: {}, and {}... for notes of your own",
+                                excerpt(item.key()), fmt::join(known, ", "), own_));
       return false;
     }
     const auto found = left_out_.find(item.key());

@@ -22,7 +22,9 @@ inline constexpr std::int64_t kLargestCount = 1'000'000'000;
 /// reads as nothing, so that callers look once, at the end or before work that is long.
 class JsonReader {
  public:
-  JsonReader(const JsonTree& tree, std::string name) : tree_(&tree), name_(std::move(name)) {}
+  /// Fields that begin with `own` are the writer's business: never refused.
+  JsonReader(const JsonTree& tree, std::string name, std::string_view own = "x_")
+      : tree_(&tree), name_(std::move(name)), own_(own) {}
 
   [[nodiscard]] const JsonTree& tree() const noexcept { return *tree_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -36,7 +38,8 @@ class JsonReader {
     if (ok()) fault_ = std::move(error);
   }
 
-  /// Refuses what is no object and words that are not known. Fields that begin with x_ are counted instead.
+  /// Refuses what is no object and words that are not known. Fields that begin with `own` are counted
+  /// instead.
   bool expect_object(JsonValue value, std::initializer_list<std::string_view> known);
   /// Refuses what is no list or has more items.
   bool expect_list(JsonValue value, std::size_t most);
@@ -53,12 +56,13 @@ class JsonReader {
   std::int64_t length(JsonValue value, double low_mm, double high_mm, double mm_per_unit = 1);
   std::int64_t gap(JsonValue value, double mm_per_unit = 1);
 
-  /// "x_name (3)" of all that expect_object counted.
+  /// "x_name (3 times)" of all that expect_object counted.
   [[nodiscard]] std::vector<std::string> left_out() const;
 
  private:
   const JsonTree* tree_;
   std::string name_;
+  std::string_view own_;
   std::optional<Error> fault_;
   std::map<std::string, std::size_t, std::less<>> left_out_;
 };

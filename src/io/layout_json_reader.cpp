@@ -100,8 +100,8 @@ class LayoutReader {
     return value ? read_outline(reader_, *value, side, chords_made_) : layout::Outline{};
   }
 
-  int level(JsonValue value, std::int64_t low = 0) {
-    return static_cast<int>(reader_.integer(value, low, kMostLevel));
+  int level(JsonValue value, std::int64_t low = 0, std::int64_t high = kMostLevel) {
+    return static_cast<int>(reader_.integer(value, low, high));
   }
   int quality(JsonValue value) { return value.text_is("best") ? layout::kBestQuality : level(value); }
 
@@ -143,7 +143,7 @@ class LayoutReader {
       layout::Defect defect;
       if (!reader_.expect_object(v, {"id", "severity", "outline"})) return;
       defect.id = id(v, defect_ids, "defects of this stock");
-      optional(v, "severity", [&](JsonValue s) { defect.severity = level(s, 1); });
+      optional(v, "severity", [&](JsonValue s) { defect.severity = level(s, 1, kNeverTolerated); });
       defect.outline = outline(v, geom::ChordSide::grow);
       stock.defects.push_back(std::move(defect));
     });

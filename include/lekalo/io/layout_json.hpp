@@ -19,6 +19,8 @@ inline constexpr std::size_t kMostParts = 100'000;  ///< stocks and kits likewis
 inline constexpr std::size_t kMostOutlinePoints = 100'000;
 /// Chords where a file gives curves alone, or a drawing, and nobody says otherwise; mm.
 inline constexpr double kUsualChordTolerance = 0.01;
+/// The highest severity of a defect in a file: no part may say that it tolerates it.
+inline constexpr int kNeverTolerated = 1'000'001;
 
 struct LayoutFile {
   layout::Document document;
