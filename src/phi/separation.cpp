@@ -54,9 +54,6 @@ class Search {
  public:
   Search(SlideOut& slide, double limit) : slide_(slide), least_(limit) {}
 
-  /// Slides that are longer than the least so far by this much are still worth improving.
-  static constexpr double kSpare = 1.25;
-
   bool attempt(Point direction, double spare = 1) {
     const auto stop = slide_.along(direction, spare * least_);
     if (!stop) return false;
@@ -65,36 +62,41 @@ class Search {
     least_ = std::min(least_, stop->distance);
     return better;
   }
+  /// Rays in all directions. What is best across some edge shows on the next ray, longer by 1 / cos(1/32
+  /// turn) at most where the same edge hinders there.
   void fan() {
+    constexpr double kSpare = 1.06;
     Point ray{1, 0};
-    for (int i = 0; i < 16; ++i, ray = turned_by(ray, kFanStep)) attempt(ray, kSpare);
+    for (int i = 0; i < 16; ++i, ray = turned_by(ray, kFanStep)) {
+      attempt(ray, kSpare);
+      across_contacts();
+    }
   }
   /// Across the edges in contact: where these are what hinders, no direction is shorter.
   void across_contacts() {
-    for (std::size_t i = 0, tries = 0; i < stops_.size() && tries < 16; ++i) {
-      const SlideOut::Stop stop = stops_[i];
-      if (stop.distance > kSpare * least_) continue;
+    for (; looked_at_ < stops_.size(); ++looked_at_) {
+      const SlideOut::Stop stop = stops_[looked_at_];
       for (const Point edge : {stop.edge_of_a, stop.edge_of_b}) {
         if (edge == Point{}) continue;
         const Point across = (1 / norm(edge)) * perpendicular(edge);
         const double along = dot(across, stop.direction);
         // Shorter by the cosine at best.
         if (!(std::abs(along) < 1 - 1e-9) || std::abs(along) * stop.distance >= least_) continue;
-        ++tries;
         attempt(along < 0 ? -across : across);
       }
     }
   }
   /// Where two contacts hinder at once the best direction is across neither: halving steps around it.
   void between_contacts() {
-    if (stops_.empty()) return;
+    if (stops_.empty() || is_across(shortest())) return;
     Point best = shortest().direction, step = kFineStep;
-    for (int i = 0; i < 6; ++i, step = halved(step))
+    for (int i = 0; i < 7; ++i, step = halved(step))
       for (const Point by : {step, opposite_turn(step)})
         if (attempt(turned_by(best, by))) {
           best = shortest().direction;
           break;
         }
+    across_contacts();
   }
   [[nodiscard]] const SlideOut::Stop& shortest() const {
     return *std::min_element(stops_.begin(), stops_.end(), shorter);
@@ -108,8 +110,15 @@ class Search {
   static bool shorter(const SlideOut::Stop& p, const SlideOut::Stop& q) noexcept {
     return p.distance < q.distance;
   }
+  static bool is_across(const SlideOut::Stop& stop) noexcept {
+    for (const Point edge : {stop.edge_of_a, stop.edge_of_b})
+      if (std::abs(dot(edge, stop.direction)) < 1e-9 * norm(edge)) return true;
+    return false;
+  }
+
   SlideOut& slide_;
   double least_;
+  std::size_t looked_at_ = 0;
   std::vector<SlideOut::Stop> stops_;
 };
 
@@ -137,12 +146,15 @@ Separation made(GridPoint shift, Point at_mm) noexcept {
   return {shift, length, length > 0 ? (1 / length) * v : Point{}, at_mm};
 }
 
-double length_of(GridPoint v) noexcept { return geom::norm({static_cast<double>(v.x), static_cast<double>(v.y)}); }
+double length_of(GridPoint v) noexcept {
+  return geom::norm({static_cast<double>(v.x), static_cast<double>(v.y)});
+}
 
 void try_direction(Search& search, GridPoint v) {
   if (v == GridPoint{}) return;
   const double length = length_of(v);
-  search.attempt({static_cast<double>(v.x) / length, static_cast<double>(v.y) / length}, Search::kSpare);
+  search.attempt({static_cast<double>(v.x) / length, static_cast<double>(v.y) / length});
+  search.across_contacts();
 }
 
 /// A point of a's outline that lies in the forbidden, for overlaps too thin to have a middle in floating
@@ -156,16 +168,17 @@ Point edge_place(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
 Separation separate(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
   const GridPoint box_shift = box_shift_out(bounds(a), moved(bounds(b), b_shift));
   SlideOut slide(a, b, b_shift, false);
+  const auto place = slide.place_in_common();
+  if (place) slide.probe_at(*place);
   // A little more than along the axis, so that this direction is among the answers.
   Search search(slide, length_of(box_shift) + 1);
   try_direction(search, box_shift);
   search.fan();
-  search.across_contacts();
   search.between_contacts();
   const auto shift =
       proved(search.sorted(), [&](GridPoint by) { return !interiors_meet(a, b, b_shift - by); });
-  const auto place = slide.place_in_common();
-  return made(shift.value_or(box_shift),
+  const bool by_box = !shift || dot(box_shift, box_shift) < dot(*shift, *shift);
+  return made(by_box ? box_shift : *shift,
               place ? geom::mm_from_grid(a.points[0]) + in_mm(*place) : edge_place(a, b, b_shift));
 }
 
@@ -175,16 +188,19 @@ std::optional<Separation> bring_inside(const GridRegion& container, const GridRe
       box.high.y - box.low.y > outer.high.y - outer.low.y)
     return std::nullopt;
   SlideOut slide(a, container, {}, true);
+  const auto place = slide.place_in_common();
+  if (place) slide.probe_at(*place);
   Search search(slide, std::numeric_limits<double>::infinity());
-  try_direction(search, box_shift_in(box, outer));
+  // No shift is shorter than the one that brings the box in.
+  const GridPoint by_box = box_shift_in(box, outer);
+  const Point at = place ? geom::mm_from_grid(a.points[0]) + in_mm(*place) : sticking_out(container, a).at;
+  if (lies_within(container, a, by_box)) return made(by_box, at);
+  try_direction(search, by_box);
   search.fan();
-  search.across_contacts();
   search.between_contacts();
   const auto shift = proved(search.sorted(), [&](GridPoint by) { return lies_within(container, a, by); });
   if (!shift) return std::nullopt;
-  const auto place = slide.place_in_common();
-  return made(*shift,
-              place ? geom::mm_from_grid(a.points[0]) + in_mm(*place) : sticking_out(container, a).at);
+  return made(*shift, at);
 }
 
 StickingOut sticking_out(const GridRegion& container, const GridRegion& a) {

@@ -42,6 +42,41 @@ void SlideOut::Outline::turn(Point direction) {
   }
 }
 
+void SlideOut::Outline::cross_line(double height, std::vector<double>& places) const {
+  places.clear();
+  for (std::size_t l = 0; l + 1 < loop_starts.size(); ++l) {
+    const Point* before = &turned[loop_starts[l + 1] - 1];
+    for (std::size_t i = loop_starts[l]; i < loop_starts[l + 1]; ++i) {
+      const Point* at = &turned[i];
+      if ((before->y > height) != (at->y > height))
+        places.push_back(at->x + (before->x - at->x) * ((height - at->y) / (before->y - at->y)));
+      before = at;
+    }
+  }
+  std::sort(places.begin(), places.end());
+}
+
+double SlideOut::least_at(double height) {
+  a_.cross_line(height, line_a_);
+  b_.cross_line(height, line_b_);
+  if (outside_of_b_) {
+    line_b_.insert(line_b_.begin(), -kInfinity);
+    line_b_.push_back(kInfinity);
+  }
+  double distance = 0;
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (std::size_t i = 0; i + 1 < line_a_.size(); i += 2)
+      for (std::size_t j = 0; j + 1 < line_b_.size(); j += 2) {
+        const double from = line_b_[j] - line_a_[i + 1], to = line_b_[j + 1] - line_a_[i];
+        if (from >= distance || to <= distance) continue;
+        distance = to;
+        moved = distance < kInfinity;
+      }
+  }
+  return distance;
+}
+
 void SlideOut::Outline::collect_edges(double from, double to) {
   edges.clear();
   for (std::size_t l = 0; l + 1 < loop_starts.size(); ++l) {
@@ -75,9 +110,7 @@ void SlideOut::Outline::cross_slab(double bottom, double top) {
 }
 
 template <class Visit>
-bool SlideOut::visit_slabs(Point direction, Visit&& visit) {
-  a_.turn(direction);
-  b_.turn(direction);
+bool SlideOut::visit_slabs(Visit&& visit) {
   if (outside_of_b_ && (a_.low < b_.low || a_.high > b_.high)) return false;
   const double low = std::max(a_.low, b_.low), high = std::min(a_.high, b_.high);
   heights_.clear();
@@ -104,6 +137,12 @@ bool SlideOut::visit_slabs(Point direction, Visit&& visit) {
 std::optional<SlideOut::Stop> SlideOut::along(Point direction, double limit) {
   // Gaps narrower than this between forbidden stretches do not count; rounding could not tell.
   constexpr double kNarrow = 0.5;
+  a_.turn(direction);
+  b_.turn(direction);
+  const double low = std::max(a_.low, b_.low), high = std::min(a_.high, b_.high);
+  if (probe_ && least_at(cross(direction, *probe_)) >= limit) return std::nullopt;
+  for (const double share : {0.5, 0.25, 0.75})
+    if (least_at(low + share * (high - low)) >= limit) return std::nullopt;
   intervals_.clear();
   Stop stop;
   stop.direction = direction;
@@ -114,8 +153,8 @@ std::optional<SlideOut::Stop> SlideOut::along(Point direction, double limit) {
     if (interval.of_b != nullptr) stop.edge_of_b = interval.of_b->direction;
     return true;
   };
-  const bool all = visit_slabs(
-      direction, [&](double, double, const std::vector<Crossing>& a, const std::vector<Crossing>& b) {
+  const bool all =
+      visit_slabs([&](double, double, const std::vector<Crossing>& a, const std::vector<Crossing>& b) {
         for (std::size_t i = 0; i + 1 < a.size(); i += 2)
           for (std::size_t j = 0; j + 1 < b.size(); j += 2) {
             const Interval interval{std::min(b[j].bottom - a[i + 1].bottom, b[j].top - a[i + 1].top),
@@ -139,19 +178,20 @@ std::optional<SlideOut::Stop> SlideOut::along(Point direction, double limit) {
 std::optional<Point> SlideOut::place_in_common() {
   double largest = 0;
   std::optional<Point> place;
-  visit_slabs(
-      {1, 0}, [&](double bottom, double top, const std::vector<Crossing>& a, const std::vector<Crossing>& b) {
-        for (std::size_t i = 0; i + 1 < a.size(); i += 2)
-          for (std::size_t j = 0; j + 1 < b.size(); j += 2) {
-            const double left = std::max(a[i].bottom + a[i].top, b[j].bottom + b[j].top) / 2;
-            const double right = std::min(a[i + 1].bottom + a[i + 1].top, b[j + 1].bottom + b[j + 1].top) / 2;
-            const double size = std::min(right - left, top - bottom);
-            if (!(size > largest)) continue;
-            largest = size;
-            place = Point{(left + right) / 2, (bottom + top) / 2};
-          }
-        return true;
-      });
+  a_.turn({1, 0});
+  b_.turn({1, 0});
+  visit_slabs([&](double bottom, double top, const std::vector<Crossing>& a, const std::vector<Crossing>& b) {
+    for (std::size_t i = 0; i + 1 < a.size(); i += 2)
+      for (std::size_t j = 0; j + 1 < b.size(); j += 2) {
+        const double left = std::max(a[i].bottom + a[i].top, b[j].bottom + b[j].top) / 2;
+        const double right = std::min(a[i + 1].bottom + a[i + 1].top, b[j + 1].bottom + b[j + 1].top) / 2;
+        const double size = std::min(right - left, top - bottom);
+        if (!(size > largest)) continue;
+        largest = size;
+        place = Point{(left + right) / 2, (bottom + top) / 2};
+      }
+    return true;
+  });
   return place;
 }
 

@@ -24,6 +24,10 @@ class SlideOut {
   /// The least distance >= 0 along `direction` (unit) at which `a` is free, when it is below `limit`.
   [[nodiscard]] std::optional<Stop> along(geom::Point direction, double limit);
 
+  /// A point of what `a` and the forbidden have in common: a line through it tells most directions apart from
+  /// good ones at once.
+  void probe_at(geom::Point place) { probe_ = place; }
+
   /// The middle of a large piece of what `a` and the forbidden have in common where `a` is; cut along x.
   [[nodiscard]] std::optional<geom::Point> place_in_common();
 
@@ -53,19 +57,27 @@ class SlideOut {
     std::size_t next = 0;
 
     void turn(geom::Point direction);
+    /// Ascending places where the line at this height crosses edges.
+    void cross_line(double height, std::vector<double>& places) const;
     void collect_edges(double from, double to);
     void cross_slab(double bottom, double top);
   };
 
   /// visit(bottom, top, crossings of a, crossings of the forbidden) for every slab between neighbouring
   /// heights until it returns false; false then, or where a slab is forbidden in its whole width.
+  /// \pre both turned
   template <class Visit>
-  bool visit_slabs(geom::Point direction, Visit&& visit);
+  bool visit_slabs(Visit&& visit);
+
+  /// A distance that `a` must slide at least, by its cross section at one height.
+  [[nodiscard]] double least_at(double height);
 
   Outline a_, b_;
   bool outside_of_b_;
   std::vector<double> heights_;
   std::vector<Interval> intervals_;
+  std::optional<geom::Point> probe_;
+  std::vector<double> line_a_, line_b_;
 };
 
 }  // namespace lekalo::phi
