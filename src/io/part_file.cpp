@@ -1,0 +1,154 @@
+#include "lekalo/io/part_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "contour_number.hpp"
+#include "json_tree.hpp"
+#include "layout_outline.hpp"
+#include "lekalo/io/drawing.hpp"
+#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape_tree.hpp"
+#include "lekalo/io/svg.hpp"
+
+namespace lekalo::io {
+namespace {
+
+/// A closed outline with its holes, and what it is called.
+struct DrawnPart {
+  geom::Region region;
+  std::string id, name;
+};
+
+struct DrawnParts {
+  std::vector<DrawnPart> parts;
+  double tolerance = 0;  ///< mm: the true outlines are within this
+  std::vector<std::string> notices;
+};
+
+constexpr std::size_t kLongestName = 200;
+
+/// As a text of a layout: no control characters, not too long, cut between characters.
+std::string plain(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  if (text.size() > kLongestName) {
+    std::size_t end = kLongestName;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80) --end;
+    text.resize(end);
+  }
+  return text;
+}
+
+std::string stem_of(const std::string& name) {
+  const std::string stem = plain(std::filesystem::path(name).stem().string());
+  return stem.empty() ? "part" : stem;
+}
+
+std::size_t edges_of(const geom::Region& region) {
+  std::size_t edges = region.outer.size();
+  for (const geom::Contour& hole : region.holes) edges += hole.size();
+  return edges;
+}
+
+Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, const DrawingOptions& options) {
+  if (!drawing) return tl::unexpected(drawing.error());
+  auto drawn = make_regions(*drawing, options);
+  if (!drawn) return tl::unexpected(drawn.error());
+  DrawnParts made{{}, drawn->tolerance, std::move(drawn->notices)};
+  std::size_t edge = 0;
+  for (geom::Region& region : drawn->regions) {
+    const DrawnCurve& curve = drawing->curves[drawn->curve_of_edge[edge]];
+    edge += edges_of(region);
+    const std::string& layer = drawing->layers[curve.layer].name;
+    const std::string& handle = drawing->entities[curve.entity].handle;
+    made.parts.push_back({std::move(region), is_svg && !handle.empty() ? handle : layer, layer});
+  }
+  return made;
+}
+
+Result<DrawnParts> of_tree(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  auto file = parse_shape_tree(bytes, name, options.unit);
+  if (!file) return tl::unexpected(file.error());
+  DrawnParts made{{}, file->tolerance, {}};
+  std::size_t edge = 0;
+  for (geom::Region& region : file->regions) {
+    const std::uint32_t named = file->name_of_edge[edge];
+    edge += edges_of(region);
+    const std::string text = named == kNoName ? "" : file->names[named];
+    made.parts.push_back({std::move(region), text, text});
+  }
+  return made;
+}
+
+Result<DrawnParts> of_regions(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  auto file = parse_regions(bytes, name, options.unit);
+  if (!file) return tl::unexpected(file.error());
+  DrawnParts made;
+  for (geom::Region& region : file->regions) made.parts.push_back({std::move(region), "", ""});
+  return made;
+}
+
+Result<DrawnParts> drawn_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::string_view rest = bytes;
+  if (rest.substr(0, 3) == kByteOrderMark) rest.remove_prefix(3);
+  const std::size_t begin = rest.find_first_not_of(" \t\r\n");
+  const char first = begin == std::string_view::npos ? ' ' : rest[begin];
+  if (first == '<') return of_drawing(parse_svg(bytes, name, options.unit), true, options.drawing);
+  if (first != '{' && first != '[')
+    return of_drawing(parse_dxf(bytes, name, options.unit), false, options.drawing);
+  const auto tree = detail::JsonTree::parse(bytes, name);
+  if (!tree) return tl::unexpected(tree.error());
+  return tree->root().find("shape") ? of_tree(bytes, name, options) : of_regions(bytes, name, options);
+}
+
+}  // namespace
+
+Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  auto drawn = drawn_parts(bytes, name, options);
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (drawn->parts.size() > kMostParts)
+    return failure(ErrorCode::bad_input, fmt::format("{}: {} outlines; at most {} parts are read", name,
+                                                     drawn->parts.size(), kMostParts));
+  PartsFile file{{}, std::move(drawn->notices)};
+  std::set<std::string> ids;
+  std::map<std::string, std::size_t> last_of;
+  std::size_t points = 0;
+  for (DrawnPart& one : drawn->parts) {
+    layout::Part part;
+    const std::string base = one.id.empty() ? stem_of(name) : plain(one.id);
+    part.id = base;
+    std::size_t& last = last_of[base];
+    if (last == 0) last = 1;
+    while (!ids.insert(part.id).second) part.id = fmt::format("{}-{}", base, ++last);
+    part.name = plain(one.name);
+    part.demand = 1;
+    auto outline = detail::outline_of_curves(one.region, geom::ChordSide::grow, options.chord_tolerance);
+    if (!outline)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: part {}: {}", name, excerpt(part.id), outline.error().message));
+    points += outline->polygon.points.size();
+    constexpr std::size_t kMostPointsInAll = 20'000'000;
+    if (points > kMostPointsInAll)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: more than {} points with chords within {} mm; a larger tolerance needs "
+                                 "fewer",
+                                 name, kMostPointsInAll, options.chord_tolerance));
+    part.outline = *std::move(outline);
+    file.parts.push_back(std::move(part));
+  }
+  if (drawn->tolerance > geom::kGridStep)
+    file.notices.push_back(
+        fmt::format("{}: outlines are within {:.2g} mm of what is drawn (ellipses, splines, "
+                    "joined ends)",
+                    name, drawn->tolerance));
+  return file;
+}
+
+}  // namespace lekalo::io
