@@ -168,26 +168,44 @@ class Composer {
                                   : stock.id;
     sheet_.text(cell.x + 2, cell.y + 3.6, cell.width - 4, title,
                 {.size = kReportSmall, .colour = kGrey, .kind = "sheet-name"});
-    path(rings_of(stock.outline.polygon), view, room, fill_and_line(kBlankFill, 1, kBlankLine, 0.3),
+    // A strip goes on beyond what is shown of it.
+    const Point corner = view({framed.box.low.x, framed.box.high.y}),
+                opposite = view({framed.box.high.x, framed.box.low.y});
+    const Rect shown = Rect{corner.x, corner.y, opposite.x - corner.x, opposite.y - corner.y}.grown(0.6);
+    scene_.items.push_back(ClipBegin{{shown.ring()}});
+    path(rings_of(stock.outline.polygon), view, shown, fill_and_line(kBlankFill, 1, kBlankLine, 0.3),
          {"stock", stock.id});
     for (const layout::QualityZone& zone : stock.zones) {
       Paint paint = fill_and_line(kZoneLine, 0.10, kZoneLine, 0.25);
       paint.dash = 1.2;
-      path(rings_of(zone.outline.polygon), view, room, paint,
+      path(rings_of(zone.outline.polygon), view, shown, paint,
            {"zone", fmt::format("{}: quality {}", zone.id, zone.quality)});
     }
     const auto placed = on_sheet_.find(framed.sheet);
     if (placed != on_sheet_.end())
-      for (const Placement* placement : placed->second) draw_part(*placement, view, room);
+      for (const Placement* placement : placed->second) draw_part(*placement, view, shown);
     for (const layout::Defect& defect : stock.defects)
-      path(rings_of(defect.outline.polygon), view, room, fill_and_line(kDefectFill, 0.7, kDefectFill, 0.25),
+      path(rings_of(defect.outline.polygon), view, shown, fill_and_line(kDefectFill, 0.7, kDefectFill, 0.25),
            {"defect", fmt::format("{}: severity {}", defect.id, defect.severity)});
+    for (const layout::QualityZone& zone : stock.zones) label_zone(zone, view);
     for (const layout::SheetUse& use : picture_.completeness.sheets)
-      if (use.sheet == framed.sheet) draw_remnant(use, view, room);
+      if (use.sheet == framed.sheet) draw_remnant(use, view, shown);
+    scene_.items.push_back(ClipEnd{});
     for (std::size_t i = 0; i < std::min(picture_.violations.size(), kMostMarks); ++i) {
       const Violation& v = picture_.violations[i];
       if (v.stock == framed.sheet.stock && v.copy == framed.sheet.copy) draw_mark(i + 1, v, view);
     }
+  }
+
+  /// At the zone's upper end, where it runs into fewer parts' names than in the middle.
+  void label_zone(const layout::QualityZone& zone, const View& view) {
+    const geom::GridRegion& outline = zone.outline.polygon;
+    const geom::GridPoint top =
+        *std::max_element(outline.points.begin(), outline.points.end(),
+                          [](geom::GridPoint a, geom::GridPoint b) { return a.y < b.y; });
+    const Point paper = view(geom::mm_from_grid(top));
+    sheet_.text(paper.x + 0.8, paper.y + 2.6, 40, fmt::format("quality {}", zone.quality),
+                {.size = 2.0, .colour = kZoneLine, .kind = "zone-label"});
   }
 
   void path(const std::vector<Ring>& rings, const View& view, const Rect& visible, const Paint& paint,
