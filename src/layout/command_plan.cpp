@@ -282,6 +282,17 @@ class Planner {
     return limited(std::move(*place));
   }
 
+  Result<Outcome> operator()(const FitCommand& c) const {
+    if (c.part >= document_.parts.size()) return wrong(fmt::format("there is no part number {}", c.part));
+    if (auto sheet = known_sheet(document_, c.sheet); !sheet) return tl::unexpected(sheet.error());
+    std::vector<Placement> places = fits_where(workspace_, c.part, c.sheet, 1, c.mirrored);
+    if (!places.empty()) {
+      places[0].id = document_.next_id;
+      return limited({places[0]});
+    }
+    return wrong(fmt::format("no place was found where part '{}' fits", document_.parts[c.part].id));
+  }
+
  private:
   static Result<Outcome> limited(Placements placements) {
     auto within = within_limits(std::move(placements));
@@ -393,7 +404,8 @@ std::string described(const Violation& violation) {
 Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode) {
   auto outcome = std::visit(Planner(workspace, mode), command);
   if (!outcome) return tl::unexpected(outcome.error());
-  const bool new_one = std::holds_alternative<PlaceCommand>(command);
+  const bool new_one =
+      std::holds_alternative<PlaceCommand>(command) || std::holds_alternative<FitCommand>(command);
   if (mode == Mode::strict && !outcome->breaks_no_rule && !workspace.is_clear(outcome->changed)) {
     const auto violations = workspace.violations_of(outcome->changed);
     return failure(

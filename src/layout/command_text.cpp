@@ -73,6 +73,10 @@ class Writer {
   std::string operator()(const NearestCommand& c) const {
     return fmt::format("nearest {} by {}{}", layout::text_of(c.ids), layout::text_of(c.by), to(c.to));
   }
+  std::string operator()(const FitCommand& c) const {
+    return fmt::format("fit {} {}{}", quoted(document_.parts[c.part].id), text_of(c.sheet),
+                       c.mirrored ? (*c.mirrored ? " mirrored" : " upright") : "");
+  }
 
  private:
   std::string text_of(Sheet sheet) const {
@@ -220,6 +224,16 @@ std::optional<Command> command_named(std::string_view name, Reader& in) {
     if (!c.mirrored) in.expect("upright");
     return c;
   }
+  if (name == "fit") {
+    FitCommand c;
+    c.part = in.part();
+    c.sheet = in.sheet();
+    if (in.take("mirrored"))
+      c.mirrored = true;
+    else if (in.take("upright"))
+      c.mirrored = false;
+    return c;
+  }
   if (name == "swap") return SwapCommand{in.integer<std::uint64_t>(), in.integer<std::uint64_t>()};
   if (name == "snap") {
     SnapCommand c{in.integer<std::uint64_t>(), 0};
@@ -286,7 +300,7 @@ Result<Command> command_from_text(std::string_view line, const Document& documen
     return failure(
         ErrorCode::bad_input,
         fmt::format(
-            "there is no command '{}'; there are place, move, rotate, flip, remove, swap, lock, unlock, "
+            "there is no command '{}'; there are place, fit, move, rotate, flip, remove, swap, lock, unlock, "
             "slide, slide-along, settle, push, snap, compact and nearest",
             name));
   if (!in.at_end()) return failure(ErrorCode::bad_input, fmt::format("'{}' is left over", in.word()));

@@ -202,7 +202,7 @@ std::optional<std::vector<Placement>> nearest_place(const Workspace& workspace,
 }
 
 std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part_index, Sheet sheet,
-                                  std::size_t most) {
+                                  std::size_t most, std::optional<bool> only) {
   const Document& document = workspace.document();
   const Part& part = document.parts[part_index];
   std::vector<geom::GridRotation> angles;
@@ -230,6 +230,7 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
   }
   std::vector<Placement> places;
   for (int mirrored = 0; mirrored <= (part.may_mirror ? 1 : 0); ++mirrored) {
+    if (only && *only != (mirrored != 0)) continue;
     for (const geom::GridRotation angle : angles) {
       Placement placement;
       placement.part = part_index;
@@ -241,8 +242,9 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
       constexpr std::int64_t kStarts = 24;
       const GridPoint low = world.low - box.low, room = (world.high - box.high) - low;
       if (room.x < 0 || room.y < 0) continue;
-      for (std::int64_t iy = 0; iy <= kStarts; ++iy)
-        for (std::int64_t ix = 0; ix <= kStarts; ++ix) {
+      std::size_t settled = 0;
+      for (std::int64_t iy = 0; iy <= kStarts && settled < most; ++iy)
+        for (std::int64_t ix = 0; ix <= kStarts && settled < most; ++ix) {
           placement.at = {low.x + room.x / kStarts * ix, low.y + room.y / kStarts * iy};
           if (!workspace.is_clear_of_scene(placement)) continue;
           Group group(workspace, {placement});
@@ -250,6 +252,7 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
           group.slide({-1, 0}, static_cast<double>(room.x) + 1);
           group.slide({0, -1}, static_cast<double>(room.y) + 1);
           places.push_back(group.placements()[0]);
+          ++settled;
         }
     }
   }

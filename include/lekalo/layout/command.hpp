@@ -96,9 +96,16 @@ struct NearestCommand {  ///< to the valid place found nearest to the shifted on
   friend bool operator==(const NearestCommand&, const NearestCommand&) = default;
 };
 
+struct FitCommand {  ///< a new placement in the first of the places where it fits (fits_where)
+  std::uint32_t part = 0;
+  Sheet sheet;
+  std::optional<bool> mirrored;  ///< absent: as it fits
+  friend bool operator==(const FitCommand&, const FitCommand&) = default;
+};
+
 using Command = std::variant<PlaceCommand, MoveCommand, RotateCommand, FlipCommand, RemoveCommand,
                              SwapCommand, LockCommand, SlideCommand, SlideAlongCommand, SettleCommand,
-                             PushCommand, SnapCommand, CompactCommand, NearestCommand>;
+                             PushCommand, SnapCommand, CompactCommand, NearestCommand, FitCommand>;
 
 /// One line, without its end: `slide 3 5 : -1 0`. Millimetres, degrees and names of parts and stocks, nothing
 /// is lost.
@@ -135,9 +142,11 @@ void carry_out(Workspace& workspace, const Change& change);
 void take_back(Workspace& workspace, const Change& change);
 
 /// Places where a part would lie clear on a sheet, at most `most`, lowest and then leftmost first: settled
-/// towards the lower left from a grid of starts, at each of its angles (16 of a range) and mirrored where it
-/// may be. Found by trying; not all there are. Ids are 0.
+/// towards the lower left from the lowest clear ones of a grid of starts, at each of its angles (16 of a
+/// range) and mirrored where it may be. Found by trying; not all there are. Ids are 0.
+/// \param mirrored  so or not so only; absent: either
 [[nodiscard]] std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part, Sheet sheet,
-                                                std::size_t most);
+                                                std::size_t most,
+                                                std::optional<bool> mirrored = std::nullopt);
 
 }  // namespace lekalo::layout
