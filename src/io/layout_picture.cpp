@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "picture_colour.hpp"
@@ -175,19 +176,24 @@ class Composer {
     scene_.items.push_back(ClipBegin{{shown.ring()}});
     path(rings_of(stock.outline.polygon), view, shown, fill_and_line(kBlankFill, 1, kBlankLine, 0.3),
          {"stock", stock.id});
+    ClipBegin material;
+    for (const Ring& ring : rings_of(stock.outline.polygon))
+      material.lines.push_back(on_paper(ring, view, shown));
+    scene_.items.push_back(std::move(material));
     for (const layout::QualityZone& zone : stock.zones) {
       Paint paint = fill_and_line(kZoneLine, 0.10, kZoneLine, 0.25);
       paint.dash = 1.2;
       path(rings_of(zone.outline.polygon), view, shown, paint,
            {"zone", fmt::format("{}: quality {}", zone.id, zone.quality)});
     }
+    scene_.items.push_back(ClipEnd{});
     const auto placed = on_sheet_.find(framed.sheet);
     if (placed != on_sheet_.end())
       for (const Placement* placement : placed->second) draw_part(*placement, view, shown);
     for (const layout::Defect& defect : stock.defects)
       path(rings_of(defect.outline.polygon), view, shown, fill_and_line(kDefectFill, 0.7, kDefectFill, 0.25),
            {"defect", fmt::format("{}: severity {}", defect.id, defect.severity)});
-    for (const layout::QualityZone& zone : stock.zones) label_zone(zone, view);
+    for (const layout::QualityZone& zone : stock.zones) label_zone(zone, stock, view);
     for (const layout::SheetUse& use : picture_.completeness.sheets)
       if (use.sheet == framed.sheet) draw_remnant(use, view, shown);
     scene_.items.push_back(ClipEnd{});
@@ -198,12 +204,18 @@ class Composer {
   }
 
   /// At the zone's upper end, where it runs into fewer parts' names than in the middle.
-  void label_zone(const layout::QualityZone& zone, const View& view) {
-    const geom::GridRegion& outline = zone.outline.polygon;
-    const geom::GridPoint top =
-        *std::max_element(outline.points.begin(), outline.points.end(),
-                          [](geom::GridPoint a, geom::GridPoint b) { return a.y < b.y; });
-    const Point paper = view(geom::mm_from_grid(top));
+  void label_zone(const layout::QualityZone& zone, const layout::Stock& stock, const View& view) {
+    // The highest corner of the zone on the material, or the highest of the material in the zone.
+    const geom::GridRegion &outline = zone.outline.polygon, &material = stock.outline.polygon;
+    std::optional<geom::GridPoint> top;
+    const auto consider = [&](const geom::GridRegion& corners, const geom::GridRegion& around) {
+      for (const geom::GridPoint p : corners.points)
+        if (locate_point(around, p) != geom::PointLocation::outside && (!top || p.y > top->y)) top = p;
+    };
+    consider(outline, material);
+    consider(material, outline);
+    if (!top) return;
+    const Point paper = view(geom::mm_from_grid(*top));
     sheet_.text(paper.x + 0.8, paper.y + 2.6, 40, fmt::format("quality {}", zone.quality),
                 {.size = 2.0, .colour = kZoneLine, .kind = "zone-label"});
   }
@@ -371,16 +383,20 @@ class Composer {
     const layout::Completeness& c = picture_.completeness;
     if (document_.kits.empty()) return;
     const double y = sheet_.heading(column, column.y, "Kits");
-    rows(column, y, document_.kits.size(), [&](std::size_t i, double at) {
+    std::vector<std::pair<std::string, Colour>> lines;
+    for (std::size_t i = 0; i < document_.kits.size(); ++i) {
       const layout::Kit& kit = document_.kits[i];
-      std::string text = fmt::format("{}: {} of {} complete", kit.name.empty() ? kit.id : kit.name,
-                                     c.kits[i].complete, kit.demand);
+      lines.push_back({fmt::format("{}: {} of {} complete", kit.name.empty() ? kit.id : kit.name,
+                                   c.kits[i].complete, kit.demand),
+                       c.kits[i].missing.empty() ? kGood : kDoubt});
       for (const layout::MissingPiece& piece : c.kits[i].missing)
-        text += fmt::format(", {} {}{}", piece.count, document_.parts[piece.part].id,
-                            piece.mirrored ? (*piece.mirrored ? " mirrored" : " upright") : "");
-      if (!c.kits[i].missing.empty()) text += " missing";
-      sheet_.text(column.x, at, column.width, text,
-                  {.size = kReportSmall, .colour = c.kits[i].missing.empty() ? kGood : kDoubt});
+        lines.push_back({fmt::format("    missing {} {}{}", piece.count, document_.parts[piece.part].id,
+                                     piece.mirrored ? (*piece.mirrored ? ", mirrored" : ", upright") : ""),
+                         kDoubt});
+    }
+    rows(column, y, lines.size(), [&](std::size_t i, double at) {
+      sheet_.text(column.x, at, column.width, lines[i].first,
+                  {.size = kReportSmall, .colour = lines[i].second});
     });
   }
 
