@@ -343,10 +343,12 @@ class LayoutReader {
       std::stable_sort(order.begin(), order.end(), by_id);
     for (std::size_t i = 1; i < order.size(); ++i) {
       if (placements[order[i - 1]].id != placements[order[i]].id) continue;
+      const auto list = root.find("placements");
       std::size_t index = 0;
-      for (const JsonValue item : *root.find("placements"))
+      for (const JsonValue item : *list)
         if (index++ == order[i])
-          return reader_.refuse(item,
+          return reader_.refuse(*item.find("id"),  // without one it would not be the same
+
                                 fmt::format("the id {} stands twice among placements; give each its own",
                                             placements[order[i]].id));
     }

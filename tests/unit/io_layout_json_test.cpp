@@ -153,7 +153,7 @@ TEST(LayoutJson, RefusesWithPlaceAndNumber) {
       {"/placements/1/c", "0.61", "placements[1]: c 0.61 and s 0.8 are no rotation"},
       {"/placements/0/c", "1", "placements[0].rotation_deg: it stands beside \"c\" or \"s\""},
       {"/placements/0/x", "524289", "placements[0].x: 524289 is out of range"},
-      {"/placements/1/id", "1", "placements[1].id: 1 is out of range"},
+      {"/placements/1/id", "1", "placements[1].id: the id 1 stands twice among placements"},
       {"/next_id", "2", "next_id: 2 is not above the id 2 of a placement"},
   };
   for (const Wrong& wrong : all) {
