@@ -3,10 +3,14 @@
 #include <new>
 #include <variant>
 
+#include "check_command.hpp"
+#include "edit_command.hpp"
+#include "export_command.hpp"
 #include "lekalo/base/error.hpp"
 #include "locate_command.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "show_command.hpp"
 #include "verify_command.hpp"
 
 namespace lekalo::cli {
@@ -14,6 +18,10 @@ namespace {
 
 Result<int> run(const LocateOptions& options) { return run_locate(options); }
 Result<int> run(const VerifyOptions& options) { return run_verify(options); }
+Result<int> run(const CheckOptions& options) { return run_check(options); }
+Result<int> run(const ShowOptions& options) { return run_show(options); }
+Result<int> run(const ExportOptions& options) { return run_export(options); }
+Result<int> run(const EditOptions& options) { return run_edit(options); }
 Result<int> run(const PrintText& command) {
   return print(command.text).map([] { return 0; });
 }

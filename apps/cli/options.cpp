@@ -42,6 +42,9 @@ constexpr std::array kCriteria{Word<locate::Criterion>{"smallest", locate::Crite
                                Word<locate::Criterion>{"largest", locate::Criterion::largest},
                                Word<locate::Criterion>{"even", locate::Criterion::even}};
 
+constexpr std::array kExportFormats{Word<ExportFormat>{"layout", ExportFormat::layout},
+                                    Word<ExportFormat>{"placements", ExportFormat::placements}};
+
 template <class T, std::size_t N>
 const char* name_in(const std::array<Word<T>, N>& words, T value) noexcept {
   for (const Word<T>& word : words) {
@@ -423,6 +426,86 @@ void add_verify_options(CLI::App& verify, VerifyOptions& o) {
   verify.add_flag("--json", o.json, "Print the report as JSON on stdout");
 }
 
+/// The words of the commands on layouts, as typed.
+struct LayoutWords {
+  std::string path, instance, units, chords, join, picture, format, output, instance_name, commands;
+  std::vector<std::string> layers;
+  bool json = false;
+};
+
+void add_layout_source(CLI::App& command, LayoutWords& w) {
+  command
+      .add_option("layout", w.path,
+                  "Layout, nesting job or placements of other programs, drawing, regions: told apart by "
+                  "their content")
+      ->required()
+      ->type_name("FILE");
+  const auto add = [&](const char* name, std::string& word, const std::string& type, const char* help) {
+    command.add_option(name, word, help)->type_name(type)->group("Reading");
+  };
+  add("--instance", w.instance, "FILE", "Of placements: the file of the items, when not where they say");
+  add("--units", w.units, list_of(kUnits, "|"), "Of files that do not say theirs [mm]");
+  add("--chord-tolerance", w.chords, "MM", "How far chords lie from the arcs of drawings [0.01]");
+  add("--join", w.join, "MM", "Loose ends of drawings this near to each other are joined [0.01]");
+  command.add_option("--layers", w.layers, "Layers of a drawing that hold parts [all that are shown]")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->group("Reading");
+}
+
+void add_layout_outputs(CLI::App& command, LayoutWords& w) {
+  command.add_option("--picture", w.picture, "Draw it: .svg, .png or .pdf")
+      ->type_name("FILE")
+      ->group("Output");
+  command.add_flag("--json", w.json, "Print the report as JSON on stdout")->group("Output");
+}
+
+Result<LayoutSource> to_layout_source(const LayoutWords& w) {
+  LayoutSource source{w.path, w.instance, std::nullopt, std::nullopt, std::nullopt, w.layers};
+  WordReader reader;
+  if (!w.units.empty()) {
+    LengthUnit unit{};
+    reader.choice("--units", w.units, kUnits, unit);
+    source.units = unit;
+  }
+  const auto length = [&](const char* option, const std::string& word, double low,
+                          std::optional<double>& value) {
+    if (word.empty()) return;
+    double mm = 0;
+    reader.number(option, word, low, 1000.0, "a number of millimetres", mm);
+    value = mm;
+  };
+  length("--chord-tolerance", w.chords, 0x1p-16, source.chord_tolerance);
+  length("--join", w.join, 0.0, source.join);
+  if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
+  return source;
+}
+
+Result<void> fine_picture(const std::string& path) {
+  if (path.empty() || path.ends_with(".svg") || path.ends_with(".png") || path.ends_with(".pdf")) return {};
+  return failure(
+      ErrorCode::usage,
+      fmt::format("--picture {}: the name has to end in .svg, .png or .pdf, which says what is drawn", path));
+}
+
+template <class Options>
+Result<Command> to_drawn(const LayoutWords& w) {
+  if (Result<void> fine = fine_picture(w.picture); !fine) return tl::unexpected(fine.error());
+  return to_layout_source(w).map([&](LayoutSource&& source) {
+    return Command(Options{std::move(source), w.picture, w.json});
+  });
+}
+
+Result<Command> to_export(const LayoutWords& w) {
+  ExportFormat format = ExportFormat::layout;
+  WordReader reader;
+  if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, format);
+  if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
+  return to_layout_source(w).map([&](LayoutSource&& source) {
+    return Command(ExportOptions{std::move(source), format, w.output, w.instance_name});
+  });
+}
+
 std::string first_empty_option(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_expected_min() == 0) continue;  // flags
@@ -440,7 +523,9 @@ const char* name_of(nc::RewriteMode mode) noexcept { return name_in(kModes, mode
 const char* name_of(nc::ScanFrame frame) noexcept { return name_in(kScanFrames, frame); }
 
 Result<Command> parse_command_line(int argc, char** argv) {
-  CLI::App app("lekalo: where in this blank is the part? Placements with a proof.", "lekalo");
+  CLI::App app(
+      "lekalo: geometry for cutting shops, with proofs: parts in blanks, layouts on sheets and hides.",
+      "lekalo");
   app.set_version_flag("--version", std::string("lekalo ") + kVersion, "Print the version and stop");
   app.footer("lekalo COMMAND --help explains a command.");
   app.require_subcommand(1);
@@ -462,6 +547,39 @@ Result<Command> parse_command_line(int argc, char** argv) {
   verify.footer(
       "Exit codes: 0 confirmed, 1 clearance confirmed but there is no proof of the bound, 4 refuted,\n"
       "2 wrong command line, 3 a file cannot be read.");
+
+  LayoutWords check_words, show_words, export_words, edit_words;
+  CLI::App& check =
+      *app.add_subcommand("check", "Say which rules a cutting layout breaks, exactly, and where");
+  add_layout_source(check, check_words);
+  add_layout_outputs(check, check_words);
+  check.footer(
+      "Exit codes: 0 valid, 1 violations, 2 wrong command line, 3 a file cannot be read,\n"
+      "4 the engine and the independent checker do not agree.");
+  CLI::App& show = *app.add_subcommand("show", "Show a cutting layout: material used, parts, kits, picture");
+  add_layout_source(show, show_words);
+  add_layout_outputs(show, show_words);
+  CLI::App& exported =
+      *app.add_subcommand("export", "Write a layout or a job of another program in another form");
+  add_layout_source(exported, export_words);
+  exported.add_option("--format", export_words.format, list_of(kExportFormats, "|"))->type_name("FORM");
+  exported.add_option("-o,--output", export_words.output, "Write to this file [stdout]")->type_name("FILE");
+  exported
+      .add_option("--instance-name", export_words.instance_name,
+                  "What placements give as the file of their items")
+      ->type_name("NAME");
+  CLI::App& edit =
+      *app.add_subcommand("edit", "Carry out a file of commands on a layout: move, slide, settle, ...");
+  add_layout_source(edit, edit_words);
+  edit.add_option("--commands", edit_words.commands,
+                  "The commands, a line each; the first line is lekalo-commands/1")
+      ->required()
+      ->type_name("FILE");
+  edit.add_option("-o,--output", edit_words.output, "Write the layout to this file [stdout]")
+      ->type_name("FILE");
+  edit.footer(
+      "Exit codes: 0 no rule is broken, 1 some are, 2 a command cannot be carried out,\n"
+      "3 a file cannot be read, 4 a command would break a rule (mode strict).");
 
   std::string shell;
   CLI::App& completion = *app.add_subcommand("completion", "Print a completion script for a shell");
@@ -485,6 +603,13 @@ Result<Command> parse_command_line(int argc, char** argv) {
   }
   if (locate) return to_options(words).map([](LocateOptions&& o) { return Command(std::move(o)); });
   if (verify) return verify_options;
+  if (check) return to_drawn<CheckOptions>(check_words);
+  if (show) return to_drawn<ShowOptions>(show_words);
+  if (exported) return to_export(export_words);
+  if (edit)
+    return to_layout_source(edit_words).map([&](LayoutSource&& source) {
+      return Command(EditOptions{std::move(source), edit_words.commands, edit_words.output});
+    });
   return completion_script(app, shell).map([](std::string&& text) {
     return Command(PrintText{std::move(text)});
   });

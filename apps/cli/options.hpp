@@ -74,6 +74,41 @@ struct VerifyOptions {
   bool json = false;
 };
 
+/// A file that holds a layout, or something that becomes one, and how it is read.
+struct LayoutSource {
+  std::string path;
+  std::string instance;  ///< of placements: the file of the items; empty: where they say
+  std::optional<LengthUnit> units;
+  std::optional<double> chord_tolerance, join;  ///< mm
+  std::vector<std::string> layers;              ///< of drawings; empty: all that are shown
+};
+
+struct CheckOptions {
+  LayoutSource source;
+  std::string picture;  ///< may be empty
+  bool json = false;
+};
+
+struct ShowOptions {
+  LayoutSource source;
+  std::string picture;  ///< may be empty
+  bool json = false;
+};
+
+enum class ExportFormat { layout, placements };
+
+struct ExportOptions {
+  LayoutSource source;
+  ExportFormat format = ExportFormat::layout;
+  std::string output;         ///< empty: stdout
+  std::string instance_name;  ///< what placements name as their instance
+};
+
+struct EditOptions {
+  LayoutSource source;
+  std::string commands, output;  ///< output may be empty: stdout
+};
+
 /// Whether anything was asked for that takes the shapes as regions, convex or not.
 [[nodiscard]] bool has_demands(const LocateOptions& options);
 
@@ -85,7 +120,8 @@ struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<LocateOptions, VerifyOptions, PrintText>;
+using Command = std::variant<LocateOptions, VerifyOptions, CheckOptions, ShowOptions, ExportOptions,
+                             EditOptions, PrintText>;
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);

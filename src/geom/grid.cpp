@@ -20,8 +20,12 @@ std::int64_t rounded_shift(Int128 value, int bits) noexcept {
 /// The integer nearest to the sum of the pair, which is below 2^53.
 std::int64_t nearest_integer(DoubleDouble value) noexcept {
   const double whole = std::nearbyint(value.hi);
-  const double rest = (value.hi - whole) + value.lo;
-  return static_cast<std::int64_t>(whole) + static_cast<std::int64_t>(std::nearbyint(rest));
+  // The rest is half at most; the sum of two parts could be rounded to a half that it is not.
+  const DoubleDouble rest = two_sum(value.hi - whole, value.lo);
+  double up = std::nearbyint(rest.hi);
+  if (rest.hi == 0.5 && rest.lo > 0) up = 1;
+  if (rest.hi == -0.5 && rest.lo < 0) up = -1;
+  return static_cast<std::int64_t>(whole) + static_cast<std::int64_t>(up);
 }
 
 /// In steps of a rotation.
@@ -68,7 +72,7 @@ double degrees_of(GridRotation rotation) noexcept {
     const double rounded = std::nearbyint(angle * scale) / scale;
     if (rotation_from_degrees(rounded) == rotation) return rounded == -180.0 ? 180.0 : rounded + 0.0;
   }
-  return angle;
+  return angle <= -180.0 ? 180.0 : angle;
 }
 
 GridRotation rotation_from_pair(double c, double s) noexcept {

@@ -134,22 +134,44 @@ std::size_t loop_size(const GridRegion& region, std::size_t l) noexcept {
   return region.loop_starts[l + 1] - region.loop_starts[l];
 }
 
+GridBox bounds_of(const GridPoint* points, std::size_t n) noexcept {
+  GridBox box{points[0], points[0]};
+  for (std::size_t i = 1; i < n; ++i) {
+    box.low = {std::min(box.low.x, points[i].x), std::min(box.low.y, points[i].y)};
+    box.high = {std::max(box.high.x, points[i].x), std::max(box.high.y, points[i].y)};
+  }
+  return box;
+}
+
+/// Loops that do not meet: one point tells where a whole loop lies.
 std::optional<Error> fault_of_nesting(const GridRegion& region) {
   const auto inside = [&](std::size_t hole, std::size_t loop) {
     return locate_in_loop(loop_begin(region, loop), loop_size(region, loop), *loop_begin(region, hole)) ==
            PointLocation::inside;
   };
-  for (std::size_t h = 1; h < region.loops(); ++h) {
+  std::vector<Box> boxes;
+  for (std::size_t l = 0; l < region.loops(); ++l) {
+    const GridBox box = bounds_of(loop_begin(region, l), loop_size(region, l));
+    boxes.push_back({{static_cast<double>(box.low.x), static_cast<double>(box.low.y)},
+                     {static_cast<double>(box.high.x), static_cast<double>(box.high.y)}});
+  }
+  for (std::size_t h = 1; h < region.loops(); ++h)
     if (!inside(h, 0))
       return Error{ErrorCode::bad_input, fmt::format("{}: it lies outside the outline, at {} mm",
                                                      loop_name(h), place(*loop_begin(region, h)))};
-    for (std::size_t other = 1; other < region.loops(); ++other)
-      if (other != h && inside(h, other))
-        return Error{ErrorCode::bad_input, fmt::format("{}: it lies inside {}, at {} mm", loop_name(h),
-                                                       loop_name(other), place(*loop_begin(region, h)))};
-  }
-  return std::nullopt;
+  std::optional<std::pair<std::size_t, std::size_t>> nested;
+  BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+    if (i == 0 || (nested && std::pair<std::size_t, std::size_t>{i, j} > *nested)) return;
+    if (inside(i, j)) nested = {i, j};
+    if (inside(j, i)) nested = {j, i};
+  });
+  if (!nested) return std::nullopt;
+  const auto [inner, outer] = *nested;
+  return Error{ErrorCode::bad_input, fmt::format("{}: it lies inside {}, at {} mm", loop_name(inner),
+                                                 loop_name(outer), place(*loop_begin(region, inner)))};
 }
+
+constexpr std::size_t kMostChords = 4'000'000;
 
 /// The points of an arc's chords between its ends; see grid_region_of_curves.
 class ArcChords {
@@ -164,8 +186,8 @@ class ArcChords {
     const double sine_half = std::sqrt(std::min(0.25, std::max(room, kMargin) / (3.0 * most)));
     const double sweep = arc_sweep(arc);
     const double count = std::ceil(sweep / (4.0 * sine_half));
-    pieces_ =
-        static_cast<std::size_t>(std::max({count, std::ceil(sweep / 1.6), arc.from == arc.to ? 3.0 : 1.0}));
+    const double pieces = std::max({std::ceil(sweep / 1.6), arc.from == arc.to ? 3.0 : 1.0, count});
+    pieces_ = static_cast<std::size_t>(std::min<double>(kMostChords + 1, pieces));
     step_ = (arc.kind == EdgeKind::arc_ccw ? sweep : -sweep) / static_cast<double>(pieces_);
   }
   [[nodiscard]] std::size_t count() const noexcept { return outside_ ? pieces_ : pieces_ - 1; }
@@ -188,8 +210,6 @@ class ArcChords {
   double radius_ = 0, step_ = 0;
   std::size_t pieces_ = 1;
 };
-
-constexpr std::size_t kMostChords = 4'000'000;
 
 Result<Loop> grid_loop(const Contour& contour, std::size_t index, ChordSide side, double tolerance) {
   Loop loop;
@@ -256,13 +276,7 @@ Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, d
 }
 
 GridBox bounds(const GridRegion& region) noexcept {
-  if (region.points.empty()) return {};
-  GridBox box{region.points[0], region.points[0]};
-  for (const GridPoint p : region.points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  }
-  return box;
+  return region.points.empty() ? GridBox{} : bounds_of(region.points.data(), region.points.size());
 }
 
 Int128 twice_area(const GridRegion& region) noexcept {

@@ -7,6 +7,7 @@
 #include "contour_points.hpp"
 #include "dxf_blocks.hpp"
 #include "dxf_entities.hpp"
+#include "dxf_exact_arcs.hpp"
 #include "dxf_header.hpp"
 #include "dxf_layers.hpp"
 #include "dxf_text.hpp"
@@ -63,6 +64,7 @@ class DxfDrawing {
     Result<void> done;
     if (section == "HEADER") done = read_header();
     if (section == "TABLES") done = read_tables();
+    if (section == "OBJECTS") read_objects();
     if (section == "BLOCKS" || section == "ENTITIES") {
       done = begin_entities();
       if (done) done = section == "BLOCKS" ? read_blocks() : read_entities();
@@ -99,6 +101,22 @@ class DxfDrawing {
       }
     }
     return {};
+  }
+
+  void read_objects() {
+    while (at_.ok() && !at_.at(0, "ENDSEC")) {
+      if (!at_.at(0, "XRECORD")) {
+        at_.next();
+        continue;
+      }
+      bool first = true, ours = false;
+      while (at_.next() && at_.code() != 0) {
+        if (at_.code() != 1) continue;
+        if (ours) exact_arcs_.add(at_.value());
+        ours = ours || (first && at_.value() == kExactArcsName);
+        first = false;
+      }
+    }
   }
 
   Result<void> read_layer() {
@@ -199,6 +217,7 @@ class DxfDrawing {
     constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> layer(layers_.size(), kNew), entity(entities_->entities().size(), kNew);
     drawing_.curves = std::move(model.curves);
+    const std::size_t unfit = exact_arcs_.restore(drawing_.curves, entities_->entities());
     for (DrawnCurve& curve : drawing_.curves) {
       if (layer[curve.layer] == kNew) {
         layer[curve.layer] = static_cast<std::uint32_t>(drawing_.layers.size());
@@ -217,6 +236,7 @@ class DxfDrawing {
       drawing_.notices.push_back(
           fmt::format("{}: the file does not say its unit; it is read as mm", at_.name()));
     }
+    if (unfit > 0) drawing_.notices.push_back(unfit_arcs_sentence(unfit, at_.name()));
     if (entities_->has_heights()) {
       drawing_.notices.push_back(fmt::format("{}: z coordinates are ignored", at_.name()));
     }
@@ -231,6 +251,7 @@ class DxfDrawing {
   std::optional<DxfEntities> entities_;  ///< from the first section that holds some
   DxfBlocks blocks_;
   DxfBlock model_;
+  DxfExactArcs exact_arcs_;
   Drawing drawing_;
   bool seen_entities_ = false, unit_is_said_ = false;
 };

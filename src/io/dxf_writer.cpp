@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "contour_number.hpp"
+#include "dxf_exact_arcs.hpp"
+#include "exact_arcs.hpp"
 #include "written_contours.hpp"
 
 namespace lekalo::io {
@@ -205,7 +207,8 @@ class DxfWriter {
   }
 
   void begin_entity(const char* type, const WrittenContour& contour, const char* kind) {
-    group(0, type), group(5, handle()), group(330, spaces_[0]), group(100, "AcDbEntity");
+    entity_ = handle();
+    group(0, type), group(5, entity_), group(330, spaces_[0]), group(100, "AcDbEntity");
     group(8, name_of(contour)), group(100, kind);
   }
   [[nodiscard]] const std::string& name_of(const WrittenContour& contour) const {
@@ -217,17 +220,29 @@ class DxfWriter {
     if (first.kind != EdgeKind::line && first.from == first.to) {
       begin_entity("CIRCLE", contour, "AcDbCircle");
       point_in_space(10, first.centre);
-      group(40, radius_of_circle(first));
+      const double radius = radius_of_circle(first);
+      group(40, radius);
+      keep_exact_arcs(contour, {std::get<Edge>(circle({first.centre, 0}, {radius, 0}).shape)}, {1});
       return;
     }
     std::vector<std::pair<Point, double>> vertices;
+    std::vector<Edge> read;  // what a reader makes of it
+    std::vector<std::size_t> of_edge;
+    const auto add = [&](const Edge& edge, double bulge) {
+      vertices.emplace_back(edge.from, bulge);
+      if (const auto shape = bulge_arc({edge.from, 0}, {edge.to, 0}, bulge))
+        read.push_back(std::get<Edge>(shape->shape));
+    };
     for (const Edge& edge : *contour.edges) {
-      const double bulge = edge.kind == EdgeKind::line ? 0 : bulge_of(edge);
-      if (std::abs(bulge) <= kLargestBulge) {
-        vertices.emplace_back(edge.from, bulge);
+      const std::size_t before = read.size();
+      if (edge.kind == EdgeKind::line) {
+        add(edge, 0);
+      } else if (geom::arc_sweep(edge) <= kWidestPiece) {
+        add(edge, bulge_of(edge));
       } else {
-        for (const Edge& half : halves_of(edge)) vertices.emplace_back(half.from, bulge_of(half));
+        for (const Edge& half : halves_of(edge)) add(half, bulge_of(half));
       }
+      of_edge.push_back(read.size() - before);
     }
     begin_entity("LWPOLYLINE", contour, "AcDbPolyline");
     group(90, fmt::format("{}", vertices.size())), group(70, 1), group(43, 0.0);
@@ -235,14 +250,28 @@ class DxfWriter {
       point(10, at);
       if (bulge != 0) group(42, bulge);
     }
+    keep_exact_arcs(contour, read, of_edge);
+  }
+
+  void keep_exact_arcs(const WrittenContour& contour, const std::vector<Edge>& read,
+                       const std::vector<std::size_t>& of_edge) {
+    for (const ExactArc& arc : exact_arcs_of(*contour.edges, read, of_edge))
+      exact_arcs_.push_back(entity_ + ' ' + text_of(arc));
   }
 
   void write_objects() {
     section("OBJECTS");
-    const std::string root = handle(), groups = handle();
+    const std::string root = handle(), groups = handle(), arcs = exact_arcs_.empty() ? "" : handle();
     group(0, "DICTIONARY"), group(5, root), group(330, "0"), group(100, "AcDbDictionary"), group(281, 1);
     group(3, "ACAD_GROUP"), group(350, groups);
+    if (!arcs.empty()) group(3, kExactArcsName), group(350, arcs);
     group(0, "DICTIONARY"), group(5, groups), group(330, root), group(100, "AcDbDictionary"), group(281, 1);
+    if (!arcs.empty()) {
+      // Not as extended data of the entities: of that they can hold no more than 16 kB.
+      group(0, "XRECORD"), group(5, arcs), group(330, root), group(100, "AcDbXrecord"), group(280, 1);
+      group(1, kExactArcsName);
+      for (const std::string& line : exact_arcs_) group(1, line);
+    }
     end_section();
   }
 
@@ -253,6 +282,8 @@ class DxfWriter {
       layers_;  ///< escaped; "0", which every drawing has, perhaps before those of the drawing
   std::array<std::string, 2> spaces_;
   std::uint64_t next_handle_ = 1;
+  std::string entity_;                   ///< handle of the one that is written
+  std::vector<std::string> exact_arcs_;  ///< each behind its entity's handle
   std::string text_;
 };
 

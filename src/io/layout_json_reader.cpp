@@ -296,6 +296,9 @@ class LayoutReader {
     optional(value, "id", [&](JsonValue v) {
       placement.id = static_cast<std::uint64_t>(reader_.integer(v, 1, kLargestId));
     });
+    if (placement.id > static_cast<std::uint64_t>(kLargestId))
+      return reader_.refuse(value,
+                            "its id would be one more than the highest possible before it; give it one");
     last_id_ = std::max(last_id_, placement.id);
     if (const auto v = reader_.need(value, "part", "the id of a part"))
       placement.part = named(*v, part_index_, "part");
@@ -347,8 +350,7 @@ class LayoutReader {
       std::size_t index = 0;
       for (const JsonValue item : *list)
         if (index++ == order[i])
-          return reader_.refuse(*item.find("id"),  // without one it would not be the same
-
+          return reader_.refuse(*item.find("id"),  // one that was counted on differs
                                 fmt::format("the id {} stands twice among placements; give each its own",
                                             placements[order[i]].id));
     }

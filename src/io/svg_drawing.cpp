@@ -7,6 +7,7 @@
 
 #include "lekalo/io/svg.hpp"
 #include "svg_document.hpp"
+#include "svg_exact_arcs.hpp"
 #include "svg_shapes.hpp"
 #include "svg_style.hpp"
 #include "svg_viewport.hpp"
@@ -59,10 +60,17 @@ class SvgReader {
     for (const std::string& notice : styles_.notices()) drawing_.notices.push_back(notice);
     Context context;
     context.map = page->millimetres_from_user;
+    if (const std::string* corner = root.attribute(kPageCorner);
+        corner != nullptr && !restore_page_corner(context.map, *corner))
+      drawing_.notices.push_back(
+          fmt::format("{}: its page was changed since it was written, and no longer says where its corner "
+                      "lies; the origin is that corner",
+                      drawing_.name));
     context.viewport = page->viewport;
     if (auto failed = moved(root, context)) return tl::unexpected(*std::move(failed));
     see(root, context);
     if (auto failed = children(root, context)) return tl::unexpected(*std::move(failed));
+    if (unfit_arcs_ > 0) drawing_.notices.push_back(unfit_arcs_sentence(unfit_arcs_, drawing_.name));
     for (auto& [what, unread] : unread_) drawing_.unread.push_back(std::move(unread));
     return std::move(drawing_);
   }
@@ -240,8 +248,10 @@ class SvgReader {
   }
 
   Failure shape(const SvgElement& element, const Context& context) {
-    const auto shapes = read_svg_shape(element, context.viewport);
+    auto shapes = read_svg_shape(element, context.viewport);
     if (!shapes) return fault(element, shapes.error());
+    if (const std::string* exact = element.attribute(kExactArcs))
+      unfit_arcs_ += restore_exact_arcs(*shapes, *exact);
     if (drawing_.curves.size() + shapes->size() > kMostCurves)
       return fault(element, fmt::format("more than {} curves, copies counted", kMostCurves));
     std::vector<BoundedShape> placed_shapes;
@@ -287,7 +297,7 @@ class SvgReader {
   Drawing drawing_;
   std::map<std::string, Unread> unread_;
   std::map<std::pair<std::string, bool>, std::uint32_t> layers_;
-  std::size_t drawn_ = 0;
+  std::size_t drawn_ = 0, unfit_arcs_ = 0;
 };
 
 }  // namespace

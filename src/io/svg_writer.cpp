@@ -5,8 +5,11 @@
 #include <iterator>
 
 #include "contour_number.hpp"
+#include "exact_arcs.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "picture_text.hpp"
+#include "svg_exact_arcs.hpp"
+#include "svg_path.hpp"
 #include "written_contours.hpp"
 
 namespace lekalo::io {
@@ -16,15 +19,16 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-/// Height of an arc's centre over its chord, in radii, below which the arc is half a turn; and above which
-/// its radius says well enough where the centre is.
-constexpr double kHalfTurn = 0x1p-46, kClearlyNoHalfTurn = 0x1p-8;
-/// A radius this much too small is enlarged to half the chord by every reader, beyond the doubt that its own
-/// rounding leaves.
-constexpr double kTooSmall = 1 - 0x1p-40;
+/// Height of an arc's centre over its chord, in radii, above which its radius says well enough where the
+/// centre is. At half a turn readers take the square root of what rounding left: 1e-8 of the radius.
+constexpr double kClearlyNoHalfTurn = 0x1p-8;
 /// What rounding leaves below 0 does not move the page; mm.
 constexpr double kNoMatter = 0x1p-20;
 constexpr double kStrokeMm = 0.2;
+/// Of wide arcs into half turns, and of those into what a radius tells.
+constexpr int kHalvings = 2;
+/// Against its ends; what is shorter than their decimals' errors is no line to a reader.
+constexpr double kShortLine = 0x1p-48;
 
 bool same_name(const std::string& a, const std::string& b) { return a == b; }
 
@@ -55,8 +59,10 @@ class SvgWriter {
     text_ = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" version=\"1.1\" width=\"{0}mm\" "
-        "height=\"{1}mm\" viewBox=\"{2} {3} {0} {1}\">\n",
+        "height=\"{1}mm\" viewBox=\"{2} {3} {0} {1}\"",
         high.x - low.x, high.y - low.y, low.x, upright(high.y));
+    if (low != Point{}) append(" {}=\"{} {}\"", detail::kPageCorner, low.x, low.y);
+    text_ += ">\n";
     for (std::size_t i = 0; i < drawing_.contours.size(); ++i) {
       const std::size_t layer = drawing_.contours[i].layer;
       if (i == 0 || drawing_.contours[i - 1].layer != layer) {
@@ -83,38 +89,81 @@ class SvgWriter {
   void write(const geom::Contour& contour) {
     const Edge& first = contour.front();
     if (first.kind != EdgeKind::line && first.from == first.to) {
-      append("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", first.centre.x, upright(first.centre.y),
-             radius_of_circle(first));
+      const double radius = radius_of_circle(first);
+      append("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", first.centre.x, upright(first.centre.y), radius);
+      const Point centre{first.centre.x, upright(first.centre.y)};
+      keep_exact_arcs(contour, {std::get<Edge>(circle({centre, 0}, {radius, 0}).shape)}, {1});
+      text_ += "/>\n";
       return;
     }
-    append("<path d=\"M{} {}", first.from.x, upright(first.from.y));
+    text_ += "<path d=\"";
+    const std::size_t begin = text_.size();
+    append("M{} {}", first.from.x, upright(first.from.y));
+    std::vector<std::size_t> of_edge;
     for (std::size_t i = 0; i < contour.size(); ++i) {
-      if (contour[i].kind == EdgeKind::line) {
-        // The last line is what Z draws.
-        if (i + 1 < contour.size()) append("L{} {}", contour[i].to.x, upright(contour[i].to.y));
-      } else {
-        write_arc(contour[i], true);
+      const Edge& edge = contour[i];
+      if (edge.kind != EdgeKind::line) {
+        of_edge.push_back(write_arc(edge, kHalvings));
+        continue;
       }
+      of_edge.push_back(1);
+      // The last line is what Z draws, if readers do not take it for rounding.
+      const bool last = i + 1 == contour.size();
+      if (!last || norm(edge.to - edge.from) <= kShortLine * (norm(edge.from) + norm(edge.to)))
+        append("L{} {}", edge.to.x, upright(edge.to.y));
     }
-    text_ += "Z\"/>\n";
+    text_ += 'Z';
+    const std::vector<Edge> read = edges_read_from(std::string_view(text_).substr(begin));
+    text_ += '"';
+    keep_exact_arcs(contour, read, of_edge);
+    text_ += "/>\n";
   }
 
-  void write_arc(const Edge& arc, bool may_halve) {
+  static std::vector<Edge> edges_read_from(std::string_view path) {
+    std::vector<Edge> read;
+    if (const auto segments = detail::read_svg_path(path))
+      for (const detail::PathSegment& segment : *segments)
+        if (const auto shape = detail::shape_of(segment)) read.push_back(std::get<Edge>(shape->shape));
+    return read;
+  }
+
+  /// In the frame of the file, y down.
+  void keep_exact_arcs(const geom::Contour& contour, const std::vector<Edge>& read,
+                       const std::vector<std::size_t>& of_edge) {
+    std::size_t expected = 0;
+    for (const std::size_t count : of_edge) expected += count;
+    if (read.size() != expected) return;  // what no reader can tell apart: the arcs stay as they are written
+    geom::Contour down;
+    for (const Edge& edge : contour) {
+      const auto turned = [](Point p) { return Point{p.x, upright(p.y)}; };
+      const EdgeKind kind = edge.kind == EdgeKind::line      ? EdgeKind::line
+                            : edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw
+                                                             : EdgeKind::arc_ccw;
+      down.push_back({kind, turned(edge.from), turned(edge.to), turned(edge.centre)});
+    }
+    const std::vector<ExactArc> arcs = exact_arcs_of(down, read, of_edge);
+    if (!arcs.empty()) append(" {}=\"{}\"", detail::kExactArcs, detail::exact_arcs_text(arcs));
+  }
+
+  /// Returns the number of its pieces.
+  std::size_t write_arc(const Edge& arc, int halvings) {
     const geom::Curve curve = make_curve(arc);
     const Point chord = arc.to - arc.from, middle = 0.5 * (arc.from + arc.to);
     const double half = 0.5 * norm(chord);
     // Of the centre over the chord: what lies along the chord is the difference of the radii.
     const double height = std::abs(cross(chord, arc.centre - middle)) / (2 * half);
-    const bool half_turn = height <= kHalfTurn * curve.radius;
-    const bool unclear = !half_turn && height < kClearlyNoHalfTurn * curve.radius;
-    const bool wide = std::abs(bulge_of(arc)) > kLargestBulge;
-    if (may_halve && (unclear || wide)) {
-      for (const Edge& part : halves_of(arc)) write_arc(part, false);
-      return;
+    const bool unclear = height < kClearlyNoHalfTurn * curve.radius;
+    const bool wide = geom::arc_sweep(arc) > kWidestPiece;
+    if (halvings > 0 && (unclear || wide)) {
+      // Nearly whole circles make halves that are nearly half turns.
+      std::size_t pieces = 0;
+      for (const Edge& part : halves_of(arc)) pieces += write_arc(part, halvings - 1);
+      return pieces;
     }
-    const double radius = half_turn ? kTooSmall * half : std::sqrt(half * half + height * height);
+    const double radius = std::sqrt(half * half + height * height);
     append("A{0} {0} 0 {1} {2} {3} {4}", radius, curve.beyond_half ? 1 : 0,
            arc.kind == EdgeKind::arc_ccw ? 0 : 1, arc.to.x, upright(arc.to.y));
+    return 1;
   }
 
   const WrittenDrawing& drawing_;

@@ -11,6 +11,7 @@
 #include "arc_middle.hpp"
 #include "contour_number.hpp"
 #include "drawn_shapes.hpp"
+#include "exact_arcs.hpp"
 #include "lekalo/geom/double_double.hpp"
 
 namespace lekalo::io {
@@ -38,8 +39,6 @@ double nearest_accepted(double value, Accept&& accept) {
   return value;
 }
 
-DoubleDouble absolute(DoubleDouble a) { return a.hi < 0 ? -a : a; }
-
 double half_unit_of(double v) {
   return 0.5 * (std::nextafter(std::abs(v), std::numeric_limits<double>::infinity()) - std::abs(v));
 }
@@ -52,7 +51,7 @@ DoubleDouble left_of_chord(const Edge& arc) {
   const DoubleDouble half{0.5};
   const DoubleDouble x = DoubleDouble{arc.centre.x} - half * geom::two_sum(arc.from.x, arc.to.x);
   const DoubleDouble y = DoubleDouble{arc.centre.y} - half * geom::two_sum(arc.from.y, arc.to.y);
-  const DoubleDouble projected = (y * dx - x * dy) / (dx * dx + dy * dy);
+  const DoubleDouble projected = level_of_centre(arc);
   if (dx.hi == 0 || dy.hi == 0) return projected;
   DoubleDouble fine = -(x / dy), coarse = y / dx;
   double fine_unit = half_unit_of(arc.centre.x) / std::abs(dy.hi),
@@ -62,6 +61,19 @@ DoubleDouble left_of_chord(const Edge& arc) {
   const double low = std::max(-fine_unit, apart - coarse_unit),
                high = std::min(fine_unit, apart + coarse_unit);
   return low <= high ? fine + DoubleDouble{0.5 * (low + high)} : projected;
+}
+
+/// Readers take numbers up to kLargestMillimetres, the sides of a page among them.
+constexpr double kLargestWritten = kLargestMillimetres / 2;
+
+double largest_number(const geom::Contour& contour) {
+  const geom::Box box = geom::bounds(contour);
+  double largest = 0;
+  const auto include = [&](Point p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y)}); };
+  include(box.low), include(box.high);
+  for (const Edge& edge : contour)
+    if (edge.kind != EdgeKind::line) include(edge.centre), include({geom::arc_radius(edge), 0});
+  return largest;
 }
 
 }  // namespace
@@ -84,6 +96,17 @@ Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions
     made.contours.push_back({&contour, layer(name)});
   };
   for (const LayeredRegion& one : regions) {
+    std::vector<const geom::Contour*> contours{&one.region.outer};
+    for (const geom::Contour& hole : one.region.holes) contours.push_back(&hole);
+    for (const geom::Contour* contour : contours) {
+      const double largest = largest_number(*contour);
+      if (largest <= kLargestWritten) continue;
+      return failure(
+          ErrorCode::usage,
+          fmt::format("a coordinate, centre or radius of {:.6g} mm cannot be written: drawings go up "
+                      "to {:g} mm; an arc that flat is better a line",
+                      largest, kLargestWritten));
+    }
     const std::size_t holes = one.region.holes.size(), named = one.hole_layers.size();
     if (named != 0 && named != holes)
       return failure(ErrorCode::usage, fmt::format("{} layers are given for {} holes", named, holes));
@@ -116,13 +139,8 @@ std::optional<std::vector<std::uint32_t>> letters_of(const std::string& text) {
 }
 
 double bulge_of(const Edge& arc) {
-  const DoubleDouble left = left_of_chord(arc);
-  const bool ccw = arc.kind == EdgeKind::arc_ccw;
-  // b = sqrt(4 left^2 + 1) - 2 left for a counter-clockwise arc, without cancellation.
-  const DoubleDouble ahead = DoubleDouble{2} * (ccw ? left : -left);
-  const DoubleDouble root = geom::sqrt(ahead * ahead + DoubleDouble{1}) + absolute(ahead);
-  const DoubleDouble size = ahead.hi > 0 ? DoubleDouble{1} / root : root;
-  return nearest_accepted(ccw ? size.hi : -size.hi, [&](double bulge) {
+  const DoubleDouble aimed = bulge_of_level(left_of_chord(arc), arc.kind == EdgeKind::arc_ccw);
+  return nearest_accepted(aimed.hi, [&](double bulge) {
     const auto read = bulge_arc({arc.from, 0}, {arc.to, 0}, bulge);
     return read && std::get<Edge>(read->shape) == arc;
   });

@@ -12,9 +12,6 @@ namespace lekalo::io {
 
 /// What the writers of drawings share: contours in order with their layers.
 
-/// Arcs that reach further round than this bulge (304 degrees) are halved, see kWrittenArcError.
-inline constexpr double kLargestBulge = 4;
-
 struct WrittenContour {
   const geom::Contour* edges = nullptr;
   std::size_t layer = 0;  ///< into WrittenDrawing::layers

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lekalo/base/assert.hpp"
+#include "quality.hpp"
 
 namespace lekalo::layout {
 namespace {
@@ -12,6 +13,13 @@ using geom::GridPoint;
 
 GridBox placed_box(const phi::Scene& scene, phi::ShapeIndex shape, GridPoint at) {
   return {scene.box(shape).low + at, scene.box(shape).high + at};
+}
+
+/// For searches by id.
+Placement with_id(std::uint64_t id) {
+  Placement placement;
+  placement.id = id;
+  return placement;
 }
 
 /// A scene's index fits what lies on the sheet: an open strip is as long as what is on it.
@@ -168,8 +176,10 @@ bool Workspace::is_clear_of_scene(const Placement& placement) const {
   if (stock.zones.empty()) return true;
   if (!part.areas.empty()) {
     const geom::GridBox box = placed_box(in, probe.shape, placement.at);
+    const geom::GridRegion outline = geom::moved(in.outline(probe.shape), placement.at);
     for (const phi::BodyIndex body : in.near(box, 0, kZoneLayer))
-      if (spoils(document_, placement, sheet_scene(sheet).features[body])) return false;
+      if (lacks_quality(part, placement, outline, stock.zones[sheet_scene(sheet).features[body]]))
+        return false;
     return true;
   }
   probe.layers = kZoneLayer, probe.gap = 0, probe.tolerates = -std::int64_t{part.quality};
@@ -209,22 +219,26 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   return clear == placements.size();
 }
 
-std::vector<Violation> Workspace::violations_of(std::span<const std::uint64_t> ids) const {
+std::vector<Violation> Workspace::violations_of(std::span<const Placement> placements) const {
+  std::vector<Placement> of(placements.begin(), placements.end());
+  const auto by_id = [](const Placement& a, const Placement& b) { return a.id < b.id; };
+  std::sort(of.begin(), of.end(), by_id);
   std::vector<std::uint64_t> around;
-  for (const std::uint64_t id : ids) {
-    const Placement* placement = find(id);
-    if (placement == nullptr) continue;
-    const Sheet sheet{placement->stock, placement->copy};
-    if (placement->copy < 0 || placement->copy >= document_.stocks[placement->stock].count) continue;
+  for (const Placement& placement : of) {
+    if (placement.copy < 0 || placement.copy >= document_.stocks[placement.stock].count) continue;
+    const Sheet sheet{placement.stock, placement.copy};
     const phi::Scene& in = scene(sheet);
-    const std::int64_t own = document_.parts[placement->part].gap.value_or(document_.rules.gap);
-    for (const phi::BodyIndex body : in.near(placed_box(in, shape(sheet, *placement), placement->at),
-                                             std::max(own, in.widest_gap()), kPartLayer))
+    const std::int64_t own = document_.parts[placement.part].gap.value_or(document_.rules.gap);
+    const GridBox box = placed_box(in, shape(sheet, placement), placement.at);
+    for (const phi::BodyIndex body : in.near(box, std::max(own, in.widest_gap()), kPartLayer))
       around.push_back(placement_of(sheet, body));
   }
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
-  return check_some(document_, ids, around);
+  std::vector<Placement> with;
+  for (const std::uint64_t id : around)
+    if (!std::binary_search(of.begin(), of.end(), with_id(id), by_id)) with.push_back(*find(id));
+  return check_some(document_, of, with);
 }
 
 }  // namespace lekalo::layout

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "lekalo/geom/wide_product.hpp"
+
 namespace lekalo::phi {
 namespace {
 
@@ -115,24 +117,6 @@ bool holds_point(const GridRegion& region, GridPoint p) noexcept {
   return locate_point(region, p) == geom::PointLocation::inside;
 }
 
-__extension__ using Unsigned128 = unsigned __int128;
-
-struct Integer256 {
-  Unsigned128 high = 0, low = 0;
-  friend constexpr bool operator<(const Integer256& a, const Integer256& b) noexcept {
-    return a.high != b.high ? a.high < b.high : a.low < b.low;
-  }
-};
-
-Integer256 product(Int128 a, Int128 b) noexcept {  // of numbers that are not negative
-  constexpr Unsigned128 kHalf = ~std::uint64_t{0};
-  const Unsigned128 x = static_cast<Unsigned128>(a), y = static_cast<Unsigned128>(b);
-  const Unsigned128 low = (x & kHalf) * (y & kHalf), mid_a = (x >> 64) * (y & kHalf),
-                    mid_b = (x & kHalf) * (y >> 64);
-  const Unsigned128 mid = (low >> 64) + (mid_a & kHalf) + (mid_b & kHalf);
-  return {(x >> 64) * (y >> 64) + (mid_a >> 64) + (mid_b >> 64) + (mid >> 64), (mid << 64) | (low & kHalf)};
-}
-
 /// p lies less than gap from the segment: exact.
 bool nearer_than(GridPoint p, GridPoint from, GridPoint to, std::int64_t gap) noexcept {
   const GridPoint edge = to - from, out = p - from;
@@ -145,7 +129,7 @@ bool nearer_than(GridPoint p, GridPoint from, GridPoint to, std::int64_t gap) no
   const double right = static_cast<double>(squared_gap) * static_cast<double>(length);
   if (left < right * (1 - 0x1p-49)) return true;
   if (left > right * (1 + 0x1p-49)) return false;
-  return product(magnitude, magnitude) < product(squared_gap, length);
+  return geom::wide_product(magnitude, magnitude) < geom::wide_product(squared_gap, length);
 }
 
 bool have_common_point(const Edge& a, const Edge& b) noexcept {
@@ -250,16 +234,16 @@ EdgeDistance edge_distance(const GridRegion& a, const GridRegion& b, GridPoint s
       if (beyond(box, box_of(other.from, other.to))) continue;
       consider(foot(edge.from, other), edge.from, true);
       consider(foot(other.from, edge), other.from, false);
-      if (squared > 0 && have_common_point(edge, other)) {
-        const Int128 along_a = cross(edge.to - edge.from, other.to - other.from);
-        const Int128 to_crossing = cross(other.from - edge.from, other.to - other.from);
-        const double share =
-            along_a == 0 ? 0 : static_cast<double>(to_crossing) / static_cast<double>(along_a);
-        const Point from = geom::mm_from_grid(edge.from), to = geom::mm_from_grid(edge.to);
-        const Point at = from + share * (to - from);
-        best = {0, at, at};
-        squared = 0;
-      }
+      if (!(squared > 0) || !have_common_point(edge, other)) continue;
+      // Where edges on one line meet, a vertex of one is on the other: found when its turn comes.
+      const Int128 parallel = cross(edge.to - edge.from, other.to - other.from);
+      if (parallel == 0) continue;
+      const Int128 to_crossing = cross(other.from - edge.from, other.to - other.from);
+      const double share = static_cast<double>(to_crossing) / static_cast<double>(parallel);
+      const Point from = geom::mm_from_grid(edge.from), to = geom::mm_from_grid(edge.to);
+      const Point at = from + share * (to - from);
+      best = {0, at, at};
+      squared = 0;
     }
   }
   best.distance_mm = std::sqrt(squared) * geom::kGridStep;

@@ -122,24 +122,6 @@ std::optional<GridPoint> valid_near(GridPoint p, const std::function<bool(GridPo
   return std::nullopt;
 }
 
-/// Single steps onwards while there are any.
-GridPoint crept(GridPoint p, const SlidePath& path, const std::function<bool(GridPoint)>& valid) {
-  for (int steps = 0; steps < 8; ++steps) {
-    bool moved = false;
-    for (const GridPoint d : kBeside) {
-      // Onwards means within about 30 degrees of the direction: sideways steps would go on for ever.
-      const Point step = in_doubles(d);
-      if (!(dot(step, path.direction) > 0.85 * norm(step)) || d == GridPoint{}) continue;
-      if (!valid(p + d)) continue;
-      p = p + d;
-      moved = true;
-      break;
-    }
-    if (!moved) break;
-  }
-  return p;
-}
-
 }  // namespace
 
 GridPoint SlidePath::at(double s) const noexcept {
@@ -181,10 +163,10 @@ SlideEnd slide(const SlidePath& path, std::vector<double> events,
     event = next;
   }
   if (!blocked && path.length > open) ask(path.length);
-  if (blocked) {
-    while (shut - open > 0.5) ask(open + (shut - open) / 2);
-    reached = crept(reached, path, valid);
-  }
+  // At the end the points of the way at `open` and `shut` are the same or neighbours. What was reached lies
+  // beside the one, all around the other is not valid: so a neighbour of what was reached is not, and the gap
+  // is kept with less than 1.5 steps to spare.
+  while (blocked && shut - open > 0.5) ask(open + (shut - open) / 2);
   return {reached, open, blocked};
 }
 

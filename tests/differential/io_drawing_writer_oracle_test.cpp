@@ -1,18 +1,23 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "lekalo/io/drawing_writer.hpp"
 #include "lekalo/io/files.hpp"
+#include "support/drawn_measures.hpp"
 #include "support/drawn_region_cases.hpp"
 
-// Written DXF drawings as ezdxf and OGR see them (support/written_oracle.py, tools/setup.sh).
+// Written drawings as others see them: DXF as ezdxf and OGR do, SVG as svgelements does
+// (support/written_oracle.py, support/dxf_oracle.py, tools/setup.sh).
 
 namespace lekalo::io {
 namespace {
@@ -20,15 +25,17 @@ namespace {
 using geom::EdgeKind;
 using nlohmann::json;
 
-std::string python() {
+std::string python(const char* library) {
   for (const char* name : {"python3", "/usr/bin/python3"})
-    if (std::system(fmt::format("{} -c 'import ezdxf' 2>/dev/null", name).c_str()) == 0) return name;
+    if (std::system(fmt::format("{} -c 'import {}' 2>/dev/null", name, library).c_str()) == 0) return name;
   return {};
 }
 
-json seen_by_others(const std::string& interpreter, const std::string& file) {
+json seen_by_others(const std::string& interpreter, const std::string& file,
+                    const std::string& script = "written_oracle.py", const std::string& word = "") {
   FILE* pipe = popen(
-      fmt::format("{} {}/tests/support/written_oracle.py '{}'", interpreter, LEKALO_SOURCE_DIR, file).c_str(),
+      fmt::format("{} -B {}/tests/support/{} {} '{}'", interpreter, LEKALO_SOURCE_DIR, script, word, file)
+          .c_str(),
       "r");
   if (pipe == nullptr) return nullptr;
   std::string text;
@@ -38,8 +45,36 @@ json seen_by_others(const std::string& interpreter, const std::string& file) {
   return pclose(pipe) == 0 ? json::parse(text, nullptr, false) : json(nullptr);
 }
 
+struct WrittenFile {
+  WrittenFile(const std::string& name, const std::string& text)
+      : folder(std::filesystem::temp_directory_path() /
+               fmt::format("lekalo_drawing_writer_oracle_{}", getpid())),
+        path((folder / name).string()) {
+    std::filesystem::create_directories(folder);
+    AtomicFiles files;
+    EXPECT_TRUE(files.add(path, text).has_value());
+    EXPECT_TRUE(files.commit().has_value());
+  }
+  ~WrittenFile() { std::filesystem::remove_all(folder); }
+  WrittenFile(const WrittenFile&) = delete;
+  WrittenFile& operator=(const WrittenFile&) = delete;
+  std::filesystem::path folder;
+  std::string path;
+};
+
+/// Independent of the library's own formulas, and seen from the contour's first point, so that little
+/// cancels.
+cases::DrawnMeasures measures_of(const geom::Contour& contour) {
+  cases::DrawnMeasures sum;
+  for (const geom::Edge& edge : contour) {
+    const cases::DrawnMeasures one = cases::measure(cases::shifted(edge, -contour.front().from));
+    sum.length += one.length, sum.area += one.area;
+  }
+  return sum;
+}
+
 TEST(DrawingWriterOracle, EzdxfFindsNothingToRepairAndTheSameNumbers) {
-  const std::string interpreter = python();
+  const std::string interpreter = python("ezdxf");
   ASSERT_FALSE(interpreter.empty()) << "python3-ezdxf is not installed (tools/setup.sh installs it)";
   const auto slot =
       cases::region_detail::region(cases::boolean_slot(10, 10, 30, 5), {cases::boolean_circle({20, 10}, 2)});
@@ -51,14 +86,8 @@ TEST(DrawingWriterOracle, EzdxfFindsNothingToRepairAndTheSameNumbers) {
   }
   const auto text = dxf_drawing(regions);
   ASSERT_TRUE(text.has_value()) << text.error().message;
-  const auto folder = std::filesystem::temp_directory_path() / "lekalo_drawing_writer_oracle";
-  std::filesystem::create_directories(folder);
-  const std::string file = (folder / "written.dxf").string();
-  AtomicFiles files;
-  ASSERT_TRUE(files.add(file, *text).has_value());
-  ASSERT_TRUE(files.commit().has_value());
-  const json seen = seen_by_others(interpreter, file);
-  std::filesystem::remove_all(folder);
+  const WrittenFile written("written.dxf", *text);
+  const json seen = seen_by_others(interpreter, written.path);
   ASSERT_TRUE(seen.is_object()) << "written_oracle.py failed";
   EXPECT_EQ(seen["version"], "AC1021");  // for the Cyrillic name
   EXPECT_EQ(seen["insunits"], 4);
@@ -115,6 +144,63 @@ TEST(DrawingWriterOracle, EzdxfFindsNothingToRepairAndTheSameNumbers) {
     for (const geom::Contour& hole : one.region.holes) check(hole, i == 0 ? "CUT_INNER" : layer);
   }
   EXPECT_EQ(k, seen["entities"].size());
+}
+
+std::vector<LayeredRegion> random_regions_on_layers() {
+  std::vector<LayeredRegion> regions;
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    Random random(cases::seed(), 12000 + index);
+    for (auto& region : cases::random_regions(random, index))
+      regions.push_back({region, fmt::format("L{}", regions.size()), {}});
+  }
+  return regions;
+}
+
+TEST(DrawingWriterOracle, EzdxfFindsTheSameLengthsAndAreas) {
+  const std::string interpreter = python("ezdxf");
+  ASSERT_FALSE(interpreter.empty()) << "python3-ezdxf is not installed (tools/setup.sh installs it)";
+  const auto regions = random_regions_on_layers();
+  const WrittenFile written("written.dxf", *dxf_drawing(regions));
+  const json seen = seen_by_others(interpreter, written.path, "dxf_oracle.py", "ezdxf");
+  ASSERT_TRUE(seen.is_object()) << "dxf_oracle.py failed";
+  std::map<std::pair<std::string, std::string>, cases::DrawnMeasures> wanted;
+  for (const LayeredRegion& one : regions) {
+    for (const geom::Contour& contour : cases::contours_of({one.region})) {
+      const bool circle = contour.front().from == contour.front().to;
+      const auto measures = measures_of(contour);
+      auto& sum = wanted[{circle ? "CIRCLE" : "LWPOLYLINE", one.layer}];
+      sum.length += measures.length;
+      sum.area += circle ? std::abs(measures.area) : measures.area;  // a CIRCLE has no direction
+    }
+  }
+  const json& listed = seen[written.path];
+  ASSERT_EQ(listed.size(), wanted.size());
+  for (const json& theirs : listed) {
+    const auto& ours = wanted.at({theirs["type"], theirs["layer"]});
+    EXPECT_NEAR(theirs["length"].get<double>(), ours.length, 1e-9 * ours.length) << theirs.dump();
+    EXPECT_NEAR(theirs["area"].get<double>(), ours.area, 1e-9 * std::abs(ours.area)) << theirs.dump();
+  }
+}
+
+TEST(DrawingWriterOracle, SvgelementsFindsTheSameLengthsAndAreas) {
+  const std::string interpreter = python("svgelements");
+  ASSERT_FALSE(interpreter.empty()) << "python3-svgelements is not installed (tools/setup.sh installs it)";
+  const auto regions = random_regions_on_layers();
+  const WrittenFile written("written.svg", *svg_drawing(regions));
+  const json seen = seen_by_others(interpreter, written.path);
+  ASSERT_TRUE(seen.is_array()) << "written_oracle.py failed";
+  std::size_t k = 0;
+  for (const LayeredRegion& one : regions) {
+    for (const geom::Contour& contour : cases::contours_of({one.region})) {
+      ASSERT_LT(k, seen.size());
+      const json& theirs = seen[k++];
+      const auto ours = measures_of(contour);
+      EXPECT_NEAR(theirs["length"].get<double>(), ours.length, 1e-9 * ours.length) << one.layer;
+      EXPECT_NEAR(std::abs(theirs["area"].get<double>()), std::abs(ours.area), 1e-9 * std::abs(ours.area))
+          << one.layer;
+    }
+  }
+  EXPECT_EQ(k, seen.size());
 }
 
 }  // namespace

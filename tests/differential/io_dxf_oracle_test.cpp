@@ -100,8 +100,9 @@ TEST(IoDxfOracle, EzdxfFindsTheSameCurvesLengthsPlacesAndAreas) {
       EXPECT_NEAR(total.length, length, tolerance) << theirs.dump();
       EXPECT_NEAR(total.x, scale * scale * theirs["x"].get<double>(), tolerance * reach) << theirs.dump();
       EXPECT_NEAR(total.y, scale * scale * theirs["y"].get<double>(), tolerance * reach) << theirs.dump();
-      EXPECT_NEAR(total.area, scale * scale * theirs["area"].get<double>(), tolerance * reach)
-          << theirs.dump();
+      // Where the areas of one kind cancel, rounding is what is left of both sums.
+      const double area = scale * scale * theirs["area"].get<double>();
+      EXPECT_NEAR(total.area, area, 1e-9 * std::abs(area) + 1e-14 * length * reach) << theirs.dump();
       compared += curves;
     }
   }
@@ -148,7 +149,9 @@ TEST(IoDxfOracle, OgrFindsTheSameLengthsAndBoxesOnEachLayer) {
         continue;
       const auto ours = found.find(layer);
       ASSERT_NE(ours, found.end()) << theirs.dump();
-      // OGR draws splines coarsely, and beyond the knots that count.
+      // OGR gives polylines, here in steps of 0.1 degrees, whose chords are shorter by 1e-7 at least: its
+      // lengths say that nothing is missing; ezdxf's parameters, above, say that the curves are right.
+      // It draws splines coarsely, and beyond the knots that count.
       if (with_splines.count(ours->first) != 0) continue;
       const double length = scale * theirs["length"].get<double>();
       EXPECT_NEAR(ours->second.first, length, 1e-4 * length) << theirs.dump();

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""What others find in a DXF drawing that lekalo wrote, as one JSON object on stdout.
+"""What others find in a drawing that lekalo wrote, as JSON on stdout.
 
-  written_oracle.py FILE
+  written_oracle.py FILE.svg    [{"length", "area"}] of python3-svgelements, by element, in the order of the file
+  written_oracle.py FILE.dxf
 
 {"version", "insunits", "errors": what ezdxf's audit found or repaired, "entities": [{"type", "layer", "closed",
 "vertices": [[x, y, bulge]...]} or {"type", "layer", "centre", "radius"}], "ogr": [{"layer", "closed", "box"}] or null}
 """
 import json
+import pathlib
 import sys
-
-import ezdxf
 
 
 def listing(entity):
@@ -39,6 +39,12 @@ def by_ogr(path):
 
 
 def main(path):
+    if path.endswith(".svg"):
+        sys.path.append(str(pathlib.Path(__file__).parent.parent / "corpus/data/svg"))
+        import oracle
+        print(json.dumps(oracle.entities_of(open(path, encoding="utf-8").read())))
+        return
+    import ezdxf
     document = ezdxf.readfile(path)
     auditor = document.audit()
     print(json.dumps({

@@ -49,7 +49,8 @@ using Shape = std::variant<geom::Edge, EllipseArc, Spline>;
 struct DrawnCurve {
   Shape shape;
   std::uint32_t entity = 0, layer = 0;  ///< into Drawing
-  /// mm: the curve and the one that the file's decimals mean lie within this of each other, both ways. Covers
+  /// mm: the curve and the one that the file's decimals mean lie within this of each other, both ways (where
+  /// our own files state an arc's exact numbers beside it, both what they and what the curve means). Covers
   /// reading, scaling, blocks and transforms; 0 where all of that was exact.
   double error = 0;
 };

@@ -12,8 +12,9 @@ namespace lekalo::io {
 
 /// Reads an SVG drawing (1.1, and what SVG 2 changed of the same words): path, line, polyline, polygon, rect,
 /// circle, ellipse under g, a, svg, switch, use and symbol, with transform, viewBox and preserveAspectRatio.
-/// Millimetres, y up, the origin at the lower left corner of the page. Arcs stay arcs under maps that keep
-/// circles, and become arcs of ellipses under others; Bezier curves are splines.
+/// Millimetres, y up, the origin at the lower left corner of the page (our own files say where that lies).
+/// Arcs stay arcs under maps that keep circles, and become arcs of ellipses under others; Bezier curves are
+/// splines.
 ///
 /// The layer of a curve is the inkscape:label or id of the nearest group that says it is a layer, else of the
 /// outermost group that has one. What display or visibility hides stands in a layer of the same name that is

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -35,29 +36,48 @@ struct Violation {
   std::int64_t copy = 0;
   /// Index of the defect or zone in the stock; 0 for other kinds.
   std::uint32_t feature = 0;
-  /// mm. overlap, outside, defect, quality: the length of a shift along `direction` that ends the violation
-  /// between these two (short, not always the shortest). gap kinds: what is missing of the gap. rotation,
-  /// grain: 0.
+  /// mm, 0 for kinds not named here. overlap, outside, defect, quality: the length of a shift along
+  /// `direction` that ends the violation between these two (proved; short, not always the shortest; quality:
+  /// out of the zone altogether). outside where no such shift was found: how far the part sticks out, with no
+  /// direction. gap kinds: what is missing of the gap, within 1e-12.
   double amount_mm = 0;
   geom::Point at;         ///< mm, a place where it can be seen
   geom::Point direction;  ///< unit vector in which to move `a`; (0, 0) where there is none
   friend bool operator==(const Violation&, const Violation&) = default;
 };
 
-/// The gap between two parts, in steps.
-[[nodiscard]] std::int64_t gap_between(const Document& document, std::uint32_t part_a,
-                                       std::uint32_t part_b) noexcept;
+/// The gap between two parts, in steps; a part's gap to the border and to defects.
+[[nodiscard]] std::int64_t gap_between(const Document& document, const Part& a, const Part& b) noexcept;
+[[nodiscard]] std::int64_t border_gap_of(const Document& document, const Part& part) noexcept;
+[[nodiscard]] std::int64_t defect_gap_of(const Document& document, const Part& part) noexcept;
 
-/// Every violation of a document, ordered by stock, copy, a, kind, b. Cost: O(n log n + pairs of parts whose
-/// boxes come within their gap, times their edges).
+/// Every violation of a document, ordered by stock, copy, a, kind, b, feature. Cost: O(n log n + pairs of
+/// parts whose boxes come within their gap, times their edges). \pre indices and ids are as Document says
 [[nodiscard]] std::vector<Violation> check(const Document& document);
 
-/// Those of the violations of check() in which a placement of `of` has a part alone, or with one of `with`;
-/// both hold ids of the document, ascending. In the order of check().
-[[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const std::uint64_t> of,
-                                                std::span<const std::uint64_t> with);
+/// What check() would say of a document with these placements, only of those that one of `of` has a part in:
+/// alone, with another of `of`, or with one of `with`. Both ascending by id; ids and the document's own
+/// placements do not matter. What lies on different sheets does not meet. In the order of check().
+[[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
+                                                std::span<const Placement> with);
 
-/// Whether a zone of its stock is too bad for some area of a placed part (rule 6 of docs/design/layout.md).
-[[nodiscard]] bool spoils(const Document& document, const Placement& placement, std::uint32_t zone);
+/// What check() is made of. Outlines are those of placed_outline().
+
+/// Of rotation, mirror, grain and stock.
+void add_own_violations(const Document& document, const Placement& placement, std::vector<Violation>& to);
+/// outside, or else border_gap.
+[[nodiscard]] std::optional<Violation> border_violation(const Document& document, const Placement& placement,
+                                                        const geom::GridRegion& outline);
+/// defect, or else defect_gap. \param defect  index in the placement's stock
+[[nodiscard]] std::optional<Violation> defect_violation(const Document& document, const Placement& placement,
+                                                        const geom::GridRegion& outline,
+                                                        std::uint32_t defect);
+/// \param zone  index in the placement's stock
+[[nodiscard]] std::optional<Violation> quality_violation(const Document& document, const Placement& placement,
+                                                         const geom::GridRegion& outline, std::uint32_t zone);
+/// overlap, or else gap. \pre on one copy of one stock; a.id < b.id
+[[nodiscard]] std::optional<Violation> pair_violation(const Document& document, const Placement& a,
+                                                      const geom::GridRegion& outline_a, const Placement& b,
+                                                      const geom::GridRegion& outline_b);
 
 }  // namespace lekalo::layout

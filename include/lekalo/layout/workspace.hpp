@@ -44,8 +44,9 @@ class Workspace {
   /// Whether these placements, in place of those with their ids, break no rule, neither against all others
   /// nor among themselves. Their ids need not exist.
   [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
-  /// Every violation that one of them has a part in, in the order of check().
-  [[nodiscard]] std::vector<Violation> violations_of(std::span<const std::uint64_t> ids) const;
+  /// Every violation that one of them would have a part in, in place of those with their ids, in the order of
+  /// check().
+  [[nodiscard]] std::vector<Violation> violations_of(std::span<const Placement> placements) const;
 
   /// The scene a sheet's bodies lie in, and the shape of a part turned; made when they are first asked for.
   [[nodiscard]] const phi::Scene& scene(Sheet sheet) const;

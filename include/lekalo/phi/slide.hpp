@@ -32,9 +32,12 @@ void append_slide_events(const geom::GridRegion& moving, const SlidePath& path, 
 /// `valid` decides exactly whether a position is allowed; `events` are all places where that can change
 /// (append_slide_events). Positions may lie one step beside the straight way where that is what keeps them
 /// valid: a part that slides along a slanting edge does not catch on the grid. What blocks the way for less
-/// than 4 steps (4 nanometres) of it may be passed. \return the position; the whole way when nothing blocks
-/// it. Then no neighbouring grid point further on is valid. \pre valid(path.start) Cost: a sort of the
-/// events, up to 9 questions for each until the first that blocks, and about 50 to place it.
+/// than 4 steps (4 nanometres) of it may be passed.
+///
+/// The position returned is valid. Where the way is blocked, one of the 8 grid points around it is not.
+///
+/// Cost: a sort of the events, up to 9 questions for each until the first that blocks, and about 50 to place
+/// it. \pre valid(path.start)
 struct SlideEnd {
   geom::GridPoint at;
   double way = 0;        ///< steps

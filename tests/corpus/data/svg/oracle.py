@@ -81,9 +81,8 @@ def page_of(text):
     return text.replace(root, plain), mm, box[3]
 
 
-expected = {}
-for file in sorted(HERE.glob("*.svg")):
-    text, mm, page = page_of(file.read_text())
+def entities_of(text):
+    text, mm, page = page_of(text)
     svg = s.SVG.parse(io.StringIO(text), reify=True, ppi=96)
     entities = []
     for element in svg.elements():
@@ -109,5 +108,9 @@ for file in sorted(HERE.glob("*.svg")):
         up = lambda p: [p[0] * mm, (page - p[1]) * mm]
         entities.append({"id": element.id or "", "curves": curves, "length": length * mm, "first": up(first), "last": up(last),
                          "area": area * mm * mm})
-    expected[file.name] = entities
-(HERE / "expected.json").write_text(json.dumps(expected, indent=1) + "\n")
+    return entities
+
+
+if __name__ == "__main__":
+    expected = {file.name: entities_of(file.read_text()) for file in sorted(HERE.glob("*.svg"))}
+    (HERE / "expected.json").write_text(json.dumps(expected, indent=1) + "\n")

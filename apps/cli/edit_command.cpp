@@ -1,0 +1,46 @@
+#include "edit_command.hpp"
+
+#include <fmt/format.h>
+
+#include "layout_input.hpp"
+#include "lekalo/io/files.hpp"
+#include "lekalo/io/layout_json.hpp"
+#include "lekalo/layout/check.hpp"
+#include "lekalo/layout/session.hpp"
+#include "outputs.hpp"
+#include "summary.hpp"
+
+namespace lekalo::cli {
+
+Result<int> run_edit(const EditOptions& o) {
+  if (Result<void> fine = check_outputs({{"--output", o.output}},
+                                        {{"--commands", o.commands}, {"--instance", o.source.instance}});
+      !fine)
+    return tl::unexpected(fine.error());
+  Result<LayoutInput> input = read_layout_input(o.source);
+  if (!input) return tl::unexpected(input.error());
+  const Result<std::string> log = io::read_file(o.commands);
+  if (!log) return tl::unexpected(log.error());
+  const Result<layout::Session> session = layout::replay(std::move(input->document), *log);
+  if (!session)
+    return failure(session.error().code, fmt::format("{}: {}", o.commands, session.error().message));
+  const std::string text = io::write_layout(session->document());
+  if (o.output.empty()) {
+    if (Result<void> done = print(text); !done) return tl::unexpected(done.error());
+  } else {
+    io::AtomicFiles files;
+    if (Result<void> done = files.add(o.output, text).and_then([&] { return files.commit(); }); !done)
+      return tl::unexpected(done.error());
+  }
+  std::string said;
+  for (const std::string& notice : input->notices) said += "note: " + notice + "\n";
+  const std::size_t broken = layout::check(session->document()).size();
+  said += fmt::format("{} placed, {}\n", session->document().placements.size(),
+                      broken == 0 ? std::string("no rule is broken")
+                                  : fmt::format("{} rules are broken; lekalo check says which", broken));
+  if (!o.output.empty()) said += fmt::format("Written: {}\n", o.output);
+  tell(said);
+  return broken == 0 ? 0 : 1;
+}
+
+}  // namespace lekalo::cli

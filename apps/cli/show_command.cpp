@@ -1,0 +1,52 @@
+#include "show_command.hpp"
+
+#include <fmt/format.h>
+
+#include "layout_input.hpp"
+#include "lekalo/io/files.hpp"
+#include "lekalo/layout/check.hpp"
+#include "lekalo/layout/completeness.hpp"
+#include "outputs.hpp"
+#include "summary.hpp"
+
+namespace lekalo::cli {
+
+Result<int> run_show(const ShowOptions& o) {
+  if (Result<void> fine = check_outputs({{"--picture", o.picture}},
+                                        {{"the layout", o.source.path}, {"--instance", o.source.instance}});
+      !fine)
+    return tl::unexpected(fine.error());
+  const Result<LayoutInput> input = read_layout_input(o.source);
+  if (!input) return tl::unexpected(input.error());
+  const std::vector<layout::Violation> violations = layout::check(input->document);
+  const layout::Completeness completeness = layout::completeness(layout::Workspace(input->document));
+  io::AtomicFiles files;
+  if (!o.picture.empty()) {
+    const Result<std::string> picture =
+        picture_bytes(o.picture, o.source.path, input->document, completeness, violations);
+    if (!picture) return tl::unexpected(picture.error());
+    if (Result<void> done = files.add(o.picture, *picture); !done) return tl::unexpected(done.error());
+  }
+  if (o.json) {
+    nlohmann::ordered_json json = begin_layout_json("lekalo-show", "shown", *input);
+    json.update(completeness_json(input->document, completeness));
+    json["violations"] = violations.size();
+    json["run"] = nlohmann::ordered_json::object();
+    if (Result<void> done = print(dumped(json)); !done) return tl::unexpected(done.error());
+  }
+  if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
+  std::string text;
+  for (const std::string& notice : input->notices) text += "note: " + notice + "\n";
+  text += fmt::format("{}: {} placed, {} parts, {} stocks\n",
+                      input->document.name.empty() ? o.source.path : input->document.name,
+                      input->document.placements.size(), input->document.parts.size(),
+                      input->document.stocks.size());
+  text += completeness_text(input->document, completeness);
+  if (!violations.empty())
+    text += fmt::format("{} rules are broken; lekalo check says which\n", violations.size());
+  if (!o.picture.empty()) text += fmt::format("Written: {}\n", o.picture);
+  tell(text);
+  return 0;
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lekalo/layout/document.hpp"
+#include "lekalo/layout/workspace.hpp"
+
+namespace lekalo::layout {
+
+/// What a layout amounts to: kits and parts complete, material used. Placements count wherever they lie;
+/// whether they lie well is the check's matter.
+
+/// Pieces of a part, upright and mirrored ones.
+struct PieceCount {
+  std::int64_t upright = 0, mirrored = 0;
+  [[nodiscard]] std::int64_t total() const noexcept { return upright + mirrored; }
+  friend bool operator==(const PieceCount&, const PieceCount&) = default;
+};
+
+struct MissingPiece {
+  std::uint32_t part = 0;
+  std::int64_t count = 0;
+  std::optional<bool> mirrored;  ///< absent: either serves
+  friend bool operator==(const MissingPiece&, const MissingPiece&) = default;
+};
+
+struct KitCount {
+  std::int64_t complete = 0;          ///< at most the kits wanted
+  std::vector<MissingPiece> missing;  ///< for all those wanted that are not complete
+};
+
+/// One copy of a stock with something on it. Areas mm^2.
+struct SheetUse {
+  Sheet sheet;
+  std::size_t parts = 0;
+  double parts_area = 0;
+  double material_area = 0;   ///< less holes; of a strip, up to the length used
+  double defect_area = 0;     ///< of that, lost to defects (each point once)
+  double used_length_mm = 0;  ///< from x = 0 to the last part; of strips and sheets of any kind
+  geom::GridBox remnant;      ///< a large rectangle free of parts, defects and holes; proved free, empty
+                              ///< (low == high) where none was found. Of a strip: up to its length, or up to
+                              ///< the length used where it is open.
+  [[nodiscard]] double density() const noexcept { return material_area > 0 ? parts_area / material_area : 0; }
+};
+
+struct Completeness {
+  std::vector<PieceCount> placed;     ///< by part
+  std::vector<std::int64_t> missing;  ///< by part: of all that are wanted
+  std::vector<std::int64_t> surplus;  ///< by part: beyond all that are wanted
+  std::vector<KitCount> kits;         ///< by kit
+  std::vector<SheetUse> sheets;       ///< those in use, by stock and copy
+  double density = 0;                 ///< of all sheets in use together
+  double cost = 0;                    ///< of the copies in use
+};
+
+/// Pieces serve the kits in the document's order, each as far as whole kits go, then the parts' own demand.
+/// Cost: O(n log n), and for every sheet a raster of at most 192 by 192 cells for its remnant.
+[[nodiscard]] Completeness completeness(const Workspace& workspace);
+
+}  // namespace lekalo::layout

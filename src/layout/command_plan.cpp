@@ -1,0 +1,440 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "group.hpp"
+#include "lekalo/layout/command.hpp"
+#include "places.hpp"
+
+namespace lekalo::layout {
+namespace {
+
+using geom::GridBox;
+using geom::GridPoint;
+using Placements = std::vector<Placement>;
+
+constexpr std::int64_t kMostShift = geom::kGridLimit / 2;
+
+tl::unexpected<Error> wrong(std::string message) { return failure(ErrorCode::usage, std::move(message)); }
+
+/// The placements of these ids that may be changed.
+Result<Placements> movable(const Workspace& workspace, const std::vector<std::uint64_t>& ids,
+                           bool locked_too = false) {
+  if (ids.empty()) return wrong("a command without placements; name at least one");
+  Placements placements;
+  for (const std::uint64_t id : ids) {
+    const Placement* placement = workspace.find(id);
+    if (placement == nullptr) return wrong(fmt::format("there is no placement {}", id));
+    if (std::any_of(placements.begin(), placements.end(), [&](const Placement& p) { return p.id == id; }))
+      return wrong(fmt::format("placement {} is named twice", id));
+    if (placement->locked && !locked_too)
+      return wrong(fmt::format("placement {} is locked; unlock it first", id));
+    placements.push_back(*placement);
+  }
+  return placements;
+}
+
+Result<Sheet> known_sheet(const Document& document, Sheet sheet) {
+  if (sheet.stock >= document.stocks.size())
+    return wrong(fmt::format("there is no stock number {}", sheet.stock));
+  const Stock& stock = document.stocks[sheet.stock];
+  if (sheet.copy < 0 || sheet.copy >= stock.count)
+    return wrong(
+        fmt::format("stock '{}' has {} copies; there is no copy {}", stock.id, stock.count, sheet.copy));
+  return sheet;
+}
+
+Result<Sheet> common_sheet(const Placements& placements) {
+  const Sheet sheet{placements[0].stock, placements[0].copy};
+  for (const Placement& placement : placements)
+    if (Sheet{placement.stock, placement.copy} != sheet)
+      return wrong(fmt::format("placements {} and {} lie on different sheets; move those of one at a time",
+                               placements[0].id, placement.id));
+  return sheet;
+}
+
+bool on_grid(GridPoint p, std::int64_t most = kMostShift) noexcept {
+  return p.x >= -most && p.x <= most && p.y >= -most && p.y <= most;
+}
+
+Result<Placements> within_limits(Placements placements) {
+  for (const Placement& placement : placements)
+    if (!on_grid(placement.at))
+      return wrong(fmt::format("placement {} would leave the range of +-{} mm", placement.id,
+                               geom::mm_from_grid(kMostShift)));
+  return placements;
+}
+
+GridBox placed_box(const Workspace& workspace, const Placement& placement) {
+  return bounds(placed_outline(workspace.document().parts[placement.part], placement));
+}
+
+/// Twice the middle of a box, so that it is a grid point.
+GridPoint twice_middle(const GridBox& box) noexcept { return box.low + box.high; }
+
+GridPoint twice_middle(const Workspace& workspace, const Placements& placements) {
+  GridBox all = placed_box(workspace, placements[0]);
+  for (const Placement& placement : placements) {
+    const GridBox box = placed_box(workspace, placement);
+    all = {{std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y)},
+           {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y)}};
+  }
+  return twice_middle(all);
+}
+
+GridPoint halved(GridPoint p) noexcept { return {p.x >> 1, p.y >> 1}; }
+
+/// The rotation that comes from turning further; within half a step of the exact product of the pairs, scaled
+/// back to length 1 by the angle's own pair where the angle is a short decimal.
+geom::GridRotation turned_by(geom::GridRotation rotation, double degrees) {
+  return geom::rotation_from_degrees(std::remainder(geom::degrees_of(rotation) + degrees, 360.0));
+}
+
+/// What a command makes of a workspace: the placements changed, those removed.
+struct Outcome {
+  Placements changed;
+  std::vector<std::uint64_t> removed;
+  bool breaks_no_rule = false;  ///< by its nature: no check needed
+};
+
+class Planner {
+ public:
+  Planner(const Workspace& workspace, Mode mode)
+      : workspace_(workspace), document_(workspace.document()), mode_(mode) {}
+
+  Result<Outcome> operator()(const PlaceCommand& c) const {
+    if (c.part >= document_.parts.size()) return wrong(fmt::format("there is no part number {}", c.part));
+    if (auto sheet = known_sheet(document_, {c.stock, c.copy}); !sheet) return tl::unexpected(sheet.error());
+    if (!is_rotation(c.rotation)) return wrong("a rotation's c and s must have c^2 + s^2 = 1");
+    return limited({{.id = document_.next_id,
+                     .part = c.part,
+                     .stock = c.stock,
+                     .copy = c.copy,
+                     .rotation = c.rotation,
+                     .mirrored = c.mirrored,
+                     .at = c.at}});
+  }
+
+  Result<Outcome> operator()(const MoveCommand& c) const {
+    auto placements = shifted(c.ids, c.by, c.to);
+    if (!placements) return tl::unexpected(placements.error());
+    return limited(std::move(*placements));
+  }
+
+  Result<Outcome> operator()(const RotateCommand& c) const {
+    if (!(std::abs(c.degrees) <= 360000))
+      return wrong(fmt::format("{} degrees; turn by at most 360000", c.degrees));
+    return about_middle(
+        c.ids, [&](Placement& placement) { placement.rotation = turned_by(placement.rotation, c.degrees); },
+        geom::rotation_from_degrees(c.degrees), false);
+  }
+
+  Result<Outcome> operator()(const FlipCommand& c) const {
+    // Mirrored in x after all the rest: the part is mirrored first and turned the other way.
+    return about_middle(
+        c.ids,
+        [](Placement& placement) {
+          placement.mirrored = !placement.mirrored;
+          placement.rotation.s = -placement.rotation.s;
+        },
+        {}, true);
+  }
+
+  Result<Outcome> operator()(const RemoveCommand& c) const {
+    auto placements = movable(workspace_, c.ids);
+    if (!placements) return tl::unexpected(placements.error());
+    return Outcome{{}, c.ids, true};
+  }
+
+  Result<Outcome> operator()(const SwapCommand& c) const {
+    auto placements = movable(workspace_, {c.a, c.b});
+    if (!placements) return tl::unexpected(placements.error());
+    Placement &a = (*placements)[0], &b = (*placements)[1];
+    const GridPoint shift =
+        halved(twice_middle(placed_box(workspace_, b)) - twice_middle(placed_box(workspace_, a)));
+    a.at = a.at + shift;
+    b.at = b.at - shift;
+    std::swap(a.stock, b.stock);
+    std::swap(a.copy, b.copy);
+    return limited(std::move(*placements));
+  }
+
+  Result<Outcome> operator()(const LockCommand& c) const {
+    auto placements = movable(workspace_, c.ids, true);
+    if (!placements) return tl::unexpected(placements.error());
+    for (Placement& placement : *placements) placement.locked = c.locked;
+    return Outcome{std::move(*placements), {}, true};
+  }
+
+  Result<Outcome> operator()(const SlideCommand& c) const {
+    return moved(c.ids, c.direction,
+                 [&](Group& group) { group.slide(unit_vector(c.direction), reach_of(group)); });
+  }
+
+  Result<Outcome> operator()(const SlideAlongCommand& c) const {
+    return moved(c.ids, c.by, [&](Group& group) { group.slide_along(c.by); });
+  }
+
+  Result<Outcome> operator()(const SettleCommand& c) const {
+    if (c.then && (*c.then == GridPoint{} || !on_grid(*c.then)))
+      return wrong("the second direction has no length, or is too long");
+    return moved(c.ids, c.direction, [&](Group& group) {
+      group.settle(unit_vector(c.direction));
+      // Into the corner: each settling may open the way for the other.
+      for (int round = 0; c.then && round < 16; ++round) {
+        const GridPoint before = group.placements()[0].at;
+        group.slide(unit_vector(*c.then), reach_of(group));
+        group.slide(unit_vector(c.direction), reach_of(group));
+        const GridPoint way = group.placements()[0].at - before;
+        if (dot(way, way) < 64) break;
+      }
+    });
+  }
+
+  Result<Outcome> operator()(const PushCommand& c) const {
+    auto placements = startable(c.ids, c.by);
+    if (!placements) return tl::unexpected(placements.error());
+    const Sheet sheet{(*placements)[0].stock, (*placements)[0].copy};
+    const geom::Point direction = unit_vector(c.by),
+                      way{static_cast<double>(c.by.x), static_cast<double>(c.by.y)};
+    Placements pushed = std::move(*placements);
+    const GridPoint goal = pushed[0].at + c.by;
+    while (true) {
+      Group group(workspace_, pushed);
+      const GridPoint left = goal - pushed[0].at;
+      const double length =
+          geom::dot(geom::Point{static_cast<double>(left.x), static_cast<double>(left.y)}, way) /
+          geom::norm(way);
+      const bool blocked = length > 0 && group.slide(direction, length);
+      pushed = group.placements();
+      if (!blocked) break;
+      bool joined = false, fixed = false;
+      for (const phi::BodyIndex body : group.blockers(direction)) {
+        const std::uint64_t id = workspace_.placement_of(sheet, body);
+        const Placement* other = id == 0 ? nullptr : workspace_.find(id);
+        fixed = fixed || other == nullptr || other->locked;
+        if (other == nullptr || other->locked) continue;
+        pushed.push_back(*other);
+        joined = true;
+      }
+      if (fixed || !joined) break;
+    }
+    return limited(std::move(pushed));
+  }
+
+  Result<Outcome> operator()(const SnapCommand& c) const {
+    auto placements = movable(workspace_, {c.id});
+    if (!placements) return tl::unexpected(placements.error());
+    if (c.reach <= 0 || c.reach > kMostShift) return wrong("snapping needs a reach above 0");
+    const auto place = snapped(workspace_, placements->front(), c.reach);
+    if (!place)
+      return wrong(fmt::format("placement {}: no edge within {} mm that it fits against", c.id,
+                               geom::mm_from_grid(c.reach)));
+    return limited({*place});
+  }
+
+  Result<Outcome> operator()(const CompactCommand& c) const {
+    if (auto sheet = known_sheet(document_, c.sheet); !sheet) return tl::unexpected(sheet.error());
+    if (auto fault = fault_of(c.direction)) return tl::unexpected(std::move(*fault));
+    const geom::Point direction = unit_vector(c.direction);
+    Workspace work = workspace_;
+    Placements changed;
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+      bool any = false;
+      for (const std::uint64_t id : foremost_first(work, c.sheet, direction)) {
+        const Placement before = *work.find(id);
+        Placement after = before;
+        {
+          Group group(work, {before});
+          if (!group.is_clear()) {
+            if (mode_ == Mode::free) continue;
+            return failure(ErrorCode::refuted,
+                           fmt::format("placement {} breaks a rule where it lies; mend that first", id));
+          }
+          group.settle(direction);
+          after = group.placements()[0];
+        }
+        const GridPoint way = after.at - before.at;
+        if (dot(way, way) < 64) continue;
+        any = true;
+        work.set(after);
+      }
+      if (!any) break;
+    }
+    for (const Placement& placement : work.document().placements)
+      if (const Placement* before = workspace_.find(placement.id); *before != placement)
+        changed.push_back(placement);
+    return limited(std::move(changed));
+  }
+
+  Result<Outcome> operator()(const NearestCommand& c) const {
+    auto placements = shifted(c.ids, c.by, c.to);
+    if (!placements) return tl::unexpected(placements.error());
+    if (auto sheet = common_sheet(*placements); !sheet) return tl::unexpected(sheet.error());
+    auto place = nearest_place(workspace_, *placements);
+    if (!place) return wrong("no valid place was found on the sheet");
+    return limited(std::move(*place));
+  }
+
+ private:
+  static Result<Outcome> limited(Placements placements) {
+    auto within = within_limits(std::move(placements));
+    if (!within) return tl::unexpected(within.error());
+    return Outcome{std::move(*within), {}, false};
+  }
+
+  static std::optional<Error> fault_of(GridPoint direction) {
+    if (direction == GridPoint{}) return Error{ErrorCode::usage, "a direction of no length"};
+    if (!on_grid(direction, geom::kGridLimit))
+      return Error{ErrorCode::usage, "a direction beyond the limits of the grid"};
+    return std::nullopt;
+  }
+
+  double reach_of(const Group& group) const {
+    const GridBox world = bounds(document_.stocks[group.sheet().stock].outline.polygon);
+    const GridBox box = group.box();
+    return static_cast<double>(world.high.x - world.low.x) + static_cast<double>(world.high.y - world.low.y) +
+           static_cast<double>(box.high.x - box.low.x) + static_cast<double>(box.high.y - box.low.y);
+  }
+
+  Result<Placements> shifted(const std::vector<std::uint64_t>& ids, GridPoint by,
+                             const std::optional<Sheet>& to) const {
+    auto placements = movable(workspace_, ids);
+    if (!placements) return placements;
+    if (!on_grid(by, geom::kGridLimit)) return wrong("a shift beyond the limits of the grid");
+    if (to) {
+      if (auto sheet = known_sheet(document_, *to); !sheet) return tl::unexpected(sheet.error());
+    }
+    for (Placement& placement : *placements) {
+      placement.at = placement.at + by;
+      if (to) placement.stock = to->stock, placement.copy = to->copy;
+    }
+    return placements;
+  }
+
+  /// Each placement turned by `turn`, then moved so that the middle of its box goes round the middle of all.
+  template <class Turn>
+  Result<Outcome> about_middle(const std::vector<std::uint64_t>& ids, Turn&& turn,
+                               geom::GridRotation rotation, bool mirrored) const {
+    auto placements = movable(workspace_, ids);
+    if (!placements) return tl::unexpected(placements.error());
+    if (auto sheet = common_sheet(*placements); !sheet) return tl::unexpected(sheet.error());
+    const GridPoint centre = twice_middle(workspace_, *placements);
+    for (Placement& placement : *placements) {
+      // Where its origin goes when the whole turns about the centre, in half steps to keep the centre exact.
+      const GridPoint origin = placement.at + placement.at - centre;
+      turn(placement);
+      placement.at = halved(geom::turned(origin, rotation, mirrored) + centre);
+    }
+    return limited(std::move(*placements));
+  }
+
+  /// Placements on one sheet that lie clear of everything else, and a direction.
+  Result<Placements> startable(const std::vector<std::uint64_t>& ids, GridPoint direction) const {
+    auto placements = movable(workspace_, ids);
+    if (!placements) return placements;
+    if (auto sheet = common_sheet(*placements); !sheet) return tl::unexpected(sheet.error());
+    if (auto fault = fault_of(direction)) return tl::unexpected(std::move(*fault));
+    if (!Group(workspace_, *placements).is_clear())
+      return failure(
+          ErrorCode::refuted,
+          fmt::format("placement {} breaks a rule where it lies; sliding needs a valid place to start from",
+                      ids.front()));
+    return placements;
+  }
+
+  template <class Motion>
+  Result<Outcome> moved(const std::vector<std::uint64_t>& ids, GridPoint direction, Motion&& motion) const {
+    auto placements = startable(ids, direction);
+    if (!placements) return tl::unexpected(placements.error());
+    Group group(workspace_, std::move(*placements));
+    motion(group);
+    return limited(group.placements());
+  }
+
+  static std::vector<std::uint64_t> foremost_first(const Workspace& work, Sheet sheet,
+                                                   geom::Point direction) {
+    std::vector<std::pair<double, std::uint64_t>> order;
+    for (const Placement& placement : work.document().placements) {
+      if (placement.locked || Sheet{placement.stock, placement.copy} != sheet) continue;
+      const GridBox& box = work.scene(sheet).box(work.shape(sheet, placement));
+      const GridPoint low = box.low + placement.at, high = box.high + placement.at;
+      const double front =
+          std::max(direction.x * static_cast<double>(low.x), direction.x * static_cast<double>(high.x)) +
+          std::max(direction.y * static_cast<double>(low.y), direction.y * static_cast<double>(high.y));
+      order.push_back({-front, placement.id});
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::uint64_t> ids;
+    for (const auto& [front, id] : order) ids.push_back(id);
+    return ids;
+  }
+
+  const Workspace& workspace_;
+  const Document& document_;
+  Mode mode_;
+};
+
+std::string described(const Violation& violation) {
+  std::string text = fmt::format("placement {}: {}", violation.a, name_of(violation.kind));
+  if (violation.b != 0) text += fmt::format(" with placement {}", violation.b);
+  if (violation.amount_mm > 0) text += fmt::format(", {:.6g} mm", violation.amount_mm);
+  return text;
+}
+
+}  // namespace
+
+Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode) {
+  auto outcome = std::visit(Planner(workspace, mode), command);
+  if (!outcome) return tl::unexpected(outcome.error());
+  const bool new_one = std::holds_alternative<PlaceCommand>(command);
+  if (mode == Mode::strict && !outcome->breaks_no_rule && !workspace.is_clear(outcome->changed)) {
+    const auto violations = workspace.violations_of(outcome->changed);
+    return failure(
+        ErrorCode::refuted,
+        fmt::format("not admitted: {}{}", violations.empty() ? "a rule" : described(violations.front()),
+                    violations.size() > 1 ? fmt::format(" (and {} more)", violations.size() - 1) : ""));
+  }
+  Change change;
+  const std::uint64_t next = workspace.document().next_id;
+  change.next_id_before = next;
+  change.next_id_after = new_one ? next + 1 : next;
+  for (const Placement& after : outcome->changed) {
+    const Placement* before = workspace.find(after.id);
+    if (before != nullptr && *before == after) continue;
+    change.placements.push_back({before == nullptr ? std::nullopt : std::optional(*before), after});
+  }
+  for (const std::uint64_t id : outcome->removed)
+    change.placements.push_back({*workspace.find(id), std::nullopt});
+  std::sort(change.placements.begin(), change.placements.end(),
+            [](const PlacementChange& a, const PlacementChange& b) {
+              return (a.before ? a.before->id : a.after->id) < (b.before ? b.before->id : b.after->id);
+            });
+  return change;
+}
+
+void carry_out(Workspace& workspace, const Change& change) {
+  for (const PlacementChange& one : change.placements)
+    if (one.after)
+      workspace.set(*one.after);
+    else
+      workspace.erase(one.before->id);
+  workspace.set_next_id(change.next_id_after);
+}
+
+void take_back(Workspace& workspace, const Change& change) {
+  for (const PlacementChange& one : change.placements)
+    if (one.before)
+      workspace.set(*one.before);
+    else
+      workspace.erase(one.after->id);
+  workspace.set_next_id(change.next_id_before);
+}
+
+}  // namespace lekalo::layout

@@ -1,0 +1,296 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "lekalo/layout/command.hpp"
+
+namespace lekalo::layout {
+namespace {
+
+using geom::GridPoint;
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+std::string text_of(const std::vector<std::uint64_t>& ids) { return fmt::format("{}", fmt::join(ids, ",")); }
+std::string text_of(GridPoint p) {
+  return fmt::format("{} {}", geom::mm_from_grid(p.x), geom::mm_from_grid(p.y));
+}
+
+class Writer {
+ public:
+  explicit Writer(const Document& document) : document_(document) {}
+
+  std::string operator()(const PlaceCommand& c) const {
+    return fmt::format("place {} {} {} {} {} {}", quoted(document_.parts[c.part].id),
+                       text_of(Sheet{c.stock, c.copy}), static_cast<double>(c.rotation.c) * 0x1p-52,
+                       static_cast<double>(c.rotation.s) * 0x1p-52, layout::text_of(c.at),
+                       c.mirrored ? "mirrored" : "upright");
+  }
+  std::string operator()(const MoveCommand& c) const {
+    return fmt::format("move {} by {}{}", layout::text_of(c.ids), layout::text_of(c.by), to(c.to));
+  }
+  std::string operator()(const RotateCommand& c) const {
+    return fmt::format("rotate {} {}", layout::text_of(c.ids), c.degrees);
+  }
+  std::string operator()(const FlipCommand& c) const { return "flip " + layout::text_of(c.ids); }
+  std::string operator()(const RemoveCommand& c) const { return "remove " + layout::text_of(c.ids); }
+  std::string operator()(const SwapCommand& c) const { return fmt::format("swap {} {}", c.a, c.b); }
+  std::string operator()(const LockCommand& c) const {
+    return (c.locked ? "lock " : "unlock ") + layout::text_of(c.ids);
+  }
+  std::string operator()(const SlideCommand& c) const {
+    return fmt::format("slide {} towards {}", layout::text_of(c.ids), layout::text_of(c.direction));
+  }
+  std::string operator()(const SlideAlongCommand& c) const {
+    return fmt::format("slide-along {} by {}", layout::text_of(c.ids), layout::text_of(c.by));
+  }
+  std::string operator()(const SettleCommand& c) const {
+    return fmt::format("settle {} towards {}{}", layout::text_of(c.ids), layout::text_of(c.direction),
+                       c.then ? " then " + layout::text_of(*c.then) : "");
+  }
+  std::string operator()(const PushCommand& c) const {
+    return fmt::format("push {} by {}", layout::text_of(c.ids), layout::text_of(c.by));
+  }
+  std::string operator()(const SnapCommand& c) const {
+    return fmt::format("snap {} within {}", c.id, geom::mm_from_grid(c.reach));
+  }
+  std::string operator()(const CompactCommand& c) const {
+    return fmt::format("compact {} towards {}", text_of(c.sheet), layout::text_of(c.direction));
+  }
+  std::string operator()(const NearestCommand& c) const {
+    return fmt::format("nearest {} by {}{}", layout::text_of(c.ids), layout::text_of(c.by), to(c.to));
+  }
+
+ private:
+  std::string text_of(Sheet sheet) const {
+    return fmt::format("{} {}", quoted(document_.stocks[sheet.stock].id), sheet.copy);
+  }
+  std::string to(const std::optional<Sheet>& sheet) const { return sheet ? " to " + text_of(*sheet) : ""; }
+
+  const Document& document_;
+};
+
+/// Reads the words of a line one after the other; the first that does not fit is remembered, and what follows
+/// it is nothing.
+class Reader {
+ public:
+  Reader(std::string_view line, const Document& document) : rest_(line), document_(document) {}
+
+  [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
+  [[nodiscard]] bool at_end() {
+    skip_spaces();
+    return rest_.empty();
+  }
+
+  std::string word() {
+    skip_spaces();
+    if (!rest_.empty() && rest_.front() == '"') return quoted_word();
+    const std::size_t end = std::min(rest_.find_first_of(" \t"), rest_.size());
+    std::string found(rest_.substr(0, end));
+    rest_.remove_prefix(end);
+    if (found.empty()) fail("the line ends too early");
+    return found;
+  }
+  void expect(std::string_view wanted) {
+    if (const std::string found = word(); found != wanted)
+      fail(fmt::format("'{}' where '{}' belongs", found, wanted));
+  }
+  /// Takes the word when it is the next one.
+  bool take(std::string_view wanted) {
+    skip_spaces();
+    if (!rest_.starts_with(wanted)) return false;
+    if (rest_.size() > wanted.size() && rest_[wanted.size()] != ' ') return false;
+    rest_.remove_prefix(wanted.size());
+    return true;
+  }
+  double number() {
+    const std::string text = word();
+    double value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+      return fail(fmt::format("'{}' is no number", text)), 0;
+    return value;
+  }
+  template <class Integer>
+  Integer integer() {
+    const std::string text = word();
+    Integer value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc{} || end != text.data() + text.size())
+      return fail(fmt::format("'{}' is no whole number", text)), Integer{0};
+    return value;
+  }
+  std::vector<std::uint64_t> ids() {
+    const std::string text = word();
+    std::vector<std::uint64_t> found;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (fault_.empty()) {
+      std::uint64_t id = 0;
+      const auto [next, code] = std::from_chars(at, end, id);
+      if (code != std::errc{} || (next != end && *next != ',')) {
+        fail(fmt::format("'{}' is no list of placements such as 3,5", text));
+        break;
+      }
+      found.push_back(id);
+      if (next == end) break;
+      at = next + 1;
+    }
+    return found;
+  }
+  std::int64_t length() {
+    const double mm = number();
+    if (!geom::fits_grid(mm)) return fail(fmt::format("{} mm is beyond the limits of +-1048576 mm", mm)), 0;
+    return geom::grid_from_mm(mm);
+  }
+  GridPoint vector() {
+    const std::int64_t x = length();
+    return {x, length()};
+  }
+  Sheet sheet() {
+    const std::uint32_t stock = index(document_.stocks, "stock");
+    return {stock, integer<std::int64_t>()};
+  }
+  std::uint32_t part() { return index(document_.parts, "part"); }
+  geom::GridRotation rotation() {
+    const double c = number(), s = number();
+    if (!(std::abs(c) <= 2 && std::abs(s) <= 2)) return fail("cosine and sine above 2"), geom::GridRotation{};
+    return geom::rotation_from_pair(c, s);
+  }
+  std::optional<Sheet> destination() { return take("to") ? std::optional(sheet()) : std::nullopt; }
+
+ private:
+  void skip_spaces() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r'))
+      rest_.remove_prefix(1);
+  }
+  void fail(std::string message) {
+    if (fault_.empty()) fault_ = std::move(message);
+    rest_ = {};
+  }
+  std::string quoted_word() {
+    std::string found;
+    std::size_t i = 1;
+    for (; i < rest_.size() && rest_[i] != '"'; ++i) {
+      const bool escaped = rest_[i] == '\\' && i + 1 < rest_.size();
+      if (escaped) ++i;
+      found += escaped && rest_[i] == 'n' ? '\n' : rest_[i];
+    }
+    if (i >= rest_.size()) return fail("a name without its closing quotation mark"), std::string{};
+    rest_.remove_prefix(i + 1);
+    return found;
+  }
+  template <class Named>
+  std::uint32_t index(const std::vector<Named>& all, std::string_view what) {
+    const std::string id = word();
+    for (std::size_t i = 0; i < all.size() && fault_.empty(); ++i)
+      if (all[i].id == id) return static_cast<std::uint32_t>(i);
+    fail(fmt::format("there is no {} '{}'", what, id));
+    return 0;
+  }
+
+  std::string_view rest_;
+  const Document& document_;
+  std::string fault_;
+};
+
+std::optional<Command> command_named(std::string_view name, Reader& in) {
+  // The order of the words is that of evaluation, so each is read in a statement of its own or a braced list.
+  if (name == "place") {
+    PlaceCommand c;
+    c.part = in.part();
+    const Sheet sheet = in.sheet();
+    c.stock = sheet.stock, c.copy = sheet.copy;
+    c.rotation = in.rotation();
+    c.at = in.vector();
+    c.mirrored = in.take("mirrored");
+    if (!c.mirrored) in.expect("upright");
+    return c;
+  }
+  if (name == "swap") return SwapCommand{in.integer<std::uint64_t>(), in.integer<std::uint64_t>()};
+  if (name == "snap") {
+    SnapCommand c{in.integer<std::uint64_t>(), 0};
+    in.expect("within");
+    c.reach = in.length();
+    return c;
+  }
+  if (name == "compact") {
+    CompactCommand c{in.sheet(), {}};
+    in.expect("towards");
+    c.direction = in.vector();
+    return c;
+  }
+  if (name == "rotate") return RotateCommand{in.ids(), in.number()};
+  if (name == "flip") return FlipCommand{in.ids()};
+  if (name == "remove") return RemoveCommand{in.ids()};
+  if (name == "lock" || name == "unlock") return LockCommand{in.ids(), name == "lock"};
+  const auto directed = [&](std::string_view preposition) {
+    std::vector<std::uint64_t> ids = in.ids();
+    in.expect(preposition);
+    return std::pair{std::move(ids), in.vector()};
+  };
+  if (name == "slide") {
+    auto [ids, direction] = directed("towards");
+    return SlideCommand{std::move(ids), direction};
+  }
+  if (name == "settle") {
+    auto [ids, direction] = directed("towards");
+    SettleCommand c{std::move(ids), direction, std::nullopt};
+    if (in.take("then")) c.then = in.vector();
+    return c;
+  }
+  if (name == "slide-along") {
+    auto [ids, by] = directed("by");
+    return SlideAlongCommand{std::move(ids), by};
+  }
+  if (name == "push") {
+    auto [ids, by] = directed("by");
+    return PushCommand{std::move(ids), by};
+  }
+  if (name == "move") {
+    auto [ids, by] = directed("by");
+    return MoveCommand{std::move(ids), by, in.destination()};
+  }
+  if (name == "nearest") {
+    auto [ids, by] = directed("by");
+    return NearestCommand{std::move(ids), by, in.destination()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string to_text(const Command& command, const Document& document) {
+  return std::visit(Writer(document), command);
+}
+
+Result<Command> command_from_text(std::string_view line, const Document& document) {
+  Reader in(line, document);
+  const std::string name = in.word();
+  auto command = in.fault().empty() ? command_named(name, in) : std::nullopt;
+  if (!in.fault().empty()) return failure(ErrorCode::bad_input, in.fault());
+  if (!command)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format(
+            "there is no command '{}'; there are place, move, rotate, flip, remove, swap, lock, unlock, "
+            "slide, slide-along, settle, push, snap, compact and nearest",
+            name));
+  if (!in.at_end()) return failure(ErrorCode::bad_input, fmt::format("'{}' is left over", in.word()));
+  return *command;
+}
+
+}  // namespace lekalo::layout

@@ -1,0 +1,182 @@
+#include "lekalo/layout/completeness.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "lekalo/geom/boolean.hpp"
+#include "remnant.hpp"
+
+namespace lekalo::layout {
+namespace {
+
+/// What one kit takes of a part.
+struct Share {
+  std::int64_t upright = 0, mirrored = 0, either = 0;
+};
+
+std::map<std::uint32_t, Share> shares_of(const Kit& kit) {
+  std::map<std::uint32_t, Share> shares;
+  for (const KitPiece& piece : kit.pieces) {
+    Share& share = shares[piece.part];
+    (piece.mirrored ? (*piece.mirrored ? share.mirrored : share.upright) : share.either) += piece.count;
+  }
+  return shares;
+}
+
+/// Whole kits that these pieces make.
+std::int64_t kits_of(const PieceCount& pieces, const Share& share) {
+  std::int64_t kits = pieces.total() / (share.upright + share.mirrored + share.either);
+  if (share.upright > 0) kits = std::min(kits, pieces.upright / share.upright);
+  if (share.mirrored > 0) kits = std::min(kits, pieces.mirrored / share.mirrored);
+  return kits;
+}
+
+/// Takes what serves either way from the side that has more.
+void take_either(PieceCount& pieces, std::int64_t count) {
+  const std::int64_t level =
+      std::min(count, std::max<std::int64_t>(0, std::abs(pieces.upright - pieces.mirrored)));
+  (pieces.upright >= pieces.mirrored ? pieces.upright : pieces.mirrored) -= level;
+  const std::int64_t rest = count - level;
+  pieces.upright -= rest / 2 + rest % 2;
+  pieces.mirrored -= rest / 2;
+  // The even split may ask more of one side than it has.
+  if (pieces.upright < 0) pieces.mirrored += pieces.upright, pieces.upright = 0;
+  if (pieces.mirrored < 0) pieces.upright += pieces.mirrored, pieces.mirrored = 0;
+}
+
+/// What is missing for `kits` more of them, taken out of `pieces` as far as it is there.
+void add_missing(std::uint32_t part, const Share& share, std::int64_t kits, PieceCount& pieces,
+                 std::vector<MissingPiece>& missing) {
+  const auto short_of = [&](std::int64_t wanted, std::int64_t& there, std::optional<bool> mirrored) {
+    const std::int64_t taken = std::min(wanted, there);
+    there -= taken;
+    if (wanted > taken) missing.push_back({part, wanted - taken, mirrored});
+  };
+  if (share.upright > 0) short_of(kits * share.upright, pieces.upright, false);
+  if (share.mirrored > 0) short_of(kits * share.mirrored, pieces.mirrored, true);
+  const std::int64_t either = kits * share.either, there = std::min(either, pieces.total());
+  take_either(pieces, there);
+  if (either > there) missing.push_back({part, either - there, std::nullopt});
+}
+
+geom::Region region_of(const geom::GridRegion& outline) {
+  std::vector<geom::Contour> contours;
+  for (std::size_t l = 0; l < outline.loops(); ++l) {
+    geom::Contour contour;
+    const std::uint32_t begin = outline.loop_starts[l], end = outline.loop_starts[l + 1];
+    for (std::uint32_t i = begin; i < end; ++i)
+      contour.push_back({geom::EdgeKind::line,
+                         geom::mm_from_grid(outline.points[i]),
+                         geom::mm_from_grid(outline.points[i + 1 == end ? begin : i + 1]),
+                         {}});
+    contours.push_back(std::move(contour));
+  }
+  geom::Region region{std::move(contours.front()), {}};
+  region.holes.assign(std::make_move_iterator(contours.begin() + 1), std::make_move_iterator(contours.end()));
+  return region;
+}
+
+double area_of(const std::vector<geom::Region>& regions) {
+  double sum = 0;
+  for (const geom::Region& region : regions) sum += geom::area(region);
+  return sum;
+}
+
+/// Area of the stock's defects within `material`, each point once.
+double lost_to_defects(const Stock& stock, const geom::GridRegion& material) {
+  if (stock.defects.empty()) return 0;
+  std::vector<geom::Region> defects;
+  for (const Defect& defect : stock.defects) defects.push_back(region_of(defect.outline.polygon));
+  const auto lost = geom::combine({region_of(material)}, defects, geom::BooleanOperation::intersect);
+  return lost ? area_of(lost->regions) : 0;
+}
+
+geom::GridRegion rectangle(const geom::GridBox& box) {
+  geom::GridRegion region;
+  region.points = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  region.loop_starts = {0, 4};
+  return region;
+}
+
+SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const Placement*>& placements) {
+  const Document& document = workspace.document();
+  const Stock& stock = document.stocks[sheet.stock];
+  SheetUse use;
+  use.sheet = sheet;
+  use.parts = placements.size();
+  std::int64_t last = 0;
+  for (const Placement* placement : placements) {
+    const geom::GridRegion outline = placed_outline(document.parts[placement->part], *placement);
+    use.parts_area += geom::area_mm2(outline);
+    last = std::max(last, bounds(outline).high.x);
+  }
+  use.used_length_mm = geom::mm_from_grid(last);
+  geom::GridRegion material = stock.outline.polygon;
+  geom::GridBox within = bounds(material);
+  if (stock.kind == StockKind::strip) {
+    const geom::GridBox used{within.low, {std::max(last, within.low.x + 1), within.high.y}};
+    material = rectangle(used);
+    if (stock.open_length) within = used;
+  }
+  use.material_area = geom::area_mm2(material);
+  use.defect_area = lost_to_defects(stock, material);
+  use.remnant = free_rectangle(workspace, sheet, within);
+  return use;
+}
+
+}  // namespace
+
+Completeness completeness(const Workspace& workspace) {
+  const Document& document = workspace.document();
+  Completeness result;
+  result.placed.resize(document.parts.size());
+  std::map<Sheet, std::vector<const Placement*>> sheets;
+  for (const Placement& placement : document.placements) {
+    PieceCount& count = result.placed[placement.part];
+    ++(placement.mirrored ? count.mirrored : count.upright);
+    sheets[{placement.stock, placement.copy}].push_back(&placement);
+  }
+
+  std::vector<PieceCount> left = result.placed;
+  result.missing.resize(document.parts.size());
+  result.surplus.resize(document.parts.size());
+  for (const Kit& kit : document.kits) {
+    const auto shares = shares_of(kit);
+    KitCount count;
+    count.complete = kit.demand;
+    for (const auto& [part, share] : shares)
+      count.complete = std::min(count.complete, kits_of(left[part], share));
+    for (const auto& [part, share] : shares) {
+      left[part].upright -= count.complete * share.upright;
+      left[part].mirrored -= count.complete * share.mirrored;
+      take_either(left[part], count.complete * share.either);
+    }
+    result.kits.push_back(std::move(count));
+  }
+  // What is left serves the kits begun, in the same order.
+  for (std::size_t kit = 0; kit < document.kits.size(); ++kit) {
+    KitCount& count = result.kits[kit];
+    for (const auto& [part, share] : shares_of(document.kits[kit]))
+      add_missing(part, share, document.kits[kit].demand - count.complete, left[part], count.missing);
+    for (const MissingPiece& piece : count.missing) result.missing[piece.part] += piece.count;
+  }
+  for (std::uint32_t part = 0; part < document.parts.size(); ++part) {
+    const std::int64_t own = document.parts[part].demand, there = left[part].total();
+    result.missing[part] += std::max<std::int64_t>(0, own - there);
+    result.surplus[part] = std::max<std::int64_t>(0, there - own);
+  }
+
+  double parts_area = 0, material_area = 0;
+  for (const auto& [sheet, placements] : sheets) {
+    if (sheet.copy < 0 || sheet.copy >= document.stocks[sheet.stock].count) continue;
+    const SheetUse& use = result.sheets.emplace_back(use_of(workspace, sheet, placements));
+    parts_area += use.parts_area;
+    material_area += use.material_area;
+    result.cost += document.stocks[sheet.stock].cost;
+  }
+  if (material_area > 0) result.density = parts_area / material_area;
+  return result;
+}
+
+}  // namespace lekalo::layout

@@ -1,0 +1,187 @@
+#include "chords.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid_number.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kStep = 0x1p-20;  // mm
+/// How far rounding to the grid and joining points that are too close take a vertex: below 0.71 + 3 steps.
+constexpr double kCorner = 4 * kStep;
+
+double nearest(const Decimal& value) {
+  return nearest_double(fmt::format("{}e{}", value.digits.get_str(), value.exponent));
+}
+
+/// The doubles that the written numbers stand for, mm.
+struct DrawnEdge {
+  bool arc = false, ccw = true, full = false;
+  Vec from, to, centre;
+};
+
+Vec vector(double x, double y) { return {just(x), just(y)}; }
+Vec in_mm(GridPoint p) { return vector(static_cast<double>(p.x) * kStep, static_cast<double>(p.y) * kStep); }
+
+std::vector<DrawnEdge> edges_of(const Shape& shape, std::size_t contour) {
+  std::vector<DrawnEdge> edges;
+  for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k) {
+    if (!shape.sides[k].arc && !shape.sides[k].written) continue;
+    const WrittenSide& e = shape.exact[k];
+    edges.push_back({e.arc, e.ccw, e.arc && shape.sides[k].sweep == Sweep::full,
+                     vector(nearest(e.from_x), nearest(e.from_y)), vector(nearest(e.to_x), nearest(e.to_y)),
+                     e.arc ? vector(nearest(e.centre_x), nearest(e.centre_y)) : Vec{}});
+  }
+  return edges;
+}
+
+/// Distance of c from the segment, enclosed; at most that from its ends.
+Span distance(const Vec& c, const Vec& from, const Vec& to) {
+  const Vec along = to - from;
+  const Span ends{std::min(length(from - c).low, length(to - c).low),
+                  std::min(length(from - c).high, length(to - c).high)};
+  const Span before = dot(c - from, along), after = dot(to - c, along);
+  if (before.high <= 0 || after.high <= 0) return ends;
+  const Span line = absolute(cross(along, c - from)) / length(along);
+  if (before.low > 0 && after.low > 0) return line;
+  return {std::min(line.low, ends.low), ends.high};
+}
+
+double angle(const Vec& a, const Vec& b) {
+  return std::atan2(cross(a, b).high, dot(a, b).high);
+}
+
+/// Chords from one vertex of the drawing to the next, beside one arc.
+std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const DrawnEdge& arc, bool outside,
+                                        double tolerance) {
+  const Span first = length(arc.from - arc.centre), last = length(arc.to - arc.centre);
+  const double least = std::min(first.low, last.low), most = std::max(first.high, last.high);
+  // How far the chords may reach, with the band of an arc that is not consistent and a rounding.
+  const double reach = tolerance + (most - least) + kCorner;
+  double turned = 0;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const bool at_first = i == 0, at_last = i + 2 == chain.size();
+    const double end = std::min(at_first ? first.low : most, at_last ? last.low : most);
+    const Span chord = distance(arc.centre, chain[i], chain[i + 1]);
+    const double farthest = std::max(length(chain[i] - arc.centre).high, length(chain[i + 1] - arc.centre).high);
+    if (outside) {
+      const double nearest_allowed = at_first || at_last ? end - kCorner : most + 2 * kStep;
+      if (!(chord.low >= nearest_allowed)) return "a chord cuts into an arc";
+      if (!(farthest <= most + reach)) return "a chord is farther from an arc than the tolerance";
+    } else {
+      const double from_end = at_first ? first.high + kCorner : std::max(least - 2 * kStep, 2 * kStep),
+                   to_end = at_last ? last.high + kCorner : std::max(least - 2 * kStep, 2 * kStep);
+      if (!(length(chain[i] - arc.centre).high <= from_end && length(chain[i + 1] - arc.centre).high <= to_end))
+        return "a chord reaches out of an arc";
+      if (!(chord.high >= least - reach)) return "a chord is farther from an arc than the tolerance";
+    }
+    turned += angle(chain[i] - arc.centre, chain[i + 1] - arc.centre);
+  }
+  constexpr double kTurn = 6.283185307179586;
+  double sweep = arc.full ? kTurn : angle(arc.from - arc.centre, arc.to - arc.centre) * (arc.ccw ? 1 : -1);
+  if (sweep < 0) sweep += kTurn;
+  // Chords that go around another time, or the other way, are off by a turn; a rounding is far below half of
+  // one, but for arcs of a few steps, which may begin and end anywhere in them.
+  if (most > 64 * kStep && !(std::abs(turned * (arc.ccw ? 1 : -1) - sweep) < 1))
+    return "the chords of an arc do not run around its centre with it";
+  return std::nullopt;
+}
+
+class Walk {
+ public:
+  Walk(const GridLoop& loop, std::size_t start, bool backwards)
+      : loop_(loop), at_(start), backwards_(backwards) {}
+  [[nodiscard]] Vec point(std::size_t ahead = 0) const {
+    const std::size_t n = loop_.size(), by = ahead % n;
+    return in_mm(loop_[backwards_ ? (at_ + n - by) % n : (at_ + by) % n]);
+  }
+  void advance(std::size_t by) {
+    const std::size_t n = loop_.size();
+    walked_ += by;
+    at_ = backwards_ ? (at_ + n - by % n) % n : (at_ + by) % n;
+  }
+  [[nodiscard]] std::size_t left() const { return loop_.size() - walked_; }
+
+ private:
+  const GridLoop& loop_;
+  std::size_t at_, walked_ = 0;
+  bool backwards_;
+};
+
+bool near(const Vec& a, const Vec& b) { return length(a - b).low <= kCorner; }
+
+/// Points to go until the walk is at the next vertex of the drawing: of those in a row that are near, the
+/// nearest. Nothing when there is none.
+std::optional<std::size_t> steps_to(const Walk& walk, const DrawnEdge& edge) {
+  std::optional<std::size_t> found;
+  const std::size_t most = edge.arc ? walk.left() : std::min<std::size_t>(1, walk.left());
+  for (std::size_t i = edge.full ? 3 : 0; i <= most; ++i) {
+    const bool is_near = near(walk.point(i), edge.to);
+    if (is_near && (!found || length(walk.point(i) - edge.to).low <= length(walk.point(*found) - edge.to).low))
+      found = i;
+    // What is near at once may be the beginning of a short arc that returns; one farther on counts more.
+    if (!is_near && found && *found > 0) break;
+  }
+  return found;
+}
+
+std::optional<std::string> fault_of_walk(Walk walk, const std::vector<DrawnEdge>& edges, bool material_left,
+                                         ChordSide side, double tolerance) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto steps = steps_to(walk, edges[e]);
+    if (!steps) return fmt::format("no point is where edge {} of the drawing ends", e);
+    std::vector<Vec> chain;
+    for (std::size_t i = 0; i <= *steps; ++i) chain.push_back(walk.point(i));
+    const bool outside = (edges[e].ccw == material_left) == (side == ChordSide::outside);
+    if (edges[e].arc && *steps > 0)
+      if (auto fault = fault_of_arc(chain, edges[e], outside, tolerance))
+        return fmt::format("{} (edge {} of the drawing)", *fault, e);
+    if (edges[e].arc && *steps == 0 && length(edges[e].from - edges[e].centre).high > 64 * kStep &&
+        !near(edges[e].from, edges[e].to))
+      return fmt::format("the arc of edge {} of the drawing is missing", e);
+    walk.advance(*steps);
+  }
+  if (walk.left() != 0) return "it has more points than the drawing has edges for";
+  return std::nullopt;
+}
+
+bool runs_counter_clockwise(const GridLoop& loop) {
+  const GridOutline outline = make_outline({loop});  // which turns it so
+  return outline.edges.front().from == loop.front();
+}
+
+std::optional<std::string> fault_of_loop(const GridLoop& loop, bool is_hole, const std::vector<DrawnEdge>& edges,
+                                         ChordSide side, double tolerance) {
+  std::optional<std::string> first_fault;
+  const bool ccw = runs_counter_clockwise(loop);
+  for (std::size_t start = 0; start < loop.size(); ++start) {
+    if (!near(in_mm(loop[start]), edges.front().from)) continue;
+    for (const bool backwards : {false, true}) {
+      const bool material_left = (ccw != backwards) != is_hole;
+      auto fault = fault_of_walk(Walk(loop, start, backwards), edges, material_left, side, tolerance);
+      if (!fault) return std::nullopt;
+      if (!first_fault) first_fault = std::move(fault);
+    }
+  }
+  return first_fault ? first_fault : "no point is where edge 0 of the drawing begins";
+}
+
+}  // namespace
+
+std::optional<std::string> fault_of_chords(const std::vector<GridLoop>& loops, const Shape& drawn,
+                                           ChordSide side, double tolerance_mm) {
+  if (drawn.piece_starts.size() != 2) return "its curves are more than one piece";
+  if (drawn.contour_starts.size() != loops.size() + 1)
+    return fmt::format("it has {} loops and its curves {} contours", loops.size(),
+                       drawn.contour_starts.size() - 1);
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    if (auto fault = fault_of_loop(loops[l], l > 0, edges_of(drawn, l), side, tolerance_mm))
+      return l == 0 ? *fault : fmt::format("hole {}: {}", l - 1, *fault);
+  return std::nullopt;
+}
+
+}  // namespace lekalo::verify

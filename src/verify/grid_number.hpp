@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "grid_outline.hpp"
+
+namespace lekalo::verify {
+
+/// Written numbers on the grid of docs/design/layout.md.
+
+/// The double nearest to what is written. \pre parse_decimal takes it, and it is finite as a double
+[[nodiscard]] double nearest_double(std::string_view decimal);
+
+enum class ToStep {
+  nearest,  ///< ties to even
+  up        ///< gaps
+};
+/// Nothing when |mm| is above `most` mm.
+[[nodiscard]] std::optional<std::int64_t> steps_of(double mm, ToStep how, double most);
+
+/// A rotation in multiples of 2^-52.
+struct GridTurn {
+  std::int64_t c = 0, s = 0;
+  friend bool operator==(const GridTurn&, const GridTurn&) = default;
+};
+
+/// Nothing when c^2 + s^2 is not within 2^-50 of 1.
+[[nodiscard]] std::optional<GridTurn> turn_of_pair(double c, double s);
+/// The multiples nearest to cosine and sine: proved. \pre finite
+[[nodiscard]] GridTurn turn_of_degrees(double degrees);
+/// Whether the direction of `turn` lies counter-clockwise from that of `from` to that of `to`, ends included;
+/// equal ends are one direction.
+[[nodiscard]] bool lies_between(GridTurn turn, GridTurn from, GridTurn to);
+
+/// Where a vertex of a part comes to lie (rule 4).
+[[nodiscard]] GridPoint placed(GridPoint p, GridTurn turn, bool mirrored, GridPoint at);
+
+}  // namespace lekalo::verify

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lekalo::verify {
+
+/// Outlines between points of the grid of docs/design/layout.md, and what is asked about several of them at
+/// once. Everything is decided in whole numbers.
+
+__extension__ using Wide = __int128;
+
+struct GridPoint {
+  std::int64_t x = 0, y = 0;
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
+};
+
+struct GridEdge {
+  GridPoint from, to;  ///< material on the left
+};
+
+struct GridBox {
+  std::int64_t low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+};
+
+using GridLoop = std::vector<GridPoint>;
+
+struct GridOutline {
+  std::vector<GridEdge> edges;
+  GridBox box;
+};
+
+/// Largest coordinate of an outline as it is written, and of one that is placed; in steps.
+inline constexpr std::int64_t kMostWritten = std::int64_t{1} << 38, kMostPlaced = std::int64_t{1} << 40;
+
+/// The first loop is the outer one; loops may run either way. \pre all_simple has no complaint
+[[nodiscard]] GridOutline make_outline(std::vector<GridLoop> loops);
+
+/// What keeps loops from being an outline: fewer than three points, no area, a vertex less than 3 steps from
+/// an edge that does not end there, edges that cross, a hole that is not inside. Cost: O(n log n + pairs of
+/// edges that overlap in x).
+[[nodiscard]] std::optional<std::string> fault_of(const std::vector<GridLoop>& loops);
+
+/// Whether some disc lies in the material of all of `in` and in none of `out` (of these too, holes are not
+/// material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: O(edges + (those near the
+/// box common to `in`)^2).
+[[nodiscard]] bool have_common_disc(const std::vector<const GridOutline*>& in,
+                                    const std::vector<const GridOutline*>& out);
+
+/// Whether a point of a's edges and one of b's are less than `gap` steps apart. \pre 0 <= gap <= kMostPlaced
+[[nodiscard]] bool edges_nearer_than(const GridOutline& a, const GridOutline& b, std::int64_t gap);
+
+}  // namespace lekalo::verify

@@ -1,0 +1,180 @@
+#include "lekalo/verify/layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+
+#include "layout_document.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+struct Placed {
+  const WrittenPiece* piece = nullptr;
+  const WrittenPart* part = nullptr;
+  GridOutline outline;
+};
+
+GridOutline placed(const GridOutline& outline, const WrittenPiece& piece) {
+  GridOutline result;
+  result.edges.reserve(outline.edges.size());
+  for (const GridEdge& edge : outline.edges) {
+    const GridPoint from = placed(edge.from, piece.turn, piece.mirrored, piece.at),
+                    to = placed(edge.to, piece.turn, piece.mirrored, piece.at);
+    result.edges.push_back(piece.mirrored ? GridEdge{to, from} : GridEdge{from, to});
+    if (result.edges.size() == 1) result.box = {from.x, from.y, from.x, from.y};
+    result.box = {std::min(result.box.low_x, from.x), std::min(result.box.low_y, from.y),
+                  std::max(result.box.high_x, from.x), std::max(result.box.high_y, from.y)};
+  }
+  return result;
+}
+
+struct Found {
+  std::size_t stock = 0;
+  std::int64_t copy = 0;
+  std::uint64_t a = 0;
+  LayoutRule kind{};
+  std::uint64_t b = 0;
+  std::size_t feature = 0;
+  [[nodiscard]] auto key() const { return std::tuple{stock, copy, a, kind, b, feature}; }
+};
+
+/// Sums and differences of the written angles are rounded to doubles, as docs/design/layout-verify.md says.
+bool turned_within(GridTurn turn, double from, double to) {
+  return to - from >= 360 || lies_between(turn, turn_of_degrees(from), turn_of_degrees(to));
+}
+
+bool rotation_allowed(const WrittenPart& part, GridTurn turn) {
+  return part.rotations.empty() ||
+         std::any_of(part.rotations.begin(), part.rotations.end(),
+                     [&](const WrittenAngles& range) { return turned_within(turn, range.from, range.to); });
+}
+
+bool grain_allowed(const WrittenPart& part, const WrittenStock& stock, const WrittenPiece& piece) {
+  if (!part.grain || !stock.grain) return true;
+  const double of_part = piece.mirrored ? 180.0 - part.grain->degrees : part.grain->degrees;
+  const double middle = *stock.grain - of_part, opposite = middle + 180.0, most = part.grain->tolerance;
+  return turned_within(piece.turn, middle - most, middle + most) ||
+         turned_within(piece.turn, opposite - most, opposite + most);
+}
+
+/// Whether at some point of the part and the zone more is demanded than the zone has: by an area there, or by
+/// the part where there is no area.
+bool demands_more(const Placed& placed_part, const WrittenFeature& zone) {
+  const WrittenPart& part = *placed_part.part;
+  std::vector<GridOutline> areas;
+  for (const WrittenArea& area : part.areas) {
+    areas.push_back(placed(area.outline, *placed_part.piece));
+    if (area.quality > zone.grade &&
+        have_common_disc({&placed_part.outline, &zone.outline, &areas.back()}, {}))
+      return true;
+  }
+  if (part.quality <= zone.grade) return false;
+  std::vector<const GridOutline*> excused;
+  for (const GridOutline& area : areas) excused.push_back(&area);
+  return have_common_disc({&placed_part.outline, &zone.outline}, excused);
+}
+
+class Checker {
+ public:
+  explicit Checker(const WrittenLayout& layout) : layout_(layout) {}
+
+  std::vector<Found> check() {
+    std::map<std::pair<std::size_t, std::int64_t>, std::vector<Placed>> sheets;
+    for (const WrittenPiece& piece : layout_.placements) {
+      const WrittenPart& part = layout_.parts[piece.part];
+      sheets[{piece.stock, piece.copy}].push_back({&piece, &part, placed(part.outline, piece)});
+    }
+    for (auto& [sheet, pieces] : sheets) {
+      for (const Placed& piece : pieces) check_alone(piece);
+      check_pairs(pieces);
+    }
+    std::sort(found_.begin(), found_.end(), [](const Found& p, const Found& q) { return p.key() < q.key(); });
+    return std::move(found_);
+  }
+
+ private:
+  void add(const Placed& piece, LayoutRule kind, std::uint64_t other = 0, std::size_t feature = 0) {
+    found_.push_back({piece.piece->stock, piece.piece->copy, piece.piece->id, kind, other, feature});
+  }
+
+  void check_alone(const Placed& placed) {
+    const WrittenPiece& piece = *placed.piece;
+    const WrittenPart& part = *placed.part;
+    const WrittenStock& stock = layout_.stocks[piece.stock];
+    if (!rotation_allowed(part, piece.turn)) add(placed, LayoutRule::rotation);
+    if (piece.mirrored && !part.may_mirror) add(placed, LayoutRule::mirror);
+    if (!grain_allowed(part, stock, piece)) add(placed, LayoutRule::grain);
+    if (piece.copy >= stock.count) add(placed, LayoutRule::stock);
+    if (have_common_disc({&placed.outline}, {&stock.outline}))
+      add(placed, LayoutRule::outside);
+    else if (edges_nearer_than(placed.outline, stock.outline, part.border_gap))
+      add(placed, LayoutRule::border_gap);
+    for (std::size_t i = 0; i < stock.defects.size(); ++i) {
+      const WrittenFeature& defect = stock.defects[i];
+      if (defect.grade <= part.tolerated_severity) continue;
+      if (have_common_disc({&placed.outline, &defect.outline}, {}))
+        add(placed, LayoutRule::defect, 0, i);
+      else if (edges_nearer_than(placed.outline, defect.outline, part.defect_gap))
+        add(placed, LayoutRule::defect_gap, 0, i);
+    }
+    for (std::size_t i = 0; i < stock.zones.size(); ++i)
+      if (demands_more(placed, stock.zones[i])) add(placed, LayoutRule::quality, 0, i);
+  }
+
+  /// Every two of one sheet whose boxes come within their gap.
+  void check_pairs(std::vector<Placed>& pieces) {
+    std::sort(pieces.begin(), pieces.end(), [](const Placed& p, const Placed& q) {
+      return std::pair{p.outline.box.low_x, p.piece->id} < std::pair{q.outline.box.low_x, q.piece->id};
+    });
+    std::int64_t largest = 0;
+    for (const Placed& piece : pieces) largest = std::max(largest, piece.part->gap);
+    std::vector<const Placed*> active;
+    for (const Placed& piece : pieces) {
+      std::erase_if(active, [&](const Placed* other) {
+        return other->outline.box.high_x + largest < piece.outline.box.low_x;
+      });
+      for (const Placed* other : active) check_pair(piece, *other);
+      active.push_back(&piece);
+    }
+  }
+
+  void check_pair(const Placed& p, const Placed& q) {
+    const Placed &a = p.piece->id < q.piece->id ? p : q, &b = p.piece->id < q.piece->id ? q : p;
+    if (have_common_disc({&a.outline, &b.outline}, {}))
+      add(a, LayoutRule::overlap, b.piece->id);
+    else if (edges_nearer_than(a.outline, b.outline, std::max(a.part->gap, b.part->gap)))
+      add(a, LayoutRule::gap, b.piece->id);
+  }
+
+  const WrittenLayout& layout_;
+  std::vector<Found> found_;
+};
+
+}  // namespace
+
+std::string_view name_of(LayoutRule rule) noexcept {
+  constexpr std::array<std::string_view, 11> kNames{"overlap",    "gap",     "outside",  "border-gap",
+                                                    "defect",     "defect-gap", "quality", "rotation",
+                                                    "mirror",     "grain",   "stock"};
+  return kNames[static_cast<std::size_t>(rule)];
+}
+
+Result<LayoutVerdict> verify_layout(const Document& document) {
+  const auto layout = read_layout(document);
+  if (!layout) return tl::unexpected(layout.error());
+  LayoutVerdict verdict;
+  verdict.placements = layout->placements.size();
+  for (const Found& found : Checker(*layout).check()) {
+    const WrittenStock& stock = layout->stocks[found.stock];
+    LayoutViolation violation{found.kind, found.a, found.b, stock.id, found.copy, {}};
+    if (found.kind == LayoutRule::quality) violation.feature = stock.zones[found.feature].id;
+    if (found.kind == LayoutRule::defect || found.kind == LayoutRule::defect_gap)
+      violation.feature = stock.defects[found.feature].id;
+    verdict.violations.push_back(std::move(violation));
+  }
+  return verdict;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "lekalo/layout/check.hpp"
+#include "lekalo/layout/session.hpp"
+#include "lekalo/phi/outline_relation.hpp"
+#include "support/cases.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::layout {
+namespace {
+
+using geom::GridPoint;
+
+constexpr std::size_t kParts = 14;
+
+std::uint64_t some_id(const Document& document, Random& random) {
+  return document.placements[random.below(document.placements.size())].id;
+}
+
+GridPoint some_vector(Random& random, double most_mm) {
+  switch (random.below(3)) {
+    case 0: {  // along an axis or a diagonal
+      const auto step = [&] { return static_cast<std::int64_t>(random.below(3)) - 1; };
+      const GridPoint d{step(), step()};
+      const std::int64_t size = geom::grid_from_mm(random.uniform(0.1, most_mm));
+      return d == GridPoint{} ? GridPoint{size, 0} : GridPoint{d.x * size, d.y * size};
+    }
+    default:
+      return cases::grid_point(random.uniform(-most_mm, most_mm), random.uniform(-most_mm, most_mm) + 1e-3);
+  }
+}
+
+Command some_command(const Document& document, Random& random) {
+  const std::uint64_t id = some_id(document, random);
+  std::vector<std::uint64_t> ids{id};
+  if (random.below(6) == 0)
+    if (const std::uint64_t other = some_id(document, random); other != id) ids.push_back(other);
+  switch (random.below(15)) {
+    case 0: {
+      PlaceCommand place;
+      place.part = static_cast<std::uint32_t>(random.below(document.parts.size()));
+      place.rotation = geom::rotation_from_degrees(random.uniform(-180, 180));
+      place.mirrored = random.below(3) == 0;
+      place.at = cases::grid_point(random.uniform(0, 300), random.uniform(0, 200));
+      return place;
+    }
+    case 1:
+      return MoveCommand{ids, some_vector(random, 20), std::nullopt};
+    case 2:
+      return RotateCommand{
+          ids, random.below(2) == 0 ? 90.0 * static_cast<double>(random.below(4)) : random.uniform(-20, 20)};
+    case 3:
+      return FlipCommand{ids};
+    case 4:
+      return document.placements.size() > 3 ? Command{RemoveCommand{{id}}} : Command{FlipCommand{ids}};
+    case 5:
+      return SwapCommand{id, some_id(document, random)};
+    case 6:
+      return LockCommand{ids, random.below(3) == 0};
+    case 7:
+    case 8:
+      return SlideCommand{ids, some_vector(random, 10)};
+    case 9:
+      return SlideAlongCommand{ids, some_vector(random, 60)};
+    case 10:
+      return SettleCommand{ids, some_vector(random, 10),
+                           random.below(2) == 0 ? std::optional(some_vector(random, 10)) : std::nullopt};
+    case 11:
+      return PushCommand{ids, some_vector(random, 40)};
+    case 12:
+      return SnapCommand{id, geom::grid_from_mm(random.uniform(1, 20))};
+    case 13:
+      if (random.below(8) == 0) return CompactCommand{{0, 0}, {-1, 0}};
+      return SlideCommand{ids, {-1, 0}};
+    default:
+      return NearestCommand{ids, some_vector(random, 40), std::nullopt};
+  }
+}
+
+TEST(LayoutCommands, StrictSessionsNeverBreakARule) {
+  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
+    Session session(cases::random_layout(cases::seed(), i, kParts));
+    if (session.document().placements.empty()) continue;
+    Random random(cases::seed(), 100 + i);
+    for (int step = 0; step < 25; ++step) {
+      const Command command = some_command(session.document(), random);
+      SCOPED_TRACE(to_text(command, session.document()));
+      const auto change = session.apply(command);
+      if (!change) continue;
+      const auto violations = check(session.document());
+      ASSERT_TRUE(violations.empty()) << name_of(violations[0].kind) << " " << violations[0].a << " "
+                                      << violations[0].b << " by " << violations[0].amount_mm;
+    }
+  }
+}
+
+TEST(LayoutCommands, WhatIsUndoneIsAsItWasAndWhatIsRedoneAsItBecame) {
+  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
+    const Document first = cases::random_layout(cases::seed(), 500 + i, kParts);
+    if (first.placements.empty()) continue;
+    Session session(first, i % 2 == 0 ? Mode::strict : Mode::free);
+    Random random(cases::seed(), 300 + i);
+    for (int step = 0; step < 60; ++step) {
+      if (session.document().placements.empty()) break;
+      if (session.can_undo() && random.below(5) == 0) {
+        session.undo();
+        if (random.below(2) == 0 && session.can_redo()) session.redo();
+        continue;
+      }
+      if (random.below(20) == 0) session.set_mode(random.below(2) == 0 ? Mode::strict : Mode::free);
+      (void)session.apply(some_command(session.document(), random));
+    }
+    const Document last = session.document();
+    const std::string log = session.log();
+    std::size_t undone = 0;
+    for (; session.can_undo(); ++undone) session.undo();
+    EXPECT_TRUE(session.document() == first);
+    for (; undone > 0; --undone) session.redo();
+    EXPECT_TRUE(session.document() == last);
+    // Replaying executes the commands anew, from their text.
+    const auto replayed = replay(first, log);
+    ASSERT_TRUE(replayed.has_value()) << replayed.error().message << "\n" << log;
+    EXPECT_TRUE(replayed->document() == last) << log;
+    EXPECT_EQ(replayed->log(), log);
+  }
+}
+
+TEST(LayoutCommands, AWorkspaceSaysWhatTheCheckSays) {
+  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
+    Session session(cases::random_layout(cases::seed(), 900 + i, kParts), Mode::free);
+    if (session.document().placements.empty()) continue;
+    Random random(cases::seed(), 700 + i);
+    for (int step = 0; step < 20; ++step) {
+      const std::uint64_t id = some_id(session.document(), random);
+      (void)session.apply(MoveCommand{{id}, some_vector(random, 15), std::nullopt});
+      const Placement& placement = *session.workspace().find(id);
+      std::vector<Violation> expected;
+      for (const Violation& violation : check(session.document()))
+        if (violation.a == id || violation.b == id) expected.push_back(violation);
+      EXPECT_EQ(session.workspace().violations_of(std::span(&placement, 1)), expected);
+      EXPECT_EQ(session.workspace().is_clear(std::span(&placement, 1)), expected.empty());
+    }
+  }
+}
+
+/// The least distance to anything that concerns the part beyond the gap it must keep, in steps.
+double least_room(const Workspace& workspace, const Placement& placement) {
+  const Sheet sheet{placement.stock, placement.copy};
+  const Part& part = workspace.document().parts[placement.part];
+  const geom::GridRegion outline = placed_outline(part, placement);
+  const phi::Scene& scene = workspace.scene(sheet);
+  double least = std::numeric_limits<double>::infinity();
+  for (const phi::BodyIndex body : scene.near(bounds(outline), geom::kGridLimit, ~0U)) {
+    if (workspace.placement_of(sheet, body) == placement.id || !workspace.concerns(part, sheet, body))
+      continue;
+    const phi::Body& other = scene.body(body);
+    const double distance =
+        phi::edge_distance(outline, scene.outline(other.shape), other.at).distance_mm * geom::kGridPerMm;
+    // A zone may lie in an area of the part that does not mind it, where edges may cross.
+    if ((other.layers & kZoneLayer) != 0 && !part.areas.empty()) continue;
+    least = std::min(least, distance - static_cast<double>(workspace.gap_to(part, sheet, body)));
+  }
+  return least;
+}
+
+TEST(LayoutCommands, SlidingEndsWithinTwoStepsOfTheGap) {
+  std::size_t slides = 0;
+  double largest = 0;
+  const std::size_t wanted = cases::case_count(400);
+  for (std::size_t i = 0; slides < wanted; ++i) {
+    SCOPED_TRACE(testing::Message() << "layout " << i << " seed " << cases::seed());
+    Session session(cases::random_layout(cases::seed(), 2000 + i, kParts));
+    if (session.document().placements.empty()) continue;
+    Random random(cases::seed(), 1100 + i);
+    for (int step = 0; step < 40; ++step) {
+      const std::uint64_t id = some_id(session.document(), random);
+      const SlideCommand slide{{id}, some_vector(random, 10)};
+      SCOPED_TRACE(to_text(slide, session.document()));
+      const auto change = session.apply(slide);
+      ASSERT_TRUE(change.has_value()) << change.error().message;
+      ++slides;
+      const Placement& placement = *session.workspace().find(id);
+      EXPECT_TRUE(session.workspace().is_clear(std::span(&placement, 1)));
+      if (session.document().parts[placement.part].areas.empty()) {
+        const double room = least_room(session.workspace(), placement);
+        EXPECT_GE(room, -1e-6);
+        EXPECT_LE(room, 2);
+        largest = std::max(largest, room);
+      }
+      if (random.below(3) == 0) (void)session.apply(MoveCommand{{id}, some_vector(random, 30), std::nullopt});
+    }
+  }
+  RecordProperty("largest room, steps", std::to_string(largest));
+  std::printf("largest room %.3f steps in %zu slides\n", largest, slides);
+}
+
+}  // namespace
+}  // namespace lekalo::layout

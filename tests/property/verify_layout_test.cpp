@@ -1,0 +1,204 @@
+// Laws of the checker of layouts: what it says does not change when the whole document is moved, mirrored or
+// turned by right angles; lies are found.
+
+#include "lekalo/verify/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "lekalo/base/random.hpp"
+#include "support/cases.hpp"
+#include "support/lattice_outlines.hpp"
+#include "support/layout_texts.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+using cases::add_part;
+using cases::empty_layout;
+using cases::LayoutJson;
+using cases::outline_json;
+using cases::place;
+using cases::Points;
+using cases::rectangle;
+
+std::vector<LayoutViolation> violations(const LayoutJson& layout) {
+  const auto checked = verify_layout({"layout.json", layout.dump()});
+  EXPECT_TRUE(checked) << checked.error().message;
+  return checked ? checked->violations : std::vector<LayoutViolation>{};
+}
+
+Points in_mm(const std::vector<geom::GridPoint>& loop, double scale) {
+  Points points;
+  for (const geom::GridPoint p : loop)
+    points.emplace_back(scale * static_cast<double>(p.x), scale * static_cast<double>(p.y));
+  return points;
+}
+LayoutJson outline_of(const cases::LatticeLoops& loops, double scale) {
+  std::vector<Points> holes;
+  for (std::size_t l = 1; l < loops.size(); ++l) holes.push_back(in_mm(loops[l], scale));
+  return outline_json(in_mm(loops[0], scale), holes);
+}
+
+/// A crowded layout on a lattice: every kind of violation, many of them by touching alone.
+LayoutJson crowded(Random& random) {
+  const auto upto = [&](std::uint64_t n) { return static_cast<double>(random.below(n + 1)); };
+  LayoutJson layout = empty_layout();
+  layout["stocks"][0]["outline"] = outline_json(rectangle(0, 0, 40, 40), {rectangle(18, 18, 2, 4)});
+  layout["stocks"][0]["grain_deg"] = 90 * upto(3);
+  for (const char* list : {"defects", "zones"}) {
+    for (int i = 0; i < 3; ++i) {
+      LayoutJson outline = outline_of(cases::lattice_polygon(random), 1);
+      for (auto& loop : {&outline["polygon"]["outer"]})
+        for (auto& p : *loop) p = {p[0].get<double>() + 12.0 * i, p[1].get<double>() + 12.0 * i};
+      outline["polygon"].erase("holes");
+      layout["stocks"][0][list].push_back({{"id", "f" + std::to_string(i)},
+                                           {list[0] == 'd' ? "severity" : "quality", 1 + random.below(3)},
+                                           {"outline", outline}});
+    }
+  }
+  layout["rules"] = {{"gap", upto(2)}, {"border_gap", upto(1)}, {"defect_gap", upto(1)}};
+  for (int i = 0; i < 4; ++i) {
+    LayoutJson& part =
+        add_part(layout, "p" + std::to_string(i), outline_of(cases::lattice_polygon(random), 1));
+    part["quality"] = random.below(4);
+    part["tolerated_severity"] = random.below(3);
+    part["rotations"] = {0, 90, {{"from", 170}, {"to", 280}}};
+    part["mirror"] = random.below(2) == 0;
+    part["grain"] = {{"deg", 90 * upto(1)}, {"tolerance_deg", 10}};
+    part["areas"] = {
+        {{"quality", random.below(4)}, {"outline", outline_of(cases::lattice_polygon(random), 1)}},
+        {{"quality", random.below(4)}, {"outline", outline_json(rectangle(0, 0, 4, 8))}}};
+  }
+  for (int i = 0; i < 10; ++i) {
+    LayoutJson& at = place(layout, "p" + std::to_string(random.below(4)), upto(36), upto(36), 90 * upto(3));
+    at["mirrored"] = random.below(3) == 0;
+    at["copy"] = random.below(4) == 0 ? 1 : 0;
+  }
+  return layout;
+}
+
+/// The whole sheet, and all that lies on it, under x, y -> f(x, y) of the plane.
+template <class F>
+void change_outline(LayoutJson& outline, F f) {
+  const auto change = [&](LayoutJson& loop) {
+    for (auto& p : loop) {
+      const auto [x, y] = f(p[0].get<double>(), p[1].get<double>());
+      p = {x, y};
+    }
+  };
+  change(outline["polygon"]["outer"]);
+  if (outline["polygon"].contains("holes"))
+    for (auto& hole : outline["polygon"]["holes"]) change(hole);
+}
+template <class F>
+LayoutJson changed_stock(LayoutJson layout, F f) {
+  LayoutJson& stock = layout["stocks"][0];
+  change_outline(stock["outline"], f);
+  for (const char* list : {"defects", "zones"})
+    for (auto& feature : stock[list]) change_outline(feature["outline"], f);
+  for (auto& at : layout["placements"]) {
+    const auto [x, y] = f(at["x"].get<double>(), at["y"].get<double>());
+    at["x"] = x, at["y"] = y;
+  }
+  return layout;
+}
+
+TEST(VerifyLayoutProperty, MovedTurnedAndMirroredDocumentsSayTheSame) {
+  Random random(cases::seed(), 4101);
+  std::array<int, 11> seen{};
+  for (std::size_t i = 0; i < cases::case_count(150); ++i) {
+    const LayoutJson layout = crowded(random);
+    const auto expected = violations(layout);
+    for (const LayoutViolation& v : expected) ++seen[static_cast<std::size_t>(v.kind)];
+
+    const double by_x = static_cast<double>(random.below(100'000)) / 8, by_y = -123.5;
+    EXPECT_EQ(violations(changed_stock(layout,
+                                       [&](double x, double y) {
+                                         return std::pair{x + by_x, y + by_y};
+                                       })),
+              expected);
+
+    // A quarter turn of sheet and parts: angles of parts are then a quarter more.
+    LayoutJson turned = changed_stock(layout, [](double x, double y) { return std::pair{-y, x}; });
+    turned["stocks"][0]["grain_deg"] = turned["stocks"][0]["grain_deg"].get<double>() + 90;
+    for (auto& part : turned["parts"]) part["rotations"] = {90, 180, {{"from", 260}, {"to", 370}}};
+    for (auto& at : turned["placements"]) at["rotation_deg"] = at["rotation_deg"].get<double>() + 90;
+    EXPECT_EQ(violations(turned), expected);
+
+    // Mirrored parts in a mirrored sheet: M R(a) p = R(-a) M p.
+    LayoutJson mirrored = changed_stock(layout, [](double x, double y) { return std::pair{-x, y}; });
+    mirrored["stocks"][0]["grain_deg"] = 180 - mirrored["stocks"][0]["grain_deg"].get<double>();
+    const auto flip = [](double x, double y) { return std::pair{-x, y}; };
+    for (auto& part : mirrored["parts"]) {
+      change_outline(part["outline"], flip);
+      for (auto& area : part["areas"]) change_outline(area["outline"], flip);
+      part["rotations"] = {0, -90, {{"from", -280}, {"to", -170}}};
+      part["grain"]["deg"] = 180 - part["grain"]["deg"].get<double>();
+    }
+    for (auto& at : mirrored["placements"]) at["rotation_deg"] = -at["rotation_deg"].get<double>();
+    EXPECT_EQ(violations(mirrored), expected);
+
+    // Points in another order, loops the other way.
+    LayoutJson other = layout;
+    for (auto& part : other["parts"]) {
+      LayoutJson& loop = part["outline"]["polygon"]["outer"];
+      std::reverse(loop.begin(), loop.end());
+      std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+    }
+    EXPECT_EQ(violations(other), expected);
+  }
+  for (std::size_t kind = 0; kind < seen.size(); ++kind)
+    EXPECT_GT(seen[kind], 0) << name_of(static_cast<LayoutRule>(kind));
+}
+
+/// Hexagons in touch, 100 mm wide stock, nothing wrong.
+LayoutJson tight(std::size_t rows, std::size_t columns) {
+  LayoutJson layout = empty_layout();
+  add_part(layout, "h", outline_json({{0, 0}, {4, -2}, {8, 0}, {8, 5}, {4, 7}, {0, 5}}));
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column)
+      place(layout, "h", static_cast<double>(8 * column + 4 * (row % 2)), static_cast<double>(7 * row + 2));
+  const double width = static_cast<double>(8 * columns + 4), height = static_cast<double>(7 * rows + 2);
+  layout["stocks"][0]["outline"] = outline_json(rectangle(0, 0, width, height));
+  return layout;
+}
+
+TEST(VerifyLayoutProperty, NoLieOfOneStepIsBelieved) {
+  const LayoutJson honest = tight(8, 8);
+  ASSERT_TRUE(violations(honest).empty());
+  Random random(cases::seed(), 4102);
+  for (std::size_t i = 0; i < cases::case_count(200); ++i) {
+    LayoutJson lie = honest;
+    const std::size_t inner = (1 + random.below(6)) * 8 + 1 + random.below(6);
+    LayoutJson& at = lie["placements"][inner];
+    switch (random.below(4)) {
+      case 0:
+        at["x"] = at["x"].get<double>() + (random.below(2) == 0 ? 0x1p-20 : -0x1p-20);
+        break;
+      case 1:
+        at["y"] = at["y"].get<double>() + (random.below(2) == 0 ? 0x1p-20 : -0x1p-20);
+        break;
+      case 2:
+        at["rotation_deg"] = random.below(2) == 0 ? 1e-5 : -1e-5;
+        break;
+      default:
+        at["x"] = honest["placements"][random.below(inner)]["x"];
+        at["y"] = honest["placements"][inner - 1]["y"];
+    }
+    EXPECT_FALSE(violations(lie).empty()) << at;
+  }
+}
+
+TEST(VerifyLayoutProperty, ManyParts) {
+  LayoutJson layout = tight(20, 25);
+  EXPECT_TRUE(violations(layout).empty());
+  layout["rules"] = {{"gap", 0x1p-20}};
+  // Each touches two in its row and two in the next, but at the ends of rows.
+  EXPECT_EQ(violations(layout).size(), 20U * 24 + 19U * (2 * 25 - 1));
+}
+
+}  // namespace
+}  // namespace lekalo::verify
