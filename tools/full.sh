@@ -7,6 +7,7 @@ failed=()
 
 export LEKALO_SEED=${LEKALO_SEED:-1}
 export LEKALO_CASES=${LEKALO_CASES:-10000}
+export LEKALO_SHARED_DATA=${LEKALO_SHARED_DATA:-$root/../shared/data} # required here
 sanitizer_cases=${LEKALO_SANITIZER_CASES:-500}
 fuzz_seconds=${LEKALO_FUZZ_SECONDS:-60}
 

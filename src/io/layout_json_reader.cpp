@@ -296,6 +296,9 @@ class LayoutReader {
     optional(value, "id", [&](JsonValue v) {
       placement.id = static_cast<std::uint64_t>(reader_.integer(v, 1, kLargestId));
     });
+    if (placement.id > static_cast<std::uint64_t>(kLargestId))
+      return reader_.refuse(value,
+                            "its id would be one more than the highest possible before it; give it one");
     last_id_ = std::max(last_id_, placement.id);
     if (const auto v = reader_.need(value, "part", "the id of a part"))
       placement.part = named(*v, part_index_, "part");
@@ -343,10 +346,11 @@ class LayoutReader {
       std::stable_sort(order.begin(), order.end(), by_id);
     for (std::size_t i = 1; i < order.size(); ++i) {
       if (placements[order[i - 1]].id != placements[order[i]].id) continue;
+      const auto list = root.find("placements");
       std::size_t index = 0;
-      for (const JsonValue item : *root.find("placements"))
+      for (const JsonValue item : *list)
         if (index++ == order[i])
-          return reader_.refuse(item,
+          return reader_.refuse(*item.find("id"),  // one that was counted on differs
                                 fmt::format("the id {} stands twice among placements; give each its own",
                                             placements[order[i]].id));
     }
