@@ -206,6 +206,7 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
   part.quality = read_quality(members, true);
   members.each("areas", [&](Json value, const std::string& at) {
     Members area(value, at, complaint, {"quality", "outline"});
+    if (!area.has("quality")) area.complain(fmt::format("field {} is missing", area.name("quality")));
     part.areas.push_back({read_quality(area, true), read_outline(area.get("outline"), area.name("outline"),
                                                                  complaint, ChordSide::outside)});
   });
@@ -238,6 +239,8 @@ std::vector<WrittenFeature> read_features(Members& stock, std::string_view list,
     WrittenFeature feature;
     feature.id = members.id();
     if (!ids.insert(feature.id).second) members.complain(fmt::format("{} has the id of another", path));
+    if (grade == "quality" && !members.has(grade))
+      members.complain(fmt::format("field {} is missing", members.name(grade)));
     feature.grade = members.whole(grade, least, std::numeric_limits<int>::max(), least);
     feature.outline =
         read_outline(members.get("outline"), members.name("outline"), stock.complaint(), ChordSide::outside);
