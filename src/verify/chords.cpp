@@ -51,9 +51,7 @@ Span distance(const Vec& c, const Vec& from, const Vec& to) {
   return {std::min(line.low, ends.low), ends.high};
 }
 
-double angle(const Vec& a, const Vec& b) {
-  return std::atan2(cross(a, b).high, dot(a, b).high);
-}
+double angle(const Vec& a, const Vec& b) { return std::atan2(cross(a, b).high, dot(a, b).high); }
 
 /// Chords from one vertex of the drawing to the next, beside one arc.
 std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const DrawnEdge& arc, bool outside,
@@ -67,7 +65,8 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
     const bool at_first = i == 0, at_last = i + 2 == chain.size();
     const double end = std::min(at_first ? first.low : most, at_last ? last.low : most);
     const Span chord = distance(arc.centre, chain[i], chain[i + 1]);
-    const double farthest = std::max(length(chain[i] - arc.centre).high, length(chain[i + 1] - arc.centre).high);
+    const double farthest =
+        std::max(length(chain[i] - arc.centre).high, length(chain[i + 1] - arc.centre).high);
     if (outside) {
       const double nearest_allowed = at_first || at_last ? end - kCorner : most + 2 * kStep;
       if (!(chord.low >= nearest_allowed)) return "a chord cuts into an arc";
@@ -75,7 +74,8 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
     } else {
       const double from_end = at_first ? first.high + kCorner : std::max(least - 2 * kStep, 2 * kStep),
                    to_end = at_last ? last.high + kCorner : std::max(least - 2 * kStep, 2 * kStep);
-      if (!(length(chain[i] - arc.centre).high <= from_end && length(chain[i + 1] - arc.centre).high <= to_end))
+      if (!(length(chain[i] - arc.centre).high <= from_end &&
+            length(chain[i + 1] - arc.centre).high <= to_end))
         return "a chord reaches out of an arc";
       if (!(chord.high >= least - reach)) return "a chord is farther from an arc than the tolerance";
     }
@@ -121,7 +121,8 @@ std::optional<std::size_t> steps_to(const Walk& walk, const DrawnEdge& edge) {
   const std::size_t most = edge.arc ? walk.left() : std::min<std::size_t>(1, walk.left());
   for (std::size_t i = edge.full ? 3 : 0; i <= most; ++i) {
     const bool is_near = near(walk.point(i), edge.to);
-    if (is_near && (!found || length(walk.point(i) - edge.to).low <= length(walk.point(*found) - edge.to).low))
+    if (is_near &&
+        (!found || length(walk.point(i) - edge.to).low <= length(walk.point(*found) - edge.to).low))
       found = i;
     // What is near at once may be the beginning of a short arc that returns; one farther on counts more.
     if (!is_near && found && *found > 0) break;
@@ -154,8 +155,9 @@ bool runs_counter_clockwise(const GridLoop& loop) {
   return outline.edges.front().from == loop.front();
 }
 
-std::optional<std::string> fault_of_loop(const GridLoop& loop, bool is_hole, const std::vector<DrawnEdge>& edges,
-                                         ChordSide side, double tolerance) {
+std::optional<std::string> fault_of_loop(const GridLoop& loop, bool is_hole,
+                                         const std::vector<DrawnEdge>& edges, ChordSide side,
+                                         double tolerance) {
   std::optional<std::string> first_fault;
   const bool ccw = runs_counter_clockwise(loop);
   for (std::size_t start = 0; start < loop.size(); ++start) {

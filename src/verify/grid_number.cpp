@@ -102,8 +102,8 @@ GridTurn turn_of_degrees(double degrees) {
   // Half way between two multiples there is no cosine of a rational number of degrees: where such a cosine is
   // rational it is 0, 1/2 or 1 (Niven), so more digits decide in the end.
   for (mpfr_prec_t precision = 192;; precision *= 2) {
-    const Interval angle = Interval::exactly(degrees, precision) * Interval::pi(precision) /
-                           Interval::exactly(180, precision);
+    const Interval angle =
+        Interval::exactly(degrees, precision) * Interval::pi(precision) / Interval::exactly(180, precision);
     const Turn turn = turn_by(angle);
     const auto c = nearest_multiple(turn.cosine), s = nearest_multiple(turn.sine);
     if (c && s) return {*c, *s};

@@ -63,7 +63,8 @@ int side(const GridEdge& edge, const Event& v) {
 }
 
 bool in_box(const Event& v, const GridBox& box) {
-  return box.low_x * v.w <= v.x && v.x <= box.high_x * v.w && box.low_y * v.w <= v.y && v.y <= box.high_y * v.w;
+  return box.low_x * v.w <= v.x && v.x <= box.high_x * v.w && box.low_y * v.w <= v.y &&
+         v.y <= box.high_y * v.w;
 }
 
 /// A direction from an event along an edge of outline `of`, and whether material lies on its
@@ -229,7 +230,8 @@ bool too_near(GridPoint p, const GridEdge& edge) {
 }
 
 std::optional<std::string> fault_between(const GridEdge& a, const GridEdge& b) {
-  if (cross_properly(a, b)) return fmt::format("the edges from {} and {} cross", place(a.from), place(b.from));
+  if (cross_properly(a, b))
+    return fmt::format("the edges from {} and {} cross", place(a.from), place(b.from));
   for (const auto& [edge, other] : {std::pair{&a, &b}, std::pair{&b, &a}})
     for (const GridPoint p : {edge->from, edge->to})
       if (too_near(p, *other))
@@ -301,7 +303,8 @@ std::optional<std::string> fault_of(const std::vector<GridLoop>& loops) {
   if (auto fault = fault_of_points(edges)) return fault;
   if (auto fault = fault_of_edges(edges)) return fault;
   for (std::size_t h = 1; h < loops.size(); ++h) {
-    if (!surrounds(loops[0], loops[h][0])) return fmt::format("{} is not inside the outer loop", loop_name(h));
+    if (!surrounds(loops[0], loops[h][0]))
+      return fmt::format("{} is not inside the outer loop", loop_name(h));
     for (std::size_t other = 1; other < loops.size(); ++other)
       if (other != h && surrounds(loops[other], loops[h][0]))
         return fmt::format("{} is inside {}", loop_name(h), loop_name(other));

@@ -155,9 +155,9 @@ class Checker {
 }  // namespace
 
 std::string_view name_of(LayoutRule rule) noexcept {
-  constexpr std::array<std::string_view, 11> kNames{"overlap",    "gap",     "outside",  "border-gap",
-                                                    "defect",     "defect-gap", "quality", "rotation",
-                                                    "mirror",     "grain",   "stock"};
+  constexpr std::array<std::string_view, 11> kNames{"overlap", "gap",        "outside", "border-gap",
+                                                    "defect",  "defect-gap", "quality", "rotation",
+                                                    "mirror",  "grain",      "stock"};
   return kNames[static_cast<std::size_t>(rule)];
 }
 

@@ -131,7 +131,8 @@ GridOutline read_outline(Json value, const std::string& path, std::string& compl
   }
   Members polygon(members.get("polygon"), members.name("polygon"), complaint, {"outer", "holes"});
   std::vector<GridLoop> loops{read_loop(polygon.get("outer"), polygon.name("outer"), polygon)};
-  polygon.each("holes", [&](Json hole, const std::string& at) { loops.push_back(read_loop(hole, at, polygon)); });
+  polygon.each("holes",
+               [&](Json hole, const std::string& at) { loops.push_back(read_loop(hole, at, polygon)); });
   if (!complaint.empty()) return {};
   if (const auto fault = fault_of(loops)) {
     polygon.complain(fmt::format("{} is no outline: {}", members.name("polygon"), *fault));
@@ -143,8 +144,9 @@ GridOutline read_outline(Json value, const std::string& path, std::string& compl
     const Shape drawn = read_shape(members.get("curves"), members.name("curves"), complaint);
     if (!complaint.empty()) return {};
     if (const auto fault = fault_of_chords(loops, drawn, side, tolerance))
-      members.complain(fmt::format("{} is not what its curves become: {}; leave it out to have lekalo make it",
-                                   members.name("polygon"), *fault));
+      members.complain(
+          fmt::format("{} is not what its curves become: {}; leave it out to have lekalo make it",
+                      members.name("polygon"), *fault));
   } else if (tolerant) {
     members.complain(fmt::format("{} is there without curves", members.name("chord_tolerance")));
   }
@@ -153,7 +155,8 @@ GridOutline read_outline(Json value, const std::string& path, std::string& compl
 
 int read_quality(Members& members, bool best_is_a_word) {
   const Json value = members.get("quality");
-  if (best_is_a_word && value.is_string() && json_text(value) == "best") return std::numeric_limits<int>::max();
+  if (best_is_a_word && value.is_string() && json_text(value) == "best")
+    return std::numeric_limits<int>::max();
   return static_cast<int>(members.whole("quality", 0, std::numeric_limits<int>::max(), 0));
 }
 
@@ -203,6 +206,7 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
   part.quality = read_quality(members, true);
   members.each("areas", [&](Json value, const std::string& at) {
     Members area(value, at, complaint, {"quality", "outline"});
+    if (!area.has("quality")) area.complain(fmt::format("field {} is missing", area.name("quality")));
     part.areas.push_back({read_quality(area, true), read_outline(area.get("outline"), area.name("outline"),
                                                                  complaint, ChordSide::outside)});
   });
@@ -235,6 +239,8 @@ std::vector<WrittenFeature> read_features(Members& stock, std::string_view list,
     WrittenFeature feature;
     feature.id = members.id();
     if (!ids.insert(feature.id).second) members.complain(fmt::format("{} has the id of another", path));
+    if (grade == "quality" && !members.has(grade))
+      members.complain(fmt::format("field {} is missing", members.name(grade)));
     feature.grade = members.whole(grade, least, std::numeric_limits<int>::max(), least);
     feature.outline =
         read_outline(members.get("outline"), members.name("outline"), stock.complaint(), ChordSide::outside);
@@ -245,8 +251,8 @@ std::vector<WrittenFeature> read_features(Members& stock, std::string_view list,
 
 WrittenStock read_stock(Json item, const std::string& path, std::string& complaint) {
   Members members(item, path, complaint,
-                  {"id", "name", "kind", "count", "cost", "outline", "height", "length", "grain_deg", "defects",
-                   "zones"});
+                  {"id", "name", "kind", "count", "cost", "outline", "height", "length", "grain_deg",
+                   "defects", "zones"});
   WrittenStock stock;
   if (!complaint.empty()) return stock;
   stock.id = members.id();
@@ -261,13 +267,15 @@ WrittenStock read_stock(Json item, const std::string& path, std::string& complai
       members.complain(fmt::format("{} is a strip: height and length, no outline", path));
     if (stock.count != 1) members.complain(fmt::format("{} is a strip, of which there is one", path));
     const std::int64_t height = members.steps("height", 0x1p-18, kMostOutlineMm, ToStep::nearest);
-    const std::int64_t length =
-        members.has("length") ? members.steps("length", 0x1p-18, kMostOutlineMm, ToStep::nearest) : kMostWritten;
+    const std::int64_t length = members.has("length")
+                                    ? members.steps("length", 0x1p-18, kMostOutlineMm, ToStep::nearest)
+                                    : kMostWritten;
     if (complaint.empty()) stock.outline = rectangle(length, height);
   } else {
     if (members.has("height") || members.has("length"))
       members.complain(fmt::format("{} has a height or length, but is no strip", path));
-    stock.outline = read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::inside);
+    stock.outline =
+        read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::inside);
   }
   if (members.has("grain_deg")) stock.grain = members.number("grain_deg", -kMostDegrees, kMostDegrees);
   stock.defects = read_features(members, "defects", "severity", 1);
@@ -316,7 +324,8 @@ GridTurn read_turn(Members& members) {
   }
   const double c = members.number("c", -2, 2), s = members.number("s", -2, 2);
   const auto turn = turn_of_pair(c, s);
-  if (!turn) members.complain(fmt::format("{} and {} are no cosine and sine", members.name("c"), members.name("s")));
+  if (!turn)
+    members.complain(fmt::format("{} and {} are no cosine and sine", members.name("c"), members.name("s")));
   return turn.value_or(GridTurn{});
 }
 
@@ -324,8 +333,9 @@ void read_placements(Members& root, const Index& parts, const Index& stocks, Wri
   std::set<std::uint64_t> ids;
   std::uint64_t next = 1;
   root.each("placements", [&](Json item, const std::string& path) {
-    Members members(item, path, root.complaint(),
-                    {"id", "part", "stock", "copy", "c", "s", "rotation_deg", "x", "y", "mirrored", "locked"});
+    Members members(
+        item, path, root.complaint(),
+        {"id", "part", "stock", "copy", "c", "s", "rotation_deg", "x", "y", "mirrored", "locked"});
     WrittenPiece piece;
     constexpr std::int64_t kMostId = std::int64_t{1} << 53;
     piece.id = static_cast<std::uint64_t>(members.whole("id", 1, kMostId, static_cast<std::int64_t>(next)));
