@@ -183,5 +183,29 @@ TEST(OutlineRelation, AGapOfThreeMillimetresIsThreeMillimetres) {
   EXPECT_FALSE(phi::lies_within(frame, square(10 * mm), {20 * mm, 20 * mm + 1}));
 }
 
+TEST(OutlineRelation, GapsThatDoublesCannotTellFromTheDistance) {
+  // Distances c / sqrt(m^2 + 1) of a vertex from an edge along (m, 1), where c^2 - g^2 (m^2 + 1) is 1 or -1
+  // (Pell's equation): above or below the gap g by a share of 1 / 2c^2.
+  const auto outline = [](std::vector<GridPoint> loop) {
+    return geom::make_grid_region({std::move(loop)}).value();
+  };
+  for (std::int64_t m = 64; m <= 4096; m *= 2) {
+    const std::int64_t k = (std::int64_t{1} << 34) / m;
+    const GridRegion a = outline({{0, 0}, {k * m / 2, -k}, {k * m, k}});
+    const GridRegion b = outline({{0, 0}, {1 << 20, 1 << 20}, {0, 1 << 20}});
+    for (const std::int64_t along : {std::int64_t{7}, k / 3, k - 9 * m}) {
+      const GridPoint by{along * m, along};
+      const auto nearer = [&](GridPoint p, std::int64_t gap) {
+        EXPECT_EQ(phi::edges_nearer_than(a, b, gap, p + by), phi::edges_nearer_than(b, a, gap, -p - by));
+        return phi::edges_nearer_than(a, b, gap, p + by);
+      };
+      EXPECT_FALSE(nearer({-1, 2 * m}, 2 * m)) << m;
+      EXPECT_TRUE(nearer({-1, 2 * m}, 2 * m + 1)) << m;
+      EXPECT_TRUE(nearer({0, 4 * m * m + 3}, 4 * m * m + 1)) << m;
+      EXPECT_FALSE(nearer({0, 4 * m * m + 3}, 4 * m * m)) << m;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lekalo
