@@ -1,4 +1,4 @@
-#include "phi/contact_map.hpp"
+#include "contact_map.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "phi/flat_outline.hpp"
+#include "flat_outline.hpp"
 
 namespace lekalo::phi {
 

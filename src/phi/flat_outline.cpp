@@ -1,4 +1,4 @@
-#include "phi/flat_outline.hpp"
+#include "flat_outline.hpp"
 
 namespace lekalo::phi {
 

@@ -1,4 +1,4 @@
-#include "phi/pair_memory.hpp"
+#include "pair_memory.hpp"
 
 namespace lekalo::phi {
 

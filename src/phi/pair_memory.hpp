@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "phi/contact_map.hpp"
+#include "contact_map.hpp"
 
 namespace lekalo::phi {
 

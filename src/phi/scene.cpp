@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
-#include "phi/pair_memory.hpp"
+#include "pair_memory.hpp"
 
 namespace lekalo::phi {
 namespace {
