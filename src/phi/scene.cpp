@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
-#include "lekalo/phi/outline_relation.hpp"
+#include "pair_memory.hpp"
 
 namespace lekalo::phi {
 namespace {
 
 using geom::GridBox;
 using geom::GridPoint;
+using geom::GridRegion;
 
 GridBox grown(GridBox box, std::int64_t by) noexcept {
   return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
@@ -20,64 +22,226 @@ bool meet(const GridBox& a, const GridBox& b) noexcept {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
+/// The same region with every loop begun at its least point, holes in order: equal for equal outlines.
+GridRegion in_normal_order(const GridRegion& region) {
+  const auto less = [](GridPoint a, GridPoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::vector<std::vector<GridPoint>> loops;
+  for (std::size_t l = 0; l < region.loops(); ++l) {
+    loops.emplace_back(region.points.begin() + region.loop_starts[l],
+                       region.points.begin() + region.loop_starts[l + 1]);
+    std::rotate(loops[l].begin(), std::min_element(loops[l].begin(), loops[l].end(), less), loops[l].end());
+  }
+  std::sort(loops.begin() + 1, loops.end(),
+            [&](const auto& a, const auto& b) { return less(a.front(), b.front()); });
+  GridRegion ordered;
+  for (const auto& loop : loops) {
+    ordered.points.insert(ordered.points.end(), loop.begin(), loop.end());
+    ordered.loop_starts.push_back(static_cast<std::uint32_t>(ordered.points.size()));
+  }
+  return ordered;
+}
+
+std::uint64_t hash(const GridRegion& region) noexcept {
+  std::uint64_t value = region.loops();
+  const auto mix = [&](std::uint64_t part) {
+    value = (value ^ part) * 0x9E3779B97F4A7C15u;
+    value ^= value >> 29;
+  };
+  for (const GridPoint p : region.points) {
+    mix(static_cast<std::uint64_t>(p.x));
+    mix(static_cast<std::uint64_t>(p.y));
+  }
+  return value;
+}
+
+constexpr std::size_t kMostGaps = 255;
+
 }  // namespace
 
-Scene::Scene(const GridBox& world, std::size_t cells) : world_(world) {
+/// Forms are outlines that differ by more than a shift. Made for questions, so copies of a scene make their
+/// own maps.
+struct Scene::Memory {
+  std::vector<FlatOutline> forms;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> form_of;  ///< by hash
+  std::vector<std::int64_t> gaps = {0};
+  PairMemory pairs;
+
+  Memory() = default;
+  Memory(const Memory& other) : forms(other.forms), form_of(other.form_of), gaps(other.gaps) {}
+  Memory& operator=(const Memory&) = delete;
+
+  std::uint32_t form(const GridRegion& outline) {
+    FlatOutline flat = flat_outline(in_normal_order(outline));
+    const std::uint64_t code = hash(flat.region);
+    const auto [first, last] = form_of.equal_range(code);
+    for (auto i = first; i != last; ++i)
+      if (forms[i->second].region == flat.region) return i->second;
+    form_of.emplace(code, static_cast<std::uint32_t>(forms.size()));
+    forms.push_back(std::move(flat));
+    return static_cast<std::uint32_t>(forms.size() - 1);
+  }
+
+  /// A small number for a gap; kMostGaps for all that are too many.
+  std::size_t gap_number(std::int64_t gap) {
+    if (gap == 0) return 0;
+    for (std::size_t i = 1; i < gaps.size(); ++i)
+      if (gaps[i] == gap) return i;
+    if (gaps.size() == kMostGaps) return kMostGaps;
+    gaps.push_back(gap);
+    return gaps.size() - 1;
+  }
+};
+
+struct Scene::Question {
+  GridBox box;
+  std::int64_t gap, tolerates;
+  std::uint32_t form, layers;
+  BodyIndex except;
+};
+
+Scene::Scene(const GridBox& world, std::size_t cells) : world_(world), memory_(std::make_unique<Memory>()) {
   const double width = static_cast<double>(world.high.x - world.low.x) + 1;
   const double height = static_cast<double>(world.high.y - world.low.y) + 1;
   LEKALO_ASSERT(width >= 1 && height >= 1);
-  cell_ = static_cast<std::int64_t>(
-              std::sqrt(width * height / static_cast<double>(std::max<std::size_t>(cells, 1)))) +
-          1;
-  columns_ = (world.high.x - world.low.x) / cell_ + 1;
-  rows_ = (world.high.y - world.low.y) / cell_ + 1;
-  cells_.resize(static_cast<std::size_t>(columns_ * rows_));
+  const double count = static_cast<double>(std::clamp<std::size_t>(cells, 1, std::size_t{1} << 26));
+  // A world much longer than wide has one row of cells, and no more cells than asked for.
+  const double side = std::max({std::sqrt(width * height / count), width / count, height / count, 1.0});
+  per_step_ = 1 / side;
+  columns_ = static_cast<std::int32_t>(width * per_step_) + 1;
+  rows_ = static_cast<std::int32_t>(height * per_step_) + 1;
+  cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
 }
 
-ShapeIndex Scene::add_shape(geom::GridRegion outline) {
+Scene::~Scene() = default;
+Scene::Scene(Scene&& other) noexcept = default;
+Scene::Scene(const Scene& other)
+    : world_(other.world_),
+      per_step_(other.per_step_),
+      columns_(other.columns_),
+      rows_(other.rows_),
+      cells_(other.cells_),
+      free_cell_(other.free_cell_),
+      shapes_(other.shapes_),
+      bodies_(other.bodies_),
+      placed_(other.placed_),
+      is_in_(other.is_in_),
+      free_(other.free_),
+      containers_(other.containers_),
+      widest_gap_(other.widest_gap_),
+      question_(other.question_),
+      memory_(std::make_unique<Memory>(*other.memory_)) {}
+Scene& Scene::operator=(Scene other) noexcept {
+  Scene made(std::move(other));
+  std::destroy_at(this);
+  std::construct_at(this, std::move(made));
+  return *this;
+}
+
+ShapeIndex Scene::add_shape(GridRegion outline) {
   const GridBox box = bounds(outline);
-  shapes_.push_back({std::move(outline), box});
+  const std::uint32_t form = memory_->form(outline);
+  shapes_.push_back({std::move(outline), box, form});
   return static_cast<ShapeIndex>(shapes_.size() - 1);
 }
 
-GridBox Scene::placed_box(const Body& body) const noexcept {
-  const GridBox& box = shapes_[body.shape].box;
-  return {box.low + body.at, box.high + body.at};
-}
-
 Scene::Cells Scene::cells_of(const GridBox& box) const noexcept {
-  const auto index = [&](std::int64_t value, std::int64_t low, std::int64_t count) {
-    return std::clamp<std::int64_t>(value <= low ? 0 : (value - low) / cell_, 0, count - 1);
+  const auto index = [&](std::int64_t value, std::int64_t low, std::int32_t count) {
+    const double at = static_cast<double>(value - low) * per_step_;
+    return static_cast<std::int32_t>(std::max(0.0, std::min(at, static_cast<double>(count - 1))));
   };
   return {index(box.low.x, world_.low.x, columns_), index(box.high.x, world_.low.x, columns_),
           index(box.low.y, world_.low.y, rows_), index(box.high.y, world_.low.y, rows_)};
 }
 
+std::uint32_t Scene::next_question() const {
+  if (++question_ == 0) {
+    for (const Placed& placed : placed_) placed.question = 0;
+    question_ = 1;
+  }
+  return question_;
+}
+
+template <class Visit>
+bool Scene::visit_cell(std::size_t cell, std::uint32_t question, Visit&& visit) const {
+  for (const Cell* at = &cells_[cell];; at = &cells_[at->next]) {
+    for (std::uint32_t i = 0; i < at->count; ++i) {
+      const BodyIndex index = at->bodies[i];
+      const Placed& placed = placed_[index];
+      if (placed.question == question) continue;
+      placed.question = question;
+      if (visit(index)) return true;
+    }
+    if (at->next == 0) return false;
+  }
+}
+
 template <class Visit>
 bool Scene::visit_near(const GridBox& box, Visit&& visit) const {
   const Cells cells = cells_of(box);
-  for (std::int64_t y = cells.bottom; y <= cells.top; ++y)
-    for (std::int64_t x = cells.left; x <= cells.right; ++x)
-      for (const BodyIndex index : cells_[static_cast<std::size_t>(y * columns_ + x)]) {
-        const GridBox other = placed_box(bodies_[index]);
-        if (!meet(other, box)) continue;
-        // Once: in the first of the cells that both have.
-        const Cells theirs = cells_of(other);
-        if (x != std::max(theirs.left, cells.left) || y != std::max(theirs.bottom, cells.bottom)) continue;
-        if (visit(index)) return true;
-      }
+  const std::uint32_t question = next_question();
+  const auto width = static_cast<std::size_t>(columns_);
+  // What lies in the middle is met most probably.
+  const std::int32_t middle_x = (cells.left + cells.right) / 2, middle_y = (cells.bottom + cells.top) / 2;
+  if (visit_cell(static_cast<std::size_t>(middle_y) * width + static_cast<std::size_t>(middle_x), question,
+                 visit))
+    return true;
+  if (cells.left == cells.right && cells.bottom == cells.top) return false;
+  for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
+    for (std::int32_t x = cells.left; x <= cells.right; ++x)
+      if (visit_cell(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x), question, visit))
+        return true;
   return false;
+}
+
+void Scene::add_to_cell(std::size_t cell, BodyIndex index) {
+  // The first of a chain is the one with room.
+  if (cells_[cell].count == cells_[cell].bodies.size()) {
+    std::uint32_t room = free_cell_;
+    if (room == 0) {
+      room = static_cast<std::uint32_t>(cells_.size());
+      cells_.emplace_back();
+    } else {
+      free_cell_ = cells_[room].next;
+    }
+    cells_[room] = cells_[cell];
+    cells_[cell].next = room;
+    cells_[cell].count = 0;
+  }
+  Cell& first = cells_[cell];
+  first.bodies[first.count++] = index;
+}
+
+void Scene::remove_from_cell(std::size_t cell, BodyIndex index) {
+  Cell& first = cells_[cell];
+  BodyIndex* found = nullptr;
+  for (Cell* at = &first; found == nullptr; at = &cells_[at->next]) {
+    BodyIndex* const end = at->bodies.data() + at->count;
+    BodyIndex* const place = std::find(at->bodies.data(), end, index);
+    if (place != end) found = place;
+  }
+  *found = first.bodies[--first.count];
+  if (first.count == 0 && first.next != 0) {
+    const std::uint32_t room = first.next;
+    first = cells_[room];
+    cells_[room].next = free_cell_;
+    free_cell_ = room;
+  }
 }
 
 BodyIndex Scene::put(const Body& body) {
   BodyIndex index = static_cast<BodyIndex>(bodies_.size());
+  const Shape& shape = shapes_[body.shape];
+  const Placed placed{
+      {shape.box.low + body.at, shape.box.high + body.at}, body.gap, body.rank, shape.form, body.layers, 0};
   if (free_.empty()) {
     bodies_.push_back(body);
+    placed_.push_back(placed);
     is_in_.push_back(1);
   } else {
     index = free_.back();
     free_.pop_back();
     bodies_[index] = body;
+    placed_[index] = placed;
     is_in_[index] = 1;
   }
   widest_gap_ = std::max(widest_gap_, body.gap);
@@ -85,60 +249,103 @@ BodyIndex Scene::put(const Body& body) {
     containers_.insert(std::lower_bound(containers_.begin(), containers_.end(), index), index);
     return index;
   }
-  const Cells cells = cells_of(placed_box(body));
-  for (std::int64_t y = cells.bottom; y <= cells.top; ++y)
-    for (std::int64_t x = cells.left; x <= cells.right; ++x)
-      cells_[static_cast<std::size_t>(y * columns_ + x)].push_back(index);
+  const Cells cells = cells_of(placed.box);
+  for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
+    for (std::int32_t x = cells.left; x <= cells.right; ++x)
+      add_to_cell(
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x),
+          index);
   return index;
 }
 
 void Scene::take(BodyIndex index) {
   LEKALO_ASSERT(index < bodies_.size() && is_in_[index] != 0);
-  const Body& body = bodies_[index];
   is_in_[index] = 0;
   free_.push_back(index);
-  if (body.container) {
+  if (bodies_[index].container) {
     containers_.erase(std::find(containers_.begin(), containers_.end(), index));
     return;
   }
-  const Cells cells = cells_of(placed_box(body));
-  for (std::int64_t y = cells.bottom; y <= cells.top; ++y)
-    for (std::int64_t x = cells.left; x <= cells.right; ++x) {
-      auto& list = cells_[static_cast<std::size_t>(y * columns_ + x)];
-      *std::find(list.begin(), list.end(), index) = list.back();
-      list.pop_back();
-    }
+  const Cells cells = cells_of(placed_[index].box);
+  for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
+    for (std::int32_t x = cells.left; x <= cells.right; ++x)
+      remove_from_cell(
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x),
+          index);
 }
 
-bool Scene::forbids(const Body& body, const Probe& probe) const {
-  if ((body.layers & probe.layers) == 0 || body.rank <= probe.tolerates) return false;
-  const GridPoint shift = probe.at - body.at;
-  const geom::GridRegion& theirs = outline(body.shape);
-  const geom::GridRegion& ours = outline(probe.shape);
-  if (body.container ? !lies_within(theirs, ours, shift) : interiors_meet(theirs, ours, shift)) return true;
-  return edges_nearer_than(theirs, ours, std::max(body.gap, probe.gap), shift);
+Scene::Question Scene::question(const Probe& probe) const {
+  const Shape& shape = shapes_[probe.shape];
+  return {{shape.box.low + probe.at, shape.box.high + probe.at},
+          probe.gap,
+          probe.tolerates,
+          shape.form,
+          probe.layers,
+          probe.except};
+}
+
+bool Scene::forbids(BodyIndex index, const Question& q) const {
+  const Placed& body = placed_[index];
+  if (index == q.except || (body.layers & q.layers) == 0 || body.rank <= q.tolerates) return false;
+  const std::int64_t gap = std::max(body.gap, q.gap);
+  if (q.box.low.x - gap >= body.box.high.x || q.box.high.x + gap <= body.box.low.x ||
+      q.box.low.y - gap >= body.box.high.y || q.box.high.y + gap <= body.box.low.y)
+    return false;
+  if (gap == 0 && memory_->forms[body.form].box && memory_->forms[q.form].box) return true;
+  const GridPoint shift = q.box.low - body.box.low;
+  return body.form <= q.form ? pair_forbids(body.form, q.form, shift, gap, false)
+                             : pair_forbids(q.form, body.form, -shift, gap, false);
+}
+
+bool Scene::pair_forbids(std::uint32_t fixed, std::uint32_t moving, GridPoint shift, std::int64_t gap,
+                         bool container) const {
+  Memory& memory = *memory_;
+  const std::size_t number = memory.gap_number(gap);
+  const OutlinePair pair{memory.forms[fixed], memory.forms[moving], gap, container};
+  constexpr std::uint32_t kMostForms = 1u << 27;
+  if (number == kMostGaps || fixed >= kMostForms || moving >= kMostForms) return pair.forbidden(shift);
+  const PairMemory::Key key = (PairMemory::Key{fixed} << 36) | (PairMemory::Key{moving} << 9) |
+                              (PairMemory::Key{number} << 1) | (container ? 1 : 0);
+  if (ContactMap* map = memory.pairs.find(key)) return map->forbidden(shift, pair);
+  if (!memory.pairs.is_due(key) || !ContactMap::suits(pair)) return pair.forbidden(shift);
+  return memory.pairs.add(key, pair).forbidden(shift, pair);
+}
+
+bool Scene::container_forbids(BodyIndex index, const Question& q) const {
+  const Placed& body = placed_[index];
+  if (index == q.except || (body.layers & q.layers) == 0 || body.rank <= q.tolerates) return false;
+  const std::int64_t gap = std::max(body.gap, q.gap);
+  // Every loop of the container keeps the gap, the outer one around its box at least.
+  if (q.box.low.x - gap < body.box.low.x || q.box.high.x + gap > body.box.high.x ||
+      q.box.low.y - gap < body.box.low.y || q.box.high.y + gap > body.box.high.y)
+    return true;
+  if (memory_->forms[body.form].box) return false;
+  return pair_forbids(body.form, q.form, q.box.low - body.box.low, gap, true);
 }
 
 bool Scene::forbidden(const Probe& probe) const {
+  const Question q = question(probe);
   for (const BodyIndex index : containers_)
-    if (index != probe.except && forbids(bodies_[index], probe)) return true;
-  const GridBox& box = shapes_[probe.shape].box;
-  const GridBox reach = grown({box.low + probe.at, box.high + probe.at}, std::max(widest_gap_, probe.gap));
-  return visit_near(reach,
-                    [&](BodyIndex index) { return index != probe.except && forbids(bodies_[index], probe); });
+    if (container_forbids(index, q)) return true;
+  return visit_near(grown(q.box, std::max(widest_gap_, probe.gap)),
+                    [&](BodyIndex index) { return forbids(index, q); });
+}
+
+void Scene::forbidding(const Probe& probe, std::vector<BodyIndex>& found) const {
+  found.clear();
+  const Question q = question(probe);
+  for (const BodyIndex index : containers_)
+    if (container_forbids(index, q)) found.push_back(index);
+  visit_near(grown(q.box, std::max(widest_gap_, probe.gap)), [&](BodyIndex index) {
+    if (forbids(index, q)) found.push_back(index);
+    return false;
+  });
+  std::sort(found.begin(), found.end());
 }
 
 std::vector<BodyIndex> Scene::forbidding(const Probe& probe) const {
   std::vector<BodyIndex> found;
-  for (const BodyIndex index : containers_)
-    if (index != probe.except && forbids(bodies_[index], probe)) found.push_back(index);
-  const GridBox& box = shapes_[probe.shape].box;
-  const GridBox reach = grown({box.low + probe.at, box.high + probe.at}, std::max(widest_gap_, probe.gap));
-  visit_near(reach, [&](BodyIndex index) {
-    if (index != probe.except && forbids(bodies_[index], probe)) found.push_back(index);
-    return false;
-  });
-  std::sort(found.begin(), found.end());
+  forbidding(probe, found);
   return found;
 }
 
@@ -146,8 +353,9 @@ std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::
   std::vector<BodyIndex> found;
   for (const BodyIndex index : containers_)
     if ((bodies_[index].layers & layers) != 0) found.push_back(index);
-  visit_near(grown(box, reach), [&](BodyIndex index) {
-    if ((bodies_[index].layers & layers) != 0) found.push_back(index);
+  const GridBox window = grown(box, reach);
+  visit_near(window, [&](BodyIndex index) {
+    if ((placed_[index].layers & layers) != 0 && meet(placed_[index].box, window)) found.push_back(index);
     return false;
   });
   std::sort(found.begin(), found.end());
@@ -158,13 +366,24 @@ std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
   std::vector<BodyIndex> found;
   visit_near({p, p}, [&](BodyIndex index) {
     const Body& body = bodies_[index];
-    if ((body.layers & layers) != 0 &&
+    if ((body.layers & layers) != 0 && meet(placed_[index].box, {p, p}) &&
         locate_point(outline(body.shape), p - body.at) != geom::PointLocation::outside)
       found.push_back(index);
     return false;
   });
   std::sort(found.begin(), found.end());
   return found;
+}
+
+std::size_t Scene::bytes() const noexcept {
+  std::size_t sum = sizeof *this + cells_.capacity() * sizeof(Cell) + shapes_.capacity() * sizeof(Shape) +
+                    bodies_.capacity() * sizeof(Body) + placed_.capacity() * sizeof(Placed) +
+                    is_in_.capacity() + (free_.capacity() + containers_.capacity()) * sizeof(BodyIndex) +
+                    memory_->pairs.bytes() + memory_->form_of.size() * 32;
+  for (const Shape& shape : shapes_) sum += shape.outline.points.capacity() * sizeof(GridPoint);
+  for (const FlatOutline& form : memory_->forms)
+    sum += sizeof form + form.region.points.capacity() * sizeof(GridPoint);
+  return sum;
 }
 
 }  // namespace lekalo::phi

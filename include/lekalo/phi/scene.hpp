@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "lekalo/geom/grid_region.hpp"
@@ -12,7 +15,8 @@ namespace lekalo::phi {
 ///
 /// A *shape* is an outline turned for good and moved freely; a *body* is a shape at a place. Bodies forbid:
 /// others may not overlap them, or, for a `container`, may not reach out of it; and they keep a gap. No
-/// exceptions, threads or library mathematics, so that it runs in a browser as it is.
+/// exceptions, threads or library mathematics, so that it runs in a browser as it is. Questions remember what
+/// they find out: ask one scene from one thread at a time. Copies answer alike and remember for themselves.
 using ShapeIndex = std::uint32_t;
 using BodyIndex = std::uint32_t;
 inline constexpr BodyIndex kNoBody = ~BodyIndex{0};
@@ -41,6 +45,10 @@ class Scene {
   /// \param world  where most bodies will lie; others cost more, and count all the same
   /// \param cells  about how many cells its index has; a few for each body is right
   Scene(const geom::GridBox& world, std::size_t cells);
+  ~Scene();
+  Scene(const Scene& other);
+  Scene(Scene&& other) noexcept;
+  Scene& operator=(Scene other) noexcept;
 
   /// The outline counts as it is, around its own origin. \pre made by make_grid_region or turned()
   ShapeIndex add_shape(geom::GridRegion outline);
@@ -49,7 +57,8 @@ class Scene {
   }
   [[nodiscard]] const geom::GridBox& box(ShapeIndex shape) const noexcept { return shapes_[shape].box; }
 
-  /// Cost of both: O(cells under the body's box). Indices of bodies taken out are used again.
+  /// Cost of both: O(cells under the body's box). Indices of bodies taken out are used again, the last one
+  /// first: putting a body back undoes taking it.
   BodyIndex put(const Body& body);
   void take(BodyIndex body);
   /// \pre put and not taken
@@ -62,38 +71,72 @@ class Scene {
   [[nodiscard]] bool forbidden(const Probe& probe) const;
   /// Everything that does, ascending.
   [[nodiscard]] std::vector<BodyIndex> forbidding(const Probe& probe) const;
+  /// Likewise, into `found`, whose room is used again.
+  void forbidding(const Probe& probe, std::vector<BodyIndex>& found) const;
   /// Bodies whose boxes come within `reach` of `box`, of these layers, ascending; a container always does.
   [[nodiscard]] std::vector<BodyIndex> near(const geom::GridBox& box, std::int64_t reach,
                                             std::uint32_t layers) const;
   /// Bodies with material at p, ascending; containers are not asked.
   [[nodiscard]] std::vector<BodyIndex> at(geom::GridPoint p, std::uint32_t layers) const;
 
+  /// Memory in use, all of it. Cost: O(shapes + remembered pairs).
+  [[nodiscard]] std::size_t bytes() const noexcept;
+
  private:
+  struct Memory;  ///< what questions found out
   struct Shape {
     geom::GridRegion outline;
     geom::GridBox box;
+    std::uint32_t form;  ///< equal for outlines that differ by a shift
+  };
+  /// A body as questions read it.
+  struct Placed {
+    geom::GridBox box;
+    std::int64_t gap, rank;
+    std::uint32_t form, layers;
+    mutable std::uint32_t question;  ///< the last one that looked at it
   };
   /// Columns and rows of cells, ends included.
   struct Cells {
-    std::int64_t left = 0, right = 0, bottom = 0, top = 0;
+    std::int32_t left, right, bottom, top;
   };
-  [[nodiscard]] bool forbids(const Body& body, const Probe& probe) const;
-  /// visit(index) of every body whose cells meet the box, once each; stops when it returns true.
+  /// The bodies of a cell, in a chain of these.
+  struct Cell {
+    std::uint32_t count = 0, next = 0;
+    std::array<BodyIndex, 6> bodies;
+  };
+  struct Question;
+
+  [[nodiscard]] Question question(const Probe& probe) const;
+  [[nodiscard]] bool forbids(BodyIndex index, const Question& question) const;
+  [[nodiscard]] bool container_forbids(BodyIndex index, const Question& question) const;
+  [[nodiscard]] bool pair_forbids(std::uint32_t fixed, std::uint32_t moving, geom::GridPoint shift,
+                                  std::int64_t gap, bool container) const;
+  /// visit(index) of every body in the cells that the box meets, once each; stops when it returns true.
   template <class Visit>
   bool visit_near(const geom::GridBox& box, Visit&& visit) const;
-  [[nodiscard]] geom::GridBox placed_box(const Body& body) const noexcept;
+  template <class Visit>
+  bool visit_cell(std::size_t cell, std::uint32_t question, Visit&& visit) const;
+  [[nodiscard]] std::uint32_t next_question() const;
   /// The cells a box meets; what lies outside the world counts to the cells at its edge.
   [[nodiscard]] Cells cells_of(const geom::GridBox& box) const noexcept;
+  void add_to_cell(std::size_t cell, BodyIndex index);
+  void remove_from_cell(std::size_t cell, BodyIndex index);
 
   geom::GridBox world_;
-  std::int64_t cell_ = 1, columns_ = 1, rows_ = 1;
-  std::vector<std::vector<BodyIndex>> cells_;  ///< row by row
+  double per_step_ = 0;  ///< cells in a step
+  std::int32_t columns_ = 1, rows_ = 1;
+  std::vector<Cell> cells_;  ///< row by row, then what did not fit
+  std::uint32_t free_cell_ = 0;
   std::vector<Shape> shapes_;
   std::vector<Body> bodies_;
+  std::vector<Placed> placed_;
   std::vector<char> is_in_;
   std::vector<BodyIndex> free_;
   std::vector<BodyIndex> containers_;
   std::int64_t widest_gap_ = 0;  ///< of all bodies ever put
+  mutable std::uint32_t question_ = 0;
+  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace lekalo::phi

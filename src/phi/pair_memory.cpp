@@ -1,0 +1,41 @@
+#include "pair_memory.hpp"
+
+namespace lekalo::phi {
+
+bool PairMemory::is_due(Key key) {
+  if (asked_.empty()) asked_.resize(kCounters);
+  // Pairs that share a counter are due sooner, that is all.
+  std::uint8_t& asked = asked_[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 50)];
+  if (++asked < kOften) return false;
+  asked = 0;
+  return true;
+}
+
+ContactMap& PairMemory::add(Key key, const OutlinePair& pair) {
+  if (maps_.size() % 64 == 63 && bytes() > kMost) {
+    maps_.clear();
+    slots_.assign(64, Slot{});
+  }
+  if (2 * (maps_.size() + 1) > slots_.size()) {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old)
+      if (slot.key != kNone) insert(slot);
+  }
+  insert({key, static_cast<std::uint32_t>(maps_.size())});
+  return maps_.emplace_back(pair);
+}
+
+void PairMemory::insert(Slot slot) {
+  std::size_t i = place(slot.key);
+  while (slots_[i].key != kNone) i = (i + 1) & (slots_.size() - 1);
+  slots_[i] = slot;
+}
+
+std::size_t PairMemory::bytes() const noexcept {
+  std::size_t sum = slots_.capacity() * sizeof(Slot) + asked_.capacity();
+  for (const ContactMap& map : maps_) sum += map.bytes();
+  return sum + (maps_.capacity() - maps_.size()) * sizeof(ContactMap);
+}
+
+}  // namespace lekalo::phi

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "contact_map.hpp"
+
+namespace lekalo::phi {
+
+/// Contact maps of the pairs of outlines that are asked about often, within a bounded amount of memory. What
+/// it forgets is found out again; answers never depend on it.
+class PairMemory {
+ public:
+  using Key = std::uint64_t;
+  static constexpr Key kNone = ~Key{0};
+
+  /// The pair's map, or none.
+  [[nodiscard]] ContactMap* find(Key key) noexcept {
+    for (std::size_t i = place(key);; i = (i + 1) & (slots_.size() - 1)) {
+      if (slots_[i].key == key) return &maps_[slots_[i].map];
+      if (slots_[i].key == kNone) return nullptr;
+    }
+  }
+  /// Counts a question about a pair without a map; true when it has been asked often enough for one.
+  [[nodiscard]] bool is_due(Key key);
+  ContactMap& add(Key key, const OutlinePair& pair);
+  [[nodiscard]] std::size_t bytes() const noexcept;
+
+ private:
+  static constexpr std::size_t kMost = std::size_t{128} << 20;  ///< bytes of all maps
+  static constexpr std::size_t kCounters = 1 << 14;
+  static constexpr std::uint8_t kOften = 6;
+  struct Slot {
+    Key key = kNone;
+    std::uint32_t map = 0;
+  };
+  [[nodiscard]] std::size_t place(Key key) const noexcept {
+    return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 32) & (slots_.size() - 1);
+  }
+  void insert(Slot slot);
+
+  std::vector<Slot> slots_ = std::vector<Slot>(64);
+  std::vector<ContactMap> maps_;
+  std::vector<std::uint8_t> asked_;
+};
+
+}  // namespace lekalo::phi
