@@ -35,6 +35,8 @@ constexpr double kStrictly = 1e-3;
 /// Questions of one bisection that may stay open: each has cost all its work, or is nearer to the truth than
 /// its gap.
 constexpr int kMostUnanswered = 6;
+/// How much less largest allowance is asked for first, in gaps.
+constexpr double kFirstStep = 4;
 /// Of sums of a few numbers, written as decimals and added again by somebody else.
 constexpr double kRounding = 0x1p-49;
 /// Samples of the outline for the mean square deviation.
@@ -371,11 +373,17 @@ class DemandLocaliser {
     for (const geom::Curve& curve : free_edges_) caps.back().edges.push_back(curve.edge);
     double open_from = kInfinity, open_to = -kInfinity;  // not answered
     int unanswered = 0;
+    double step = kFirstStep * cap_gap_;
     for (int k = 0; k < kMostDecisions && s.found - s.bound > cap_gap_ && !stopped_; ++k) {
       const bool open = open_from <= open_to;
       const double below = open_from - s.bound, above = s.found - open_to;
       double most = 0.5 * (s.found + s.bound);
       if (open) most = below > above ? s.bound + 0.5 * below : open_to + 0.5 * above;
+      if (s.bound == 0) {
+        // Yes is a quicker answer than no, and the start is often nearly the best.
+        const double from = open ? open_from : s.found;
+        most = std::max(from - step, 0.5 * from), step *= 2;
+      }
       if (unanswered == kMostUnanswered || !(most > s.bound && most < s.found)) break;
       caps.back().most = most;
       auto answer = search(*grown, caps, level, gap, level, not_above);
