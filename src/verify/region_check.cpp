@@ -424,6 +424,11 @@ bool RegionCheck::check_certificates(DemandCheck* demands) {
       report_.notes.push_back(
           "there is no certificate for the bound of largest allowances, so it was not rechecked");
       proved = false;
+    } else {
+      report_.notes.push_back(
+          fmt::format("with a margin of {} or more no placement that keeps the maxima has a largest "
+                      "allowance below {} mm",
+                      enclosed(d.second->margin).high, enclosed(d.second->bound).low));
     }
   }
   return proved;

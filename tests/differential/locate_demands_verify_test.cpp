@@ -114,6 +114,10 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
     EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift += 0.1, s.bound += 0.05, s.found += 0.1; }));
     EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->bound -= 0.05; }));
     EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->grown_for += 0.5; }));
+    // With less left of the maximum asked for than it allows, fewer placements have to be excluded.
+    if (i % 2 == 1) {
+      EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift -= 0.2, s.proof->most += 0.2; }));
+    }
     // The bound is one for placements with that margin, and not for those with less.
     EXPECT_TRUE(refuted([&](auto& d, auto& s) {
       d.regions->demands->give_up += 0.1, s.margin = std::max(0.0, s.margin - 0.1);
