@@ -114,6 +114,11 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
     EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift += 0.1, s.bound += 0.05, s.found += 0.1; }));
     EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->bound -= 0.05; }));
     EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->grown_for += 0.5; }));
+    // More than the certificate says, and all else as it then would be.
+    EXPECT_TRUE(refuted([&](auto&, auto& s) {
+                  s.bound += 0.5 * (s.found - s.bound), s.kept = std::max(s.found, s.bound + s.gap);
+                }) ||
+                second.bound == second.found);
     // With less left of the maximum asked for than it allows, fewer placements have to be excluded.
     if (i % 2 == 1) {
       EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift -= 0.2, s.proof->most += 0.2; }));

@@ -120,6 +120,8 @@ TEST_F(Demands, TheThirdCriterionKeepsTheSecondAndLiesAboutBothAreSeen) {
   expect_lie_is_seen("/demands/give_up", 0.1);
   expect_lie_is_seen("/demands/give_up", 0.3);
   expect_lie_is_seen("/demands/criterion", "smallest");
+  expect_lie_is_seen("/demands/margin", number(second["margin"]) - 0.001);  // true, but too much given up
+  expect_lie_is_seen("/demands/largest", number(second["kept"]) + 0.001);
   expect_lie_is_seen("/demands/margin_found", number(demands["margin_found"]) + 0.01);
   expect_lie_is_seen("/demands/margin_found", number(demands["margin_found"]) - 0.01);
   expect_lie_is_seen("/demands/margin_gap", 1e-9);
@@ -172,6 +174,16 @@ TEST_F(Demands, TheThirdCriterionKeepsTheSecondAndLiesAboutBothAreSeen) {
   const Ran unproved = run(folder_.path(), {"verify", "wrong.json"});
   EXPECT_EQ(unproved.out.find("Confirmed"), std::string::npos) << unproved.out;
   EXPECT_NE(unproved.status, 0);
+}
+
+TEST_F(Demands, ASecondCriterionThatIsCutShortSaysSo) {
+  const Json result = located(bracket({"--criterion", "even", "--give-up", "0.2", "--work", "2000"}));
+  EXPECT_EQ(result["status"], "stopped");
+  const Json& second = result["demands"]["smallest_largest"];
+  EXPECT_GT(second["found"].get<double>() - second["bound"].get<double>(), second["gap"].get<double>());
+  EXPECT_LE(result["demands"]["largest"], second["found"]);
+  EXPECT_EQ(verified(), 0);
+  expect_lie_is_seen("/status", "optimal");
 }
 
 TEST_F(Demands, BothCertificatesStandInTheFileAskedFor) {
