@@ -402,6 +402,10 @@ bool RegionCheck::check_cover(const char* key, const DemandCheck* demands, const
 }
 
 bool RegionCheck::check_certificates(DemandCheck* demands) {
+  const bool bounds_largest = demands != nullptr && r_.demands->second && r_.demands->second->proof;
+  const Json largest = Fields(root_, "", complaint_).get("largest_certificate");
+  if (!bounds_largest && !largest.text.empty() && !largest.is_null())
+    find("there is a largest_certificate, but nothing that it is to prove");
   if (demands == nullptr) {
     if (!check_cover("certificate", nullptr, {r_.upper_bound, {}, {}, {}})) return false;
     report_.bound_high = fmt::format("{}", r_.upper_bound.high);
@@ -417,7 +421,7 @@ bool RegionCheck::check_certificates(DemandCheck* demands) {
     if (!d.curve.empty())
       report_.notes.push_back("the bounds of the points of the trade-off curve were not rechecked");
   }
-  if (d.second && d.second->proof) {
+  if (bounds_largest) {
     const WrittenSecond::Proof& p = *d.second->proof;
     demands->check_largest_bound();
     if (!check_cover("largest_certificate", demands, {p.bound, enclosed(p.grown_for), p.shift, p.most})) {
