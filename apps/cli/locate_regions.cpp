@@ -115,7 +115,10 @@ Found found_with_demands(const locate::DemandProblem& problem, locate::DemandRes
   record.minimum = problem.minimum, record.features = problem.features;
   record.criterion = problem.criterion, record.give_up = problem.give_up;
   record.margin = r.margin, record.margin_bound = r.margin_bound;
-  record.largest = r.largest, record.largest_bound = r.largest_bound, record.deviation = r.deviation;
+  record.margin_found = r.margin_found, record.margin_gap = r.margin_gap;
+  record.largest = r.largest, record.deviation = r.deviation;
+  record.second = std::move(r.second);
+  if (record.second && record.second->proof) record.second->proof->grown.clear();
   record.curve = std::move(r.curve);
   record.grown_for = r.proof.grown_for, record.shift = r.proof.shift, record.bound = r.proof.bound;
   return {r.status,
@@ -190,9 +193,22 @@ std::size_t cells(const std::vector<locate::CoverTree>& trees) {
 void add_certificate(const LocateOptions& o, Product& product) {
   io::LocateDocument& d = product.document;
   io::RegionRecord& r = *d.regions;
-  d.certificate_intervals = cells(r.certificate);
+  locate::LargestProof* const largest =
+      r.demands && r.demands->second && r.demands->second->proof ? &*r.demands->second->proof : nullptr;
+  const std::size_t more = largest != nullptr ? cells(largest->certificate) : 0;
+  d.certificate_intervals = cells(r.certificate) + more;
   if (o.certificate.empty() && d.certificate_intervals <= kInlineCells) return;
-  product.certificate_text = io::cover_text(r.pivot, r.certificate);
+  product.certificate_text = io::cover_text(r);
+  const std::size_t first = cells(r.certificate);
+  if (largest != nullptr) largest->certificate.clear();
+  if (o.certificate.empty() && first <= kInlineCells) {
+    d.certificate_intervals = first;
+    d.warnings.push_back(fmt::format(
+        "the certificates have {} cells, more than the {} that go into a result, so that of largest "
+        "allowances is not kept; --certificate FILE keeps it",
+        first + more, kInlineCells));
+    return;
+  }
   r.certificate.clear();
   if (o.certificate.empty()) {
     d.warnings.push_back(

@@ -102,8 +102,9 @@ std::string criteria_lines(const io::LocateDocument& d) {
                             ? "; the proved bound leaves open whether another placement meets them"
                             : "");
   text += fmt::format("  largest allowance  {}", mm_up(r.largest));
-  if (r.largest_bound)
-    text += fmt::format("; with this margin none below {} is possible", mm_down(*r.largest_bound));
+  if (r.second)
+    text += fmt::format("; with a margin of {:.6f} or more none below {} is possible",
+                        r.second->margin + 5e-7, mm_down(r.second->bound));
   text += "\n";
   for (const locate::TradeOff& point : r.curve)
     text +=

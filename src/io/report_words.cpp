@@ -54,12 +54,12 @@ std::string demand_verdict(const LocateDocument& d, const DemandRecord& demands,
       d.status == "optimal" ? "Proved" : "Stopped before the search was complete; proved so far";
   std::string text = fmt::format("{}: no placement {} has a margin above {}. This one: {}.", lead,
                                  where_looked(d), bound, has);
-  if (demands.largest_bound)
+  if (demands.second)
     text += fmt::format(
-        " Its largest allowance is {} mm; none below {} mm is possible at this margin (by the "
-        "solver's own proof, which is not kept).",
+        " Its largest allowance is {} mm; with a margin of {} or more none below {} mm is possible.",
         decimal(demands.largest, decimals, Rounding::up),
-        decimal(*demands.largest_bound, decimals, Rounding::down));
+        decimal(demands.second->margin, decimals, Rounding::up),
+        decimal(demands.second->bound, decimals, Rounding::down));
   return text;
 }
 

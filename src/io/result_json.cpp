@@ -334,6 +334,17 @@ Json to_json(const locate::TradeOff& point) {
   return json;
 }
 
+Json to_json(const locate::SmallestLargest& second) {
+  Json proof = nullptr;
+  if (second.proof)
+    proof = {{"grown_for", second.proof->grown_for},
+             {"most", second.proof->most},
+             {"shift", second.proof->shift},
+             {"bound", second.proof->bound}};
+  return {{"margin", second.margin}, {"found", second.found}, {"bound", second.bound},
+          {"gap", second.gap},       {"kept", second.kept},   {"proof", std::move(proof)}};
+}
+
 Json to_json(const DemandRecord& d) {
   Json features = Json::array(), curve = Json::array();
   for (const locate::Feature& f : d.features) features.push_back(to_json(f));
@@ -344,8 +355,10 @@ Json to_json(const DemandRecord& d) {
           {"give_up", d.give_up},
           {"margin", d.margin},
           {"margin_bound", d.margin_bound},
+          {"margin_found", d.margin_found},
+          {"margin_gap", d.margin_gap},
           {"largest", d.largest},
-          {"largest_bound", or_null(d.largest_bound)},
+          {"smallest_largest", d.second ? to_json(*d.second) : Json(nullptr)},
           {"deviation", d.deviation},
           {"trade_off", std::move(curve)},
           {"grown_for", d.grown_for},
@@ -360,6 +373,13 @@ Json to_json(const ScanRecord& scan) {
           {"widest", scan.widest},   {"deepest", scan.deepest},
           {"loss", scan.loss},       {"assumptions", scan.assumptions},
           {"unknown", scan.unknown}, {"dropped", scan.dropped}};
+}
+
+/// What proves the bound of largest allowances, if anything does and it is here.
+const locate::DemandProof* largest_proof(const RegionRecord& r) {
+  if (!r.demands || !r.demands->second || !r.demands->second->proof) return nullptr;
+  const locate::DemandProof& proof = *r.demands->second->proof;
+  return proof.certificate.empty() ? nullptr : &proof;
 }
 
 void append_regions(ObjectText& out, const LocateDocument& d) {
@@ -382,6 +402,12 @@ void append_regions(ObjectText& out, const LocateDocument& d) {
     out.field("certificate", nullptr);
   } else {
     out.text("certificate", [&](std::string& text) { append_cover(text, r.pivot, r.certificate); });
+  }
+  if (const locate::DemandProof* const proof = largest_proof(r)) {
+    out.text("largest_certificate",
+             [&](std::string& text) { append_cover(text, proof->pivot, proof->certificate); });
+  } else {
+    out.field("largest_certificate", nullptr);
   }
   out.field("certificate_file", certificate_file_json(d));
 }
@@ -476,9 +502,13 @@ std::string CertificateText::finish() && {
   return std::move(text_);
 }
 
-std::string cover_text(const geom::Point& pivot, const std::vector<locate::CoverTree>& trees) {
+std::string cover_text(const RegionRecord& record) {
   std::string text = "{\"format\": {\"name\": \"lekalo-certificate\", \"version\": 1},\n\"certificate\": ";
-  append_cover(text, pivot, trees);
+  append_cover(text, record.pivot, record.certificate);
+  if (const locate::DemandProof* const proof = largest_proof(record)) {
+    text += ",\n\"largest_certificate\": ";
+    append_cover(text, proof->pivot, proof->certificate);
+  }
   return text + "\n}\n";
 }
 

@@ -30,6 +30,15 @@ constexpr double kCapGap = 1e-4;
 constexpr double kDecisionGap = 0.25;
 /// Units of work after which a search with caps is given up, with the bound it has.
 constexpr std::uint64_t kDecisionWork = 20'000;
+/// What decisions about largest allowances stay below the margin by, as part of the gap of one.
+constexpr double kStrictly = 1e-3;
+/// Questions of one bisection that may stay open: each has cost all its work, or is nearer to the truth than
+/// its gap.
+constexpr int kMostUnanswered = 6;
+/// How much less largest allowance is asked for first, in gaps.
+constexpr double kFirstStep = 4;
+/// Of sums of a few numbers, written as decimals and added again by somebody else.
+constexpr double kRounding = 0x1p-49;
 /// Samples of the outline for the mean square deviation.
 constexpr double kEvenSamples = 600;
 
@@ -116,14 +125,18 @@ class DemandLocaliser {
     if (result_.margin >= 0 && problem_.trade_off > 0) {
       if (Result<void> done = trace_curve(); !done) return tl::unexpected(std::move(done.error()));
     }
-    if (result_.margin >= 0 && problem_.criterion == Criterion::largest) {
+    if (result_.margin >= 0 && problem_.criterion != Criterion::smallest) {
       const double keep = std::max(0.0, result_.margin - problem_.give_up);
       auto smallest = smallest_largest(keep, pose_);
       if (!smallest) return tl::unexpected(std::move(smallest.error()));
       pose_ = smallest->pose;
-      result_.largest_bound = smallest->bound;
+      result_.second = std::move(smallest->what);
+      SmallestLargest& second = *result_.second;
+      const bool closed = second.found - second.bound <= second.gap;
+      if (!closed && result_.status == Status::optimal) result_.status = Status::stopped;
+      second.kept = std::max(second.found, second.bound + second.gap);
+      if (problem_.criterion == Criterion::even) make_even(second);
     }
-    if (result_.margin >= 0 && problem_.criterion == Criterion::even) make_even();
     finish();
     return std::move(result_);
   }
@@ -329,41 +342,84 @@ class DemandLocaliser {
   Result<void> settle() {
     result_.margin_bound = std::nextafter(result_.margin_bound, kInfinity);
     const double gap = caps_.empty() ? options_.gap : cap_gap_;  // what a bisection is content with
-    const bool closed = result_.margin_bound - result_.margin <= 1.001 * gap;
+    result_.margin_found = result_.margin, result_.margin_gap = 1.001 * gap;
+    const bool closed = result_.margin_bound - result_.margin <= result_.margin_gap;
     result_.status = result_.margin_bound < 0 ? Status::infeasible
                                               : (closed && !stopped_ ? Status::optimal : Status::stopped);
     return {};
   }
 
-  struct Smallest {
+  struct Second {
     Pose pose;
-    double largest = 0, bound = 0;
+    SmallestLargest what;
   };
   /// Of the placements with at least `margin` one with the smallest largest allowance, from a pose on that is
   /// one of them.
-  Result<Smallest> smallest_largest(double margin, const Pose& start) {
-    Smallest s{start, depth(start, free_edges_), 0};
-    const double gap = cap_gap_ * kDecisionGap;
-    auto grown = grown_for(scaled() ? margin : 0);
+  ///
+  /// "Is there one with no more than c?" is answered by a pose, by a proof, or, where c is within what one
+  /// decision leaves open, not at all. Then what lies to both sides is asked about.
+  Result<Second> smallest_largest(double margin, const Pose& start) {
+    Second best{start, {margin, depth(start, free_edges_), 0, cap_gap_, 0, {}}};
+    SmallestLargest& s = best.what;
+    const double grown_for_margin = scaled() ? margin : 0;
+    auto grown = grown_for(grown_for_margin);
     if (!grown) return tl::unexpected(std::move(grown.error()));
-    const double level = scaled() ? 0 : margin * least_scale_;
+    const double level = scaled() ? 0 : margin * least_scale_, gap = cap_gap_ * kDecisionGap;
+    // Strictly below: so the bound holds for the very margin, and maxima are kept by what has nothing left.
+    const double not_above = level - shapes_.part_tolerance - shapes_.blank_tolerance - grown->tolerance -
+                             std::max(kStrictly * gap, 16 * geom::kEdgeDistanceError * far_);
     std::vector<Cap> caps = caps_;
     caps.push_back({{}, 0});
     for (const geom::Curve& curve : free_edges_) caps.back().edges.push_back(curve.edge);
-    for (int k = 0; k < kMostDecisions && s.largest - s.bound > cap_gap_ && !stopped_; ++k) {
-      const double middle = 0.5 * (s.largest + s.bound), before = s.largest - s.bound;
-      caps.back().most = middle;
-      auto found = search(*grown, caps, level + gap, gap, level, level + gap);
-      if (!found) return tl::unexpected(std::move(found.error()));
-      const Pose pose{found->best, found->mirrored};
-      if (found->found && margin_at(pose) >= margin) {
-        const double largest = depth(pose, free_edges_);
-        if (largest < s.largest) s.pose = pose, s.largest = largest;
+    double open_from = kInfinity, open_to = -kInfinity;  // not answered
+    int unanswered = 0;
+    double step = kFirstStep * cap_gap_;
+    for (int k = 0; k < kMostDecisions && s.found - s.bound > cap_gap_ && !stopped_; ++k) {
+      const bool open = open_from <= open_to;
+      const double below = open_from - s.bound, above = s.found - open_to;
+      double most = 0.5 * (s.found + s.bound);
+      if (open) most = below > above ? s.bound + 0.5 * below : open_to + 0.5 * above;
+      if (s.bound == 0) {
+        // Yes is a quicker answer than no, and the start is often nearly the best.
+        const double from = open ? open_from : s.found;
+        most = std::max(from - step, 0.5 * from), step *= 2;
       }
-      if (found->upper_bound <= level + gap) s.bound = std::max(s.bound, std::min(middle, s.largest));
-      if (!(s.largest - s.bound < before)) break;
+      if (unanswered == kMostUnanswered || !(most > s.bound && most < s.found)) break;
+      caps.back().most = most;
+      auto answer = search(*grown, caps, level, gap, level, not_above);
+      if (!answer) return tl::unexpected(std::move(answer.error()));
+      const Pose pose{answer->best, answer->mirrored};
+      if (answer->found && margin_at(pose) >= margin) {
+        const double largest = depth(pose, free_edges_);
+        if (largest < s.found) best.pose = pose, s.found = largest;
+      }
+      if (answer->upper_bound < level) take_bound(s, *grown, grown_for_margin, level, most, *answer);
+      if (s.found > most && s.bound < most) {
+        ++unanswered;
+        open_from = std::min(open_from, most), open_to = std::max(open_to, most);
+      }
+      open_from = std::max(open_from, s.bound), open_to = std::min(open_to, s.found);
+      if (open_from > open_to) open_from = kInfinity, open_to = -kInfinity;
     }
-    return s;
+    s.bound = std::min(s.bound, s.found);
+    return best;
+  }
+
+  static void take_bound(SmallestLargest& s, const Grown& grown, double grown_for, double level, double most,
+                         RegionResult& answer) {
+    const double rounding = kRounding * (most + std::abs(level) + std::abs(answer.upper_bound));
+    const double bound = most + (level - answer.upper_bound) - rounding;
+    if (!(bound > s.bound)) return;
+    s.bound = bound;
+    s.proof.emplace();
+    static_cast<DemandProof&>(*s.proof) = {grown.regions,
+                                           grown_for,
+                                           grown.tolerance,
+                                           level,
+                                           answer.upper_bound,
+                                           answer.pivot,
+                                           std::move(answer.certificate)};
+    s.proof->most = most;
   }
 
   Result<void> trace_curve() {
@@ -374,7 +430,7 @@ class DemandLocaliser {
       auto smallest = smallest_largest(margin, from);
       if (!smallest) return tl::unexpected(std::move(smallest.error()));
       from = smallest->pose;
-      TradeOff point{from.at, from.mirrored, margin_at(from), smallest->largest, smallest->bound};
+      TradeOff point{from.at, from.mirrored, margin_at(from), smallest->what.found, smallest->what.bound};
       point.at.clearance = part_clearance(from);
       result_.curve.push_back(point);
     }
@@ -392,14 +448,23 @@ class DemandLocaliser {
     return samples;
   }
 
-  void make_even() {
-    const double keep = std::max(0.0, result_.margin - problem_.give_up);
-    const auto allowed = [&](const Placement& at) { return margin_at({at, pose_.mirrored}) >= keep; };
+  /// From the best pose of the second criterion on, giving up nothing of what was reached before but what is
+  /// stated.
+  void make_even(const SmallestLargest& second) {
+    const auto allowed = [&](const Placement& at) {
+      const Pose pose{at, pose_.mirrored};
+      return margin_at(pose) >= second.margin && depth(pose, free_edges_) <= second.kept;
+    };
     const AngleWindow& window = shapes_.window;
-    pose_.at =
-        most_even(even_samples(), clearance_, pose_.at, pose_.mirrored, problem_.give_up * least_scale_,
-                  {!shapes_.locked.x, !shapes_.locked.y, window.to > window.from}, window, allowed)
-            .at;
+    const double spare = std::max(0.0, margin_at(pose_) - second.margin) * least_scale_;
+    std::vector<LocalCap> caps{{free_edges_, second.kept}};
+    for (const Cap& cap : caps_) {
+      caps.push_back({{}, cap.most});
+      for (const Edge& edge : cap.edges) caps.back().edges.push_back(geom::make_curve(edge));
+    }
+    pose_.at = most_even(even_samples(), clearance_, caps, pose_.at, pose_.mirrored, spare,
+                         {!shapes_.locked.x, !shapes_.locked.y, window.to > window.from}, window, allowed)
+                   .at;
   }
 
   /// Of the part alone, rounded down.

@@ -136,8 +136,9 @@ double deviation_at(const EvenSamples& samples, const phi::RegionClearance& clea
   return Measurement(samples, clearance, pose).deviation();
 }
 
-EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clearance, const Placement& start,
-                   bool mirrored, double give_up, const std::array<bool, 3>& free, const AngleWindow& window,
+EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clearance,
+                   const std::vector<LocalCap>& caps, const Placement& start, bool mirrored, double give_up,
+                   const std::array<bool, 3>& free, const AngleWindow& window,
                    const std::function<bool(const Placement&)>& allowed) {
   const geom::Box box = clearance.part().bounds();
   const Point pivot = 0.5 * (box.low + box.high);
@@ -176,12 +177,20 @@ EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clear
     for (std::size_t i = 0; i < 3; ++i) h[i][i] += 1e-9 * total;
     std::vector<Row> rows;
     std::vector<phi::RegionContact> contacts;
+    const auto add_rows = [&](double side, double from) {  // side * (distance - from) is not to fall below 0
+      for (const phi::RegionContact& contact : contacts) {
+        if (!(contact.distance > 0)) continue;
+        const Point n = (side / contact.distance) * (pose(contact.part) - contact.blank);
+        const Point p = pose.rotate(contact.part - pivot);
+        rows.push_back(
+            {{n.x, n.y, dot(n, geom::perpendicular(p)) / reach}, side * (contact.distance - from)});
+      }
+    };
     (void)clearance.at(pose, 2 * trust, &contacts);
-    for (const phi::RegionContact& contact : contacts) {
-      const Point out = pose(contact.part) - contact.blank;
-      if (!(contact.distance > 0)) continue;
-      const Point n = (1 / contact.distance) * out, p = pose.rotate(contact.part - pivot);
-      rows.push_back({{n.x, n.y, dot(n, geom::perpendicular(p)) / reach}, contact.distance - floor});
+    add_rows(1, floor);
+    for (const LocalCap& cap : caps) {
+      (void)clearance.deepest(pose, cap.edges, 0.125 * trust, 2 * trust, contacts);
+      add_rows(-1, cap.most);
     }
     for (std::size_t i = 0; i < 3; ++i)
       for (const double side : {1.0, -1.0}) {

@@ -8,6 +8,7 @@
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
+#include "pose_search.hpp"
 
 namespace lekalo::locate {
 
@@ -36,11 +37,13 @@ struct EvenPose {
 
 /// Lowers the deviation from a pose on by Gauss-Newton steps that keep `allowed` true: a local minimum,
 /// nothing is proved about others. Steps are limited by the part's contacts, so that they slide along what
-/// holds it. \param give_up  of the clearance at the start, mm: what steps aim to keep to; `allowed` decides
+/// holds it.
+/// \param caps     how deep edges may lie, part coordinates: steps aim to keep to that; `allowed` decides
+/// \param give_up  of the clearance at the start, mm: the same
 /// \param free     x, y, angle: what may change
 [[nodiscard]] EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clearance,
-                                 const Placement& start, bool mirrored, double give_up,
-                                 const std::array<bool, 3>& free, const AngleWindow& window,
+                                 const std::vector<LocalCap>& caps, const Placement& start, bool mirrored,
+                                 double give_up, const std::array<bool, 3>& free, const AngleWindow& window,
                                  const std::function<bool(const Placement&)>& allowed);
 
 }  // namespace lekalo::locate

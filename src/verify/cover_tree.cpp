@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "grown_ball.hpp"
 #include "interval.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
@@ -181,14 +182,14 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
   const auto known = part_radii_.find(key);
   if (known != part_radii_.end()) return known->second;
   const double inside =
-      problem_.growth.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre);
+      problem_.growth.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre, written);
   const double real = std::min(std::max(0.0, written), inside);
   return part_radii_.emplace(key, real).first->second;
 }
 
 /// From a point of the part to what is not in the grown part one must cross a side and then go as far as it
 /// is grown; a point beside the part is in what a side has grown to. Less is known, never more.
-double CoverTree::grown_radius(const Vec& centre) const {
+double CoverTree::grown_radius(const Vec& centre, double written) const {
   const std::vector<Side>& sides = problem_.part.sides;
   double through = kInfinity, nearest = kInfinity, grown = -kInfinity;
   for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -199,6 +200,7 @@ double CoverTree::grown_radius(const Vec& centre) const {
     if (by >= 0) grown = std::max(grown, (just(by) - just(d.high)).low);
   }
   const std::optional<bool> in = holds(problem_.part, centre);
+  if (in && *in && through < written) through = grown_ball(problem_.part, problem_.growth, centre, written);
   // Beside the part its nearest point is off by that, and there the first rule holds.
   const double to_part = in && *in ? 0 : nearest;
   return std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);

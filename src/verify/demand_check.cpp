@@ -21,6 +21,36 @@ Span enclosed(const Decimal& value) {
 
 bool is_positive(Span value) { return value.low > 0; }
 
+bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
+
+/// Sums that the writer makes in doubles: what is to be equal may differ by so much, relatively. Nothing that
+/// is proved rests on it.
+constexpr double kDerivedTolerance = 1e-15;
+bool differ(const Decimal& written, const Decimal& derived, const Decimal& from) {
+  const double size = std::abs(approximate(from)) + std::abs(approximate(derived));
+  return !(std::abs(approximate(written - derived)) <= kDerivedTolerance * size);
+}
+
+std::optional<WrittenSecond> read_second(Json value, std::string& complaint) {
+  if (value.is_null()) return std::nullopt;
+  WrittenSecond second;
+  Fields fields(value, "demands.smallest_largest", complaint);
+  for (auto [key, to] : {std::pair{"margin", &second.margin},
+                         {"found", &second.found},
+                         {"bound", &second.bound},
+                         {"gap", &second.gap},
+                         {"kept", &second.kept}})
+    *to = fields.number(key);
+  if (fields.get("proof").is_null()) return second;
+  Fields proof(fields.get("proof"), fields.name("proof"), complaint);
+  WrittenSecond::Proof& p = second.proof.emplace();
+  p.grown_for = proof.number("grown_for");
+  for (auto [key, to] : {std::pair{"most", &p.most}, {"shift", &p.shift}, {"bound", &p.bound}})
+    *to = enclosed(proof.number(key));
+  if (sgn(p.grown_for.digits) < 0) proof.complain(fmt::format("{} is negative", proof.name("grown_for")));
+  return second;
+}
+
 }  // namespace
 
 WrittenDemands read_demands(Json value, std::string& complaint) {
@@ -34,6 +64,28 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
                          {"shift", &d.shift},
                          {"bound", &d.bound}})
     *to = enclosed(fields.number(key));
+  for (auto [key, to] : {std::pair{"give_up", &d.give_up},
+                         {"margin", &d.margin_as_written},
+                         {"margin_bound", &d.margin_bound_as_written},
+                         {"margin_found", &d.margin_found},
+                         {"margin_gap", &d.margin_gap},
+                         {"largest", &d.largest_as_written}})
+    *to = fields.number(key);
+  d.criterion = fields.text("criterion");
+  if (d.criterion != "smallest" && d.criterion != "largest" && d.criterion != "even")
+    fields.complain("demands.criterion is none of \"smallest\", \"largest\", \"even\"");
+  d.second = read_second(fields.get("smallest_largest"), complaint);
+  fields.each("trade_off", [&](Json item, const std::string& path) {
+    Fields point(item, path, complaint);
+    WrittenTradeOff t;
+    t.x = point.number("x"), t.y = point.number("y"), t.theta = point.number("theta");
+    t.margin = enclosed(point.number("margin")), t.largest = enclosed(point.number("largest"));
+    if (!point.get("mirrored").is_bool()) point.complain(fmt::format("{}.mirrored is no truth value", path));
+    t.mirrored = point.get("mirrored").is_bool() && point.get("mirrored").is_true();
+    if (t.margin.low < 0) point.complain(fmt::format("{}.margin is negative", path));
+    d.curve.push_back(t);
+  });
+  if (sgn(d.give_up.digits) < 0) fields.complain("demands.give_up is negative");
   if (d.grown_for.low < 0) fields.complain("demands.grown_for is negative");
   if (d.minimum.low < 0) fields.complain("demands.minimum is negative");
   fields.each("features", [&](Json item, const std::string& path) {
@@ -79,15 +131,31 @@ bool DemandCheck::any_finished() const {
                      [](const WrittenFeature& f) { return f.finished.has_value(); });
 }
 
+bool DemandCheck::any_cap() const {
+  return std::any_of(d_.features.begin(), d_.features.end(),
+                     [](const WrittenFeature& f) { return f.maximum || f.finished; });
+}
+
+double DemandCheck::least_scale() const {
+  double least = kInfinity;
+  for (const WrittenFeature* const f : feature_of_edge_)
+    if (f == nullptr || !f->finished) least = std::min(least, f == nullptr ? 1 : f->scale.low);
+  return least == kInfinity ? 1 : least;
+}
+
+std::vector<std::size_t> DemandCheck::unfinished_sides() const {
+  std::vector<std::size_t> sides;
+  for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge)
+    if (feature_of_edge_[edge] == nullptr || !feature_of_edge_[edge]->finished)
+      sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
+  return sides;
+}
+
 void DemandCheck::check_placement() {
   if (d_.margin.high < 0) return;
   check_minima();
   check_material();
-  std::vector<std::size_t> free;
-  for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge)
-    if (feature_of_edge_[edge] == nullptr || !feature_of_edge_[edge]->finished)
-      free.insert(free.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
-  check_depth(free, (d_.largest - off_).low, "the part");
+  check_depth(unfinished_sides(), (d_.largest - off_).low, "the part");
   for (const WrittenFeature& f : d_.features) {
     if (!f.maximum && !f.finished) continue;
     std::vector<std::size_t> sides;
@@ -193,13 +261,50 @@ void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most
   }
 }
 
-std::vector<double> DemandCheck::growth() const {
+void DemandCheck::check_criteria(bool optimal) {
+  if (above(d_.margin_found, d_.margin_bound_as_written))
+    find("margin_found {} is above margin_bound", approximate(d_.margin_found));
+  if (optimal && above(d_.margin_bound_as_written - d_.margin_found, d_.margin_gap) &&
+      differ(d_.margin_bound_as_written - d_.margin_found, d_.margin_gap, d_.margin_found))
+    find("status is optimal, but margin_bound is {} above margin_found, more than {}",
+         approximate(d_.margin_bound_as_written - d_.margin_found), approximate(d_.margin_gap));
+  const bool met = sgn(d_.margin_found.digits) >= 0;
+  if (!met || d_.criterion == "smallest") {
+    if (d_.second) find("there is a smallest_largest, which was not asked for or cannot be");
+    if (compare(d_.margin_as_written, d_.margin_found) != 0) find("margin_found is not margin");
+    return;
+  }
+  if (!d_.second) return find("smallest_largest is missing, the second criterion");
+  const WrittenSecond& s = *d_.second;
+  Decimal kept = d_.margin_found - d_.give_up;
+  if (sgn(kept.digits) < 0) kept = Decimal{};
+  if (differ(s.margin, kept, d_.margin_found))
+    find("smallest_largest.margin {} is not margin_found less give_up", approximate(s.margin));
+  if (above(s.margin, d_.margin_as_written))
+    find("the margin {} is below {}, which was not to be given up", approximate(d_.margin_as_written),
+         approximate(s.margin));
+  if (above(s.bound, s.found)) find("smallest_largest.bound {} is above found", approximate(s.bound));
+  const bool open = above(s.found - s.bound, s.gap);
+  if (open ? differ(s.kept, s.found, s.gap) : differ(s.kept - s.bound, s.gap, s.kept))
+    find("smallest_largest.kept {} is neither bound and gap nor found", approximate(s.kept));
+  const Decimal& limit = d_.criterion == "even" ? s.kept : s.found;
+  if (above(d_.largest_as_written, limit))
+    find("largest {} is above {}, which the second criterion found", approximate(d_.largest_as_written),
+         approximate(limit));
+  if (optimal && above(s.found - s.bound, s.gap) && differ(s.found - s.bound, s.gap, s.found))
+    find("status is optimal, but smallest_largest.found is {} above its bound, more than {}",
+         approximate(s.found - s.bound), approximate(s.gap));
+  if (!s.proof && sgn(s.bound.digits) > 0)
+    find("nothing is said to prove smallest_largest.bound {}", approximate(s.bound));
+}
+
+std::vector<double> DemandCheck::growth(Span grown_for) const {
   std::vector<double> growth(part_.sides.size(), 0.0);
   for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge) {
     const WrittenFeature* const f = feature_of_edge_[edge];
-    const Span by = f == nullptr  ? d_.minimum + d_.grown_for
+    const Span by = f == nullptr  ? d_.minimum + grown_for
                     : f->finished ? -*f->finished
-                                  : f->minimum + f->scale * d_.grown_for;
+                                  : f->minimum + f->scale * grown_for;
     // Sums are rounded outwards: what grows by 0 is no rim.
     const bool rim = f != nullptr && f->finished;
     for (const std::size_t k : sides_of_edge_[edge]) growth[k] = rim ? by.low : std::max(0.0, by.low);
@@ -207,22 +312,23 @@ std::vector<double> DemandCheck::growth() const {
   return growth;
 }
 
-std::vector<CoverTree::Cap> DemandCheck::caps() const {
+std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Span>& most) const {
   std::vector<CoverTree::Cap> caps;
   for (const WrittenFeature& f : d_.features) {
     if (!f.maximum && !f.finished) continue;
     CoverTree::Cap cap;
-    cap.most = ((f.finished ? *f.finished : *f.maximum) + d_.shift).high;
+    cap.most = ((f.finished ? *f.finished : *f.maximum) + shift).high;
     for (const std::size_t edge : f.edges)
       if (edge < sides_of_edge_.size())
         cap.sides.insert(cap.sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
     caps.push_back(std::move(cap));
   }
+  if (most) caps.push_back({unfinished_sides(), (*most + shift).high});
   return caps;
 }
 
-double DemandCheck::off_grown_part(const Vec& p) const {
-  const std::vector<double> by = growth();
+double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
+  const std::vector<double> by = growth(grown_for);
   const auto beside_rims = [&](const auto& distance_from) {  // no finished side is as near as its rim is wide
     for (std::size_t k = 0; k < by.size(); ++k)
       if (by[k] < 0 && !((just(distance_from(part_.sides[k]).low) + just(by[k])).low >= 0)) return false;
@@ -251,21 +357,33 @@ void DemandCheck::check_bound() {
            d_.bound.low);
     return;
   }
-  double least_scale = kInfinity;
-  for (const WrittenFeature* const f : feature_of_edge_)
-    if (f == nullptr || !f->finished) least_scale = std::min(least_scale, f == nullptr ? 1 : f->scale.low);
-  if (least_scale == kInfinity) least_scale = 1;
-  const Span spare = just(least_scale) * (d_.margin_bound - d_.grown_for);
+  const Span spare = just(least_scale()) * (d_.margin_bound - d_.grown_for);
   if (!((d_.margin_bound - d_.grown_for).high >= 0 && d_.bound.low <= spare.high))
     find("margin_bound {} does not follow from the bound {} of the certificate", d_.margin_bound.low,
          d_.bound.low);
-  const bool capped = std::any_of(d_.features.begin(), d_.features.end(),
-                                  [](const WrittenFeature& f) { return f.maximum || f.finished; });
-  if (capped && !(d_.bound.low <= d_.shift.high))
+  if (any_cap() && !(d_.bound.low <= d_.shift.high))
     find(
         "the certificate's bound {} is above its shift {}: it says nothing of placements that keep the "
         "maxima",
         d_.bound.low, d_.shift.low);
+}
+
+/// A placement with a margin of at least `margin` that keeps the maxima: the part grown for grown_for has a
+/// clearance of at least the least scale times the difference, and each cap of a feature has `shift` or more
+/// left. Both are above what the certificate bounds; so the cap on all edges is the one that has so little.
+void DemandCheck::check_largest_bound() {
+  const WrittenSecond& s = *d_.second;
+  const WrittenSecond::Proof& p = *s.proof;
+  const Span spare = just(least_scale()) * (enclosed(s.margin) - enclosed(p.grown_for));
+  if (above(p.grown_for, s.margin) || !(p.bound.high < spare.low))
+    find("the certificate of largest allowances says nothing of placements with a margin of {}",
+         approximate(s.margin));
+  if (any_cap() && !(p.bound.high < p.shift.low))
+    find("the bound {} of the certificate of largest allowances is not below its shift {}", p.bound.low,
+         p.shift.low);
+  if (!(enclosed(s.bound).high <= (p.most + p.shift - p.bound).low))
+    find("smallest_largest.bound {} does not follow from the bound {} of its certificate",
+         approximate(s.bound), p.bound.low);
 }
 
 }  // namespace lekalo::verify

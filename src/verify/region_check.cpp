@@ -44,7 +44,6 @@ struct RegionDocument {
   Decimal window_from, window_to;
   Shape part, blank;
   std::vector<WrittenTouch> contacts;
-  Json certificate;
   bool in_file = false;
   std::optional<Decimal> locked_x, locked_y;
   std::optional<WrittenDemands> demands;
@@ -76,8 +75,9 @@ class RegionCheck {
       demands.emplace(*r_.demands, r_.part, placed_, r_.blank, r_.part_tolerance + r_.blank_tolerance,
                       report_.findings);
       demands->check_placement();
+      check_curve();
     }
-    const bool proved = check_certificate(demands ? &*demands : nullptr);
+    const bool proved = check_certificates(demands ? &*demands : nullptr);
     if (!complaint_.empty())
       return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
     check_status();
@@ -102,10 +102,21 @@ class RegionCheck {
   void check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
   void check_clearance();
   void check_pose();
+  void check_allowed(const std::string& whose, const Decimal& x, const Decimal& y, const Decimal& angle,
+                     bool mirrored);
   void check_contacts();
   void check_derived();
   void check_side();
-  bool check_certificate(DemandCheck* demands);
+  void check_curve();
+  /// What a certificate is about: for demands the part grown, and caps.
+  struct Bounded {
+    Span bound, grown_for, shift;
+    std::optional<Span> most;
+  };
+  Json certificate_of(const char* key);
+  bool check_cover(const char* key, const DemandCheck* demands, const Bounded& what);
+  /// True when every bound had a certificate to look at.
+  bool check_certificates(DemandCheck* demands);
   void check_status();
 
   const LocateInputs& inputs_;
@@ -188,7 +199,6 @@ void RegionCheck::read() {
     r_.contacts.push_back({point("part_at"), point("blank_at"), approximate(contact.number("distance")),
                            approximate(contact.number("multiplier"))});
   });
-  r_.certificate = fields.get("certificate");
   r_.in_file = !fields.get("certificate_file").text.empty() && !fields.get("certificate_file").is_null();
   if (r_.part_tolerance.low < 0 || r_.blank_tolerance.low < 0) fields.complain("a tolerance is negative");
 }
@@ -260,19 +270,47 @@ void RegionCheck::check_clearance() {
 }
 
 void RegionCheck::check_pose() {
-  for (const auto& [locked, is] : {std::pair{&r_.locked_x, &r_.x}, {&r_.locked_y, &r_.y}})
-    if (*locked && compare(**locked, *is) != 0) find("the placement is not where it is locked");
+  check_allowed("", r_.x, r_.y, r_.theta, r_.mirrored);
   const mpfr_prec_t wide = 128 + angle_bits(r_.theta);
   const Interval degrees = Interval(r_.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
   const double theta = degrees.high_double();
   if (!(std::abs((degrees - Interval(r_.theta_deg, 128 + angle_bits(r_.theta_deg))).high_double()) <=
         1e-14 * std::abs(theta)))
     find("theta_deg is {}, but theta means {} degrees", approximate(r_.theta_deg), theta);
+}
+
+/// Locked shifts, the window and mirroring.
+void RegionCheck::check_allowed(const std::string& whose, const Decimal& x, const Decimal& y,
+                                const Decimal& angle, bool mirrored) {
+  for (const auto& [locked, is] : {std::pair{&r_.locked_x, &x}, {&r_.locked_y, &y}})
+    if (*locked && compare(**locked, *is) != 0) find("{}the placement is not where it is locked", whose);
+  if (mirrored != (r_.mirror == "yes") && r_.mirror != "either")
+    find("{}the placement is {}mirrored, which was not allowed", whose, mirrored ? "" : "not ");
+  const mpfr_prec_t wide = 128 + angle_bits(angle);
+  const double theta =
+      (Interval(angle, wide) * Interval(Integer(180), wide) / Interval::pi(wide)).high_double();
   const double from = approximate(r_.window_from), to = approximate(r_.window_to);
   if (to - from >= 360) return;
   const double slack = kAngleTolerance * std::max({std::abs(from), std::abs(to), 1.0});
   if (!(theta >= from - slack && theta <= to + slack))
-    find("theta is {} degrees, outside the window from {} to {}", theta, from, to);
+    find("{}theta is {} degrees, outside the window from {} to {}", whose, theta, from, to);
+}
+
+/// Every placement of the trade-off curve has the margin and the largest allowance that it is said to have.
+void RegionCheck::check_curve() {
+  for (std::size_t k = 0; k < r_.demands->curve.size(); ++k) {
+    const WrittenTradeOff& point = r_.demands->curve[k];
+    const std::string whose = fmt::format("demands.trade_off[{}]: ", k);
+    check_allowed(whose, point.x, point.y, point.theta, point.mirrored);
+    WrittenDemands here = *r_.demands;
+    here.margin = point.margin, here.largest = point.largest;
+    const Shape at = placed(r_.part, motion_of(Interval(point.theta, 96 + angle_bits(point.theta)),
+                                               enclosed(point.x), enclosed(point.y), point.mirrored));
+    std::vector<std::string> findings;
+    DemandCheck(here, r_.part, at, r_.blank, r_.part_tolerance + r_.blank_tolerance, findings)
+        .check_placement();
+    for (const std::string& finding : findings) report_.findings.push_back(whose + finding);
+  }
 }
 
 void RegionCheck::check_contacts() {
@@ -315,25 +353,26 @@ void RegionCheck::check_side() {
     if (r_.program->clearance.low > left.high || r_.program->rounding.low < 0)
       find("the program's clearance {} is above clearance less its rounding", r_.program->clearance.low);
   }
-  if (r_.mirrored != (r_.mirror == "yes") && r_.mirror != "either")
-    find("the placement is {}mirrored, which was not allowed", r_.mirrored ? "" : "not ");
 }
 
-bool RegionCheck::check_certificate(DemandCheck* demands) {
-  Json certificate = r_.certificate;
-  if (certificate.is_null() && r_.in_file && inputs_.certificate) {
-    const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
-    if (!root) return complaint_ = "it is no JSON document", false;
-    Fields file(*root, "", complaint_);
-    certificate = file.get("certificate");
-  }
+Json RegionCheck::certificate_of(const char* key) {
+  const Json here = Fields(root_, "", complaint_).get(key);
+  if (!(here.text.empty() || here.is_null()) || !r_.in_file || !inputs_.certificate) return here;
+  const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
+  if (!root) return complaint_ = "it is no JSON document", Json{};
+  return Fields(*root, "", complaint_).get(key);
+}
+
+/// False when there is no certificate of that name to look at.
+bool RegionCheck::check_cover(const char* key, const DemandCheck* demands, const Bounded& what) {
+  const Json certificate = certificate_of(key);
   if (certificate.text.empty() || certificate.is_null()) return false;
-  Fields fields(certificate, "certificate", complaint_);
+  Fields fields(certificate, key, complaint_);
   std::vector<Span> pivot;
   fields.each("pivot", [&](Json item, const std::string& path) {
     pivot.push_back(enclosed(fields.number_of(item, path)));
   });
-  if (pivot.size() != 2) fields.complain("certificate.pivot is not two numbers");
+  if (pivot.size() != 2) fields.complain(fmt::format("{} is not two numbers", fields.name("pivot")));
   if (!complaint_.empty()) return false;
   const Vec at{pivot[0], pivot[1]};
   CoverTree::Problem problem{r_.part,        r_.blank,     at,          0,          0,
@@ -342,12 +381,10 @@ bool RegionCheck::check_certificate(DemandCheck* demands) {
       !(pivot[0].low == 0 && pivot[0].high == 0 && pivot[1].low == 0 && pivot[1].high == 0))
     find("a shift is locked, but the pivot of the certificate is not the part's origin");
   problem.pivot_off = std::max(0.0, -signed_distance(at, r_.part).low);
-  const Span proved = r_.demands ? r_.demands->bound : r_.upper_bound;
-  problem.bound = ((proved - r_.part_tolerance) - r_.blank_tolerance).low;
+  problem.bound = ((what.bound - r_.part_tolerance) - r_.blank_tolerance).low;
   if (demands != nullptr) {
-    demands->check_bound();
-    problem.growth = demands->growth(), problem.caps = demands->caps();
-    problem.pivot_off = demands->off_grown_part(at);
+    problem.growth = demands->growth(what.grown_for), problem.caps = demands->caps(what.shift, what.most);
+    problem.pivot_off = demands->off_grown_part(at, what.grown_for);
   }
   CoverTree cover(problem, report_.findings);
   bool plain = false, mirrored = false;
@@ -358,15 +395,47 @@ bool RegionCheck::check_certificate(DemandCheck* demands) {
     (is_mirrored ? mirrored : plain) = true;
     cover.check(item, path, complaint_);
   });
-  if (r_.mirror != "yes" && !plain) find("the certificate has no tree for the part as it is");
-  if (r_.mirror != "no" && !mirrored) find("the certificate has no tree for the mirrored part");
-  report_.intervals = cover.leaves();
-  if (r_.demands)
-    report_.notes.push_back(
-        "the bound is that of the margin of the demands; bounds of largest allowances and the points of a "
-        "trade-off curve were not rechecked");
-  report_.bound_high = fmt::format("{}", r_.demands ? r_.demands->margin_bound.high : r_.upper_bound.high);
+  if (r_.mirror != "yes" && !plain) find("the {} has no tree for the part as it is", key);
+  if (r_.mirror != "no" && !mirrored) find("the {} has no tree for the mirrored part", key);
+  report_.intervals += cover.leaves();
   return true;
+}
+
+bool RegionCheck::check_certificates(DemandCheck* demands) {
+  const bool bounds_largest = demands != nullptr && r_.demands->second && r_.demands->second->proof;
+  const Json largest = Fields(root_, "", complaint_).get("largest_certificate");
+  if (!bounds_largest && !largest.text.empty() && !largest.is_null())
+    find("there is a largest_certificate, but nothing that it is to prove");
+  if (demands == nullptr) {
+    if (!check_cover("certificate", nullptr, {r_.upper_bound, {}, {}, {}})) return false;
+    report_.bound_high = fmt::format("{}", r_.upper_bound.high);
+    return true;
+  }
+  const WrittenDemands& d = *r_.demands;
+  demands->check_criteria(r_.status == "optimal");
+  bool proved = check_cover("certificate", demands, {d.bound, d.grown_for, d.shift, {}});
+  if (proved) {
+    demands->check_bound();
+    report_.bound_high = fmt::format("{}", d.margin_bound.high);
+    report_.notes.push_back("the bound is that of the margin of the demands");
+    if (!d.curve.empty())
+      report_.notes.push_back("the bounds of the points of the trade-off curve were not rechecked");
+  }
+  if (bounds_largest) {
+    const WrittenSecond::Proof& p = *d.second->proof;
+    demands->check_largest_bound();
+    if (!check_cover("largest_certificate", demands, {p.bound, enclosed(p.grown_for), p.shift, p.most})) {
+      report_.notes.push_back(
+          "there is no certificate for the bound of largest allowances, so it was not rechecked");
+      proved = false;
+    } else {
+      report_.notes.push_back(
+          fmt::format("with a margin of {} or more no placement that keeps the maxima has a largest "
+                      "allowance below {} mm",
+                      enclosed(d.second->margin).high, enclosed(d.second->bound).low));
+    }
+  }
+  return proved;
 }
 
 void RegionCheck::check_status() {

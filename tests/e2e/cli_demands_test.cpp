@@ -92,11 +92,107 @@ TEST_F(Demands, TheSecondCriterionGivesUpNoMoreThanAllowed) {
   const Json largest = located(bracket({"--criterion", "largest", "--give-up", "0.2", "--trade-off", "3"}));
   EXPECT_GE(largest["clearance"], plain["clearance"].get<double>() - 0.2 - 2e-3);
   EXPECT_LT(largest["demands"]["largest"], 22.6);
-  EXPECT_LE(largest["demands"]["largest_bound"], largest["demands"]["largest"]);
+  EXPECT_LE(largest["demands"]["smallest_largest"]["bound"], largest["demands"]["largest"]);
   EXPECT_EQ(largest["demands"]["trade_off"].size(), 3U);
   EXPECT_EQ(verified(), 0);
-  const Json even = located(bracket({"--criterion", "even", "--give-up", "0.5"}));
-  EXPECT_GE(even["clearance"], plain["clearance"].get<double>() - 0.5 - 2e-3);
+  for (const char* const k : {"0", "2"}) {
+    const std::string point = std::string("/demands/trade_off/") + k;
+    const Json& written = largest[Json::json_pointer(point)];
+    expect_lie_is_seen(point + "/margin", written["margin"].get<double>() + 0.02);
+    expect_lie_is_seen(point + "/largest", written["largest"].get<double>() - 0.02);
+    expect_lie_is_seen(point + "/x", written["x"].get<double>() + 3);
+    expect_lie_is_seen(point + "/mirrored", true);
+  }
+}
+
+TEST_F(Demands, TheThirdCriterionKeepsTheSecondAndLiesAboutBothAreSeen) {
+  const Json result = located(bracket({"--criterion", "even", "--give-up", "0.2"}));
+  EXPECT_EQ(result["status"], "optimal");
+  const Json& demands = result["demands"];
+  const Json& second = demands["smallest_largest"];
+  const auto number = [](const Json& value) { return value.get<double>(); };
+  EXPECT_GE(demands["margin"], second["margin"]);
+  EXPECT_LE(number(demands["largest"]), number(second["bound"]) + number(second["gap"]));
+  EXPECT_EQ(verified(), 0);
+
+  const std::string at = "/demands/smallest_largest/";
+  // What was kept of the margin and of the largest allowance.
+  expect_lie_is_seen("/demands/give_up", 0.1);
+  expect_lie_is_seen("/demands/give_up", 0.3);
+  expect_lie_is_seen("/demands/criterion", "smallest");
+  expect_lie_is_seen("/demands/margin", number(second["margin"]) - 0.001);  // true, but too much given up
+  expect_lie_is_seen("/demands/largest", number(second["kept"]) + 0.001);
+  expect_lie_is_seen("/demands/margin_found", number(demands["margin_found"]) + 0.01);
+  expect_lie_is_seen("/demands/margin_found", number(demands["margin_found"]) - 0.01);
+  expect_lie_is_seen("/demands/margin_gap", 1e-9);
+  expect_lie_is_seen("/demands/smallest_largest", nullptr);
+  expect_lie_is_seen(at + "margin", number(second["margin"]) + 0.001);
+  expect_lie_is_seen(at + "margin", number(second["margin"]) - 0.001);
+  expect_lie_is_seen(at + "found", number(second["bound"]) - 0.001);
+  expect_lie_is_seen(at + "found", number(second["kept"]) + 0.001);
+  expect_lie_is_seen(at + "kept", number(second["kept"]) + 0.001);
+  expect_lie_is_seen(at + "kept", number(demands["largest"]) - 0.001);
+  expect_lie_is_seen(at + "gap", 1e-6);
+  // The bound and what is to prove it.
+  expect_lie_is_seen(at + "bound", number(second["bound"]) + 1e-6);
+  expect_lie_is_seen(at + "proof", nullptr);
+  expect_lie_is_seen(at + "proof/bound", number(second["proof"]["bound"]) - 0.01);
+  expect_lie_is_seen(at + "proof/bound", number(second["margin"]));
+  expect_lie_is_seen(at + "proof/most", number(second["proof"]["most"]) + 0.01);
+  expect_lie_is_seen(at + "proof/shift", number(second["proof"]["shift"]) + 0.01);
+  expect_lie_is_seen(at + "proof/grown_for", 0.1);
+  expect_lie_is_seen("/largest_certificate/trees", Json::array());
+  expect_lie_is_seen("/largest_certificate/pivot", Json::array({1000, 0}));
+  expect_lie_is_seen("/largest_certificate/trees", result["certificate"]["trees"]);
+  const std::string tree = "/largest_certificate/trees/0/";
+  expect_lie_is_seen(tree + "theta", Json::array({0, 6}));
+  expect_lie_is_seen(tree + "x", Json::array({0, 100}));
+  Json nodes = result[Json::json_pointer(tree + "nodes")];
+  ASSERT_GT(nodes.size(), 10U);
+  Json fewer = nodes;
+  fewer.erase(fewer.size() - 1);
+  expect_lie_is_seen(tree + "nodes", fewer);
+  // The bound raised to what the best has, with a tree that would prove it if balls were larger.
+  Json wrong = result;
+  for (const char* const key : {"most", "bound"}) {
+    Json& value = wrong[Json::json_pointer(at + (key == std::string("most") ? "proof/most" : key))];
+    value = number(value) + 0.9 * (number(second["found"]) - number(second["bound"]));
+  }
+  std::size_t caps = 0;
+  for (Json& node : wrong[Json::json_pointer(tree + "nodes")])
+    if (node.is_object())
+      for (Json& contact : node["contacts"])
+        if (contact.size() == 8) contact[5] = number(contact[5]) + 0.1, ++caps;
+  EXPECT_GT(caps, 0U);
+  write_bytes(folder_ / "wrong.json", wrong.dump());
+  EXPECT_EQ(run(folder_.path(), {"verify", "wrong.json"}).status, 4);
+
+  // Without it nothing is proved of largest allowances, and the word is not "confirmed".
+  wrong = result;
+  wrong["largest_certificate"] = nullptr;
+  write_bytes(folder_ / "wrong.json", wrong.dump());
+  const Ran unproved = run(folder_.path(), {"verify", "wrong.json"});
+  EXPECT_EQ(unproved.out.find("Confirmed"), std::string::npos) << unproved.out;
+  EXPECT_NE(unproved.status, 0);
+}
+
+TEST_F(Demands, ASecondCriterionThatIsCutShortSaysSo) {
+  const Json result = located(bracket({"--criterion", "even", "--give-up", "0.2", "--work", "2000"}));
+  EXPECT_EQ(result["status"], "stopped");
+  const Json& second = result["demands"]["smallest_largest"];
+  EXPECT_GT(second["found"].get<double>() - second["bound"].get<double>(), second["gap"].get<double>());
+  EXPECT_LE(result["demands"]["largest"], second["found"]);
+  EXPECT_EQ(verified(), 0);
+  expect_lie_is_seen("/status", "optimal");
+}
+
+TEST_F(Demands, BothCertificatesStandInTheFileAskedFor) {
+  const Json result = located(bracket({"--criterion", "largest", "--certificate", "proof.json"}));
+  EXPECT_TRUE(result["certificate"].is_null());
+  EXPECT_TRUE(result["largest_certificate"].is_null());
+  const Json file = Json::parse(read_bytes(folder_ / "proof.json"));
+  EXPECT_FALSE(file["certificate"]["trees"].empty());
+  EXPECT_FALSE(file["largest_certificate"]["trees"].empty());
   EXPECT_EQ(verified(), 0);
 }
 

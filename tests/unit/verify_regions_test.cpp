@@ -205,6 +205,50 @@ TEST(VerifyRegions, ABallInTheBlanksHoleProvesNoMoreThanItsRadius) {
   EXPECT_EQ(verdict("-0.081", "0.01"), Verdict::refuted);
 }
 
+/// A disc of 11 in one of 12, its x locked far from the origin, where steps of doubles are 1.2e-10 mm.
+/// \returns the least bound that the nodes prove over a range of x
+double least_proved(const std::string& at, const std::string& from, const std::string& to,
+                    const std::string& nodes) {
+  const auto proves = [&](double upper) {
+    const std::string text = fmt::format(
+        R"({{"format": {{"name": "lekalo-locate", "version": 1}}, "status": "optimal", "units": "mm", "x": {0}, "y": 0,
+ "theta": 0, "theta_deg": 0, "mirrored": false, "mirror": "no", "clearance": 0.5, "upper_bound": {1}, "gap": {2},
+ "min_allowance": 0, "shortfall": 0, "window_deg": [0, 0], "tolerances": {{"part": 0, "blank": 0}},
+ "regions": {{"part": {{"units": "mm", "outer": {3}}}, "blank": {{"units": "mm", "outer": {4}}}}},
+ "contacts": [], "certificate": {{"pivot": [0, 0], "trees": [{{"mirrored": false, "theta": [0, 0],
+ "x": [{5}, {6}], "y": [0, 0], "nodes": [{7}]}}]}}, "certificate_file": null,
+ "locked": {{"x": {0}, "y": 0}}, "demands": null, "scan": null, "part_cut": false}})",
+        at, upper, upper - 0.5, Rings::circle("0", "0", 11), Rings::circle("1000000", "0", 12), from, to,
+        nodes);
+    const auto report = verify_locate({{"r", text}, {"p", "[]"}, {"b", "[]"}, std::nullopt});
+    EXPECT_TRUE(report.has_value()) << report.error().message;
+    if (!report) return false;
+    for (const std::string& finding : report->findings)
+      EXPECT_NE(finding.find("its contacts do not prove"), std::string::npos) << finding;
+    return report->verdict == Verdict::confirmed;
+  };
+  double low = 0.9, high = 1.1;
+  EXPECT_FALSE(proves(low));
+  EXPECT_TRUE(proves(high));
+  while (0.5 * (low + high) != low && 0.5 * (low + high) != high)
+    (proves(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+  return high;
+}
+
+/// What a split leaves out, were it one step of a double, no other leaf would prove: each half needs what it
+/// would need alone. The left leaf proves less the further right the part is, the right one the other way.
+TEST(VerifyRegions, TheHalvesOfACellCoverAllOfIt) {
+  const std::string left = R"({"contacts": [[0, 0, 11, 998988, 0, 1000, 1]]})";
+  const std::string right = R"({"contacts": [[0, 0, 11, 1001012, 0, 1000, 1]]})";
+  const std::string from = "999999.9999999997", to = "1000000.0000000003";
+  // A double, and decimals between two of them.
+  for (const std::string at : {"1000000", "999999.99999999995", "1000000.00000000007"}) {
+    const double low = least_proved(at, from, at, left), high = least_proved(at, at, to, right);
+    const std::string split = fmt::format(R"(["x", {}], {}, {})", at, left, right);
+    EXPECT_EQ(least_proved(at, from, to, split), std::max(low, high)) << at;
+  }
+}
+
 constexpr double kTurn = 6.283185307179586;
 
 Span at(double value) { return {value, value}; }

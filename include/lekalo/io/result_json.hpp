@@ -70,8 +70,9 @@ struct DemandRecord {
   std::vector<locate::Feature> features;
   locate::Criterion criterion = locate::Criterion::smallest;
   double give_up = 0;
-  double margin = 0, margin_bound = 0, largest = 0, deviation = 0;
-  std::optional<double> largest_bound;
+  double margin = 0, margin_bound = 0, margin_found = 0, margin_gap = 0, largest = 0, deviation = 0;
+  /// Its proof without `grown`; without certificate: there is none, or it is in certificate_file.
+  std::optional<locate::SmallestLargest> second;
   std::vector<locate::TradeOff> curve;
   double grown_for = 0, shift = 0, bound = 0;  ///< of DemandProof
 };
@@ -144,8 +145,8 @@ class CertificateText {
   std::size_t intervals_ = 0;
 };
 
-/// The document of a certificate file of a localisation of regions.
-[[nodiscard]] std::string cover_text(const geom::Point& pivot, const std::vector<locate::CoverTree>& trees);
+/// The document of a certificate file of a localisation of regions: all its certificates.
+[[nodiscard]] std::string cover_text(const RegionRecord& record);
 
 /// What `verify` and `--compare` need of a written result; what is proved about the rest is verify's matter.
 struct WrittenResult {

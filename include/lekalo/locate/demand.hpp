@@ -30,10 +30,13 @@ struct Feature {
   std::optional<double> finished;
 };
 
+/// Each goes on from the one before, so that what was best there is lost by no more than stated.
 enum class Criterion {
   smallest,  ///< the largest margin
   largest,   ///< then, of the placements that give up at most `give_up` of it, the smallest largest allowance
-  even       ///< then the least mean square deviation of the allowance from its targets (or its mean)
+  /// then, of those with a largest allowance of at most SmallestLargest::kept, the least mean square
+  /// deviation of the allowance from its targets (or its mean)
+  even
 };
 
 struct DemandProblem {
@@ -51,7 +54,7 @@ struct TradeOff {
   bool mirrored = false;
   double margin = 0;         ///< at least that, mm
   double largest = 0;        ///< the largest allowance there, rounded up, mm
-  double largest_bound = 0;  ///< no placement with more than `margin` + gap has less, mm
+  double largest_bound = 0;  ///< no placement with that margin has less, mm
 };
 
 /// The certificate proves, for every placement in the window, that the least of
@@ -67,7 +70,26 @@ struct DemandProof {
   std::vector<CoverTree> certificate;
 };
 
+/// The same of a search with one more cap, the last: `most` on every edge that is not finished. So every
+/// placement with a margin above grown_for + bound / (least scale) that keeps the maxima has a largest
+/// allowance of at least most + shift - bound (maxima are kept where `bound` is below `shift`).
+struct LargestProof : DemandProof {
+  double most = 0;
+};
+
+/// What the second criterion found.
+struct SmallestLargest {
+  double margin = 0;  ///< placements with at least that were compared: the largest found less `give_up`
+  double found = 0;   ///< the smallest largest allowance found among them, rounded up, mm
+  double bound = 0;   ///< none of them that keeps the maxima has less, mm
+  double gap = 0;     ///< what `found` - `bound` was to become, mm
+  double kept = 0;    ///< the third criterion goes up to that: `bound` + `gap`, or `found` if that is more
+  std::optional<LargestProof> proof;  ///< of `bound`; none where that is 0
+};
+
 struct DemandResult {
+  /// optimal: the margin is within margin_gap of its bound and, if asked for, the smallest largest allowance
+  /// within its own gap.
   Status status = Status::stopped;
   Placement best;  ///< its clearance is that of the part alone, rounded down
   bool mirrored = false;
@@ -76,9 +98,10 @@ struct DemandResult {
   /// large, mm.
   double margin = 0;
   double margin_bound = 0;  ///< no placement that keeps the maxima has more; rounded up
+  double margin_found = 0;  ///< the largest margin found: `margin`, unless another criterion gave some up
+  double margin_gap = 0;    ///< what margin_bound - margin_found was to become
   double largest = 0;       ///< largest allowance of an edge that is not finished, rounded up, mm
-  /// Criterion::largest: no placement with more than the largest margin - give_up + gap has less; mm.
-  std::optional<double> largest_bound;
+  std::optional<SmallestLargest> second;  ///< with Criterion::largest and even, where the demands are met
   double deviation =
       0;  ///< root of the mean square deviation of the allowance from its targets, mm, as measured
   std::vector<RegionTouch> contacts;  ///< of the part itself, near or deep where the demands hold it
@@ -92,7 +115,8 @@ struct DemandResult {
 /// ErrorCode::usage for numbers out of range, edges that the part does not have or that two features claim,
 /// and as locate_regions. bad_input where the grown part cannot be drawn (geom/offset.hpp).
 /// Deterministic. Cost: one search of locate_regions; with scales three to eight of them; with maxima that
-/// bind, or for the second criterion, about twelve that end early; every point of the curve as many.
+/// bind, or for the second and third criterion, about twelve that end early; every point of the curve as
+/// many.
 [[nodiscard]] Result<DemandResult> locate_demands(const DemandProblem& problem, const RegionOptions& options);
 
 }  // namespace lekalo::locate
