@@ -210,6 +210,12 @@ TEST(LayoutJson, RefusesBrokenFiles) {
   EXPECT_LT(message_of(deep).size(), 1000u);
 }
 
+TEST(LayoutJson, RefusesToCountIdsBeyondTheLast) {
+  Json json = Json::parse(kLayout);
+  json["placements"][0]["id"] = 9007199254740991;
+  EXPECT_NE(message_of(json.dump()).find("placements[1]: its id would be"), std::string::npos);
+}
+
 TEST(LayoutJson, RefusesTooManyPoints) {
   std::string text =
       R"({"format": "lekalo-layout/1", "units": "mm", "parts": [{"id": "a", "outline": {"polygon": {"outer": [)";
