@@ -11,7 +11,7 @@
 
 #include "lekalo/phi/outline_relation.hpp"
 #include "lekalo/verify/layout.hpp"
-#include "support/layout_documents.hpp"
+#include "support/layout_texts.hpp"
 
 namespace {
 

@@ -9,6 +9,7 @@
 
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "lekalo/geom/wide_product.hpp"
 
 namespace lekalo::geom {
 namespace {
@@ -33,14 +34,14 @@ bool nearer_than_resolution(GridPoint a, GridPoint b) noexcept {
   return dot(d, d) < kGridResolution * kGridResolution;
 }
 
-/// Whether p is nearer to the segment a b than the resolution. Off by a rounding where the distance is that.
+/// Whether p is nearer to the segment a b than the resolution: exact.
 bool nearer_than_resolution(GridPoint p, GridPoint a, GridPoint b) noexcept {
   const GridPoint along = b - a, to = p - a;
   const Int128 at = dot(to, along), length = dot(along, along);
   if (at <= 0) return nearer_than_resolution(p, a);
   if (at >= length) return nearer_than_resolution(p, b);
-  const double height = static_cast<double>(cross(along, to));
-  return height * height < kGridResolution * kGridResolution * static_cast<double>(length);
+  const Int128 height = cross(along, to);
+  return wide_product(height, height) < wide_product(Int128{kGridResolution} * kGridResolution, length);
 }
 
 bool cross_each_other(GridPoint a, GridPoint b, GridPoint c, GridPoint d) noexcept {
@@ -194,17 +195,26 @@ class ArcChords {
   [[nodiscard]] Point operator[](std::size_t i) const noexcept {
     const double angle =
         outside_ ? (static_cast<double>(i) + 0.5) * step_ : static_cast<double>(i + 1) * step_;
-    const double radius = outside_ ? radius_ / sincos(step_ / 2).cosine : radius_;
     const Point out = arc_.from - arc_.centre;
     const SinCos turn = sincos(angle);
-    const double scale = radius / norm(out);
-    return arc_.centre + Point{scale * (turn.cosine * out.x - turn.sine * out.y),
-                               scale * (turn.sine * out.x + turn.cosine * out.y)};
+    return at_radius({turn.cosine * out.x - turn.sine * out.y, turn.sine * out.x + turn.cosine * out.y},
+                     outside_ ? radius_ / sincos(step_ / 2).cosine : radius_);
+  }
+  /// Where an end that is not on the circle of the chords is joined to it, straight along its direction: the
+  /// arc may run on the other end's radius from there on. Only where the radii differ by more than the
+  /// margin.
+  [[nodiscard]] std::optional<Point> join(Point end) const noexcept {
+    const Point out = end - arc_.centre;
+    if (std::abs(norm(out) - radius_) <= 2 * kMargin) return std::nullopt;
+    return at_radius(out, radius_);
   }
 
  private:
   /// Rounding to the grid, thinning, and the turned vertex's rounding, with 2 steps left.
   static constexpr double kMargin = 8 * kGridStep;
+  [[nodiscard]] Point at_radius(Point out, double radius) const noexcept {
+    return arc_.centre + (radius / norm(out)) * out;
+  }
   const Edge& arc_;
   bool outside_;
   double radius_ = 0, step_ = 0;
@@ -227,7 +237,9 @@ Result<Loop> grid_loop(const Contour& contour, std::size_t index, ChordSide side
             ErrorCode::bad_input,
             fmt::format("{}: edge {} needs more than {} chords within {} mm; take a larger tolerance",
                         loop_name(index), e, kMostChords, tolerance));
+      if (const auto join = chords.join(contour[e].from)) fits = add(*join);
       for (std::size_t i = 0; i < chords.count() && fits; ++i) fits = add(chords[i]);
+      if (const auto join = chords.join(contour[e].to); join && fits) fits = add(*join);
     }
     if (!fits)
       return failure(

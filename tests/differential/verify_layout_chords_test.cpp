@@ -7,7 +7,7 @@
 
 #include "lekalo/geom/grid_region.hpp"
 #include "lekalo/verify/layout.hpp"
-#include "support/layout_documents.hpp"
+#include "support/layout_texts.hpp"
 #include "support/region_cases.hpp"
 
 namespace lekalo {
