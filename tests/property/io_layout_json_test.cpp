@@ -8,7 +8,7 @@
 #include "io/grid_decimal.hpp"
 #include "lekalo/io/layout_json.hpp"
 #include "support/cases.hpp"
-#include "support/layout_texts.hpp"
+#include "support/layout_documents.hpp"
 
 namespace lekalo::io {
 namespace {
