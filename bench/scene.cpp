@@ -119,8 +119,7 @@ std::vector<phi::Probe> random_probes(const Layout& on, Random& random, std::siz
     probe.shape = on.shapes[random.below(on.shapes.size())];
     const geom::GridBox& box = on.scene.box(probe.shape);
     const auto place = [&](std::int64_t low, std::int64_t high, std::int64_t from, std::int64_t to) {
-      return static_cast<std::int64_t>(
-                 random.uniform(static_cast<double>(low), static_cast<double>(high))) -
+      return static_cast<std::int64_t>(random.uniform(static_cast<double>(low), static_cast<double>(high))) -
              (from + to) / 2;
     };
     probe.at = {place(on.strip.low.x, on.strip.high.x, box.low.x, box.high.x),
@@ -225,9 +224,8 @@ void run(const std::string& data, const std::string& name) {
   const auto any = [&](const std::vector<phi::Probe>& probes) {
     std::size_t found = 0;
     for (const phi::Probe& probe : probes)
-      found += std::any_of(on.everything.begin(), on.everything.end(), [&](phi::BodyIndex index) {
-                 return body_forbids(on, index, probe);
-               })
+      found += std::any_of(on.everything.begin(), on.everything.end(),
+                           [&](phi::BodyIndex index) { return body_forbids(on, index, probe); })
                    ? 1
                    : 0;
     return found;
@@ -249,14 +247,16 @@ void run(const std::string& data, const std::string& name) {
     return found;
   };
   const auto line = [&](const char* kind, const Rate& rate, double figure) {
-    print(name, kind, rate, figure, asked > 0 ? 100.0 * static_cast<double>(hits) / static_cast<double>(asked) : -1);
+    print(name, kind, rate, figure,
+          asked > 0 ? 100.0 * static_cast<double>(hits) / static_cast<double>(asked) : -1);
     asked = hits = 0;
   };
   line("random", measure([&](std::size_t n) { return random_probes(on, random, n); }, forbidden, any),
        jagua.random);
   line("random, on the strip",
        measure([&](std::size_t n) { return inner_probes(on, random, n); }, forbidden, any), 0);
-  line("near", measure([&](std::size_t n) { return near_probes(on, random, n); }, forbidden, any), jagua.near);
+  line("near", measure([&](std::size_t n) { return near_probes(on, random, n); }, forbidden, any),
+       jagua.near);
   line("list", measure([&](std::size_t n) { return near_probes(on, random, n); }, forbidding, all),
        jagua.list);
   const auto take_and_put = [&](const std::vector<phi::Probe>& probes) {
@@ -289,7 +289,7 @@ int main(int argc, char** argv) {
   }
   if (names.empty()) names = {"swim", "shirts", "jakobs1"};
   fmt::print("thousand questions a second, CPU time of one core\n");
-  fmt::print("{:<9}{:<24}{:>9}{:>9}{:>9}{:>7}{:>10}{:>8}{:>9}\n", "layout", "question", "best", "first", "jagua",
-             "ratio", "one by one", "ratio", "% hits");
+  fmt::print("{:<9}{:<24}{:>9}{:>9}{:>9}{:>7}{:>10}{:>8}{:>9}\n", "layout", "question", "best", "first",
+             "jagua", "ratio", "one by one", "ratio", "% hits");
   for (const std::string& name : names) run(data, name);
 }

@@ -1,7 +1,6 @@
 #include "contact_map.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "lekalo/phi/outline_relation.hpp"
@@ -12,12 +11,18 @@ namespace {
 using geom::GridPoint;
 using geom::Int128;
 
-constexpr std::uint64_t kHighBits = 0xAAAAAAAAAAAAAAAAu;
 /// Steps: more than all roundings of the raster's positions together.
 constexpr double kMargin = 4;
 
-/// High bits of the fields of a row of cells that are `touched`.
-std::uint64_t touched_of(std::uint64_t row) noexcept { return row & kHighBits & ~(row << 1); }
+/// One bit for every cell of a row that is `touched`: the lower one of its two.
+std::uint64_t touched_of(std::uint64_t row) noexcept { return (row >> 1) & ~row & 0x5555555555555555u; }
+
+/// How many bits are set. \pre only bits of even number are
+std::size_t count_even_bits(std::uint64_t bits) noexcept {
+  bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
+  bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
+  return (bits * 0x0101010101010101u) >> 56;
+}
 
 /// Gives a cell that is open, and all open ones around it in a grid of `size` x `size` cells, one state.
 template <class Get, class Set>
@@ -75,7 +80,7 @@ ContactMap::ContactMap(const OutlinePair& pair) : gap_(static_cast<double>(pair.
   std::size_t count = 0;
   for (std::size_t y = 0; y < kCoarse; ++y) {
     before_[y] = static_cast<std::uint16_t>(count);
-    count += static_cast<std::size_t>(std::popcount(touched_of(rows_[y])));
+    count += count_even_bits(touched_of(rows_[y]));
   }
   block_of_.resize(count);
 }
@@ -159,15 +164,6 @@ void ContactMap::visit_touched(const Contact& c, double corner_x, double corner_
   }
 }
 
-bool ContactMap::forbidden(GridPoint shift, const OutlinePair& pair) {
-  const double u = static_cast<double>(shift.x) + offset_x_, v = static_cast<double>(shift.y) + offset_y_;
-  const int qx = static_cast<int>(u * per_step_x_), qy = static_cast<int>(v * per_step_y_);
-  const std::uint64_t row = rows_[static_cast<std::size_t>(qy / kFine)];
-  const unsigned state = (row >> (2 * (qx / kFine))) & 3;
-  if (state < touched) return state == hit;
-  return in_fine(qx, qy, u, v, shift, pair);
-}
-
 bool ContactMap::in_fine(int qx, int qy, double u, double v, GridPoint shift, const OutlinePair& pair) {
   const int cx = qx / kFine, cy = qy / kFine;
   const std::uint64_t coarse = rows_[static_cast<std::size_t>(cy)];
@@ -184,8 +180,8 @@ bool ContactMap::in_fine(int qx, int qy, double u, double v, GridPoint shift, co
     return result;
   }
   const std::uint64_t below = (std::uint64_t{1} << (2 * cx)) - 1;
-  const std::size_t rank = before_[static_cast<std::size_t>(cy)] +
-                           static_cast<std::size_t>(std::popcount(touched_of(coarse) & below));
+  const std::size_t rank =
+      before_[static_cast<std::size_t>(cy)] + count_even_bits(touched_of(coarse) & below);
   if (block_of_[rank] == 0) block_of_[rank] = static_cast<std::uint16_t>(make_block(cx, cy) + 1);
   Block& block = blocks_[block_of_[rank] - 1u];
   const int fx = qx % kFine, fy = qy % kFine;
@@ -204,8 +200,8 @@ bool ContactMap::in_fine(int qx, int qy, double u, double v, GridPoint shift, co
   }
   if (gap_ > 0) return pair.forbidden(shift);
   const std::uint64_t before = (std::uint64_t{1} << bit_of(fx, fy)) - 1;
-  std::uint32_t& leaf = leaf_of_[block.leaves + block.before[word_of(fy)] +
-                                 static_cast<std::size_t>(std::popcount(touched_of(word) & before))];
+  std::uint32_t& leaf =
+      leaf_of_[block.leaves + block.before[word_of(fy)] + count_even_bits(touched_of(word) & before)];
   if (leaf == 0) {
     leaves_.push_back(make_leaf(qx, qy));
     leaf = static_cast<std::uint32_t>(leaves_.size());
@@ -226,7 +222,7 @@ std::uint32_t ContactMap::make_block(int cx, int cy) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < block.rows.size(); ++i) {
     block.before[i] = static_cast<std::uint16_t>(count);
-    count += static_cast<std::size_t>(std::popcount(touched_of(block.rows[i])));
+    count += count_even_bits(touched_of(block.rows[i]));
   }
   block.leaves = static_cast<std::uint32_t>(leaf_of_.size());
   if (gap_ <= 0) leaf_of_.resize(leaf_of_.size() + count);

@@ -32,7 +32,14 @@ class ContactMap {
 
   /// \pre the map's own pair; the boxes come nearer than the gap (or, in a container, the moving box lies in
   /// the fixed one)
-  [[nodiscard]] bool forbidden(geom::GridPoint shift, const OutlinePair& pair);
+  [[nodiscard]] bool forbidden(geom::GridPoint shift, const OutlinePair& pair) {
+    const double u = static_cast<double>(shift.x) + offset_x_, v = static_cast<double>(shift.y) + offset_y_;
+    const int qx = static_cast<int>(u * per_step_x_), qy = static_cast<int>(v * per_step_y_);
+    const std::uint64_t row = rows_[static_cast<std::size_t>(qy / kFine)];
+    const unsigned state = static_cast<unsigned>(row >> (2 * (qx / kFine))) & 3;
+    if (state < touched) return state == hit;
+    return in_fine(qx, qy, u, v, shift, pair);
+  }
 
   [[nodiscard]] std::size_t bytes() const noexcept;
 

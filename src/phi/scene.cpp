@@ -55,6 +55,10 @@ std::uint64_t hash(const GridRegion& region) noexcept {
 }
 
 constexpr std::size_t kMostGaps = 255;
+/// Small cells along the side of a cell.
+constexpr std::int32_t kSmall = 4;
+/// Bodies over more rows of small cells than this are not marked in them.
+constexpr double kMostRows = 256;
 
 }  // namespace
 
@@ -62,12 +66,15 @@ constexpr std::size_t kMostGaps = 255;
 /// own maps.
 struct Scene::Memory {
   std::vector<FlatOutline> forms;
+  double row = 1;                                                 ///< height of a small cell
+  std::vector<std::vector<FlatOutline::Span>> covers;             ///< by form, of such rows
   std::unordered_multimap<std::uint64_t, std::uint32_t> form_of;  ///< by hash
   std::vector<std::int64_t> gaps = {0};
   PairMemory pairs;
 
   Memory() = default;
-  Memory(const Memory& other) : forms(other.forms), form_of(other.form_of), gaps(other.gaps) {}
+  Memory(const Memory& other)
+      : forms(other.forms), row(other.row), covers(other.covers), form_of(other.form_of), gaps(other.gaps) {}
   Memory& operator=(const Memory&) = delete;
 
   std::uint32_t form(const GridRegion& outline) {
@@ -77,6 +84,8 @@ struct Scene::Memory {
     for (auto i = first; i != last; ++i)
       if (forms[i->second].region == flat.region) return i->second;
     form_of.emplace(code, static_cast<std::uint32_t>(forms.size()));
+    covers.emplace_back();
+    if (static_cast<double>(flat.height) <= kMostRows * row) covers.back() = covered_spans(flat, row);
     forms.push_back(std::move(flat));
     return static_cast<std::uint32_t>(forms.size() - 1);
   }
@@ -110,6 +119,12 @@ Scene::Scene(const GridBox& world, std::size_t cells) : world_(world), memory_(s
   columns_ = static_cast<std::int32_t>(width * per_step_) + 1;
   rows_ = static_cast<std::int32_t>(height * per_step_) + 1;
   cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  small_per_step_ = kSmall / side;
+  small_columns_ = kSmall * columns_;
+  small_rows_ = kSmall * rows_;
+  covered_by_.assign(static_cast<std::size_t>(small_columns_) * static_cast<std::size_t>(small_rows_),
+                     kNoBody);
+  memory_->row = side / kSmall;
 }
 
 Scene::~Scene() = default;
@@ -124,6 +139,11 @@ Scene::Scene(const Scene& other)
       shapes_(other.shapes_),
       bodies_(other.bodies_),
       placed_(other.placed_),
+      blockers_(other.blockers_),
+      small_per_step_(other.small_per_step_),
+      small_columns_(other.small_columns_),
+      small_rows_(other.small_rows_),
+      covered_by_(other.covered_by_),
       is_in_(other.is_in_),
       free_(other.free_),
       containers_(other.containers_),
@@ -161,35 +181,77 @@ std::uint32_t Scene::next_question() const {
   return question_;
 }
 
-template <class Visit>
-bool Scene::visit_cell(std::size_t cell, std::uint32_t question, Visit&& visit) const {
+template <class Accept, class Visit>
+bool Scene::visit_cell(std::size_t cell, std::uint32_t question, Accept&& accept, Visit&& visit) const {
   for (const Cell* at = &cells_[cell];; at = &cells_[at->next]) {
+    // First all that count, without a branch, then what takes long.
+    std::array<BodyIndex, std::tuple_size_v<decltype(Cell::bodies)>> some;
+    std::size_t count = 0;
     for (std::uint32_t i = 0; i < at->count; ++i) {
       const BodyIndex index = at->bodies[i];
       const Placed& placed = placed_[index];
-      if (placed.question == question) continue;
+      const bool is_new = placed.question != question;
       placed.question = question;
-      if (visit(index)) return true;
+      some[count] = index;
+      count += static_cast<std::size_t>(is_new & accept(placed));
     }
+    for (std::size_t i = 0; i < count; ++i)
+      if (visit(some[i])) return true;
     if (at->next == 0) return false;
   }
 }
 
-template <class Visit>
-bool Scene::visit_near(const GridBox& box, Visit&& visit) const {
+template <class Accept, class Visit>
+bool Scene::visit_near(const GridBox& box, Accept&& accept, Visit&& visit) const {
   const Cells cells = cells_of(box);
   const std::uint32_t question = next_question();
   const auto width = static_cast<std::size_t>(columns_);
-  // What lies in the middle is met most probably.
-  const std::int32_t middle_x = (cells.left + cells.right) / 2, middle_y = (cells.bottom + cells.top) / 2;
-  if (visit_cell(static_cast<std::size_t>(middle_y) * width + static_cast<std::size_t>(middle_x), question,
-                 visit))
-    return true;
-  if (cells.left == cells.right && cells.bottom == cells.top) return false;
   for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
     for (std::int32_t x = cells.left; x <= cells.right; ++x)
-      if (visit_cell(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x), question, visit))
+      if (visit_cell(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x), question, accept,
+                     visit))
         return true;
+  return false;
+}
+
+void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
+  const Placed& body = placed_[index];
+  const auto& spans = memory_->covers[body.form];
+  // Positions in small cells; a cell counts when it lies in the span whatever the roundings.
+  constexpr double kMargin = 0x1p-20;
+  const double left = static_cast<double>(body.box.low.x - world_.low.x),
+               bottom = static_cast<double>(body.box.low.y - world_.low.y) * small_per_step_;
+  const double first_row = std::floor(bottom);
+  if (!(first_row >= -0x1p20 && first_row <= 0x1p30)) return;
+  for (std::size_t j = 0; j < spans.size(); ++j) {
+    if (spans[j].low > spans[j].high) continue;
+    const std::int64_t y = static_cast<std::int64_t>(first_row) + static_cast<std::int64_t>(j);
+    if (y < 0 || y >= small_rows_) continue;
+    const double low = (left + static_cast<double>(spans[j].low)) * small_per_step_,
+                 high = (left + static_cast<double>(spans[j].high)) * small_per_step_;
+    const auto first = static_cast<std::int64_t>(std::max(0.0, std::ceil(low + kMargin))),
+               last = static_cast<std::int64_t>(
+                   std::min(std::floor(high - kMargin), static_cast<double>(small_columns_)));
+    BodyIndex* const row = covered_by_.data() + y * small_columns_;
+    for (std::int64_t x = first; x < last; ++x)
+      if (row[x] == from) row[x] = to;
+  }
+}
+
+bool Scene::lies_on_covered(const Question& q) const {
+  const double x = static_cast<double>(q.box.low.x - world_.low.x),
+               y = static_cast<double>(q.box.low.y - world_.low.y);
+  for (const GridPoint inner : memory_->forms[q.form].inner) {
+    const double at_x = (x + static_cast<double>(inner.x)) * small_per_step_,
+                 at_y = (y + static_cast<double>(inner.y)) * small_per_step_;
+    if (!(at_x >= 0 && at_y >= 0 && at_x < small_columns_ && at_y < small_rows_)) continue;
+    const BodyIndex index = covered_by_[static_cast<std::size_t>(static_cast<std::int32_t>(at_y)) *
+                                            static_cast<std::size_t>(small_columns_) +
+                                        static_cast<std::size_t>(static_cast<std::int32_t>(at_x))];
+    if (index == kNoBody) continue;
+    if (index == q.except) return false;  // it is near its own place: others are not under its middle
+    if ((placed_[index].layers & q.layers) != 0 && placed_[index].rank > q.tolerates) return true;
+  }
   return false;
 }
 
@@ -231,11 +293,16 @@ void Scene::remove_from_cell(std::size_t cell, BodyIndex index) {
 BodyIndex Scene::put(const Body& body) {
   BodyIndex index = static_cast<BodyIndex>(bodies_.size());
   const Shape& shape = shapes_[body.shape];
-  const Placed placed{
-      {shape.box.low + body.at, shape.box.high + body.at}, body.gap, body.rank, shape.form, body.layers, 0};
+  const Placed placed{{shape.box.low + body.at, shape.box.high + body.at},
+                      body.gap,
+                      body.rank,
+                      shape.form,
+                      body.container ? 0 : body.layers,
+                      0};
   if (free_.empty()) {
     bodies_.push_back(body);
     placed_.push_back(placed);
+    blockers_.push_back({kNoBody, kNoBody});
     is_in_.push_back(1);
   } else {
     index = free_.back();
@@ -249,6 +316,7 @@ BodyIndex Scene::put(const Body& body) {
     containers_.insert(std::lower_bound(containers_.begin(), containers_.end(), index), index);
     return index;
   }
+  cover(index, kNoBody, index);
   const Cells cells = cells_of(placed.box);
   for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
     for (std::int32_t x = cells.left; x <= cells.right; ++x)
@@ -266,6 +334,8 @@ void Scene::take(BodyIndex index) {
     containers_.erase(std::find(containers_.begin(), containers_.end(), index));
     return;
   }
+  cover(index, index, kNoBody);
+  placed_[index].layers = 0;
   const Cells cells = cells_of(placed_[index].box);
   for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
     for (std::int32_t x = cells.left; x <= cells.right; ++x)
@@ -284,13 +354,18 @@ Scene::Question Scene::question(const Probe& probe) const {
           probe.except};
 }
 
-bool Scene::forbids(BodyIndex index, const Question& q) const {
-  const Placed& body = placed_[index];
-  if (index == q.except || (body.layers & q.layers) == 0 || body.rank <= q.tolerates) return false;
+bool Scene::counts(const Placed& body, const Question& q) const noexcept {
   const std::int64_t gap = std::max(body.gap, q.gap);
-  if (q.box.low.x - gap >= body.box.high.x || q.box.high.x + gap <= body.box.low.x ||
-      q.box.low.y - gap >= body.box.high.y || q.box.high.y + gap <= body.box.low.y)
-    return false;
+  return static_cast<bool>(static_cast<int>((body.layers & q.layers) != 0) &
+                           static_cast<int>(body.rank > q.tolerates) &
+                           static_cast<int>(q.box.low.x - gap < body.box.high.x) &
+                           static_cast<int>(q.box.high.x + gap > body.box.low.x) &
+                           static_cast<int>(q.box.low.y - gap < body.box.high.y) &
+                           static_cast<int>(q.box.high.y + gap > body.box.low.y));
+}
+
+bool Scene::forbids(const Placed& body, const Question& q) const {
+  const std::int64_t gap = std::max(body.gap, q.gap);
   if (gap == 0 && memory_->forms[body.form].box && memory_->forms[q.form].box) return true;
   const GridPoint shift = q.box.low - body.box.low;
   return body.form <= q.form ? pair_forbids(body.form, q.form, shift, gap, false)
@@ -313,7 +388,7 @@ bool Scene::pair_forbids(std::uint32_t fixed, std::uint32_t moving, GridPoint sh
 
 bool Scene::container_forbids(BodyIndex index, const Question& q) const {
   const Placed& body = placed_[index];
-  if (index == q.except || (body.layers & q.layers) == 0 || body.rank <= q.tolerates) return false;
+  if (index == q.except || (bodies_[index].layers & q.layers) == 0 || body.rank <= q.tolerates) return false;
   const std::int64_t gap = std::max(body.gap, q.gap);
   // Every loop of the container keeps the gap, the outer one around its box at least.
   if (q.box.low.x - gap < body.box.low.x || q.box.high.x + gap > body.box.high.x ||
@@ -327,8 +402,25 @@ bool Scene::forbidden(const Probe& probe) const {
   const Question q = question(probe);
   for (const BodyIndex index : containers_)
     if (container_forbids(index, q)) return true;
-  return visit_near(grown(q.box, std::max(widest_gap_, probe.gap)),
-                    [&](BodyIndex index) { return forbids(index, q); });
+  if (lies_on_covered(q)) return true;
+  const bool is_body = q.except < placed_.size();
+  if (is_body)
+    for (BodyIndex& blocker : blockers_[q.except])
+      if (blocker < placed_.size() && counts(placed_[blocker], q) && forbids(placed_[blocker], q)) {
+        std::swap(blocker, blockers_[q.except].front());
+        return true;
+      }
+  return visit_near(
+      grown(q.box, std::max(widest_gap_, probe.gap)), [&](const Placed& body) { return counts(body, q); },
+      [&](BodyIndex index) {
+        if (index == q.except || !forbids(placed_[index], q)) return false;
+        if (is_body) {
+          auto& blockers = blockers_[q.except];
+          std::move_backward(blockers.begin(), blockers.end() - 1, blockers.end());
+          blockers.front() = index;
+        }
+        return true;
+      });
 }
 
 void Scene::forbidding(const Probe& probe, std::vector<BodyIndex>& found) const {
@@ -336,10 +428,12 @@ void Scene::forbidding(const Probe& probe, std::vector<BodyIndex>& found) const 
   const Question q = question(probe);
   for (const BodyIndex index : containers_)
     if (container_forbids(index, q)) found.push_back(index);
-  visit_near(grown(q.box, std::max(widest_gap_, probe.gap)), [&](BodyIndex index) {
-    if (forbids(index, q)) found.push_back(index);
-    return false;
-  });
+  visit_near(
+      grown(q.box, std::max(widest_gap_, probe.gap)), [&](const Placed& body) { return counts(body, q); },
+      [&](BodyIndex index) {
+        if (index != q.except && forbids(placed_[index], q)) found.push_back(index);
+        return false;
+      });
   std::sort(found.begin(), found.end());
 }
 
@@ -354,23 +448,27 @@ std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::
   for (const BodyIndex index : containers_)
     if ((bodies_[index].layers & layers) != 0) found.push_back(index);
   const GridBox window = grown(box, reach);
-  visit_near(window, [&](BodyIndex index) {
-    if ((placed_[index].layers & layers) != 0 && meet(placed_[index].box, window)) found.push_back(index);
-    return false;
-  });
+  visit_near(
+      window, [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
+      [&](BodyIndex index) {
+        found.push_back(index);
+        return false;
+      });
   std::sort(found.begin(), found.end());
   return found;
 }
 
 std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
   std::vector<BodyIndex> found;
-  visit_near({p, p}, [&](BodyIndex index) {
-    const Body& body = bodies_[index];
-    if ((body.layers & layers) != 0 && meet(placed_[index].box, {p, p}) &&
-        locate_point(outline(body.shape), p - body.at) != geom::PointLocation::outside)
-      found.push_back(index);
-    return false;
-  });
+  const GridBox window{p, p};
+  visit_near(
+      window, [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
+      [&](BodyIndex index) {
+        const Body& body = bodies_[index];
+        if (locate_point(outline(body.shape), p - body.at) != geom::PointLocation::outside)
+          found.push_back(index);
+        return false;
+      });
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -378,11 +476,13 @@ std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
 std::size_t Scene::bytes() const noexcept {
   std::size_t sum = sizeof *this + cells_.capacity() * sizeof(Cell) + shapes_.capacity() * sizeof(Shape) +
                     bodies_.capacity() * sizeof(Body) + placed_.capacity() * sizeof(Placed) +
+                    covered_by_.capacity() * sizeof(BodyIndex) + blockers_.capacity() * sizeof blockers_[0] +
                     is_in_.capacity() + (free_.capacity() + containers_.capacity()) * sizeof(BodyIndex) +
                     memory_->pairs.bytes() + memory_->form_of.size() * 32;
   for (const Shape& shape : shapes_) sum += shape.outline.points.capacity() * sizeof(GridPoint);
   for (const FlatOutline& form : memory_->forms)
-    sum += sizeof form + form.region.points.capacity() * sizeof(GridPoint);
+    sum += sizeof form + (form.region.points.capacity() + form.inner.capacity()) * sizeof(GridPoint);
+  for (const auto& spans : memory_->covers) sum += sizeof spans + spans.capacity() * sizeof spans[0];
   return sum;
 }
 

@@ -93,7 +93,8 @@ class Scene {
   struct Placed {
     geom::GridBox box;
     std::int64_t gap, rank;
-    std::uint32_t form, layers;
+    std::uint32_t form;
+    std::uint32_t layers;            ///< 0 for containers and where no body is
     mutable std::uint32_t question;  ///< the last one that looked at it
   };
   /// Columns and rows of cells, ends included.
@@ -108,16 +109,23 @@ class Scene {
   struct Question;
 
   [[nodiscard]] Question question(const Probe& probe) const;
-  [[nodiscard]] bool forbids(BodyIndex index, const Question& question) const;
+  /// Whether it is one the question is about, and their boxes come nearer than the gap.
+  [[nodiscard]] bool counts(const Placed& body, const Question& question) const noexcept;
+  /// \pre it counts
+  [[nodiscard]] bool forbids(const Placed& body, const Question& question) const;
   [[nodiscard]] bool container_forbids(BodyIndex index, const Question& question) const;
   [[nodiscard]] bool pair_forbids(std::uint32_t fixed, std::uint32_t moving, geom::GridPoint shift,
                                   std::int64_t gap, bool container) const;
-  /// visit(index) of every body in the cells that the box meets, once each; stops when it returns true.
-  template <class Visit>
-  bool visit_near(const geom::GridBox& box, Visit&& visit) const;
-  template <class Visit>
-  bool visit_cell(std::size_t cell, std::uint32_t question, Visit&& visit) const;
+  /// visit(index) of every body in the cells that the box meets and with accept(placed), once each; stops
+  /// when it returns true.
+  template <class Accept, class Visit>
+  bool visit_near(const geom::GridBox& box, Accept&& accept, Visit&& visit) const;
+  template <class Accept, class Visit>
+  bool visit_cell(std::size_t cell, std::uint32_t question, Accept&& accept, Visit&& visit) const;
   [[nodiscard]] std::uint32_t next_question() const;
+  /// Whether a point inside the probe lies in a cell that a body covers, and that body forbids.
+  [[nodiscard]] bool lies_on_covered(const Question& question) const;
+  void cover(BodyIndex index, BodyIndex from, BodyIndex to);
   /// The cells a box meets; what lies outside the world counts to the cells at its edge.
   [[nodiscard]] Cells cells_of(const geom::GridBox& box) const noexcept;
   void add_to_cell(std::size_t cell, BodyIndex index);
@@ -131,6 +139,11 @@ class Scene {
   std::vector<Shape> shapes_;
   std::vector<Body> bodies_;
   std::vector<Placed> placed_;
+  /// By body: those that forbade it lately.
+  mutable std::vector<std::array<BodyIndex, 2>> blockers_;
+  double small_per_step_ = 0;  ///< small cells in a step
+  std::int32_t small_columns_ = 0, small_rows_ = 0;
+  std::vector<BodyIndex> covered_by_;  ///< by small cell: one that has material all over it, or none
   std::vector<char> is_in_;
   std::vector<BodyIndex> free_;
   std::vector<BodyIndex> containers_;
