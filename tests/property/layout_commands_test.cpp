@@ -16,6 +16,9 @@ namespace {
 using geom::GridPoint;
 
 constexpr std::size_t kParts = 14;
+constexpr int kSteps = 60;  ///< commands of a session
+/// A session is worth many cases of other tests.
+std::size_t session_count() { return std::max<std::size_t>(1, cases::case_count(12 * 25) / 25); }
 
 std::uint64_t some_id(const Document& document, Random& random) {
   return document.placements[random.below(document.placements.size())].id;
@@ -82,7 +85,7 @@ Command some_command(const Document& document, Random& random) {
 }
 
 TEST(LayoutCommands, StrictSessionsNeverBreakARule) {
-  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+  for (std::size_t i = 0; i < session_count(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
     Session session(cases::random_layout(cases::seed(), i, kParts));
     if (session.document().placements.empty()) continue;
@@ -100,13 +103,13 @@ TEST(LayoutCommands, StrictSessionsNeverBreakARule) {
 }
 
 TEST(LayoutCommands, WhatIsUndoneIsAsItWasAndWhatIsRedoneAsItBecame) {
-  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+  for (std::size_t i = 0; i < session_count(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
     const Document first = cases::random_layout(cases::seed(), 500 + i, kParts);
     if (first.placements.empty()) continue;
     Session session(first, i % 2 == 0 ? Mode::strict : Mode::free);
     Random random(cases::seed(), 300 + i);
-    for (int step = 0; step < 60; ++step) {
+    for (int step = 0; step < kSteps; ++step) {
       if (session.document().placements.empty()) break;
       if (session.can_undo() && random.below(5) == 0) {
         session.undo();
@@ -132,7 +135,7 @@ TEST(LayoutCommands, WhatIsUndoneIsAsItWasAndWhatIsRedoneAsItBecame) {
 }
 
 TEST(LayoutCommands, AWorkspaceSaysWhatTheCheckSays) {
-  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+  for (std::size_t i = 0; i < session_count(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
     Session session(cases::random_layout(cases::seed(), 900 + i, kParts), Mode::free);
     if (session.document().placements.empty()) continue;
