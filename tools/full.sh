@@ -53,6 +53,11 @@ builds_agree() {
     done
     (cd "$data/regions" && "$root/build/$build/lekalo" locate --part bracket.json --blank casting.json --json \
       --mirror either --picture "$out/agree-$build/bracket.svg") | grep -v '"run":' >"$out/agree-$build/bracket.json"
+    (cd "$data/layouts" && "$root/build/$build/lekalo" edit shoes.json --commands shoes.commands \
+      -o "$out/agree-$build/shoes.json")
+    # 200 sessions of 200 commands each: what they did, and replayed, as one number.
+    LEKALO_CASES=5000 "$root/build/$build/tests/property_layout_commands" --gtest_filter='*Undone*' |
+      grep '^digest' >"$out/agree-$build/sessions.txt"
   done
   diff -r "$out/agree-dev" "$out/agree-clang"
 }

@@ -76,15 +76,17 @@ Group::Group(const Workspace& workspace, std::vector<Placement> placements)
     : workspace_(workspace),
       placements_(std::move(placements)),
       ids_(ids_of(placements_)),
-      lifted_(workspace, ids_) {
+      lifted_(workspace, ids_),
+      allowed_(std::all_of(placements_.begin(), placements_.end(),
+                           [&](const Placement& placement) { return workspace.may_be_so(placement); })) {
   LEKALO_ASSERT(!placements_.empty());
 }
 
 bool Group::is_clear(GridPoint shift) const {
-  return std::all_of(placements_.begin(), placements_.end(), [&](Placement placement) {
-    placement.at = placement.at + shift;
-    return workspace_.is_clear_of_scene(placement);
-  });
+  return allowed_ && std::all_of(placements_.begin(), placements_.end(), [&](Placement placement) {
+           placement.at = placement.at + shift;
+           return workspace_.has_room(placement);
+         });
 }
 
 GridBox Group::box() const {

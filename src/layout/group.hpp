@@ -49,6 +49,7 @@ class Group {
   std::vector<Placement> placements_;
   std::vector<std::uint64_t> ids_;
   Workspace::Lifted lifted_;
+  bool allowed_;  ///< by the rules that no motion changes
 };
 
 [[nodiscard]] geom::Point unit_vector(geom::GridPoint direction) noexcept;

@@ -155,13 +155,17 @@ bool Workspace::concerns(const Part& part, Sheet sheet, phi::BodyIndex body) con
                      [&](const PartArea& area) { return demands_more(area.quality); });
 }
 
-bool Workspace::is_clear_of_scene(const Placement& placement) const {
+bool Workspace::may_be_so(const Placement& placement) const {
   const Part& part = document_.parts[placement.part];
   const Stock& stock = document_.stocks[placement.stock];
-  if (placement.copy < 0 || placement.copy >= stock.count || (placement.mirrored && !part.may_mirror) ||
-      !rotation_allowed(part, placement.rotation) ||
-      !grain_allowed(part, stock, placement.rotation, placement.mirrored))
-    return false;
+  return placement.copy >= 0 && placement.copy < stock.count && (!placement.mirrored || part.may_mirror) &&
+         rotation_allowed(part, placement.rotation) &&
+         grain_allowed(part, stock, placement.rotation, placement.mirrored);
+}
+
+bool Workspace::has_room(const Placement& placement) const {
+  const Part& part = document_.parts[placement.part];
+  const Stock& stock = document_.stocks[placement.stock];
   const Sheet sheet{placement.stock, placement.copy};
   const phi::Scene& in = scene(sheet);
   const Rules& rules = document_.rules;

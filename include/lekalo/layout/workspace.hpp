@@ -71,8 +71,14 @@ class Workspace {
     const Workspace& workspace_;
     std::vector<std::uint64_t> ids_;
   };
-  /// Whether one placement breaks no rule against what lies in its sheet's scene now.
-  [[nodiscard]] bool is_clear_of_scene(const Placement& placement) const;
+  /// Whether one placement breaks no rule against what lies in its sheet's scene now: both of the following.
+  [[nodiscard]] bool is_clear_of_scene(const Placement& placement) const {
+    return may_be_so(placement) && has_room(placement);
+  }
+  /// The rules that do not ask where it lies: sheet, angle, mirror, grain.
+  [[nodiscard]] bool may_be_so(const Placement& placement) const;
+  /// Those that do.
+  [[nodiscard]] bool has_room(const Placement& placement) const;
 
  private:
   struct SheetScene {
