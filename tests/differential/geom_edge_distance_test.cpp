@@ -156,9 +156,9 @@ Contour piece_of_cake(double first, double last, double off) {
 
 TEST(RegionIndexDifferential, AnArcThatMissesItsEndsReachesNoFurther) {
   // Where an arc is level at its end, the circle is at the end's height 0.09 mm beside it.
-  const auto tip = make_region({{EdgeKind::arc_ccw, {1e-9, 10}, {-10.0009, 0}, {0, 0}},
-                                {EdgeKind::line, {-10.0009, 0}, {1e-9, -1}, {}},
-                                {EdgeKind::line, {1e-9, -1}, {1e-9, 10}, {}}});
+  const auto tip = make_region({{EdgeKind::line, {3, -1}, {1e-9, 10}, {}},
+                                {EdgeKind::arc_ccw, {1e-9, 10}, {-10.0009, 0}, {0, 0}},
+                                {EdgeKind::line, {-10.0009, 0}, {3, -1}, {}}});
   ASSERT_TRUE(tip.has_value()) << tip.error().message;
   EXPECT_FALSE(RegionIndex({*tip}).contains({0.05, 10.0002}));
   EXPECT_TRUE(RegionIndex({*tip}).contains({-0.05, 9.9998}));
