@@ -20,26 +20,40 @@ int crosses_line(const Edge& line, Point p) {
   return side == (line.from.y < line.to.y ? 1 : -1) ? 1 : 0;  // p on the left of the upward line
 }
 
+/// Where a stretch of an arc, on the right or the left half of its circle, is at height y.
+///
+/// An end may miss the circle by half the difference of the radii, and where the circle is nearly level the
+/// circle at the end's height is much further off along the ray. So no further than this quarter of the
+/// stretch reaches: the jump from the end to the circle then stays as near to the arc as its end is.
+double crossing_of_half(const Curve& arc, Point begin, Point end, bool right, double y) {
+  const Point centre = arc.edge.centre;
+  const double h = y - centre.y, side = right ? 1 : -1;
+  const double half = std::sqrt(std::max(0.0, (arc.radius - h) * (arc.radius + h)));
+  const Point low = begin.y <= end.y ? begin : end, high = begin.y <= end.y ? end : begin;
+  const Point outer = h >= 0 ? high : low, inner = h >= 0 ? low : high;
+  const bool beyond_axis = h >= 0 ? inner.y < centre.y : inner.y >= centre.y;
+  const auto [least, most] = std::minmax({outer.x, beyond_axis ? centre.x + side * arc.radius : inner.x});
+  return std::clamp(centre.x + side * half, least, most);
+}
+
 int crosses_arc(const Curve& arc, Point p) {
   // Counter-clockwise an arc runs upwards on the circle's right half and downwards on its left; it is split
-  // where it is highest and lowest. A turning point exactly at an end does not split.
+  // where it is highest and lowest. A turning point exactly at an end does not split. Each stretch is
+  // half-open, so that those that share an end count it once.
   const Edge& edge = arc.edge;
   const Point centre = edge.centre;
   const bool forwards = edge.kind == EdgeKind::arc_ccw;
   bool right = arc.first.x > 0 || (arc.first.x == 0 && arc.first.y < 0);
   const bool ends_right = arc.last.x > 0 || (arc.last.x == 0 && arc.last.y > 0);
   const int splits = right != ends_right ? 1 : (arc.beyond_half || arc.full ? 2 : 0);
-  const double last = (forwards ? edge.to : edge.from).y;
-  double y = (forwards ? edge.from : edge.to).y;
+  const Point last = forwards ? edge.to : edge.from;
+  Point begin = forwards ? edge.from : edge.to;
   int found = 0;
   for (int i = 0; i <= splits; ++i) {
-    const double next = i == splits ? last : (right ? centre.y + arc.radius : centre.y - arc.radius);
-    if ((y <= p.y) != (next <= p.y)) {  // half-open, so that pieces that share an end count it once
-      const double h = p.y - centre.y;
-      const double half = std::sqrt(std::max(0.0, (arc.radius - h) * (arc.radius + h)));
-      if ((right ? centre.x + half : centre.x - half) > p.x) ++found;
-    }
-    y = next;
+    const Point turning{centre.x, right ? centre.y + arc.radius : centre.y - arc.radius};
+    const Point end = i == splits ? last : turning;
+    if ((begin.y <= p.y) != (end.y <= p.y) && crossing_of_half(arc, begin, end, right, p.y) > p.x) ++found;
+    begin = end;
     right = !right;
   }
   return found;

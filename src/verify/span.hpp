@@ -48,8 +48,10 @@ struct Span {
   }
   return outwards(std::min(std::min(ll, lh), std::min(hl, hh)), std::max(std::max(ll, lh), std::max(hl, hh)));
 }
-/// \pre b > 0
+/// Of what may be 0 or less nothing is known.
 [[nodiscard]] inline Span operator/(Span a, Span b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!(b.low > 0)) return {-kInfinity, kInfinity};
   return outwards(a.low / (a.low < 0 ? b.low : b.high), a.high / (a.high < 0 ? b.high : b.low));
 }
 [[nodiscard]] inline Span square_root(Span a) {

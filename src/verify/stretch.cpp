@@ -1,6 +1,7 @@
 #include "stretch.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "shape_distance.hpp"
 
@@ -18,6 +19,26 @@ bool all_face(const Side& arc, const Corners& corners) {
   }
   // A half-plane holds what lies between the corners; what an arc faces is both of two, or either.
   return arc.sweep == Sweep::more ? after || before : after && before;
+}
+
+double middle_of(Span a) { return 0.5 * a.low + 0.5 * a.high; }
+
+/// A direction near the middle of an arc that surely cuts it in two of less than half a turn.
+///
+/// Any cut will do, so it is made of new doubles: the enclosure of the exact middle would be about twice as
+/// wide as those of the ends, and after some tens of halvings say nothing.
+std::optional<Vec> about_the_middle(const Side& arc) {
+  const double ax = middle_of(arc.first.x), ay = middle_of(arc.first.y), bx = middle_of(arc.last.x),
+               by = middle_of(arc.last.y);
+  double x = ax + bx, y = ay + by;
+  if (arc.sweep == Sweep::more) x = -x, y = -y;
+  if (ax * bx + ay * by < 0) x = by - ay, y = ax - bx;  // on the right of the chord
+  const Vec towards{just(x), just(y)};
+  if (!(length(towards).low > 0)) return std::nullopt;
+  const Vec cut = unit(towards);
+  // Two turns of less than a half add up to this arc's, and to no full turn more.
+  if (cross(arc.first, cut).low > 0 && cross(cut, arc.last).low > 0) return cut;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -59,16 +80,18 @@ std::array<Side, 2> halves(const Side& piece) {
     two[0].to = two[1].from = (piece.from + piece.to) * just(0.5);
     return two;
   }
-  const Span turn = dot(piece.first, piece.last);
-  const Vec chord = piece.last - piece.first, sum = piece.first + piece.last;
-  Vec middle{chord.y, -chord.x};
-  if (piece.sweep == Sweep::full) middle = -piece.first;
-  if (piece.sweep == Sweep::less && turn.low > 0) middle = sum;
-  if (piece.sweep == Sweep::more && turn.low > 0) middle = -sum;
-  middle = unit(middle);
+  two[0].sweep = two[1].sweep = piece.sweep == Sweep::full ? Sweep::half : Sweep::less;
+  Vec middle{-piece.first.y, piece.first.x};  // of half a turn
+  if (piece.sweep == Sweep::full) {
+    middle = -piece.first;
+  } else if (piece.sweep != Sweep::half) {
+    const std::optional<Vec> about = about_the_middle(piece);
+    if (!about && piece.sweep == Sweep::less) return two;
+    if (about) middle = *about;
+    if (!about) two[1].sweep = Sweep::more;  // hardly less than a full turn, less a quarter
+  }
   two[0].last = two[1].first = middle;
   for (Side& half : two) {
-    half.sweep = piece.sweep == Sweep::full ? Sweep::half : Sweep::less;
     half.from = half.centre + half.first * half.radius;
     half.to = half.centre + half.last * half.radius;
     half.ccw = true;

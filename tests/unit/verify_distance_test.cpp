@@ -6,8 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "lekalo/base/random.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/shape_distance.hpp"
+#include "verify/stretch.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -108,6 +110,53 @@ TEST(VerifyDistance, AHoleOfTheBlankUnderThePart) {
   expect(clearance(box(0, 0, 10, 10), box(-5, -5, 15, 15), lens), -2, 3e-9);
   // A slot of even width, where the deepest points are a line.
   expect(clearance(box(0, 0, 10, 10), box(-5, -5, 15, 15), box(2, 4, 8, 5)), -0.5, 3e-9);
+}
+
+TEST(VerifyDistance, APointOfAnArcDecidesBetweenTwoSides) {
+  // What sticks out most is inside an arc of the part, where a corner and an arc of the blank are equally
+  // near: found by halving tens of times. Once the enclosures of the halves grew with each, until the arc's
+  // centre counted as a point of it and the clearance was -1.398.
+  const std::string part = "[" + line(3, -1, 7, -1) + ", " + arc(7, -1, 7, 1, 7, 0, false) + ", " +
+                           line(7, 1, 3, 1) + ", " + arc(3, 1, 3, -1, 3, 0, false) + "]";
+  const std::string upper = "[" + line(4, 5, 7, 5) + ", " + line(7, 5, 7, 9) + ", " + line(7, 9, 3, 9) +
+                            ", " + line(3, 9, 3, 5) + ", " + line(3, 5, 2, 5) + ", " + arc(2, 5, 2, 3, 2, 4) +
+                            ", " + line(2, 3, 4, 3) + ", " + arc(4, 3, 4, 5, 4, 4) + "]";
+  const std::string lower = "[" + line(5, -1, 9, -1) + ", " + arc(9, -1, 9, 1, 9, 0, false) + ", " +
+                            line(9, 1, 5, 1) + ", " + arc(5, 1, 5, -1, 5, 0, false) + "]";
+  const auto made = verify_clearance(
+      {"part", fmt::format(R"({{"outer": {}}})", part)},
+      {"blank", fmt::format(R"({{"pieces": [{{"outer": {}}}, {{"outer": {}}}]}})", upper, lower)},
+      {6.952077129028055, 5.3652510632374053, -1.7197086347324939, false});
+  ASSERT_TRUE(made.has_value()) << made.error().message;
+  expect(*made, -1.2862606717008, 2e-9);
+}
+
+TEST(VerifyDistance, HalvesOfArcsStayAsNarrowAsTheArc) {
+  Random random(1, 8);
+  for (int i = 0; i < 50; ++i) {
+    Side side = full(3, -4, 5);
+    for (int depth = 0; depth < 45; ++depth) {
+      const auto two = halves(side);
+      const Vec end = side.sweep == Sweep::full ? side.from : side.to;
+      // Each begins where the other ends, on the circle, and the ends stay.
+      EXPECT_EQ(two[0].last.x.low, two[1].first.x.low);
+      EXPECT_EQ(two[0].first.y.high, side.first.y.high);
+      EXPECT_EQ(two[1].last.y.high, side.last.y.high);
+      const Span radius = length(two[0].to - side.centre);
+      EXPECT_LT(radius.high - radius.low, 1e-13) << depth;
+      EXPECT_LE(length(two[1].to - end).low, 0);
+      side = two[random.below(2)];
+    }
+    EXPECT_LT(length(side.to - side.from).high, 1e-10);
+  }
+}
+
+TEST(VerifyDistance, ADivisorThatMayBeZeroSaysNothing) {
+  for (const Span by : {Span{0, 1}, Span{-1e-300, 2}, Span{-2, -1}}) {
+    const Span quotient = just(1) / by;
+    EXPECT_LT(quotient.low, -1e308);
+    EXPECT_GT(quotient.high, 1e308);
+  }
 }
 
 TEST(VerifyDistance, ADiscInADisc) {

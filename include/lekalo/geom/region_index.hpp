@@ -34,7 +34,8 @@ class RegionIndex {
   /// The same, begun at an edge that is likely near.
   [[nodiscard]] Nearest nearest(Point p, std::uint32_t likely) const;
 
-  /// Whether the material holds p. Within kEdgeDistanceError of the boundary either answer may come.
+  /// Whether the material holds p. Within kEdgeDistanceError of the boundary, and half the difference of an
+  /// arc's radii where it is one, either answer may come.
   /// O(log n + edges that a ray to the right meets).
   [[nodiscard]] bool contains(Point p) const;
 
