@@ -62,6 +62,15 @@ std::string wrong_count(const CLI::App& command, const std::string& message) {
                      wanted == 1 ? "a value" : fmt::format("{} values", wanted), option->get_type_name());
 }
 
+/// "a, b and c"
+std::string command_names(const CLI::App& app) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  std::string names;
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    names += (i == 0 ? "" : i + 1 == commands.size() ? " and " : ", ") + commands[i]->get_name();
+  return names;
+}
+
 /// One line out of CLI11's message, whose own ends are sometimes line breaks.
 std::string sentence(std::string message) {
   while (!message.empty() && (message.back() == '\n' || message.back() == '.')) message.pop_back();
@@ -88,9 +97,10 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
   const CLI::App& command = chosen_command(app);
   if (&command == &app) {
-    if (argc <= 1) return "a command is missing: locate, verify or completion (see lekalo --help)";
-    return fmt::format("there is no command \"{}\", only locate, verify and completion (see lekalo --help)",
-                       argv[1]);
+    if (argc <= 1)
+      return fmt::format("a command is missing; there are {} (see lekalo --help)", command_names(app));
+    return fmt::format("there is no command \"{}\", only {} (see lekalo --help)", argv[1],
+                       command_names(app));
   }
   const std::string hint = fmt::format(" (see lekalo {} --help)", command.get_name());
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected_word(command) + hint;
