@@ -55,8 +55,10 @@ std::uint64_t hash(const GridRegion& region) noexcept {
 }
 
 constexpr std::size_t kMostGaps = 255;
-/// Small cells along the side of a cell.
-constexpr std::int32_t kSmall = 4;
+/// Of the cells asked for, so many make one of the index: few lists to visit count more than short ones.
+constexpr std::size_t kCellsInOne = 4;
+/// Small cells along the side of one.
+constexpr std::int32_t kSmall = 8;
 /// Bodies over more rows of small cells than this are not marked in them.
 constexpr double kMostRows = 256;
 
@@ -102,17 +104,20 @@ struct Scene::Memory {
 };
 
 struct Scene::Question {
-  GridBox box;
+  GridBox box;    ///< of the probe
+  GridBox reach;  ///< what lies beyond it is out of everybody's gap
   std::int64_t gap, tolerates;
   std::uint32_t form, layers;
   BodyIndex except;
+  std::uint32_t number;
 };
 
 Scene::Scene(const GridBox& world, std::size_t cells) : world_(world), memory_(std::make_unique<Memory>()) {
   const double width = static_cast<double>(world.high.x - world.low.x) + 1;
   const double height = static_cast<double>(world.high.y - world.low.y) + 1;
   LEKALO_ASSERT(width >= 1 && height >= 1);
-  const double count = static_cast<double>(std::clamp<std::size_t>(cells, 1, std::size_t{1} << 26));
+  const double count =
+      static_cast<double>(std::clamp<std::size_t>(cells / kCellsInOne, 1, std::size_t{1} << 26));
   // A world much longer than wide has one row of cells, and no more cells than asked for.
   const double side = std::max({std::sqrt(width * height / count), width / count, height / count, 1.0});
   per_step_ = 1 / side;
@@ -202,9 +207,8 @@ bool Scene::visit_cell(std::size_t cell, std::uint32_t question, Accept&& accept
 }
 
 template <class Accept, class Visit>
-bool Scene::visit_near(const GridBox& box, Accept&& accept, Visit&& visit) const {
+bool Scene::visit_near(const GridBox& box, std::uint32_t question, Accept&& accept, Visit&& visit) const {
   const Cells cells = cells_of(box);
-  const std::uint32_t question = next_question();
   const auto width = static_cast<std::size_t>(columns_);
   for (std::int32_t y = cells.bottom; y <= cells.top; ++y)
     for (std::int32_t x = cells.left; x <= cells.right; ++x)
@@ -302,7 +306,7 @@ BodyIndex Scene::put(const Body& body) {
   if (free_.empty()) {
     bodies_.push_back(body);
     placed_.push_back(placed);
-    blockers_.push_back({kNoBody, kNoBody});
+    blockers_.emplace_back().fill(kNoBody);
     is_in_.push_back(1);
   } else {
     index = free_.back();
@@ -346,26 +350,25 @@ void Scene::take(BodyIndex index) {
 
 Scene::Question Scene::question(const Probe& probe) const {
   const Shape& shape = shapes_[probe.shape];
-  return {{shape.box.low + probe.at, shape.box.high + probe.at},
-          probe.gap,
-          probe.tolerates,
-          shape.form,
-          probe.layers,
-          probe.except};
+  const GridBox box{shape.box.low + probe.at, shape.box.high + probe.at};
+  return {box,          grown(box, std::max(widest_gap_, probe.gap)),
+          probe.gap,    probe.tolerates,
+          shape.form,   probe.layers,
+          probe.except, next_question()};
 }
 
-bool Scene::counts(const Placed& body, const Question& q) const noexcept {
-  const std::int64_t gap = std::max(body.gap, q.gap);
-  return static_cast<bool>(static_cast<int>((body.layers & q.layers) != 0) &
-                           static_cast<int>(body.rank > q.tolerates) &
-                           static_cast<int>(q.box.low.x - gap < body.box.high.x) &
-                           static_cast<int>(q.box.high.x + gap > body.box.low.x) &
-                           static_cast<int>(q.box.low.y - gap < body.box.high.y) &
-                           static_cast<int>(q.box.high.y + gap > body.box.low.y));
+bool Scene::is_in_reach(const Placed& body, const Question& q) noexcept {
+  const auto bit = [](bool value) { return static_cast<unsigned>(value); };
+  return (bit((body.layers & q.layers) != 0) & bit(body.rank > q.tolerates) &
+          bit(q.reach.low.x < body.box.high.x) & bit(q.reach.high.x > body.box.low.x) &
+          bit(q.reach.low.y < body.box.high.y) & bit(q.reach.high.y > body.box.low.y)) != 0;
 }
 
 bool Scene::forbids(const Placed& body, const Question& q) const {
   const std::int64_t gap = std::max(body.gap, q.gap);
+  if (q.box.low.x - gap >= body.box.high.x || q.box.high.x + gap <= body.box.low.x ||
+      q.box.low.y - gap >= body.box.high.y || q.box.high.y + gap <= body.box.low.y)
+    return false;
   if (gap == 0 && memory_->forms[body.form].box && memory_->forms[q.form].box) return true;
   const GridPoint shift = q.box.low - body.box.low;
   return body.form <= q.form ? pair_forbids(body.form, q.form, shift, gap, false)
@@ -400,24 +403,30 @@ bool Scene::container_forbids(BodyIndex index, const Question& q) const {
 
 bool Scene::forbidden(const Probe& probe) const {
   const Question q = question(probe);
+  Blockers* blockers = nullptr;
+  if (q.except < placed_.size()) {
+    placed_[q.except].question = q.number;
+    blockers = &blockers_[q.except];
+    for (std::size_t i = 0; i < blockers->size() && (*blockers)[i] < placed_.size(); ++i) {
+      const BodyIndex index = (*blockers)[i];
+      const Placed& body = placed_[index];
+      if (!is_in_reach(body, q) || body.question == q.number) continue;
+      body.question = q.number;
+      if (!forbids(body, q)) continue;
+      std::swap((*blockers)[i], (*blockers)[i / 2]);
+      return true;
+    }
+  }
   for (const BodyIndex index : containers_)
     if (container_forbids(index, q)) return true;
   if (lies_on_covered(q)) return true;
-  const bool is_body = q.except < placed_.size();
-  if (is_body)
-    for (BodyIndex& blocker : blockers_[q.except])
-      if (blocker < placed_.size() && counts(placed_[blocker], q) && forbids(placed_[blocker], q)) {
-        std::swap(blocker, blockers_[q.except].front());
-        return true;
-      }
   return visit_near(
-      grown(q.box, std::max(widest_gap_, probe.gap)), [&](const Placed& body) { return counts(body, q); },
+      q.reach, q.number, [&](const Placed& body) { return is_in_reach(body, q); },
       [&](BodyIndex index) {
-        if (index == q.except || !forbids(placed_[index], q)) return false;
-        if (is_body) {
-          auto& blockers = blockers_[q.except];
-          std::move_backward(blockers.begin(), blockers.end() - 1, blockers.end());
-          blockers.front() = index;
+        if (!forbids(placed_[index], q)) return false;
+        if (blockers != nullptr) {
+          std::move_backward(blockers->begin() + 1, blockers->end() - 1, blockers->end());
+          (*blockers)[1] = std::exchange((*blockers)[0], index);
         }
         return true;
       });
@@ -426,12 +435,13 @@ bool Scene::forbidden(const Probe& probe) const {
 void Scene::forbidding(const Probe& probe, std::vector<BodyIndex>& found) const {
   found.clear();
   const Question q = question(probe);
+  if (q.except < placed_.size()) placed_[q.except].question = q.number;
   for (const BodyIndex index : containers_)
     if (container_forbids(index, q)) found.push_back(index);
   visit_near(
-      grown(q.box, std::max(widest_gap_, probe.gap)), [&](const Placed& body) { return counts(body, q); },
+      q.reach, q.number, [&](const Placed& body) { return is_in_reach(body, q); },
       [&](BodyIndex index) {
-        if (index != q.except && forbids(placed_[index], q)) found.push_back(index);
+        if (forbids(placed_[index], q)) found.push_back(index);
         return false;
       });
   std::sort(found.begin(), found.end());
@@ -449,7 +459,8 @@ std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::
     if ((bodies_[index].layers & layers) != 0) found.push_back(index);
   const GridBox window = grown(box, reach);
   visit_near(
-      window, [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
+      window, next_question(),
+      [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
       [&](BodyIndex index) {
         found.push_back(index);
         return false;
@@ -462,7 +473,8 @@ std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
   std::vector<BodyIndex> found;
   const GridBox window{p, p};
   visit_near(
-      window, [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
+      window, next_question(),
+      [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
       [&](BodyIndex index) {
         const Body& body = bodies_[index];
         if (locate_point(outline(body.shape), p - body.at) != geom::PointLocation::outside)

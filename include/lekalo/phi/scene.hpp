@@ -107,11 +107,11 @@ class Scene {
     std::array<BodyIndex, 6> bodies;
   };
   struct Question;
+  using Blockers = std::array<BodyIndex, 4>;
 
   [[nodiscard]] Question question(const Probe& probe) const;
-  /// Whether it is one the question is about, and their boxes come nearer than the gap.
-  [[nodiscard]] bool counts(const Placed& body, const Question& question) const noexcept;
-  /// \pre it counts
+  /// Whether it is one the question is about, and not further from the probe's box than all gaps.
+  [[nodiscard]] static bool is_in_reach(const Placed& body, const Question& question) noexcept;
   [[nodiscard]] bool forbids(const Placed& body, const Question& question) const;
   [[nodiscard]] bool container_forbids(BodyIndex index, const Question& question) const;
   [[nodiscard]] bool pair_forbids(std::uint32_t fixed, std::uint32_t moving, geom::GridPoint shift,
@@ -119,7 +119,7 @@ class Scene {
   /// visit(index) of every body in the cells that the box meets and with accept(placed), once each; stops
   /// when it returns true.
   template <class Accept, class Visit>
-  bool visit_near(const geom::GridBox& box, Accept&& accept, Visit&& visit) const;
+  bool visit_near(const geom::GridBox& box, std::uint32_t question, Accept&& accept, Visit&& visit) const;
   template <class Accept, class Visit>
   bool visit_cell(std::size_t cell, std::uint32_t question, Accept&& accept, Visit&& visit) const;
   [[nodiscard]] std::uint32_t next_question() const;
@@ -140,7 +140,7 @@ class Scene {
   std::vector<Body> bodies_;
   std::vector<Placed> placed_;
   /// By body: those that forbade it lately.
-  mutable std::vector<std::array<BodyIndex, 2>> blockers_;
+  mutable std::vector<Blockers> blockers_;
   double small_per_step_ = 0;  ///< small cells in a step
   std::int32_t small_columns_ = 0, small_rows_ = 0;
   std::vector<BodyIndex> covered_by_;  ///< by small cell: one that has material all over it, or none
