@@ -13,17 +13,24 @@ using Op = BooleanOperation;
 
 constexpr Op kAll[] = {Op::unite, Op::intersect, Op::subtract, Op::exclude};
 
-void check(const cases::HardPair& pair, Random& random, int points, double scale = 1) {
+enum class Snapping { usual, any };
+
+/// Whether all were snapped once, or twice eight times as far where that contradicted itself.
+bool check(const cases::HardPair& pair, Random& random, int points, Snapping snapping = Snapping::usual) {
+  bool usually = true;
   for (const Op op : kAll) {
     const auto result = combine(pair.a, pair.b, op);
-    ASSERT_TRUE(result.has_value()) << result.error().message;
+    if (!result) {
+      ADD_FAILURE() << result.error().message;
+      return false;
+    }
     EXPECT_EQ(cases::boolean_fault(pair, op, *result, random, points), "") << static_cast<int>(op);
-    // Snapped once, or eight times as far where that contradicted itself: at most three times in a row, and
-    // so often in one of 20,000 (a line a few snaps deep in a circle, 1e6 times its size from the origin).
     const double usual =
         kEdgeErrorInSnaps * kBooleanSnap * std::max(cases::extent_of(pair.a), cases::extent_of(pair.b));
-    EXPECT_LE(result->edge_error, 512.001 * usual) << scale;
+    usually = usually && result->edge_error <= 64.001 * usual;
   }
+  EXPECT_TRUE(usually || snapping == Snapping::any);
+  return usually;
 }
 
 TEST(BooleanAgainstRays, OperandsThatNearlyCoincide) {
@@ -57,6 +64,7 @@ std::vector<Region> scaled(const std::vector<Region>& regions, double by, Point 
 
 TEST(BooleanAgainstRays, TinyAndHugeCoordinates) {
   const std::size_t count = cases::case_count(30);
+  std::size_t further = 0;
   for (const auto& [by, shift] : {std::pair{1e-6, Point{}},
                                   {1e8, Point{}},
                                   {1e-6, Point{1e-5, -3e-6}},
@@ -68,9 +76,11 @@ TEST(BooleanAgainstRays, TinyAndHugeCoordinates) {
       SCOPED_TRACE(fmt::format("by {} index {} seed {}", by, i, cases::seed()));
       cases::HardPair pair = cases::hard_pair(random, HardKind::shaken);
       pair.a = scaled(pair.a, by, shift), pair.b = scaled(pair.b, by, shift);
-      check(pair, random, 30);
+      further += check(pair, random, 30, Snapping::any) ? 0 : 1;
       if (testing::Test::HasFailure()) return;
     }
+  // Shapes of microns ten metres from the origin: nearly tangent edges may take more, and the error says so.
+  EXPECT_LE(further, 1 + count / 1000);
 }
 
 TEST(BooleanAgainstRays, ThousandsOfEdges) {
