@@ -61,7 +61,7 @@ bool grain_allowed(const WrittenPart& part, const WrittenStock& stock, const Wri
 
 /// Whether at some point of the part and the zone more is demanded than the zone has: by an area there, or by
 /// the part where there is no area.
-bool demands_more(const Placed& placed_part, const WrittenFeature& zone) {
+bool demands_more(const Placed& placed_part, const WrittenStockFeature& zone) {
   const WrittenPart& part = *placed_part.part;
   std::vector<GridOutline> areas;
   for (const WrittenArea& area : part.areas) {
@@ -112,7 +112,7 @@ class Checker {
     else if (edges_nearer_than(placed.outline, stock.outline, part.border_gap))
       add(placed, LayoutRule::border_gap);
     for (std::size_t i = 0; i < stock.defects.size(); ++i) {
-      const WrittenFeature& defect = stock.defects[i];
+      const WrittenStockFeature& defect = stock.defects[i];
       if (defect.grade <= part.tolerated_severity) continue;
       if (have_common_disc({&placed.outline, &defect.outline}, {}))
         add(placed, LayoutRule::defect, 0, i);

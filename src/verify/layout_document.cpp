@@ -230,13 +230,13 @@ GridOutline rectangle(std::int64_t length, std::int64_t height) {
   return make_outline({{{0, 0}, {length, 0}, {length, height}, {0, height}}});
 }
 
-std::vector<WrittenFeature> read_features(Members& stock, std::string_view list, std::string_view grade,
+std::vector<WrittenStockFeature> read_features(Members& stock, std::string_view list, std::string_view grade,
                                           std::int64_t least) {
-  std::vector<WrittenFeature> features;
+  std::vector<WrittenStockFeature> features;
   std::set<std::string> ids;
   stock.each(list, [&](Json item, const std::string& path) {
     Members members(item, path, stock.complaint(), {"id", grade, "outline"});
-    WrittenFeature feature;
+    WrittenStockFeature feature;
     feature.id = members.id();
     if (!ids.insert(feature.id).second) members.complain(fmt::format("{} has the id of another", path));
     if (grade == "quality" && !members.has(grade))

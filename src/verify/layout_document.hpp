@@ -40,7 +40,7 @@ struct WrittenPart {
 };
 
 /// A defect with its severity or a zone with its quality.
-struct WrittenFeature {
+struct WrittenStockFeature {
   std::string id;
   std::int64_t grade = 0;
   GridOutline outline;
@@ -51,7 +51,7 @@ struct WrittenStock {
   std::int64_t count = 1;
   GridOutline outline;
   std::optional<double> grain;
-  std::vector<WrittenFeature> defects, zones;
+  std::vector<WrittenStockFeature> defects, zones;
 };
 
 struct WrittenPiece {
