@@ -66,6 +66,8 @@ constexpr std::size_t kMostGaps = 255;
 constexpr std::size_t kCellsInOne = 4;
 /// Small cells along the side of one.
 constexpr std::int32_t kSmall = 8;
+/// Questions after which an outline's inner points are worth finding: not for a shape that is turned away.
+constexpr std::uint8_t kAskedOften = 8;
 /// Bodies over more rows of small cells than this are not marked in them.
 constexpr double kMostRows = 256;
 
@@ -94,7 +96,6 @@ struct Scene::Memory {
       if (forms[i->second].region == flat.region) return i->second;
     form_of.emplace(code, static_cast<std::uint32_t>(forms.size()));
     covers.emplace_back();
-    if (static_cast<double>(flat.height) <= kMostRows * row) covers.back() = covered_spans(flat, row);
     forms.push_back(std::move(flat));
     return static_cast<std::uint32_t>(forms.size() - 1);
   }
@@ -228,7 +229,10 @@ bool Scene::visit_near(const GridBox& box, std::uint32_t question, Accept&& acce
 
 void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
   const Placed& body = placed_[index];
-  const auto& spans = memory_->covers[body.form];
+  auto& spans = memory_->covers[body.form];
+  const FlatOutline& form = memory_->forms[body.form];
+  if (spans.empty() && static_cast<double>(form.height) <= kMostRows * memory_->row)
+    spans = covered_spans(form, memory_->row);
   // Positions in small cells; a cell counts when it lies in the span whatever the roundings.
   constexpr double kMargin = 0x1p-20;
   const double left = static_cast<double>(body.box.low.x - world_.low.x),
@@ -253,7 +257,9 @@ void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
 bool Scene::lies_on_covered(const Question& q) const {
   const double x = static_cast<double>(q.box.low.x - world_.low.x),
                y = static_cast<double>(q.box.low.y - world_.low.y);
-  for (const GridPoint inner : memory_->forms[q.form].inner) {
+  FlatOutline& form = memory_->forms[q.form];
+  if (form.asked < kAskedOften && ++form.asked == kAskedOften) form.inner = inner_points(form);
+  for (const GridPoint inner : form.inner) {
     const double at_x = (x + static_cast<double>(inner.x)) * small_per_step_,
                  at_y = (y + static_cast<double>(inner.y)) * small_per_step_;
     if (!(at_x >= 0 && at_y >= 0 && at_x < small_columns_ && at_y < small_rows_)) continue;
@@ -402,7 +408,7 @@ bool Scene::pair_forbids(std::uint32_t fixed, std::uint32_t moving, GridPoint sh
   const PairMemory::Key key = (PairMemory::Key{fixed} << 36) | (PairMemory::Key{moving} << 9) |
                               (PairMemory::Key{number} << 1) | (container ? 1 : 0);
   if (ContactMap* map = memory.pairs.find(key)) return map->forbidden(shift, pair);
-  if (!memory.pairs.is_due(key) || !ContactMap::suits(pair)) return pair.forbidden(shift);
+  if (!ContactMap::suits(pair) || !memory.pairs.is_due(key)) return pair.forbidden(shift);
   return memory.pairs.add(key, pair).forbidden(shift, pair);
 }
 
@@ -506,7 +512,8 @@ std::size_t Scene::bytes() const noexcept {
                     memory_->pairs.bytes() + memory_->form_of.size() * 32;
   for (const Shape& shape : shapes_) sum += shape.outline.points.capacity() * sizeof(GridPoint);
   for (const FlatOutline& form : memory_->forms)
-    sum += sizeof form + (form.region.points.capacity() + form.inner.capacity()) * sizeof(GridPoint);
+    sum += sizeof form + (form.region.points.capacity() + form.inner.capacity()) * sizeof(GridPoint) +
+           form.edges.capacity() * sizeof(FlatOutline::Edge);
   for (const auto& spans : memory_->covers) sum += sizeof spans + spans.capacity() * sizeof spans[0];
   return sum;
 }
