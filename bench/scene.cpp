@@ -148,8 +148,9 @@ std::vector<phi::Probe> inner_probes(const Layout& on, Random& random, std::size
   return probes;
 }
 
-/// A part moved from its own place by up to 2 % of its diameter each way, itself left out.
-std::vector<phi::Probe> near_probes(const Layout& on, Random& random, std::size_t count) {
+/// A part moved from its own place by up to 2 % of its diameter each way, itself left out; a gap as a share
+/// of it.
+std::vector<phi::Probe> near_probes(const Layout& on, Random& random, std::size_t count, double gap = 0) {
   std::vector<phi::Probe> probes(count);
   for (phi::Probe& probe : probes) {
     const std::size_t i = random.below(on.bodies.size());
@@ -157,6 +158,7 @@ std::vector<phi::Probe> near_probes(const Layout& on, Random& random, std::size_
     const double most = 0.02 * on.diameters[i];
     probe.shape = body.shape;
     probe.except = on.bodies[i];
+    probe.gap = static_cast<std::int64_t>(gap * on.diameters[i]);
     probe.at = body.at + GridPoint{static_cast<std::int64_t>(random.uniform(-most, most)),
                                    static_cast<std::int64_t>(random.uniform(-most, most))};
   }
@@ -183,11 +185,13 @@ bool body_forbids(const Layout& on, const References& references, std::size_t wa
   const phi::Body& body = on.scene.body(index);
   const geom::GridRegion &theirs = on.scene.outline(body.shape), &ours = on.scene.outline(probe.shape);
   const GridPoint shift = probe.at - body.at;
-  if (body.container) return !phi::lies_within(theirs, ours, shift);
+  if (body.container)
+    return !phi::lies_within(theirs, ours, shift) || phi::edges_nearer_than(theirs, ours, probe.gap, shift);
   const phi::FragmentImage &a = references.images[body.shape], &b = references.images[probe.shape];
   switch (way) {
     case 0:
-      return phi::interiors_meet(theirs, ours, shift);
+      return phi::interiors_meet(theirs, ours, shift) ||
+             phi::edges_nearer_than(theirs, ours, probe.gap, shift);
     case 1:
       return phi::fragment_overlap(a, b, shift);
     case 2:
@@ -219,7 +223,7 @@ Rate measure(const std::function<Probes(std::size_t)>& make,
     rate.best = std::max(rate.best, speed);
     if (round % 4 != 0 || !one_by_one) continue;
     const Probes few = make(kCompared);
-    for (std::size_t way = 0; way < kWays; ++way) {
+    for (std::size_t way = 0; way < (few[0].gap > 0 ? 1 : kWays); ++way) {  // the others know no gaps
       const double begin = seconds();
       const std::size_t found = one_by_one(few, way);
       rate.one_by_one[way] =
@@ -295,6 +299,10 @@ void run(const std::string& data, const std::string& name) {
        jagua.near);
   line("list", measure([&](std::size_t n) { return near_probes(on, random, n); }, forbidding, all),
        jagua.list);
+  line("near, gap 1 %",
+       measure([&](std::size_t n) { return near_probes(on, random, n, 0.01); }, forbidden, any), 0);
+  line("list, gap 1 %",
+       measure([&](std::size_t n) { return near_probes(on, random, n, 0.01); }, forbidding, all), 0);
   const auto take_and_put = [&](const Probes& probes) {
     for (const phi::Probe& probe : probes) {
       const phi::Body body = on.scene.body(probe.except);

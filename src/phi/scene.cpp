@@ -65,11 +65,11 @@ constexpr std::size_t kMostGaps = 255;
 /// Of the cells asked for, so many make one of the index: few lists to visit count more than short ones.
 constexpr std::size_t kCellsInOne = 4;
 /// Small cells along the side of one.
-constexpr std::int32_t kSmall = 8;
+constexpr std::int32_t kSmall = 12;
 /// Questions after which an outline's inner points are worth finding: not for a shape that is turned away.
 constexpr std::uint8_t kAskedOften = 8;
-/// Bodies over more rows of small cells than this are not marked in them.
-constexpr double kMostRows = 256;
+/// Bodies wider or higher than this many small cells are not marked in them.
+constexpr double kMostSmall = 256;
 
 }  // namespace
 
@@ -231,7 +231,7 @@ void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
   const Placed& body = placed_[index];
   auto& spans = memory_->covers[body.form];
   const FlatOutline& form = memory_->forms[body.form];
-  if (spans.empty() && static_cast<double>(form.height) <= kMostRows * memory_->row)
+  if (spans.empty() && static_cast<double>(std::max(form.width, form.height)) <= kMostSmall * memory_->row)
     spans = covered_spans(form, memory_->row);
   // Positions in small cells; a cell counts when it lies in the span whatever the roundings.
   constexpr double kMargin = 0x1p-20;
