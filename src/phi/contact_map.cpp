@@ -21,7 +21,7 @@ std::uint64_t touched_of(std::uint64_t row) noexcept { return (row >> 1) & ~row 
 std::size_t count_even_bits(std::uint64_t bits) noexcept {
   bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
   bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
-  return (bits * 0x0101010101010101u) >> 56;
+  return static_cast<std::size_t>((bits * 0x0101010101010101u) >> 56);
 }
 
 /// Gives a cell that is open, and all open ones around it in a grid of `size` x `size` cells, one state.
