@@ -21,7 +21,7 @@ std::uint64_t touched_of(std::uint64_t row) noexcept { return (row >> 1) & ~row 
 std::size_t count_even_bits(std::uint64_t bits) noexcept {
   bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
   bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
-  return (bits * 0x0101010101010101u) >> 56;
+  return static_cast<std::size_t>((bits * 0x0101010101010101u) >> 56);
 }
 
 /// Gives a cell that is open, and all open ones around it in a grid of `size` x `size` cells, one state.
@@ -44,6 +44,11 @@ void flood(int x, int y, int size, unsigned open, Get&& get, Set&& set) {
 }  // namespace
 
 bool OutlinePair::forbidden(GridPoint shift) const {
+  if (!container) {
+    const Overlap overlap = quick_overlap(fixed, moving, shift);
+    if (overlap == Overlap::yes) return true;
+    if (overlap == Overlap::no) return edges_nearer_than(fixed.region, moving.region, gap, shift);
+  }
   if (container ? !lies_within(fixed.region, moving.region, shift)
                 : interiors_meet(fixed.region, moving.region, shift))
     return true;
@@ -52,6 +57,7 @@ bool OutlinePair::forbidden(GridPoint shift) const {
 
 bool ContactMap::suits(const OutlinePair& pair) noexcept {
   constexpr std::int64_t kLeast = 64 * kAll;
+  if (pair.fixed.edges.size() * pair.moving.edges.size() > kMostPairs) return false;
   if (pair.container)
     return pair.fixed.width - pair.moving.width >= kLeast && pair.fixed.height - pair.moving.height >= kLeast;
   return std::min(pair.fixed.width + pair.moving.width, pair.fixed.height + pair.moving.height) >= kLeast;

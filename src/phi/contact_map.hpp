@@ -27,7 +27,7 @@ class ContactMap {
  public:
   /// \pre suits(pair)
   explicit ContactMap(const OutlinePair& pair);
-  /// Whether the cells are wider than a few steps.
+  /// Whether the cells are wider than a few steps, and the edges not too many.
   [[nodiscard]] static bool suits(const OutlinePair& pair) noexcept;
 
   /// \pre the map's own pair; the boxes come nearer than the gap (or, in a container, the moving box lies in
@@ -46,6 +46,7 @@ class ContactMap {
  private:
   static constexpr int kCoarse = 32, kFine = 16, kAll = kCoarse * kFine;
   static constexpr std::size_t kLines = 5;
+  static constexpr std::size_t kMostPairs = 1 << 20;  ///< of edges
   /// Of a cell, two bits. `touched`: a contact line comes near it. Others are the same everywhere in them,
   /// and `open` ones have not been asked yet.
   enum State : unsigned { clear = 0, hit = 1, touched = 2, open = 3 };

@@ -1,6 +1,7 @@
 #include "flat_outline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -22,6 +23,12 @@ void visit_edges(const GridRegion& region, Visit&& visit) {
   }
 }
 
+/// Twice the area of a triangle if its sign is certain, else 0. Differences of coordinates are exact.
+double certain_turn(double ax, double ay, double bx, double by, double cx, double cy) noexcept {
+  const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax), area = left - right;
+  return std::abs(area) > 0x1p-51 * (std::abs(left) + std::abs(right)) ? area : 0;
+}
+
 /// Squared, about.
 double distance_to_edges(const GridRegion& region, GridPoint p) {
   double least = HUGE_VAL;
@@ -33,6 +40,76 @@ double distance_to_edges(const GridRegion& region, GridPoint p) {
     least = std::min(least, x * x + y * y);
   });
   return least;
+}
+
+}  // namespace
+
+Overlap quick_overlap(const FlatOutline& a, const FlatOutline& b, GridPoint shift) noexcept {
+  using Edge = FlatOutline::Edge;
+  constexpr std::size_t kMost = 64;
+  std::array<Edge, kMost> near;
+  std::size_t count = 0;
+  // The boxes have this in common; edges beyond it meet nothing.
+  const double dx = static_cast<double>(shift.x), dy = static_cast<double>(shift.y);
+  const double left = std::max(0.0, dx),
+               right = std::min(static_cast<double>(a.width), dx + static_cast<double>(b.width));
+  const double bottom = std::max(0.0, dy),
+               top = std::min(static_cast<double>(a.height), dy + static_cast<double>(b.height));
+  if (left >= right || bottom >= top) return Overlap::no;
+  const auto beyond = [&](const Edge& e) {
+    return (e.x0 < left && e.x1 < left) || (e.x0 > right && e.x1 > right) ||
+           (e.y0 < bottom && e.y1 < bottom) || (e.y0 > top && e.y1 > top);
+  };
+  for (const Edge& edge : b.edges) {
+    const Edge moved{edge.x0 + dx, edge.y0 + dy, edge.x1 + dx, edge.y1 + dy};
+    if (beyond(moved)) continue;
+    if (count == kMost) return Overlap::unsure;
+    near[count++] = moved;
+  }
+  bool touch = false;
+  for (const Edge& e : a.edges) {
+    if (beyond(e)) continue;
+    const double low_x = std::min(e.x0, e.x1), high_x = std::max(e.x0, e.x1);
+    const double low_y = std::min(e.y0, e.y1), high_y = std::max(e.y0, e.y1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Edge& f = near[i];
+      if (std::max(f.x0, f.x1) < low_x || std::min(f.x0, f.x1) > high_x || std::max(f.y0, f.y1) < low_y ||
+          std::min(f.y0, f.y1) > high_y)
+        continue;
+      const double f0 = certain_turn(e.x0, e.y0, e.x1, e.y1, f.x0, f.y0),
+                   f1 = certain_turn(e.x0, e.y0, e.x1, e.y1, f.x1, f.y1);
+      if ((f0 > 0 && f1 > 0) || (f0 < 0 && f1 < 0)) continue;
+      const double e0 = certain_turn(f.x0, f.y0, f.x1, f.y1, e.x0, e.y0),
+                   e1 = certain_turn(f.x0, f.y0, f.x1, f.y1, e.x1, e.y1);
+      if ((e0 > 0 && e1 > 0) || (e0 < 0 && e1 < 0)) continue;
+      if (f0 != 0 && f1 != 0 && e0 != 0 && e1 != 0) return Overlap::yes;
+      touch = true;
+    }
+  }
+  if (touch) return Overlap::unsure;
+  // Outlines that do not meet: one is in the other, or they are apart. Who is in the other's box?
+  const auto held = [](const FlatOutline& holder, const FlatOutline& one, GridPoint at) {
+    return at.x >= 0 && at.y >= 0 && at.x + one.width <= holder.width && at.y + one.height <= holder.height &&
+           locate_point(holder.region, one.region.points[0] + at) == geom::PointLocation::inside;
+  };
+  return held(a, b, shift) || held(b, a, -shift) ? Overlap::yes : Overlap::no;
+}
+
+FlatOutline flat_outline(GridRegion region) {
+  const geom::GridBox box = bounds(region);
+  FlatOutline flat;
+  flat.region = geom::moved(std::move(region), -box.low);
+  flat.width = box.high.x - box.low.x;
+  flat.height = box.high.y - box.low.y;
+  const auto& p = flat.region.points;
+  visit_edges(flat.region, [&](GridPoint from, GridPoint to) {
+    flat.edges.push_back({static_cast<double>(from.x), static_cast<double>(from.y), static_cast<double>(to.x),
+                          static_cast<double>(to.y)});
+  });
+  flat.box = p.size() == 4;
+  for (std::size_t i = 0; i < p.size() && flat.box; ++i)
+    flat.box = (p[i].x == 0 || p[i].x == flat.width) && (p[i].y == 0 || p[i].y == flat.height);
+  return flat;
 }
 
 std::vector<GridPoint> inner_points(const FlatOutline& outline) {
@@ -61,22 +138,6 @@ std::vector<GridPoint> inner_points(const FlatOutline& outline) {
       one.room = std::min(one.room, 0.25 * static_cast<double>(dot(one.at - p, one.at - p)));
   }
   return chosen;
-}
-
-}  // namespace
-
-FlatOutline flat_outline(GridRegion region) {
-  const geom::GridBox box = bounds(region);
-  FlatOutline flat;
-  flat.region = geom::moved(std::move(region), -box.low);
-  flat.width = box.high.x - box.low.x;
-  flat.height = box.high.y - box.low.y;
-  const auto& p = flat.region.points;
-  flat.box = p.size() == 4;
-  for (std::size_t i = 0; i < p.size() && flat.box; ++i)
-    flat.box = (p[i].x == 0 || p[i].x == flat.width) && (p[i].y == 0 || p[i].y == flat.height);
-  flat.inner = inner_points(flat);
-  return flat;
 }
 
 std::vector<FlatOutline::Span> covered_spans(const FlatOutline& outline, double row) {

@@ -11,9 +11,13 @@ namespace lekalo::phi {
 struct FlatOutline {
   geom::GridRegion region;  ///< moved to the origin
   std::int64_t width = 0, height = 0;
-  bool box = false;  ///< an axis-parallel rectangle without holes
-  /// Points inside the material, the one deepest in it first, then others far from those before.
-  std::vector<geom::GridPoint> inner;
+  struct Edge {
+    double x0, y0, x1, y1;
+  };
+  std::vector<Edge> edges;
+  bool box = false;                    ///< an axis-parallel rectangle without holes
+  std::uint8_t asked = 0;              ///< questions about it, as far as somebody counts
+  std::vector<geom::GridPoint> inner;  ///< inner_points(), once somebody wants them
 
   /// A span of material in a band as high as two rows: rows [j - 1, j + 1] of some height. Empty: low > high.
   struct Span {
@@ -21,7 +25,18 @@ struct FlatOutline {
   };
 };
 
+/// What a quick look says of two outlines.
+enum class Overlap { no, yes, unsure };
+/// Whether interiors meet, `b` moved by `shift`; unsure where the outlines touch, nearly, or are long. Never
+/// wrong. Cost: O(a + b + pairs of edges whose boxes meet), without memory.
+[[nodiscard]] Overlap quick_overlap(const FlatOutline& a, const FlatOutline& b,
+                                    geom::GridPoint shift) noexcept;
+
 [[nodiscard]] FlatOutline flat_outline(geom::GridRegion region);
+
+/// Points inside the material, the one deepest in it first, then others far from those before: 4, or fewer
+/// where the outline is thin. Cost: O(edges).
+[[nodiscard]] std::vector<geom::GridPoint> inner_points(const FlatOutline& outline);
 
 /// For every j from 0 on, the longest span wholly inside the material between (j - 1) row and (j + 1) row,
 /// ends included, until the outline ends. Cost: O(rows x edges).

@@ -4,11 +4,9 @@ namespace lekalo::phi {
 
 bool PairMemory::is_due(Key key) {
   if (asked_.empty()) asked_.resize(kCounters);
-  // Pairs that share a counter are due sooner, that is all.
-  std::uint8_t& asked = asked_[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 50)];
-  if (++asked < kOften) return false;
-  asked = 0;
-  return true;
+  Counter& counter = asked_[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 50)];
+  if (counter.key != key) counter = {key, 0};
+  return ++counter.asked >= kOften;
 }
 
 ContactMap& PairMemory::add(Key key, const OutlinePair& pair) {
@@ -33,7 +31,7 @@ void PairMemory::insert(Slot slot) {
 }
 
 std::size_t PairMemory::bytes() const noexcept {
-  std::size_t sum = slots_.capacity() * sizeof(Slot) + asked_.capacity();
+  std::size_t sum = slots_.capacity() * sizeof(Slot) + asked_.capacity() * sizeof(Counter);
   for (const ContactMap& map : maps_) sum += map.bytes();
   return sum + (maps_.capacity() - maps_.size()) * sizeof(ContactMap);
 }

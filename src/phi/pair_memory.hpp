@@ -30,7 +30,12 @@ class PairMemory {
  private:
   static constexpr std::size_t kMost = std::size_t{128} << 20;  ///< bytes of all maps
   static constexpr std::size_t kCounters = 1 << 14;
-  static constexpr std::uint8_t kOften = 6;
+  static constexpr std::uint8_t kOften = 8;
+  /// Questions about one pair, until another one takes the place.
+  struct Counter {
+    Key key = kNone;
+    std::uint8_t asked = 0;
+  };
   struct Slot {
     Key key = kNone;
     std::uint32_t map = 0;
@@ -42,7 +47,7 @@ class PairMemory {
 
   std::vector<Slot> slots_ = std::vector<Slot>(64);
   std::vector<ContactMap> maps_;
-  std::vector<std::uint8_t> asked_;
+  std::vector<Counter> asked_;
 };
 
 }  // namespace lekalo::phi

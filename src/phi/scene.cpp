@@ -54,13 +54,22 @@ std::uint64_t hash(const GridRegion& region) noexcept {
   return value;
 }
 
+/// One of 16 ways to go.
+std::size_t direction(GridPoint way) noexcept {
+  const std::int64_t x = way.x < 0 ? -way.x : way.x, y = way.y < 0 ? -way.y : way.y;
+  const auto bit = [](bool value) { return static_cast<std::size_t>(value); };
+  return bit(way.x < 0) | bit(way.y < 0) << 1 | (bit(x < y) + bit(x < 2 * y) + bit(2 * x < y)) << 2;
+}
+
 constexpr std::size_t kMostGaps = 255;
 /// Of the cells asked for, so many make one of the index: few lists to visit count more than short ones.
 constexpr std::size_t kCellsInOne = 4;
 /// Small cells along the side of one.
-constexpr std::int32_t kSmall = 8;
-/// Bodies over more rows of small cells than this are not marked in them.
-constexpr double kMostRows = 256;
+constexpr std::int32_t kSmall = 12;
+/// Questions after which an outline's inner points are worth finding: not for a shape that is turned away.
+constexpr std::uint8_t kAskedOften = 8;
+/// Bodies wider or higher than this many small cells are not marked in them.
+constexpr double kMostSmall = 256;
 
 }  // namespace
 
@@ -87,7 +96,6 @@ struct Scene::Memory {
       if (forms[i->second].region == flat.region) return i->second;
     form_of.emplace(code, static_cast<std::uint32_t>(forms.size()));
     covers.emplace_back();
-    if (static_cast<double>(flat.height) <= kMostRows * row) covers.back() = covered_spans(flat, row);
     forms.push_back(std::move(flat));
     return static_cast<std::uint32_t>(forms.size() - 1);
   }
@@ -106,10 +114,11 @@ struct Scene::Memory {
 struct Scene::Question {
   GridBox box;    ///< of the probe
   GridBox reach;  ///< what lies beyond it is out of everybody's gap
-  std::int64_t gap, tolerates;
+  std::int64_t widest, gap, tolerates;
   std::uint32_t form, layers;
   BodyIndex except;
   std::uint32_t number;
+  bool is_box;
 };
 
 Scene::Scene(const GridBox& world, std::size_t cells) : world_(world), memory_(std::make_unique<Memory>()) {
@@ -165,7 +174,7 @@ Scene& Scene::operator=(Scene other) noexcept {
 ShapeIndex Scene::add_shape(GridRegion outline) {
   const GridBox box = bounds(outline);
   const std::uint32_t form = memory_->form(outline);
-  shapes_.push_back({std::move(outline), box, form});
+  shapes_.push_back({std::move(outline), box, form, memory_->forms[form].box});
   return static_cast<ShapeIndex>(shapes_.size() - 1);
 }
 
@@ -220,7 +229,10 @@ bool Scene::visit_near(const GridBox& box, std::uint32_t question, Accept&& acce
 
 void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
   const Placed& body = placed_[index];
-  const auto& spans = memory_->covers[body.form];
+  auto& spans = memory_->covers[body.form];
+  const FlatOutline& form = memory_->forms[body.form];
+  if (spans.empty() && static_cast<double>(std::max(form.width, form.height)) <= kMostSmall * memory_->row)
+    spans = covered_spans(form, memory_->row);
   // Positions in small cells; a cell counts when it lies in the span whatever the roundings.
   constexpr double kMargin = 0x1p-20;
   const double left = static_cast<double>(body.box.low.x - world_.low.x),
@@ -245,7 +257,9 @@ void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
 bool Scene::lies_on_covered(const Question& q) const {
   const double x = static_cast<double>(q.box.low.x - world_.low.x),
                y = static_cast<double>(q.box.low.y - world_.low.y);
-  for (const GridPoint inner : memory_->forms[q.form].inner) {
+  FlatOutline& form = memory_->forms[q.form];
+  if (form.asked < kAskedOften && ++form.asked == kAskedOften) form.inner = inner_points(form);
+  for (const GridPoint inner : form.inner) {
     const double at_x = (x + static_cast<double>(inner.x)) * small_per_step_,
                  at_y = (y + static_cast<double>(inner.y)) * small_per_step_;
     if (!(at_x >= 0 && at_y >= 0 && at_x < small_columns_ && at_y < small_rows_)) continue;
@@ -302,7 +316,8 @@ BodyIndex Scene::put(const Body& body) {
                       body.rank,
                       shape.form,
                       body.container ? 0 : body.layers,
-                      0};
+                      0,
+                      shape.is_box};
   if (free_.empty()) {
     bodies_.push_back(body);
     placed_.push_back(placed);
@@ -351,10 +366,17 @@ void Scene::take(BodyIndex index) {
 Scene::Question Scene::question(const Probe& probe) const {
   const Shape& shape = shapes_[probe.shape];
   const GridBox box{shape.box.low + probe.at, shape.box.high + probe.at};
-  return {box,          grown(box, std::max(widest_gap_, probe.gap)),
-          probe.gap,    probe.tolerates,
-          shape.form,   probe.layers,
-          probe.except, next_question()};
+  const std::int64_t widest = std::max(widest_gap_, probe.gap);
+  return {.box = box,
+          .reach = grown(box, widest),
+          .widest = widest,
+          .gap = probe.gap,
+          .tolerates = probe.tolerates,
+          .form = shape.form,
+          .layers = probe.layers,
+          .except = probe.except,
+          .number = next_question(),
+          .is_box = shape.is_box};
 }
 
 bool Scene::is_in_reach(const Placed& body, const Question& q) noexcept {
@@ -366,10 +388,11 @@ bool Scene::is_in_reach(const Placed& body, const Question& q) noexcept {
 
 bool Scene::forbids(const Placed& body, const Question& q) const {
   const std::int64_t gap = std::max(body.gap, q.gap);
-  if (q.box.low.x - gap >= body.box.high.x || q.box.high.x + gap <= body.box.low.x ||
-      q.box.low.y - gap >= body.box.high.y || q.box.high.y + gap <= body.box.low.y)
+  // Within reach of the widest gap, but not of theirs.
+  if (gap != q.widest && (q.box.low.x - gap >= body.box.high.x || q.box.high.x + gap <= body.box.low.x ||
+                          q.box.low.y - gap >= body.box.high.y || q.box.high.y + gap <= body.box.low.y))
     return false;
-  if (gap == 0 && memory_->forms[body.form].box && memory_->forms[q.form].box) return true;
+  if (gap == 0 && body.is_box && q.is_box) return true;
   const GridPoint shift = q.box.low - body.box.low;
   return body.form <= q.form ? pair_forbids(body.form, q.form, shift, gap, false)
                              : pair_forbids(q.form, body.form, -shift, gap, false);
@@ -385,7 +408,7 @@ bool Scene::pair_forbids(std::uint32_t fixed, std::uint32_t moving, GridPoint sh
   const PairMemory::Key key = (PairMemory::Key{fixed} << 36) | (PairMemory::Key{moving} << 9) |
                               (PairMemory::Key{number} << 1) | (container ? 1 : 0);
   if (ContactMap* map = memory.pairs.find(key)) return map->forbidden(shift, pair);
-  if (!memory.pairs.is_due(key) || !ContactMap::suits(pair)) return pair.forbidden(shift);
+  if (!ContactMap::suits(pair) || !memory.pairs.is_due(key)) return pair.forbidden(shift);
   return memory.pairs.add(key, pair).forbidden(shift, pair);
 }
 
@@ -397,24 +420,23 @@ bool Scene::container_forbids(BodyIndex index, const Question& q) const {
   if (q.box.low.x - gap < body.box.low.x || q.box.high.x + gap > body.box.high.x ||
       q.box.low.y - gap < body.box.low.y || q.box.high.y + gap > body.box.high.y)
     return true;
-  if (memory_->forms[body.form].box) return false;
+  if (body.is_box) return false;
   return pair_forbids(body.form, q.form, q.box.low - body.box.low, gap, true);
 }
 
 bool Scene::forbidden(const Probe& probe) const {
   const Question q = question(probe);
-  Blockers* blockers = nullptr;
+  BodyIndex* blocker = nullptr;
   if (q.except < placed_.size()) {
-    placed_[q.except].question = q.number;
-    blockers = &blockers_[q.except];
-    for (std::size_t i = 0; i < blockers->size() && (*blockers)[i] < placed_.size(); ++i) {
-      const BodyIndex index = (*blockers)[i];
-      const Placed& body = placed_[index];
-      if (!is_in_reach(body, q) || body.question == q.number) continue;
-      body.question = q.number;
-      if (!forbids(body, q)) continue;
-      std::swap((*blockers)[i], (*blockers)[i / 2]);
-      return true;
+    const Placed& own = placed_[q.except];
+    own.question = q.number;
+    blocker = &blockers_[q.except][direction(q.box.low - own.box.low)];
+    if (*blocker < placed_.size()) {
+      const Placed& body = placed_[*blocker];
+      if (is_in_reach(body, q) && body.question != q.number) {
+        if (forbids(body, q)) return true;
+        body.question = q.number;
+      }
     }
   }
   for (const BodyIndex index : containers_)
@@ -424,10 +446,7 @@ bool Scene::forbidden(const Probe& probe) const {
       q.reach, q.number, [&](const Placed& body) { return is_in_reach(body, q); },
       [&](BodyIndex index) {
         if (!forbids(placed_[index], q)) return false;
-        if (blockers != nullptr) {
-          std::move_backward(blockers->begin() + 1, blockers->end() - 1, blockers->end());
-          (*blockers)[1] = std::exchange((*blockers)[0], index);
-        }
+        if (blocker != nullptr) *blocker = index;
         return true;
       });
 }
@@ -493,7 +512,8 @@ std::size_t Scene::bytes() const noexcept {
                     memory_->pairs.bytes() + memory_->form_of.size() * 32;
   for (const Shape& shape : shapes_) sum += shape.outline.points.capacity() * sizeof(GridPoint);
   for (const FlatOutline& form : memory_->forms)
-    sum += sizeof form + (form.region.points.capacity() + form.inner.capacity()) * sizeof(GridPoint);
+    sum += sizeof form + (form.region.points.capacity() + form.inner.capacity()) * sizeof(GridPoint) +
+           form.edges.capacity() * sizeof(FlatOutline::Edge);
   for (const auto& spans : memory_->covers) sum += sizeof spans + spans.capacity() * sizeof spans[0];
   return sum;
 }

@@ -88,6 +88,7 @@ class Scene {
     geom::GridRegion outline;
     geom::GridBox box;
     std::uint32_t form;  ///< equal for outlines that differ by a shift
+    bool is_box;         ///< an axis-parallel rectangle
   };
   /// A body as questions read it.
   struct Placed {
@@ -96,6 +97,7 @@ class Scene {
     std::uint32_t form;
     std::uint32_t layers;            ///< 0 for containers and where no body is
     mutable std::uint32_t question;  ///< the last one that looked at it
+    bool is_box;                     ///< an axis-parallel rectangle
   };
   /// Columns and rows of cells, ends included.
   struct Cells {
@@ -107,7 +109,7 @@ class Scene {
     std::array<BodyIndex, 6> bodies;
   };
   struct Question;
-  using Blockers = std::array<BodyIndex, 4>;
+  using Blockers = std::array<BodyIndex, 16>;
 
   [[nodiscard]] Question question(const Probe& probe) const;
   /// Whether it is one the question is about, and not further from the probe's box than all gaps.
@@ -139,7 +141,7 @@ class Scene {
   std::vector<Shape> shapes_;
   std::vector<Body> bodies_;
   std::vector<Placed> placed_;
-  /// By body: those that forbade it lately.
+  /// By body and the direction it is asked to go: the one that forbade it lately.
   mutable std::vector<Blockers> blockers_;
   double small_per_step_ = 0;  ///< small cells in a step
   std::int32_t small_columns_ = 0, small_rows_ = 0;
