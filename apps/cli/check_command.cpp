@@ -99,7 +99,7 @@ std::string sentence(const Document& document, const Violation& v) {
       text = fmt::format("{} is too near to defect {}", part_of(v.a), feature);
       break;
     case ViolationKind::quality:
-      text = fmt::format("{} lies in zone {}, which is too bad for it", part_of(v.a), feature);
+      text = fmt::format("{} reaches into zone {}, which is too bad for it,", part_of(v.a), feature);
       break;
     case ViolationKind::rotation:
       text = fmt::format("{} is turned to an angle it may not have", part_of(v.a));
@@ -186,16 +186,17 @@ Result<int> run_check(const CheckOptions& o) {
   std::string text;
   for (const std::string& notice : input->notices) text += "note: " + notice + "\n";
   const std::size_t count = input->document.placements.size();
+  const std::string placements = counted(count, "placement");
   if (!agree)
     text +=
         "The engine and the independent checker do not agree; trust neither, and please report this file.\n";
+  else if (count == 0)
+    text += "Nothing is placed, so no rule is broken.\n";
   else if (valid)
-    text += fmt::format("Valid: {} placement{}, no rule is broken; confirmed by the independent checker.\n",
-                        count, count == 1 ? "" : "s");
+    text += fmt::format("Valid: {}, no rule is broken; confirmed by the independent checker.\n", placements);
   else
-    text += fmt::format(
-        "Not valid: {} violation{} among {} placement{}; the independent checker finds the same.\n",
-        violations.size(), violations.size() == 1 ? "" : "s", count, count == 1 ? "" : "s");
+    text += fmt::format("Not valid: {} among {}; the independent checker finds the same.\n",
+                        counted(violations.size(), "violation"), placements);
   for (const std::string& doubt : doubts) text += "  " + doubt + "\n";
   constexpr std::size_t kMostLines = 200;
   for (std::size_t i = 0; i < std::min(violations.size(), kMostLines); ++i)

@@ -106,6 +106,9 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected_word(command) + hint;
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return wrong_count(command, sentence(error.what())) + hint;
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command.get_option_no_throw("layout") &&
+      command["layout"]->empty())
+    return "the file of the layout is missing" + hint;
   return sentence(error.what()) + hint;
 }
 

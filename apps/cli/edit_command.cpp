@@ -13,8 +13,9 @@
 namespace lekalo::cli {
 
 Result<int> run_edit(const EditOptions& o) {
-  if (Result<void> fine = check_outputs({{"--output", o.output}},
-                                        {{"--commands", o.commands}, {"--instance", o.source.instance}});
+  if (Result<void> fine = check_outputs(
+          {{"--output", o.output}},
+          {{"the layout", o.source.path}, {"--commands", o.commands}, {"--instance", o.source.instance}});
       !fine)
     return tl::unexpected(fine.error());
   Result<LayoutInput> input = read_layout_input(o.source);
@@ -23,7 +24,7 @@ Result<int> run_edit(const EditOptions& o) {
   if (!log) return tl::unexpected(log.error());
   const Result<layout::Session> session = layout::replay(std::move(input->document), *log);
   if (!session)
-    return failure(session.error().code, fmt::format("{}: {}", o.commands, session.error().message));
+    return failure(session.error().code, fmt::format("{}, {}", o.commands, session.error().message));
   const std::string text = io::write_layout(session->document());
   if (o.output.empty()) {
     if (Result<void> done = print(text); !done) return tl::unexpected(done.error());
@@ -36,8 +37,8 @@ Result<int> run_edit(const EditOptions& o) {
   for (const std::string& notice : input->notices) said += "note: " + notice + "\n";
   const std::size_t broken = layout::check(session->document()).size();
   said += fmt::format("{} placed, {}\n", session->document().placements.size(),
-                      broken == 0 ? std::string("no rule is broken")
-                                  : fmt::format("{} rules are broken; lekalo check says which", broken));
+                      broken == 0 ? "no rule is broken"
+                                  : counted(broken, "violation") + "; lekalo check says which and where");
   if (!o.output.empty()) said += fmt::format("Written: {}\n", o.output);
   tell(said);
   return broken == 0 ? 0 : 1;

@@ -32,11 +32,14 @@ Result<int> run_export(const ExportOptions& o) {
     return tl::unexpected(fine.error());
   const Result<LayoutInput> input = read_layout_input(o.source);
   if (!input) return tl::unexpected(input.error());
-  std::string text = input->text;
+  std::string text = input->text, warning;
   if (o.format == ExportFormat::placements) {
     const Result<std::size_t> stock = strip_of(input->document, o.source.path);
     if (!stock) return tl::unexpected(stock.error());
-    Result<std::string> written = io::write_placements(input->document, *stock, o.instance_name);
+    const std::string& instance = o.instance_name.empty() ? input->instance_name : o.instance_name;
+    if (instance.empty())
+      warning = "note: the placements do not say where their items stand; --instance-name does\n";
+    Result<std::string> written = io::write_placements(input->document, *stock, instance);
     if (!written) return tl::unexpected(written.error());
     text = std::move(*written);
   }
@@ -47,7 +50,7 @@ Result<int> run_export(const ExportOptions& o) {
     if (Result<void> done = files.add(o.output, text).and_then([&] { return files.commit(); }); !done)
       return tl::unexpected(done.error());
   }
-  std::string said;
+  std::string said = warning;
   for (const std::string& notice : input->notices) said += "note: " + notice + "\n";
   if (!o.output.empty()) said += fmt::format("Written: {}\n", o.output);
   tell(said);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/layout_picture.hpp"
@@ -12,10 +14,6 @@ namespace lekalo::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string counted(std::int64_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 std::string label_of(const layout::Document& document, layout::Sheet sheet) {
   const layout::Stock& stock = document.stocks[sheet.stock];
@@ -31,6 +29,10 @@ std::string missing_text(const layout::Document& document, const std::vector<lay
 }
 
 }  // namespace
+
+std::string counted(std::size_t count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
 
 Result<LayoutInput> read_layout_input(const LayoutSource& source) {
   LayoutInput input;
@@ -48,6 +50,15 @@ Result<LayoutInput> read_layout_input(const LayoutSource& source) {
   if (!file) return tl::unexpected(file.error());
   input.document = std::move(file->document);
   input.notices = std::move(file->notices);
+  input.form = io::nesting_form(*bytes);
+  if (!source.instance.empty() && input.form != io::NestingForm::placements)
+    input.notices.push_back(
+        fmt::format("--instance has no effect: {} is no file of placements", io::as_utf8(source.path)));
+  if (input.form == io::NestingForm::strip)
+    input.instance_name = std::filesystem::path(source.path).filename().string();
+  if (input.form == io::NestingForm::placements) {
+    if (auto name = io::instance_of_placements(*bytes, source.path)) input.instance_name = std::move(*name);
+  }
   // The checker reads the file itself where it can; a job of another program only as what it became.
   const bool is_layout = bytes->find("lekalo-layout/1") != std::string::npos;
   input.text = is_layout ? std::move(*bytes) : io::write_layout(input.document);
@@ -86,7 +97,7 @@ std::string completeness_text(const layout::Document& document, const layout::Co
   for (const layout::SheetUse& use : c.sheets) {
     const layout::Stock& stock = document.stocks[use.sheet.stock];
     text += fmt::format("  {:<18} {}, density {:.3f} %", label_of(document, use.sheet),
-                        counted(static_cast<std::int64_t>(use.parts), "part", "parts"), 100 * use.density());
+                        counted(use.parts, "part"), 100 * use.density());
     if (stock.kind == layout::StockKind::strip) text += fmt::format(", length {:.6f} mm", use.used_length_mm);
     if (use.defect_area > 0) text += fmt::format(", {:.1f} mm2 lost to defects", use.defect_area);
     const geom::Point left = geom::mm_from_grid(use.remnant.high - use.remnant.low);

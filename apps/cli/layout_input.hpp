@@ -1,11 +1,13 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/nesting_files.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "options.hpp"
@@ -18,7 +20,12 @@ struct LayoutInput {
   std::string text;  ///< the layout as `lekalo` writes it, or the file's own bytes where it is a layout
   layout::Document document;
   std::vector<std::string> notices;
+  std::optional<io::NestingForm> form;  ///< of a job or placements of another program
+  std::string instance_name;            ///< what placements of this would name as the file of their items
 };
+
+/// "1 part", "2 parts".
+[[nodiscard]] std::string counted(std::size_t count, const char* one);
 
 /// Reads any file that holds a layout or a job (io/open_layout.hpp).
 [[nodiscard]] Result<LayoutInput> read_layout_input(const LayoutSource& source);

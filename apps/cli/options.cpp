@@ -436,8 +436,8 @@ struct LayoutWords {
 void add_layout_source(CLI::App& command, LayoutWords& w) {
   command
       .add_option("layout", w.path,
-                  "Layout, nesting job or placements of other programs, drawing, regions: told apart by "
-                  "their content")
+                  "A layout, a job or placements of a nesting program, a drawing, regions: told apart by "
+                  "content")
       ->required()
       ->type_name("FILE");
   const auto add = [&](const char* name, std::string& word, const std::string& type, const char* help) {
@@ -555,10 +555,14 @@ Result<Command> parse_command_line(int argc, char** argv) {
   add_layout_outputs(check, check_words);
   check.footer(
       "Exit codes: 0 valid, 1 violations, 2 wrong command line, 3 a file cannot be read,\n"
-      "4 the engine and the independent checker do not agree.");
+      "4 the engine and the independent checker do not agree, 5 disk or memory.");
+  constexpr const char* kNoVerdict =
+      "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"
+      "5 disk or memory.";
   CLI::App& show = *app.add_subcommand("show", "Show a cutting layout: material used, parts, kits, picture");
   add_layout_source(show, show_words);
   add_layout_outputs(show, show_words);
+  show.footer(kNoVerdict);
   CLI::App& exported =
       *app.add_subcommand("export", "Write a layout or a job of another program in another form");
   add_layout_source(exported, export_words);
@@ -566,7 +570,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
   exported.add_option("-o,--output", export_words.output, "Write to this file [stdout]")->type_name("FILE");
   exported
       .add_option("--instance-name", export_words.instance_name,
-                  "What placements give as the file of their items")
+                  "What placements give as the file of their items [as the input says, or itself]")
       ->type_name("NAME");
   CLI::App& edit =
       *app.add_subcommand("edit", "Carry out a file of commands on a layout: move, slide, settle, ...");
@@ -579,7 +583,10 @@ Result<Command> parse_command_line(int argc, char** argv) {
       ->type_name("FILE");
   edit.footer(
       "Exit codes: 0 no rule is broken, 1 some are, 2 a command cannot be carried out,\n"
-      "3 a file cannot be read, 4 a command would break a rule (mode strict).");
+      "3 a file cannot be read, 4 a command would break a rule (mode strict), 5 disk or memory.\n"
+      "With 2 to 5 nothing is written. The commands: docs/design/layout-commands.md");
+
+  exported.footer(kNoVerdict);
 
   std::string shell;
   CLI::App& completion = *app.add_subcommand("completion", "Print a completion script for a shell");

@@ -101,7 +101,7 @@ struct ExportOptions {
   LayoutSource source;
   ExportFormat format = ExportFormat::layout;
   std::string output;         ///< empty: stdout
-  std::string instance_name;  ///< what placements name as their instance
+  std::string instance_name;  ///< what placements name as their instance; empty: as the input does
 };
 
 struct EditOptions {

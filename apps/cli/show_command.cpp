@@ -37,13 +37,13 @@ Result<int> run_show(const ShowOptions& o) {
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   std::string text;
   for (const std::string& notice : input->notices) text += "note: " + notice + "\n";
-  text += fmt::format("{}: {} placed, {} parts, {} stocks\n",
+  text += fmt::format("{}: {} placed, {}, {}\n",
                       input->document.name.empty() ? o.source.path : input->document.name,
-                      input->document.placements.size(), input->document.parts.size(),
-                      input->document.stocks.size());
+                      input->document.placements.size(), counted(input->document.parts.size(), "part"),
+                      counted(input->document.stocks.size(), "stock"));
   text += completeness_text(input->document, completeness);
   if (!violations.empty())
-    text += fmt::format("{} rules are broken; lekalo check says which\n", violations.size());
+    text += counted(violations.size(), "violation") + "; lekalo check says which and where\n";
   if (!o.picture.empty()) text += fmt::format("Written: {}\n", o.picture);
   tell(text);
   return 0;

@@ -88,7 +88,9 @@ class Composer {
     sheet_.text(8, 11, 190, picture_.name, {.size = 4.6, .bold = true, .kind = "title"});
     const bool valid = picture_.violations.empty();
     sheet_.text(289, 11, 90,
-                valid ? "no violations" : fmt::format("{} violations", picture_.violations.size()),
+                valid                             ? "no violations"
+                : picture_.violations.size() == 1 ? "1 violation"
+                                                  : fmt::format("{} violations", picture_.violations.size()),
                 {.size = 3.8,
                  .colour = valid ? kGood : kBad,
                  .anchor = Anchor::end,

@@ -40,7 +40,7 @@ Result<LayoutFile> open_placements(const detail::JsonTree& tree, const std::stri
       return failure(
           ErrorCode::bad_input,
           fmt::format("{}: the file of its items, {}, is neither beside it nor in the folder above; "
-                      "name it",
+                      "name it with --instance",
                       path, excerpt(*said)));
     instance = *found;
   }
@@ -58,6 +58,21 @@ bool looks_like_json(std::string_view bytes) {
   return begin != std::string_view::npos && (bytes[begin] == '{' || bytes[begin] == '[');
 }
 
+/// DXF begins with the number of a group, SVG with a tag.
+bool looks_like_drawing(std::string_view bytes) {
+  const std::size_t begin = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return begin != std::string_view::npos &&
+         (bytes[begin] == '<' || (bytes[begin] >= '0' && bytes[begin] <= '9'));
+}
+
+tl::unexpected<Error> no_layout(const std::string& path) {
+  return failure(ErrorCode::bad_input,
+                 path +
+                     ": no layout; known are \"format\": \"lekalo-layout/1\", jobs of nesting programs "
+                     "(strip_height and items; bin_types and item_types; Items and Objects; placements), "
+                     "regions (outer or pieces), trees of primitives (shape), DXF and SVG drawings");
+}
+
 }  // namespace
 
 Result<LayoutFile> open_layout(const std::string& path, const OpenOptions& options) {
@@ -73,12 +88,9 @@ Result<LayoutFile> open_layout(const std::string& path, const OpenOptions& optio
                  ? open_placements(*tree, path, options)
                  : detail::read_nesting_tree(*tree, path, *form, options.parts.unit);
     }
-    if (!root.find("shape") && !root.find("outer") && !root.find("pieces"))
-      return failure(ErrorCode::bad_input,
-                     path +
-                         ": no layout; known are \"format\": \"lekalo-layout/1\", jobs of nesting programs "
-                         "(strip_height and items; bin_types and item_types; Items and Objects; placements), "
-                         "regions (outer or pieces), trees of primitives (shape), DXF and SVG drawings");
+    if (!root.find("shape") && !root.find("outer") && !root.find("pieces")) return no_layout(path);
+  } else if (!looks_like_drawing(*bytes)) {
+    return no_layout(path);
   }
   auto parts = read_parts(*bytes, path, options.parts);
   if (!parts) return tl::unexpected(parts.error());

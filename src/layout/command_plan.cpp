@@ -44,8 +44,8 @@ Result<Sheet> known_sheet(const Document& document, Sheet sheet) {
     return wrong(fmt::format("there is no stock number {}", sheet.stock));
   const Stock& stock = document.stocks[sheet.stock];
   if (sheet.copy < 0 || sheet.copy >= stock.count)
-    return wrong(
-        fmt::format("stock '{}' has {} copies; there is no copy {}", stock.id, stock.count, sheet.copy));
+    return wrong(fmt::format("stock '{}' has {} {}, counted from 0; there is no copy {}", stock.id,
+                             stock.count, stock.count == 1 ? "copy" : "copies", sheet.copy));
   return sheet;
 }
 

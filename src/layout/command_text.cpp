@@ -102,7 +102,7 @@ class Reader {
   std::string word() {
     skip_spaces();
     if (!rest_.empty() && rest_.front() == '"') return quoted_word();
-    const std::size_t end = std::min(rest_.find_first_of(" \t"), rest_.size());
+    const std::size_t end = std::min(rest_.find_first_of(" \t\r"), rest_.size());
     std::string found(rest_.substr(0, end));
     rest_.remove_prefix(end);
     if (found.empty()) fail("the line ends too early");
@@ -116,7 +116,8 @@ class Reader {
   bool take(std::string_view wanted) {
     skip_spaces();
     if (!rest_.starts_with(wanted)) return false;
-    if (rest_.size() > wanted.size() && rest_[wanted.size()] != ' ') return false;
+    if (rest_.size() > wanted.size() && rest_.find_first_of(" \t\r", wanted.size()) != wanted.size())
+      return false;
     rest_.remove_prefix(wanted.size());
     return true;
   }
@@ -202,7 +203,12 @@ class Reader {
     const std::string id = word();
     for (std::size_t i = 0; i < all.size() && fault_.empty(); ++i)
       if (all[i].id == id) return static_cast<std::uint32_t>(i);
-    fail(fmt::format("there is no {} '{}'", what, id));
+    // Not all: some orders have hundreds.
+    std::string known;
+    for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 8); ++i)
+      known += (i == 0 ? "" : ", ") + quoted(all[i].id);
+    fail(fmt::format("there is no {} {}; there {} {}{}", what, quoted(id), all.size() == 1 ? "is" : "are",
+                     all.empty() ? "none" : known, all.size() > 8 ? ", ..." : ""));
     return 0;
   }
 

@@ -77,7 +77,8 @@ class FreeSpace {
     std::int64_t bad = high ? within_.high.*axis : within_.low.*axis;
     const auto with = [&](std::int64_t value) {
       GridBox tried = box;
-      (high ? tried.high : tried.low).*axis = value;
+      GridPoint& corner = high ? tried.high : tried.low;  // g++ 12 would assign to a copy of a bare ?:
+      corner.*axis = value;
       return tried;
     };
     if (good == bad) return;

@@ -1,0 +1,319 @@
+#include "lekalo/layout/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lekalo/layout/check.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::layout {
+namespace {
+
+using cases::box_loop;
+using cases::grid_point;
+using cases::outline_of;
+using geom::GridPoint;
+
+constexpr std::int64_t mm = geom::kGridPerMm;
+
+/// Part 0 is 10 x 10, part 1 20 x 5, part 2 a frame of 30 with a room of 20; sheets of 100 x 100, two copies.
+Document empty() {
+  Document d;
+  const Outline outlines[] = {outline_of({box_loop(0, 0, 10, 10)}), outline_of({box_loop(0, 0, 20, 5)}),
+                              outline_of({box_loop(0, 0, 30, 30), box_loop(5, 5, 25, 25)})};
+  const char* const names[] = {"square", "bar", "frame"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Part part;
+    part.id = names[i];
+    part.outline = outlines[i];
+    d.parts.push_back(part);
+  }
+  Stock stock;
+  stock.id = "sheet";
+  stock.count = 2;
+  stock.outline = outline_of({box_loop(0, 0, 100, 100)});
+  d.stocks = {stock};
+  return d;
+}
+
+void place(Document& d, std::uint32_t part, double x, double y, double degrees = 0) {
+  Placement placement;
+  placement.id = d.next_id++;
+  placement.part = part;
+  placement.at = grid_point(x, y);
+  placement.rotation = geom::rotation_from_degrees(degrees);
+  d.placements.push_back(placement);
+}
+
+/// Two squares at (20, 40) and (60, 40).
+Document two() {
+  Document d = empty();
+  place(d, 0, 20, 40);
+  place(d, 0, 60, 40);
+  return d;
+}
+
+/// Where a placement lies, in mm.
+std::vector<double> where(const Session& session, std::uint64_t id) {
+  const Placement& placement = *session.workspace().find(id);
+  return {geom::mm_from_grid(placement.at.x), geom::mm_from_grid(placement.at.y)};
+}
+/// Where it lies to within the two steps that a slide may leave.
+void expect_near(const Session& session, std::uint64_t id, double x, double y) {
+  const auto at = where(session, id);
+  EXPECT_NEAR(at[0], x, 2.5 * geom::kGridStep) << "placement " << id;
+  EXPECT_NEAR(at[1], y, 2.5 * geom::kGridStep) << "placement " << id;
+  EXPECT_TRUE(check(session.document()).empty());
+}
+
+/// Carries a line out; the fault, or "".
+std::string carry_out(Session& session, const std::string& line) {
+  const auto command = command_from_text(line, session.document());
+  if (!command) return "unreadable: " + command.error().message;
+  const auto change = session.apply(*command);
+  return change ? "" : change.error().message;
+}
+
+TEST(LayoutSession, ANewCommandForgetsWhatWasUndone) {
+  Session session(two());
+  EXPECT_FALSE(session.can_undo());
+  EXPECT_EQ(carry_out(session, "move 1 by 5 0"), "");
+  EXPECT_EQ(carry_out(session, "move 1 by 5 0"), "");
+  session.undo();
+  EXPECT_EQ(where(session, 1), (std::vector<double>{25, 40}));
+  EXPECT_TRUE(session.can_redo());
+  EXPECT_EQ(carry_out(session, "move 2 by 0 5"), "");
+  EXPECT_FALSE(session.can_redo());
+  EXPECT_EQ(session.log(), "lekalo-commands/1\nmove 1 by 5 0\nmove 2 by 0 5\n");
+  session.undo();
+  session.undo();
+  EXPECT_TRUE(session.document() == two());
+  EXPECT_FALSE(session.can_undo());
+}
+
+TEST(LayoutSession, WhatMovesNothingOrIsRefusedLeavesNoTraceAndForgetsNothing) {
+  Session session(two());
+  EXPECT_EQ(carry_out(session, "move 1 by 5 0"), "");
+  session.undo();
+  EXPECT_EQ(carry_out(session, "move 1 by 0 0"), "");
+  EXPECT_NE(carry_out(session, "move 1 by 40 0"), "");
+  EXPECT_TRUE(session.can_redo());
+  EXPECT_EQ(session.log(), "lekalo-commands/1\n");
+  EXPECT_TRUE(session.document() == two());
+}
+
+TEST(LayoutSession, LockedPlacementsStay) {
+  Session session(two());
+  ASSERT_EQ(carry_out(session, "lock 1"), "");
+  for (const char* line : {"move 1 by 1 0", "rotate 1 90", "flip 1", "remove 1", "swap 1 2", "swap 2 1",
+                           "slide 1 towards 1 0", "slide-along 1 by 1 0", "settle 1 towards 1 0",
+                           "push 1 by 1 0", "snap 1 within 5", "nearest 1 by 1 0", "move 2,1 by 1 0"})
+    EXPECT_EQ(carry_out(session, line), "placement 1 is locked; unlock it first") << line;
+  EXPECT_EQ(where(session, 1), (std::vector<double>{20, 40}));
+  ASSERT_EQ(carry_out(session, "unlock 1"), "");
+  EXPECT_EQ(carry_out(session, "move 1 by 1 0"), "");
+}
+
+TEST(LayoutSession, IdsAreNeverUsedAgain) {
+  Session session(two());
+  ASSERT_EQ(carry_out(session, "place square sheet 0 1 0 0 0 upright"), "");
+  EXPECT_NE(session.workspace().find(3), nullptr);
+  ASSERT_EQ(carry_out(session, "remove 3"), "");
+  ASSERT_EQ(carry_out(session, "place square sheet 0 1 0 0 0 upright"), "");
+  EXPECT_EQ(session.workspace().find(3), nullptr);
+  EXPECT_NE(session.workspace().find(4), nullptr);
+  EXPECT_EQ(session.document().next_id, 5U);
+}
+
+TEST(LayoutSession, StrictRefusesWithTheRuleAndFreeAdmits) {
+  Session session(two());
+  EXPECT_EQ(carry_out(session, "move 1 by 35 0"),
+            "not admitted: placement 1: overlap with placement 2, 5 mm");
+  session.set_mode(Mode::free);
+  EXPECT_EQ(carry_out(session, "move 1 by 35 0"), "");
+  EXPECT_EQ(check(session.document()).size(), 1U);
+  EXPECT_EQ(session.log(), "lekalo-commands/1\nmode free\nmove 1 by 35 0\n");
+  // Sliding needs a valid place to start from, in either mode.
+  EXPECT_NE(carry_out(session, "slide 1 towards 1 0").find("placement 1 breaks a rule where it lies"),
+            std::string::npos);
+  const auto again = replay(two(), session.log());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_TRUE(again->document() == session.document());
+}
+
+TEST(LayoutSession, ALogWithAFaultNamesItsLine) {
+  const auto fault = [](const std::string& log) {
+    const auto session = replay(two(), log);
+    return session ? "" : session.error().message;
+  };
+  EXPECT_EQ(
+      fault("lekalo-commands/1\n\n  # note\nmove 1 by 1 0\n"),
+      "line 3: there is no command '#'; there are "
+      "place, fit, move, rotate, flip, remove, swap, lock, unlock, slide, slide-along, settle, push, snap, "
+      "compact and nearest");
+  EXPECT_EQ(fault("lekalo-commands/1\n\n# note\nmove 1 by 35 0\n"),
+            "line 4: not admitted: placement 1: overlap with placement 2, 5 mm");
+  EXPECT_EQ(fault("lekalo-commands/2\n"), "line 1: a log of commands begins with 'lekalo-commands/1'");
+  EXPECT_EQ(fault("lekalo-commands/1"), "");
+  EXPECT_NE(fault(""), "");
+}
+
+TEST(LayoutCommandsUnit, RotateFlipAndSwapGoAboutTheMiddlesOfBoxes) {
+  Document d = empty();
+  place(d, 1, 20, 20);  // 20 x 5, middle (30, 22.5)
+  place(d, 0, 70, 70);  // middle (75, 75)
+  for (Part& part : d.parts) part.may_mirror = true;
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "rotate 1 90"), "");
+  EXPECT_EQ(where(session, 1), (std::vector<double>{32.5, 12.5}));
+  ASSERT_EQ(carry_out(session, "rotate 1 -90"), "");
+  EXPECT_TRUE(session.document() == d);
+  ASSERT_EQ(carry_out(session, "flip 1"), "");
+  EXPECT_EQ(where(session, 1), (std::vector<double>{40, 20}));
+  ASSERT_EQ(carry_out(session, "flip 1"), "");
+  EXPECT_TRUE(session.document() == d);
+  ASSERT_EQ(carry_out(session, "swap 1 2"), "");
+  EXPECT_EQ(where(session, 1), (std::vector<double>{65, 72.5}));
+  EXPECT_EQ(where(session, 2), (std::vector<double>{25, 17.5}));
+  // Two as one: about the middle of both.
+  Session pair(two());
+  ASSERT_EQ(carry_out(pair, "rotate 1,2 180"), "");
+  EXPECT_EQ(where(pair, 1), (std::vector<double>{70, 50}));
+  EXPECT_EQ(where(pair, 2), (std::vector<double>{30, 50}));
+}
+
+TEST(LayoutCommandsUnit, SlideKeepsTheGapAndStopsWithinTwoSteps) {
+  Document d = two();
+  d.rules.gap = 3 * mm;
+  d.rules.border_gap = mm;
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "slide 1 towards 1 0"), "");
+  expect_near(session, 1, 60 - 3 - 10, 40);
+  EXPECT_LE(where(session, 1)[0], 47);
+  ASSERT_EQ(carry_out(session, "slide 2 towards 0 -5"), "");
+  expect_near(session, 2, 60, 1);
+  EXPECT_GE(where(session, 2)[1], 1);
+}
+
+TEST(LayoutCommandsUnit, SlideStopsAtALockedNeighbourAndInsideAHole) {
+  Document d = empty();
+  place(d, 2, 30, 30);  // its room is (35, 35) to (55, 55)
+  place(d, 0, 40, 40);
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "slide 2 towards -1 0"), "");
+  expect_near(session, 2, 35, 40);
+  ASSERT_EQ(carry_out(session, "settle 2 towards 0 1 then 1 0"), "");
+  expect_near(session, 2, 45, 45);
+}
+
+TEST(LayoutCommandsUnit, SlideAlongFollowsTheObstacle) {
+  Document d = empty();
+  place(d, 0, 20, 40);
+  place(d, 1, 40, 30, 90);  // a wall from x = 35 to 40, y = 30 to 50
+  Session session(d);
+  // Around it: straight to the wall, then up along it until the way to the goal opens.
+  ASSERT_EQ(carry_out(session, "slide-along 1 by 40 15"), "");
+  EXPECT_TRUE(check(session.document()).empty());
+  expect_near(session, 1, 60, 55);
+}
+
+TEST(LayoutCommandsUnit, SettleRestsInTheCorner) {
+  Session session(two());
+  ASSERT_EQ(carry_out(session, "settle 1 towards -1 0 then 0 -1"), "");
+  expect_near(session, 1, 0, 0);
+  ASSERT_EQ(carry_out(session, "settle 2 towards 0 -1 then -1 0"), "");
+  expect_near(session, 2, 10, 0);
+}
+
+TEST(LayoutCommandsUnit, PushMovesWhatIsInTheWayAndStopsAtWhatIsFixed) {
+  Document d = two();
+  place(d, 0, 80, 45);
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "push 1 by 35 0"), "");
+  expect_near(session, 1, 55, 40);
+  expect_near(session, 2, 65, 40);
+  expect_near(session, 3, 80, 45);
+  ASSERT_EQ(carry_out(session, "push 1 by 50 0"), "");  // to the border: all three in a row
+  expect_near(session, 3, 90, 45);
+  expect_near(session, 2, 80, 40);
+  expect_near(session, 1, 70, 40);
+  ASSERT_EQ(carry_out(session, "move 1 by -40 0"), "");
+  ASSERT_EQ(carry_out(session, "lock 2"), "");
+  ASSERT_EQ(carry_out(session, "push 1 by 60 0"), "");
+  expect_near(session, 1, 70, 40);
+  EXPECT_NEAR(where(session, 2)[0], 80, 1e-5);
+}
+
+TEST(LayoutCommandsUnit, SnapTurnsParallelGoesAgainstAndCornerToCorner) {
+  Document d = two();
+  d.placements[1].at = grid_point(32, 41.5);
+  d.placements[1].rotation = geom::rotation_from_degrees(4);
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "snap 2 within 3"), "");
+  const Placement& placed = *session.workspace().find(2);
+  // As exactly as the turned vertices, which lie on the grid, say where its edges run.
+  EXPECT_NEAR(geom::degrees_of(placed.rotation), 0, 1e-5);
+  expect_near(session, 2, 30, 40);
+  // With a part that may not be turned to it, and with nothing near.
+  EXPECT_EQ(carry_out(session, "move 2 by 30 20"), "");
+  EXPECT_EQ(carry_out(session, "snap 2 within 3"), "placement 2: no edge within 3 mm that it fits against");
+  EXPECT_EQ(carry_out(session, "snap 2 within 0"), "snapping needs a reach above 0");
+}
+
+TEST(LayoutCommandsUnit, CompactSettlesAllButTheLocked) {
+  Document d = two();
+  place(d, 0, 40, 44);
+  d.placements[2].locked = true;
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "compact sheet 0 towards -1 0"), "");
+  EXPECT_EQ(where(session, 3), (std::vector<double>{40, 44}));
+  EXPECT_NEAR(where(session, 1)[0], 0, 3e-6);
+  EXPECT_TRUE(check(session.document()).empty());
+  // The second went round the locked one, or rests against it.
+  EXPECT_LE(where(session, 2)[0], 50 + 3e-6);
+  // One undo takes all of it back.
+  session.undo();
+  EXPECT_TRUE(session.document() == d);
+}
+
+TEST(LayoutCommandsUnit, NearestIsTheDroppedPlaceWhereItIsValidAndBesideOtherwise) {
+  Session session(two());
+  ASSERT_EQ(carry_out(session, "nearest 1 by 5 5"), "");
+  EXPECT_EQ(where(session, 1), (std::vector<double>{25, 45}));
+  session.undo();
+  // Dropped 2 mm into the other: out the same way is nearest.
+  ASSERT_EQ(carry_out(session, "nearest 1 by 32 0"), "");
+  EXPECT_TRUE(check(session.document()).empty());
+  const auto at = where(session, 1);
+  EXPECT_NEAR(at[0], 50, 0.05);
+  EXPECT_NEAR(at[1], 40, 0.5);
+  session.undo();
+  // Off the sheet: back to its edge. Onto another copy: where it was dropped.
+  ASSERT_EQ(carry_out(session, "nearest 1 by -25 0"), "");
+  EXPECT_NEAR(where(session, 1)[0], 0, 0.05);
+  session.undo();
+  ASSERT_EQ(carry_out(session, "nearest 1 by 40 0 to sheet 1"), "");
+  EXPECT_EQ(session.workspace().find(1)->copy, 1);
+  EXPECT_EQ(where(session, 1), (std::vector<double>{60, 40}));
+}
+
+TEST(LayoutCommandsUnit, FitTakesTheLowestPlaceLeftmostFirstUntilNothingFits) {
+  Document d = empty();
+  for (Part& part : d.parts) part.rotations = {{0, 0}};
+  d.stocks[0].outline = outline_of({box_loop(0, 0, 25, 12)});
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "fit square sheet 0"), "");
+  expect_near(session, 1, 0, 0);
+  ASSERT_EQ(carry_out(session, "fit square sheet 0"), "");
+  expect_near(session, 2, 10, 0);
+  EXPECT_EQ(carry_out(session, "fit square sheet 0"), "no place was found where part 'square' fits");
+  EXPECT_EQ(carry_out(session, "fit frame sheet 0"), "no place was found where part 'frame' fits");
+  // The command in the log is the command; the place follows from it.
+  EXPECT_EQ(session.log(), "lekalo-commands/1\nfit \"square\" \"sheet\" 0\nfit \"square\" \"sheet\" 0\n");
+  EXPECT_EQ(fits_where(session.workspace(), 0, {0, 1}, 3).size(), 1U) << "starts that settle to one place";
+}
+
+}  // namespace
+}  // namespace lekalo::layout
