@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <map>
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
@@ -79,7 +79,7 @@ struct Scene::Memory {
   std::vector<FlatOutline> forms;
   double row = 1;                                                 ///< height of a small cell
   std::vector<std::vector<FlatOutline::Span>> covers;             ///< by form, of such rows
-  std::unordered_multimap<std::uint64_t, std::uint32_t> form_of;  ///< by hash
+  std::multimap<std::uint64_t, std::uint32_t> form_of;  ///< by hash
   std::vector<std::int64_t> gaps = {0};
   PairMemory pairs;
 

@@ -103,6 +103,23 @@ foreach(module IN LISTS modules)
 endforeach()
 check_folder(apps apps ${modules})
 
+# ---- one name, one type -----------------------------------------------------------------------------------
+# Two headers of a module that define types of one name are fine for every compiler and link into one of the two.
+foreach(module IN LISTS modules)
+  file(GLOB headers RELATIVE ${ROOT} ${ROOT}/include/lekalo/${module}/*.hpp ${ROOT}/src/${module}/*.hpp)
+  set(types "")
+  foreach(header IN LISTS headers)
+    file(STRINGS ${ROOT}/${header} definitions REGEX "^(struct|class) [A-Za-z0-9_]+( final)?( :.*| )?{")
+    foreach(definition IN LISTS definitions)
+      string(REGEX REPLACE "^(struct|class) ([A-Za-z0-9_]+).*" "\\2" type "${definition}")
+      if(type IN_LIST types)
+        violation("${header} defines ${type}, and so does another header of ${module}")
+      endif()
+      list(APPEND types ${type})
+    endforeach()
+  endforeach()
+endforeach()
+
 foreach(place include/lekalo src)
   file(GLOB folders RELATIVE ${ROOT}/${place} ${ROOT}/${place}/*)
   foreach(folder IN LISTS folders)
