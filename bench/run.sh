@@ -8,7 +8,7 @@ cd "$root"
 cgal=OFF
 [ -d /usr/include/CGAL ] && cgal=ON
 cmake --preset bench -DLEKALO_WITH_CGAL=$cgal > /dev/null
-targets=(bench_locate bench_locate_region bench_scan bench_compare bench_compare_regions)
+targets=(bench_locate bench_locate_region bench_scan bench_compare bench_compare_regions bench_scene)
 [ -f /usr/include/polyclipping/clipper.hpp ] && targets+=(bench_boolean)
 cmake --build --preset bench --target "${targets[@]}" > /dev/null
 echo "commit $(git rev-parse --short HEAD), $(c++ --version | head -1), $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2), seed ${LEKALO_SEED:-1}"
@@ -22,7 +22,12 @@ echo
 build/bench/bench/bench_locate_region --benchmark_counters_tabular=true
 echo
 build/bench/bench/bench_scan --benchmark_counters_tabular=true
-if [ "${#targets[@]}" -gt 5 ]; then
+if [ -n "${LEKALO_SHARED_DATA:-}" ]; then
+  echo
+  build/bench/bench/bench_scene
+  build/bench/bench/bench_scene --scale
+fi
+if [ "${targets[-1]}" = bench_boolean ]; then
   echo
   build/bench/bench/bench_boolean
 fi

@@ -4,7 +4,7 @@ namespace lekalo::phi {
 
 bool PairMemory::is_due(Key key) {
   if (asked_.empty()) asked_.resize(kCounters);
-  Counter& counter = asked_[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 50)];
+  Counter& counter = asked_[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 52)];
   if (counter.key != key) counter = {key, 0};
   return ++counter.asked >= kOften;
 }

@@ -29,7 +29,7 @@ class PairMemory {
 
  private:
   static constexpr std::size_t kMost = std::size_t{128} << 20;  ///< bytes of all maps
-  static constexpr std::size_t kCounters = 1 << 14;
+  static constexpr std::size_t kCounters = 1 << 12;
   static constexpr std::uint8_t kOften = 8;
   /// Questions about one pair, until another one takes the place.
   struct Counter {
