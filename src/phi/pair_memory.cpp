@@ -10,10 +10,7 @@ bool PairMemory::is_due(Key key) {
 }
 
 ContactMap& PairMemory::add(Key key, const OutlinePair& pair) {
-  if (maps_.size() % 64 == 63 && bytes() > kMost) {
-    maps_.clear();
-    slots_.assign(64, Slot{});
-  }
+  if (maps_.size() % 64 == 63) forget_too_much();
   if (2 * (maps_.size() + 1) > slots_.size()) {
     std::vector<Slot> old(2 * slots_.size());
     old.swap(slots_);
@@ -22,6 +19,12 @@ ContactMap& PairMemory::add(Key key, const OutlinePair& pair) {
   }
   insert({key, static_cast<std::uint32_t>(maps_.size())});
   return maps_.emplace_back(pair);
+}
+
+void PairMemory::forget_too_much() {
+  if (bytes() <= most_bytes_) return;
+  maps_.clear();
+  slots_.assign(64, Slot{});
 }
 
 void PairMemory::insert(Slot slot) {

@@ -15,8 +15,12 @@ class PairMemory {
   using Key = std::uint64_t;
   static constexpr Key kNone = ~Key{0};
 
-  /// The pair's map, or none.
-  [[nodiscard]] ContactMap* find(Key key) noexcept {
+  explicit PairMemory(std::size_t most_bytes = std::size_t{128} << 20) : most_bytes_(most_bytes) {}
+
+  /// The pair's map, or none; good until the next call.
+  [[nodiscard]] ContactMap* find(Key key) {
+    // Maps grow as they are asked.
+    if (++found_ % kLookEvery == 0) forget_too_much();
     for (std::size_t i = place(key);; i = (i + 1) & (slots_.size() - 1)) {
       if (slots_[i].key == key) return &maps_[slots_[i].map];
       if (slots_[i].key == kNone) return nullptr;
@@ -28,7 +32,7 @@ class PairMemory {
   [[nodiscard]] std::size_t bytes() const noexcept;
 
  private:
-  static constexpr std::size_t kMost = std::size_t{128} << 20;  ///< bytes of all maps
+  static constexpr std::size_t kLookEvery = 1 << 16;
   static constexpr std::size_t kCounters = 1 << 12;
   static constexpr std::uint8_t kOften = 8;
   /// Questions about one pair, until another one takes the place.
@@ -44,7 +48,10 @@ class PairMemory {
     return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 32) & (slots_.size() - 1);
   }
   void insert(Slot slot);
+  void forget_too_much();
 
+  std::size_t most_bytes_;  ///< of all maps, about
+  std::size_t found_ = 0;
   std::vector<Slot> slots_ = std::vector<Slot>(64);
   std::vector<ContactMap> maps_;
   std::vector<Counter> asked_;

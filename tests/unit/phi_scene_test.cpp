@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "lekalo/base/random.hpp"
+#include "lekalo/phi/outline_relation.hpp"
+#include "phi/pair_memory.hpp"
 
 namespace lekalo {
 namespace {
@@ -124,6 +127,36 @@ TEST(Scene, CopiesAndAssignmentsAnswerAlike) {
   scene = std::move(copy);
   EXPECT_TRUE(forbidden(scene, {.shape = shape, .at = {66 * kMm, 69 * kMm}}));
   EXPECT_FALSE(forbidden(scene, {.shape = shape, .at = {21 * kMm, 21 * kMm}}));
+}
+
+// With room for few maps the engine forgets most, and answers as before.
+TEST(PairMemory, KeepsWithinItsRoomAndStaysRight) {
+  constexpr std::size_t kRoom = 200'000;
+  phi::PairMemory memory(kRoom);
+  Random random(2);
+  std::vector<phi::FlatOutline> outlines;
+  for (std::int64_t i = 0; i < 30; ++i) outlines.push_back(phi::flat_outline(triangle((5 + i) * kMm)));
+  std::size_t most = 0, hits = 0;
+  for (std::size_t k = 0; k < 100'000; ++k) {
+    const std::size_t a = random.below(30), b = random.below(30);
+    const phi::OutlinePair pair{outlines[a], outlines[b]};
+    const auto along = [&](std::int64_t low, std::int64_t high) {
+      return low + 1 + static_cast<std::int64_t>(random.below(static_cast<std::size_t>(high - low - 1)));
+    };
+    const GridPoint shift{along(-pair.moving.width, pair.fixed.width),
+                          along(-pair.moving.height, pair.fixed.height)};
+    const phi::PairMemory::Key key = 30 * a + b;
+    phi::ContactMap* map = memory.find(key);
+    if (map == nullptr) map = &memory.add(key, pair);
+    const bool found = map->forbidden(shift, pair);
+    ASSERT_EQ(found, phi::interiors_meet(pair.fixed.region, pair.moving.region, shift)) << k;
+    hits += found ? 1 : 0;
+    if (k % 1000 == 0) most = std::max(most, memory.bytes());
+  }
+  EXPECT_LT(most, 3 * kRoom);  // a look at every 64th map
+  EXPECT_GT(most, kRoom / 4);
+  EXPECT_GT(hits, 25'000u);
+  EXPECT_LT(hits, 125'000u);
 }
 
 }  // namespace
