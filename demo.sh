@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Set-up, release build, and the main job on the example data: where does the part lie in the blank, is there
-# a better place, and the NC program for the machine. Everything it writes goes to demo-out/.
+# Set-up, release build, and the main jobs on the example data: where does the part lie in the blank, is there
+# a better place, and the NC program for the machine; a cutting layout, corrected, checked and drawn. Everything it writes goes to demo-out/.
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/tools/common.sh"
 
@@ -44,6 +44,13 @@ show "$lekalo" verify demo-out/flange.json
 show "$lekalo" locate --part $regions/flange.json --blank $regions/flange-scan.csv --uncertainty 0.01 --min-radius 4 \
   --min-allowance 1 --picture demo-out/flange.png --report demo-out/flange-report.png
 
+# Shoes on a hide: pieces put down by commands, checked, drawn.
+layouts=examples/layouts
+show "$lekalo" edit $layouts/shoes.json --commands $layouts/shoes.commands -o demo-out/shoes.json
+show "$lekalo" check demo-out/shoes.json
+show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.svg
+show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.pdf
+
 say ""
 say "Written to $root/demo-out:"
 say "  example-1.svg ... example-6.svg    blank, start, result, contacts and allowance; example-1.png the first as PNG"
@@ -52,3 +59,4 @@ say "  part.nc                            $data/part.nc in the machine's frame"
 say "  bracket.svg, bracket.json, bracket.nc  a part with arcs, a slot and holes in a cored casting"
 say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of primitives in a probed casting: picture,"
 say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"
+say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"

@@ -407,9 +407,9 @@ TEST(CliLayout, TheSameCommandsGiveTheSameBytes) {
   write_layout(folder, "order.json", layout);
   write_bytes(
       folder / "c.txt",
-      "lekalo-commands/1\r\n# every kind of motion\r\nfit square s 0\nmove 1 by 0.1 20.2\nrotate 2 90\n"
+      "lekalo-commands/1\r\n# every kind of motion\r\nfit square s 0\nmove 1 by 0.1 20.2\nrotate 2 180\n"
       "slide 2 towards -1 -0.3\nslide-along 2 by 20 1\nsettle 2 towards 1 0 then 0 -1\npush 1 by 12 0\n"
-      "nearest 3 by 40 40\nsnap 3 within 8\nfit square s 0\nlock 3\ncompact s 0 towards -1 -1\n");
+      "nearest 3 by 40 40\nsnap 1 within 60\nfit square s 0\nlock 3\ncompact s 0 towards -1 -1\n");
   const Words edit{"edit", "order.json", "--commands", "c.txt"};
   const Ran first = run(folder.path(), edit);
   ASSERT_EQ(first.status, 0) << first.err;
