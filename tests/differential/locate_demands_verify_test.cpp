@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "lekalo/io/result_json.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/verify/verify.hpp"
@@ -71,7 +73,7 @@ locate::DemandProblem problem_of(const cases::RegionCase& one, std::size_t i) {
 }
 
 TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigherOne) {
-  const std::size_t count = cases::region_case_count(1);
+  const std::size_t count = std::min<std::size_t>(cases::region_case_count(1), 12);
   std::size_t with_maximum = 0;
   for (std::size_t i = 0; i < 2 * count; ++i) {
     const cases::RegionCase one = cases::region_case(

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lekalo/locate/region.hpp"
@@ -52,7 +53,7 @@ double objective(const phi::RegionClearance& clearance, const std::vector<Cap>& 
 }
 
 TEST(LocateCaps, TheDeepestPlaceIsWhereDenseSamplesSay) {
-  const std::size_t count = cases::region_case_count(3);
+  const std::size_t count = std::min<std::size_t>(cases::region_case_count(3), 50);
   for (const cases::RegionKind kind : cases::kRegionKinds) {
     for (std::size_t i = 0; i < count; ++i) {
       const cases::RegionCase one = cases::region_case(cases::seed(), i, kind);
@@ -85,7 +86,7 @@ TEST(LocateCaps, TheDeepestPlaceIsWhereDenseSamplesSay) {
 }
 
 TEST(LocateCaps, TheBalanceIsReachedAndNotBeaten) {
-  const std::size_t count = cases::region_case_count(2);
+  const std::size_t count = std::min<std::size_t>(cases::region_case_count(2), 50);
   std::size_t closed = 0, open = 0;
   for (const cases::RegionKind kind : {cases::RegionKind::near_net, cases::RegionKind::rounded}) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -136,7 +137,7 @@ TEST(LocateCaps, TheBalanceIsReachedAndNotBeaten) {
 }
 
 TEST(LocateCaps, WhatIsLockedStays) {
-  const std::size_t count = cases::region_case_count(2);
+  const std::size_t count = std::min<std::size_t>(cases::region_case_count(2), 50);
   for (std::size_t i = 0; i < count; ++i) {
     const cases::RegionCase one = cases::region_case(cases::seed(), i, cases::RegionKind::near_net);
     SCOPED_TRACE(one.name);
