@@ -350,9 +350,9 @@ class Composer {
       const layout::SheetUse& use = c.sheets[i];
       const layout::Stock& stock = document_.stocks[use.sheet.stock];
       const Point remnant = geom::mm_from_grid(use.remnant.high - use.remnant.low);
-      std::string text = fmt::format("{}{}: {} parts, {:.2f} %", stock.id,
+      std::string text = fmt::format("{}{}: {} {}, {:.2f} %", stock.id,
                                      stock.count > 1 ? fmt::format(" #{}", use.sheet.copy + 1) : "",
-                                     use.parts, 100 * use.density());
+                                     use.parts, use.parts == 1 ? "part" : "parts", 100 * use.density());
       if (stock.kind == StockKind::strip) text += fmt::format(", length {:.3f} mm", use.used_length_mm);
       if (use.defect_area > 0)
         text += fmt::format(", defects {:.2f} %", 100 * use.defect_area / use.material_area);
