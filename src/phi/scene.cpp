@@ -77,8 +77,8 @@ constexpr double kMostSmall = 256;
 /// own maps.
 struct Scene::Memory {
   std::vector<FlatOutline> forms;
-  double row = 1;                                                 ///< height of a small cell
-  std::vector<std::vector<FlatOutline::Span>> covers;             ///< by form, of such rows
+  double row = 1;                                       ///< height of a small cell
+  std::vector<std::vector<FlatOutline::Span>> covers;   ///< by form, of such rows
   std::multimap<std::uint64_t, std::uint32_t> form_of;  ///< by hash
   std::vector<std::int64_t> gaps = {0};
   PairMemory pairs;
@@ -502,6 +502,50 @@ std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
       });
   std::sort(found.begin(), found.end());
   return found;
+}
+
+NearestBody Scene::nearest(const Probe& probe, std::int64_t within) const {
+  const Question q = question(probe);
+  NearestBody best;
+  double best_mm = HUGE_VAL;
+  const auto box_distance_mm = [&](const GridBox& box) {
+    const auto beyond = [](std::int64_t a, std::int64_t b) {
+      return static_cast<double>(std::max<std::int64_t>({0, a, b}));
+    };
+    const double x = beyond(box.low.x - q.box.high.x, q.box.low.x - box.high.x),
+                 y = beyond(box.low.y - q.box.high.y, q.box.low.y - box.high.y);
+    return std::sqrt(x * x + y * y) * geom::kGridStep;
+  };
+  const auto look_at = [&](BodyIndex index) {
+    if (index == q.except) return false;
+    const Placed& placed = placed_[index];
+    // Off by roundings: a box as near as the best may hold one that is nearer, or as near with a lower index.
+    if (box_distance_mm(placed.box) > std::max(0.0, best_mm) * (1 + 0x1p-40)) return false;
+    const Body& body = bodies_[index];
+    const GridRegion &theirs = outline(body.shape), &ours = outline(probe.shape);
+    const GridPoint shift = probe.at - body.at;
+    NearestBody one{index, interiors_meet(theirs, ours, shift), edge_distance(theirs, ours, shift)};
+    const geom::Point at = geom::mm_from_grid(body.at);
+    one.edges.on_a = one.edges.on_a + at;
+    one.edges.on_b = one.edges.on_b + at;
+    const double mm = one.overlaps ? -1 : one.edges.distance_mm;
+    if (mm < best_mm || (mm == best_mm && index < best.body)) best = one, best_mm = mm;
+    return false;
+  };
+  // Whoever is not met by a window is further away than it reaches.
+  for (std::int64_t reach = std::min(within, static_cast<std::int64_t>(0.25 / per_step_) + 1);;
+       reach = reach > within / 4 ? within : 4 * reach) {
+    const GridBox window = grown(q.box, reach);
+    visit_near(
+        window, next_question(),
+        [&](const Placed& body) {
+          return (body.layers & q.layers) != 0 && body.rank > q.tolerates && meet(body.box, window);
+        },
+        look_at);
+    if (best_mm <= geom::mm_from_grid(reach) || reach >= within) break;
+  }
+  if (best_mm > geom::mm_from_grid(within)) return {};
+  return best;
 }
 
 std::size_t Scene::bytes() const noexcept {

@@ -48,6 +48,28 @@ struct Plain {
     std::sort(found.begin(), found.end());
     return found;
   }
+  [[nodiscard]] phi::NearestBody nearest(const phi::Probe& probe, std::int64_t within) const {
+    phi::NearestBody best;
+    best.edges.distance_mm = 1e300;
+    for (const Placed& placed : bodies) {
+      const phi::Body& body = placed.body;
+      if (body.container || placed.index == probe.except || (body.layers & probe.layers) == 0 ||
+          body.rank <= probe.tolerates)
+        continue;
+      const GridRegion &theirs = scene.outline(body.shape), &ours = scene.outline(probe.shape);
+      const phi::NearestBody one{placed.index, phi::interiors_meet(theirs, ours, probe.at - body.at),
+                                 phi::edge_distance(theirs, ours, probe.at - body.at)};
+      const bool is_nearer = one.overlaps != best.overlaps
+                                 ? one.overlaps
+                                 : (one.overlaps || one.edges.distance_mm == best.edges.distance_mm
+                                        ? one.body < best.body
+                                        : one.edges.distance_mm < best.edges.distance_mm);
+      if (is_nearer) best = one;
+    }
+    if (best.body == phi::kNoBody || (!best.overlaps && best.edges.distance_mm > geom::mm_from_grid(within)))
+      return {};
+    return best;
+  }
   [[nodiscard]] std::vector<BodyIndex> at(GridPoint p, std::uint32_t layers) const {
     std::vector<BodyIndex> found;
     for (const Placed& placed : bodies)
@@ -146,7 +168,7 @@ TEST(Scene, PairsNearContactAreAnsweredAsByTheOutlinesAlone) {
 // Bodies come and go, with layers, ranks, gaps, containers, few shapes or ever new ones.
 TEST(Scene, AnswersStayRightWhileBodiesComeAndGo) {
   const std::size_t scenes = cases::case_count(60);
-  std::size_t asked = 0, hits = 0;
+  std::size_t asked = 0, hits = 0, some_nearest = 0;
   for (std::size_t i = 0; i < scenes; ++i) {
     Random random(cases::seed(), 50'000 + i);
     const bool many_shapes = random.below(2) == 0, gaps = random.below(2) == 0;
@@ -222,6 +244,17 @@ TEST(Scene, AnswersStayRightWhileBodiesComeAndGo) {
         ASSERT_EQ(scene.near(box, side / 40, probe.layers), plain.near(box, side / 40, probe.layers))
             << place(i) << " step " << step;
       }
+      if (step % 16 == 0) {
+        const std::int64_t within = cases::between(random, 0, random.below(2) == 0 ? side / 40 : 2 * side);
+        const phi::NearestBody nearest = scene.nearest(probe, within), other = plain.nearest(probe, within);
+        ASSERT_EQ(nearest.body, other.body) << place(i) << " step " << step;
+        ASSERT_EQ(nearest.overlaps, other.overlaps) << place(i) << " step " << step;
+        ASSERT_EQ(nearest.edges.distance_mm, other.edges.distance_mm) << place(i) << " step " << step;
+        const double measured =
+            nearest.body == phi::kNoBody ? 0 : norm(nearest.edges.on_a - nearest.edges.on_b);
+        ASSERT_NEAR(measured, nearest.edges.distance_mm, 1e-9) << place(i) << " step " << step;
+        some_nearest += nearest.body != phi::kNoBody && !nearest.overlaps ? 1 : 0;
+      }
       ++asked;
       hits += expected.empty() ? 0 : 1;
     }
@@ -235,7 +268,8 @@ TEST(Scene, AnswersStayRightWhileBodiesComeAndGo) {
       ASSERT_EQ(scene.forbidding(probe), plain.forbidding(probe)) << place(i);
     }
   }
-  std::printf("%zu questions, %zu forbidden\n", asked, hits);
+  std::printf("%zu questions, %zu forbidden, %zu nearest\n", asked, hits, some_nearest);
+  EXPECT_GT(some_nearest, asked / 100);
   EXPECT_GT(hits, asked / 5);
   EXPECT_LT(hits, asked * 9 / 10);
 }
@@ -263,8 +297,8 @@ TEST(Scene, NudgesInLayoutsAreAnsweredAsByTheOutlinesAlone) {
       phi::Probe probe{.shape = own.body.shape, .at = own.body.at, .gap = own.body.gap, .except = own.index};
       if (random.below(3) > 0) {  // against another one
         const Plain::Placed& other = plain.bodies[random.below(plain.bodies.size())];
-        probe.at = other.body.at + cases::touching_shift(random, scene.outline(other.body.shape),
-                                                         scene.outline(probe.shape));
+        probe.at = other.body.at +
+                   cases::touching_shift(random, scene.outline(other.body.shape), scene.outline(probe.shape));
       }
       probe.at = probe.at + cases::small_offset(random, 3e7, scene.outline(probe.shape));
       const std::vector<BodyIndex> expected = plain.forbidding(probe);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lekalo/geom/grid_region.hpp"
+#include "lekalo/phi/outline_relation.hpp"
 
 namespace lekalo::phi {
 
@@ -38,6 +39,12 @@ struct Probe {
   std::uint32_t layers = 1;
   std::int64_t tolerates = 0;
   BodyIndex except = kNoBody;  ///< a body that does not count: itself
+};
+
+struct NearestBody {
+  BodyIndex body = kNoBody;
+  bool overlaps = false;  ///< then how deep: phi/separation.hpp
+  EdgeDistance edges;     ///< on_a on the body, on_b on the probe
 };
 
 class Scene {
@@ -78,6 +85,12 @@ class Scene {
                                             std::uint32_t layers) const;
   /// Bodies with material at p, ascending; containers are not asked.
   [[nodiscard]] std::vector<BodyIndex> at(geom::GridPoint p, std::uint32_t layers) const;
+
+  /// The body whose edges are nearest to the probe's, of those the question is about, containers aside, not
+  /// further than `within` steps; one that overlaps counts as nearest of all, of equals the one with the
+  /// lower index. kNoBody where there is none. Gaps do not matter. Cost: edge_distance with those whose boxes
+  /// are nearer than the answer.
+  [[nodiscard]] NearestBody nearest(const Probe& probe, std::int64_t within) const;
 
   /// Memory in use, all of it. Cost: O(shapes + remembered pairs).
   [[nodiscard]] std::size_t bytes() const noexcept;
