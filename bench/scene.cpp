@@ -378,11 +378,11 @@ double microseconds(std::size_t questions, Ask&& ask) {
 
 void scale(const std::string& data, bool turned) {
   const layout::Document one = load(data, "shirts");
-  fmt::print("{}\n{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n",
+  fmt::print("{}\n{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n",
              turned ? "every part in a rotation of its own, overlapping; microseconds each"
                     : "the layout shirts tiled; microseconds each",
-             "parts", "drag", "random", "list", "update", "pick", "step", "faults", "step turned", "bytes",
-             "make s");
+             "parts", "drag", "random", "list", "nearest", "update", "pick", "step", "faults", "step turned",
+             "bytes", "make s");
   for (std::size_t count = 10; count <= 100'000; count *= 10) {
     Tiled made = tiled(one, count, turned);
     const double start = seconds();
@@ -423,6 +423,9 @@ void scale(const std::string& data, bool turned) {
       scene.forbidding(near[i], list);
       sum += list.size();
     });
+    const double nearest = microseconds(kMany / 4, [&](std::size_t k) {
+      sum += scene.nearest(near[k], geom::kGridLimit).body != phi::kNoBody ? 1 : 0;
+    });
     const double pick =
         microseconds(kMany, [&](std::size_t i) { sum += workspace.at(sheet, points[i]).size(); });
     const double step =
@@ -436,9 +439,10 @@ void scale(const std::string& data, bool turned) {
       p.rotation = geom::rotation_from_degrees(random.uniform(-180, 180));
       sum += workspace.is_clear(std::span(&p, 1));
     });
-    fmt::print("{:>8}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.2f}{:>11.2f}{:>9.0f}{:>9.3f}\n",
-               count, drag, any, all, update, pick, step, faults, new_shape,
-               static_cast<double>(scene.bytes()) / static_cast<double>(count), make);
+    fmt::print(
+        "{:>8}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.2f}{:>11.2f}{:>9.0f}{:>9.3f}\n",
+        count, drag, any, all, nearest, update, pick, step, faults, new_shape,
+        static_cast<double>(scene.bytes()) / static_cast<double>(count), make);
     if (sum == 0) fmt::print("nothing found\n");
   }
 }
