@@ -113,6 +113,15 @@ std::vector<std::uint64_t> Workspace::at(Sheet sheet, GridPoint p) const {
   return ids;
 }
 
+void Workspace::forget_old_shapes(Sheet sheet) {
+  // A scene keeps every shape it was ever asked about; turning a part leaves hundreds behind. The scene is
+  // made anew from the document when it is asked for next.
+  constexpr std::size_t kSpare = 2000;
+  const auto in = scenes_.find(sheet);
+  if (in != scenes_.end() && in->second.shapes.size() > kSpare + 4 * in->second.bodies.size())
+    scenes_.erase(in);
+}
+
 void Workspace::set(const Placement& placement) {
   auto& all = document_.placements;
   const auto at = std::lower_bound(all.begin(), all.end(), placement.id,
@@ -124,6 +133,7 @@ void Workspace::set(const Placement& placement) {
   } else {
     all.insert(at, placement);
   }
+  forget_old_shapes({placement.stock, placement.copy});
   if (const auto in = scenes_.find({placement.stock, placement.copy}); in != scenes_.end())
     put(in->second, placement);
 }

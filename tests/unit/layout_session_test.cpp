@@ -160,6 +160,18 @@ TEST(LayoutSession, ALogWithAFaultNamesItsLine) {
   EXPECT_NE(fault(""), "");
 }
 
+TEST(LayoutSession, TurningAPartForHoursKeepsTheMemory) {
+  Session session(two());
+  const Sheet sheet{0, 0};
+  std::size_t most = 0;
+  for (int turn = 0; turn < 12000; ++turn) {
+    ASSERT_TRUE(session.apply(RotateCommand{{1}, 0.03}));
+    if (turn == 3000) most = session.workspace().scene(sheet).bytes();
+  }
+  EXPECT_LE(session.workspace().scene(sheet).bytes(), 2 * most);
+  EXPECT_TRUE(check(session.document()).empty());
+}
+
 TEST(LayoutCommandsUnit, RotateFlipAndSwapGoAboutTheMiddlesOfBoxes) {
   Document d = empty();
   place(d, 1, 20, 20);  // 20 x 5, middle (30, 22.5)

@@ -92,6 +92,7 @@ class Workspace {
   [[nodiscard]] SheetScene& sheet_scene(Sheet sheet) const;
   void put(SheetScene& in, const Placement& placement) const;
   void take(SheetScene& in, std::uint64_t id) const;
+  void forget_old_shapes(Sheet sheet);
 
   Document document_;
   /// Caches: what they hold follows from the document.
