@@ -2,7 +2,8 @@
 # Set-up, build and tests.
 #
 #   ./test.sh          the quick suite on the dev preset
-#   ./test.sh --full   the long counts, every preset, the fuzz programs; everything logged in test-out/
+#   ./test.sh --full [STEP...]   the long counts, every preset, the fuzz programs; everything logged in test-out/
+#                      (steps: dev clang builds-agree asan tsan fuzz bench demo; all of them without names)
 #
 # LEKALO_SEED=N chooses the seed of the random cases; a failing test prints the one it used.
 set -euo pipefail
@@ -26,6 +27,6 @@ quick() {
 
 case "${1-}" in
   "") quick ;;
-  --full) . "$root/tools/full.sh" ;;
+  --full) shift; . "$root/tools/full.sh" ;;
   *) fail "test.sh: unknown argument '$1'; it takes --full or nothing." ;;
 esac
