@@ -89,7 +89,7 @@ class Checker {
     std::optional<MeetingEdges> first;
     BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
       if (first && std::pair(first->a, first->b) < std::pair(i, j)) return;
-      if (joined_only_at_their_end(i, j)) return;
+      if (joined_only_at_their_end(i, j, limit)) return;
       const ClosestPoints close = closest_points(curves_[i], curves_[j]);
       if (!(close.distance > limit)) first = MeetingEdges{i, j, close.a};
     });
@@ -109,7 +109,7 @@ class Checker {
 
  private:
   /// Neighbours along a contour that share an end, as far as is seen (fault_of).
-  [[nodiscard]] bool joined_only_at_their_end(std::uint32_t i, std::uint32_t j) const {
+  [[nodiscard]] bool joined_only_at_their_end(std::uint32_t i, std::uint32_t j, double limit) const {
     const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
     if (j >= end || (j != i + 1 && (i != begin || j + 1 != end))) return false;
     const Edge &a = curves_[i].edge, &b = curves_[j].edge;
@@ -117,7 +117,15 @@ class Checker {
     if (end - begin < 3) return true;
     if (a.kind == EdgeKind::line && b.kind == EdgeKind::line)
       return segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::overlap;
-    return !cross_again(curves_[i], curves_[j], j == i + 1 ? a.to : a.from);
+    // Of three, the other ends are joined by the third, which is a neighbour of both and asked about neither.
+    const bool in_order = j == i + 1;
+    if (end - begin == 3 &&
+        (is_near(i, in_order ? b.to : b.from, limit) || is_near(j, in_order ? a.from : a.to, limit)))
+      return false;
+    return !cross_again(curves_[i], curves_[j], in_order ? a.to : a.from);
+  }
+  [[nodiscard]] bool is_near(std::uint32_t i, Point p, double limit) const {
+    return !(norm(nearest_on(curves_[i], p) - p) > limit);
   }
 
   [[nodiscard]] std::optional<std::string> misplaced() const {

@@ -40,6 +40,20 @@ TEST(RegionCheck, NamesWhatMeets) {
   EXPECT_TRUE(fault_of({region(polygon({{0, 0}, {10, 0}, {10, 10}, {10, 4}, {0, 4}}))}).has_value());
 }
 
+TEST(RegionCheck, ACornerOnAnArcOfThreeEdgesMeetsIt) {
+  // A half circle whose third corner, (3, 4), lies on the arc.
+  EXPECT_EQ(fault_of({region({{EdgeKind::arc_ccw, {5, 0}, {-5, 0}, {0, 0}},
+                              {EdgeKind::line, {-5, 0}, {3, 4}, {}},
+                              {EdgeKind::line, {3, 4}, {5, 0}, {}}})})
+                .value_or("")
+                .substr(0, 60),
+            "edge 0 of the outer contour meets edge 1 of the outer contou");
+  EXPECT_EQ(fault_of({region({{EdgeKind::arc_ccw, {5, 0}, {-5, 0}, {0, 0}},
+                              {EdgeKind::line, {-5, 0}, {3, 3}, {}},
+                              {EdgeKind::line, {3, 3}, {5, 0}, {}}})}),
+            std::nullopt);
+}
+
 TEST(RegionCheck, NamesWhatLiesInTheWrongPlace) {
   EXPECT_EQ(fault_of({region(square(0, 0, 10), {circle({20, 5}, 2)})}),
             "hole 0 lies outside the outer contour, at (22, 5) mm");
