@@ -115,7 +115,8 @@ Group::Way Group::way(Point direction, double length) const {
     const GridBox swept = joined(here, {here.low + end, here.high + end});
     const std::int64_t own = part.gap.value_or(workspace_.document().rules.gap);
     const phi::SlidePath path{placement.at, direction, length};
-    for (const phi::BodyIndex body : scene.near(swept, std::max(own, scene.widest_gap()) + 4, kAllLayers)) {
+    for (const phi::BodyIndex body :
+         workspace_.near(sheet(), swept, std::max(own, scene.widest_gap()) + 4, kAllLayers)) {
       if (!workspace_.concerns(part, sheet(), body)) continue;
       const phi::Body& other = scene.body(body);
       const std::int64_t gap = workspace_.gap_to(part, sheet(), body);
@@ -152,7 +153,8 @@ std::vector<Point> Group::along_contacts(Point goal) const {
     const phi::ShapeIndex shape = workspace_.shape(sheet(), placement);
     const GridBox here{scene.box(shape).low + placement.at, scene.box(shape).high + placement.at};
     const std::int64_t own = part.gap.value_or(workspace_.document().rules.gap);
-    for (const phi::BodyIndex body : scene.near(here, std::max(own, scene.widest_gap()) + 4, kAllLayers)) {
+    for (const phi::BodyIndex body :
+         workspace_.near(sheet(), here, std::max(own, scene.widest_gap()) + 4, kAllLayers)) {
       if (!workspace_.concerns(part, sheet(), body)) continue;
       const phi::Body& other = scene.body(body);
       const double reach = static_cast<double>(workspace_.gap_to(part, sheet(), body)) + 4;
@@ -260,7 +262,7 @@ std::vector<phi::BodyIndex> Group::blockers(Point direction) const {
       ask(kZoneLayer, 0, -std::int64_t{part.quality});
     }
   }
-  std::sort(found.begin(), found.end());
+  workspace_.sort_bodies(sheet(), found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }

@@ -93,7 +93,7 @@ class Snapper {
     const GridBox box{scene.box(shape).low + placement_.at, scene.box(shape).high + placement_.at};
     const std::vector<Line> mine = lines_of(scene.outline(shape), placement_.at);
     for (const phi::BodyIndex body :
-         scene.near(box, reach_ + scene.widest_gap(), kPartLayer | kBorderLayer)) {
+         workspace_.near(sheet, box, reach_ + scene.widest_gap(), kPartLayer | kBorderLayer)) {
       if (workspace_.placement_of(sheet, body) == placement_.id) continue;
       const phi::Body& other = scene.body(body);
       const std::int64_t gap = workspace_.gap_to(part, sheet, body);

@@ -105,6 +105,20 @@ std::uint64_t Workspace::placement_of(Sheet sheet, phi::BodyIndex body) const {
   return sheet_scene(sheet).placements[body];
 }
 
+void Workspace::sort_bodies(Sheet sheet, std::vector<phi::BodyIndex>& bodies) const {
+  const SheetScene& in = sheet_scene(sheet);
+  std::sort(bodies.begin(), bodies.end(), [&](phi::BodyIndex a, phi::BodyIndex b) {
+    return std::pair(in.placements[a], a) < std::pair(in.placements[b], b);
+  });
+}
+
+std::vector<phi::BodyIndex> Workspace::near(Sheet sheet, const GridBox& box, std::int64_t reach,
+                                            std::uint32_t layers) const {
+  std::vector<phi::BodyIndex> found = scene(sheet).near(box, reach, layers);
+  sort_bodies(sheet, found);
+  return found;
+}
+
 std::vector<std::uint64_t> Workspace::at(Sheet sheet, GridPoint p) const {
   const SheetScene& in = sheet_scene(sheet);
   std::vector<std::uint64_t> ids;

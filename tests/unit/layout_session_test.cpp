@@ -160,6 +160,20 @@ TEST(LayoutSession, ALogWithAFaultNamesItsLine) {
   EXPECT_NE(fault(""), "");
 }
 
+TEST(LayoutSession, WhatCameAndWentBeforeDoesNotMatterToACommand) {
+  // A square half way between two others: snapping has to choose one of two edges equally near.
+  Document d = two();
+  place(d, 0, 40, 40);
+  Session fresh(d), used(d);
+  const Sheet other{0, 1}, first{0, 0};
+  for (const Sheet sheet : {other, first})
+    for (const std::uint64_t id : {1, 2}) ASSERT_TRUE(used.apply(MoveCommand{{id}, {}, sheet}));
+  ASSERT_TRUE(used.document() == fresh.document());
+  ASSERT_TRUE(fresh.apply(SnapCommand{3, 15 * mm}));
+  ASSERT_TRUE(used.apply(SnapCommand{3, 15 * mm}));
+  EXPECT_TRUE(used.document() == fresh.document());
+}
+
 TEST(LayoutSession, TurningAPartForHoursKeepsTheMemory) {
   Session session(two());
   const Sheet sheet{0, 0};

@@ -23,8 +23,9 @@ struct Sheet {
 /// Layers of the scenes below.
 inline constexpr std::uint32_t kPartLayer = 1, kBorderLayer = 2, kDefectLayer = 4, kZoneLayer = 8;
 
-/// A document and what answers questions about it at once: every sheet's scene, kept in step with the
-/// placements. Says the same as check() of the same document. Cost of a change: that of putting one body.
+/// A document and what answers questions about it at once (one thread at a time, questions too: they fill
+/// caches): every sheet's scene, kept in step with the placements. Says the same as check() of the same
+/// document. Cost of a change: that of putting one body.
 class Workspace {
  public:
   /// \pre read or made as documents must be (io/layout_json.hpp refuses others)
@@ -55,6 +56,13 @@ class Workspace {
   [[nodiscard]] std::uint64_t placement_of(Sheet sheet, phi::BodyIndex body) const;
   /// The gap between a part and a body of the scene it would lie in, in steps.
   [[nodiscard]] std::int64_t gap_to(const Part& part, Sheet sheet, phi::BodyIndex body) const;
+
+  /// Scene::near in an order that follows from the document alone: what belongs to the stock, then parts by
+  /// id. Indices of bodies depend on what came and went before, and a command must not.
+  [[nodiscard]] std::vector<phi::BodyIndex> near(Sheet sheet, const geom::GridBox& box, std::int64_t reach,
+                                                 std::uint32_t layers) const;
+  /// Puts bodies of a scene into that order.
+  void sort_bodies(Sheet sheet, std::vector<phi::BodyIndex>& bodies) const;
 
   /// Whether a body counts for a part at all: a defect it does not tolerate, a zone too bad for some of it.
   [[nodiscard]] bool concerns(const Part& part, Sheet sheet, phi::BodyIndex body) const;
