@@ -35,7 +35,7 @@ GridPoint some_vector(Random& random, double most_mm) {
       return d == GridPoint{} ? GridPoint{size, 0} : GridPoint{d.x * size, d.y * size};
     }
     default:
-      return cases::grid_point(random.uniform(-most_mm, most_mm), random.uniform(-most_mm, most_mm) + 1e-3);
+      return cases::random_point(random, {-most_mm, -most_mm}, {most_mm, most_mm}) + GridPoint{0, 1};
   }
 }
 
@@ -50,7 +50,7 @@ Command some_command(const Document& document, Random& random) {
       place.part = static_cast<std::uint32_t>(random.below(document.parts.size()));
       place.rotation = geom::rotation_from_degrees(random.uniform(-180, 180));
       place.mirrored = random.below(3) == 0;
-      place.at = cases::grid_point(random.uniform(0, 300), random.uniform(0, 200));
+      place.at = cases::random_point(random, {0, 0}, {300, 200});
       return place;
     }
     case 1:

@@ -306,6 +306,7 @@ TEST_F(LocateDemands, TheMostEvenKeepsWhatTheOtherCriteriaFound) {
 }
 
 TEST_F(LocateDemands, NothingGivenUpTheLargestAllowanceIsStillBounded) {
+  most_open_ = 400;  // with no room left by the first criterion the second seldom closes
   for (std::size_t i = 0; i < count(); ++i) {
     const cases::RegionCase one = near_net(i);
     SCOPED_TRACE(one.name);

@@ -139,6 +139,7 @@ TEST(VerifyLayoutProperty, NoLieOfOneStepIsBelieved) {
         at["x"] = honest["placements"][random.below(inner)]["x"];
         at["y"] = honest["placements"][inner - 1]["y"];
     }
+    if (lie == honest) continue;  // the last kind may put it where it was
     EXPECT_FALSE(violations(lie).empty()) << at;
   }
 }

@@ -14,6 +14,7 @@
 
 namespace lekalo::cases {
 
+/// (Arguments of a function are evaluated in any order: nothing here draws twice in one call.)
 inline geom::GridPoint grid_point(double x_mm, double y_mm) {
   return {geom::grid_from_mm(x_mm), geom::grid_from_mm(y_mm)};
 }
@@ -30,6 +31,11 @@ inline std::vector<geom::GridPoint> star(Random& random, geom::Point centre, dou
     points.push_back(grid_point(centre.x + radius * at.cosine, centre.y + radius * at.sine));
   }
   return points;
+}
+
+inline geom::GridPoint random_point(Random& random, geom::Point low, geom::Point high) {
+  const double x = random.uniform(low.x, high.x);
+  return grid_point(x, random.uniform(low.y, high.y));
 }
 
 inline layout::Outline outline_of(std::vector<std::vector<geom::GridPoint>> loops) {
@@ -129,12 +135,14 @@ inline layout::Document random_layout(std::uint64_t seed, std::size_t index, std
   for (std::size_t i = 0; i < 6 * count && session.document().placements.size() < count; ++i) {
     layout::PlaceCommand place;
     place.part = static_cast<std::uint32_t>(random.below(document.parts.size()));
-    place.rotation = geom::rotation_from_degrees(
-        static_cast<double>(random.below(4)) * 90 +
-        (document.parts[place.part].rotations.empty() && random.below(2) == 0 ? random.uniform(0, 90) : 0));
-    place.at = grid_point(random.uniform(0, 300), random.uniform(0, 250));
-    if (random.below(2) == 0)
-      place.at = grid_point(static_cast<double>(random.below(300)), static_cast<double>(random.below(250)));
+    const double quarter = 90 * static_cast<double>(random.below(4));
+    const bool slanting = document.parts[place.part].rotations.empty() && random.below(2) == 0;
+    place.rotation = geom::rotation_from_degrees(slanting ? quarter + random.uniform(0, 90) : quarter);
+    place.at = random_point(random, {0, 0}, {300, 250});
+    if (random.below(2) == 0) {  // on whole millimetres
+      const double x = static_cast<double>(random.below(300));
+      place.at = grid_point(x, static_cast<double>(random.below(250)));
+    }
     (void)session.apply(place);
   }
   return session.document();
