@@ -16,6 +16,8 @@ packages=(
   libexpat1-dev                                              # XML of SVG drawings
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
+  # lekalo.wasm, the kernel of the page, and what runs it in a test
+  clang-19 lld-19 wasi-libc libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs
   libgtest-dev
   python3            # a third opinion on results, written by a stranger
   python3-ezdxf python3-gdal # the same on DXF drawings

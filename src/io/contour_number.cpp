@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/geom/double_double.hpp"
 
 namespace lekalo::io {
@@ -138,12 +138,10 @@ bool is_exact_double(const Decimal& decimal) {
 
 /// The nearest double, for magnitudes far from overflow and underflow.
 double nearest_double(const Decimal& decimal) {
-  const std::string text =
-      fmt::format("{}{}e{}", decimal.negative ? "-" : "", decimal.digits, decimal.exponent);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  LEKALO_ASSERT(error == std::errc() && end == text.data() + text.size());
-  return value;
+  const auto value =
+      double_of_text(fmt::format("{}{}e{}", decimal.negative ? "-" : "", decimal.digits, decimal.exponent));
+  LEKALO_ASSERT(value);
+  return *value;
 }
 
 /// Bytes of the UTF-8 sequence that begins here, 0 when it is none or not printable.

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <iterator>
+#include <string_view>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/geom/grid.hpp"
 
 namespace lekalo::io::detail {
@@ -37,14 +38,6 @@ void append_decimal(std::string& text, std::int64_t n, int places) {
   text.append(digits, digits.size() - static_cast<std::size_t>(places));
 }
 
-/// The double nearest to the decimal that was written.
-double value_of(const std::string& text, std::size_t from) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data() + from, text.data() + text.size(), value);
-  LEKALO_ASSERT(error == std::errc() && end == text.data() + text.size());
-  return value;
-}
-
 /// Tries 0, 1, 2... places of `choose`'s integer until `back` gives the steps again.
 template <class Choose, class Back>
 void append_shortest(std::string& text, std::int64_t steps, int bits, const Choose& choose,
@@ -57,7 +50,9 @@ void append_shortest(std::string& text, std::int64_t steps, int bits, const Choo
     const Int128 off = (Int128{n} << bits) - Int128{steps} * power;
     if (off > power || off < -power) continue;
     append_decimal(text, n, places);
-    if (back(value_of(text, before)) == steps) return;
+    const auto value = double_of_text(std::string_view(text).substr(before));
+    LEKALO_ASSERT(value);
+    if (back(*value) == steps) return;
     text.resize(before);
   }
   LEKALO_ASSERT(!"17 places are finer than every step");

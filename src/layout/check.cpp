@@ -84,19 +84,19 @@ struct Placed {
 };
 
 void add_stock_violations(const Document& document, const Placed& placed, const Features& features,
-                          std::vector<Violation>& to) {
+                          Depths depths, std::vector<Violation>& to) {
   const Placement& placement = *placed.placement;
   const auto add = [&](std::optional<Violation> violation) {
     if (violation) to.push_back(*violation);
   };
   add_own_violations(document, placement, to);
-  add(border_violation(document, placement, placed.outline));
+  add(border_violation(document, placement, placed.outline, depths));
   const std::int64_t defect_gap = defect_gap_of(document, part_of(document, placement));
   features.defects.visit_meeting(grown_box(placed.outline, defect_gap), [&](std::uint32_t defect) {
-    add(defect_violation(document, placement, placed.outline, defect));
+    add(defect_violation(document, placement, placed.outline, defect, depths));
   });
   features.zones.visit_meeting(grown_box(placed.outline, 0), [&](std::uint32_t zone) {
-    add(quality_violation(document, placement, placed.outline, zone));
+    add(quality_violation(document, placement, placed.outline, zone, depths));
   });
 }
 
@@ -174,10 +174,11 @@ void add_own_violations(const Document& document, const Placement& placement, st
 }
 
 std::optional<Violation> border_violation(const Document& document, const Placement& placement,
-                                          const GridRegion& outline) {
+                                          const GridRegion& outline, Depths depths) {
   const GridRegion& stock = stock_of(document, placement).outline.polygon;
   if (!phi::lies_within(stock, outline)) {
     const Violation violation = on_its_own(ViolationKind::outside, placement);
+    if (depths == Depths::left_out) return violation;
     if (const auto back = phi::bring_inside(stock, outline)) return set_apart(violation, *back);
     const phi::StickingOut out = phi::sticking_out(stock, outline);
     return set_apart(violation, {{}, out.distance_mm, {}, out.at});
@@ -188,14 +189,15 @@ std::optional<Violation> border_violation(const Document& document, const Placem
 }
 
 std::optional<Violation> defect_violation(const Document& document, const Placement& placement,
-                                          const GridRegion& outline, std::uint32_t index) {
+                                          const GridRegion& outline, std::uint32_t index, Depths depths) {
   const Part& part = part_of(document, placement);
   const Defect& defect = stock_of(document, placement).defects[index];
   if (defect.severity <= part.tolerated_severity) return std::nullopt;
   const GridRegion& hurt = defect.outline.polygon;
   Violation violation = on_its_own(ViolationKind::defect, placement);
   violation.feature = index;
-  if (phi::interiors_meet(outline, hurt)) return set_apart(violation, phi::separate(outline, hurt));
+  if (phi::interiors_meet(outline, hurt))
+    return depths == Depths::left_out ? violation : set_apart(violation, phi::separate(outline, hurt));
   const std::int64_t gap = defect_gap_of(document, part);
   if (!phi::edges_nearer_than(outline, hurt, gap)) return std::nullopt;
   violation.kind = ViolationKind::defect_gap;
@@ -203,12 +205,13 @@ std::optional<Violation> defect_violation(const Document& document, const Placem
 }
 
 std::optional<Violation> quality_violation(const Document& document, const Placement& placement,
-                                           const GridRegion& outline, std::uint32_t index) {
+                                           const GridRegion& outline, std::uint32_t index, Depths depths) {
   const QualityZone& zone = stock_of(document, placement).zones[index];
   const auto at = lacks_quality(part_of(document, placement), placement, outline, zone);
   if (!at) return std::nullopt;
   Violation violation = on_its_own(ViolationKind::quality, placement);
   violation.feature = index;
+  if (depths == Depths::left_out) return violation;
   violation = set_apart(violation, phi::separate(outline, zone.outline.polygon));
   violation.at = geom::kGridStep * *at;
   return violation;
@@ -216,11 +219,11 @@ std::optional<Violation> quality_violation(const Document& document, const Place
 
 std::optional<Violation> pair_violation(const Document& document, const Placement& a,
                                         const GridRegion& outline_a, const Placement& b,
-                                        const GridRegion& outline_b) {
+                                        const GridRegion& outline_b, Depths depths) {
   Violation violation = on_its_own(ViolationKind::overlap, a);
   violation.b = b.id;
   if (phi::interiors_meet(outline_a, outline_b))
-    return set_apart(violation, phi::separate(outline_a, outline_b));
+    return depths == Depths::left_out ? violation : set_apart(violation, phi::separate(outline_a, outline_b));
   const std::int64_t gap = gap_between(document, part_of(document, a), part_of(document, b));
   if (!phi::edges_nearer_than(outline_a, outline_b, gap)) return std::nullopt;
   violation.kind = ViolationKind::gap;
@@ -241,7 +244,8 @@ std::vector<Violation> check(const Document& document) {
       placed.push_back({order[end], placed_outline(part_of(document, *order[end]), *order[end])});
     if (begin == 0 || order[begin]->stock != order[begin - 1]->stock)
       features.emplace(stock_of(document, *order[begin]));
-    for (const Placed& one : placed) add_stock_violations(document, one, *features, violations);
+    for (const Placed& one : placed)
+      add_stock_violations(document, one, *features, Depths::measured, violations);
     add_pair_violations(document, placed, violations);
   }
   sort_violations(violations);
@@ -249,7 +253,7 @@ std::vector<Violation> check(const Document& document) {
 }
 
 std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
-                                  std::span<const Placement> with) {
+                                  std::span<const Placement> with, Depths depths) {
   std::vector<Violation> violations;
   std::vector<Placed> mine, theirs;
   for (const Placement& placement : of)
@@ -261,11 +265,12 @@ std::vector<Violation> check_some(const Document& document, std::span<const Plac
       return;
     const bool in_order = one.placement->id < other.placement->id;
     const Placed &a = in_order ? one : other, &b = in_order ? other : one;
-    if (const auto violation = pair_violation(document, *a.placement, a.outline, *b.placement, b.outline))
+    if (const auto violation =
+            pair_violation(document, *a.placement, a.outline, *b.placement, b.outline, depths))
       violations.push_back(*violation);
   };
   for (std::size_t i = 0; i < mine.size(); ++i) {
-    add_stock_violations(document, mine[i], Features(stock_of(document, of[i])), violations);
+    add_stock_violations(document, mine[i], Features(stock_of(document, of[i])), depths, violations);
     for (std::size_t j = i + 1; j < mine.size(); ++j) add_pair(mine[i], mine[j]);
     for (const Placed& other : theirs) add_pair(mine[i], other);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/layout/command.hpp"
 
 namespace lekalo::layout {
@@ -123,11 +124,9 @@ class Reader {
   }
   double number() {
     const std::string text = word();
-    double value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-      return fail(fmt::format("'{}' is no number", text)), 0;
-    return value;
+    const auto value = double_of_text(text);
+    if (!value) fail(fmt::format("'{}' is no number", text));
+    return value.value_or(0);
   }
   template <class Integer>
   Integer integer() {

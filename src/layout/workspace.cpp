@@ -247,7 +247,7 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   return clear == placements.size();
 }
 
-std::vector<Violation> Workspace::violations_of(std::span<const Placement> placements) const {
+std::vector<Violation> Workspace::violations_of(std::span<const Placement> placements, Depths depths) const {
   std::vector<Placement> of(placements.begin(), placements.end());
   const auto by_id = [](const Placement& a, const Placement& b) { return a.id < b.id; };
   std::sort(of.begin(), of.end(), by_id);
@@ -266,7 +266,7 @@ std::vector<Violation> Workspace::violations_of(std::span<const Placement> place
   std::vector<Placement> with;
   for (const std::uint64_t id : around)
     if (!std::binary_search(of.begin(), of.end(), with_id(id), by_id)) with.push_back(*find(id));
-  return check_some(document_, of, with);
+  return check_some(document_, of, with, depths);
 }
 
 }  // namespace lekalo::layout

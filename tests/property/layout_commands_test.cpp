@@ -11,6 +11,7 @@
 #include "lekalo/phi/outline_relation.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
+#include "support/layout_commands.hpp"
 
 namespace lekalo::layout {
 namespace {
@@ -22,69 +23,9 @@ constexpr int kSteps = 200;  ///< commands of a session
 /// A session is worth many cases of other tests.
 std::size_t session_count() { return std::max<std::size_t>(1, cases::case_count(8 * 25) / 25); }
 
-std::uint64_t some_id(const Document& document, Random& random) {
-  return document.placements[random.below(document.placements.size())].id;
-}
-
-GridPoint some_vector(Random& random, double most_mm) {
-  switch (random.below(3)) {
-    case 0: {  // along an axis or a diagonal
-      const auto step = [&] { return static_cast<std::int64_t>(random.below(3)) - 1; };
-      const GridPoint d{step(), step()};
-      const std::int64_t size = geom::grid_from_mm(random.uniform(0.1, most_mm));
-      return d == GridPoint{} ? GridPoint{size, 0} : GridPoint{d.x * size, d.y * size};
-    }
-    default:
-      return cases::random_point(random, {-most_mm, -most_mm}, {most_mm, most_mm}) + GridPoint{0, 1};
-  }
-}
-
-Command some_command(const Document& document, Random& random) {
-  const std::uint64_t id = some_id(document, random);
-  std::vector<std::uint64_t> ids{id};
-  if (random.below(6) == 0)
-    if (const std::uint64_t other = some_id(document, random); other != id) ids.push_back(other);
-  switch (random.below(15)) {
-    case 0: {
-      PlaceCommand place;
-      place.part = static_cast<std::uint32_t>(random.below(document.parts.size()));
-      place.rotation = geom::rotation_from_degrees(random.uniform(-180, 180));
-      place.mirrored = random.below(3) == 0;
-      place.at = cases::random_point(random, {0, 0}, {300, 200});
-      return place;
-    }
-    case 1:
-      return MoveCommand{ids, some_vector(random, 20), std::nullopt};
-    case 2:
-      return RotateCommand{
-          ids, random.below(2) == 0 ? 90.0 * static_cast<double>(random.below(4)) : random.uniform(-20, 20)};
-    case 3:
-      return FlipCommand{ids};
-    case 4:
-      return document.placements.size() > 3 ? Command{RemoveCommand{{id}}} : Command{FlipCommand{ids}};
-    case 5:
-      return SwapCommand{id, some_id(document, random)};
-    case 6:
-      return LockCommand{ids, random.below(3) == 0};
-    case 7:
-    case 8:
-      return SlideCommand{ids, some_vector(random, 10)};
-    case 9:
-      return SlideAlongCommand{ids, some_vector(random, 60)};
-    case 10:
-      return SettleCommand{ids, some_vector(random, 10),
-                           random.below(2) == 0 ? std::optional(some_vector(random, 10)) : std::nullopt};
-    case 11:
-      return PushCommand{ids, some_vector(random, 40)};
-    case 12:
-      return SnapCommand{id, geom::grid_from_mm(random.uniform(1, 20))};
-    case 13:
-      if (random.below(8) == 0) return CompactCommand{{0, 0}, {-1, 0}};
-      return SlideCommand{ids, {-1, 0}};
-    default:
-      return NearestCommand{ids, some_vector(random, 40), std::nullopt};
-  }
-}
+using cases::some_command;
+using cases::some_id;
+using cases::some_vector;
 
 TEST(LayoutCommands, StrictSessionsNeverBreakARule) {
   for (std::size_t i = 0; i < session_count(); ++i) {

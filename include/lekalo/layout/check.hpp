@@ -55,11 +55,19 @@ struct Violation {
 /// parts whose boxes come within their gap, times their edges). \pre indices and ids are as Document says
 [[nodiscard]] std::vector<Violation> check(const Document& document);
 
+/// Whether it is also found out how to end an overlap, a reach outside, into a defect or a zone. That costs a
+/// hundred times what finding them costs.
+enum class Depths : std::uint8_t {
+  measured,
+  left_out  ///< amount and direction of these kinds are 0, `at` is the placement's
+};
+
 /// What check() would say of a document with these placements, only of those that one of `of` has a part in:
 /// alone, with another of `of`, or with one of `with`. Both ascending by id; ids and the document's own
 /// placements do not matter. What lies on different sheets does not meet. In the order of check().
 [[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
-                                                std::span<const Placement> with);
+                                                std::span<const Placement> with,
+                                                Depths depths = Depths::measured);
 
 /// What check() is made of. Outlines are those of placed_outline().
 
@@ -67,17 +75,20 @@ struct Violation {
 void add_own_violations(const Document& document, const Placement& placement, std::vector<Violation>& to);
 /// outside, or else border_gap.
 [[nodiscard]] std::optional<Violation> border_violation(const Document& document, const Placement& placement,
-                                                        const geom::GridRegion& outline);
+                                                        const geom::GridRegion& outline,
+                                                        Depths depths = Depths::measured);
 /// defect, or else defect_gap. \param defect  index in the placement's stock
 [[nodiscard]] std::optional<Violation> defect_violation(const Document& document, const Placement& placement,
-                                                        const geom::GridRegion& outline,
-                                                        std::uint32_t defect);
+                                                        const geom::GridRegion& outline, std::uint32_t defect,
+                                                        Depths depths = Depths::measured);
 /// \param zone  index in the placement's stock
 [[nodiscard]] std::optional<Violation> quality_violation(const Document& document, const Placement& placement,
-                                                         const geom::GridRegion& outline, std::uint32_t zone);
+                                                         const geom::GridRegion& outline, std::uint32_t zone,
+                                                         Depths depths = Depths::measured);
 /// overlap, or else gap. \pre on one copy of one stock; a.id < b.id
 [[nodiscard]] std::optional<Violation> pair_violation(const Document& document, const Placement& a,
                                                       const geom::GridRegion& outline_a, const Placement& b,
-                                                      const geom::GridRegion& outline_b);
+                                                      const geom::GridRegion& outline_b,
+                                                      Depths depths = Depths::measured);
 
 }  // namespace lekalo::layout

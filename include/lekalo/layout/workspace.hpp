@@ -47,7 +47,8 @@ class Workspace {
   [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
   /// Every violation that one of them would have a part in, in place of those with their ids, in the order of
   /// check().
-  [[nodiscard]] std::vector<Violation> violations_of(std::span<const Placement> placements) const;
+  [[nodiscard]] std::vector<Violation> violations_of(std::span<const Placement> placements,
+                                                     Depths depths = Depths::measured) const;
 
   /// The scene a sheet's bodies lie in, and the shape of a part turned; made when they are first asked for.
   [[nodiscard]] const phi::Scene& scene(Sheet sheet) const;

@@ -1,0 +1,79 @@
+#pragma once
+
+// Random commands of correction.
+
+#include <optional>
+#include <vector>
+
+#include "lekalo/layout/command.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::cases {
+
+inline std::uint64_t some_id(const layout::Document& document, Random& random) {
+  return document.placements[random.below(document.placements.size())].id;
+}
+
+inline geom::GridPoint some_vector(Random& random, double most_mm) {
+  switch (random.below(3)) {
+    case 0: {  // along an axis or a diagonal
+      const auto step = [&] { return static_cast<std::int64_t>(random.below(3)) - 1; };
+      const geom::GridPoint d{step(), step()};
+      const std::int64_t size = geom::grid_from_mm(random.uniform(0.1, most_mm));
+      return d == geom::GridPoint{} ? geom::GridPoint{size, 0} : geom::GridPoint{d.x * size, d.y * size};
+    }
+    default:
+      return random_point(random, {-most_mm, -most_mm}, {most_mm, most_mm}) + geom::GridPoint{0, 1};
+  }
+}
+
+inline layout::Command some_command(const layout::Document& document, Random& random) {
+  const std::uint64_t id = some_id(document, random);
+  std::vector<std::uint64_t> ids{id};
+  if (random.below(6) == 0)
+    if (const std::uint64_t other = some_id(document, random); other != id) ids.push_back(other);
+  switch (random.below(15)) {
+    case 0: {
+      layout::PlaceCommand place;
+      place.part = static_cast<std::uint32_t>(random.below(document.parts.size()));
+      place.rotation = geom::rotation_from_degrees(random.uniform(-180, 180));
+      place.mirrored = random.below(3) == 0;
+      place.at = random_point(random, {0, 0}, {300, 200});
+      return place;
+    }
+    case 1:
+      return layout::MoveCommand{ids, some_vector(random, 20), std::nullopt};
+    case 2:
+      return layout::RotateCommand{
+          ids, random.below(2) == 0 ? 90.0 * static_cast<double>(random.below(4)) : random.uniform(-20, 20)};
+    case 3:
+      return layout::FlipCommand{ids};
+    case 4:
+      return document.placements.size() > 3 ? layout::Command{layout::RemoveCommand{{id}}}
+                                            : layout::Command{layout::FlipCommand{ids}};
+    case 5:
+      return layout::SwapCommand{id, some_id(document, random)};
+    case 6:
+      return layout::LockCommand{ids, random.below(3) == 0};
+    case 7:
+    case 8:
+      return layout::SlideCommand{ids, some_vector(random, 10)};
+    case 9:
+      return layout::SlideAlongCommand{ids, some_vector(random, 60)};
+    case 10:
+      return layout::SettleCommand{
+          ids, some_vector(random, 10),
+          random.below(2) == 0 ? std::optional(some_vector(random, 10)) : std::nullopt};
+    case 11:
+      return layout::PushCommand{ids, some_vector(random, 40)};
+    case 12:
+      return layout::SnapCommand{id, geom::grid_from_mm(random.uniform(1, 20))};
+    case 13:
+      if (random.below(8) == 0) return layout::CompactCommand{{0, 0}, {-1, 0}};
+      return layout::SlideCommand{ids, {-1, 0}};
+    default:
+      return layout::NearestCommand{ids, some_vector(random, 40), std::nullopt};
+  }
+}
+
+}  // namespace lekalo::cases
