@@ -10,3 +10,8 @@ pkg_check_modules(EXPAT REQUIRED IMPORTED_TARGET expat)
 if(LEKALO_WITH_IPOPT)
   pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 endif()
+
+# Of the program alone, not of the modules: the server of the editor.
+find_package(Boost 1.74 REQUIRED)  # headers: Asio, Beast
+find_package(SQLite3 REQUIRED)
+find_package(Threads REQUIRED)

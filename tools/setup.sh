@@ -14,6 +14,7 @@ packages=(
   libssl-dev                                                 # SHA-256 of inputs
   libcairo2-dev                                              # PNG pictures
   libexpat1-dev                                              # XML of SVG drawings
+  libboost-dev libsqlite3-dev                                # the server of the editor: HTTP and WebSocket, its store
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
   # lekalo.wasm, the kernel of the page, and what runs it in a test

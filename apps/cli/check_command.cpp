@@ -7,6 +7,7 @@
 
 #include "layout_input.hpp"
 #include "lekalo/io/files.hpp"
+#include "lekalo/io/layout_messages.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/verify/layout.hpp"
@@ -122,23 +123,6 @@ std::string sentence(const Document& document, const Violation& v) {
   return text;
 }
 
-Json violations_json(const Document& document, const std::vector<Violation>& violations) {
-  Json list = Json::array();
-  for (const Violation& v : violations) {
-    Json one{{"kind", name_of(v.kind)},
-             {"a", v.a},
-             {"b", v.b == 0 ? Json(nullptr) : Json(v.b)},
-             {"stock", document.stocks[v.stock].id},
-             {"copy", v.copy}};
-    if (const std::string feature = feature_of(document, v); !feature.empty()) one["feature"] = feature;
-    one["amount_mm"] = v.amount_mm;
-    one["at"] = {v.at.x, v.at.y};
-    one["direction"] = v.direction == geom::Point{} ? Json(nullptr) : Json{v.direction.x, v.direction.y};
-    list.push_back(std::move(one));
-  }
-  return list;
-}
-
 }  // namespace
 
 Result<int> run_check(const CheckOptions& o) {
@@ -177,7 +161,7 @@ Result<int> run_check(const CheckOptions& o) {
     json["valid"] = valid && agree;
     json["checked_by"] = {"engine", "verify"};
     json["disagreements"] = doubts;
-    json["violations"] = violations_json(input->document, violations);
+    json["violations"] = Json::parse(io::violations_json(input->document, violations));
     json["run"] = Json::object();
     if (Result<void> done = print(dumped(json)); !done) return tl::unexpected(done.error());
   }

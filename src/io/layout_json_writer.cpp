@@ -8,6 +8,7 @@
 #include "grid_decimal.hpp"
 #include "layout_outline.hpp"
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_messages.hpp"
 #include "region_reader.hpp"
 
 namespace lekalo::io {
@@ -77,6 +78,23 @@ void append_list(std::string& text, const std::vector<Item>& items, const char* 
     write(items[i]);
   }
   text += ']';
+}
+
+/// \param part, stock  their ids, quoted
+void append_placement(std::string& text, const Placement& placement, const std::string& part,
+                      const std::string& stock) {
+  Fields fields(text);
+  fields.integer("id", placement.id);
+  fields.field("part") += part;
+  fields.field("stock") += stock;
+  fields.integer("copy", placement.copy, std::int64_t{0});
+  detail::append_rotation_step(fields.field("c"), placement.rotation.c);
+  detail::append_rotation_step(fields.field("s"), placement.rotation.s);
+  append_mm(fields.field("x"), placement.at.x);
+  append_mm(fields.field("y"), placement.at.y);
+  fields.truth("mirrored", placement.mirrored);
+  fields.truth("locked", placement.locked);
+  fields.close();
 }
 
 class Writer {
@@ -213,20 +231,7 @@ class Writer {
     fields.close();
   }
 
-  void placement(const Placement& placement) {
-    Fields fields(text_);
-    fields.integer("id", placement.id);
-    fields.field("part") += part_ids_[placement.part];
-    fields.field("stock") += stock_ids_[placement.stock];
-    fields.integer("copy", placement.copy, std::int64_t{0});
-    detail::append_rotation_step(fields.field("c"), placement.rotation.c);
-    detail::append_rotation_step(fields.field("s"), placement.rotation.s);
-    append_mm(fields.field("x"), placement.at.x);
-    append_mm(fields.field("y"), placement.at.y);
-    fields.truth("mirrored", placement.mirrored);
-    fields.truth("locked", placement.locked);
-    fields.close();
-  }
+  void placement(const Placement& p) { append_placement(text_, p, part_ids_[p.part], stock_ids_[p.stock]); }
 
   const Document& document_;
   std::vector<std::string> part_ids_, stock_ids_;
@@ -236,5 +241,12 @@ class Writer {
 }  // namespace
 
 std::string write_layout(const Document& document) { return Writer(document).write(); }
+
+std::string placement_json(const Document& document, const Placement& placement) {
+  std::string text;
+  append_placement(text, placement, quoted(document.parts[placement.part].id),
+                   quoted(document.stocks[placement.stock].id));
+  return text;
+}
 
 }  // namespace lekalo::io

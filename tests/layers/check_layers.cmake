@@ -10,7 +10,7 @@
 #   (4) every other quoted include is a file of the same folder: no way round through "../";
 #   (5) below io no files, clocks, threads of output, standard randomness or unordered containers: the same
 #       input gives the same bytes;
-#   (6) apps may include any module, but only through public headers.
+#   (6) apps may include any module, but only through public headers; the command line may include the server.
 cmake_minimum_required(VERSION 3.25)
 
 set(forbidden_below_io
@@ -77,6 +77,8 @@ function(check_file FILE MODULE)
       if(NOT used IN_LIST allowed)
         violation("${FILE} includes ${path}: ${MODULE} has no arrow to ${used}")
       endif()
+    elseif(MODULE STREQUAL "apps" AND path MATCHES "^server/[a-z_]+[.]hpp$" AND EXISTS ${ROOT}/apps/${path})
+      continue()
     elseif(quote STREQUAL "\"" AND (path MATCHES "/" OR NOT EXISTS ${folder}/${path}))
       violation("${FILE} includes \"${path}\": neither lekalo/MODULE/... nor a file beside it")
     elseif(path IN_LIST forbidden_below_io AND NOT MODULE MATCHES "^(io|apps)$")

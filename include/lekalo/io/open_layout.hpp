@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/io/layout_json.hpp"
@@ -22,5 +23,10 @@ struct OpenOptions {
 /// Fails as the readers of these do, and with ErrorCode::bad_input for what is none of them, with the list of
 /// what is known.
 [[nodiscard]] Result<LayoutFile> open_layout(const std::string& path, const OpenOptions& options = {});
+
+/// The same of bytes that came without a file, called `name` in sentences. Opens no file: placements, whose
+/// items are in another one, are refused.
+[[nodiscard]] Result<LayoutFile> read_any_layout(std::string_view bytes, const std::string& name,
+                                                 const PartOptions& parts = {});
 
 }  // namespace lekalo::io

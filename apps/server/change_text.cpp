@@ -1,0 +1,96 @@
+// The placements of a change as the store keeps them.
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iterator>
+
+#include "store.hpp"
+
+namespace lekalo::server {
+namespace {
+
+using layout::Placement;
+
+void append_line(std::string& text, char sign, const Placement& p) {
+  fmt::format_to(std::back_inserter(text), "{}{} {} {} {} {} {} {} {} {} {}\n", sign, p.id, p.part, p.stock,
+                 p.copy, p.rotation.c, p.rotation.s, p.at.x, p.at.y, p.mirrored ? 1 : 0, p.locked ? 1 : 0);
+}
+
+/// Takes whole numbers, each followed by one given character.
+class NumberTaker {
+ public:
+  explicit NumberTaker(std::string_view text) : text_(text) {}
+  template <class Integer>
+  void take(Integer& value, char end) {
+    const auto [rest, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
+    const auto read = static_cast<std::size_t>(rest - text_.data());
+    if (error != std::errc{} || read >= text_.size() || text_[read] != end) {
+      ok_ = false;
+      text_ = {};
+      return;
+    }
+    text_.remove_prefix(read + 1);
+  }
+  void take_truth(bool& value, char end) {
+    unsigned number = 0;
+    take(number, end);
+    if (number > 1) ok_ = false;
+    value = number == 1;
+  }
+  char take_sign() {
+    const char sign = text_.front();
+    text_.remove_prefix(1);
+    if (sign != '-' && sign != '+') ok_ = false;
+    return sign;
+  }
+  [[nodiscard]] bool empty() const { return text_.empty(); }
+  [[nodiscard]] bool ok() const { return ok_; }
+
+ private:
+  std::string_view text_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+std::string change_text(const layout::Change& change) {
+  std::string text = fmt::format("{} {}\n", change.next_id_before, change.next_id_after);
+  for (const layout::PlacementChange& one : change.placements) {
+    if (one.before) append_line(text, '-', *one.before);
+    if (one.after) append_line(text, '+', *one.after);
+  }
+  return text;
+}
+
+Result<layout::Change> change_from_text(std::string_view text) {
+  layout::Change change;
+  NumberTaker numbers(text);
+  numbers.take(change.next_id_before, ' ');
+  numbers.take(change.next_id_after, '\n');
+  while (numbers.ok() && !numbers.empty()) {
+    const char sign = numbers.take_sign();
+    Placement p;
+    numbers.take(p.id, ' ');
+    numbers.take(p.part, ' ');
+    numbers.take(p.stock, ' ');
+    numbers.take(p.copy, ' ');
+    numbers.take(p.rotation.c, ' ');
+    numbers.take(p.rotation.s, ' ');
+    numbers.take(p.at.x, ' ');
+    numbers.take(p.at.y, ' ');
+    numbers.take_truth(p.mirrored, ' ');
+    numbers.take_truth(p.locked, '\n');
+    if (!numbers.ok()) break;
+    auto& list = change.placements;
+    const bool joins = sign == '+' && !list.empty() && list.back().before && !list.back().after &&
+                       list.back().before->id == p.id;
+    if (!joins) list.emplace_back();
+    (sign == '-' ? list.back().before : list.back().after) = p;
+  }
+  if (!numbers.ok())
+    return failure(ErrorCode::environment, "the store is damaged: a change in it cannot be read");
+  return change;
+}
+
+}  // namespace lekalo::server

@@ -1,0 +1,234 @@
+#include "messages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace lekalo::server {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Takes one flat object as the parser meets its parts. No tree is built: what does not belong stops at once.
+class MessageReader : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return wrong_type(); }
+  bool boolean(bool) override { return wrong_type(); }
+  bool number_integer(number_integer_t) override { return stop("is negative; it has to be a whole number"); }
+  bool number_float(number_float_t, const string_t&) override {
+    return stop("is no whole number below 2^53");
+  }
+  bool binary(binary_t&) override { return wrong_type(); }
+  bool number_unsigned(number_unsigned_t value) override {
+    if (value > kLargestCount) return stop("is no whole number below 2^53");
+    if (in_list_) {
+      if (ids_.size() == kMostSelected) return stop(fmt::format("has more than {} ids", kMostSelected));
+      ids_.push_back(value);
+      return true;
+    }
+    if (key_ != "seq") return wrong_type();
+    seq_ = value;
+    return true;
+  }
+  bool string(string_t& value) override {
+    if (!in_object_ || in_list_) return wrong_type();
+    if (key_ == "type") {
+      type_ = std::move(value);
+    } else if (key_ == "mode") {
+      mode_ = std::move(value);
+    } else if (key_ == "text") {
+      text_ = std::move(value);
+    } else {
+      return wrong_type();
+    }
+    return true;
+  }
+  bool start_object(std::size_t) override {
+    if (in_object_) return wrong_type();
+    in_object_ = true;
+    return true;
+  }
+  bool key(string_t& value) override {
+    key_ = std::move(value);
+    const auto known = std::find(kKeys.begin(), kKeys.end(), key_);
+    if (known == kKeys.end()) {
+      fault_ = "the message has a field that is not known";
+      return false;
+    }
+    const auto index = static_cast<std::size_t>(known - kKeys.begin());
+    if (seen_[index]) return stop("stands twice");
+    seen_[index] = true;
+    return true;
+  }
+  bool end_object() override { return true; }
+  bool start_array(std::size_t) override {
+    if (!in_object_ || in_list_ || key_ != "ids") return wrong_type();
+    in_list_ = true;
+    return true;
+  }
+  bool end_array() override {
+    in_list_ = false;
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string&, const Json::exception&) override {
+    if (fault_.empty()) fault_ = fmt::format("the message is no JSON: trouble at byte {}", position);
+    return false;
+  }
+
+  [[nodiscard]] Result<ClientMessage> message() {
+    if (!fault_.empty()) return failure(ErrorCode::bad_input, fault_);
+    const auto has = [&](std::string_view key) {
+      return seen_[static_cast<std::size_t>(std::find(kKeys.begin(), kKeys.end(), key) - kKeys.begin())];
+    };
+    const auto exactly = [&](std::initializer_list<std::string_view> wanted) {
+      for (const std::string_view key : kKeys) {
+        const bool should = key == "type" || std::find(wanted.begin(), wanted.end(), key) != wanted.end();
+        if (should && !has(key)) fault_ = fmt::format("a message of type {} needs the field {}", type_, key);
+        if (!should && has(key)) fault_ = fmt::format("a message of type {} has no field {}", type_, key);
+      }
+      return fault_.empty();
+    };
+    if (!has("type")) return failure(ErrorCode::bad_input, "the message has no type");
+    if (type_ == "command" || type_ == "preview") {
+      if (!exactly({"seq", "mode", "text"})) return failure(ErrorCode::bad_input, fault_);
+      if (mode_ != "strict" && mode_ != "free")
+        return failure(ErrorCode::bad_input, "the mode has to be strict or free");
+      if (!is_plain_text(text_))
+        return failure(ErrorCode::bad_input, "the command's text has control characters; it is one line");
+      return CommandMessage{seq_, mode_ == "strict" ? layout::Mode::strict : layout::Mode::free,
+                            std::move(text_), type_ == "preview"};
+    }
+    if (type_ == "undo" || type_ == "redo") {
+      if (!exactly({"seq"})) return failure(ErrorCode::bad_input, fault_);
+      return UndoMessage{seq_, type_ == "redo"};
+    }
+    if (type_ == "select") {
+      if (!exactly({"ids"})) return failure(ErrorCode::bad_input, fault_);
+      return SelectMessage{std::move(ids_)};
+    }
+    return failure(ErrorCode::bad_input, "the type has to be command, preview, undo, redo or select");
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 5> kKeys{"type", "seq", "mode", "text", "ids"};
+  bool stop(const std::string& what) {
+    fault_ =
+        key_.empty() ? "the message has to be one JSON object" : fmt::format("the field {} {}", key_, what);
+    return false;
+  }
+  bool wrong_type() { return stop("is of the wrong type"); }
+
+  std::string key_, type_, mode_, text_, fault_;
+  std::uint64_t seq_ = 0;
+  std::vector<std::uint64_t> ids_;
+  std::array<bool, kKeys.size()> seen_{};
+  bool in_object_ = false, in_list_ = false;
+};
+
+int hexadecimal(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+}  // namespace
+
+Result<ClientMessage> parse_client_message(std::string_view bytes) {
+  if (bytes.size() > kLargestMessage)
+    return failure(ErrorCode::bad_input, fmt::format("the message has more than {} bytes", kLargestMessage));
+  MessageReader reader;
+  // Its word is in the reader, which keeps the first fault.
+  static_cast<void>(Json::sax_parse(bytes.begin(), bytes.end(), &reader));
+  return reader.message();
+}
+
+bool is_plain_text(std::string_view bytes) {
+  for (std::size_t i = 0; i < bytes.size();) {
+    const auto lead = static_cast<unsigned char>(bytes[i]);
+    if (lead < 0x20 || lead == 0x7f) return false;
+    const std::size_t length = lead < 0x80       ? 1
+                               : lead >> 5 == 6  ? 2
+                               : lead >> 4 == 14 ? 3
+                               : lead >> 3 == 30 ? 4
+                                                 : 0;
+    if (length == 0 || i + length > bytes.size()) return false;
+    std::uint32_t code = length == 1 ? lead : lead & (0xffu >> (length + 1));
+    for (std::size_t k = 1; k < length; ++k) {
+      const auto next = static_cast<unsigned char>(bytes[i + k]);
+      if (next >> 6 != 2) return false;
+      code = code << 6 | (next & 0x3f);
+    }
+    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (code < kLeast[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return false;
+    if (code >= 0x80 && code < 0xa0) return false;
+    i += length;
+  }
+  return true;
+}
+
+Result<void> check_layout_name(std::string_view name) {
+  constexpr std::size_t kLongest = 200;
+  if (name.empty()) return failure(ErrorCode::bad_input, "the name of a layout cannot be empty");
+  if (name.size() > kLongest)
+    return failure(ErrorCode::bad_input, fmt::format("the name of a layout has at most {} bytes", kLongest));
+  if (!is_plain_text(name))
+    return failure(ErrorCode::bad_input, "the name of a layout is UTF-8 without control characters");
+  return {};
+}
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size() || value > kLargestCount)
+    return std::nullopt;
+  return value;
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i] == '+' ? ' ' : text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    const int high = hexadecimal(text[i + 1]), low = hexadecimal(text[i + 2]);
+    if (high < 0 || low < 0) return std::nullopt;
+    decoded += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return decoded;
+}
+
+const std::string* Target::find(std::string_view name) const {
+  for (const auto& [key, value] : fields)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+std::optional<Target> parse_target(std::string_view target) {
+  Target parsed;
+  if (target.empty() || target.front() != '/' || target.find('#') != target.npos) return std::nullopt;
+  const std::size_t mark = std::min(target.find('?'), target.size());
+  parsed.path = target.substr(0, mark);
+  target.remove_prefix(std::min(mark + 1, target.size()));
+  while (!target.empty()) {
+    const std::size_t end = std::min(target.find('&'), target.size());
+    const std::string_view field = target.substr(0, end);
+    target.remove_prefix(std::min(end + 1, target.size()));
+    if (field.empty()) continue;
+    const std::size_t equal = std::min(field.find('='), field.size());
+    auto name = percent_decoded(field.substr(0, equal));
+    auto value = percent_decoded(field.substr(std::min(equal + 1, field.size())));
+    if (!name || !value || parsed.find(*name) != nullptr) return std::nullopt;
+    parsed.fields.emplace_back(std::move(*name), std::move(*value));
+  }
+  return parsed;
+}
+
+}  // namespace lekalo::server

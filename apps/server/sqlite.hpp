@@ -1,0 +1,74 @@
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "lekalo/base/error.hpp"
+
+namespace lekalo::server {
+
+/// A thin face of the SQLite C interface: handles that close themselves, failures as sentences.
+
+class Statement {
+ public:
+  explicit Statement(sqlite3_stmt* raw) : raw_(raw) {}
+  /// Parameters count from 1. Text is copied.
+  Statement& bind(int index, std::int64_t value);
+  Statement& bind(int index, std::string_view value);
+  /// True: there is a row. Fails with ErrorCode::environment.
+  [[nodiscard]] Result<bool> step();
+  /// Runs to the end and makes it ready for other values.
+  [[nodiscard]] Result<void> run();
+  /// Columns count from 0; valid until the next step.
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] std::string text(int column) const;
+  void reset();
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* raw) const noexcept { sqlite3_finalize(raw); }
+  };
+  std::unique_ptr<sqlite3_stmt, Finalize> raw_;
+};
+
+class Database {
+ public:
+  /// Opens a file for reading and writing. Fails with ErrorCode::environment.
+  [[nodiscard]] static Result<Database> open(const std::string& path);
+  [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
+  /// One or more statements without parameters and without interest in their rows.
+  [[nodiscard]] Result<void> run(const char* sql) const;
+  /// The first column of the first row of a statement without parameters; 0 where there is none.
+  [[nodiscard]] Result<std::int64_t> number(std::string_view sql) const;
+  [[nodiscard]] std::int64_t last_row() const { return sqlite3_last_insert_rowid(raw_.get()); }
+  [[nodiscard]] std::int64_t changed_rows() const { return sqlite3_changes(raw_.get()); }
+  [[nodiscard]] bool in_transaction() const { return sqlite3_get_autocommit(raw_.get()) == 0; }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* raw) const noexcept { sqlite3_close_v2(raw); }
+  };
+  explicit Database(sqlite3* raw) : raw_(raw) {}
+  std::unique_ptr<sqlite3, Close> raw_;
+};
+
+/// All or nothing: rolled back where it is not committed.
+class Transaction {
+ public:
+  [[nodiscard]] static Result<Transaction> begin(const Database& database);
+  Transaction(Transaction&& other) noexcept : database_(other.database_) { other.database_ = nullptr; }
+  Transaction& operator=(Transaction&&) = delete;
+  ~Transaction();
+  /// After success what was done is on the disk; after failure nothing of it counts.
+  [[nodiscard]] Result<void> commit();
+
+ private:
+  explicit Transaction(const Database& database) : database_(&database) {}
+  const Database* database_;
+};
+
+}  // namespace lekalo::server

@@ -1,0 +1,388 @@
+#include "store.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "lekalo/io/layout_json.hpp"
+
+namespace lekalo::server {
+namespace {
+
+constexpr std::int64_t kApplicationId = 0x6c656b61;  // "leka"
+
+constexpr const char* kSchema = R"(
+CREATE TABLE layout (
+  id INTEGER PRIMARY KEY AUTOINCREMENT,
+  name TEXT NOT NULL,
+  origin TEXT NOT NULL,
+  revision INTEGER NOT NULL,
+  placements INTEGER NOT NULL,
+  changed TEXT NOT NULL,
+  change_number INTEGER NOT NULL
+) STRICT;
+CREATE TABLE snapshot (
+  layout INTEGER NOT NULL REFERENCES layout ON DELETE CASCADE,
+  revision INTEGER NOT NULL,
+  document TEXT NOT NULL,
+  PRIMARY KEY (layout, revision)
+) STRICT;
+CREATE TABLE change (
+  layout INTEGER NOT NULL REFERENCES layout ON DELETE CASCADE,
+  revision INTEGER NOT NULL,
+  at TEXT NOT NULL,
+  author TEXT NOT NULL,
+  kind INTEGER NOT NULL CHECK (kind BETWEEN 0 AND 3),
+  mode INTEGER NOT NULL CHECK (mode BETWEEN 0 AND 1),
+  target INTEGER NOT NULL,
+  text TEXT NOT NULL,
+  placements TEXT NOT NULL,
+  PRIMARY KEY (layout, revision)
+) STRICT;
+)";
+
+constexpr const char* kNow = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
+/// Orders layouts by their last change, where the clock may stand still or go back.
+constexpr const char* kNextNumber = "(SELECT coalesce(max(change_number), 0) + 1 FROM layout)";
+
+tl::unexpected<Error> no_layout(LayoutId id) {
+  return failure(ErrorCode::usage, fmt::format("there is no layout {}", id));
+}
+
+/// Makes the file where there is none: SQLite's own would be readable by others for a moment.
+Result<void> make_file(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0)
+    return failure(ErrorCode::environment,
+                   fmt::format("{}: the store cannot be opened for writing: {}", path, std::strerror(errno)));
+  struct stat about {};
+  const bool plain = fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+  ::close(file);
+  if (!plain)
+    return failure(ErrorCode::environment, fmt::format("{}: the store has to be a plain file", path));
+  return {};
+}
+
+void carry_out(std::vector<layout::Placement>& placements, const layout::Change& change) {
+  const auto before_id = [](const layout::Placement& p, std::uint64_t id) { return p.id < id; };
+  for (const layout::PlacementChange& one : change.placements) {
+    const std::uint64_t id = one.after ? one.after->id : one.before->id;
+    const auto at = std::lower_bound(placements.begin(), placements.end(), id, before_id);
+    const bool there = at != placements.end() && at->id == id;
+    if (one.after && there) *at = *one.after;
+    if (one.after && !there) placements.insert(at, *one.after);
+    if (!one.after && there) placements.erase(at);
+  }
+}
+
+/// Indices in what the store holds are those of the snapshot, or the file is damaged.
+bool fits(const layout::Change& change, const layout::Document& document) {
+  for (const layout::PlacementChange& one : change.placements)
+    for (const auto& side : {one.before, one.after})
+      if (side && (side->part >= document.parts.size() || side->stock >= document.stocks.size()))
+        return false;
+  return true;
+}
+
+}  // namespace
+
+const char* name_of(ChangeKind kind) noexcept {
+  switch (kind) {
+    case ChangeKind::command:
+      return "command";
+    case ChangeKind::undo:
+      return "undo";
+    case ChangeKind::redo:
+      return "redo";
+    case ChangeKind::restore:
+      return "restore";
+  }
+  return "?";
+}
+
+Result<Store> Store::open(const std::string& path) {
+  if (Result<void> made = make_file(path); !made) return tl::unexpected(made.error());
+  const auto named = [&](const Error& error) {
+    return failure(error.code, fmt::format("{}: {}", path, error.message));
+  };
+  Result<Database> database = Database::open(path);
+  if (!database) return named(database.error());
+  Store store(path, std::move(*database));
+  if (Result<void> ready = store.prepare_file(); !ready) return named(ready.error());
+  return store;
+}
+
+Result<void> Store::prepare_file() {
+  // One server holds the file: what it keeps in memory is then what the file says.
+  for (const char* setting :
+       {"PRAGMA locking_mode=EXCLUSIVE", "PRAGMA journal_mode=WAL", "PRAGMA synchronous=FULL",
+        "PRAGMA foreign_keys=ON", "PRAGMA journal_size_limit=67108864", "BEGIN IMMEDIATE; COMMIT"}) {
+    if (Result<void> set = database_.run(setting); !set) return set;
+  }
+  const Result<std::int64_t> application = database_.number("PRAGMA application_id");
+  if (!application) return tl::unexpected(application.error());
+  const Result<std::int64_t> tables = database_.number("SELECT count(*) FROM sqlite_master");
+  if (!tables) return tl::unexpected(tables.error());
+  if (*application != kApplicationId) {
+    if (*application != 0 || *tables != 0)
+      return failure(ErrorCode::environment, "this is a database of another program; name another --store");
+    Result<Transaction> all = Transaction::begin(database_);
+    if (!all) return tl::unexpected(all.error());
+    if (Result<void> made = database_.run(kSchema); !made) return made;
+    const std::string marks =
+        fmt::format("PRAGMA application_id={}; PRAGMA user_version={}", kApplicationId, kStoreFormat);
+    if (Result<void> marked = database_.run(marks.c_str()); !marked) return marked;
+    return all->commit();
+  }
+  const Result<std::int64_t> format = database_.number("PRAGMA user_version");
+  if (!format) return tl::unexpected(format.error());
+  if (*format != kStoreFormat)
+    return failure(ErrorCode::environment,
+                   fmt::format("the store has format {}, this program knows format {}; use the version of "
+                               "lekalo that wrote it",
+                               *format, kStoreFormat));
+  Result<Statement> check = database_.prepare("PRAGMA quick_check(1)");
+  if (!check) return tl::unexpected(check.error());
+  const Result<bool> row = check->step();
+  if (!row) return tl::unexpected(row.error());
+  if (const std::string said = check->text(0); said != "ok")
+    return failure(ErrorCode::environment, "the store is damaged: " + said.substr(0, said.find('\n')));
+  return {};
+}
+
+Result<LayoutId> Store::create_locked(const std::string& name, const layout::Document& document,
+                                      const std::string& origin) {
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  Result<Statement> row = database_.prepare(fmt::format(
+      "INSERT INTO layout (name, origin, revision, placements, changed, change_number) VALUES (?, ?, 0, ?, "
+      "{}, {})",
+      kNow, kNextNumber));
+  if (!row) return tl::unexpected(row.error());
+  row->bind(1, name).bind(2, origin).bind(3, static_cast<std::int64_t>(document.placements.size()));
+  if (Result<void> done = row->run(); !done) return tl::unexpected(done.error());
+  const LayoutId id = database_.last_row();
+  Result<Statement> snapshot = database_.prepare("INSERT INTO snapshot VALUES (?, 0, ?)");
+  if (!snapshot) return tl::unexpected(snapshot.error());
+  snapshot->bind(1, id).bind(2, io::write_layout(document));
+  if (Result<void> done = snapshot->run(); !done) return tl::unexpected(done.error());
+  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  return id;
+}
+
+Result<LayoutId> Store::create(const std::string& name, const layout::Document& document,
+                               const std::string& origin) {
+  const std::lock_guard lock(*turn_);
+  return create_locked(name, document, origin);
+}
+
+Result<std::optional<LayoutId>> Store::find_origin(const std::string& origin) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> rows =
+      database_.prepare("SELECT id FROM layout WHERE origin = ? AND origin <> '' ORDER BY id DESC LIMIT 1");
+  if (!rows) return tl::unexpected(rows.error());
+  const Result<bool> row = rows->bind(1, origin).step();
+  if (!row) return tl::unexpected(row.error());
+  if (!*row) return std::optional<LayoutId>();
+  return std::optional<LayoutId>(rows->integer(0));
+}
+
+Result<std::vector<LayoutSummary>> Store::list() {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> rows = database_.prepare(
+      "SELECT id, name, revision, placements, changed FROM layout ORDER BY change_number DESC, id DESC");
+  if (!rows) return tl::unexpected(rows.error());
+  std::vector<LayoutSummary> found;
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return found;
+    found.push_back({rows->integer(0), rows->text(1), rows->integer(2), rows->integer(3), rows->text(4)});
+  }
+}
+
+Result<StoredLayout> Store::load_locked(LayoutId id, std::optional<Revision> revision) {
+  StoredLayout layout;
+  {
+    Result<Statement> row = database_.prepare("SELECT name, revision FROM layout WHERE id = ?");
+    if (!row) return tl::unexpected(row.error());
+    const Result<bool> found = row->bind(1, id).step();
+    if (!found) return tl::unexpected(found.error());
+    if (!*found) return no_layout(id);
+    layout.name = row->text(0);
+    layout.revision = row->integer(1);
+  }
+  if (revision && (*revision < 0 || *revision > layout.revision))
+    return failure(ErrorCode::usage, fmt::format("there is no revision {}; the layout has 0 to {}", *revision,
+                                                 layout.revision));
+  if (revision) layout.revision = *revision;
+  Result<Statement> snapshot = database_.prepare(
+      "SELECT revision, document FROM snapshot WHERE layout = ? AND revision <= ? ORDER BY revision DESC "
+      "LIMIT 1");
+  if (!snapshot) return tl::unexpected(snapshot.error());
+  const Result<bool> found = snapshot->bind(1, id).bind(2, layout.revision).step();
+  if (!found) return tl::unexpected(found.error());
+  if (!*found) return failure(ErrorCode::environment, "the store is damaged: a layout without its beginning");
+  Revision at = snapshot->integer(0);
+  Result<io::LayoutFile> file = io::read_layout(snapshot->text(1), fmt::format("layout {} in the store", id));
+  if (!file) return failure(ErrorCode::environment, "the store is damaged: " + file.error().message);
+  layout.document = std::move(file->document);
+
+  Result<Statement> changes = database_.prepare(
+      "SELECT revision, placements FROM change WHERE layout = ? AND revision > ? AND revision <= ? ORDER BY "
+      "revision");
+  if (!changes) return tl::unexpected(changes.error());
+  changes->bind(1, id).bind(2, at).bind(3, layout.revision);
+  for (;;) {
+    const Result<bool> row = changes->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) break;
+    const Result<layout::Change> change = change_from_text(changes->text(1));
+    if (!change) return tl::unexpected(change.error());
+    if (changes->integer(0) != ++at || !fits(*change, layout.document))
+      return failure(
+          ErrorCode::environment,
+          fmt::format("the store is damaged: revision {} of layout {} is missing or wrong", at, id));
+    carry_out(layout.document.placements, *change);
+    layout.document.next_id = change->next_id_after;
+  }
+  if (at != layout.revision)
+    return failure(ErrorCode::environment,
+                   fmt::format("the store is damaged: layout {} ends at revision {} instead of {}", id, at,
+                               layout.revision));
+  return layout;
+}
+
+Result<StoredLayout> Store::load(LayoutId id) {
+  const std::lock_guard lock(*turn_);
+  return load_locked(id, std::nullopt);
+}
+
+Result<layout::Document> Store::state_at(LayoutId id, Revision revision) {
+  const std::lock_guard lock(*turn_);
+  return load_locked(id, revision).map([](StoredLayout&& layout) { return std::move(layout.document); });
+}
+
+Result<LayoutId> Store::copy(LayoutId id, const std::string& name) {
+  const std::lock_guard lock(*turn_);
+  const Result<StoredLayout> layout = load_locked(id, std::nullopt);
+  if (!layout) return tl::unexpected(layout.error());
+  return create_locked(name, layout->document, {});
+}
+
+Result<void> Store::one_row(LayoutId id, Result<void> done) {
+  if (done && database_.changed_rows() == 0) return no_layout(id);
+  return done;
+}
+
+Result<void> Store::rename(LayoutId id, const std::string& name) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare(fmt::format(
+      "UPDATE layout SET name = ?, changed = {}, change_number = {} WHERE id = ?", kNow, kNextNumber));
+  if (!row) return tl::unexpected(row.error());
+  return one_row(id, row->bind(1, name).bind(2, id).run());
+}
+
+Result<void> Store::remove(LayoutId id) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("DELETE FROM layout WHERE id = ?");
+  if (!row) return tl::unexpected(row.error());
+  return one_row(id, row->bind(1, id).run());
+}
+
+Result<void> Store::append(LayoutId id, const StoredChange& change, const layout::Document& after) {
+  const std::lock_guard lock(*turn_);
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  Result<Statement> row = database_.prepare(fmt::format(
+      "UPDATE layout SET revision = ?, placements = ?, changed = {}, change_number = {} WHERE id = "
+      "? AND revision = ?",
+      kNow, kNextNumber));
+  if (!row) return tl::unexpected(row.error());
+  row->bind(1, change.revision)
+      .bind(2, static_cast<std::int64_t>(after.placements.size()))
+      .bind(3, id)
+      .bind(4, change.revision - 1);
+  if (Result<void> done = one_row(id, row->run()); !done) return done;
+  Result<Statement> entry = database_.prepare(
+      fmt::format("INSERT INTO change (layout, revision, at, author, kind, mode, target, text, placements) "
+                  "VALUES (?, ?, {}, ?, ?, ?, ?, ?, ?)",
+                  kNow));
+  if (!entry) return tl::unexpected(entry.error());
+  entry->bind(1, id)
+      .bind(2, change.revision)
+      .bind(3, change.author)
+      .bind(4, static_cast<std::int64_t>(change.kind))
+      .bind(5, static_cast<std::int64_t>(change.mode))
+      .bind(6, change.target)
+      .bind(7, change.text)
+      .bind(8, change_text(change.change));
+  if (Result<void> done = entry->run(); !done) return done;
+  if (change.revision % kSnapshotEvery == 0) {
+    Result<Statement> snapshot = database_.prepare("INSERT INTO snapshot VALUES (?, ?, ?)");
+    if (!snapshot) return tl::unexpected(snapshot.error());
+    snapshot->bind(1, id).bind(2, change.revision).bind(3, io::write_layout(after));
+    if (Result<void> done = snapshot->run(); !done) return done;
+  }
+  return all->commit();
+}
+
+Result<StoredChange> Store::change_at(LayoutId id, Revision revision) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare(
+      "SELECT kind, mode, target, author, text, placements FROM change WHERE layout = ? AND revision = ?");
+  if (!row) return tl::unexpected(row.error());
+  const Result<bool> found = row->bind(1, id).bind(2, revision).step();
+  if (!found) return tl::unexpected(found.error());
+  if (!*found)
+    return failure(ErrorCode::usage, fmt::format("layout {} has no change of revision {}", id, revision));
+  Result<layout::Change> change = change_from_text(row->text(5));
+  if (!change) return tl::unexpected(change.error());
+  return StoredChange{revision,
+                      static_cast<ChangeKind>(row->integer(0)),
+                      static_cast<layout::Mode>(row->integer(1)),
+                      row->integer(2),
+                      row->text(3),
+                      row->text(4),
+                      std::move(*change)};
+}
+
+Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> layout = database_.prepare("SELECT 1 FROM layout WHERE id = ?");
+  if (!layout) return tl::unexpected(layout.error());
+  const Result<bool> there = layout->bind(1, id).step();
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return no_layout(id);
+  Result<Statement> rows = database_.prepare(
+      "SELECT revision, at, author, text, kind, target FROM change WHERE layout = ? ORDER BY revision");
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, id);
+  std::vector<HistoryEntry> entries;
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) break;
+    HistoryEntry entry{rows->integer(0),
+                       rows->text(1),
+                       rows->text(2),
+                       rows->text(3),
+                       static_cast<ChangeKind>(rows->integer(4)),
+                       rows->integer(5),
+                       false};
+    // Revisions begin at 1 and have no holes.
+    const bool takes_back = entry.kind == ChangeKind::undo, does_again = entry.kind == ChangeKind::redo;
+    if ((takes_back || does_again) && entry.target >= 1 &&
+        entry.target <= static_cast<Revision>(entries.size()))
+      entries[static_cast<std::size_t>(entry.target - 1)].undone = takes_back;
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+}  // namespace lekalo::server
