@@ -1,0 +1,193 @@
+#include "api.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_picture.hpp"
+#include "lekalo/io/nesting_files.hpp"
+#include "lekalo/io/open_layout.hpp"
+#include "lekalo/layout/check.hpp"
+#include "lekalo/layout/completeness.hpp"
+
+namespace lekalo::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+ApiAnswer json_answer(int status, const Json& json) {
+  return {
+      status, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n", "application/json", {}, {}};
+}
+
+ApiAnswer trouble(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::usage:
+      return api_error(404, error.message);
+    case ErrorCode::environment:
+      return api_error(503, error.message);
+    default:
+      return api_error(400, error.message);
+  }
+}
+
+ApiAnswer list_layouts(Store& store) {
+  const Result<std::vector<LayoutSummary>> layouts = store.list();
+  if (!layouts) return trouble(layouts.error());
+  Json list = Json::array();
+  for (const LayoutSummary& one : *layouts)
+    list.push_back({{"id", one.id},
+                    {"name", one.name},
+                    {"revision", one.revision},
+                    {"placements", one.placements},
+                    {"changed", one.changed}});
+  return json_answer(200, {{"layouts", std::move(list)}});
+}
+
+/// The name that a request gives, or the sentence why not.
+Result<std::string> name_in(const Target& target) {
+  const std::string* const name = target.find("name");
+  if (name == nullptr) return failure(ErrorCode::bad_input, "the name is missing: ?name=");
+  return check_layout_name(*name).map([&] { return *name; });
+}
+
+ApiAnswer create_layout(Store& store, const Target& target, const std::string& body) {
+  const Result<std::string> name = name_in(target);
+  if (!name) return trouble(name.error());
+  if (body.empty()) return api_error(400, *name + ": the file is empty");
+  Result<io::LayoutFile> file = io::read_any_layout(body, *name);
+  if (!file) return trouble(file.error());
+  const Result<LayoutId> id = store.create(*name, file->document);
+  if (!id) return trouble(id.error());
+  return json_answer(201, {{"id", *id}, {"notices", file->notices}});
+}
+
+ApiAnswer history(Store& store, LayoutId id) {
+  const Result<std::vector<HistoryEntry>> entries = store.history(id);
+  if (!entries) return trouble(entries.error());
+  Json list = Json::array();
+  for (const HistoryEntry& entry : *entries)
+    list.push_back({{"revision", entry.revision},
+                    {"at", entry.at},
+                    {"author", entry.author},
+                    {"text", entry.text},
+                    {"kind", name_of(entry.kind)},
+                    {"undone", entry.undone}});
+  return json_answer(200, {{"entries", std::move(list)}});
+}
+
+/// The first strip that something lies on.
+std::optional<std::size_t> strip_in_use(const layout::Document& document) {
+  for (const layout::Placement& placement : document.placements)
+    if (document.stocks[placement.stock].kind == layout::StockKind::strip) return placement.stock;
+  return std::nullopt;
+}
+
+ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
+  const std::string* const form = target.find("form");
+  if (form == nullptr)
+    return api_error(400, "the form is missing: ?form=layout, placements, svg, pdf or png");
+  const Result<StoredLayout> layout = store.load(id);
+  if (!layout) return trouble(layout.error());
+  const layout::Document& document = layout->document;
+  const std::string stem = "layout-" + std::to_string(id);
+  const auto file = [&](const Result<std::string>& bytes, const char* type, const char* ending) {
+    return bytes ? ApiAnswer{200, *bytes, type, stem + ending, {}} : trouble(bytes.error());
+  };
+  if (*form == "layout") return file(io::write_layout(document), "application/json", ".json");
+  if (*form == "placements") {
+    const std::optional<std::size_t> strip = strip_in_use(document);
+    if (!strip)
+      return api_error(400, "nothing lies on a strip; the form 'placements' holds the parts of one strip");
+    return file(io::write_placements(document, *strip, ""), "application/json", ".json");
+  }
+  if (*form != "svg" && *form != "pdf" && *form != "png")
+    return api_error(400, "the form has to be layout, placements, svg, pdf or png");
+  const layout::Completeness completeness = layout::completeness(layout::Workspace(document));
+  const std::vector<layout::Violation> violations = layout::check(document);
+  const io::LayoutPicture picture{layout->name, document, completeness, violations};
+  if (*form == "svg") return file(io::layout_svg(picture), "image/svg+xml", ".svg");
+  if (*form == "pdf") return file(io::layout_pdf(picture), "application/pdf", ".pdf");
+  return file(io::layout_png(picture), "image/png", ".png");
+}
+
+ApiAnswer wrong_method(const char* allow) {
+  ApiAnswer answer = api_error(405, std::string("the methods here are ") + allow);
+  answer.allow = allow;
+  return answer;
+}
+
+ApiAnswer copy_layout(Store& store, LayoutId id, const Target& target) {
+  const Result<std::string> name = name_in(target);
+  if (!name) return trouble(name.error());
+  const Result<LayoutId> made = store.copy(id, *name);
+  return made ? json_answer(201, {{"id", *made}}) : trouble(made.error());
+}
+
+ApiAnswer restore_layout(const ChangeRoom& change_room, LayoutId id, const Target& target) {
+  const std::string* const text = target.find("revision");
+  const auto revision = text != nullptr ? whole_number(*text) : std::nullopt;
+  if (!revision) return api_error(400, "the revision is missing or no whole number: ?revision=");
+  Revision now = 0;
+  const Result<void> done = change_room(id, [&](Room& room) {
+    Result<Outbound> out = room.restore(static_cast<Revision>(*revision));
+    now = room.revision();
+    return out;
+  });
+  return done ? json_answer(200, {{"revision", now}}) : trouble(done.error());
+}
+
+ApiAnswer rename_layout(const ChangeRoom& change_room, LayoutId id, const Target& target) {
+  const Result<std::string> name = name_in(target);
+  if (!name) return trouble(name.error());
+  const Result<void> done = change_room(id, [&](Room& room) { return room.rename(*name); });
+  return done ? json_answer(200, Json::object()) : trouble(done.error());
+}
+
+ApiAnswer remove_layout(const ChangeRoom& change_room, LayoutId id) {
+  const Result<void> done = change_room(id, [](Room& room) { return room.remove(); });
+  return done ? json_answer(200, Json::object()) : trouble(done.error());
+}
+
+}  // namespace
+
+ApiAnswer api_error(int status, const std::string& sentence) {
+  return json_answer(status, {{"error", sentence}});
+}
+
+ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
+                     const Target& target, const std::string& body) {
+  constexpr std::string_view kRoot = "/api/layouts";
+  std::string_view rest = target.path;
+  const ApiAnswer nothing = api_error(404, "there is nothing here");
+  if (!rest.starts_with(kRoot)) return nothing;
+  rest.remove_prefix(kRoot.size());
+  if (rest.empty()) {
+    if (method == "GET") return list_layouts(store);
+    if (method == "POST") return create_layout(store, target, body);
+    return wrong_method("GET, POST");
+  }
+  if (rest.front() != '/') return nothing;
+  rest.remove_prefix(1);
+  const std::size_t slash = std::min(rest.find('/'), rest.size());
+  const auto number = whole_number(rest.substr(0, slash));
+  if (!number || *number == 0) return nothing;
+  const auto id = static_cast<LayoutId>(*number);
+  const std::string_view what = rest.substr(slash);
+  if (what.empty()) {
+    if (method == "PATCH") return rename_layout(change_room, id, target);
+    if (method == "DELETE") return remove_layout(change_room, id);
+    return wrong_method("PATCH, DELETE");
+  }
+  if (what == "/copy") return method == "POST" ? copy_layout(store, id, target) : wrong_method("POST");
+  if (what == "/restore")
+    return method == "POST" ? restore_layout(change_room, id, target) : wrong_method("POST");
+  if (what == "/history") return method == "GET" ? history(store, id) : wrong_method("GET");
+  if (what == "/export") return method == "GET" ? export_layout(store, id, target) : wrong_method("GET");
+  return nothing;
+}
+
+}  // namespace lekalo::server

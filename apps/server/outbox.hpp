@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "room.hpp"
+
+namespace lekalo::server {
+
+/// What waits to be sent to one client. Bounded: where a client reads slower than others write, what a fresh
+/// `layout` says anyway is dropped, and the client gets one once it has read the rest.
+class Outbox {
+ public:
+  /// Bytes that may wait, without the answers to the client's own messages, of which it can only have asked
+  /// for one at a time.
+  explicit Outbox(std::size_t limit = std::size_t{8} << 20) : limit_(limit) {}
+
+  /// Taken in order; once something was dropped, all that may be lost is, until a fresh layout comes.
+  void push(const Outgoing& message) {
+    if (message.loss == Loss::fresh) behind_ = asked_ = false;
+    if (message.loss == Loss::as_newer) {
+      if (behind_) return;
+      // A single message may be larger than the limit.
+      if (waiting_bytes_ > 0 && waiting_bytes_ + message.text->size() > limit_) {
+        behind_ = true;
+        waiting_bytes_ = 0;
+        std::erase_if(waiting_, [](const Outgoing& one) { return one.loss != Loss::never; });
+        return;
+      }
+    }
+    if (message.loss != Loss::never) waiting_bytes_ += message.text->size();
+    waiting_.push_back(message);
+  }
+  [[nodiscard]] bool empty() const noexcept { return waiting_.empty(); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return waiting_bytes_; }
+  /// \pre !empty()
+  [[nodiscard]] std::shared_ptr<const std::string> pop() {
+    Outgoing message = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (message.loss != Loss::never) waiting_bytes_ -= message.text->size();
+    return std::move(message.text);
+  }
+  /// True once when everything that waited is sent and something was dropped: time for Room::resend.
+  [[nodiscard]] bool take_refresh() noexcept {
+    if (!behind_ || asked_ || !waiting_.empty()) return false;
+    asked_ = true;
+    return true;
+  }
+
+ private:
+  std::size_t limit_, waiting_bytes_ = 0;
+  std::deque<Outgoing> waiting_;
+  bool behind_ = false, asked_ = false;
+};
+
+}  // namespace lekalo::server

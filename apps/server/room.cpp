@@ -1,0 +1,366 @@
+#include "room.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_messages.hpp"
+
+namespace lekalo::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using layout::Placement;
+using layout::PlacementChange;
+
+std::string json_text(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::uint64_t id_of(const PlacementChange& change) {
+  return change.after ? change.after->id : change.before->id;
+}
+
+std::string placements_text(const layout::Document& document, const layout::Change& change) {
+  std::string text = "[";
+  for (const PlacementChange& one : change.placements) {
+    if (text.size() > 1) text += ", ";
+    fmt::format_to(std::back_inserter(text), "{{\"id\": {}, \"after\": {}}}", id_of(one),
+                   one.after ? io::placement_json(document, *one.after) : "null");
+  }
+  return text + "]";
+}
+
+std::vector<Placement> placed_by(const layout::Change& change) {
+  std::vector<Placement> placed;
+  for (const PlacementChange& one : change.placements)
+    if (one.after) placed.push_back(*one.after);
+  return placed;
+}
+
+Outgoing message(ClientNumber to, std::string text, Loss loss = Loss::never) {
+  return {to, std::make_shared<const std::string>(std::move(text)), loss};
+}
+
+std::string refused(std::uint64_t seq, const std::string& why, const std::string& violations = "[]") {
+  return fmt::format("{{\"type\": \"refused\", \"seq\": {}, \"message\": {}, \"violations\": {}}}", seq,
+                     json_text(why), violations);
+}
+
+std::string done(std::uint64_t seq, Revision revision, bool nothing) {
+  return fmt::format("{{\"type\": \"done\", \"seq\": {}, \"revision\": {}{}}}", seq, revision,
+                     nothing ? ", \"nothing\": true" : "");
+}
+
+/// Numbers of placements are never given again while others may speak of them, so going back keeps them.
+layout::Change reversed(const layout::Change& change, std::uint64_t next_id) {
+  layout::Change back;
+  back.next_id_before = back.next_id_after = next_id;
+  for (const PlacementChange& one : change.placements) back.placements.push_back({one.after, one.before});
+  return back;
+}
+
+/// From one list of placements to another, both ascending by id.
+layout::Change difference(const std::vector<Placement>& from, const std::vector<Placement>& to) {
+  layout::Change change;
+  std::size_t i = 0, k = 0;
+  while (i < from.size() || k < to.size()) {
+    if (k == to.size() || (i < from.size() && from[i].id < to[k].id)) {
+      change.placements.push_back({from[i++], std::nullopt});
+    } else if (i == from.size() || to[k].id < from[i].id) {
+      change.placements.push_back({std::nullopt, to[k++]});
+    } else {
+      if (from[i] != to[k]) change.placements.push_back({from[i], to[k]});
+      ++i, ++k;
+    }
+  }
+  return change;
+}
+
+/// What is refused in strict mode, to be shown: the violations that the command would make.
+std::string violations_of_refused(const layout::Workspace& workspace, const layout::Command& command) {
+  const Result<layout::Change> free = layout::plan(workspace, command, layout::Mode::free);
+  if (!free) return "[]";
+  return io::violations_json(workspace.document(), workspace.violations_of(placed_by(*free)));
+}
+
+}  // namespace
+
+Room::Room(Store& store, LayoutId id, StoredLayout layout)
+    : store_(store),
+      id_(id),
+      name_(std::move(layout.name)),
+      revision_(layout.revision),
+      workspace_(std::move(layout.document)) {}
+
+Result<Outbound> Room::join(ClientNumber client, const std::string& author) {
+  if (!author.empty() && stacks_.find(author) == stacks_.end()) {
+    const Result<std::vector<HistoryEntry>> history = store_.history(id_);
+    if (!history) return tl::unexpected(history.error());
+    Stack& stack = stacks_[author];
+    for (const HistoryEntry& entry : *history) {
+      if (entry.author != author) continue;
+      if (entry.kind == ChangeKind::command) {
+        stack.done.push_back(entry.revision);
+        stack.undone.clear();
+      } else if (entry.kind == ChangeKind::undo && !stack.done.empty()) {
+        stack.undone.push_back(stack.done.back());
+        stack.done.pop_back();
+      } else if (entry.kind == ChangeKind::redo && !stack.undone.empty()) {
+        stack.done.push_back(stack.undone.back());
+        stack.undone.pop_back();
+      }
+    }
+  }
+  clients_[client].author = author;
+  Outbound out;
+  out.push_back(message(client, layout_text(client), Loss::fresh));
+  out.push_back(message(client, selections_text(), Loss::as_newer));
+  return out;
+}
+
+Outbound Room::leave(ClientNumber client) {
+  Outbound out;
+  const auto at = clients_.find(client);
+  if (at == clients_.end()) return out;
+  const bool selected = !at->second.selected.empty();
+  clients_.erase(at);
+  if (selected) to_all(selections_text(), Loss::as_newer, out);
+  return out;
+}
+
+Outbound Room::handle(ClientNumber client, const ClientMessage& said) {
+  if (clients_.find(client) == clients_.end()) return {};
+  if (const auto* one = std::get_if<CommandMessage>(&said)) return command(client, *one);
+  if (const auto* one = std::get_if<UndoMessage>(&said)) return undo(client, *one);
+  return select(client, std::get<SelectMessage>(said));
+}
+
+Outbound Room::resend(ClientNumber client) const {
+  Outbound out;
+  if (clients_.find(client) == clients_.end()) return out;
+  out.push_back(message(client, layout_text(client), Loss::fresh));
+  out.push_back(message(client, selections_text(), Loss::as_newer));
+  return out;
+}
+
+Outbound Room::command(ClientNumber client, const CommandMessage& said) {
+  Outbound out;
+  const Result<layout::Command> command = layout::command_from_text(said.text, document());
+  if (!command) {
+    out.push_back(message(client, refused(said.seq, command.error().message)));
+    return out;
+  }
+  Result<layout::Change> change = layout::plan(workspace_, *command, said.mode);
+  if (!change) {
+    const std::string violations =
+        change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
+    out.push_back(message(client, refused(said.seq, change.error().message, violations)));
+    return out;
+  }
+  if (said.preview) {
+    const auto violations = workspace_.violations_of(placed_by(*change));
+    out.push_back(message(client, fmt::format("{{\"type\": \"preview\", \"seq\": {}, \"placements\": {}, "
+                                              "\"violations\": {}}}",
+                                              said.seq, placements_text(document(), *change),
+                                              io::violations_json(document(), violations))));
+    return out;
+  }
+  if (change->placements.empty() && change->next_id_before == change->next_id_after) {
+    out.push_back(message(client, done(said.seq, revision_, true)));
+    return out;
+  }
+  StoredChange stored;
+  stored.mode = said.mode;
+  stored.text = layout::to_text(*command, document());
+  stored.change = std::move(*change);
+  if (Result<void> kept = commit(client, std::move(stored), out); !kept) {
+    out.push_back(message(client, refused(said.seq, kept.error().message)));
+    return out;
+  }
+  out.insert(out.begin(), message(client, done(said.seq, revision_, false)));
+  Stack& stack = stack_of(clients_[client]);
+  stack.done.push_back(revision_);
+  stack.undone.clear();
+  return out;
+}
+
+Outbound Room::undo(ClientNumber client, const UndoMessage& said) {
+  Outbound out;
+  Stack& stack = stack_of(clients_[client]);
+  std::vector<Revision>& from = said.redo ? stack.undone : stack.done;
+  std::vector<Revision>& to = said.redo ? stack.done : stack.undone;
+  const auto refuse = [&](const std::string& why) {
+    out.push_back(message(client, refused(said.seq, why)));
+    return out;
+  };
+  if (from.empty()) return refuse(said.redo ? "there is nothing to do again" : "there is nothing to undo");
+  const Result<StoredChange> stored = store_.change_at(id_, from.back());
+  if (!stored) return refuse(stored.error().message);
+  StoredChange next;
+  next.kind = said.redo ? ChangeKind::redo : ChangeKind::undo;
+  next.mode = stored->mode;
+  next.target = stored->revision;
+  next.text = stored->text;
+  const std::uint64_t next_id = document().next_id;
+  next.change = reversed(stored->change, next_id);
+  if (said.redo) next.change = reversed(next.change, next_id);
+  if (Result<void> fine = check_standing(*stored, next.change); !fine) return refuse(fine.error().message);
+  if (Result<void> kept = commit(client, std::move(next), out); !kept) return refuse(kept.error().message);
+  out.insert(out.begin(), message(client, done(said.seq, revision_, false)));
+  to.push_back(from.back());
+  from.pop_back();
+  return out;
+}
+
+Result<std::string> Room::later_change(std::uint64_t id, Revision since) {
+  const auto known = last_touch_.find(id);
+  if (known != last_touch_.end())
+    return fmt::format("{} changed placement {} by '{}' (revision {})", known->second.who, id,
+                       known->second.text, known->second.revision);
+  // Before the room was opened: the store knows.
+  for (Revision r = revision_; r > since; --r) {
+    const Result<StoredChange> change = store_.change_at(id_, r);
+    if (!change) return tl::unexpected(change.error());
+    for (const PlacementChange& one : change->change.placements)
+      if (id_of(one) == id)
+        return fmt::format("{} changed placement {} by '{}' (revision {})",
+                           change->author.empty() ? "another client" : change->author, id, change->text, r);
+  }
+  return fmt::format("placement {} was changed", id);
+}
+
+Result<void> Room::check_standing(const StoredChange& command, const layout::Change& wanted) {
+  const auto refuse = [&](std::uint64_t id) -> Result<void> {
+    const Result<std::string> who = later_change(id, command.revision);
+    if (!who) return tl::unexpected(who.error());
+    return failure(ErrorCode::refuted,
+                   fmt::format("'{}' stands in the way of a later command: {} since", command.text, *who));
+  };
+  for (const PlacementChange& one : wanted.placements) {
+    const Placement* const now = workspace_.find(id_of(one));
+    const bool same = one.before ? now != nullptr && *now == *one.before : now == nullptr;
+    if (!same) return refuse(id_of(one));
+  }
+  // What was put in the place that became free stands on the command too, where the rules hold.
+  if (command.mode == layout::Mode::free) return {};
+  const std::vector<Placement> placed = placed_by(wanted);
+  const auto is_wanted = [&](std::uint64_t id) {
+    return std::any_of(placed.begin(), placed.end(), [&](const Placement& p) { return p.id == id; });
+  };
+  for (const layout::Violation& v : workspace_.violations_of(placed)) {
+    const std::uint64_t other = is_wanted(v.a) ? v.b : v.a;
+    if (other == 0 || is_wanted(other)) continue;
+    const auto touched = last_touch_.find(other);
+    if (touched != last_touch_.end() && touched->second.revision > command.revision) return refuse(other);
+  }
+  return {};
+}
+
+Result<void> Room::commit(ClientNumber client, StoredChange change, Outbound& out) {
+  change.revision = revision_ + 1;
+  const auto sender = clients_.find(client);
+  if (sender != clients_.end()) change.author = sender->second.author;
+  // The store may want the whole document (a snapshot), so the change is carried out first and taken back if
+  // it cannot be kept.
+  layout::carry_out(workspace_, change.change);
+  if (Result<void> kept = store_.append(id_, change, document()); !kept) {
+    layout::take_back(workspace_, change.change);
+    return failure(kept.error().code, "not stored, and not done: " + kept.error().message);
+  }
+  revision_ = change.revision;
+  for (const PlacementChange& one : change.change.placements)
+    last_touch_[id_of(one)] = {revision_, who(client), change.text};
+  to_all(fmt::format("{{\"type\": \"change\", \"revision\": {}, \"client\": {}, \"text\": {}, \"kind\": "
+                     "\"{}\", \"placements\": {}, \"next_id\": {}}}",
+                     revision_, client, json_text(change.text), name_of(change.kind),
+                     placements_text(document(), change.change), document().next_id),
+         Loss::as_newer, out);
+  return {};
+}
+
+Outbound Room::select(ClientNumber client, const SelectMessage& said) {
+  std::vector<std::uint64_t> ids;
+  for (const std::uint64_t id : said.ids)
+    if (workspace_.find(id) != nullptr) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  Outbound out;
+  std::vector<std::uint64_t>& selected = clients_[client].selected;
+  if (selected == ids) return out;
+  selected = std::move(ids);
+  to_all(selections_text(), Loss::as_newer, out);
+  return out;
+}
+
+Result<Outbound> Room::restore(Revision revision) {
+  Outbound out;
+  const Result<layout::Document> state = store_.state_at(id_, revision);
+  if (!state) return tl::unexpected(state.error());
+  StoredChange change;
+  change.kind = ChangeKind::restore;
+  change.mode = layout::Mode::free;
+  change.target = revision;
+  change.text = fmt::format("restore {}", revision);
+  change.change = difference(document().placements, state->placements);
+  change.change.next_id_before = change.change.next_id_after = document().next_id;
+  if (change.change.placements.empty()) return out;
+  if (Result<void> kept = commit(0, std::move(change), out); !kept) return tl::unexpected(kept.error());
+  return out;
+}
+
+Result<Outbound> Room::rename(const std::string& name) {
+  Outbound out;
+  if (Result<void> kept = store_.rename(id_, name); !kept) return tl::unexpected(kept.error());
+  name_ = name;
+  to_all(fmt::format("{{\"type\": \"name\", \"name\": {}}}", json_text(name)), Loss::as_newer, out);
+  return out;
+}
+
+Result<Outbound> Room::remove() {
+  Outbound out;
+  if (Result<void> kept = store_.remove(id_); !kept) return tl::unexpected(kept.error());
+  to_all("{\"type\": \"bye\", \"message\": \"the layout was deleted\"}", Loss::never, out);
+  clients_.clear();
+  return out;
+}
+
+Room::Stack& Room::stack_of(Client& client) {
+  return client.author.empty() ? client.own : stacks_[client.author];
+}
+
+std::string Room::who(ClientNumber client) const {
+  const auto at = clients_.find(client);
+  if (at == clients_.end()) return "a restore";
+  return at->second.author.empty() ? fmt::format("client {}", client)
+                                   : fmt::format("client {} ({})", client, at->second.author);
+}
+
+void Room::to_all(const std::string& text, Loss loss, Outbound& out) const {
+  const auto shared = std::make_shared<const std::string>(text);
+  for (const auto& [number, client] : clients_) out.push_back({number, shared, loss});
+}
+
+std::string Room::layout_text(ClientNumber client) const {
+  return fmt::format(
+      "{{\"type\": \"layout\", \"client\": {}, \"revision\": {}, \"name\": {}, \"document\": {}}}", client,
+      revision_, json_text(name_), io::write_layout(document()));
+}
+
+std::string Room::selections_text() const {
+  std::string text = "{\"type\": \"selections\", \"clients\": [";
+  bool first = true;
+  for (const auto& [number, client] : clients_) {
+    if (client.selected.empty()) continue;
+    fmt::format_to(std::back_inserter(text), "{}{{\"client\": {}, \"ids\": [{}]}}", first ? "" : ", ", number,
+                   fmt::join(client.selected, ", "));
+    first = false;
+  }
+  return text + "]}";
+}
+
+}  // namespace lekalo::server
