@@ -10,6 +10,7 @@
 #include "locate_command.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "serve_command.hpp"
 #include "show_command.hpp"
 #include "verify_command.hpp"
 
@@ -22,6 +23,7 @@ Result<int> run(const CheckOptions& options) { return run_check(options); }
 Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }
 Result<int> run(const EditOptions& options) { return run_edit(options); }
+Result<int> run(const ServeOptions& options) { return run_serve(options); }
 Result<int> run(const PrintText& command) {
   return print(command.text).map([] { return 0; });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -433,12 +434,12 @@ struct LayoutWords {
   bool json = false;
 };
 
-void add_layout_source(CLI::App& command, LayoutWords& w) {
+void add_layout_source(CLI::App& command, LayoutWords& w, bool required = true) {
   command
       .add_option("layout", w.path,
                   "A layout, a job or placements of a nesting program, a drawing, regions: told apart by "
                   "content")
-      ->required()
+      ->required(required)
       ->type_name("FILE");
   const auto add = [&](const char* name, std::string& word, const std::string& type, const char* help) {
     command.add_option(name, word, help)->type_name(type)->group("Reading");
@@ -504,6 +505,44 @@ Result<Command> to_export(const LayoutWords& w) {
   return to_layout_source(w).map([&](LayoutSource&& source) {
     return Command(ExportOptions{std::move(source), format, w.output, w.instance_name});
   });
+}
+
+/// The words of `serve` alone.
+struct ServeWords {
+  std::string store, listen = "127.0.0.1", port = "8080", token;
+};
+
+void add_serve_options(CLI::App& serve, ServeWords& w) {
+  const auto add = [&](const char* name, std::string& word, const char* type, const char* help) {
+    serve.add_option(name, word, help)->type_name(type);
+  };
+  add("--store", w.store, "FILE",
+      "The layouts and all that was done to them [lekalo/layouts.sqlite among the user's data]");
+  add("--port", w.port, "N", "0: any that is free [8080]");
+  add("--listen", w.listen, "ADDRESS", "Elsewhere than on this machine alone, with a token [127.0.0.1]");
+  add("--token", w.token, "TEXT", "What whoever opens the page has to know [made and printed with --listen]");
+  serve.footer(
+      "The first line on stdout is \"listening URL\"; Ctrl-C stops it.\n"
+      "Exit codes: 0 stopped, 2 wrong command line, 3 the file cannot be read, 5 the port or the store\n"
+      "cannot be had.");
+}
+
+Result<Command> to_serve(const LayoutWords& layout, const ServeWords& w) {
+  Result<LayoutSource> source = to_layout_source(layout);
+  if (!source) return tl::unexpected(source.error());
+  unsigned port = 0;
+  const auto [end, error] = std::from_chars(w.port.data(), w.port.data() + w.port.size(), port);
+  if (error != std::errc{} || end != w.port.data() + w.port.size() || port > 65535)
+    return failure(ErrorCode::usage, fmt::format("--port {}: has to be a number from 0 to 65535", w.port));
+  constexpr std::size_t kShortest = 8, kLongest = 200;
+  const bool plain = std::all_of(w.token.begin(), w.token.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
+  });
+  if (!w.token.empty() && (!plain || w.token.size() < kShortest || w.token.size() > kLongest))
+    return failure(ErrorCode::usage,
+                   fmt::format("--token: has to be {} to {} letters, digits, - or _", kShortest, kLongest));
+  return Command(
+      ServeOptions{std::move(*source), w.store, w.listen, static_cast<std::uint16_t>(port), w.token});
 }
 
 std::string first_empty_option(const CLI::App& command) {
@@ -588,6 +627,12 @@ Result<Command> parse_command_line(int argc, char** argv) {
 
   exported.footer(kNoVerdict);
 
+  LayoutWords serve_layout;
+  ServeWords serve_words;
+  CLI::App& serve = *app.add_subcommand("serve", "Correct layouts in a browser, with a live exact check");
+  add_layout_source(serve, serve_layout, false);
+  add_serve_options(serve, serve_words);
+
   std::string shell;
   CLI::App& completion = *app.add_subcommand("completion", "Print a completion script for a shell");
   completion.add_option("shell", shell, "bash, zsh or fish")->required()->type_name("SHELL");
@@ -617,6 +662,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
     return to_layout_source(edit_words).map([&](LayoutSource&& source) {
       return Command(EditOptions{std::move(source), edit_words.commands, edit_words.output});
     });
+  if (serve) return to_serve(serve_layout, serve_words);
   return completion_script(app, shell).map([](std::string&& text) {
     return Command(PrintText{std::move(text)});
   });

@@ -109,6 +109,14 @@ struct EditOptions {
   std::string commands, output;  ///< output may be empty: stdout
 };
 
+struct ServeOptions {
+  LayoutSource source;  ///< an empty path: none
+  std::string store;    ///< empty: among the user's data
+  std::string listen = "127.0.0.1";
+  std::uint16_t port = 8080;  ///< 0: any
+  std::string token;          ///< empty: none given
+};
+
 /// Whether anything was asked for that takes the shapes as regions, convex or not.
 [[nodiscard]] bool has_demands(const LocateOptions& options);
 
@@ -121,7 +129,7 @@ struct PrintText {
 };
 
 using Command = std::variant<LocateOptions, VerifyOptions, CheckOptions, ShowOptions, ExportOptions,
-                             EditOptions, PrintText>;
+                             EditOptions, ServeOptions, PrintText>;
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);

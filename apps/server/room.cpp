@@ -98,6 +98,7 @@ Room::Room(Store& store, LayoutId id, StoredLayout layout)
       workspace_(std::move(layout.document)) {}
 
 Result<Outbound> Room::join(ClientNumber client, const std::string& author) {
+  if (removed_) return failure(ErrorCode::usage, "the layout was deleted");
   if (!author.empty() && stacks_.find(author) == stacks_.end()) {
     const Result<std::vector<HistoryEntry>> history = store_.history(id_);
     if (!history) return tl::unexpected(history.error());
@@ -326,6 +327,7 @@ Result<Outbound> Room::remove() {
   if (Result<void> kept = store_.remove(id_); !kept) return tl::unexpected(kept.error());
   to_all("{\"type\": \"bye\", \"message\": \"the layout was deleted\"}", Loss::never, out);
   clients_.clear();
+  removed_ = true;
   return out;
 }
 

@@ -90,6 +90,7 @@ class Room {
   LayoutId id_;
   std::string name_;
   Revision revision_;
+  bool removed_ = false;
   layout::Workspace workspace_;
   std::map<ClientNumber, Client> clients_;
   std::map<std::string, Stack> stacks_;                    ///< by author

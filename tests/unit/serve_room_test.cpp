@@ -1,0 +1,272 @@
+#include "server/room.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "server/access.hpp"
+#include "server/outbox.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::server {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Squares of 10 at (20, 40) and (60, 40) on a sheet of 100; two clients.
+class TwoClients : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "lekalo-room-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    store_ = std::make_unique<Store>(Store::open((folder_ / "store.sqlite").string()).value());
+    layout::Document d;
+    layout::Part part;
+    part.id = "square";
+    part.outline = cases::outline_of({cases::box_loop(0, 0, 10, 10)});
+    d.parts = {part};
+    layout::Stock stock;
+    stock.id = "sheet";
+    stock.outline = cases::outline_of({cases::box_loop(0, 0, 100, 100)});
+    d.stocks = {stock};
+    for (std::uint64_t id = 1; id <= 2; ++id) {
+      layout::Placement placement;
+      placement.id = id;
+      placement.at = cases::grid_point(40.0 * static_cast<double>(id) - 20, 40);
+      d.placements.push_back(placement);
+    }
+    d.next_id = 3;
+    first_ = d;
+    id_ = store_->create("test", d).value();
+    reopen();
+  }
+  void TearDown() override {
+    room_.reset();
+    store_.reset();
+    fs::remove_all(folder_);
+  }
+  void reopen() {
+    room_ = std::make_unique<Room>(*store_, id_, store_->load(id_).value());
+    heard_.clear();
+    hear(room_->join(1, "anna").value());
+    hear(room_->join(2, "").value());
+  }
+  void hear(const Outbound& out) {
+    for (const Outgoing& one : out) heard_.emplace_back(one.to, Json::parse(*one.text));
+  }
+  /// What a client hears of it.
+  std::vector<Json> say(ClientNumber client, const ClientMessage& message) {
+    const std::size_t before = heard_.size();
+    hear(room_->handle(client, message));
+    std::vector<Json> mine;
+    for (std::size_t i = before; i < heard_.size(); ++i)
+      if (heard_[i].first == client) mine.push_back(heard_[i].second);
+    return mine;
+  }
+  std::vector<Json> command(ClientNumber client, const std::string& text,
+                            layout::Mode mode = layout::Mode::strict) {
+    return say(client, CommandMessage{7, mode, text, false});
+  }
+  fs::path folder_;
+  std::unique_ptr<Store> store_;
+  std::unique_ptr<Room> room_;
+  LayoutId id_ = 0;
+  layout::Document first_;
+  std::vector<std::pair<ClientNumber, Json>> heard_;
+};
+
+TEST_F(TwoClients, GetTheLayoutWhenTheyComeIn) {
+  EXPECT_EQ(heard_[0].second["type"], "layout");
+  EXPECT_EQ(heard_[0].second["client"], 1);
+  EXPECT_EQ(heard_[0].second["revision"], 0);
+  EXPECT_EQ(heard_[0].second["document"]["placements"].size(), 2u);
+}
+
+TEST_F(TwoClients, BothHearOfAChangeTheSenderAfterItIsDone) {
+  const auto heard = command(1, "move 1 by 1 0");
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[0]["type"], "done");
+  EXPECT_EQ(heard[0]["revision"], 1);
+  EXPECT_EQ(heard[1]["type"], "change");
+  EXPECT_EQ(heard[1]["placements"][0]["after"]["x"], 21);
+  EXPECT_EQ(heard_.back().first, 2u);
+  EXPECT_EQ(heard_.back().second, heard[1]);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+}
+
+TEST_F(TwoClients, AreRefusedWithViolationsInStrictModeAndNotInFreeMode) {
+  const auto heard = command(1, "move 1 by 35 0");
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0]["type"], "refused");
+  EXPECT_EQ(heard[0]["violations"][0]["kind"], "overlap");
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(command(1, "move 1 by 35 0", layout::Mode::free)[0]["type"], "done");
+  EXPECT_EQ(command(1, "no such 3")[0]["type"], "refused");
+  EXPECT_EQ(command(1, "move 99 by 1 1")[0]["type"], "refused");
+}
+
+TEST_F(TwoClients, APreviewChangesNothing) {
+  const auto heard = say(1, CommandMessage{3, layout::Mode::free, "move 1 by 35 0", true});
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0]["type"], "preview");
+  EXPECT_EQ(heard[0]["placements"][0]["after"]["x"], 55);
+  EXPECT_EQ(heard[0]["violations"].size(), 1u);
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(room_->revision(), 0);
+}
+
+TEST_F(TwoClients, NothingMovedIsDoneWithoutARevision) {
+  const auto heard = command(1, "move 1 by 0 0");
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0]["nothing"], true);
+  EXPECT_EQ(heard[0]["revision"], 0);
+}
+
+TEST_F(TwoClients, UndoTheirOwnCommandsAlone) {
+  command(1, "move 1 by 1 0");
+  command(2, "move 2 by 1 0");
+  command(1, "move 1 by 0 3");
+  EXPECT_EQ(say(1, UndoMessage{1, false})[1]["kind"], "undo");
+  EXPECT_EQ(say(1, UndoMessage{2, false})[0]["revision"], 5);
+  EXPECT_EQ(room_->document().placements[0], first_.placements[0]);
+  EXPECT_NE(room_->document().placements[1], first_.placements[1]);
+  EXPECT_EQ(say(1, UndoMessage{3, false})[0]["type"], "refused");
+  EXPECT_EQ(say(1, UndoMessage{4, true})[0]["type"], "done");
+  EXPECT_EQ(say(1, UndoMessage{5, true})[1]["text"], "move 1 by 0 3");
+  EXPECT_EQ(say(1, UndoMessage{6, true})[0]["type"], "refused");
+}
+
+TEST_F(TwoClients, AreRefusedToUndoWhatALaterCommandStandsOn) {
+  command(1, "move 1 by 1 0");
+  command(2, "move 1 by 0 5");
+  auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  const std::string why = heard[0]["message"];
+  EXPECT_NE(why.find("client 2"), std::string::npos) << why;
+  EXPECT_NE(why.find("move 1 by 0 5"), std::string::npos) << why;
+  EXPECT_EQ(say(2, UndoMessage{1, false})[0]["type"], "done");
+  EXPECT_EQ(say(1, UndoMessage{2, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document(), first_);
+}
+
+TEST_F(TwoClients, AreRefusedToUndoIntoAPlaceThatAnotherTookSince) {
+  command(1, "move 1 by 0 20");
+  command(2, "move 2 by -35 0");  // where placement 1 was
+  const auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  EXPECT_NE(heard[0]["message"].get<std::string>().find("move 2 by -35 0"), std::string::npos);
+}
+
+TEST_F(TwoClients, NeverGiveTheNumberOfAPlacementAgain) {
+  command(1, "place square sheet 0 1 0 0 0 upright");
+  EXPECT_EQ(room_->document().placements.back().id, 3u);
+  say(1, UndoMessage{1, false});
+  command(2, "place square sheet 0 1 0 0 80 upright");
+  EXPECT_EQ(room_->document().placements.back().id, 4u);
+  EXPECT_EQ(say(1, UndoMessage{2, true})[0]["type"], "done");
+  EXPECT_EQ(room_->document().placements.size(), 4u);
+}
+
+TEST_F(TwoClients, AnAuthorUndoesWhatWasDoneBeforeARestart) {
+  command(1, "move 1 by 1 0");
+  command(1, "move 1 by 1 0");
+  say(1, UndoMessage{1, false});
+  command(2, "move 2 by 1 0");
+  reopen();
+  EXPECT_EQ(say(1, UndoMessage{1, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document().placements[0], first_.placements[0]);
+  EXPECT_EQ(say(1, UndoMessage{1, true})[0]["type"], "done");
+  EXPECT_EQ(say(1, UndoMessage{1, true})[0]["type"], "done");
+  EXPECT_EQ(say(2, UndoMessage{1, false})[0]["type"], "refused");  // nobody in particular
+}
+
+TEST_F(TwoClients, RestoreAnyRevisionAsANewOne) {
+  command(1, "move 1 by 1 0");
+  command(2, "remove 2");
+  hear(room_->restore(0).value());
+  EXPECT_EQ(room_->revision(), 3);
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(heard_.back().second["kind"], "restore");
+  EXPECT_TRUE(room_->restore(3)->empty());
+  EXPECT_FALSE(room_->restore(4));
+  EXPECT_EQ(store_->load(id_)->document, first_);
+}
+
+TEST_F(TwoClients, SeeWhatTheOtherSelects) {
+  hear(room_->handle(1, SelectMessage{{2, 2, 99}}));
+  EXPECT_EQ(heard_.back().first, 2u);
+  EXPECT_EQ(heard_.back().second["clients"], Json::parse(R"([{"client": 1, "ids": [2]}])"));
+  EXPECT_TRUE(room_->handle(1, SelectMessage{{2}}).empty());
+  hear(room_->leave(1));
+  EXPECT_EQ(heard_.back().second["clients"], Json::array());
+}
+
+TEST_F(TwoClients, HearOfANewNameAndOfTheEnd) {
+  hear(room_->rename("other").value());
+  EXPECT_EQ(heard_.back().second["name"], "other");
+  hear(room_->remove().value());
+  EXPECT_EQ(heard_.back().second["type"], "bye");
+  EXPECT_FALSE(room_->join(3, ""));
+  EXPECT_TRUE(room_->empty());
+}
+
+TEST_F(TwoClients, WhatCannotBeStoredIsNotDone) {
+  ASSERT_TRUE(store_->remove(id_));  // stands for any failure of the store
+  const auto heard = command(1, "move 1 by 1 0");
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0]["type"], "refused");
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(room_->revision(), 0);
+}
+
+Outgoing sized(std::size_t bytes, Loss loss) {
+  return {1, std::make_shared<const std::string>(bytes, 'x'), loss};
+}
+
+TEST(Outbox, DropsWhatAFreshLayoutSaysAndAsksForOneOnce) {
+  Outbox box(100);
+  box.push(sized(60, Loss::as_newer));
+  box.push(sized(5, Loss::never));
+  box.push(sized(60, Loss::as_newer));  // too much: both go
+  box.push(sized(1, Loss::as_newer));   // a revision after a hole is of no use
+  EXPECT_EQ(box.pop()->size(), 5u);
+  EXPECT_TRUE(box.empty());
+  EXPECT_TRUE(box.take_refresh());
+  EXPECT_FALSE(box.take_refresh());
+  box.push(sized(2, Loss::as_newer));  // said before the room heard that we ask
+  EXPECT_TRUE(box.empty());
+  box.push(sized(500, Loss::fresh));
+  box.push(sized(3, Loss::never));
+  EXPECT_EQ(box.pop()->size(), 500u);
+  box.push(sized(60, Loss::as_newer));
+  EXPECT_EQ(box.pop()->size(), 3u);
+  EXPECT_EQ(box.pop()->size(), 60u);
+  EXPECT_EQ(box.bytes(), 0u);
+  EXPECT_FALSE(box.take_refresh());
+}
+
+TEST(Access, AsksForOurNameOurPageAndTheToken) {
+  const AccessRules open{"127.0.0.1", 8080, false, ""};
+  EXPECT_EQ(refusal(open, {"127.0.0.1:8080", "", "", "", ""}), "");
+  EXPECT_EQ(refusal(open, {"localhost:8080", "http://localhost:8080", "", "", ""}), "");
+  for (const char* host : {"", "evil.example:8080", "127.0.0.1", "127.0.0.1:8081", "127.0.0.1:8080.evil"})
+    EXPECT_NE(refusal(open, {host, "", "", "", ""}), "") << host;
+  for (const char* origin : {"http://evil.example", "null", "https://localhost:8080", "http://localhost"})
+    EXPECT_NE(refusal(open, {"localhost:8080", origin, "", "", ""}), "") << origin;
+  const AccessRules locked{"0.0.0.0", 80, true, "secret99"};
+  EXPECT_NE(refusal(locked, {"any:80", "", "", "", ""}), "");
+  EXPECT_NE(refusal(locked, {"any:80", "", "Bearer secret9", "", "x"}), "");
+  EXPECT_NE(refusal(locked, {"any:80", "", "", "lekalo_token=wrong; lekalo_token=secret99", ""}), "");
+  EXPECT_EQ(refusal(locked, {"any:80", "", "", "", "secret99"}), "");
+  EXPECT_EQ(refusal(locked, {"any:80", "", "Bearer secret99", "", ""}), "");
+  EXPECT_EQ(refusal(locked, {"any:80", "", "", "a=b; lekalo_token=secret99", ""}), "");
+}
+
+}  // namespace
+}  // namespace lekalo::server

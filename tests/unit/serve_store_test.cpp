@@ -1,0 +1,311 @@
+#include "server/store.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "lekalo/io/layout_json.hpp"
+#include "lekalo/layout/workspace.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StoreFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "lekalo-store-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    path_ = (folder_ / "store.sqlite").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  [[nodiscard]] Store open() const {
+    Result<Store> store = Store::open(path_);
+    if (!store) throw std::runtime_error(store.error().message);
+    return std::move(*store);
+  }
+  fs::path folder_;
+  std::string path_;
+};
+
+layout::Document two_squares() {
+  layout::Document d;
+  layout::Part part;
+  part.id = "square";
+  part.outline = cases::outline_of({cases::box_loop(0, 0, 10, 10)});
+  d.parts = {part};
+  layout::Stock stock;
+  stock.id = "sheet";
+  stock.outline = cases::outline_of({cases::box_loop(0, 0, 100, 100)});
+  d.stocks = {stock};
+  for (std::uint64_t id = 1; id <= 2; ++id) {
+    layout::Placement placement;
+    placement.id = id;
+    placement.at = cases::grid_point(20.0 * static_cast<double>(id), 40);
+    d.placements.push_back(placement);
+  }
+  d.next_id = 3;
+  return d;
+}
+
+/// Moves placement 1 to the right by `steps` grid steps, as the next revision.
+StoredChange step_right(layout::Document& d, Revision revision, std::int64_t steps) {
+  StoredChange change;
+  change.revision = revision;
+  change.text = "move";
+  change.author = "tester";
+  layout::Placement after = d.placements[0];
+  after.at.x += steps;
+  change.change.placements.push_back({d.placements[0], after});
+  change.change.next_id_before = change.change.next_id_after = d.next_id;
+  d.placements[0] = after;
+  return change;
+}
+
+TEST_F(StoreFile, IsReadableByItsOwnerAloneWithItsLog) {
+  Store store = open();
+  ASSERT_TRUE(store.create("a", two_squares()));
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    struct stat about {};
+    ASSERT_EQ(stat(entry.path().c_str(), &about), 0);
+    EXPECT_EQ(about.st_mode & 0777, 0600u) << entry.path();
+  }
+}
+
+TEST_F(StoreFile, GivesBackWhatItWasGivenAfterOpeningAgain) {
+  const layout::Document document = cases::random_layout(3, 0, 12);
+  LayoutId id = 0;
+  {
+    Store store = open();
+    id = store.create("some name, Київ", document, "digest").value();
+  }
+  Store store = open();
+  const StoredLayout layout = store.load(id).value();
+  EXPECT_EQ(layout.name, "some name, Київ");
+  EXPECT_EQ(layout.revision, 0);
+  EXPECT_EQ(layout.document, document);
+  EXPECT_EQ(store.find_origin("digest").value(), id);
+  EXPECT_FALSE(store.find_origin("another").value());
+  EXPECT_FALSE(store.find_origin("").value());
+}
+
+TEST_F(StoreFile, RestoresAnyRevisionAcrossSnapshots) {
+  layout::Document document = two_squares();
+  const layout::Document first = document;
+  Store store = open();
+  const LayoutId id = store.create("a", document).value();
+  constexpr Revision kLast = 2 * kSnapshotEvery + 5;
+  for (Revision r = 1; r <= kLast; ++r) {
+    const StoredChange change = step_right(document, r, 1);
+    ASSERT_TRUE(store.append(id, change, document));
+  }
+  for (const Revision r : {Revision{0}, Revision{1}, kSnapshotEvery - 1, kSnapshotEvery, kSnapshotEvery + 1,
+                           2 * kSnapshotEvery, kLast}) {
+    const layout::Document state = store.state_at(id, r).value();
+    EXPECT_EQ(state.placements[0].at.x, first.placements[0].at.x + r);
+    EXPECT_EQ(state.placements[1], first.placements[1]);
+  }
+  EXPECT_EQ(store.load(id)->document, document);
+  EXPECT_EQ(store.state_at(id, kLast + 1).error().code, ErrorCode::usage);
+  EXPECT_EQ(store.state_at(id, -1).error().code, ErrorCode::usage);
+  EXPECT_EQ(store.change_at(id, 7)->change.placements.size(), 1u);
+  EXPECT_EQ(store.change_at(id, kLast + 1).error().code, ErrorCode::usage);
+}
+
+TEST_F(StoreFile, TakesNoRevisionOutOfTurn) {
+  layout::Document document = two_squares();
+  Store store = open();
+  const LayoutId id = store.create("a", document).value();
+  layout::Document moved = document;
+  EXPECT_FALSE(store.append(id, step_right(moved, 2, 1), moved));
+  EXPECT_FALSE(store.append(id + 1, step_right(moved, 1, 1), moved));
+  EXPECT_EQ(store.load(id)->document, document);
+  EXPECT_TRUE(store.history(id)->empty());
+}
+
+TEST_F(StoreFile, KnowsWhatIsUndone) {
+  layout::Document document = two_squares();
+  Store store = open();
+  const LayoutId id = store.create("a", document).value();
+  ASSERT_TRUE(store.append(id, step_right(document, 1, 5), document));
+  StoredChange back = step_right(document, 2, -5);
+  back.kind = ChangeKind::undo;
+  back.target = 1;
+  ASSERT_TRUE(store.append(id, back, document));
+  EXPECT_TRUE(store.history(id)->at(0).undone);
+  StoredChange again = step_right(document, 3, 5);
+  again.kind = ChangeKind::redo;
+  again.target = 1;
+  ASSERT_TRUE(store.append(id, again, document));
+  const auto history = store.history(id).value();
+  EXPECT_FALSE(history[0].undone);
+  EXPECT_EQ(history[2].kind, ChangeKind::redo);
+  EXPECT_EQ(history[2].author, "tester");
+}
+
+TEST_F(StoreFile, CopiesRenamesRemovesAndListsTheNewestFirst) {
+  layout::Document document = two_squares();
+  Store store = open();
+  const LayoutId a = store.create("a", document).value();
+  const LayoutId b = store.create("b", document).value();
+  ASSERT_TRUE(store.append(a, step_right(document, 1, 5), document));
+  EXPECT_EQ(store.list()->front().id, a);
+  EXPECT_EQ(store.list()->front().revision, 1);
+  EXPECT_EQ(store.list()->front().placements, 2);
+  const LayoutId c = store.copy(a, "c").value();
+  EXPECT_EQ(store.load(c)->document, document);
+  EXPECT_EQ(store.load(c)->revision, 0);
+  ASSERT_TRUE(store.rename(b, "other"));
+  EXPECT_EQ(store.load(b)->name, "other");
+  ASSERT_TRUE(store.remove(c));
+  EXPECT_EQ(store.list()->size(), 2u);
+  EXPECT_GT(store.create("d", document).value(), c);  // an id is never given twice
+  for (const LayoutId gone : {c, LayoutId{999}}) {
+    EXPECT_EQ(store.load(gone).error().code, ErrorCode::usage);
+    EXPECT_EQ(store.rename(gone, "x").error().code, ErrorCode::usage);
+    EXPECT_EQ(store.remove(gone).error().code, ErrorCode::usage);
+    EXPECT_EQ(store.copy(gone, "x").error().code, ErrorCode::usage);
+    EXPECT_EQ(store.history(gone).error().code, ErrorCode::usage);
+  }
+}
+
+TEST_F(StoreFile, BelongsToOneServer) {
+  Store store = open();
+  const Result<Store> second = Store::open(path_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::environment);
+  EXPECT_NE(second.error().message.find("another program uses"), std::string::npos) << second.error().message;
+}
+
+TEST_F(StoreFile, RefusesWhatIsNoStore) {
+  std::ofstream(path_) << std::string(5000, 'x');
+  EXPECT_EQ(Store::open(path_).error().code, ErrorCode::environment);
+  EXPECT_EQ(Store::open(folder_.string()).error().code, ErrorCode::environment);
+  EXPECT_EQ(Store::open((folder_ / "no" / "such").string()).error().code, ErrorCode::environment);
+  const std::string other = (folder_ / "other.sqlite").string();
+  std::ofstream(other).flush();
+  {
+    Database database = Database::open(other).value();
+    ASSERT_TRUE(database.run("CREATE TABLE mine (a)"));
+  }
+  EXPECT_NE(Store::open(other).error().message.find("another program"), std::string::npos);
+}
+
+TEST_F(StoreFile, RefusesANewerFormat) {
+  { Store store = open(); }
+  {
+    Database database = Database::open(path_).value();
+    ASSERT_TRUE(database.run("PRAGMA user_version=2"));
+  }
+  const Result<Store> store = Store::open(path_);
+  ASSERT_FALSE(store);
+  EXPECT_NE(store.error().message.find("format 2"), std::string::npos);
+}
+
+TEST_F(StoreFile, NoticesDamage) {
+  LayoutId id = 0;
+  {
+    Store store = open();
+    layout::Document document = two_squares();
+    id = store.create("a", document).value();
+    ASSERT_TRUE(store.append(id, step_right(document, 1, 5), document));
+    ASSERT_TRUE(store.append(id, step_right(document, 2, 5), document));
+  }
+  {
+    Database database = Database::open(path_).value();
+    ASSERT_TRUE(database.run("DELETE FROM change WHERE revision = 1"));
+  }
+  Store store = open();
+  EXPECT_EQ(store.load(id).error().code, ErrorCode::environment);
+}
+
+/// No file of the process grows beyond what it is: what a full disk looks like to the store.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    before_ = signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    rlimit lower = limit_;
+    lower.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &lower);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    signal(SIGXFSZ, before_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit limit_{};
+  void (*before_)(int);
+};
+
+TEST_F(StoreFile, OnAFullDiskSaysSoAndKeepsWhatItHad) {
+  layout::Document document = two_squares();
+  LayoutId id = 0;
+  {
+    Store store = open();
+    id = store.create("a", document).value();
+    Revision kept = 0;
+    {
+      const FullDisk full(100'000);
+      Result<void> done;
+      layout::Document next = document;
+      for (Revision r = 1; r < 1000 && done; ++r) {
+        next = document;
+        done = store.append(id, step_right(next, r, 1), next);
+        if (done) {
+          document = next;
+          kept = r;
+        }
+      }
+      ASSERT_FALSE(done);
+      EXPECT_EQ(done.error().code, ErrorCode::environment);
+      EXPECT_NE(done.error().message.find("full"), std::string::npos) << done.error().message;
+      EXPECT_EQ(store.load(id)->document, document);
+    }
+    ASSERT_GT(kept, 0);
+    // With room again it goes on.
+    ASSERT_TRUE(store.append(id, step_right(document, kept + 1, 1), document));
+  }
+  Store store = open();
+  EXPECT_EQ(store.load(id)->document, document);
+}
+
+TEST(ChangeText, IsExactAndRefusesEverythingElse) {
+  layout::Change change;
+  layout::Placement p;
+  p.id = 9007199254740991;
+  p.at = {-5, 7};
+  p.rotation = geom::rotation_from_degrees(37.3);
+  p.locked = true;
+  layout::Placement q = p;
+  q.mirrored = true;
+  layout::Placement r = p;
+  r.id = 4;
+  change.placements = {{std::nullopt, r}, {p, q}};
+  change.next_id_before = 3;
+  change.next_id_after = 5;
+  const std::string text = change_text(change);
+  EXPECT_EQ(change_from_text(text).value(), change);
+  for (std::size_t cut = 0; cut + 1 < text.size(); ++cut) {
+    const auto read = change_from_text(std::string_view(text).substr(0, cut));
+    if (read) EXPECT_EQ(change_text(*read), text.substr(0, cut));  // whole lines alone
+  }
+  EXPECT_FALSE(change_from_text("1 1\n*1 0 0 0 0 0 0 0 0 0\n"));
+  EXPECT_FALSE(change_from_text("1 1\n+1 0 0 0 0 0 0 0 0 2\n"));
+  EXPECT_FALSE(change_from_text("1 1\n+1 0 0 0 0 0 0 99999999999999999999 0 0\n"));
+}
+
+}  // namespace
+}  // namespace lekalo::server
