@@ -300,7 +300,9 @@ TEST(ChangeText, IsExactAndRefusesEverythingElse) {
   EXPECT_EQ(change_from_text(text).value(), change);
   for (std::size_t cut = 0; cut + 1 < text.size(); ++cut) {
     const auto read = change_from_text(std::string_view(text).substr(0, cut));
-    if (read) EXPECT_EQ(change_text(*read), text.substr(0, cut));  // whole lines alone
+    if (read) {  // whole lines alone
+      EXPECT_EQ(change_text(*read), text.substr(0, cut));
+    }
   }
   EXPECT_FALSE(change_from_text("1 1\n*1 0 0 0 0 0 0 0 0 0\n"));
   EXPECT_FALSE(change_from_text("1 1\n+1 0 0 0 0 0 0 0 0 2\n"));
