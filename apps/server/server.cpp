@@ -196,7 +196,8 @@ class Talk : public std::enable_shared_from_this<Talk> {
     asio::post(room_->strand, [self = shared_from_this(), work = std::move(work)]() mutable {
       work(*self);
       // The connection may end with this; that belongs to the network's thread.
-      asio::post(self->service_.io, [self = std::move(self)] {});
+      Service& service = self->service_;
+      asio::post(service.io, [self = std::move(self)] {});
     });
   }
   void fail_in_room(const std::string& sentence) {

@@ -403,7 +403,8 @@ TEST(Serve, FortyClientsAgreeInTheEnd) {
   const long late = server.resident_kb();
   const Answer exported = ask(server, http::verb::get, "/api/layouts/1/export?form=layout");
   std::map<long, Json> stored;
-  for (const Json& one : Json::parse(exported.body)["placements"]) stored[one["id"]] = one;
+  const Json written = Json::parse(exported.body);
+  for (const Json& one : written["placements"]) stored[one["id"]] = one;
   ASSERT_EQ(ends.size(), 20u);
   for (const auto& end : ends) EXPECT_EQ(end, stored);
   const auto table = [](const char* what, std::vector<double>& ms) {
