@@ -1,0 +1,463 @@
+// The picture: two canvases. The lower holds sheets and parts at rest, the upper what moves while a part is
+// dragged, so that a drag costs as much as the parts in hand, not as the layout.
+
+import { isGap, type Part, type Placement, type Point, type Violation } from './document';
+import type { LiveState } from './kernel_api';
+import { boxesMeet, placedBox, type Box, type Model, type Sheet } from './model';
+import type { View } from './view';
+
+export interface Theme {
+  back: string; material: string; edge: string; ink: string; faint: string; hole: string; defect: string; zone: string;
+  select: string; bad: string; near: string; good: string; partLight: number; partSat: number; partInk: string; other: string;
+}
+export const LIGHT: Theme = {
+  back: '#e9ebee', material: '#fbfaf7', edge: '#59616b', ink: '#1d232b', faint: '#8a929c', hole: '#d5d9de', defect: '#7d3c98',
+  zone: '#a8793a', select: '#0b63ce', bad: '#c81e1e', near: '#b86e00', good: '#16794c', partLight: 84, partSat: 42, partInk: '#2c3540', other: '#7a4bd0',
+};
+export const DARK: Theme = {
+  back: '#15181c', material: '#23282e', edge: '#8f99a5', ink: '#e8ecf1', faint: '#77818d', hole: '#15181c', defect: '#c58be0',
+  zone: '#c79a5a', select: '#5aa7ff', bad: '#ff6b6b', near: '#ffb545', good: '#4cc38a', partLight: 36, partSat: 28, partInk: '#dfe5ec', other: '#b495f5',
+};
+
+export interface Scene {
+  model: Model;
+  view: View;
+  theme: Theme;
+  selection: ReadonlySet<number>;
+  others: ReadonlySet<number>;
+  violations: readonly Violation[];
+  /// Placements in hand and what is known about where they are.
+  moving: ReadonlyMap<number, Placement>;
+  live: LiveState | null;
+  band: Box | null;
+  ruler: { from: Point; to: Point } | null;
+  arrow: { from: Point; to: Point } | null;
+  show: { labels: boolean; grain: boolean; gap: boolean; zones: boolean };
+}
+
+/// Outlines of a part by level of detail, in its own frame: level n drops what is nearer than 2^n / 8 mm.
+class Shape {
+  readonly reach: number;
+  private readonly levels = new Map<number, Path2D>();
+  constructor(private readonly loops: Point[][]) {
+    this.reach = Math.max(...loops[0]!.map(([x, y]) => Math.hypot(x, y)));
+  }
+  at(mmPerPixel: number): Path2D {
+    const level = Math.max(-1, Math.floor(Math.log2(mmPerPixel * 0.35 * 8)));
+    let path = this.levels.get(level);
+    if (!path) {
+      path = tracedPath(this.loops, level < 0 ? 0 : 2 ** level / 8);
+      this.levels.set(level, path);
+    }
+    return path;
+  }
+}
+
+function tracedPath(loops: readonly Point[][], apart: number): Path2D {
+  const path = new Path2D();
+  for (const loop of loops) {
+    let [lx, ly] = loop[0]!;
+    path.moveTo(lx, ly);
+    loop.forEach(([x, y], i) => {
+      if (i === 0 || Math.hypot(x - lx, y - ly) < apart) return;
+      path.lineTo(x, y);
+      [lx, ly] = [x, y];
+    });
+    path.closePath();
+  }
+  return path;
+}
+
+const loopsOf = (o: { polygon: { outer: Point[]; holes?: Point[][] } }): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
+
+export class Picture {
+  private readonly base: CanvasRenderingContext2D;
+  private readonly top: CanvasRenderingContext2D;
+  private shapes = new Map<Part, Shape>();
+  private paths = new WeakMap<object, Path2D>();
+  private hues = new Map<string, number>();
+  private patterns = new Map<string, CanvasPattern>();
+  private of: Model | null = null;
+  private ratio = 1;
+  /// Milliseconds of work for the last full frame.
+  lastFrame = 0;
+
+  constructor(base: HTMLCanvasElement, top: HTMLCanvasElement) {
+    this.base = base.getContext('2d', { alpha: false })!;
+    this.top = top.getContext('2d')!;
+  }
+
+  resize(view: View, width: number, height: number): void {
+    this.ratio = Math.max(1, window.devicePixelRatio || 1);
+    view.width = width;
+    view.height = height;
+    for (const { canvas } of [this.base, this.top]) {
+      canvas.width = Math.round(width * this.ratio);
+      canvas.height = Math.round(height * this.ratio);
+    }
+  }
+
+  colour(part: Part, theme: Theme): string {
+    const hue = this.hues.get(part.id) ?? 200;
+    return `hsl(${hue} ${theme.partSat}% ${theme.partLight}%)`;
+  }
+
+  private take(model: Model): void {
+    if (this.of === model) return;
+    this.of = model;
+    this.shapes = new Map();
+    this.hues = new Map();
+    // Golden angle: neighbours in the list differ, whatever their number.
+    [...model.parts.keys()].forEach((id, i) => this.hues.set(id, Math.round(205 + i * 137.508) % 360));
+  }
+
+  private shape(part: Part): Shape {
+    let shape = this.shapes.get(part);
+    if (!shape) this.shapes.set(part, (shape = new Shape(loopsOf(part.outline))));
+    return shape;
+  }
+
+  private path(outline: { polygon: { outer: Point[]; holes?: Point[][] } }): Path2D {
+    let path = this.paths.get(outline);
+    if (!path) this.paths.set(outline, (path = tracedPath(loopsOf(outline), 0)));
+    return path;
+  }
+
+  /// Hatching that a colour-blind eye tells apart: crossing lines forbidden, dots too near, lines of a zone or defect.
+  private hatch(ctx: CanvasRenderingContext2D, colour: string, kind: 'cross' | 'dots' | 'lines'): CanvasPattern {
+    const key = `${colour} ${kind} ${this.ratio}`;
+    let pattern = this.patterns.get(key);
+    if (!pattern) {
+      const size = Math.round(8 * this.ratio);
+      const tile = document.createElement('canvas');
+      tile.width = tile.height = size;
+      const t = tile.getContext('2d')!;
+      t.strokeStyle = t.fillStyle = colour;
+      t.lineWidth = this.ratio * 1.2;
+      t.beginPath();
+      if (kind === 'dots') t.arc(size / 2, size / 2, size * 0.18, 0, 7);
+      for (const k of kind === 'dots' ? [] : [-size, 0, size]) {
+        t.moveTo(k, size);
+        t.lineTo(k + size, 0);
+        if (kind === 'cross') {
+          t.moveTo(k, 0);
+          t.lineTo(k + size, size);
+        }
+      }
+      if (kind === 'dots') t.fill();
+      else t.stroke();
+      pattern = ctx.createPattern(tile, 'repeat')!;
+      this.patterns.set(key, pattern);
+    }
+    return pattern;
+  }
+
+  private frame(ctx: CanvasRenderingContext2D, view: View, sheet: Sheet, p?: Placement): number {
+    const k = view.scale * this.ratio;
+    const ox = (view.x + sheet.x * view.scale) * this.ratio;
+    const oy = (view.y - sheet.y * view.scale) * this.ratio;
+    if (!p) {
+      ctx.setTransform(k, 0, 0, -k, ox, oy);
+    } else {
+      const m = p.mirrored ? -1 : 1;
+      ctx.setTransform(k * p.c * m, -k * p.s * m, -k * p.s, -k * p.c, ox + k * p.x, oy - k * p.y);
+    }
+    return this.ratio / k; // mm a CSS pixel
+  }
+
+  /// Fills the current path with a pattern fixed to the screen.
+  private fillHatched(ctx: CanvasRenderingContext2D, path: Path2D, pattern: CanvasPattern): void {
+    ctx.save();
+    ctx.clip(path, 'evenodd');
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.fillStyle = pattern;
+    ctx.fillRect(0, 0, ctx.canvas.width, ctx.canvas.height);
+    ctx.restore();
+  }
+
+  drawBase(scene: Scene): void {
+    const begin = performance.now();
+    const { model, view, theme } = scene;
+    this.take(model);
+    const ctx = this.base;
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.fillStyle = theme.back;
+    ctx.fillRect(0, 0, ctx.canvas.width, ctx.canvas.height);
+    const seen = view.visible();
+    for (const sheet of model.sheets) {
+      const box = shifted(sheet.box, sheet);
+      if (boxesMeet(box, seen)) this.drawSheet(ctx, scene, sheet);
+    }
+    const marked = new Map<number, 'bad' | 'near'>();
+    for (const v of scene.violations) {
+      for (const id of [v.a, v.b]) if (id !== null && marked.get(id) !== 'bad') marked.set(id, isGap(v.kind) ? 'near' : 'bad');
+    }
+    for (const p of model.placements.values()) {
+      if (!scene.moving.has(p.id)) this.drawPart(ctx, scene, p, seen, marked.get(p.id) ?? null);
+    }
+    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    for (const v of scene.violations) if (!scene.moving.has(v.a) && !(v.b !== null && scene.moving.has(v.b))) this.drawViolation(ctx, scene, v);
+    this.lastFrame = performance.now() - begin;
+  }
+
+  drawTop(scene: Scene): void {
+    const ctx = this.top;
+    const { view, theme } = scene;
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.clearRect(0, 0, ctx.canvas.width, ctx.canvas.height);
+    const seen = view.visible();
+    const level = scene.live?.level;
+    for (const p of scene.moving.values()) {
+      this.drawPart(ctx, scene, p, seen, level === 'forbidden' ? 'bad' : level === 'gap' ? 'near' : null, level === 'clear');
+    }
+    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    if (scene.live) {
+      for (const v of scene.live.violations) this.drawViolation(ctx, scene, v);
+      const first = scene.moving.values().next().value;
+      const sheet = first && scene.model.sheet(first.stock, first.copy);
+      if (scene.live.nearest && sheet) {
+        const n = scene.live.nearest;
+        this.drawMeasure(ctx, scene, [n.from[0] + sheet.x, n.from[1] + sheet.y], [n.to[0] + sheet.x, n.to[1] + sheet.y],
+          `${n.distance.toFixed(3)} mm`, theme.good);
+      }
+    }
+    if (scene.ruler) {
+      const { from, to } = scene.ruler;
+      const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+      this.drawMeasure(ctx, scene, from, to, `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`, theme.select);
+    }
+    if (scene.arrow) this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
+    if (scene.band) {
+      const [x0, y0] = view.toScreen(scene.band.left, scene.band.top);
+      const [x1, y1] = view.toScreen(scene.band.right, scene.band.bottom);
+      ctx.strokeStyle = theme.select;
+      ctx.setLineDash([5, 3]);
+      ctx.lineWidth = 1;
+      ctx.strokeRect(x0 + 0.5, y0 + 0.5, x1 - x0, y1 - y0);
+      ctx.setLineDash([]);
+      ctx.globalAlpha = 0.08;
+      ctx.fillStyle = theme.select;
+      ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+      ctx.globalAlpha = 1;
+    }
+  }
+
+  private drawSheet(ctx: CanvasRenderingContext2D, scene: Scene, sheet: Sheet): void {
+    const { view, theme } = scene;
+    const px = this.frame(ctx, view, sheet);
+    const { stock, box } = sheet;
+    let path: Path2D;
+    if (stock.outline) path = this.path(stock.outline);
+    else {
+      path = new Path2D();
+      path.rect(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+    }
+    ctx.fillStyle = theme.material;
+    ctx.fill(path, 'evenodd');
+    for (const hole of stock.outline?.polygon.holes ?? []) this.fillHatched(ctx, tracedPath([hole], 0), this.hatch(ctx, theme.faint, 'lines'));
+    if (scene.show.zones) {
+      ctx.save();
+      ctx.clip(path, 'evenodd');
+      for (const zone of stock.zones ?? []) {
+        ctx.globalAlpha = Math.min(0.34, 0.1 + 0.06 * (3 - Math.min(3, zone.quality)));
+        ctx.fillStyle = theme.zone;
+        ctx.fill(this.path(zone.outline), 'evenodd');
+        ctx.globalAlpha = 0.9;
+        ctx.strokeStyle = theme.zone;
+        ctx.lineWidth = px;
+        ctx.setLineDash([6 * px, 4 * px]);
+        ctx.stroke(this.path(zone.outline));
+        ctx.setLineDash([]);
+      }
+      ctx.restore();
+    }
+    for (const defect of stock.defects ?? []) {
+      this.fillHatched(ctx, this.path(defect.outline), this.hatch(ctx, theme.defect, 'lines'));
+      ctx.strokeStyle = theme.defect;
+      ctx.lineWidth = 1.4 * px;
+      ctx.stroke(this.path(defect.outline));
+    }
+    ctx.strokeStyle = theme.edge;
+    ctx.lineWidth = 1.5 * px;
+    ctx.stroke(path);
+    // Captions, in pixels.
+    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    ctx.font = '600 12px system-ui, sans-serif';
+    ctx.fillStyle = theme.ink;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'alphabetic';
+    const [tx, ty] = view.toScreen(sheet.x + box.left, sheet.y + box.top);
+    if ((box.right - box.left) * view.scale > 60) {
+      ctx.fillText(`${stock.name ?? stock.id}${(stock.count ?? 1) > 1 ? `  ${sheet.copy + 1} / ${stock.count}` : ''}`, tx, ty - 8);
+      if (stock.kind !== 'strip' || stock.grain_deg !== undefined) this.grainMark(ctx, theme, tx + 6, ty + 14, stock.grain_deg ?? 0, 22);
+    }
+    if (scene.show.zones && view.scale > 0.12) {
+      ctx.font = '11px system-ui, sans-serif';
+      ctx.fillStyle = theme.zone;
+      for (const zone of stock.zones ?? []) {
+        const b = zone.outline.polygon.outer[0]!;
+        const [zx, zy] = view.toScreen(sheet.x + Math.max(b[0], box.left), sheet.y + Math.max(b[1], box.bottom));
+        ctx.fillText(`${zone.id} · ${zone.quality}`, zx + 4, zy + 14);
+      }
+      ctx.fillStyle = theme.defect;
+      for (const defect of stock.defects ?? []) {
+        const b = defect.outline.polygon.outer[0]!;
+        const [dx, dy] = view.toScreen(sheet.x + b[0], sheet.y + b[1]);
+        ctx.fillText(`${defect.id} · ${defect.severity ?? 1}`, dx + 4, dy + 14);
+      }
+    }
+  }
+
+  private drawPart(
+    ctx: CanvasRenderingContext2D, scene: Scene, p: Placement, seen: Box, mark: 'bad' | 'near' | null, good = false,
+  ): void {
+    const { model, view, theme } = scene;
+    const sheet = model.sheet(p.stock, p.copy);
+    if (!sheet) return;
+    const part = model.part(p);
+    const shape = this.shape(part);
+    const [cx, cy] = [p.x + sheet.x, p.y + sheet.y];
+    const r = shape.reach + model.gap(p);
+    if (cx + r < seen.left || cx - r > seen.right || cy + r < seen.bottom || cy - r > seen.top) return;
+    const chosen = scene.selection.has(p.id);
+    const px = this.frame(ctx, view, sheet, p);
+    const path = shape.at(px);
+    const small = shape.reach / px < 5;
+    if ((chosen || scene.moving.has(p.id)) && scene.show.gap && model.gap(p) > 0) {
+      ctx.globalAlpha = 0.2;
+      ctx.strokeStyle = mark === 'bad' ? theme.bad : theme.select;
+      ctx.lineJoin = 'round';
+      ctx.lineWidth = 2 * model.gap(p);
+      ctx.stroke(path);
+      ctx.globalAlpha = 1;
+    }
+    ctx.fillStyle = this.colour(part, theme);
+    ctx.fill(path, 'evenodd');
+    if (mark) {
+      const colour = mark === 'bad' ? theme.bad : theme.near;
+      ctx.globalAlpha = 0.25;
+      ctx.fillStyle = colour;
+      ctx.fill(path, 'evenodd');
+      ctx.globalAlpha = 1;
+      if (!small) this.fillHatched(ctx, path, this.hatch(ctx, colour, mark === 'bad' ? 'cross' : 'dots'));
+    }
+    if (!small || chosen || mark) {
+      ctx.strokeStyle = mark === 'bad' ? theme.bad : mark === 'near' ? theme.near : good ? theme.good : chosen ? theme.select
+        : scene.others.has(p.id) ? theme.other : theme.partInk;
+      ctx.lineWidth = (chosen || mark || good || scene.others.has(p.id) ? 2 : 0.8) * px;
+      ctx.stroke(path);
+    }
+    const size = shape.reach / px;
+    if (size < 18) return;
+    const box = scene.moving.has(p.id) ? placedBox(part, p) : model.box(p);
+    const [sx, sy] = view.toScreen(sheet.x + (box.left + box.right) / 2, sheet.y + (box.bottom + box.top) / 2);
+    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    if (scene.show.labels) {
+      ctx.font = size > 40 ? '600 12px system-ui, sans-serif' : '10px system-ui, sans-serif';
+      ctx.textAlign = 'center';
+      ctx.textBaseline = 'middle';
+      ctx.fillStyle = theme.partInk;
+      const text = size > 40 ? part.name ?? part.id : String(p.id);
+      if (ctx.measureText(text).width < (box.right - box.left) * view.scale) {
+        ctx.fillText(text, sx, sy);
+        if (size > 40) {
+          ctx.font = '10px system-ui, sans-serif';
+          ctx.fillText(`${p.id}${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`, sx, sy + 13);
+        }
+      }
+    }
+    if (scene.show.grain && part.grain && size > 26) {
+      const deg = (p.mirrored ? 180 - part.grain.deg : part.grain.deg) + (Math.atan2(p.s, p.c) * 180) / Math.PI;
+      this.grainMark(ctx, theme, sx, sy - 13, deg, Math.min(26, size * 0.5));
+    }
+  }
+
+  private grainMark(ctx: CanvasRenderingContext2D, theme: Theme, x: number, y: number, degrees: number, length: number): void {
+    const a = (-degrees * Math.PI) / 180;
+    const [dx, dy] = [(Math.cos(a) * length) / 2, (Math.sin(a) * length) / 2];
+    ctx.strokeStyle = theme.faint;
+    ctx.lineWidth = 1.2;
+    ctx.beginPath();
+    for (const k of [1, -1]) {
+      const [ex, ey] = [x + k * dx, y + k * dy];
+      ctx.moveTo(x, y);
+      ctx.lineTo(ex, ey);
+      for (const turn of [2.6, -2.6]) {
+        ctx.moveTo(ex, ey);
+        ctx.lineTo(ex + k * Math.cos(a + turn) * 5, ey + k * Math.sin(a + turn) * 5);
+      }
+    }
+    ctx.stroke();
+  }
+
+  private drawViolation(ctx: CanvasRenderingContext2D, scene: Scene, v: Violation): void {
+    const sheet = scene.model.sheet(v.stock, v.copy);
+    if (!sheet) return;
+    const { theme, view } = scene;
+    const [x, y] = view.toScreen(sheet.x + v.at[0], sheet.y + v.at[1]);
+    if (x < -50 || y < -50 || x > view.width + 50 || y > view.height + 50) return;
+    const colour = isGap(v.kind) ? theme.near : theme.bad;
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = 2;
+    ctx.beginPath();
+    if (isGap(v.kind)) ctx.arc(x, y, 6, 0, 7);
+    else {
+      ctx.moveTo(x - 5, y - 5);
+      ctx.lineTo(x + 5, y + 5);
+      ctx.moveTo(x - 5, y + 5);
+      ctx.lineTo(x + 5, y - 5);
+    }
+    ctx.stroke();
+    if (v.amount_mm > 0) this.tag(ctx, theme, `${v.amount_mm.toFixed(3)} mm`, x, y - 16, colour);
+  }
+
+  private drawMeasure(ctx: CanvasRenderingContext2D, scene: Scene, from: Point, to: Point, text: string, colour: string): void {
+    const [x0, y0] = scene.view.toScreen(...from);
+    const [x1, y1] = scene.view.toScreen(...to);
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.moveTo(x0, y0);
+    ctx.lineTo(x1, y1);
+    const d = Math.hypot(x1 - x0, y1 - y0) || 1;
+    const [nx, ny] = [(-(y1 - y0) / d) * 5, ((x1 - x0) / d) * 5];
+    for (const [x, y] of [[x0, y0], [x1, y1]] as const) {
+      ctx.moveTo(x - nx, y - ny);
+      ctx.lineTo(x + nx, y + ny);
+    }
+    ctx.stroke();
+    this.tag(ctx, scene.theme, text, (x0 + x1) / 2, (y0 + y1) / 2 - 14, colour);
+  }
+
+  private drawArrow(ctx: CanvasRenderingContext2D, [x0, y0]: [number, number], [x1, y1]: [number, number], colour: string): void {
+    const a = Math.atan2(y1 - y0, x1 - x0);
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = 2.5;
+    ctx.beginPath();
+    ctx.moveTo(x0, y0);
+    ctx.lineTo(x1, y1);
+    for (const t of [2.6, -2.6]) {
+      ctx.moveTo(x1, y1);
+      ctx.lineTo(x1 + Math.cos(a + t) * 11, y1 + Math.sin(a + t) * 11);
+    }
+    ctx.stroke();
+  }
+
+  private tag(ctx: CanvasRenderingContext2D, theme: Theme, text: string, x: number, y: number, colour: string): void {
+    ctx.font = '600 11px system-ui, sans-serif';
+    ctx.textAlign = 'center';
+    ctx.textBaseline = 'middle';
+    const w = ctx.measureText(text).width + 10;
+    ctx.fillStyle = theme.material;
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    ctx.roundRect(x - w / 2, y - 9, w, 18, 4);
+    ctx.fill();
+    ctx.stroke();
+    ctx.fillStyle = colour;
+    ctx.fillText(text, x, y + 0.5);
+  }
+}
+
+const shifted = (b: Box, s: Sheet): Box => ({ left: b.left + s.x, right: b.right + s.x, bottom: b.bottom + s.y, top: b.top + s.y });

@@ -1,0 +1,179 @@
+// The state of the page, and what a gesture does to it. Drawing and panels look at it and are told when it changes.
+
+import type { LayoutDocument, Placement, Violation } from './document';
+import { snapToGrid } from './grid';
+import { UNKNOWN, type Kernel, type LiveState, type Mode } from './kernel_api';
+import { Model, type Change } from './model';
+import type { Client, Connection } from './socket';
+import { t } from './i18n';
+
+export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan';
+export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show';
+
+export class Editor {
+  model = new Model({ format: 'lekalo-layout/1', units: 'mm' });
+  name = '';
+  layoutId = 0;
+  client: Client | null = null;
+  connection: Connection = 'connecting';
+  mode: Mode = 'strict';
+  tool: Tool = 'select';
+  selection = new Set<number>();
+  others = new Map<number, readonly number[]>();
+  violations: Violation[] | null = null;
+  moving = new Map<number, Placement>();
+  live: LiveState | null = null;
+  rotateStep = 15;
+  show = { labels: true, grain: true, gap: true, zones: true };
+  message = '';
+  pending = 0;
+  private listeners: ((topic: Topic) => void)[] = [];
+  private asking = false;
+  private next: { text: string } | null = null;
+  private held: symbol | null = null;
+
+  constructor(public kernel: Kernel) {}
+
+  on(listener: (topic: Topic) => void): void {
+    this.listeners.push(listener);
+  }
+  tell(topic: Topic): void {
+    for (const listener of this.listeners) listener(topic);
+  }
+  say(text: string): void {
+    this.message = text;
+    this.tell('message');
+  }
+
+  open(document: LayoutDocument, name: string): void {
+    this.model = new Model(document);
+    this.name = name;
+    this.selection = new Set([...this.selection].filter((id) => this.model.placements.has(id)));
+    this.release();
+    try {
+      this.kernel.open(document);
+      this.violations = this.kernel.check();
+    } catch (error) {
+      this.violations = null;
+      this.say(error instanceof Error ? error.message : String(error));
+    }
+    this.tell('layout');
+  }
+
+  apply(changes: readonly Change[], nextId: number): void {
+    this.model.apply(changes, nextId);
+    this.kernel.apply(changes, nextId);
+    this.violations = this.kernel.check();
+    for (const { id, after } of changes) if (!after) this.selection.delete(id);
+    this.tell('layout');
+  }
+
+  select(ids: Iterable<number>): void {
+    this.selection = new Set(ids);
+    this.client?.select([...this.selection]);
+    this.tell('selection');
+  }
+
+  setMode(mode: Mode): void {
+    this.mode = mode;
+    this.tell('mode');
+  }
+  setTool(tool: Tool): void {
+    this.tool = tool;
+    this.tell('mode');
+  }
+
+  /// Those of the selection that a command may take: ascending.
+  chosen(): number[] {
+    return [...this.selection].sort((a, b) => a - b);
+  }
+  placementsOf(ids: Iterable<number>): Placement[] {
+    return [...ids].map((id) => this.model.placements.get(id)).filter((p): p is Placement => p !== undefined);
+  }
+
+  /// Shows placements in hand and finds out what is to be said about them. \p text: the command that would do it.
+  hold(placements: readonly Placement[], text: string): void {
+    this.moving = new Map(placements.map((p) => [p.id, p]));
+    if (this.kernel.immediate) {
+      try {
+        this.live = this.kernel.state(placements, text, 50) as LiveState;
+      } catch (error) {
+        this.live = UNKNOWN;
+        this.say(error instanceof Error ? error.message : String(error));
+      }
+    } else {
+      this.live = UNKNOWN;
+      this.next = { text };
+      void this.askLater();
+    }
+    this.tell('moving');
+  }
+
+  /// One question under way at a time; an answer to an older place than the shown one says nothing.
+  private async askLater(): Promise<void> {
+    if (this.asking) return;
+    this.asking = true;
+    while (this.next) {
+      const { text } = this.next;
+      this.next = null;
+      const state = await this.kernel.state([...this.moving.values()], text, 50);
+      if (!this.next && this.moving.size > 0) {
+        this.live = state;
+        this.tell('moving');
+      }
+    }
+    this.asking = false;
+  }
+
+  release(): void {
+    this.held = null;
+    this.next = null;
+    this.moving = new Map();
+    this.live = null;
+    this.tell('moving');
+  }
+
+  /// Sends a command; what is in hand stays shown where it is until the server has decided.
+  async command(text: string): Promise<boolean> {
+    return this.ask({ type: 'command', mode: this.mode, text });
+  }
+  undo(): Promise<boolean> {
+    return this.ask({ type: 'undo' });
+  }
+  redo(): Promise<boolean> {
+    return this.ask({ type: 'redo' });
+  }
+
+  private async ask(gesture: { type: 'command' | 'undo' | 'redo'; mode?: Mode; text?: string }): Promise<boolean> {
+    if (!this.client) return false;
+    const held = (this.held = Symbol());
+    const before = new Set(this.model.placements.keys());
+    this.pending += 1;
+    this.tell('connection');
+    const answer = await this.client.ask(gesture);
+    this.pending -= 1;
+    if (answer.type === 'refused') {
+      this.say(answer.message);
+      const first = answer.violations?.[0];
+      if (first && first.b !== null && this.model.placements.has(first.b)) this.others.set(-1, [first.b]);
+    } else if (answer.type === 'lost') {
+      this.say(t('lost.gesture'));
+    } else {
+      this.say(answer.type === 'done' && answer.nothing ? t('nothing.moved') : '');
+      this.others.delete(-1);
+      // The change that is done comes right after the answer.
+      await new Promise((resolve) => setTimeout(resolve, 0));
+      const fresh = [...this.model.placements.keys()].filter((id) => !before.has(id));
+      if (fresh.length > 0 && gesture.type === 'command') this.select(fresh);
+    }
+    if (this.held === held) this.release();
+    this.tell('connection');
+    return answer.type === 'done';
+  }
+}
+
+/// Placements moved by a vector on the grid, to another sheet where one is named.
+export function movedBy(placements: readonly Placement[], dx: number, dy: number, to?: { stock: string; copy: number }): Placement[] {
+  const [x, y] = [snapToGrid(dx), snapToGrid(dy)];
+  return placements.map((p) => ({ ...p, x: p.x + x, y: p.y + y, ...(to ?? {}) }));
+}

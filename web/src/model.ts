@@ -1,0 +1,177 @@
+// The layout as the page holds it: the document, its placements by id, where every sheet is drawn.
+
+import type { LayoutDocument, Part, Placement, Point, Stock } from './document';
+import { mmFromSteps, placedVertex, rotationFromPair, stepsFromMm } from './grid';
+
+export interface Box { left: number; bottom: number; right: number; top: number }
+export interface Change { id: number; after: Placement | null }
+/// A copy of a stock and where its frame's origin stands in the picture, mm.
+export interface Sheet { stock: Stock; copy: number; x: number; y: number; box: Box }
+/// What a kit or a part still lacks. `mirrored` absent: either hand.
+export interface Missing { part: string; count: number; mirrored?: boolean }
+export interface KitState { id: string; name: string; wanted: number; complete: number; missing: Missing[] }
+
+export function boxOf(points: Iterable<Point>): Box {
+  const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
+  for (const [x, y] of points) {
+    box.left = Math.min(box.left, x);
+    box.right = Math.max(box.right, x);
+    box.bottom = Math.min(box.bottom, y);
+    box.top = Math.max(box.top, y);
+  }
+  return box;
+}
+export const boxesMeet = (a: Box, b: Box): boolean =>
+  a.left <= b.right && b.left <= a.right && a.bottom <= b.top && b.bottom <= a.top;
+export const sheetKey = (stock: string, copy: number): string => `${copy} ${stock}`;
+
+/// Loops of a placed part by rule 4, mm, exact: steps below 2^40 are whole doubles.
+export function placedLoops(part: Part, p: Placement): Point[][] {
+  const rotation = rotationFromPair(p.c, p.s);
+  const tx = stepsFromMm(p.x);
+  const ty = stepsFromMm(p.y);
+  const { outer, holes = [] } = part.outline.polygon;
+  return [outer, ...holes].map((loop) => loop.map(([x, y]) => {
+    const [sx, sy] = placedVertex(stepsFromMm(x), stepsFromMm(y), rotation, tx, ty, p.mirrored ?? false);
+    return [mmFromSteps(sx), mmFromSteps(sy)];
+  }));
+}
+
+/// Box of a placed part in doubles: for drawing and culling, never for a decision.
+export function placedBox(part: Part, p: Placement): Box {
+  const flip = p.mirrored ? -1 : 1;
+  return boxOf(part.outline.polygon.outer.map(([x, y]): Point => [
+    p.c * flip * x - p.s * y + p.x, p.s * flip * x + p.c * y + p.y]));
+}
+
+/// Even-odd rule in doubles: for picking with the mouse.
+export function contains(loops: readonly Point[][], x: number, y: number): boolean {
+  let inside = false;
+  for (const loop of loops) {
+    for (let i = 0, j = loop.length - 1; i < loop.length; j = i++) {
+      const [ax, ay] = loop[i]!;
+      const [bx, by] = loop[j]!;
+      if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+export class Model {
+  readonly parts = new Map<string, Part>();
+  readonly stocks = new Map<string, Stock>();
+  readonly placements = new Map<number, Placement>();
+  sheets: Sheet[] = [];
+  nextId: number;
+  private readonly boxes = new Map<number, { of: Placement; box: Box }>();
+  private sheetOf = new Map<string, Sheet>();
+
+  constructor(readonly document: LayoutDocument) {
+    for (const part of document.parts ?? []) this.parts.set(part.id, part);
+    for (const stock of document.stocks ?? []) this.stocks.set(stock.id, stock);
+    for (const p of document.placements ?? []) this.placements.set(p.id, p);
+    this.nextId = document.next_id ?? Math.max(0, ...[...this.placements.keys()]) + 1;
+    this.arrangeSheets();
+  }
+
+  part(p: Placement): Part {
+    const part = this.parts.get(p.part);
+    if (!part) throw new Error(`placement ${p.id}: no part "${p.part}"`);
+    return part;
+  }
+
+  /// Box in the frame of the placement's sheet.
+  box(p: Placement): Box {
+    const known = this.boxes.get(p.id);
+    if (known?.of === p) return known.box;
+    const box = placedBox(this.part(p), p);
+    if (this.placements.get(p.id) === p) this.boxes.set(p.id, { of: p, box });
+    return box;
+  }
+
+  gap(p: Placement): number {
+    return this.part(p).gap ?? this.document.rules?.gap ?? 0;
+  }
+
+  sheet(stock: string, copy = 0): Sheet | undefined {
+    return this.sheetOf.get(sheetKey(stock, copy));
+  }
+
+  sheetAt(x: number, y: number): Sheet | undefined {
+    return this.sheets.find((s) =>
+      x >= s.x + s.box.left && x <= s.x + s.box.right && y >= s.y + s.box.bottom && y <= s.y + s.box.top);
+  }
+
+  apply(changes: readonly Change[], nextId?: number): void {
+    let sheets = false;
+    for (const { id, after } of changes) {
+      const before = this.placements.get(id);
+      if (after) this.placements.set(id, after);
+      else this.placements.delete(id);
+      this.boxes.delete(id);
+      if (before?.stock !== after?.stock || before?.copy !== after?.copy ||
+          this.stocks.get(after?.stock ?? '')?.kind === 'strip') sheets = true;
+    }
+    if (nextId !== undefined) this.nextId = nextId;
+    if (sheets) this.arrangeSheets();
+  }
+
+  /// Sheets in use, and one empty copy of each stock that has one left; side by side, left to right.
+  private arrangeSheets(): void {
+    const used = new Map<string, number>();
+    const reach = new Map<string, number>();
+    for (const p of this.placements.values()) {
+      used.set(p.stock, Math.max(used.get(p.stock) ?? -1, p.copy ?? 0));
+      if (this.stocks.get(p.stock)?.kind === 'strip') {
+        reach.set(p.stock, Math.max(reach.get(p.stock) ?? 0, this.box(p).right));
+      }
+    }
+    this.sheets = [];
+    this.sheetOf = new Map();
+    let x = 0;
+    for (const stock of this.stocks.values()) {
+      const last = Math.max(used.get(stock.id) ?? -1, Math.min((stock.count ?? 1) - 1, (used.get(stock.id) ?? -1) + 1));
+      for (let copy = 0; copy <= last; ++copy) {
+        const box = stock.outline
+          ? boxOf(stock.outline.polygon.outer)
+          : { left: 0, bottom: 0, top: stock.height ?? 1,
+              right: stock.length ?? Math.max(stock.height ?? 1, (reach.get(stock.id) ?? 0) * 1.1) };
+        const sheet = { stock, copy, x: x - box.left, y: -box.bottom, box };
+        this.sheets.push(sheet);
+        this.sheetOf.set(sheetKey(stock.id, copy), sheet);
+        x += (box.right - box.left) * 1.04 + 20;
+      }
+    }
+  }
+
+  /// How many of a part lie on sheets: upright and mirrored.
+  counts(): Map<string, { upright: number; mirrored: number }> {
+    const counts = new Map<string, { upright: number; mirrored: number }>();
+    for (const id of this.parts.keys()) counts.set(id, { upright: 0, mirrored: 0 });
+    for (const p of this.placements.values()) {
+      const count = counts.get(p.part);
+      if (count) count[p.mirrored ? 'mirrored' : 'upright'] += 1;
+    }
+    return counts;
+  }
+
+  /// How many of a part are wanted: by itself and in kits.
+  wanted(part: string): number {
+    let sum = this.parts.get(part)?.demand ?? 0;
+    for (const kit of this.document.kits ?? []) {
+      for (const piece of kit.pieces) if (piece.part === part) sum += (piece.count ?? 1) * (kit.demand ?? 1);
+    }
+    return sum;
+  }
+
+  extent(): Box {
+    const box = { left: 0, bottom: 0, right: 1, top: 1 };
+    for (const s of this.sheets) {
+      box.left = Math.min(box.left, s.x + s.box.left);
+      box.right = Math.max(box.right, s.x + s.box.right);
+      box.bottom = Math.min(box.bottom, s.y + s.box.bottom);
+      box.top = Math.max(box.top, s.y + s.box.top);
+    }
+    return box;
+  }
+}

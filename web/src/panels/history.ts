@@ -1,0 +1,27 @@
+// Every change there was; any state can be made the newest one again.
+
+import type { Editor } from '../editor';
+import { h } from '../elements';
+import { t } from '../i18n';
+
+interface Entry { revision: number; at: string; author: string | number; text: string; undone: boolean }
+
+export function history(editor: Editor): HTMLElement {
+  const list = h('ol', { class: 'list', reversed: true });
+  void (async () => {
+    const answer = await fetch(`/api/layouts/${editor.layoutId}/history`);
+    const body = (await answer.json()) as { entries?: Entry[]; error?: string };
+    if (!answer.ok) return editor.say(body.error ?? String(answer.status));
+    for (const e of [...(body.entries ?? [])].sort((a, b) => b.revision - a.revision)) {
+      list.append(h('li', { 'data-id': `revision-${e.revision}`, class: e.undone ? 'undone' : '' }, h('div', { class: 'row' },
+        h('b', {}, String(e.revision)), h('span', { title: e.at }, e.text, e.undone ? ` (${t('history.undone')})` : ''),
+        h('button', { class: 'small', click: () => void restore(editor, e.revision) }, t('history.restore')))));
+    }
+  })().catch((error: unknown) => editor.say(String(error)));
+  return list;
+}
+
+async function restore(editor: Editor, revision: number): Promise<void> {
+  const answer = await fetch(`/api/layouts/${editor.layoutId}/restore?revision=${revision}`, { method: 'POST' });
+  if (!answer.ok) editor.say(((await answer.json()) as { error?: string }).error ?? String(answer.status));
+}

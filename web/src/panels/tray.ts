@@ -1,0 +1,52 @@
+// Parts still to place: a thumbnail, how many are left, a button that puts one where it fits.
+
+import * as line from '../commands';
+import type { Part } from '../document';
+import type { Editor } from '../editor';
+import { h } from '../elements';
+import { t } from '../i18n';
+import { boxOf } from '../model';
+
+function thumbnail(part: Part, colour: string): SVGSVGElement {
+  const ns = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(ns, 'svg');
+  const { outer, holes = [] } = part.outline.polygon;
+  const b = boxOf(outer);
+  const size = Math.max(b.right - b.left, b.top - b.bottom);
+  const m = size * 0.06;
+  svg.setAttribute('viewBox', `${(b.left + b.right - size) / 2 - m} ${-(b.top + b.bottom + size) / 2 - m} ${size + 2 * m} ${size + 2 * m}`);
+  svg.setAttribute('aria-hidden', 'true');
+  const path = document.createElementNS(ns, 'path');
+  path.setAttribute('d', [outer, ...holes].map((l) => `M${l.map(([x, y]) => `${x} ${-y}`).join('L')}Z`).join(''));
+  path.setAttribute('fill', colour);
+  path.setAttribute('fill-rule', 'evenodd');
+  path.setAttribute('stroke', 'currentColor');
+  path.setAttribute('stroke-width', String(size * 0.012));
+  svg.append(path);
+  return svg;
+}
+
+export function tray(editor: Editor, colour: (part: Part) => string): HTMLElement {
+  const counts = editor.model.counts();
+  const sheet = () => {
+    const first = editor.placementsOf(editor.chosen())[0];
+    return (first && editor.model.sheet(first.stock, first.copy)) ?? editor.model.sheets[0];
+  };
+  const put = (part: Part, hand?: 'upright' | 'mirrored') => {
+    const to = sheet();
+    if (to) void editor.command(line.fit(part.id, to, hand));
+  };
+  return h('ul', { class: 'tray' }, ...[...editor.model.parts.values()].map((part) => {
+    const n = counts.get(part.id)!;
+    const placed = n.upright + n.mirrored;
+    const wanted = editor.model.wanted(part.id);
+    const left = wanted - placed;
+    return h('li', { 'data-id': `part-${part.id}`, class: left > 0 ? 'open' : 'full' },
+      h('button', { class: 'piece', title: t('tray.fit'), click: () => put(part, part.mirror ? 'upright' : undefined) },
+        thumbnail(part, colour(part)),
+        h('span', { class: 'grow' }, h('b', {}, part.name ?? part.id),
+          h('small', {}, wanted === 0 ? t('tray.any', { n: placed }) : left > 0 ? t('tray.left', { n: left }) : t('tray.done'))),
+        h('span', { class: 'count' }, wanted ? `${placed}/${wanted}` : String(placed))),
+      part.mirror ? h('button', { class: 'icon', title: t('tray.fit.mirrored'), 'aria-label': t('tray.fit.mirrored'), click: () => put(part, 'mirrored') }, '⇋') : null);
+  }));
+}

@@ -1,0 +1,26 @@
+// The check while the WebAssembly kernel is not there: the server's preview, one question at a time.
+
+import type { LayoutDocument, Placement } from './document';
+import { isGap } from './document';
+import { UNKNOWN, type Kernel, type LiveState } from './kernel_api';
+import type { Change } from './model';
+import type { Client } from './socket';
+
+export class ServerKernel implements Kernel {
+  readonly immediate = false;
+  constructor(private readonly client: () => Client | null) {}
+  open(_document: LayoutDocument): void {}
+  apply(_changes: readonly Change[], _nextId: number): void {}
+  check(): null {
+    return null;
+  }
+  async state(_placements: readonly Placement[], text: string): Promise<LiveState> {
+    const client = this.client();
+    if (!client) return UNKNOWN;
+    const answer = await client.ask({ type: 'preview', mode: 'free', text });
+    if (answer.type !== 'preview') return UNKNOWN;
+    const violations = answer.violations;
+    const level = violations.length === 0 ? 'clear' : violations.every((v) => isGap(v.kind)) ? 'gap' : 'forbidden';
+    return { level, violations, nearest: null };
+  }
+}

@@ -1,0 +1,50 @@
+// The right-hand side: one of its panels at a time.
+
+import type { Violation } from './document';
+import type { Editor } from './editor';
+import { h } from './elements';
+import { t, type Key } from './i18n';
+import type { Sheet } from './model';
+import { partRows } from './panels/find';
+import { history } from './panels/history';
+import { kits } from './panels/kits';
+import { violations } from './panels/violations';
+
+export type Side = 'violations' | 'parts' | 'kits' | 'sheets' | 'history';
+const LABELS: Record<Side, Key> = { violations: 'violations', parts: 'find', kits: 'kits', sheets: 'sheets', history: 'history' };
+
+export interface SideEvents {
+  choose(side: Side): void;
+  violation(v: Violation): void;
+  part(id: number): void;
+  sheet(sheet: Sheet): void;
+}
+
+export function showSidePanel(into: HTMLElement, editor: Editor, side: Side, word: string, events: SideEvents): void {
+  const broken = editor.violations?.length ?? 0;
+  const tabs = h('div', { class: 'tabs', role: 'tablist' }, ...(Object.keys(LABELS) as Side[]).map((s) =>
+    h('button', { role: 'tab', 'aria-selected': String(s === side), 'data-action': `side.${s}`, click: () => events.choose(s) }, t(LABELS[s]),
+      s === 'violations' && broken > 0 ? h('span', { class: 'badge' }, String(broken)) : null)));
+  const body = h('div', { class: 'body', role: 'tabpanel' });
+  if (side === 'violations') body.append(violations(editor, (v) => events.violation(v)));
+  if (side === 'kits') body.append(kits(editor));
+  if (side === 'history') body.append(history(editor));
+  if (side === 'sheets') body.append(sheets(editor, events));
+  if (side === 'parts') {
+    const rows = h('div', {}, partRows(editor, word, (id) => events.part(id)));
+    body.append(h('input', { type: 'search', value: word, placeholder: t('find'), 'aria-label': t('find'), style: 'margin: 4px 10px; width: calc(100% - 20px)',
+      input: (e) => rows.replaceChildren(partRows(editor, (e.target as HTMLInputElement).value, (id) => events.part(id))) }), rows);
+  }
+  into.replaceChildren(tabs, body);
+}
+
+function sheets(editor: Editor, events: SideEvents): HTMLElement {
+  const counts = new Map<Sheet, number>();
+  for (const p of editor.model.placements.values()) {
+    const sheet = editor.model.sheet(p.stock, p.copy);
+    if (sheet) counts.set(sheet, (counts.get(sheet) ?? 0) + 1);
+  }
+  return h('ul', { class: 'list' }, ...editor.model.sheets.map((s) => h('li', { 'data-id': `sheet-${s.stock.id}-${s.copy}` },
+    h('button', { click: () => events.sheet(s) }, h('b', {}, String(s.copy + 1)), h('span', {}, s.stock.name ?? s.stock.id),
+      h('small', {}, t('sheets.parts', { n: counts.get(s) ?? 0 }))))));
+}

@@ -1,0 +1,164 @@
+// The client's side of docs/protocol.md. Knows messages and order, nothing of drawing.
+
+import type { LayoutDocument, Placement, Violation } from './document';
+import type { Mode } from './kernel_api';
+import type { Change } from './model';
+
+export interface LayoutMessage { type: 'layout'; client: number; revision: number; name: string; document: LayoutDocument }
+export interface ChangeMessage {
+  type: 'change'; revision: number; client: number; text: string; kind: 'command' | 'undo' | 'redo' | 'restore';
+  placements: Change[]; next_id: number;
+}
+export interface Refusal { message: string; violations: Violation[] }
+export type Answer =
+  | { type: 'done'; seq: number; revision: number; nothing?: boolean }
+  | ({ type: 'refused'; seq: number } & Refusal)
+  | { type: 'preview'; seq: number; placements: Change[]; violations: Violation[] }
+  | { type: 'lost' };
+export type Connection = 'connecting' | 'open' | 'lost' | 'stopped';
+
+export interface SocketEvents {
+  layout(message: LayoutMessage): void;
+  change(message: ChangeMessage): void;
+  selections(clients: { client: number; ids: number[] }[]): void;
+  error(message: string): void;
+  connection(state: Connection): void;
+}
+/// What this client uses of a WebSocket: tests bring their own.
+export interface Wire {
+  send(text: string): void;
+  close(): void;
+  onopen: (() => void) | null;
+  onmessage: ((event: { data: unknown }) => void) | null;
+  onclose: (() => void) | null;
+}
+interface Gesture { type: 'command' | 'preview' | 'undo' | 'redo'; mode?: Mode; text?: string }
+
+export class Client {
+  revision = -1;
+  id = 0;
+  private wire: Wire | null = null;
+  private seq = 0;
+  private readonly waiting = new Map<number, (answer: Answer) => void>();
+  private retries = 0;
+  private timer: ReturnType<typeof setTimeout> | null = null;
+  private ended = false;
+
+  constructor(private readonly connect: () => Wire, private readonly events: SocketEvents) {}
+
+  start(): void {
+    this.ended = false;
+    this.events.connection('connecting');
+    const wire = (this.wire = this.connect());
+    wire.onopen = () => undefined;
+    wire.onmessage = (event) => {
+      if (this.wire === wire) this.take(String(event.data));
+    };
+    wire.onclose = () => {
+      if (this.wire === wire) this.lose();
+    };
+  }
+
+  stop(): void {
+    this.ended = true;
+    if (this.timer) clearTimeout(this.timer);
+    const wire = this.wire;
+    this.wire = null;
+    wire?.close();
+    this.answerAllLost();
+  }
+
+  get connected(): boolean {
+    return this.wire !== null && this.revision >= 0;
+  }
+
+  /// Always answers: with 'lost' where the connection broke before the server said what became of it.
+  ask(gesture: Gesture): Promise<Answer> {
+    if (!this.wire || this.revision < 0) return Promise.resolve({ type: 'lost' });
+    const seq = ++this.seq;
+    return new Promise((resolve) => {
+      this.waiting.set(seq, resolve);
+      this.wire!.send(JSON.stringify({ ...gesture, seq }));
+    });
+  }
+
+  select(ids: readonly number[]): void {
+    if (this.connected) this.wire!.send(JSON.stringify({ type: 'select', ids }));
+  }
+
+  private take(text: string): void {
+    let message: { type: string; [key: string]: unknown };
+    try {
+      message = JSON.parse(text);
+    } catch {
+      this.events.error('The server sent something that is no message.');
+      return;
+    }
+    switch (message.type) {
+      case 'layout': {
+        const layout = message as unknown as LayoutMessage;
+        this.revision = layout.revision;
+        this.id = layout.client;
+        this.retries = 0;
+        this.events.layout(layout);
+        this.events.connection('open');
+        break;
+      }
+      case 'change': {
+        const change = message as unknown as ChangeMessage;
+        if (change.revision <= this.revision) break;
+        if (change.revision !== this.revision + 1) {
+          this.resync();
+          break;
+        }
+        this.revision = change.revision;
+        this.events.change(change);
+        break;
+      }
+      case 'done':
+      case 'refused':
+      case 'preview': {
+        const answer = message as unknown as Exclude<Answer, { type: 'lost' }>;
+        const resolve = this.waiting.get(answer.seq);
+        this.waiting.delete(answer.seq);
+        resolve?.(answer);
+        break;
+      }
+      case 'selections':
+        this.events.selections((message.clients as { client: number; ids: number[] }[]).filter((c) => c.client !== this.id));
+        break;
+      case 'error':
+        this.events.error(String(message.message));
+        break;
+      case 'bye':
+        this.events.error(String(message.message));
+        this.events.connection('stopped');
+        break;
+    }
+  }
+
+  /// A revision is missing: everything anew.
+  private resync(): void {
+    const wire = this.wire;
+    this.wire = null;
+    wire?.close();
+    this.lose();
+  }
+
+  private lose(): void {
+    this.wire = null;
+    this.revision = -1;
+    this.answerAllLost();
+    if (this.ended) return;
+    this.events.connection('lost');
+    this.timer = setTimeout(() => this.start(), Math.min(10_000, 250 * 2 ** this.retries++));
+  }
+
+  private answerAllLost(): void {
+    const waiting = [...this.waiting.values()];
+    this.waiting.clear();
+    for (const resolve of waiting) resolve({ type: 'lost' });
+  }
+}
+
+export const changesOf = (placements: readonly Placement[]): Change[] => placements.map((after) => ({ id: after.id, after }));

@@ -1,0 +1,43 @@
+// From millimetres (y up) to pixels of the page (y down).
+
+import type { Box } from './model';
+
+export class View {
+  /// Pixels a millimetre.
+  scale = 1;
+  /// Where the picture's origin is, pixels.
+  x = 0;
+  y = 0;
+  width = 1;
+  height = 1;
+
+  toScreen(x: number, y: number): [number, number] {
+    return [this.x + x * this.scale, this.y - y * this.scale];
+  }
+  toWorld(x: number, y: number): [number, number] {
+    return [(x - this.x) / this.scale, (this.y - y) / this.scale];
+  }
+  pan(dx: number, dy: number): void {
+    this.x += dx;
+    this.y += dy;
+  }
+  /// Keeps what is under the cursor there.
+  zoomAt(x: number, y: number, factor: number): void {
+    const [wx, wy] = this.toWorld(x, y);
+    this.scale = Math.min(2000, Math.max(1e-4, this.scale * factor));
+    this.x = x - wx * this.scale;
+    this.y = y + wy * this.scale;
+  }
+  fit(box: Box, margin = 28): void {
+    const w = Math.max(box.right - box.left, 1e-6);
+    const h = Math.max(box.top - box.bottom, 1e-6);
+    this.scale = Math.max(1e-4, Math.min((this.width - 2 * margin) / w, (this.height - 2 * margin) / h));
+    this.x = (this.width - (box.left + box.right) * this.scale) / 2;
+    this.y = (this.height + (box.bottom + box.top) * this.scale) / 2;
+  }
+  visible(): Box {
+    const [left, top] = this.toWorld(0, 0);
+    const [right, bottom] = this.toWorld(this.width, this.height);
+    return { left, bottom, right, top };
+  }
+}
