@@ -79,8 +79,6 @@ export class Picture {
   private patterns = new Map<string, CanvasPattern>();
   private of: Model | null = null;
   private ratio = 1;
-  /// Milliseconds of work for the last full frame.
-  lastFrame = 0;
 
   constructor(base: HTMLCanvasElement, top: HTMLCanvasElement) {
     this.base = base.getContext('2d', { alpha: false })!;
@@ -102,7 +100,8 @@ export class Picture {
     return `hsl(${hue} ${theme.partSat}% ${theme.partLight}%)`;
   }
 
-  private take(model: Model): void {
+  /// Colours of its parts from now on.
+  take(model: Model): void {
     if (this.of === model) return;
     this.of = model;
     this.shapes = new Map();
@@ -176,7 +175,6 @@ export class Picture {
   }
 
   drawBase(scene: Scene): void {
-    const begin = performance.now();
     const { model, view, theme } = scene;
     this.take(model);
     const ctx = this.base;
@@ -197,7 +195,6 @@ export class Picture {
     }
     ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     for (const v of scene.violations) if (!scene.moving.has(v.a) && !(v.b !== null && scene.moving.has(v.b))) this.drawViolation(ctx, scene, v);
-    this.lastFrame = performance.now() - begin;
   }
 
   drawTop(scene: Scene): void {
@@ -207,6 +204,12 @@ export class Picture {
     ctx.clearRect(0, 0, ctx.canvas.width, ctx.canvas.height);
     const seen = view.visible();
     const level = scene.live?.level;
+    for (const v of scene.live?.violations ?? []) {
+      for (const id of [v.a, v.b]) {
+        const met = id === null || scene.moving.has(id) ? undefined : scene.model.placements.get(id);
+        if (met) this.drawPart(ctx, scene, met, seen, isGap(v.kind) ? 'near' : 'bad');
+      }
+    }
     for (const p of scene.moving.values()) {
       this.drawPart(ctx, scene, p, seen, level === 'forbidden' ? 'bad' : level === 'gap' ? 'near' : null, level === 'clear');
     }

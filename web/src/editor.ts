@@ -10,6 +10,9 @@ import { t } from './i18n';
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan';
 export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show';
 
+/// How far the nearest-distance line looks, mm.
+const REACH = 50;
+
 export class Editor {
   model = new Model({ format: 'lekalo-layout/1', units: 'mm' });
   name = '';
@@ -31,6 +34,7 @@ export class Editor {
   private asking = false;
   private next: { text: string } | null = null;
   private held: symbol | null = null;
+  private resting: ReturnType<typeof setTimeout> | null = null;
 
   constructor(public kernel: Kernel) {}
 
@@ -96,7 +100,7 @@ export class Editor {
     this.moving = new Map(placements.map((p) => [p.id, p]));
     if (this.kernel.immediate) {
       try {
-        this.live = this.kernel.state(placements, text, 50) as LiveState;
+        this.live = this.kernel.state(placements, text, REACH, false) as LiveState;
       } catch (error) {
         this.live = UNKNOWN;
         this.say(error instanceof Error ? error.message : String(error));
@@ -106,6 +110,15 @@ export class Editor {
       this.next = { text };
       void this.askLater();
     }
+    if (this.resting) clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.deepen(), 40);
+    this.tell('moving');
+  }
+
+  /// When the hand rests: how deep what is in hand overlaps.
+  deepen(): void {
+    if (!this.kernel.immediate || this.moving.size === 0 || this.live?.level !== 'forbidden') return;
+    this.live = this.kernel.state([...this.moving.values()], '', REACH, true) as LiveState;
     this.tell('moving');
   }
 
@@ -116,7 +129,7 @@ export class Editor {
     while (this.next) {
       const { text } = this.next;
       this.next = null;
-      const state = await this.kernel.state([...this.moving.values()], text, 50);
+      const state = await this.kernel.state([...this.moving.values()], text, REACH, true);
       if (!this.next && this.moving.size > 0) {
         this.live = state;
         this.tell('moving');
@@ -126,6 +139,7 @@ export class Editor {
   }
 
   release(): void {
+    if (this.resting) clearTimeout(this.resting);
     this.held = null;
     this.next = null;
     this.moving = new Map();
@@ -161,8 +175,6 @@ export class Editor {
     } else {
       this.say(answer.type === 'done' && answer.nothing ? t('nothing.moved') : '');
       this.others.delete(-1);
-      // The change that is done comes right after the answer.
-      await new Promise((resolve) => setTimeout(resolve, 0));
       const fresh = [...this.model.placements.keys()].filter((id) => !before.has(id));
       if (fresh.length > 0 && gesture.type === 'command') this.select(fresh);
     }

@@ -17,7 +17,8 @@ export interface Kernel {
   apply(changes: readonly Change[], nextId: number): void;
   /// What would be so if these placements stood instead of those with their ids. \p text: the command that
   /// would bring it about.
-  state(placements: readonly Placement[], text: string, reach: number): LiveState | Promise<LiveState>;
+  /// \p depths: how deep overlaps are, too; at each move of the pointer that would take too long.
+  state(placements: readonly Placement[], text: string, reach: number, depths: boolean): LiveState | Promise<LiveState>;
   /// Every violation of the layout; null: not known here.
   check(): Violation[] | null;
 }

@@ -2,8 +2,9 @@
 
 import { DARK, LIGHT, Picture, type Scene } from './draw';
 import type { Violation } from './document';
-import { Editor, type Tool } from './editor';
+import { Editor, movedBy, type Tool } from './editor';
 import { h } from './elements';
+import { icon } from './icons';
 import { currentLanguage, setLanguage, t, type Key, type Language } from './i18n';
 import { showSidePanel, type Side } from './sides';
 import { Client, type Wire } from './socket';
@@ -74,11 +75,11 @@ function frame(): void {
   drawing.drawTop(shown);
 }
 
-function button(label: Key, sign: string, run: () => void, pressed?: boolean): HTMLButtonElement {
-  return h('button', { class: 'icon', title: t(label), 'aria-label': t(label), 'aria-pressed': pressed === undefined ? undefined : String(pressed), 'data-action': label, click: run }, sign);
+function button(label: Key, run: () => void, pressed?: boolean): HTMLButtonElement {
+  return h('button', { class: 'icon', title: t(label), 'aria-label': t(label), 'aria-pressed': pressed === undefined ? undefined : String(pressed), 'data-action': label, click: run }, icon(label));
 }
-const action = (name: Action, sign: string): HTMLButtonElement => button(name, sign, () => void act(editor, name));
-const tool = (name: Tool, sign: string): HTMLButtonElement => button(`tool.${name}` as Key, sign, () => editor.setTool(name), editor.tool === name);
+const action = (name: Action): HTMLButtonElement => button(name, () => void act(editor, name));
+const tool = (name: Tool): HTMLButtonElement => button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name);
 const space = (): HTMLElement => h('span', { class: 'gap' });
 
 function showBar(): void {
@@ -95,20 +96,20 @@ function showBar(): void {
     if (value > 0 && value <= 180) editor.rotateStep = value;
   } });
   bar.replaceChildren(
-    h('span', { class: 'brand' }, 'lekalo'), layouts, button('open.file', '＋', () => file.click()), file, button('copy.layout', '⎘', () => void copyLayout()),
+    h('span', { class: 'brand' }, 'lekalo'), layouts, button('open.file', () => file.click()), file, button('copy.layout', () => void copyLayout()),
     space(), h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...(['strict', 'free'] as const).map((m) =>
       h('button', { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) }, t(m)))),
-    space(), action('undo', '↶'), action('redo', '↷'),
-    space(), tool('select', '⬚'), tool('slide', '➹'), tool('push', '⇉'), tool('nearest', '◎'), tool('measure', '⟷'), tool('pan', '✥'),
-    space(), action('rotate.left', '⟲'), step, action('rotate.right', '⟳'), action('flip', '⇋'),
-    space(), action('slide.left', '⇤'), action('slide.right', '⇥'), action('slide.up', '⤒'), action('slide.down', '⤓'), action('settle', '◣'), action('snap', '∥'), action('compact', '⧈'),
-    space(), action('lock', '🔒'), action('swap', '⇄'), action('copy', '❐'), action('remove', '✕'),
-    space(), button('fit', '⛶', fitAll), ...(['labels', 'grain', 'gap', 'zones'] as const).map((k) => h('button', { 'aria-pressed': String(editor.show[k]), click: () => {
+    space(), action('undo'), action('redo'),
+    space(), tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'),
+    space(), action('rotate.left'), step, action('rotate.right'), action('flip'),
+    space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'),
+    space(), action('lock'), action('swap'), action('copy'), action('remove'),
+    space(), button('fit', fitAll), ...(['labels', 'grain', 'gap', 'zones'] as const).map((k) => h('button', { 'aria-pressed': String(editor.show[k]), click: () => {
       editor.show[k] = !editor.show[k];
       editor.tell('show');
     } }, t(k))),
-    h('span', { class: 'push' }), forms, button('print', '⎙', () => window.print()),
-    button('theme', '◐', () => {
+    h('span', { class: 'push' }), forms, button('print', () => window.print()),
+    button('theme', () => {
       theme = theme === DARK ? LIGHT : DARK;
       store('theme', theme === DARK ? 'dark' : 'light');
       showAll();
@@ -117,7 +118,7 @@ function showBar(): void {
       setLanguage(currentLanguage() === 'en' ? 'uk' : 'en');
       store('language', currentLanguage());
       showAll();
-    } }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', '?', showHelp));
+    } }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', showHelp));
 }
 function showTray(): void {
   left.replaceChildren(h('h2', {}, t('tray')), tray(editor, (part) => drawing.colour(part, theme)));
@@ -237,7 +238,10 @@ function openLayout(id: number): void {
   editor.selection.clear();
   editor.others.clear();
   fitted = false;
-  history.replaceState(null, '', `#${id}`);
+  const here = new URL(location.href);
+  here.searchParams.set('layout', String(id));
+  here.searchParams.delete('token'); // a cookie holds it now, the address bar need not
+  history.replaceState(null, '', here);
   const url = new URL(`/ws?layout=${id}`, location.href);
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   editor.client = new Client(() => new WebSocket(url, 'lekalo.1') as unknown as Wire, {
@@ -258,6 +262,7 @@ function openLayout(id: number): void {
 
 let panelsDue = false;
 editor.on((topic) => {
+  if (topic === 'layout') drawing.take(editor.model);
   if (topic === 'layout' && !fitted) {
     fitted = true;
     view.fit(editor.model.extent());
@@ -325,16 +330,35 @@ window.addEventListener('beforeprint', () => {
 });
 window.addEventListener('afterprint', () => later(true));
 
-/// Times full frames at the present view, for the benchmark: median and worst, ms.
-Object.assign(window, { lekaloFrames: (n: number) => {
-  const times: number[] = [];
-  for (let i = 0; i < n; ++i) {
+/// Times `work` for the benchmark, ms.
+function timed(n: number, work: (i: number) => void): { median: number; p99: number; worst: number } {
+  const times = Array.from({ length: n }, (_, i) => {
+    const begin = performance.now();
+    work(i);
+    return performance.now() - begin;
+  }).sort((a, b) => a - b);
+  return { median: times[n >> 1]!, p99: times[Math.min(n - 1, Math.floor(n * 0.99))]!, worst: times[n - 1]! };
+}
+Object.assign(window, { lekaloBench: {
+  /// Full frames at the present view; reading a pixel waits until all of it is painted.
+  frames: (n: number) => timed(n, () => {
     drawing.drawBase(scene());
-    base.getContext('2d')!.getImageData(0, 0, 1, 1); // waits for the rasteriser
-    times.push(drawing.lastFrame);
-  }
-  times.sort((a, b) => a - b);
-  return { median: times[times.length >> 1], worst: times[times.length - 1] };
+    base.getContext('2d')!.getImageData(0, 0, 1, 1);
+  }),
+  /// The check of the whole layout, after each change.
+  check: (n: number) => timed(n, () => void editor.kernel.check()),
+  /// The check of one part in hand at n places across the sheet, and the drawing of it.
+  drag: (n: number) => {
+    const p = editor.placementsOf([...editor.model.placements.keys()].slice(0, 1));
+    const made = { check: timed(n, (i) => editor.hold(movedBy(p, (i * 37) % 900, (i * 53) % 700), '')),
+      frame: timed(n, (i) => {
+        editor.moving = new Map(movedBy(p, i, i).map((q) => [q.id, q]));
+        drawing.drawTop(scene());
+        top.getContext('2d')!.getImageData(0, 0, 1, 1);
+      }) };
+    editor.release();
+    return made;
+  },
 } });
 
 showAll();
@@ -345,7 +369,7 @@ void (async () => {
     editor.say(error instanceof Error ? error.message : String(error));
   }
   await readLayouts();
-  const wanted = Number(location.hash.slice(1));
+  const wanted = Number(new URL(location.href).searchParams.get('layout'));
   const first = known.find((l) => l.id === wanted) ?? known[0];
   if (first) openLayout(first.id);
   else editor.say(t('none.layouts'));

@@ -11,7 +11,7 @@ import { kits } from './panels/kits';
 import { violations } from './panels/violations';
 
 export type Side = 'violations' | 'parts' | 'kits' | 'sheets' | 'history';
-const LABELS: Record<Side, Key> = { violations: 'violations', parts: 'find', kits: 'kits', sheets: 'sheets', history: 'history' };
+const LABELS: Record<Side, Key> = { violations: 'violations', parts: 'parts', kits: 'kits', sheets: 'sheets', history: 'history' };
 
 export interface SideEvents {
   choose(side: Side): void;

@@ -40,6 +40,7 @@ export class Client {
   private wire: Wire | null = null;
   private seq = 0;
   private readonly waiting = new Map<number, (answer: Answer) => void>();
+  private ahead: { revision: number; tell: () => void }[] = [];
   private retries = 0;
   private timer: ReturnType<typeof setTimeout> | null = null;
   private ended = false;
@@ -101,6 +102,7 @@ export class Client {
         this.id = layout.client;
         this.retries = 0;
         this.events.layout(layout);
+        this.tellAhead(layout.revision);
         this.events.connection('open');
         break;
       }
@@ -113,6 +115,7 @@ export class Client {
         }
         this.revision = change.revision;
         this.events.change(change);
+        this.tellAhead(change.revision);
         break;
       }
       case 'done':
@@ -121,7 +124,9 @@ export class Client {
         const answer = message as unknown as Exclude<Answer, { type: 'lost' }>;
         const resolve = this.waiting.get(answer.seq);
         this.waiting.delete(answer.seq);
-        resolve?.(answer);
+        // The change comes after its `done`: who asked hears of it when the layout is as it says.
+        if (answer.type === 'done' && answer.revision > this.revision) this.ahead.push({ revision: answer.revision, tell: () => resolve?.(answer) });
+        else resolve?.(answer);
         break;
       }
       case 'selections':
@@ -154,7 +159,14 @@ export class Client {
     this.timer = setTimeout(() => this.start(), Math.min(10_000, 250 * 2 ** this.retries++));
   }
 
+  private tellAhead(revision: number): void {
+    const told = this.ahead.filter((one) => one.revision <= revision);
+    this.ahead = this.ahead.filter((one) => one.revision > revision);
+    for (const one of told) one.tell();
+  }
+
   private answerAllLost(): void {
+    this.tellAhead(Infinity); // they are durable
     const waiting = [...this.waiting.values()];
     this.waiting.clear();
     for (const resolve of waiting) resolve({ type: 'lost' });

@@ -12,7 +12,7 @@ interface KernelLayout {
   close(): void;
   apply(change: { placements: readonly Change[]; next_id: number }): void;
   placementOf(p: Placement): unknown;
-  stateAt(p: unknown[], reach: number): {
+  stateAt(p: unknown[], options: { reach: number; depths: boolean }): {
     level: Exclude<Level, 'unknown'>; violations: KernelViolation[];
     nearest: { distance: number; onOther: [number, number]; onPart: [number, number] } | null;
   };
@@ -52,10 +52,10 @@ class WasmKernel implements Kernel {
   check(): Violation[] | null {
     return this.layout ? this.layout.check().map((v) => this.violation(v)) : null;
   }
-  state(placements: readonly Placement[], _text: string, reach: number): LiveState {
+  state(placements: readonly Placement[], _text: string, reach: number, depths: boolean): LiveState {
     const layout = this.layout;
     if (!layout) return UNKNOWN;
-    const { level, violations, nearest } = layout.stateAt(placements.map((p) => layout.placementOf(p)), reach);
+    const { level, violations, nearest } = layout.stateAt(placements.map((p) => layout.placementOf(p)), { reach, depths });
     return {
       level,
       violations: violations.map((v) => this.violation(v)),
