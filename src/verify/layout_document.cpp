@@ -231,7 +231,7 @@ GridOutline rectangle(std::int64_t length, std::int64_t height) {
 }
 
 std::vector<WrittenStockFeature> read_features(Members& stock, std::string_view list, std::string_view grade,
-                                          std::int64_t least) {
+                                               std::int64_t least) {
   std::vector<WrittenStockFeature> features;
   std::set<std::string> ids;
   stock.each(list, [&](Json item, const std::string& path) {

@@ -10,6 +10,7 @@
 #include "lekalo/io/files.hpp"
 #include "support/cases.hpp"
 #include "support/io_contours.hpp"
+#include "support/places.hpp"
 
 // Files of this folder, many written by a DXF library that is not ours (data/contours/generate.py), with what
 // must be found in them; each contour again in every position and writing.
@@ -17,7 +18,7 @@
 namespace lekalo {
 namespace {
 
-const std::string kFolder = LEKALO_SOURCE_DIR "/tests/corpus/data/contours/";
+const std::string kFolder = cases::source_dir() + "/tests/corpus/data/contours/";
 
 nlohmann::json index() { return nlohmann::json::parse(*io::read_file(kFolder + "index.json")); }
 

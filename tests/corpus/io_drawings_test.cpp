@@ -7,6 +7,7 @@
 #include "lekalo/io/drawing.hpp"
 #include "lekalo/io/files.hpp"
 #include "support/drawn_curves.hpp"
+#include "support/places.hpp"
 
 // One plate as different programs draw it (data/dxf_styles/generate.py): polylines with bulges old and new,
 // lines and arcs, cubic and rational splines, ellipses, mirrored blocks, mirrored planes; inches, centimetres
@@ -34,7 +35,7 @@ TEST(IoDrawings, ThePlateIsTheSameWhicheverProgramDrewIt) {
   for (const Style& style : kStyles) {
     SCOPED_TRACE(style.file);
     const auto drawing = io::parse_dxf(
-        *io::read_file(LEKALO_SOURCE_DIR "/tests/corpus/data/dxf_styles/" + std::string(style.file)),
+        *io::read_file(cases::source_dir() + "/tests/corpus/data/dxf_styles/" + std::string(style.file)),
         style.file);
     ASSERT_TRUE(drawing.has_value()) << drawing.error().message;
     drawn::Integrals total;
@@ -59,7 +60,7 @@ TEST(IoDrawings, ThePlateIsTheSameWhicheverProgramDrewIt) {
 TEST(IoDrawings, EveryFileOfTheCorpusIsHere) {
   std::size_t files = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(LEKALO_SOURCE_DIR "/tests/corpus/data/dxf_styles")) {
+       std::filesystem::directory_iterator(cases::source_dir() + "/tests/corpus/data/dxf_styles")) {
     files += entry.path().extension() == ".dxf" ? 1 : 0;
   }
   EXPECT_EQ(files, std::size(kStyles));

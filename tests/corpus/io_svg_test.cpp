@@ -11,11 +11,12 @@
 
 #include "lekalo/io/svg.hpp"
 #include "support/drawn_measures.hpp"
+#include "support/places.hpp"
 
 namespace lekalo::io {
 namespace {
 
-const std::string kFolder = LEKALO_SOURCE_DIR "/tests/corpus/data/svg/";
+const std::string kFolder = cases::source_dir() + "/tests/corpus/data/svg/";
 
 std::string text_of(const std::string& file) {
   std::ifstream in(kFolder + file, std::ios::binary);

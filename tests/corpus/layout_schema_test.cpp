@@ -18,13 +18,14 @@
 #include "lekalo/io/layout_json.hpp"
 #include "support/cases.hpp"
 #include "support/layout_documents.hpp"
+#include "support/places.hpp"
 
 namespace lekalo::io {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::string kExample = LEKALO_SOURCE_DIR "/tests/corpus/data/layouts/order.json";
+const std::string kExample = cases::source_dir() + "/tests/corpus/data/layouts/order.json";
 
 std::string python_with_jsonschema() {
   for (const char* name : {"python3", "/usr/bin/python3"})
@@ -39,7 +40,7 @@ std::vector<std::string> verdicts(const std::vector<std::string>& texts) {
   std::filesystem::create_directories(folder);
   std::string command =
       fmt::format("{0} {1}/tests/support/check_schema.py {1}/docs/schema/lekalo-layout-1.schema.json",
-                  python_with_jsonschema(), LEKALO_SOURCE_DIR);
+                  python_with_jsonschema(), cases::source_dir());
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const std::string path = (folder / fmt::format("{}.json", i)).string();
     std::ofstream(path) << texts[i];

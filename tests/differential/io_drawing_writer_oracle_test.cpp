@@ -15,6 +15,7 @@
 #include "lekalo/io/files.hpp"
 #include "support/drawn_measures.hpp"
 #include "support/drawn_region_cases.hpp"
+#include "support/places.hpp"
 
 // Written drawings as others see them: DXF as ezdxf and OGR do, SVG as svgelements does
 // (support/written_oracle.py, support/dxf_oracle.py, tools/setup.sh).
@@ -34,7 +35,7 @@ std::string python(const char* library) {
 json seen_by_others(const std::string& interpreter, const std::string& file,
                     const std::string& script = "written_oracle.py", const std::string& word = "") {
   FILE* pipe = popen(
-      fmt::format("{} -B {}/tests/support/{} {} '{}'", interpreter, LEKALO_SOURCE_DIR, script, word, file)
+      fmt::format("{} -B {}/tests/support/{} {} '{}'", interpreter, cases::source_dir(), script, word, file)
           .c_str(),
       "r");
   if (pipe == nullptr) return nullptr;

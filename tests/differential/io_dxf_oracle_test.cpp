@@ -16,6 +16,7 @@
 #include "lekalo/io/drawing.hpp"
 #include "lekalo/io/files.hpp"
 #include "support/drawn_curves.hpp"
+#include "support/places.hpp"
 
 // Drawings against ezdxf (curve by curve, blocks and arrays expanded) and OGR (lengths and boxes of its
 // polylines); see support/dxf_oracle.py. Both come as Debian packages (tools/setup.sh); where one is missing
@@ -29,7 +30,7 @@ using nlohmann::json;
 std::vector<std::string> corpus() {
   std::vector<std::string> files;
   for (const char* folder : {"dxf", "dxf_styles", "contours"}) {
-    const auto path = std::filesystem::path(LEKALO_SOURCE_DIR "/tests/corpus/data") / folder;
+    const auto path = std::filesystem::path(cases::source_dir() + "/tests/corpus/data") / folder;
     for (const auto& entry : std::filesystem::directory_iterator(path)) {
       if (entry.path().extension() == ".dxf") files.push_back(entry.path().string());
     }
@@ -42,7 +43,7 @@ std::vector<std::string> corpus() {
 std::string python_with(const std::string& library) {
   for (const char* python : {"python3", "/usr/bin/python3"}) {
     const std::string probe = fmt::format("{} {}/tests/support/dxf_oracle.py probe {} 2>/dev/null", python,
-                                          LEKALO_SOURCE_DIR, library);
+                                          cases::source_dir(), library);
     if (std::system(probe.c_str()) == 0) return python;
   }
   return {};
@@ -50,7 +51,7 @@ std::string python_with(const std::string& library) {
 
 json listing(const std::string& python, const std::string& library, const std::vector<std::string>& files) {
   std::string command =
-      fmt::format("{} {}/tests/support/dxf_oracle.py {}", python, LEKALO_SOURCE_DIR, library);
+      fmt::format("{} {}/tests/support/dxf_oracle.py {}", python, cases::source_dir(), library);
   for (const std::string& file : files) command += " '" + file + "'";
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return nullptr;

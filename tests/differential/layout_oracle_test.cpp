@@ -27,6 +27,7 @@
 #include "support/cases.hpp"
 #include "support/crowded_layouts.hpp"
 #include "support/layout_cases.hpp"
+#include "support/places.hpp"
 #include "support/shared_data.hpp"
 
 namespace lekalo {
@@ -38,8 +39,8 @@ using layout::Session;
 using layout::Violation;
 using layout::ViolationKind;
 
-const std::string kOracle = LEKALO_SOURCE_DIR "/tests/support/layout_oracle.py";
-const std::string kHides = LEKALO_SOURCE_DIR "/tests/corpus/data/hides/";
+const std::string kOracle = cases::source_dir() + "/tests/support/layout_oracle.py";
+const std::string kHides = cases::source_dir() + "/tests/corpus/data/hides/";
 
 /// The interpreter that has shapely; Debian's own is not always the first in the path. Empty: none.
 std::string python_with_shapely() {
@@ -183,7 +184,7 @@ TEST(LayoutOracle, LayoutsOnSmallHidesAndTheShoes) {
   const Document hides = committed_layout(kHides + "small.json", kHides + "small.commands");
   ASSERT_GE(hides.placements.size(), 6U);
   add_with_broken_ones(cases, "small hides", hides, std::min<std::size_t>(cases::case_count(16), 200));
-  const std::string shoes = LEKALO_SOURCE_DIR "/examples/layouts/shoes.json";
+  const std::string shoes = cases::source_dir() + "/examples/layouts/shoes.json";
   add_with_broken_ones(cases, "shoes", committed_layout(shoes, kHides + "shoes.commands"), 8);
   const auto found = agree(cases);
   for (const char* kind : {"overlap", "outside", "defect", "quality"})

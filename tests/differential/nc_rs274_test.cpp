@@ -10,6 +10,7 @@
 
 #include "lekalo/nc/rewrite.hpp"
 #include "support/cases.hpp"
+#include "support/places.hpp"
 #include "support/rs274_random.hpp"
 
 namespace {
@@ -24,7 +25,7 @@ const std::vector<rs274::PlaneMotion> kPoses = {
     {12.7, -25.4, 33.25 * kDegree}, {-101.6, 50.8, -118.5 * kDegree}, {0, 0, 90 * kDegree}, {3.175, 6.35, 0}};
 
 const rs274::Oracle& oracle() {
-  static const rs274::Oracle instance(LEKALO_SOURCE_DIR "/tests/support/rs274.sh");
+  static const rs274::Oracle instance(lekalo::cases::source_dir() + "/tests/support/rs274.sh");
   return instance;
 }
 
@@ -255,7 +256,7 @@ TEST(NcRs274, samples_of_linuxcnc_are_rewritten_or_refused_as_the_table_says) {
     table += fmt::format("| {} | {} | {} |\n", name, original.accepted ? "accepts" : "rejects", escaped);
   }
 
-  const std::filesystem::path page = LEKALO_SOURCE_DIR "/docs/nc-samples.md";
+  const std::filesystem::path page = lekalo::cases::source_dir() + "/docs/nc-samples.md";
   const std::string head =
       "# LinuxCNC's sample programs\n\n"
       "What `lekalo` makes of every `.ngc` file of the Debian package linuxcnc-uspace 2.9.0~pre1 "

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "support/places.hpp"
 #include "support/verify_cases.hpp"
 
 namespace {
@@ -24,7 +25,7 @@ std::string temporary(const std::string& name, const std::string& text) {
 
 nlohmann::json recheck(const Files& files) {
   const std::string command =
-      fmt::format("python3 {}/tests/support/recheck.py {} {} {}", LEKALO_SOURCE_DIR,
+      fmt::format("python3 {}/tests/support/recheck.py {} {} {}", cases::source_dir(),
                   temporary("result.json", files.result()), temporary(files.part_name, files.part),
                   temporary(files.blank_name, files.blank));
   FILE* pipe = popen(command.c_str(), "r");

@@ -3,14 +3,13 @@
 #include <sstream>
 
 #include "e2e/cli_run.hpp"
+#include "support/places.hpp"
 
 /// `lekalo locate` with demands by feature, criteria, locked shifts, drawings and scans, as a person runs it.
 namespace lekalo::test {
 namespace {
 
-std::string example(const std::string& name) {
-  return std::string(LEKALO_SOURCE_DIR) + "/examples/regions/" + name;
-}
+std::string example(const std::string& name) { return cases::source_dir() + "/examples/regions/" + name; }
 Words bracket(const Words& more) {
   Words words{"locate", "--part",  example("bracket.json"), "--blank", example("casting.json"), "--json",
               "-o",     "out.json"};

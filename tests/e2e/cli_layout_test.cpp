@@ -3,6 +3,7 @@
 
 #include "e2e/cli_run.hpp"
 #include "support/layout_texts.hpp"
+#include "support/places.hpp"
 
 /// `lekalo check`, `show`, `export` and `edit`, as a person runs them. That the engine and the independent
 /// checker disagree cannot be brought about from outside: it would take a mistake in one of them. Their
@@ -17,7 +18,7 @@ using cases::outline_json;
 using cases::place;
 using cases::rectangle;
 
-const std::string kShoes = LEKALO_SOURCE_DIR "/examples/layouts/shoes";
+const std::string kShoes = cases::source_dir() + "/examples/layouts/shoes";
 
 /// A sheet of 100 x 100 with a hole, a defect and a bad zone; squares of 10 and one that must lie straight.
 LayoutJson plain() {
@@ -375,7 +376,7 @@ TEST(CliLayout, DrawingsOfPartsGoStraightIn) {
   write_bytes(folder / "part.svg",
               R"(<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30">
 <path id="sole" d="M 5 5 H 35 V 25 H 5 Z"/><circle id="heel" cx="20" cy="15" r="4"/></svg>)");
-  fs::copy(fs::path(LEKALO_SOURCE_DIR) / "tests/corpus/data/dxf/1x1rectangle.dxf", folder / "part.dxf");
+  fs::copy(fs::path(cases::source_dir()) / "tests/corpus/data/dxf/1x1rectangle.dxf", folder / "part.dxf");
   for (const char* part : {"part.svg", "part.dxf"}) {
     const Ran shown = run(folder.path(), {"show", part, "--picture", "part.png", "--json"});
     ASSERT_EQ(shown.status, 0) << shown.err;

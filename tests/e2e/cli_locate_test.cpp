@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "e2e/cli_run.hpp"
+#include "support/places.hpp"
 
 /// `lekalo locate` as a person runs it, on good input.
 namespace lekalo::test {
@@ -531,7 +532,7 @@ TEST(Completion, BashUnderstandsItsScript) {
   const TemporaryFolder folder;
   write_bytes(
       folder / "try.sh",
-      "eval \"$(" + std::string(LEKALO_CLI) +
+      "eval \"$(" + cases::program() +
           " completion bash)\"\nCOMP_WORDS=(lekalo locate --meth)\nCOMP_CWORD=2\n_lekalo\n"
           "echo \"${COMPREPLY[@]}\" > out\nCOMP_WORDS=(lekalo locate --method i)\nCOMP_CWORD=3\n_lekalo\n"
           "echo \"${COMPREPLY[@]}\" >> out\n");

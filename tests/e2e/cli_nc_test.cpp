@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "e2e/cli_run.hpp"
+#include "support/places.hpp"
 
 /// The NC program beside the placement: all three modes, what the result says about them, and when there is
 /// none.
@@ -107,7 +108,7 @@ TEST_F(Program3, AllowanceLostInTheRoundingGivesNoProgramButTheResult) {
 }
 
 TEST_F(Program3, ExampleProgramIsRewrittenForItsBlank) {
-  const std::string input = (fs::path(LEKALO_SOURCE_DIR) / "examples/localisation/part.nc").string();
+  const std::string input = (fs::path(cases::source_dir()) / "examples/localisation/part.nc").string();
   for (const Words& mode : {Words{}, Words{"--nc-mode", "offset"}}) {
     const Ran ran = run(
         folder_.path(),

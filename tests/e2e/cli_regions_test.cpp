@@ -1,14 +1,13 @@
 #include <sstream>
 
 #include "e2e/cli_run.hpp"
+#include "support/places.hpp"
 
 /// `lekalo locate` where a shape is more than a convex polygon, as a person runs it.
 namespace lekalo::test {
 namespace {
 
-std::string example(const std::string& name) {
-  return std::string(LEKALO_SOURCE_DIR) + "/examples/regions/" + name;
-}
+std::string example(const std::string& name) { return cases::source_dir() + "/examples/regions/" + name; }
 
 TEST(Regions, TheBracketInItsCastingGetsEveryOutputAndVerifyConfirmsIt) {
   const TemporaryFolder folder;

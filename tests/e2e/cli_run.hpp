@@ -17,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/places.hpp"
+
 /// Runs the real program in folders that go away afterwards.
 namespace lekalo::test {
 
@@ -83,7 +85,7 @@ class Program {
   Program(const fs::path& folder, const Words& words, const std::string& stdout_path = "") {
     const std::string out = stdout_path.empty() ? (streams_ / "out").string() : stdout_path;
     const std::string err = (streams_ / "err").string();
-    std::vector<std::string> all{LEKALO_CLI};
+    std::vector<std::string> all{cases::program()};
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> argv;
     for (std::string& word : all) argv.push_back(word.data());
@@ -140,7 +142,7 @@ inline Words operator+(Words words, const Words& more) {
 }
 
 inline fs::path example(int number, const std::string& role) {
-  return fs::path(LEKALO_SOURCE_DIR) / "examples/localisation" /
+  return fs::path(cases::source_dir()) / "examples/localisation" /
          ("example-" + std::to_string(number) + "-" + role + ".csv");
 }
 

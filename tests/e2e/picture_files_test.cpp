@@ -1,6 +1,7 @@
 #include <cstdlib>
 
 #include "e2e/cli_run.hpp"
+#include "support/places.hpp"
 #include "support/xml.hpp"
 
 /// The pictures that `lekalo locate` writes, against the result document of the same run.
@@ -53,7 +54,7 @@ TEST(Picture, OfTheDocumentsIsTheOneTheProgramDraws) {
   const TemporaryFolder folder;
   ASSERT_EQ(run(folder.path(), locate_example(3) + Words{"--picture", "out.svg"}).status, 0);
   const XmlDocument fresh(read_bytes(folder / "out.svg"));
-  const XmlDocument kept(read_bytes(fs::path(LEKALO_SOURCE_DIR) / "docs/images/locate-example.svg"));
+  const XmlDocument kept(read_bytes(fs::path(cases::source_dir()) / "docs/images/locate-example.svg"));
   const char* const way_out = "draw docs/images/locate-example.svg again, with lekalo locate on example 3";
   ASSERT_EQ(kept.elements.size(), fresh.elements.size()) << way_out;
   for (std::size_t i = 0; i < kept.elements.size(); ++i) {

@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "e2e/cli_run.hpp"
+#include "support/places.hpp"
 #include "support/xml.hpp"
 
 /// The report and the table of allowances that `lekalo locate` writes, against the result of the same run.
@@ -8,7 +9,7 @@ namespace lekalo::test {
 namespace {
 
 std::string region_example(const std::string& name) {
-  return std::string(LEKALO_SOURCE_DIR) + "/examples/regions/" + name;
+  return cases::source_dir() + "/examples/regions/" + name;
 }
 Words locate_bracket() {
   return {"locate", "--part", region_example("bracket.json"), "--blank", region_example("casting.json")};

@@ -14,6 +14,7 @@
 #include "lekalo/base/random.hpp"
 #include "lekalo/io/layout_json.hpp"
 #include "support/cases.hpp"
+#include "support/places.hpp"
 
 namespace lekalo::test {
 namespace {
@@ -45,7 +46,7 @@ class ServerProcess {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
     Words words =
-        Words{LEKALO_CLI, "serve", "--store", (folder / "store.sqlite").string(), "--port", "0"} + more;
+        Words{cases::program(), "serve", "--store", (folder / "store.sqlite").string(), "--port", "0"} + more;
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);

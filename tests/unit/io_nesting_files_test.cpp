@@ -9,13 +9,14 @@
 
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/open_layout.hpp"
+#include "support/places.hpp"
 
 namespace lekalo::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kJobs = LEKALO_SOURCE_DIR "/fuzz/corpus/nesting_files/";
+const std::string kJobs = cases::source_dir() + "/fuzz/corpus/nesting_files/";
 
 Result<LayoutFile> job(const std::string& name, std::optional<LengthUnit> unit = std::nullopt) {
   return read_nesting(read_file(kJobs + name).value(), name, unit);

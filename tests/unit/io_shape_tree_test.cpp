@@ -8,6 +8,7 @@
 
 #include "lekalo/geom/region_check.hpp"
 #include "support/boolean_cases.hpp"
+#include "support/places.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -140,7 +141,7 @@ TEST(ShapeTree, InchesAndTheUnitAskedFor) {
 }
 
 TEST(ShapeTree, EdgesKnowTheNameNearestToTheirPrimitive) {
-  std::ifstream in(LEKALO_SOURCE_DIR "/examples/regions/flange.json");
+  std::ifstream in(cases::source_dir() + "/examples/regions/flange.json");
   std::stringstream text;
   text << in.rdbuf();
   const auto file = parse_shape_tree(text.str(), "flange.json");
