@@ -22,14 +22,6 @@ using layout::Document;
 using layout::Violation;
 using layout::ViolationKind;
 
-std::string feature_of(const Document& document, const Violation& v) {
-  const layout::Stock& stock = document.stocks[v.stock];
-  if (v.kind == ViolationKind::defect || v.kind == ViolationKind::defect_gap)
-    return stock.defects[v.feature].id;
-  if (v.kind == ViolationKind::quality) return stock.zones[v.feature].id;
-  return {};
-}
-
 /// What both checkers say, in one form.
 using Finding = std::tuple<std::string, std::uint64_t, std::uint64_t, std::string, std::int64_t, std::string>;
 
@@ -37,7 +29,7 @@ std::vector<Finding> findings_of(const Document& document, const std::vector<Vio
   std::vector<Finding> findings;
   for (const Violation& v : violations)
     findings.emplace_back(name_of(v.kind), v.a, v.b, document.stocks[v.stock].id, v.copy,
-                          feature_of(document, v));
+                          feature_id(document, v));
   std::sort(findings.begin(), findings.end());
   return findings;
 }
@@ -78,7 +70,7 @@ std::string sentence(const Document& document, const Violation& v) {
                                  [&](const layout::Placement& placement) { return placement.id == id; });
     return fmt::format("{} (placement {})", document.parts[at->part].id, id);
   };
-  const std::string feature = feature_of(document, v);
+  const std::string feature = feature_id(document, v);
   std::string text;
   switch (v.kind) {
     case ViolationKind::overlap:
@@ -126,11 +118,7 @@ std::string sentence(const Document& document, const Violation& v) {
 }  // namespace
 
 Result<int> run_check(const CheckOptions& o) {
-  if (Result<void> fine = check_outputs({{"--picture", o.picture}},
-                                        {{"the layout", o.source.path}, {"--instance", o.source.instance}});
-      !fine)
-    return tl::unexpected(fine.error());
-  const Result<LayoutInput> input = read_layout_input(o.source);
+  const Result<LayoutInput> input = read_layout_input(o.source, {{"--picture", o.picture}});
   if (!input) return tl::unexpected(input.error());
   const std::vector<Violation> violations = layout::check(input->document);
   Result<verify::LayoutVerdict> verdict = verify::verify_layout({o.source.path, input->text});
@@ -167,8 +155,7 @@ Result<int> run_check(const CheckOptions& o) {
   }
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
 
-  std::string text;
-  for (const std::string& notice : input->notices) text += "note: " + notice + "\n";
+  std::string text = notes(input->notices);
   const std::size_t count = input->document.placements.size();
   const std::string placements = counted(count, "placement");
   if (!agree)

@@ -13,12 +13,8 @@
 namespace lekalo::cli {
 
 Result<int> run_edit(const EditOptions& o) {
-  if (Result<void> fine = check_outputs(
-          {{"--output", o.output}},
-          {{"the layout", o.source.path}, {"--commands", o.commands}, {"--instance", o.source.instance}});
-      !fine)
-    return tl::unexpected(fine.error());
-  Result<LayoutInput> input = read_layout_input(o.source);
+  Result<LayoutInput> input =
+      read_layout_input(o.source, {{"--output", o.output}}, {{"--commands", o.commands}});
   if (!input) return tl::unexpected(input.error());
   const Result<std::string> log = io::read_file(o.commands);
   if (!log) return tl::unexpected(log.error());
@@ -26,15 +22,8 @@ Result<int> run_edit(const EditOptions& o) {
   if (!session)
     return failure(session.error().code, fmt::format("{}, {}", o.commands, session.error().message));
   const std::string text = io::write_layout(session->document());
-  if (o.output.empty()) {
-    if (Result<void> done = print(text); !done) return tl::unexpected(done.error());
-  } else {
-    io::AtomicFiles files;
-    if (Result<void> done = files.add(o.output, text).and_then([&] { return files.commit(); }); !done)
-      return tl::unexpected(done.error());
-  }
-  std::string said;
-  for (const std::string& notice : input->notices) said += "note: " + notice + "\n";
+  if (Result<void> done = deliver(o.output, text); !done) return tl::unexpected(done.error());
+  std::string said = notes(input->notices);
   const std::size_t broken = layout::check(session->document()).size();
   said += fmt::format("{} placed, {}\n", session->document().placements.size(),
                       broken == 0 ? "no rule is broken"

@@ -34,7 +34,16 @@ std::string counted(std::size_t count, const char* one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-Result<LayoutInput> read_layout_input(const LayoutSource& source) {
+std::string notes(const std::vector<std::string>& notices) {
+  std::string text;
+  for (const std::string& notice : notices) text += "note: " + notice + "\n";
+  return text;
+}
+
+Result<LayoutInput> read_layout_input(const LayoutSource& source, const std::vector<NamedPath>& outputs,
+                                      std::vector<NamedPath> others) {
+  others.insert(others.begin(), {{"the layout", source.path}, {"--instance", source.instance}});
+  if (Result<void> fine = check_outputs(outputs, others); !fine) return tl::unexpected(fine.error());
   LayoutInput input;
   input.path = source.path;
   Result<std::string> bytes = io::read_file(source.path);
@@ -121,50 +130,6 @@ std::string completeness_text(const layout::Document& document, const layout::Co
     text += '\n';
   }
   return text;
-}
-
-Json completeness_json(const layout::Document& document, const layout::Completeness& c) {
-  Json sheets = Json::array(), kits = Json::array(), parts = Json::array();
-  for (const layout::SheetUse& use : c.sheets) {
-    Json remnant = nullptr;
-    if (use.remnant.low != use.remnant.high) {
-      const geom::Point low = geom::mm_from_grid(use.remnant.low),
-                        size = geom::mm_from_grid(use.remnant.high - use.remnant.low);
-      remnant = {{"x", low.x}, {"y", low.y}, {"width", size.x}, {"height", size.y}};
-    }
-    sheets.push_back({{"stock", document.stocks[use.sheet.stock].id},
-                      {"copy", use.sheet.copy},
-                      {"parts", use.parts},
-                      {"density", use.density()},
-                      {"parts_area_mm2", use.parts_area},
-                      {"material_area_mm2", use.material_area},
-                      {"defect_area_mm2", use.defect_area},
-                      {"length_mm", use.used_length_mm},
-                      {"remnant", std::move(remnant)}});
-  }
-  for (std::size_t i = 0; i < document.kits.size(); ++i) {
-    Json missing = Json::array();
-    for (const layout::MissingPiece& piece : c.kits[i].missing) {
-      Json one{{"part", document.parts[piece.part].id}, {"count", piece.count}};
-      if (piece.mirrored) one["mirrored"] = *piece.mirrored;
-      missing.push_back(std::move(one));
-    }
-    kits.push_back({{"kit", document.kits[i].id},
-                    {"wanted", document.kits[i].demand},
-                    {"complete", c.kits[i].complete},
-                    {"missing", std::move(missing)}});
-  }
-  for (std::size_t i = 0; i < document.parts.size(); ++i)
-    parts.push_back({{"part", document.parts[i].id},
-                     {"placed", c.placed[i].total()},
-                     {"mirrored", c.placed[i].mirrored},
-                     {"missing", c.missing[i]},
-                     {"surplus", c.surplus[i]}});
-  return {{"density", c.density},
-          {"cost", c.cost},
-          {"sheets", std::move(sheets)},
-          {"kits", std::move(kits)},
-          {"parts", std::move(parts)}};
 }
 
 }  // namespace lekalo::cli

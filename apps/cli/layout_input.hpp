@@ -11,6 +11,7 @@
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 
 namespace lekalo::cli {
 
@@ -27,8 +28,14 @@ struct LayoutInput {
 /// "1 part", "2 parts".
 [[nodiscard]] std::string counted(std::size_t count, const char* one);
 
-/// Reads any file that holds a layout or a job (io/open_layout.hpp).
-[[nodiscard]] Result<LayoutInput> read_layout_input(const LayoutSource& source);
+/// Reads any file that holds a layout or a job (io/open_layout.hpp), after a look at the outputs
+/// (check_outputs), which may replace neither it nor `others`.
+[[nodiscard]] Result<LayoutInput> read_layout_input(const LayoutSource& source,
+                                                    const std::vector<NamedPath>& outputs,
+                                                    std::vector<NamedPath> others = {});
+
+/// "note: ..." lines.
+[[nodiscard]] std::string notes(const std::vector<std::string>& notices);
 
 /// The fields every command's JSON begins with.
 [[nodiscard]] nlohmann::ordered_json begin_layout_json(const char* format, const std::string& status,
@@ -44,7 +51,5 @@ struct LayoutInput {
 /// Lines for people: sheets, parts, kits.
 [[nodiscard]] std::string completeness_text(const layout::Document& document,
                                             const layout::Completeness& completeness);
-[[nodiscard]] nlohmann::ordered_json completeness_json(const layout::Document& document,
-                                                       const layout::Completeness& completeness);
 
 }  // namespace lekalo::cli

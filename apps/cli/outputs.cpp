@@ -7,6 +7,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "lekalo/io/files.hpp"
+
 namespace lekalo::cli {
 namespace {
 
@@ -71,6 +73,12 @@ Result<void> print(std::string_view text) {
     return failure(ErrorCode::environment, fmt::format("stdout: cannot write: {}", std::strerror(errno)));
   }
   return {};
+}
+
+Result<void> deliver(const std::string& path, std::string_view text) {
+  if (path.empty()) return print(text);
+  io::AtomicFiles files;
+  return files.add(path, text).and_then([&] { return files.commit(); });
 }
 
 void complain(std::string_view message) {

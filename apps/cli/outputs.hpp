@@ -23,6 +23,9 @@ struct NamedPath {
 /// Writes all of `text` to stdout and flushes; ErrorCode::environment when that fails.
 [[nodiscard]] Result<void> print(std::string_view text);
 
+/// `text` as the file `path`, complete or not at all; to stdout where the path is empty.
+[[nodiscard]] Result<void> deliver(const std::string& path, std::string_view text);
+
 /// One message on stderr, on one line whatever control characters a file name brings.
 void complain(std::string_view message);
 

@@ -44,7 +44,7 @@ Result<std::string> usual_store() {
 /// The file as a layout of the store: the one that was made from the same bytes before, with all that was
 /// done to it since, or a new one.
 Result<server::LayoutId> layout_of_file(server::Store& store, const LayoutSource& source) {
-  const Result<LayoutInput> input = read_layout_input(source);
+  const Result<LayoutInput> input = read_layout_input(source, {});
   if (!input) return tl::unexpected(input.error());
   for (const std::string& notice : input->notices) tell("note: " + notice + "\n");
   const Result<std::optional<server::LayoutId>> known = store.find_origin(input->sha256);

@@ -4,6 +4,7 @@
 
 #include "layout_input.hpp"
 #include "lekalo/io/files.hpp"
+#include "lekalo/io/layout_messages.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "outputs.hpp"
@@ -12,11 +13,7 @@
 namespace lekalo::cli {
 
 Result<int> run_show(const ShowOptions& o) {
-  if (Result<void> fine = check_outputs({{"--picture", o.picture}},
-                                        {{"the layout", o.source.path}, {"--instance", o.source.instance}});
-      !fine)
-    return tl::unexpected(fine.error());
-  const Result<LayoutInput> input = read_layout_input(o.source);
+  const Result<LayoutInput> input = read_layout_input(o.source, {{"--picture", o.picture}});
   if (!input) return tl::unexpected(input.error());
   const std::vector<layout::Violation> violations = layout::check(input->document);
   const layout::Completeness completeness = layout::completeness(layout::Workspace(input->document));
@@ -29,14 +26,13 @@ Result<int> run_show(const ShowOptions& o) {
   }
   if (o.json) {
     nlohmann::ordered_json json = begin_layout_json("lekalo-show", "shown", *input);
-    json.update(completeness_json(input->document, completeness));
+    json.update(nlohmann::ordered_json::parse(io::completeness_json(input->document, completeness)));
     json["violations"] = violations.size();
     json["run"] = nlohmann::ordered_json::object();
     if (Result<void> done = print(dumped(json)); !done) return tl::unexpected(done.error());
   }
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
-  std::string text;
-  for (const std::string& notice : input->notices) text += "note: " + notice + "\n";
+  std::string text = notes(input->notices);
   text += fmt::format("{}: {} placed, {}, {}\n",
                       input->document.name.empty() ? o.source.path : input->document.name,
                       input->document.placements.size(), counted(input->document.parts.size(), "part"),

@@ -79,13 +79,6 @@ ApiAnswer history(Store& store, LayoutId id) {
   return json_answer(200, {{"entries", std::move(list)}});
 }
 
-/// The first strip that something lies on.
-std::optional<std::size_t> strip_in_use(const layout::Document& document) {
-  for (const layout::Placement& placement : document.placements)
-    if (document.stocks[placement.stock].kind == layout::StockKind::strip) return placement.stock;
-  return std::nullopt;
-}
-
 ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
   const std::string* const form = target.find("form");
   if (form == nullptr)
@@ -99,9 +92,8 @@ ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
   };
   if (*form == "layout") return file(io::write_layout(document), "application/json", ".json");
   if (*form == "placements") {
-    const std::optional<std::size_t> strip = strip_in_use(document);
-    if (!strip)
-      return api_error(400, "nothing lies on a strip; the form 'placements' holds the parts of one strip");
+    const Result<std::size_t> strip = io::strip_in_use(document);
+    if (!strip) return trouble(strip.error());
     return file(io::write_placements(document, *strip, ""), "application/json", ".json");
   }
   if (*form != "svg" && *form != "pdf" && *form != "png")

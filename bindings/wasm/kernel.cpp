@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "completeness_text.hpp"
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_messages.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/command.hpp"
 #include "lekalo/layout/completeness.hpp"
@@ -419,7 +419,7 @@ std::int32_t lekalo_outline(std::int32_t handle, std::int32_t kind, double a, do
 std::int32_t lekalo_completeness(std::int32_t handle) {
   const Workspace* layout = begin(handle);
   if (layout == nullptr) return kFailed;
-  text = wasm::completeness_text(layout->document(), completeness(*layout));
+  text = io::completeness_json(layout->document(), completeness(*layout));
   return 0;
 }
 

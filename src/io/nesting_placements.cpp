@@ -119,6 +119,16 @@ Result<LayoutFile> read_placements(std::string_view bytes, const std::string& na
   return detail::read_placements_tree(*tree, name, std::move(instance), unit);
 }
 
+Result<std::size_t> strip_in_use(const layout::Document& document) {
+  for (std::size_t stock = 0; stock < document.stocks.size(); ++stock) {
+    if (document.stocks[stock].kind != layout::StockKind::strip) continue;
+    for (const layout::Placement& placement : document.placements)
+      if (placement.stock == stock) return stock;
+  }
+  return failure(ErrorCode::bad_input,
+                 "nothing lies on a strip; the form 'placements' holds the parts of one strip");
+}
+
 Result<std::string> write_placements(const layout::Document& document, std::size_t stock,
                                      const std::string& instance) {
   if (stock >= document.stocks.size())

@@ -3,20 +3,7 @@
 #include "lekalo/io/layout_messages.hpp"
 
 namespace lekalo::io {
-namespace {
-
 using Json = nlohmann::ordered_json;
-using layout::ViolationKind;
-
-std::string feature_of(const layout::Document& document, const layout::Violation& v) {
-  const layout::Stock& stock = document.stocks[v.stock];
-  if (v.kind == ViolationKind::defect || v.kind == ViolationKind::defect_gap)
-    return stock.defects[v.feature].id;
-  if (v.kind == ViolationKind::quality) return stock.zones[v.feature].id;
-  return {};
-}
-
-}  // namespace
 
 std::string violations_json(const layout::Document& document,
                             const std::vector<layout::Violation>& violations) {
@@ -27,7 +14,7 @@ std::string violations_json(const layout::Document& document,
              {"b", v.b == 0 ? Json(nullptr) : Json(v.b)},
              {"stock", document.stocks[v.stock].id},
              {"copy", v.copy}};
-    if (const std::string feature = feature_of(document, v); !feature.empty()) one["feature"] = feature;
+    if (const std::string feature = feature_id(document, v); !feature.empty()) one["feature"] = feature;
     one["amount_mm"] = v.amount_mm;
     one["at"] = {v.at.x, v.at.y};
     one["direction"] = v.direction == geom::Point{} ? Json(nullptr) : Json{v.direction.x, v.direction.y};

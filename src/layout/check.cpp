@@ -151,6 +151,14 @@ std::string_view name_of(ViolationKind kind) noexcept {
   return "unknown";
 }
 
+std::string feature_id(const Document& document, const Violation& v) {
+  const Stock& stock = document.stocks[v.stock];
+  if (v.kind == ViolationKind::defect || v.kind == ViolationKind::defect_gap)
+    return stock.defects[v.feature].id;
+  if (v.kind == ViolationKind::quality) return stock.zones[v.feature].id;
+  return {};
+}
+
 std::int64_t gap_between(const Document& document, const Part& a, const Part& b) noexcept {
   return std::max(own_gap(document, a), own_gap(document, b));
 }

@@ -48,6 +48,27 @@ inline std::vector<geom::GridPoint> box_loop(double x0, double y0, double x1, do
   return {grid_point(x0, y0), grid_point(x1, y0), grid_point(x1, y1), grid_point(x0, y1)};
 }
 
+/// Squares of 10 at (20, 40) and (60, 40) on a sheet of 100.
+inline layout::Document two_squares() {
+  layout::Document d;
+  layout::Part part;
+  part.id = "square";
+  part.outline = outline_of({box_loop(0, 0, 10, 10)});
+  d.parts = {part};
+  layout::Stock stock;
+  stock.id = "sheet";
+  stock.outline = outline_of({box_loop(0, 0, 100, 100)});
+  d.stocks = {stock};
+  for (std::uint64_t id = 1; id <= 2; ++id) {
+    layout::Placement placement;
+    placement.id = id;
+    placement.at = grid_point(40.0 * static_cast<double>(id) - 20, 40);
+    d.placements.push_back(placement);
+  }
+  d.next_id = 3;
+  return d;
+}
+
 inline layout::Part random_part(Random& random, std::size_t index) {
   layout::Part part;
   part.id = "part " + std::to_string(index);

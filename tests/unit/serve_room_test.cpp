@@ -26,24 +26,8 @@ class TwoClients : public testing::Test {
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder_ = name;
     store_ = std::make_unique<Store>(Store::open((folder_ / "store.sqlite").string()).value());
-    layout::Document d;
-    layout::Part part;
-    part.id = "square";
-    part.outline = cases::outline_of({cases::box_loop(0, 0, 10, 10)});
-    d.parts = {part};
-    layout::Stock stock;
-    stock.id = "sheet";
-    stock.outline = cases::outline_of({cases::box_loop(0, 0, 100, 100)});
-    d.stocks = {stock};
-    for (std::uint64_t id = 1; id <= 2; ++id) {
-      layout::Placement placement;
-      placement.id = id;
-      placement.at = cases::grid_point(40.0 * static_cast<double>(id) - 20, 40);
-      d.placements.push_back(placement);
-    }
-    d.next_id = 3;
-    first_ = d;
-    id_ = store_->create("test", d).value();
+    first_ = cases::two_squares();
+    id_ = store_->create("test", first_).value();
     reopen();
   }
   void TearDown() override {

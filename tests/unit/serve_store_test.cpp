@@ -37,26 +37,6 @@ class StoreFile : public testing::Test {
   std::string path_;
 };
 
-layout::Document two_squares() {
-  layout::Document d;
-  layout::Part part;
-  part.id = "square";
-  part.outline = cases::outline_of({cases::box_loop(0, 0, 10, 10)});
-  d.parts = {part};
-  layout::Stock stock;
-  stock.id = "sheet";
-  stock.outline = cases::outline_of({cases::box_loop(0, 0, 100, 100)});
-  d.stocks = {stock};
-  for (std::uint64_t id = 1; id <= 2; ++id) {
-    layout::Placement placement;
-    placement.id = id;
-    placement.at = cases::grid_point(20.0 * static_cast<double>(id), 40);
-    d.placements.push_back(placement);
-  }
-  d.next_id = 3;
-  return d;
-}
-
 /// Moves placement 1 to the right by `steps` grid steps, as the next revision.
 StoredChange step_right(layout::Document& d, Revision revision, std::int64_t steps) {
   StoredChange change;
@@ -73,7 +53,7 @@ StoredChange step_right(layout::Document& d, Revision revision, std::int64_t ste
 
 TEST_F(StoreFile, IsReadableByItsOwnerAloneWithItsLog) {
   Store store = open();
-  ASSERT_TRUE(store.create("a", two_squares()));
+  ASSERT_TRUE(store.create("a", cases::two_squares()));
   for (const auto& entry : fs::directory_iterator(folder_)) {
     struct stat about {};
     ASSERT_EQ(stat(entry.path().c_str(), &about), 0);
@@ -99,7 +79,7 @@ TEST_F(StoreFile, GivesBackWhatItWasGivenAfterOpeningAgain) {
 }
 
 TEST_F(StoreFile, RestoresAnyRevisionAcrossSnapshots) {
-  layout::Document document = two_squares();
+  layout::Document document = cases::two_squares();
   const layout::Document first = document;
   Store store = open();
   const LayoutId id = store.create("a", document).value();
@@ -122,7 +102,7 @@ TEST_F(StoreFile, RestoresAnyRevisionAcrossSnapshots) {
 }
 
 TEST_F(StoreFile, TakesNoRevisionOutOfTurn) {
-  layout::Document document = two_squares();
+  layout::Document document = cases::two_squares();
   Store store = open();
   const LayoutId id = store.create("a", document).value();
   layout::Document moved = document;
@@ -133,7 +113,7 @@ TEST_F(StoreFile, TakesNoRevisionOutOfTurn) {
 }
 
 TEST_F(StoreFile, KnowsWhatIsUndone) {
-  layout::Document document = two_squares();
+  layout::Document document = cases::two_squares();
   Store store = open();
   const LayoutId id = store.create("a", document).value();
   ASSERT_TRUE(store.append(id, step_right(document, 1, 5), document));
@@ -153,7 +133,7 @@ TEST_F(StoreFile, KnowsWhatIsUndone) {
 }
 
 TEST_F(StoreFile, CopiesRenamesRemovesAndListsTheNewestFirst) {
-  layout::Document document = two_squares();
+  layout::Document document = cases::two_squares();
   Store store = open();
   const LayoutId a = store.create("a", document).value();
   const LayoutId b = store.create("b", document).value();
@@ -215,7 +195,7 @@ TEST_F(StoreFile, NoticesDamage) {
   LayoutId id = 0;
   {
     Store store = open();
-    layout::Document document = two_squares();
+    layout::Document document = cases::two_squares();
     id = store.create("a", document).value();
     ASSERT_TRUE(store.append(id, step_right(document, 1, 5), document));
     ASSERT_TRUE(store.append(id, step_right(document, 2, 5), document));
@@ -251,7 +231,7 @@ class FullDisk {
 };
 
 TEST_F(StoreFile, OnAFullDiskSaysSoAndKeepsWhatItHad) {
-  layout::Document document = two_squares();
+  layout::Document document = cases::two_squares();
   LayoutId id = 0;
   {
     Store store = open();

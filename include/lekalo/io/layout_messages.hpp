@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lekalo/layout/check.hpp"
+#include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
 
 namespace lekalo::io {
@@ -17,5 +18,10 @@ namespace lekalo::io {
 /// A list of violations as `lekalo check --json` has it: docs/formats.md. Cost: O(violations).
 [[nodiscard]] std::string violations_json(const layout::Document& document,
                                           const std::vector<layout::Violation>& violations);
+
+/// What is placed and what is missing, as `lekalo show --json` has it: docs/cli.md. Cost: O(parts, kits and
+/// sheets).
+[[nodiscard]] std::string completeness_json(const layout::Document& document,
+                                            const layout::Completeness& completeness);
 
 }  // namespace lekalo::io

@@ -45,6 +45,9 @@ enum class NestingForm {
                                                  layout::Document instance,
                                                  std::optional<LengthUnit> unit = std::nullopt);
 
+/// The first strip that something lies on; ErrorCode::bad_input without one.
+[[nodiscard]] Result<std::size_t> strip_in_use(const layout::Document& document);
+
 /// The placements on one strip in the same form, mm. read_placements gives the same placed outlines again,
 /// every point within a step: the angle is written in degrees, within 1e-12 of the pair. Lost are ids and
 /// locks of placements, and everything that the instance has to say (parts, kits, rules). `length` is how far

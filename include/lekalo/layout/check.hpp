@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct Violation {
   geom::Point direction;  ///< unit vector in which to move `a`; (0, 0) where there is none
   friend bool operator==(const Violation&, const Violation&) = default;
 };
+
+/// The id of the defect or zone that a violation is about; "" for kinds that have none.
+[[nodiscard]] std::string feature_id(const Document& document, const Violation& violation);
 
 /// The gap between two parts, in steps; a part's gap to the border and to defects.
 [[nodiscard]] std::int64_t gap_between(const Document& document, const Part& a, const Part& b) noexcept;

@@ -1,13 +1,13 @@
-#include "completeness_text.hpp"
-
 #include <nlohmann/json.hpp>
 
-namespace lekalo::wasm {
+#include "lekalo/io/layout_messages.hpp"
+
+namespace lekalo::io {
 
 using Json = nlohmann::ordered_json;
 using namespace layout;
 
-std::string completeness_text(const Document& document, const Completeness& c) {
+std::string completeness_json(const Document& document, const Completeness& c) {
   Json sheets = Json::array(), kits = Json::array(), parts = Json::array();
   for (const SheetUse& use : c.sheets) {
     Json remnant = nullptr;
@@ -53,4 +53,4 @@ std::string completeness_text(const Document& document, const Completeness& c) {
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace lekalo::wasm
+}  // namespace lekalo::io
