@@ -158,9 +158,19 @@ void try_direction(Search& search, GridPoint v) {
 }
 
 /// A point of a's outline that lies in the forbidden, for overlaps too thin to have a middle in floating
-/// point.
+/// point, or one that a grid point tells of.
 Point edge_place(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
   return edge_distance(a, b, b_shift).on_a;
+}
+
+Point place_shown(const GridRegion& a, const GridRegion& b, GridPoint b_shift,
+                  const std::optional<Point>& place) {
+  if (!place) return edge_place(a, b, b_shift);
+  const Point at = geom::mm_from_grid(a.points[0]) + in_mm(*place);
+  const GridPoint nearest{geom::grid_from_mm(at.x), geom::grid_from_mm(at.y)};
+  const bool in_both = locate_point(a, nearest) != geom::PointLocation::outside &&
+                       locate_point(b, nearest - b_shift) != geom::PointLocation::outside;
+  return in_both ? at : edge_place(a, b, b_shift);
 }
 
 }  // namespace
@@ -178,8 +188,7 @@ Separation separate(const GridRegion& a, const GridRegion& b, GridPoint b_shift)
   const auto shift =
       proved(search.sorted(), [&](GridPoint by) { return !interiors_meet(a, b, b_shift - by); });
   const bool by_box = !shift || dot(box_shift, box_shift) < dot(*shift, *shift);
-  return made(by_box ? box_shift : *shift,
-              place ? geom::mm_from_grid(a.points[0]) + in_mm(*place) : edge_place(a, b, b_shift));
+  return made(by_box ? box_shift : *shift, place_shown(a, b, b_shift, place));
 }
 
 std::optional<Separation> bring_inside(const GridRegion& container, const GridRegion& a) {

@@ -194,6 +194,15 @@ std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i
   return fmt::format("side {} runs back along side {}", j, i);
 }
 
+/// Of a contour of three the other ends of two neighbours are joined by the third, which is a neighbour of
+/// both and asked about neither.
+std::optional<std::string> fault_of_three(const Shape& shape, std::size_t i, std::size_t j) {
+  const Side &a = shape.sides[i], &b = shape.sides[j];
+  if (!(a.arc || b.arc) || !a.written || !b.written) return std::nullopt;
+  if (distance(b.to, a).low > 0 && distance(a.from, b).low > 0) return std::nullopt;
+  return fmt::format("sides {} and {} meet, or cannot be told from it", std::min(i, j), std::max(i, j));
+}
+
 std::optional<std::string> misplaced(const Shape& shape) {
   for (std::size_t p = 0; p + 1 < shape.piece_starts.size(); ++p) {
     const std::size_t outer = shape.piece_starts[p], end = shape.piece_starts[p + 1];
@@ -252,6 +261,8 @@ std::optional<std::string> fault_of(const Shape& shape) {
         std::optional<std::string> fault;
         if (next) fault = fault_of_neighbours(shape, i, j);
         if (round && !fault) fault = fault_of_neighbours(shape, j, i);
+        if ((next || round) && !fault && number[end - 1] == 2)
+          fault = next && !round ? fault_of_three(shape, i, j) : fault_of_three(shape, j, i);
         if (!next && !round && !(distance(shape.sides[i], shape.sides[j]).low > 0))
           fault = fmt::format("sides {} and {} meet, or cannot be told from it", i, j);
         if (fault) return fault;

@@ -122,6 +122,23 @@ TEST(VerifyFault, AnArcAndItsChordInFewDigitsAreInOrder) {
             "");
 }
 
+TEST(VerifyFault, ACornerOnAnArcOfThreeSides) {
+  // A half circle whose third corner, (3, 4), lies on the arc.
+  const auto half = [](const char* corner) {
+    return "[" + arc("5, 0", "-5, 0", "0, 0") + ", " + line("-5, 0", corner) + ", " + line(corner, "5, 0") +
+           "]";
+  };
+  EXPECT_NE(refusal(region(half("3, 4"))).find("sides 0 and 1 meet"), std::string::npos)
+      << refusal(region(half("3, 4")));
+  EXPECT_EQ(refusal(region(half("3, 3"))), "");
+  const auto arc_last = [](const char* corner) {
+    return "[" + line("-5, 0", corner) + ", " + line(corner, "5, 0") + ", " + arc("5, 0", "-5, 0", "0, 0") +
+           "]";
+  };
+  EXPECT_NE(refusal(region(arc_last("3, 4"))).find("meet, or cannot"), std::string::npos);
+  EXPECT_EQ(refusal(region(arc_last("3, 3"))), "");
+}
+
 TEST(VerifyFault, PlacementsBeyondAllBoundsAreRefused) {
   const double infinity = std::numeric_limits<double>::infinity(),
                nan = std::numeric_limits<double>::quiet_NaN();
