@@ -123,7 +123,8 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
                 second.bound == second.found);
     // With less left of the maximum asked for than it allows, fewer placements have to be excluded.
     if (i % 2 == 1) {
-      EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift -= 0.2, s.proof->most += 0.2; }));
+      const double spare = second.proof->shift - second.proof->bound + 1e-9;
+      EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift -= spare, s.proof->most += spare; }));
     }
     // The bound is one for placements with that margin, and not for those with less.
     EXPECT_TRUE(refuted([&](auto& d, auto& s) {

@@ -93,7 +93,7 @@ TEST(LayoutRelationsDifferential, OutlinesOnASmallLattice) {
   EXPECT_GT(share(counts.meet), 0.15);
   EXPECT_GT(share(counts.meet + counts.apart), 0.9) << "cases that are no outlines";
   EXPECT_GT(share(counts.apart), 0.05);
-  EXPECT_GT(share(counts.within), 0.005);
+  EXPECT_GT(share(counts.within), 0.002);
   EXPECT_GT(share(counts.near), 0.1);
   EXPECT_GT(share(counts.far), 0.1);
 }

@@ -110,7 +110,7 @@ TEST(ReferenceOverlap, FragmentMissesOverlapsOfConvexParts) {
   EXPECT_LT(triangle, 0.2);
   const GridRegion strap = geom::turned(made(box(0, 0, 100, 10)), geom::rotation_from_degrees(45), false);
   const double slanting = missed(strap, "strap 100 x 10 stored at 45 degrees");
-  EXPECT_GT(slanting, 0.15);
+  EXPECT_GT(slanting, 0.08);
   EXPECT_LT(slanting, 0.6);
 }
 
