@@ -17,8 +17,8 @@ packages=(
   libboost-dev libsqlite3-dev                                # the server of the editor: HTTP and WebSocket, its store
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
-  # lekalo.wasm, the kernel of the page, and what runs it in a test
-  clang-19 lld-19 wasi-libc libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs
+  # lekalo.wasm, the kernel of the page, and what builds the page and drives it in tests
+  clang-19 lld-19 wasi-libc libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs chromium
   libgtest-dev
   python3            # a third opinion on results, written by a stranger
   python3-ezdxf python3-gdal # the same on DXF drawings
@@ -31,6 +31,9 @@ full_packages=(
   clang libclang-rt-14-dev llvm libbenchmark-dev
   libpolyclipping-dev libcgal-dev # rivals and oracle of Booleans; CGAL is under the GPL and linked by nothing that is shipped
 )
+
+# Node from elsewhere than Debian brings its own npm, and refuses Debian's.
+command -v npm >/dev/null || packages+=(npm)
 
 case "${1-}" in
   "") ;;

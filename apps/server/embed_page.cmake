@@ -1,7 +1,10 @@
-# Writes the files of a folder into a C++ source: cmake -DFOLDER=web/dist -DOUTPUT=page_files.cpp -P
-# embed_page.cmake. Without the folder, one page that says how to build it.
+# Writes the files of a folder into a C++ source: cmake -DFOLDER=page -DOUTPUT=page_files.cpp -P
+# embed_page.cmake. Without a folder, one page that says how to build it.
 cmake_minimum_required(VERSION 3.25)
-file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
+set(files "")
+if(FOLDER)
+  file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
+endif()
 list(SORT files)
 set(missing ${CMAKE_CURRENT_LIST_DIR}/page_missing.html)
 set(table "")
