@@ -1,9 +1,10 @@
 // The picture: two canvases. The lower holds sheets and parts at rest, the upper what moves while a part is
 // dragged, so that a drag costs as much as the parts in hand, not as the layout.
 
+import { Backdrop, type Painter } from './backdrop';
 import { isGap, type Part, type Placement, type Point, type Violation } from './document';
 import type { LiveState } from './kernel_api';
-import { boxesMeet, placedBox, type Box, type Model, type Sheet } from './model';
+import { innerPoint, placedBox, type Box, type Model, type Sheet } from './model';
 import type { View } from './view';
 
 export interface Theme {
@@ -32,6 +33,8 @@ export interface Scene {
   band: Box | null;
   ruler: { from: Point; to: Point } | null;
   arrow: { from: Point; to: Point } | null;
+  /// Of the chosen parts at rest; pixels.
+  handle: { at: Point; top: Point } | null;
   show: { labels: boolean; grain: boolean; gap: boolean; zones: boolean };
 }
 
@@ -68,31 +71,32 @@ function tracedPath(loops: readonly Point[][], apart: number): Path2D {
   return path;
 }
 
-const loopsOf = (o: { polygon: { outer: Point[]; holes?: Point[][] } }): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
+type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };
+const loopsOf = (o: Outlined): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
 
-export class Picture {
-  private readonly base: CanvasRenderingContext2D;
+export class Picture implements Painter {
+  readonly backdrop: Backdrop;
   private readonly top: CanvasRenderingContext2D;
   private shapes = new Map<Part, Shape>();
   private paths = new WeakMap<object, Path2D>();
+  private captions = new WeakMap<object, Point>();
   private hues = new Map<string, number>();
   private patterns = new Map<string, CanvasPattern>();
   private of: Model | null = null;
   private ratio = 1;
 
   constructor(base: HTMLCanvasElement, top: HTMLCanvasElement) {
-    this.base = base.getContext('2d', { alpha: false })!;
+    this.backdrop = new Backdrop(base, this);
     this.top = top.getContext('2d')!;
   }
 
   resize(view: View, width: number, height: number): void {
-    this.ratio = Math.max(1, window.devicePixelRatio || 1);
+    this.ratio = view.ratio = Math.max(1, window.devicePixelRatio || 1);
     view.width = width;
     view.height = height;
-    for (const { canvas } of [this.base, this.top]) {
-      canvas.width = Math.round(width * this.ratio);
-      canvas.height = Math.round(height * this.ratio);
-    }
+    this.backdrop.resize(width, height, this.ratio);
+    this.top.canvas.width = Math.round(width * this.ratio);
+    this.top.canvas.height = Math.round(height * this.ratio);
   }
 
   colour(part: Part, theme: Theme): string {
@@ -116,7 +120,14 @@ export class Picture {
     return shape;
   }
 
-  private path(outline: { polygon: { outer: Point[]; holes?: Point[][] } }): Path2D {
+  /// Where the name of an outline stands, in its own frame.
+  private captionOf(outline: Outlined, within?: Outlined): Point {
+    let at = this.captions.get(outline);
+    if (!at) this.captions.set(outline, (at = innerPoint(loopsOf(outline), within ? loopsOf(within) : [])));
+    return at;
+  }
+
+  private path(outline: Outlined): Path2D {
     let path = this.paths.get(outline);
     if (!path) this.paths.set(outline, (path = tracedPath(loopsOf(outline), 0)));
     return path;
@@ -164,37 +175,16 @@ export class Picture {
     return this.ratio / k; // mm a CSS pixel
   }
 
-  /// Fills the current path with a pattern fixed to the screen.
-  private fillHatched(ctx: CanvasRenderingContext2D, path: Path2D, pattern: CanvasPattern): void {
+  /// Fills a path with a pattern of pixels that moves with the view, so that a picture can be scrolled.
+  private fillHatched(ctx: CanvasRenderingContext2D, view: View, path: Path2D, pattern: CanvasPattern): void {
+    const tile = Math.round(8 * this.ratio);
+    const [x, y] = [Math.round(view.x * this.ratio) % tile, Math.round(view.y * this.ratio) % tile];
     ctx.save();
     ctx.clip(path, 'evenodd');
-    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.setTransform(1, 0, 0, 1, x, y);
     ctx.fillStyle = pattern;
-    ctx.fillRect(0, 0, ctx.canvas.width, ctx.canvas.height);
+    ctx.fillRect(-x, -y, ctx.canvas.width, ctx.canvas.height);
     ctx.restore();
-  }
-
-  drawBase(scene: Scene): void {
-    const { model, view, theme } = scene;
-    this.take(model);
-    const ctx = this.base;
-    ctx.setTransform(1, 0, 0, 1, 0, 0);
-    ctx.fillStyle = theme.back;
-    ctx.fillRect(0, 0, ctx.canvas.width, ctx.canvas.height);
-    const seen = view.visible();
-    for (const sheet of model.sheets) {
-      const box = shifted(sheet.box, sheet);
-      if (boxesMeet(box, seen)) this.drawSheet(ctx, scene, sheet);
-    }
-    const marked = new Map<number, 'bad' | 'near'>();
-    for (const v of scene.violations) {
-      for (const id of [v.a, v.b]) if (id !== null && marked.get(id) !== 'bad') marked.set(id, isGap(v.kind) ? 'near' : 'bad');
-    }
-    for (const p of model.placements.values()) {
-      if (!scene.moving.has(p.id)) this.drawPart(ctx, scene, p, seen, marked.get(p.id) ?? null);
-    }
-    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    for (const v of scene.violations) if (!scene.moving.has(v.a) && !(v.b !== null && scene.moving.has(v.b))) this.drawViolation(ctx, scene, v);
   }
 
   drawTop(scene: Scene): void {
@@ -202,16 +192,15 @@ export class Picture {
     const { view, theme } = scene;
     ctx.setTransform(1, 0, 0, 1, 0, 0);
     ctx.clearRect(0, 0, ctx.canvas.width, ctx.canvas.height);
-    const seen = view.visible();
     const level = scene.live?.level;
     for (const v of scene.live?.violations ?? []) {
       for (const id of [v.a, v.b]) {
         const met = id === null || scene.moving.has(id) ? undefined : scene.model.placements.get(id);
-        if (met) this.drawPart(ctx, scene, met, seen, isGap(v.kind) ? 'near' : 'bad');
+        if (met) this.drawPart(ctx, scene, met, isGap(v.kind) ? 'near' : 'bad');
       }
     }
     for (const p of scene.moving.values()) {
-      this.drawPart(ctx, scene, p, seen, level === 'forbidden' ? 'bad' : level === 'gap' ? 'near' : null, level === 'clear');
+      this.drawPart(ctx, scene, p, level === 'forbidden' ? 'bad' : level === 'gap' ? 'near' : null, level === 'clear');
     }
     ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     if (scene.live) {
@@ -229,6 +218,7 @@ export class Picture {
       const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
       this.drawMeasure(ctx, scene, from, to, `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`, theme.select);
     }
+    if (scene.handle) this.drawHandle(ctx, theme, scene.handle.top, scene.handle.at);
     if (scene.arrow) this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
     if (scene.band) {
       const [x0, y0] = view.toScreen(scene.band.left, scene.band.top);
@@ -245,7 +235,7 @@ export class Picture {
     }
   }
 
-  private drawSheet(ctx: CanvasRenderingContext2D, scene: Scene, sheet: Sheet): void {
+  drawSheet(ctx: CanvasRenderingContext2D, scene: Scene, sheet: Sheet): void {
     const { view, theme } = scene;
     const px = this.frame(ctx, view, sheet);
     const { stock, box } = sheet;
@@ -257,7 +247,7 @@ export class Picture {
     }
     ctx.fillStyle = theme.material;
     ctx.fill(path, 'evenodd');
-    for (const hole of stock.outline?.polygon.holes ?? []) this.fillHatched(ctx, tracedPath([hole], 0), this.hatch(ctx, theme.faint, 'lines'));
+    for (const hole of stock.outline?.polygon.holes ?? []) this.fillHatched(ctx, view, tracedPath([hole], 0), this.hatch(ctx, theme.faint, 'lines'));
     if (scene.show.zones) {
       ctx.save();
       ctx.clip(path, 'evenodd');
@@ -275,7 +265,7 @@ export class Picture {
       ctx.restore();
     }
     for (const defect of stock.defects ?? []) {
-      this.fillHatched(ctx, this.path(defect.outline), this.hatch(ctx, theme.defect, 'lines'));
+      this.fillHatched(ctx, view, this.path(defect.outline), this.hatch(ctx, theme.defect, 'lines'));
       ctx.strokeStyle = theme.defect;
       ctx.lineWidth = 1.4 * px;
       ctx.stroke(this.path(defect.outline));
@@ -292,16 +282,17 @@ export class Picture {
     const [tx, ty] = view.toScreen(sheet.x + box.left, sheet.y + box.top);
     if ((box.right - box.left) * view.scale > 60) {
       ctx.fillText(`${stock.name ?? stock.id}${(stock.count ?? 1) > 1 ? `  ${sheet.copy + 1} / ${stock.count}` : ''}`, tx, ty - 8);
-      if (stock.kind !== 'strip' || stock.grain_deg !== undefined) this.grainMark(ctx, theme, tx + 6, ty + 14, stock.grain_deg ?? 0, 22);
+      if (stock.kind !== 'strip' || stock.grain_deg !== undefined) this.grainMark(ctx, theme, tx + 18, ty + 12, stock.grain_deg ?? 0, 22);
     }
     if (scene.show.zones && view.scale > 0.12) {
       ctx.font = '11px system-ui, sans-serif';
       ctx.fillStyle = theme.zone;
+      ctx.textAlign = 'center';
       for (const zone of stock.zones ?? []) {
-        const b = zone.outline.polygon.outer[0]!;
-        const [zx, zy] = view.toScreen(sheet.x + Math.max(b[0], box.left), sheet.y + Math.max(b[1], box.bottom));
-        ctx.fillText(`${zone.id} · ${zone.quality}`, zx + 4, zy + 14);
+        const [x, y] = this.captionOf(zone.outline, stock.outline);
+        ctx.fillText(`${zone.id} · ${zone.quality}`, ...view.toScreen(sheet.x + x, sheet.y + y));
       }
+      ctx.textAlign = 'left';
       ctx.fillStyle = theme.defect;
       for (const defect of stock.defects ?? []) {
         const b = defect.outline.polygon.outer[0]!;
@@ -311,17 +302,12 @@ export class Picture {
     }
   }
 
-  private drawPart(
-    ctx: CanvasRenderingContext2D, scene: Scene, p: Placement, seen: Box, mark: 'bad' | 'near' | null, good = false,
-  ): void {
+  drawPart(ctx: CanvasRenderingContext2D, scene: Scene, p: Placement, mark: 'bad' | 'near' | null, good = false): void {
     const { model, view, theme } = scene;
     const sheet = model.sheet(p.stock, p.copy);
     if (!sheet) return;
     const part = model.part(p);
     const shape = this.shape(part);
-    const [cx, cy] = [p.x + sheet.x, p.y + sheet.y];
-    const r = shape.reach + model.gap(p);
-    if (cx + r < seen.left || cx - r > seen.right || cy + r < seen.bottom || cy - r > seen.top) return;
     const chosen = scene.selection.has(p.id);
     const px = this.frame(ctx, view, sheet, p);
     const path = shape.at(px);
@@ -342,7 +328,7 @@ export class Picture {
       ctx.fillStyle = colour;
       ctx.fill(path, 'evenodd');
       ctx.globalAlpha = 1;
-      if (!small) this.fillHatched(ctx, path, this.hatch(ctx, colour, mark === 'bad' ? 'cross' : 'dots'));
+      if (!small) this.fillHatched(ctx, view, path, this.hatch(ctx, colour, mark === 'bad' ? 'cross' : 'dots'));
     }
     if (!small || chosen || mark) {
       ctx.strokeStyle = mark === 'bad' ? theme.bad : mark === 'near' ? theme.near : good ? theme.good : chosen ? theme.select
@@ -353,20 +339,26 @@ export class Picture {
     const size = shape.reach / px;
     if (size < 18) return;
     const box = scene.moving.has(p.id) ? placedBox(part, p) : model.box(p);
-    const [sx, sy] = view.toScreen(sheet.x + (box.left + box.right) / 2, sheet.y + (box.bottom + box.top) / 2);
+    const [ix, iy] = this.captionOf(part.outline);
+    const mx = p.mirrored ? -ix : ix;
+    const [sx, sy] = view.toScreen(sheet.x + p.x + p.c * mx - p.s * iy, sheet.y + p.y + p.s * mx + p.c * iy);
     ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     if (scene.show.labels) {
       ctx.font = size > 40 ? '600 12px system-ui, sans-serif' : '10px system-ui, sans-serif';
       ctx.textAlign = 'center';
       ctx.textBaseline = 'middle';
       ctx.fillStyle = theme.partInk;
-      const text = size > 40 ? part.name ?? part.id : String(p.id);
-      if (ctx.measureText(text).width < (box.right - box.left) * view.scale) {
-        ctx.fillText(text, sx, sy);
-        if (size > 40) {
-          ctx.font = '10px system-ui, sans-serif';
-          ctx.fillText(`${p.id}${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`, sx, sy + 13);
-        }
+      const [left] = view.toScreen(sheet.x + box.left, 0);
+      const [right] = view.toScreen(sheet.x + box.right, 0);
+      const room = 2 * Math.min(sx - left, right - sx);
+      const marks = `${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`;
+      const name = part.name ?? part.id;
+      if (size > 40 && ctx.measureText(name).width < room) {
+        ctx.fillText(name, sx, sy);
+        ctx.font = '10px system-ui, sans-serif';
+        ctx.fillText(`${p.id}${marks}`, sx, sy + 13);
+      } else if (ctx.measureText(`${p.id}${marks}`).width < room) {
+        ctx.fillText(`${p.id}${marks}`, sx, sy);
       }
     }
     if (scene.show.grain && part.grain && size > 26) {
@@ -393,10 +385,11 @@ export class Picture {
     ctx.stroke();
   }
 
-  private drawViolation(ctx: CanvasRenderingContext2D, scene: Scene, v: Violation): void {
+  drawViolation(ctx: CanvasRenderingContext2D, scene: Scene, v: Violation): void {
     const sheet = scene.model.sheet(v.stock, v.copy);
     if (!sheet) return;
     const { theme, view } = scene;
+    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     const [x, y] = view.toScreen(sheet.x + v.at[0], sheet.y + v.at[1]);
     if (x < -50 || y < -50 || x > view.width + 50 || y > view.height + 50) return;
     const colour = isGap(v.kind) ? theme.near : theme.bad;
@@ -432,6 +425,24 @@ export class Picture {
     this.tag(ctx, scene.theme, text, (x0 + x1) / 2, (y0 + y1) / 2 - 14, colour);
   }
 
+  private drawHandle(ctx: CanvasRenderingContext2D, theme: Theme, [x0, y0]: Point, [x, y]: Point): void {
+    ctx.strokeStyle = theme.select;
+    ctx.fillStyle = theme.material;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.moveTo(x0, y0);
+    ctx.lineTo(x, y + 7);
+    ctx.stroke();
+    ctx.beginPath();
+    ctx.arc(x, y, 7, 0, 7);
+    ctx.fill();
+    ctx.stroke();
+    // A turning arrow within.
+    ctx.beginPath();
+    ctx.arc(x, y, 3.2, 0.6, 5.2);
+    ctx.stroke();
+  }
+
   private drawArrow(ctx: CanvasRenderingContext2D, [x0, y0]: [number, number], [x1, y1]: [number, number], colour: string): void {
     const a = Math.atan2(y1 - y0, x1 - x0);
     ctx.strokeStyle = colour;
@@ -462,5 +473,3 @@ export class Picture {
     ctx.fillText(text, x, y + 0.5);
   }
 }
-
-const shifted = (b: Box, s: Sheet): Box => ({ left: b.left + s.x, right: b.right + s.x, bottom: b.bottom + s.y, top: b.top + s.y });

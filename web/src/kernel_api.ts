@@ -19,6 +19,10 @@ export interface Kernel {
   /// would bring it about.
   /// \p depths: how deep overlaps are, too; at each move of the pointer that would take too long.
   state(placements: readonly Placement[], text: string, reach: number, depths: boolean): LiveState | Promise<LiveState>;
+  /// Cosine and sine on the grid; null: not known here.
+  rotation(degrees: number): { c: number; s: number } | null;
+  /// Where `rotate` would put these placements; null: not known here.
+  turned(ids: readonly number[], degrees: number): Placement[] | null;
   /// Every violation of the layout; null: not known here.
   check(): Violation[] | null;
 }

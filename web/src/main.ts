@@ -2,16 +2,17 @@
 
 import { DARK, LIGHT, Picture, type Scene } from './draw';
 import type { Violation } from './document';
-import { Editor, movedBy, type Tool } from './editor';
+import { showBar as showTools } from './bar';
+import { Editor, movedBy } from './editor';
 import { h } from './elements';
-import { icon } from './icons';
 import { currentLanguage, setLanguage, t, type Key, type Language } from './i18n';
 import { showSidePanel, type Side } from './sides';
 import { Client, type Wire } from './socket';
 import { ServerKernel } from './server_kernel';
-import { act, type Action } from './tools/actions';
 import { key, SHORTCUTS } from './tools/keys';
-import { PointerTool } from './tools/pointer';
+import { Mirror, mirrorId } from './mirror';
+import { dragFromTray } from './tools/from_tray';
+import { PointerTool, turningHandle } from './tools/pointer';
 import { tray } from './panels/tray';
 import { View } from './view';
 import { loadWasmKernel } from './wasm_kernel';
@@ -31,6 +32,18 @@ const store = (name: string, value: string): void => {
   }
 };
 
+/// Whose undo it is: of this tab, across reloads.
+const author = ((): string => {
+  const fresh = `tab-${crypto.getRandomValues(new Uint32Array(1))[0]!.toString(36)}`;
+  try {
+    const kept = sessionStorage.getItem('author') ?? fresh;
+    sessionStorage.setItem('author', kept);
+    return kept;
+  } catch {
+    return fresh;
+  }
+})();
+
 const editor: Editor = new Editor(new ServerKernel(() => editor.client));
 const view = new View();
 const page = document.getElementById('page')!;
@@ -41,9 +54,11 @@ setLanguage((stored('language') ?? (navigator.language.startsWith('uk') ? 'uk' :
 
 const base = h('canvas', { 'aria-hidden': 'true' });
 const top = h('canvas', { 'aria-hidden': 'true' });
+const mirror = new Mirror();
 const legend = h('div', { class: 'legend' });
-const picture = h('main', { class: 'picture', tabindex: 0, role: 'application' }, base, top, legend);
+const picture = h('main', { class: 'picture', tabindex: 0, role: 'application' }, base, top, mirror.element, legend);
 const bar = h('header', { class: 'bar' });
+const tools = h('nav', { class: 'tools' });
 const left = h('aside', { class: 'left' });
 const right = h('aside', { class: 'right' });
 const status = h('footer', { class: 'status' });
@@ -52,76 +67,83 @@ const message = h('span', { class: 'message', role: 'alert' });
 const where = h('span');
 const state = h('span', { role: 'status' });
 status.append(where, live, message, state);
-page.append(bar, left, picture, right, status);
+page.append(bar, left, tools, picture, right, status);
 const drawing = new Picture(base, top);
-const pointer = new PointerTool(picture, editor, view, (all) => later(all));
+const pointer = new PointerTool(picture, editor, view, later);
 
-let due: 'none' | 'top' | 'all' = 'none';
-function later(all: boolean): void {
+/// What the next frame has to do; each does what those before it do.
+const DUTIES = ['none', 'top', 'view', 'all'] as const;
+type Duty = (typeof DUTIES)[number];
+let due: Duty = 'none';
+function later(duty: Duty): void {
   if (due === 'none') requestAnimationFrame(frame);
-  if (all || due === 'none') due = all ? 'all' : 'top';
+  if (DUTIES.indexOf(duty) > DUTIES.indexOf(due)) due = duty;
+  if (duty !== 'top') picture.dataset.mirror = 'false';
 }
 function scene(): Scene {
   return {
     model: editor.model, view, theme, selection: editor.selection, others: new Set([...editor.others.values()].flat()),
     violations: editor.violations ?? [], moving: editor.moving, live: editor.live, ...pointer.overlay, show: editor.show,
+    handle: editor.moving.size === 0 ? turningHandle(editor, view) : null,
   };
 }
 function frame(): void {
-  const all = due === 'all';
+  const duty = due;
   due = 'none';
   const shown = scene();
-  if (all) drawing.drawBase(shown);
+  if (duty === 'all') drawing.backdrop.draw(shown);
+  if (duty === 'view' && !drawing.backdrop.follow(shown)) sharpenLater();
+  if (duty !== 'top') {
+    mirror.place(view);
+    mirrorLater();
+  }
   drawing.drawTop(shown);
+  if (fitted && performance.getEntriesByName('first view').length === 0) performance.mark('first view');
+}
+/// After the last of a row of zooming frames the picture is painted sharp, without holding up what comes next.
+const SLICE_MS = 8;
+let sharpenDue: ReturnType<typeof setTimeout> | null = null;
+function sharpenLater(): void {
+  if (sharpenDue) clearTimeout(sharpenDue);
+  const step = (): void => {
+    sharpenDue = null;
+    if (!drawing.backdrop.sharpen(scene(), SLICE_MS)) requestAnimationFrame(step);
+    else picture.dataset.sharp = 'true';
+  };
+  picture.dataset.sharp = 'false';
+  sharpenDue = setTimeout(step, 70);
 }
 
-function button(label: Key, run: () => void, pressed?: boolean): HTMLButtonElement {
-  return h('button', { class: 'icon', title: t(label), 'aria-label': t(label), 'aria-pressed': pressed === undefined ? undefined : String(pressed), 'data-action': label, click: run }, icon(label));
+/// When the hand rests: nobody listens while the picture moves.
+let mirrorDue: ReturnType<typeof setTimeout> | null = null;
+function mirrorLater(): void {
+  if (mirrorDue) clearTimeout(mirrorDue);
+  mirrorDue = setTimeout(() => {
+    mirrorDue = null;
+    mirror.update(editor.model, view, editor.selection, editor.violations);
+    const first = editor.chosen()[0];
+    if (first === undefined) picture.removeAttribute('aria-activedescendant');
+    else picture.setAttribute('aria-activedescendant', mirrorId(first));
+    picture.dataset.mirror = 'true';
+  }, 60);
 }
-const action = (name: Action): HTMLButtonElement => button(name, () => void act(editor, name));
-const tool = (name: Tool): HTMLButtonElement => button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name);
-const space = (): HTMLElement => h('span', { class: 'gap' });
 
-function showBar(): void {
-  const layouts = h('select', { 'aria-label': t('open'), change: (e) => void openLayout(Number((e.target as HTMLSelectElement).value)) });
-  for (const l of known) layouts.append(h('option', { value: l.id, selected: l.id === editor.layoutId }, l.name || String(l.id)));
-  const file = h('input', { type: 'file', multiple: true, hidden: true, 'aria-label': t('open.file'), change: (e) => void takeFiles((e.target as HTMLInputElement).files) });
-  const forms = h('select', { 'aria-label': t('export'), change: (e) => {
-    const select = e.target as HTMLSelectElement;
-    if (select.value) location.assign(`/api/layouts/${editor.layoutId}/export?form=${select.value}`);
-    select.value = '';
-  } }, h('option', { value: '' }, t('export')), ...['layout', 'placements', 'svg', 'pdf', 'png', 'dxf', 'hpgl', 'gcode'].map((f) => h('option', { value: f }, f.toUpperCase())));
-  const step = h('input', { type: 'number', value: editor.rotateStep, min: 0.1, max: 180, step: 'any', 'aria-label': t('step'), title: t('step'), style: 'width: 62px', change: (e) => {
-    const value = Number((e.target as HTMLInputElement).value);
-    if (value > 0 && value <= 180) editor.rotateStep = value;
-  } });
-  bar.replaceChildren(
-    h('span', { class: 'brand' }, 'lekalo'), layouts, button('open.file', () => file.click()), file, button('copy.layout', () => void copyLayout()),
-    space(), h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...(['strict', 'free'] as const).map((m) =>
-      h('button', { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) }, t(m)))),
-    space(), action('undo'), action('redo'),
-    space(), tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'),
-    space(), action('rotate.left'), step, action('rotate.right'), action('flip'),
-    space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'),
-    space(), action('lock'), action('swap'), action('copy'), action('remove'),
-    space(), button('fit', fitAll), ...(['labels', 'grain', 'gap', 'zones'] as const).map((k) => h('button', { 'aria-pressed': String(editor.show[k]), click: () => {
-      editor.show[k] = !editor.show[k];
-      editor.tell('show');
-    } }, t(k))),
-    h('span', { class: 'push' }), forms, button('print', () => window.print()),
-    button('theme', () => {
-      theme = theme === DARK ? LIGHT : DARK;
-      store('theme', theme === DARK ? 'dark' : 'light');
-      showAll();
-    }),
-    h('button', { 'aria-label': t('language'), click: () => {
-      setLanguage(currentLanguage() === 'en' ? 'uk' : 'en');
-      store('language', currentLanguage());
-      showAll();
-    } }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', showHelp));
-}
+const showBar = (): void => showTools(bar, tools, editor, known, {
+  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void save(form), print: () => window.print(),
+  fit: fitAll, help: showHelp,
+  theme: () => {
+    theme = theme === DARK ? LIGHT : DARK;
+    store('theme', theme === DARK ? 'dark' : 'light');
+    showAll();
+  },
+  language: () => {
+    setLanguage(currentLanguage() === 'en' ? 'uk' : 'en');
+    store('language', currentLanguage());
+    showAll();
+  },
+});
 function showTray(): void {
-  left.replaceChildren(h('h2', {}, t('tray')), tray(editor, (part) => drawing.colour(part, theme)));
+  left.replaceChildren(h('h2', {}, t('tray')), tray(editor, (part) => drawing.colour(part, theme), (button, part, mirrored) => dragFromTray(button, picture, editor, view, part, mirrored)));
 }
 function showSide(): void {
   const held = right.querySelector('input')?.value ?? '';
@@ -136,7 +158,7 @@ function showSide(): void {
     },
     sheet: (sheet) => {
       view.fit({ left: sheet.box.left + sheet.x, right: sheet.box.right + sheet.x, bottom: sheet.box.bottom + sheet.y, top: sheet.box.top + sheet.y });
-      later(true);
+      later('view');
     },
   });
 }
@@ -149,6 +171,7 @@ function showStatus(): void {
     : editor.selection.size > 0 ? t('selected', { n: editor.selection.size }) : t('nothing');
   message.textContent = message.title = editor.message;
   const others = [...editor.others.keys()].filter((c) => c >= 0).length;
+  status.dataset.pending = String(editor.pending);
   state.textContent = [others > 0 ? t('others', { n: others }) : '', t(editor.pending > 0 ? 'state.saving' : `state.${editor.connection}`)].filter(Boolean).join(' · ');
 }
 function showAll(): void {
@@ -157,7 +180,7 @@ function showAll(): void {
   picture.dataset.drop = t('drop');
   legend.replaceChildren(...(['zone', 'defect', 'bad', 'near'] as const).map((k) => h('span', { class: k }, h('i'), t(`legend.${k}`))));
   showBar();
-  later(true);
+  later('all');
   requestAnimationFrame(() => {
     showTray();
     showSide();
@@ -175,7 +198,7 @@ function showHelp(): void {
 
 function fitAll(): void {
   view.fit(editor.model.extent());
-  later(true);
+  later('view');
 }
 function reveal(v: Violation): void {
   const sheet = editor.model.sheet(v.stock, v.copy);
@@ -184,7 +207,7 @@ function reveal(v: Violation): void {
   const [x, y] = [v.at[0] + sheet.x, v.at[1] + sheet.y];
   const r = Math.max(60, v.amount_mm * 4);
   view.fit({ left: x - r, right: x + r, bottom: y - r, top: y + r });
-  later(true);
+  later('view');
 }
 function revealPart(id: number): void {
   const p = editor.model.placements.get(id);
@@ -196,7 +219,7 @@ function revealPart(id: number): void {
   if (x < seen.left || x > seen.right || y < seen.bottom || y > seen.top) {
     const [sx, sy] = view.toScreen(x, y);
     view.pan(view.width / 2 - sx, view.height / 2 - sy);
-    later(true);
+    later('view');
   }
 }
 
@@ -226,6 +249,19 @@ async function takeFiles(files: FileList | null): Promise<void> {
     if (made.notices.length > 0) editor.say(made.notices.join(' · '));
   }
 }
+/// Exports as a download; a refusal stands in the status line.
+async function save(form: string): Promise<void> {
+  try {
+    const answer = await fetch(`/api/layouts/${editor.layoutId}/export?form=${form}`);
+    if (!answer.ok) return editor.say(((await answer.json()) as { error?: string }).error ?? String(answer.status));
+    const name = /filename="([^"]*)"/.exec(answer.headers.get('Content-Disposition') ?? '')?.[1] ?? `layout.${form}`;
+    const address = URL.createObjectURL(await answer.blob());
+    h('a', { href: address, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 60_000);
+  } catch (error) {
+    editor.say(error instanceof Error ? error.message : String(error));
+  }
+}
 async function copyLayout(): Promise<void> {
   const made = await api<{ id: number }>(`/api/layouts/${editor.layoutId}/copy?name=${encodeURIComponent(`${editor.name} 2`)}`, { method: 'POST' });
   if (!made) return;
@@ -242,7 +278,7 @@ function openLayout(id: number): void {
   here.searchParams.set('layout', String(id));
   here.searchParams.delete('token'); // a cookie holds it now, the address bar need not
   history.replaceState(null, '', here);
-  const url = new URL(`/ws?layout=${id}`, location.href);
+  const url = new URL(`/ws?layout=${id}&author=${author}`, location.href);
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   editor.client = new Client(() => new WebSocket(url, 'lekalo.1') as unknown as Wire, {
     layout: (m) => editor.open(m.document, m.name),
@@ -271,7 +307,7 @@ editor.on((topic) => {
   const isMoving = editor.moving.size > 0;
   picture.dataset.moving = String(isMoving);
   picture.dataset.level = editor.live?.level ?? '';
-  if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving);
+  if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
   if (topic === 'mode' || topic === 'show') showBar();
   if ((topic === 'layout' || topic === 'selection') && !panelsDue) {
     panelsDue = true;
@@ -286,7 +322,7 @@ editor.on((topic) => {
 
 new ResizeObserver(() => {
   drawing.resize(view, picture.clientWidth, picture.clientHeight);
-  if (editor.model.sheets.length > 0) later(true);
+  if (editor.model.sheets.length > 0) later('all');
 }).observe(picture);
 picture.addEventListener('pointermove', (e) => {
   const box = picture.getBoundingClientRect();
@@ -294,13 +330,16 @@ picture.addEventListener('pointermove', (e) => {
   const sheet = editor.model.sheetAt(x, y);
   where.textContent = `${(x - (sheet?.x ?? 0)).toFixed(2)}  ${(y - (sheet?.y ?? 0)).toFixed(2)} mm`;
 });
-picture.addEventListener('keydown', (e) => {
+/// Wherever the focus is but in a field or a dialog; going from part to part and the space bar, in the picture alone.
+document.addEventListener('keydown', (e) => {
+  const inPicture = e.target === picture;
+  if ((e.target as HTMLElement).closest('input, select, dialog, details') || (!inPicture && (e.key === 'Tab' || e.key === ' '))) return;
   if (e.code === 'Space') pointer.spaceDown = true;
   const mine = key(e, editor, {
     fit: fitAll, help: showHelp, cancel: () => pointer.cancel(), reveal: revealPart,
     zoom: (factor) => {
       view.zoomAt(view.width / 2, view.height / 2, factor);
-      later(true);
+      later('view');
     },
     find: () => {
       side = 'parts';
@@ -308,7 +347,7 @@ picture.addEventListener('keydown', (e) => {
       right.querySelector('input')?.focus();
     },
   });
-  if (mine || e.code === 'Space') e.preventDefault();
+  if (mine || (inPicture && e.code === 'Space')) e.preventDefault();
 });
 picture.addEventListener('keyup', (e) => {
   if (e.code === 'Space') pointer.spaceDown = false;
@@ -325,10 +364,10 @@ window.addEventListener('beforeprint', () => {
   theme = LIGHT;
   drawing.resize(view, picture.clientWidth, picture.clientHeight);
   view.fit(editor.model.extent());
-  drawing.drawBase(scene());
+  drawing.backdrop.draw(scene());
   theme = kept;
 });
-window.addEventListener('afterprint', () => later(true));
+window.addEventListener('afterprint', () => later('all'));
 
 /// Times `work` for the benchmark, ms.
 function timed(n: number, work: (i: number) => void): { median: number; p99: number; worst: number } {
@@ -339,12 +378,43 @@ function timed(n: number, work: (i: number) => void): { median: number; p99: num
   }).sort((a, b) => a - b);
   return { median: times[n >> 1]!, p99: times[Math.min(n - 1, Math.floor(n * 0.99))]!, worst: times[n - 1]! };
 }
-Object.assign(window, { lekaloBench: {
-  /// Full frames at the present view; reading a pixel waits until all of it is painted.
+/// For bench/speed.mjs and the tests.
+const lekaloBench = {
+  /// All painted at the present view; reading a pixel waits until it is.
   frames: (n: number) => timed(n, () => {
-    drawing.drawBase(scene());
+    lekaloBench.paintAll();
     base.getContext('2d')!.getImageData(0, 0, 1, 1);
   }),
+  /// Slices of the sharp picture after zooming.
+  sharpen: (n: number) => timed(n, (i) => {
+    if (i % 8 === 0) {
+      view.zoomAt(400, 300, i % 16 === 0 ? 1.1 : 1 / 1.1);
+      drawing.backdrop.follow(scene());
+    }
+    drawing.backdrop.sharpen(scene(), SLICE_MS);
+    base.getContext('2d')!.getImageData(0, 0, 1, 1);
+  }),
+  /// The frame after a part is chosen or let go.
+  choose: (n: number) => timed(n, (i) => {
+    editor.selection = new Set([[...editor.model.placements.keys()][(i * 7) % editor.model.placements.size]!]);
+    drawing.backdrop.draw(scene());
+    base.getContext('2d')!.getImageData(0, 0, 1, 1);
+  }),
+  /// Frames while the view moves a few pixels, or is zoomed.
+  pan: (n: number) => timed(n, (i) => {
+    view.pan(i % 40 < 20 ? 7 : -7, i % 40 < 20 ? 4 : -4);
+    drawing.backdrop.follow(scene());
+    base.getContext('2d')!.getImageData(0, 0, 1, 1);
+  }),
+  zoom: (n: number) => timed(n, (i) => {
+    view.zoomAt(400, 300, i % 20 < 10 ? 1.1 : 1 / 1.1);
+    drawing.backdrop.follow(scene());
+    base.getContext('2d')!.getImageData(0, 0, 1, 1);
+  }),
+  paintAll: () => {
+    drawing.resize(view, picture.clientWidth, picture.clientHeight);
+    drawing.backdrop.draw(scene());
+  },
   /// The check of the whole layout, after each change.
   check: (n: number) => timed(n, () => void editor.kernel.check()),
   /// The check of one part in hand at n places across the sheet, and the drawing of it.
@@ -359,7 +429,8 @@ Object.assign(window, { lekaloBench: {
     editor.release();
     return made;
   },
-} });
+};
+Object.assign(window, { lekaloBench });
 
 showAll();
 void (async () => {

@@ -57,6 +57,39 @@ export function contains(loops: readonly Point[][], x: number, y: number): boole
   return inside;
 }
 
+/// A point well within, for captions: of a lattice over the box one far from every edge and not far from the middle.
+export function innerPoint(loops: readonly Point[][], within: readonly Point[][] = []): Point {
+  const box = boxOf(loops[0]!);
+  const LATTICE = 20;
+  const middle: Point = [(box.left + box.right) / 2, (box.bottom + box.top) / 2];
+  let best = middle;
+  let most = -Infinity;
+  const edges = [...loops, ...within];
+  for (let i = 1; i < LATTICE; ++i) {
+    for (let j = 1; j < LATTICE; ++j) {
+      const x = box.left + ((box.right - box.left) * i) / LATTICE;
+      const y = box.bottom + ((box.top - box.bottom) * j) / LATTICE;
+      if (!contains(loops, x, y) || (within.length > 0 && !contains(within, x, y))) continue;
+      let near = Infinity;
+      for (const loop of edges) {
+        for (let k = 0, l = loop.length - 1; k < loop.length; l = k++) {
+          const [ax, ay] = loop[l]!;
+          const [dx, dy] = [loop[k]![0] - ax, loop[k]![1] - ay];
+          const along = Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+          near = Math.min(near, (x - ax - along * dx) ** 2 + (y - ay - along * dy) ** 2);
+        }
+      }
+      const good = Math.sqrt(near) - 0.12 * Math.hypot(x - middle[0], y - middle[1]);
+      // Of points as good as each other the first: the slack keeps roundings from choosing.
+      if (good > most + 1e-6) {
+        most = good;
+        best = [x, y];
+      }
+    }
+  }
+  return best;
+}
+
 export class Model {
   readonly parts = new Map<string, Part>();
   readonly stocks = new Map<string, Stock>();

@@ -6,11 +6,19 @@ import { UNKNOWN, type Kernel, type LiveState } from './kernel_api';
 import type { Change } from './model';
 import type { Client } from './socket';
 
+const QUARTERS: Record<number, { c: number; s: number }> = { 0: { c: 1, s: 0 }, 90: { c: 0, s: 1 }, 180: { c: -1, s: 0 }, 270: { c: 0, s: -1 } };
+
 export class ServerKernel implements Kernel {
   readonly immediate = false;
   constructor(private readonly client: () => Client | null) {}
   open(_document: LayoutDocument): void {}
   apply(_changes: readonly Change[], _nextId: number): void {}
+  rotation(degrees: number): { c: number; s: number } | null {
+    return QUARTERS[degrees] ?? null;
+  }
+  turned(): null {
+    return null;
+  }
   check(): null {
     return null;
   }

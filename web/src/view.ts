@@ -10,6 +10,9 @@ export class View {
   y = 0;
   width = 1;
   height = 1;
+  /// Pixels of the screen to one of the page.
+  ratio = 1;
+  private rest: [number, number] = [0, 0];
 
   toScreen(x: number, y: number): [number, number] {
     return [this.x + x * this.scale, this.y - y * this.scale];
@@ -17,9 +20,12 @@ export class View {
   toWorld(x: number, y: number): [number, number] {
     return [(x - this.x) / this.scale, (this.y - y) / this.scale];
   }
+  /// By whole pixels of the screen, so that what is painted can be moved along; what is left over waits.
   pan(dx: number, dy: number): void {
-    this.x += dx;
-    this.y += dy;
+    const [x, y] = [this.x + dx + this.rest[0], this.y + dy + this.rest[1]];
+    const onPixel = (now: number, to: number): number => now + Math.round((to - now) * this.ratio) / this.ratio;
+    [this.x, this.y] = [onPixel(this.x, x), onPixel(this.y, y)];
+    this.rest = [x - this.x, y - this.y];
   }
   /// Keeps what is under the cursor there.
   zoomAt(x: number, y: number, factor: number): void {

@@ -1,12 +1,18 @@
 // The WebAssembly kernel (kernel.ts, lekalo.wasm) behind the page's interface.
 
-import type { LayoutDocument, Placement, Violation, ViolationKind } from './document';
+import { rotate } from './commands';
+import type { LayoutDocument, Placement, Stock, Violation, ViolationKind } from './document';
 import { UNKNOWN, type Kernel, type Level, type LiveState } from './kernel_api';
 import type { Change } from './model';
 
 interface KernelViolation {
   kind: ViolationKind; a: number; b: number; stock: number; copy: number; feature: number; amount: number;
   at: [number, number]; direction: [number, number];
+}
+interface KernelPlacement { id: number; part: number; stock: number; copy: number; c: number; s: number; x: number; y: number; mirrored: boolean; locked: boolean }
+interface LoadedKernel {
+  open(document: string): KernelLayout;
+  rotation(degrees: number): { c: number; s: number };
 }
 interface KernelLayout {
   close(): void;
@@ -17,9 +23,10 @@ interface KernelLayout {
     nearest: { distance: number; onOther: [number, number]; onPart: [number, number] } | null;
   };
   check(): KernelViolation[];
+  plan(line: string, mode: 'strict' | 'free'): { changed: KernelPlacement[] };
 }
 interface KernelModule {
-  Kernel: { load(source: Response): Promise<{ open(document: string): KernelLayout }> };
+  Kernel: { load(source: Response): Promise<LoadedKernel> };
 }
 
 const modules = import.meta.glob<KernelModule>('./kernel.ts');
@@ -37,17 +44,29 @@ export async function loadWasmKernel(): Promise<Kernel | null> {
 class WasmKernel implements Kernel {
   readonly immediate = true;
   private layout: KernelLayout | null = null;
-  private stocks: string[] = [];
-  constructor(private readonly kernel: { open(document: string): KernelLayout }) {}
+  private stocks: Stock[] = [];
+  private parts: string[] = [];
+  constructor(private readonly kernel: LoadedKernel) {}
 
   open(document: LayoutDocument): void {
     this.layout?.close();
     this.layout = null;
-    this.stocks = (document.stocks ?? []).map((s) => s.id);
+    this.stocks = document.stocks ?? [];
+    this.parts = (document.parts ?? []).map((p) => p.id);
     this.layout = this.kernel.open(JSON.stringify(document));
   }
   apply(changes: readonly Change[], nextId: number): void {
     this.layout?.apply({ placements: changes, next_id: nextId });
+  }
+  rotation(degrees: number): { c: number; s: number } {
+    return this.kernel.rotation(degrees);
+  }
+  turned(ids: readonly number[], degrees: number): Placement[] | null {
+    if (!this.layout) return null;
+    return this.layout.plan(rotate(ids, degrees), 'free').changed.map((p) => ({
+      id: p.id, part: this.parts[p.part]!, stock: this.stocks[p.stock]!.id, copy: p.copy, c: p.c, s: p.s, x: p.x, y: p.y,
+      mirrored: p.mirrored, locked: p.locked,
+    }));
   }
   check(): Violation[] | null {
     return this.layout ? this.layout.check().map((v) => this.violation(v)) : null;
@@ -63,6 +82,8 @@ class WasmKernel implements Kernel {
     };
   }
   private violation(v: KernelViolation): Violation {
-    return { kind: v.kind, a: v.a, b: v.b || null, stock: this.stocks[v.stock] ?? '', copy: v.copy, amount_mm: v.amount, at: v.at, direction: v.direction };
+    const stock = this.stocks[v.stock]!;
+    const features = v.kind === 'quality' ? stock.zones : v.kind === 'defect' || v.kind === 'defect-gap' ? stock.defects : undefined;
+    return { kind: v.kind, a: v.a, b: v.b || null, stock: stock.id, copy: v.copy, amount_mm: v.amount, at: v.at, direction: v.direction, feature: features?.[v.feature]?.id };
   }
 }

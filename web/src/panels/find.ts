@@ -15,7 +15,7 @@ export function partRows(editor: Editor, wanted: string, show: (id: number) => v
       rows.push(h('li', { class: 'note' }, '…'));
       break;
     }
-    rows.push(h('li', { 'data-id': `placement-${p.id}` }, h('button', { 'aria-pressed': String(editor.selection.has(p.id)), click: () => show(p.id) },
+    rows.push(h('li', { 'data-id': `found-${p.id}` }, h('button', { 'aria-pressed': String(editor.selection.has(p.id)), click: () => show(p.id) },
       h('b', {}, `${p.id}`), h('span', {}, `${name}${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`),
       h('small', {}, `${p.x.toFixed(1)}  ${p.y.toFixed(1)}  ${((Math.atan2(p.s, p.c) * 180) / Math.PI).toFixed(1)}°`))));
   }

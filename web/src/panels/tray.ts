@@ -26,7 +26,7 @@ function thumbnail(part: Part, colour: string): SVGSVGElement {
   return svg;
 }
 
-export function tray(editor: Editor, colour: (part: Part) => string): HTMLElement {
+export function tray(editor: Editor, colour: (part: Part) => string, draggable: (button: HTMLElement, part: Part, mirrored: boolean) => void): HTMLElement {
   const counts = editor.model.counts();
   const sheet = () => {
     const first = editor.placementsOf(editor.chosen())[0];
@@ -41,12 +41,14 @@ export function tray(editor: Editor, colour: (part: Part) => string): HTMLElemen
     const placed = n.upright + n.mirrored;
     const wanted = editor.model.wanted(part.id);
     const left = wanted - placed;
-    return h('li', { 'data-id': `part-${part.id}`, class: left > 0 ? 'open' : 'full' },
-      h('button', { class: 'piece', title: t('tray.fit'), click: () => put(part, part.mirror ? 'upright' : undefined) },
+    const piece = h('button', { class: 'piece', title: t('tray.fit'), click: () => put(part, part.mirror ? 'upright' : undefined) },
         thumbnail(part, colour(part)),
-        h('span', { class: 'grow' }, h('b', {}, part.name ?? part.id),
-          h('small', {}, wanted === 0 ? t('tray.any', { n: placed }) : left > 0 ? t('tray.left', { n: left }) : t('tray.done'))),
-        h('span', { class: 'count' }, wanted ? `${placed}/${wanted}` : String(placed))),
-      part.mirror ? h('button', { class: 'icon', title: t('tray.fit.mirrored'), 'aria-label': t('tray.fit.mirrored'), click: () => put(part, 'mirrored') }, '⇋') : null);
+      h('span', { class: 'grow' }, h('b', {}, part.name ?? part.id),
+        h('small', {}, wanted === 0 ? t('tray.any', { n: placed }) : left > 0 ? t('tray.left', { n: left }) : t('tray.done'))),
+      h('span', { class: 'count' }, wanted ? `${placed}/${wanted}` : String(placed)));
+    draggable(piece, part, false);
+    const other = part.mirror ? h('button', { class: 'icon', title: t('tray.fit.mirrored'), 'aria-label': t('tray.fit.mirrored'), click: () => put(part, 'mirrored') }, '⇋') : null;
+    if (other) draggable(other, part, true);
+    return h('li', { 'data-id': `part-${part.id}`, class: left > 0 ? 'open' : 'full' }, piece, other);
   }));
 }

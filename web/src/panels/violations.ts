@@ -24,6 +24,6 @@ export function violations(editor: Editor, show: (v: Violation) => void): HTMLEl
       h('li', { 'data-id': violationId(v) },
         h('button', { class: isGap(v.kind) ? 'near' : 'bad', click: () => show(v) },
           h('b', {}, `${isGap(v.kind) ? '◌' : '✕'} ${t(`kind.${v.kind}` as Key)}`),
-          h('span', {}, v.b === null ? name(v.a) : `${name(v.a)} – ${name(v.b)}`),
+          h('span', {}, v.b !== null ? `${name(v.a)} – ${name(v.b)}` : v.feature ? `${name(v.a)} – ${v.feature}` : name(v.a)),
           v.amount_mm > 0 ? h('small', {}, `${v.amount_mm.toFixed(3)} mm`) : null)))));
 }

@@ -8,6 +8,32 @@ import type { View } from '../view';
 
 export interface Overlay { band: Box | null; ruler: { from: Point; to: Point } | null; arrow: { from: Point; to: Point } | null }
 
+/// Pixels from the box of the chosen parts to the handle that turns them, and how near a hand must come to it.
+const HANDLE = 26;
+const NEAR = { mouse: 10, touch: 22 };
+
+export interface Handle { at: Point; middle: Point; top: Point; ids: number[] }
+
+/// Where the chosen parts are turned by hand, in pixels: above their common box.
+export function turningHandle(editor: Editor, view: View): Handle | null {
+  const chosen = editor.placementsOf(editor.chosen()).filter((p) => !p.locked);
+  const first = chosen[0];
+  const sheet = first && editor.model.sheet(first.stock, first.copy);
+  if (!sheet || chosen.length > 200 || editor.tool === 'measure' || editor.tool === 'pan') return null;
+  const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
+  for (const p of chosen) {
+    if (editor.model.sheet(p.stock, p.copy) !== sheet) return null;
+    const b = editor.model.box(p);
+    box.left = Math.min(box.left, b.left);
+    box.right = Math.max(box.right, b.right);
+    box.bottom = Math.min(box.bottom, b.bottom);
+    box.top = Math.max(box.top, b.top);
+  }
+  const x = sheet.x + (box.left + box.right) / 2;
+  const top = view.toScreen(x, sheet.y + box.top);
+  return { top, at: [top[0], top[1] - HANDLE], middle: view.toScreen(x, sheet.y + (box.bottom + box.top) / 2), ids: chosen.map((p) => p.id) };
+}
+
 /// The part at a point of the picture; the last drawn of several.
 export function pick(editor: Editor, x: number, y: number): Placement | null {
   let found: Placement | null = null;
@@ -22,10 +48,21 @@ export function pick(editor: Editor, x: number, y: number): Placement | null {
   return found;
 }
 
+/// A hand means one of eight directions when it is near it: a hair off, a slide along a border ends at once.
+function straightened(from: Point, to: Point): Point {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const turn = Math.round(Math.atan2(dy, dx) / (Math.PI / 4));
+  if (Math.abs(Math.atan2(dy, dx) - (turn * Math.PI) / 4) > 0.14) return to;
+  const [ux, uy] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]][(turn + 8) % 8] as Point;
+  const length = (dx * ux + dy * uy) / (ux * ux + uy * uy);
+  return [from[0] + ux * length, from[1] + uy * length];
+}
+
 type Gesture =
   | { kind: 'drag'; from: Point; ids: number[]; origin: Sheet; text: string; moved: boolean }
   | { kind: 'band' | 'pan' | 'measure'; from: Point }
-  | { kind: 'flick'; from: Point; ids: number[] };
+  | { kind: 'flick'; from: Point; ids: number[] }
+  | { kind: 'turn'; about: Point; from: number; ids: number[]; degrees: number };
 
 export class PointerTool {
   readonly overlay: Overlay = { band: null, ruler: null, arrow: null };
@@ -34,7 +71,7 @@ export class PointerTool {
   private readonly fingers = new Map<number, Point>();
   spaceDown = false;
 
-  constructor(private readonly element: HTMLElement, private readonly editor: Editor, private readonly view: View, private readonly redraw: (all: boolean) => void) {
+  constructor(private readonly element: HTMLElement, private readonly editor: Editor, private readonly view: View, private readonly redraw: (what: 'top' | 'view' | 'all') => void) {
     element.addEventListener('pointerdown', (e) => this.down(e));
     element.addEventListener('pointermove', (e) => this.move(e));
     element.addEventListener('pointerup', (e) => this.up(e));
@@ -47,16 +84,16 @@ export class PointerTool {
       const [x, y] = this.at(e);
       if (e.shiftKey) view.pan(-e.deltaY, 0);
       else view.zoomAt(x, y, Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0016)));
-      redraw(true);
+      redraw('view');
     }, { passive: false });
     element.addEventListener('contextmenu', (e) => e.preventDefault());
   }
 
   cancel(): void {
-    if (this.gesture?.kind === 'drag') this.editor.release();
+    if (this.gesture?.kind === 'drag' || this.gesture?.kind === 'turn') this.editor.release();
     this.gesture = null;
     this.overlay.band = this.overlay.ruler = this.overlay.arrow = null;
-    this.redraw(true);
+    this.redraw('top');
   }
 
   private at(e: MouseEvent): Point {
@@ -79,6 +116,11 @@ export class PointerTool {
     if (this.editor.tool === 'measure') {
       this.gesture = { kind: 'measure', from: world };
       this.overlay.ruler = { from: world, to: world };
+      return;
+    }
+    const handle = turningHandle(this.editor, this.view);
+    if (handle && Math.hypot(at[0] - handle.at[0], at[1] - handle.at[1]) <= NEAR[e.pointerType === 'touch' ? 'touch' : 'mouse']) {
+      this.gesture = { kind: 'turn', about: handle.middle, from: Math.atan2(handle.middle[1] - at[1], at[0] - handle.middle[0]), ids: handle.ids, degrees: 0 };
       return;
     }
     const hit = pick(this.editor, ...world);
@@ -113,20 +155,31 @@ export class PointerTool {
     switch (gesture?.kind) {
       case 'pan':
         this.view.pan(at[0] - this.last[0], at[1] - this.last[1]);
-        this.redraw(true);
+        this.redraw('view');
         break;
       case 'measure':
         this.overlay.ruler = { from: gesture.from, to: world };
-        this.redraw(false);
+        this.redraw('top');
         break;
       case 'band':
         this.overlay.band = boxOf([gesture.from, world]);
-        this.redraw(false);
+        this.redraw('top');
         break;
       case 'flick':
-        this.overlay.arrow = { from: gesture.from, to: world };
-        this.redraw(false);
+        this.overlay.arrow = { from: gesture.from, to: e.altKey ? world : straightened(gesture.from, world) };
+        this.redraw('top');
         break;
+      case 'turn': {
+        const angle = Math.atan2(gesture.about[1] - at[1], at[0] - gesture.about[0]) - gesture.from;
+        gesture.degrees = this.turnOf(gesture.ids, (angle * 180) / Math.PI, e.shiftKey);
+        try {
+          const turned = this.editor.kernel.turned(gesture.ids, gesture.degrees);
+          if (turned) this.editor.hold(turned, line.rotate(gesture.ids, gesture.degrees));
+        } catch (error) {
+          this.editor.say(error instanceof Error ? error.message : String(error));
+        }
+        break;
+      }
       case 'drag': {
         if (!gesture.moved && Math.hypot(...this.offset(gesture.from, world)) * this.view.scale < 3) break;
         gesture.moved = true;
@@ -144,6 +197,21 @@ export class PointerTool {
     this.last = at;
   }
 
+  /// Tenths of a degree freely, the step of the toolbar with Shift; a part of few angles turns from one to the next.
+  private turnOf(ids: readonly number[], degrees: number, stepped: boolean): number {
+    const whole = ((((degrees + 180) % 360) + 360) % 360) - 180;
+    const [first] = this.editor.placementsOf(ids);
+    const angles = ids.length === 1 && first ? this.editor.model.part(first).rotations : undefined;
+    if (first && angles && angles.every((a) => typeof a === 'number')) {
+      const now = (Math.atan2(first.s, first.c) * 180) / Math.PI;
+      const turns = (angles as number[]).map((a) => Math.round(((((a - now + 540) % 360) + 360) % 360 - 180) * 1e6) / 1e6);
+      const apart = (turn: number): number => Math.abs(((((turn - whole + 540) % 360) + 360) % 360) - 180);
+      return turns.reduce((best, turn) => (apart(turn) < apart(best) ? turn : best), 0);
+    }
+    const step = stepped ? this.editor.rotateStep : 0.1;
+    return Math.round(Math.round(whole / step) * step * 1e6) / 1e6;
+  }
+
   private offset(a: Point, b: Point): Point {
     return [b[0] - a[0], b[1] - a[1]];
   }
@@ -154,7 +222,7 @@ export class PointerTool {
     const [was, is] = [Math.hypot(...this.offset(other, before)), Math.hypot(...this.offset(other, at))];
     this.view.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
     if (was > 1) this.view.zoomAt((other[0] + at[0]) / 2, (other[1] + at[1]) / 2, is / was);
-    this.redraw(true);
+    this.redraw('view');
   }
 
   private up(e: PointerEvent): void {
@@ -164,6 +232,10 @@ export class PointerTool {
     const { band, arrow } = this.overlay;
     this.overlay.band = this.overlay.arrow = null;
     if (gesture?.kind === 'drag' && gesture.moved) void this.editor.command(gesture.text);
+    if (gesture?.kind === 'turn') {
+      if (gesture.degrees !== 0) void this.editor.command(line.rotate(gesture.ids, gesture.degrees));
+      else this.editor.release();
+    }
     if (gesture?.kind === 'flick' && arrow) {
       const [dx, dy] = this.offset(arrow.from, arrow.to);
       const d = Math.hypot(dx, dy);
@@ -178,6 +250,6 @@ export class PointerTool {
       });
       this.editor.select([...(e.shiftKey ? this.editor.selection : []), ...inside.map((p) => p.id)]);
     }
-    this.redraw(gesture?.kind === 'pan');
+    this.redraw(gesture?.kind === 'pan' ? 'view' : 'top');
   }
 }

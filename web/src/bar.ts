@@ -1,0 +1,68 @@
+// The toolbar above and the tools beside the picture.
+
+import type { Editor, Tool } from './editor';
+import { h } from './elements';
+import { icon } from './icons';
+import { currentLanguage, t, type Key } from './i18n';
+import { menu } from './menu';
+import { act, type Action } from './tools/actions';
+
+export interface BarEvents {
+  openLayout(id: number): void;
+  takeFiles(files: FileList | null): void;
+  copyLayout(): void;
+  save(form: string): void;
+  print(): void;
+  fit(): void;
+  theme(): void;
+  language(): void;
+  help(): void;
+}
+
+/// What the server exports, with the name people know it by.
+const FORMS: readonly [string, string][] = [
+  ['layout', 'lekalo JSON'], ['placements', 'Placements JSON'], ['svg', 'SVG'], ['pdf', 'PDF'], ['png', 'PNG'], ['dxf', 'DXF'], ['hpgl', 'HPGL'], ['gcode', 'G-code'],
+];
+
+export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, layouts: readonly { id: number; name: string }[], events: BarEvents): void {
+  const button = (label: Key, run: () => void, pressed?: boolean): HTMLButtonElement =>
+    h('button', { class: 'icon', title: t(label), 'aria-label': t(label), 'aria-pressed': pressed === undefined ? undefined : String(pressed), 'data-action': label, click: run }, icon(label));
+  const action = (name: Action): HTMLButtonElement => button(name, () => void act(editor, name));
+  const tool = (name: Tool): HTMLButtonElement => button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name);
+  const space = (): HTMLElement => h('span', { class: 'gap' });
+  const item = (name: string, text: string, run: () => void): HTMLButtonElement => h('button', { 'data-action': name, click: (e) => {
+    (e.currentTarget as HTMLElement).closest('details')!.open = false;
+    run();
+  } }, text);
+
+  const choice = h('select', { 'aria-label': t('open'), class: 'layouts', change: (e) => events.openLayout(Number((e.target as HTMLSelectElement).value)) },
+    ...layouts.map((l) => h('option', { value: l.id, selected: l.id === editor.layoutId }, l.name || String(l.id))));
+  const file = h('input', { type: 'file', multiple: true, hidden: true, 'aria-label': t('open.file'), change: (e) => events.takeFiles((e.target as HTMLInputElement).files) });
+  const step = h('input', { type: 'number', class: 'step', value: editor.rotateStep, min: 0.1, max: 180, step: 'any', 'aria-label': t('step'), title: t('step'), 'data-action': 'step', change: (e) => {
+    const value = Number((e.target as HTMLInputElement).value);
+    if (value > 0 && value <= 180) editor.rotateStep = value;
+  } });
+  const shown = (['labels', 'grain', 'gap', 'zones'] as const).map((k) => h('label', {}, h('input', { type: 'checkbox', checked: editor.show[k], 'data-action': `show.${k}`, change: (e) => {
+    editor.show[k] = (e.target as HTMLInputElement).checked;
+    editor.tell('moving'); // the picture alone: the menu stays open
+    editor.tell('selection');
+  } }), t(k)));
+
+  // Who worked by the keyboard stays where he was.
+  const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
+  bar.replaceChildren(
+    h('span', { class: 'brand' }, 'lekalo'), choice, button('open.file', () => file.click()), file, button('copy.layout', events.copyLayout),
+    space(), h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...(['strict', 'free'] as const).map((m) =>
+      h('button', { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) }, t(m)))),
+    space(), action('undo'), action('redo'),
+    space(), action('rotate.left'), step, action('rotate.right'), action('flip'),
+    space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'),
+    space(), action('lock'), action('swap'), action('copy'), action('remove'),
+    h('span', { class: 'push' }), button('fit', events.fit),
+    menu('view', t('view'), ...shown, item('theme', t('theme'), events.theme)),
+    menu('export', t('export'), ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))), item('print', t('print'), events.print)),
+    h('button', { 'aria-label': t('language'), 'data-action': 'language', click: events.language }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', events.help));
+  tools.setAttribute('aria-label', t('tools'));
+  tools.replaceChildren(tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'));
+  if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
+}

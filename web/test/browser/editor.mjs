@@ -1,0 +1,407 @@
+// The editor as a person uses it: the real server, the real kernel, a real browser.
+
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { newTab, open, ready, run, serve, startBrowser, tabOf } from './harness.mjs';
+import { assertPictureDiffers, comparePicture } from './pictures.mjs';
+import { smallLayout } from './small_layout.mjs';
+
+const wide = { timeout: 60_000 };
+let browser;
+/** Of all tests that need no other: every server is an origin of its own, so nothing is left from the one before. */
+let usual;
+before(async () => {
+  browser = await startBrowser();
+  usual = await newTab(browser);
+}, wide);
+after(async () => browser?.close());
+
+/** A test with a server of its own and a page that must not complain. */
+function inEditor(name, work, { layout = smallLayout, options = null, expected = [] } = {}) {
+  test(name, wide, async (t) => {
+    const server = await serve(layout);
+    const page = options ? await newTab(browser, options) : usual;
+    t.after(async () => {
+      await (options ? page.context().close() : page.goto('about:blank')); // before its server goes
+      await server.stop();
+    });
+    page.problems.length = 0;
+    await open(page, server.page);
+    await settled(page);
+    await work(page, server, t);
+    assert.deepEqual(page.problems.filter((p) => !expected.some((e) => p.includes(e))), []);
+  });
+}
+
+const picture = (page) => page.locator('.picture');
+const settled = async (page) => {
+  await page.waitForFunction(() => document.querySelector('.status').dataset.pending === '0' && document.querySelector('.picture').dataset.moving === 'false' &&
+    document.querySelector('.picture').dataset.mirror === 'true' && document.querySelector('.picture').dataset.sharp !== 'false', null, { polling: 20 });
+};
+const message = (page) => page.textContent('.status .message');
+const live = (page) => page.textContent('.status .live');
+const placed = (page) => page.locator('.mirror li').count();
+const broken = (page) => page.locator('[data-id^="violation-"]').count();
+/** A point of a part by fractions of its box. The middle of the bracket is beside it. */
+async function at(page, id, fx = id === 3 ? 0.15 : 0.5, fy = 0.5) {
+  const box = await page.locator(`[data-id="placement-${id}"]`).evaluate((e) => e.getBoundingClientRect().toJSON());
+  return [box.x + box.width * fx, box.y + box.height * fy, box];
+}
+/** Screen pixels a millimetre. */
+const scaleOf = async (page) => (await at(page, 1))[2].width / 80;
+const export_ = async (server, form = 'layout') => {
+  const answer = await fetch(new URL(`/api/layouts/1/export?form=${form}`, server.url));
+  assert.equal(answer.status, 200);
+  return answer.text();
+};
+const placementOf = async (server, id) => JSON.parse(await export_(server)).placements.find((p) => p.id === id);
+/** What the program on its own says of the layout as it stands. */
+async function checked(server) {
+  const file = join(server.folder, 'exported.json');
+  writeFileSync(file, await export_(server));
+  const done = run('check', file, '--json');
+  return { ...JSON.parse(done.stdout), exit: done.status };
+}
+async function press(page, id) {
+  const [x, y] = await at(page, id);
+  await page.mouse.click(x, y);
+}
+/** Drags a part by millimetres and stops before letting it go. */
+async function hold(page, id, dx, dy) {
+  const [x, y] = await at(page, id);
+  const k = await scaleOf(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + (dx * k) / 2, y - (dy * k) / 2);
+  await page.mouse.move(x + dx * k, y - dy * k);
+}
+async function drop(page) {
+  await page.mouse.up();
+  await settled(page);
+}
+const command = (page, name) => page.click(`[data-action="${name}"]`);
+async function keys(page, ...names) {
+  for (const name of names) {
+    await page.keyboard.press(name);
+    await settled(page);
+  }
+}
+
+inEditor('opens with its parts, its rules checked by the kernel, and looks as it did', async (page) => {
+  assert.equal(await placed(page), 3);
+  assert.equal(await page.locator('.tray li').count(), 2);
+  assert.match(await page.textContent('.body'), /No rule is broken/);
+  assert.match(await page.getAttribute('[data-id="placement-3"]', 'aria-label'), /^Bracket 3, 20.00 120.00 mm, 0.0°, clear$/);
+  await comparePicture(page, 'small');
+});
+
+inEditor('refuses a forbidden place in strict mode, after showing its depth', async (page, server) => {
+  await hold(page, 2, -100, 0);
+  await page.waitForFunction(() => /depth \d/.test(document.querySelector('.status .live').textContent));
+  assert.equal(await picture(page).getAttribute('data-level'), 'forbidden');
+  assert.match(await live(page), /forbidden.*depth 30\.\d+ mm/);
+  await drop(page);
+  assert.match(await message(page), /not admitted/);
+  assert.equal((await placementOf(server, 2)).x, 200);
+  assert.match(await page.getAttribute('[data-id="placement-2"]', 'aria-label'), /200.00 40.00 mm/);
+});
+
+inEditor('says while dragging when a part is nearer than the gap, and how far it is when clear', async (page) => {
+  await hold(page, 2, -69, 0);
+  assert.equal(await picture(page).getAttribute('data-level'), 'gap');
+  await page.mouse.move(...(await at(page, 2)).slice(0, 2));
+  const k = await scaleOf(page);
+  const [x, y] = await at(page, 2);
+  await page.mouse.move(x - 55 * k, y);
+  assert.equal(await picture(page).getAttribute('data-level'), 'clear');
+  assert.match(await live(page), /clear.*nearest 1[45]\.\d+ mm/);
+  await page.keyboard.press('Escape');
+  await drop(page);
+  assert.match(await page.getAttribute('[data-id="placement-2"]', 'aria-label'), /200.00 40.00 mm/);
+});
+
+inEditor('puts it there in free mode, red, with the depth the program measures; undo and redo', async (page, server) => {
+  await command(page, 'mode.free');
+  await hold(page, 2, -100, 0);
+  await drop(page);
+  assert.equal(await broken(page), 1);
+  const said = await checked(server);
+  assert.equal(said.exit, 1);
+  assert.equal(said.violations.length, 1);
+  const shown = await page.textContent('[data-id="violation-overlap-1-2"] small');
+  assert.equal(shown, `${said.violations[0].amount_mm.toFixed(3)} mm`);
+  assert.equal(await page.getAttribute('[data-id="placement-2"]', 'data-level'), 'forbidden');
+  await page.click('[data-id="violation-overlap-1-2"] button');
+  await page.keyboard.press('Escape');
+  await command(page, 'fit');
+  await settled(page);
+  await comparePicture(page, 'overlap');
+  await command(page, 'undo');
+  await settled(page);
+  assert.equal(await broken(page), 0);
+  assert.equal((await placementOf(server, 2)).x, 200);
+  await assertPictureDiffers(page, 'overlap');
+  await command(page, 'redo');
+  await settled(page);
+  assert.equal(await broken(page), 1);
+  await command(page, 'undo');
+  await settled(page);
+  assert.equal((await checked(server)).exit, 0);
+});
+
+inEditor('slides to contact by an arrow, by a flick and by a button', async (page, server) => {
+  const step = 2 ** -20;
+  await press(page, 2);
+  await keys(page, 'Control+ArrowLeft');
+  assert.ok(Math.abs((await placementOf(server, 2)).x - 132) <= 2 * step);
+  await command(page, 'slide.right');
+  await settled(page);
+  assert.ok(Math.abs((await placementOf(server, 2)).x - 355) <= 2 * step);
+  await command(page, 'tool.slide');
+  await hold(page, 2, 0, 60);
+  await drop(page);
+  // Up to the knot: its lower edge at 190, a gap of 1 to it, half a plate.
+  assert.ok(Math.abs((await placementOf(server, 2)).y - 164) <= 2 * step);
+  assert.equal((await checked(server)).exit, 0);
+});
+
+inEditor('keeps everything over a reload, undo too', async (page, server) => {
+  await press(page, 3);
+  await keys(page, 'ArrowUp', 'Shift+ArrowRight');
+  assert.equal((await placementOf(server, 3)).x, 30);
+  await page.reload();
+  await ready(page);
+  await settled(page);
+  assert.match(await page.getAttribute('[data-id="placement-3"]', 'aria-label'), /30.00 121.00 mm/);
+  await command(page, 'undo');
+  await command(page, 'undo');
+  await settled(page);
+  assert.equal((await placementOf(server, 3)).x, 20);
+  assert.equal((await placementOf(server, 3)).y, 120);
+});
+
+inEditor('goes on where it was when the server was killed and is there again', async (page, server) => {
+  await press(page, 3);
+  await keys(page, 'ArrowUp');
+  await server.kill();
+  await page.waitForFunction(() => /No connection/.test(document.querySelector('.status').textContent), null, { polling: 20 });
+  await keys(page, 'ArrowUp');
+  assert.match(await message(page), /The connection broke/);
+  await server.start();
+  await page.waitForFunction(() => /Saved/.test(document.querySelector('.status').textContent), null, { polling: 20 });
+  await settled(page);
+  assert.match(await page.getAttribute('[data-id="placement-3"]', 'aria-label'), /20.00 121.00 mm/);
+  await keys(page, 'ArrowUp', 'Control+z');
+  assert.equal((await placementOf(server, 3)).y, 121);
+}, { expected: ['ERR_CONNECTION', 'WebSocket'] });
+
+inEditor('keeps two tabs in step, and undoes only its own', async (page, server) => {
+  const other = await tabOf(page.context());
+  await open(other, server.page);
+  await settled(other);
+  await press(page, 3);
+  await keys(page, 'ArrowUp');
+  await other.waitForFunction(() => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel), null, { polling: 20 });
+  assert.match(await other.textContent('.status'), /1 other here/);
+  await other.bringToFront();
+  await press(other, 3);
+  await keys(other, 'ArrowUp');
+  await page.waitForFunction(() => /20.00 122.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel), null, { polling: 20 });
+  await page.bringToFront();
+  await command(page, 'undo');
+  await settled(page);
+  assert.match(await message(page), /move 3 by 0 1/);
+  assert.equal((await placementOf(server, 3)).y, 122);
+  await command(other, 'undo');
+  await settled(other);
+  await command(page, 'undo');
+  await settled(page);
+  assert.equal((await placementOf(server, 3)).y, 120);
+  assert.deepEqual(other.problems, []);
+  await other.close();
+});
+
+inEditor('is whole by the keyboard alone', async (page, server) => {
+  const focus = () => page.evaluate(() => document.activeElement.className);
+  for (let i = 0; i < 80 && (await focus()) !== 'picture'; ++i) await page.keyboard.press('Tab');
+  assert.equal(await focus(), 'picture');
+  await keys(page, 'Tab', 'Tab');
+  assert.equal(await page.getAttribute('.picture', 'aria-activedescendant'), 'placement-2');
+  await keys(page, 'ArrowRight', 'Shift+ArrowUp');
+  let p = await placementOf(server, 2);
+  assert.deepEqual([p.x, p.y], [201, 50]);
+  await keys(page, 'm');
+  p = await placementOf(server, 2);
+  assert.equal(p.mirrored, true);
+  await keys(page, 'l');
+  assert.equal((await placementOf(server, 2)).locked, true);
+  await keys(page, 'l', 'Control+d');
+  assert.equal(await placed(page), 4);
+  await keys(page, 'Delete');
+  assert.equal(await placed(page), 3);
+  for (let i = 0; i < 7; ++i) await keys(page, 'Control+z');
+  assert.deepEqual((JSON.parse(await export_(server)).placements), smallLayout.placements.map((q) => ({ ...q })));
+  await page.keyboard.press('?');
+  assert.equal(await page.locator('dialog').count(), 1);
+});
+
+inEditor('is used by touch: drag, pinch', async (page, server) => {
+  const cdp = await page.context().newCDPSession(page);
+  const touch = (type, ...points) => cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const [x, y] = await at(page, 3);
+  const k = await scaleOf(page);
+  await touch('touchStart', [x, y]);
+  await touch('touchMove', [x + 20 * k, y]);
+  await touch('touchMove', [x + 40 * k, y]);
+  await touch('touchEnd');
+  await settled(page);
+  assert.ok(Math.abs((await placementOf(server, 3)).x - 60) < 0.5);
+  const middle = await page.locator('.picture').evaluate((e) => e.getBoundingClientRect().toJSON());
+  const [cx, cy] = [middle.x + middle.width / 2, middle.y + 60];
+  await touch('touchStart', [cx - 50, cy], [cx + 50, cy]);
+  await touch('touchMove', [cx - 100, cy], [cx + 100, cy]);
+  await touch('touchEnd');
+  await settled(page);
+  const now = await scaleOf(page);
+  assert.ok(now > 1.8 * k && now < 2.2 * k, `${now} after ${k}`);
+}, { options: { hasTouch: true } });
+
+inEditor('takes a part out of the tray by hand, and puts one where it fits by a press', async (page, server) => {
+  const piece = await page.locator('[data-id="part-plate"] .piece').boundingBox();
+  const [x, y, box] = await at(page, 2);
+  const k = box.width / 80;
+  await page.mouse.move(piece.x + 20, piece.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(x, y + 2, { steps: 3 });
+  assert.equal(await picture(page).getAttribute('data-level'), 'forbidden');
+  await page.mouse.move(x, y - 100 * k, { steps: 3 });
+  assert.equal(await picture(page).getAttribute('data-level'), 'clear');
+  await drop(page);
+  assert.equal(await placed(page), 4);
+  const p = await placementOf(server, 4);
+  assert.ok(p.part === 'plate' && Math.hypot(p.x - 200, p.y - 140) < 1, JSON.stringify(p));
+  await page.click('[data-id="part-bracket"] .piece');
+  await settled(page);
+  assert.equal(await placed(page), 5);
+  assert.equal((await checked(server)).exit, 0);
+});
+
+inEditor('turns by the handle: freely, by steps with Shift, from one allowed angle to the next', async (page, server) => {
+  const degrees = async (id) => {
+    const p = await placementOf(server, id);
+    return (Math.atan2(p.s, p.c) * 180) / Math.PI;
+  };
+  /** Turns what is chosen by hand about the middle of a box. */
+  const turn = async (box, by, key) => {
+    const [mx, my] = [box.x + box.width / 2, box.y + box.height / 2];
+    const r = box.height / 2 + 26;
+    await page.mouse.move(mx, my - r);
+    await page.mouse.down();
+    if (key) await page.keyboard.down(key);
+    const a = (by * Math.PI) / 180;
+    await page.mouse.move(mx - r * Math.sin(a), my - r * Math.cos(a), { steps: 4 });
+    if (key) await page.keyboard.up(key);
+    await drop(page);
+  };
+  await press(page, 3);
+  await keys(page, 'Shift+ArrowRight', 'Shift+ArrowRight', 'Shift+ArrowUp');
+  await turn((await at(page, 3))[2], 20);
+  assert.ok(Math.abs((await degrees(3)) - 20) < 0.6, `${await degrees(3)}; ${await message(page)}`);
+  await keys(page, 'Control+z');
+  await turn((await at(page, 3))[2], 40, 'Shift');
+  assert.ok(Math.abs((await degrees(3)) - 45) < 1e-9, `${await degrees(3)}; ${await message(page)}`);
+  await press(page, 2);
+  await keys(page, 'Shift+ArrowUp', 'Shift+ArrowUp');
+  await turn((await at(page, 2))[2], 70);
+  assert.ok(Math.abs((await degrees(2)) - 90) < 1e-9, `${await degrees(2)}; ${await message(page)}`);
+  assert.equal((await checked(server)).exit, 0);
+});
+
+inEditor('moves several parts as one, chosen by a box', async (page, server) => {
+  const [x1, y1, a] = await at(page, 1);
+  const [x2, , b] = await at(page, 2);
+  await page.mouse.move(a.x - 8, a.y - 8);
+  await page.mouse.down();
+  await page.mouse.move(b.x + b.width + 8, b.y + b.height + 8, { steps: 3 });
+  await drop(page);
+  assert.match(await live(page), /2 parts/);
+  const k = a.width / 80;
+  await page.mouse.move(x1, y1);
+  await page.mouse.down();
+  await page.mouse.move(x1 + 30 * k, y1 - 15 * k, { steps: 3 });
+  await drop(page);
+  const [p, q] = [await placementOf(server, 1), await placementOf(server, 2)];
+  assert.ok(x2 > x1 && Math.abs(q.x - p.x - 150) < 1e-9 && p.y === q.y && Math.abs(p.x - 80) < 1);
+  await keys(page, 'Control+z');
+  assert.equal((await placementOf(server, 1)).x, 50);
+});
+
+inEditor('paints what changed, moved or was zoomed exactly as if all were painted', async (page) => {
+  const same = () => page.evaluate(() => {
+    const canvas = document.querySelector('.picture canvas');
+    const pixels = () => canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+    const shown = pixels();
+    window.lekaloBench.paintAll();
+    const all = pixels();
+    const off = [];
+    for (let i = 0; i < all.length; ++i) if (Math.abs(all[i] - shown[i]) > 2) off.push([(i >> 2) % canvas.width, Math.floor((i >> 2) / canvas.width), i % 4, shown[i], all[i]].join(' '));
+    return off.slice(0, 20).join('; ');
+  });
+  await press(page, 3);
+  await keys(page, 'ArrowRight', 'Shift+ArrowUp');
+  assert.equal(await same(), '');
+  await command(page, 'mode.free');
+  await hold(page, 2, -100, 20);
+  await drop(page);
+  assert.equal(await same(), '');
+  await command(page, 'undo');
+  await settled(page);
+  assert.equal(await same(), '');
+  await page.mouse.move(700, 400);
+  await page.mouse.down({ button: 'middle' });
+  for (const [x, y] of [[720, 390], [651, 431], [500, 300], [610, 377]]) await page.mouse.move(x, y);
+  await page.mouse.up({ button: 'middle' });
+  await settled(page);
+  assert.equal(await same(), '');
+  await page.mouse.wheel(0, -300);
+  await page.waitForFunction(() => document.querySelector('.picture').dataset.sharp === 'false');
+  await settled(page);
+  assert.equal(await same(), '');
+});
+
+inEditor('exports what the program reads again', async (page, server) => {
+  for (const form of ['layout', 'svg', 'pdf']) {
+    await command(page, 'menu.export');
+    const [download] = await Promise.all([page.waitForEvent('download'), command(page, `export.${form}`)]);
+    const file = join(server.folder, download.suggestedFilename());
+    await download.saveAs(file);
+    if (form === 'layout') {
+      const done = run('check', file, '--json');
+      assert.equal(done.status, 0, done.stderr);
+      assert.deepEqual(JSON.parse(readFileSync(file, 'utf8')).placements, smallLayout.placements);
+    }
+    if (form === 'svg') assert.match(readFileSync(file, 'utf8'), /<svg/);
+    if (form === 'pdf') assert.equal(readFileSync(file).subarray(0, 5).toString(), '%PDF-');
+  }
+});
+
+inEditor('speaks Ukrainian, and remembers it', async (page) => {
+  await command(page, 'language');
+  assert.equal(await page.getAttribute('html', 'lang'), 'uk');
+  assert.match(await page.textContent('.left'), /Розмістити/);
+  await page.reload();
+  await ready(page);
+  await settled(page);
+  assert.equal(await page.getAttribute('html', 'lang'), 'uk');
+  assert.match(await page.textContent('.body'), /правил/i);
+});
+
+inEditor('shows what a server says of a file that is none', async (page, server) => {
+  const file = join(server.folder, 'broken.json');
+  writeFileSync(file, '{"format": "lekalo-layout/1", "units": "mm", "parts": [{}]}');
+  await page.setInputFiles('input[type=file]', file);
+  await page.waitForFunction(() => document.querySelector('.status .message').textContent.length > 10);
+  assert.match(await message(page), /parts/);
+}, { expected: ['400'] });
