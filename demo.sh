@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Set-up, release build, and the main jobs on the example data: where does the part lie in the blank, is there
-# a better place, and the NC program for the machine; a cutting layout, corrected, checked and drawn. Everything it writes goes to demo-out/.
+# a better place, and the NC program for the machine; a cutting layout, corrected, checked, drawn and edited. Everything it writes goes to demo-out/.
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/tools/common.sh"
 
@@ -51,6 +51,11 @@ show "$lekalo" check demo-out/shoes.json
 show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.svg
 show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.pdf
 
+# The editor, seen by a browser (tests drive it further: ctest -L browser).
+if [ -x "$(command -v chromium)" ] && [ -d web/node_modules ]; then
+  show env LEKALO=$lekalo node web/bench/picture.mjs demo-out/shoes.json demo-out/editor.png
+fi
+
 say ""
 say "Written to $root/demo-out:"
 say "  example-1.svg ... example-6.svg    blank, start, result, contacts and allowance; example-1.png the first as PNG"
@@ -60,3 +65,8 @@ say "  bracket.svg, bracket.json, bracket.nc  a part with arcs, a slot and holes
 say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of primitives in a probed casting: picture,"
 say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
+say "  editor.png                         the same in the editor, a part in hand over another. To use it:"
+say ""
+say "    $lekalo serve $layouts/shoes.json"
+say ""
+say "and open the address that it prints in a browser."

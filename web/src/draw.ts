@@ -90,8 +90,8 @@ export class Picture implements Painter {
     this.top = top.getContext('2d')!;
   }
 
-  resize(view: View, width: number, height: number): void {
-    this.ratio = view.ratio = Math.max(1, window.devicePixelRatio || 1);
+  resize(view: View, width: number, height: number, ratio = Math.max(1, window.devicePixelRatio || 1)): void {
+    this.ratio = view.ratio = ratio;
     view.width = width;
     view.height = height;
     this.backdrop.resize(width, height, this.ratio);
@@ -353,12 +353,20 @@ export class Picture implements Painter {
       const room = 2 * Math.min(sx - left, right - sx);
       const marks = `${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`;
       const name = part.name ?? part.id;
+      // Over hatching a text needs ground to stand on.
+      const write = (text: string, y: number): void => {
+        if (mark) ctx.strokeText(text, sx, y);
+        ctx.fillText(text, sx, y);
+      };
+      ctx.strokeStyle = theme.material;
+      ctx.lineWidth = 3;
+      ctx.lineJoin = 'round';
       if (size > 40 && ctx.measureText(name).width < room) {
-        ctx.fillText(name, sx, sy);
+        write(name, sy);
         ctx.font = '10px system-ui, sans-serif';
-        ctx.fillText(`${p.id}${marks}`, sx, sy + 13);
+        write(`${p.id}${marks}`, sy + 13);
       } else if (ctx.measureText(`${p.id}${marks}`).width < room) {
-        ctx.fillText(`${p.id}${marks}`, sx, sy);
+        write(`${p.id}${marks}`, sy);
       }
     }
     if (scene.show.grain && part.grain && size > 26) {

@@ -6,6 +6,7 @@ import { showBar as showTools } from './bar';
 import { Editor, movedBy } from './editor';
 import { h } from './elements';
 import { currentLanguage, setLanguage, t, type Key, type Language } from './i18n';
+import { printed } from './print';
 import { showSidePanel, type Side } from './sides';
 import { Client, type Wire } from './socket';
 import { ServerKernel } from './server_kernel';
@@ -359,15 +360,10 @@ for (const [type, on] of [['dragover', true], ['dragleave', false], ['drop', fal
     if (type === 'drop') void takeFiles((e as DragEvent).dataTransfer?.files ?? null);
   });
 }
-window.addEventListener('beforeprint', () => {
-  const kept = theme;
-  theme = LIGHT;
-  drawing.resize(view, picture.clientWidth, picture.clientHeight);
-  view.fit(editor.model.extent());
-  drawing.backdrop.draw(scene());
-  theme = kept;
-});
-window.addEventListener('afterprint', () => later('all'));
+const paper = h('div', { class: 'paper' });
+document.body.append(paper);
+window.addEventListener('beforeprint', () => paper.replaceChildren(...printed(editor)));
+window.addEventListener('afterprint', () => paper.replaceChildren());
 
 /// Times `work` for the benchmark, ms.
 function timed(n: number, work: (i: number) => void): { median: number; p99: number; worst: number } {

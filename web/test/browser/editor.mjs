@@ -371,6 +371,20 @@ inEditor('paints what changed, moved or was zoomed exactly as if all were painte
   assert.equal(await same(), '');
 });
 
+inEditor('prints each sheet in use with its parts', async (page) => {
+  await command(page, 'mode.free');
+  await keys(page, 'Escape');
+  const box = await page.evaluate(() => {
+    dispatchEvent(new Event('beforeprint'));
+    const said = [...document.querySelectorAll('.paper section')].map((s) => [s.textContent, s.querySelector('canvas').width]);
+    dispatchEvent(new Event('afterprint'));
+    return said;
+  });
+  assert.deepEqual(box, [['SmallPlate2Bracket1', 2200]]);
+  assert.equal((await page.pdf()).subarray(0, 5).toString(), '%PDF-');
+  assert.equal(await page.locator('.paper section').count(), 0);
+});
+
 inEditor('exports what the program reads again', async (page, server) => {
   for (const form of ['layout', 'svg', 'pdf']) {
     await command(page, 'menu.export');

@@ -1,5 +1,6 @@
 // The real `lekalo serve` on a free port with a store of its own, and Debian's Chromium on its page. Nothing goes
-// beyond this machine. LEKALO names the program, CHROMIUM the browser.
+// beyond this machine. LEKALO names the program, CHROMIUM the browser; LEKALO_PAGE a folder (`npm run build`: dist)
+// whose files stand for those in the program, for work on the page alone.
 
 import { spawn, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -10,6 +11,7 @@ import { chromium } from 'playwright-core';
 
 export const root = new URL('../../../', import.meta.url).pathname;
 export const lekalo = process.env.LEKALO ?? join(root, 'build/release/lekalo');
+const pageFolder = process.env.LEKALO_PAGE;
 const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Runs lekalo to its end. */
@@ -70,7 +72,14 @@ export async function startBrowser() {
 
 /** A tab; what its page complains about is kept in `problems`. */
 export async function newTab(browser, options = {}) {
-  return tabOf(await browser.newContext({ viewport: { width: 1440, height: 860 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true, ...options }));
+  const context = await browser.newContext({ viewport: { width: 1440, height: 860 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true, ...options });
+  if (pageFolder) {
+    await context.route((url) => existsSync(join(pageFolder, url.pathname)), (route) => {
+      const { pathname } = new URL(route.request().url());
+      return route.fulfill({ path: join(pageFolder, pathname === '/' ? 'index.html' : pathname) });
+    });
+  }
+  return tabOf(context);
 }
 export async function tabOf(context) {
   const page = await context.newPage();
