@@ -60,6 +60,13 @@ export function contains(loops: readonly Point[][], x: number, y: number): boole
 /// A point well within, for captions: of a lattice over the box one far from every edge and not far from the middle.
 export function innerPoint(loops: readonly Point[][], within: readonly Point[][] = []): Point {
   const box = boxOf(loops[0]!);
+  if (within.length > 0) {
+    const other = boxOf(within[0]!);
+    box.left = Math.max(box.left, other.left);
+    box.right = Math.min(box.right, other.right);
+    box.bottom = Math.max(box.bottom, other.bottom);
+    box.top = Math.min(box.top, other.top);
+  }
   const LATTICE = 20;
   const middle: Point = [(box.left + box.right) / 2, (box.bottom + box.top) / 2];
   let best = middle;
