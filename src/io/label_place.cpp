@@ -7,8 +7,8 @@ namespace lekalo::io::detail {
 
 LabelPlace label_place(const geom::GridRegion& outline) {
   const geom::GridBox box = bounds(outline);
-  LabelPlace best{geom::mm_from_grid(box.low + geom::GridPoint{(box.high.x - box.low.x) / 2,
-                                                               (box.high.y - box.low.y) / 2}),
+  LabelPlace best{geom::mm_from_grid(
+                      box.low + geom::GridPoint{(box.high.x - box.low.x) / 2, (box.high.y - box.low.y) / 2}),
                   0, geom::mm_from_grid(box.high.y - box.low.y)};
   double widest = -1;
   for (int row = 1; row <= 7; ++row) {
@@ -21,8 +21,7 @@ LabelPlace label_place(const geom::GridRegion& outline) {
         const geom::GridPoint a = outline.points[i], b = outline.points[i + 1 == end ? begin : i + 1];
         const double ay = static_cast<double>(a.y), by = static_cast<double>(b.y);
         if ((ay > y) == (by > y)) continue;
-        crossings.push_back(static_cast<double>(a.x) +
-                            (y - ay) / (by - ay) * static_cast<double>(b.x - a.x));
+        crossings.push_back(static_cast<double>(a.x) + (y - ay) / (by - ay) * static_cast<double>(b.x - a.x));
       }
     }
     std::sort(crossings.begin(), crossings.end());

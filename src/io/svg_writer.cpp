@@ -71,8 +71,8 @@ class SvgWriter {
     }
     for (const WrittenLine& line : drawing_.lines) {
       enter(line.layer);
-      append("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n", line.from.x, upright(line.from.y), line.to.x,
-             upright(line.to.y));
+      append("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n", line.from.x, upright(line.from.y),
+             line.to.x, upright(line.to.y));
     }
     for (const WrittenText& text : drawing_.texts) {
       enter(text.layer);

@@ -79,8 +79,7 @@ double largest_number(const geom::Contour& contour) {
 
 }  // namespace
 
-Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions,
-                                       const DrawingExtras& extras,
+Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras,
                                        bool (*same_name)(const std::string&, const std::string&)) {
   WrittenDrawing made;
   const auto layer = [&](const std::string& name) {

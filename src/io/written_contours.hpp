@@ -30,7 +30,7 @@ struct WrittenDrawing {
   std::vector<WrittenContour> contours;
   std::vector<WrittenLine> lines;
   std::vector<WrittenText> texts;
-  std::vector<std::string> layers;  ///< in the order of their first contours, lines, texts
+  std::vector<std::string> layers;   ///< in the order of their first contours, lines, texts
   std::vector<LayerColour> colours;  ///< by layer
   geom::Box box;
 };

@@ -34,7 +34,7 @@ struct DrawnText {
 /// How a layer is shown: AutoCAD's colour index in DXF, the colour itself in SVG. Others are black (7).
 struct LayerColour {
   std::string layer;
-  int index = 7;               ///< 1 to 255
+  int index = 7;                 ///< 1 to 255
   std::uint32_t rgb = 0x000000;  ///< 0xrrggbb
 };
 struct DrawingExtras {
