@@ -10,6 +10,7 @@
 #include <set>
 
 #include "label_place.hpp"
+#include "layout_tables.hpp"
 #include "picture_colour.hpp"
 #include "picture_scene.hpp"
 #include "picture_text.hpp"
@@ -402,7 +403,7 @@ Result<std::string> layout_png(const LayoutPicture& picture, int width_px) {
   return detail::scene_png(detail::Composer(picture).compose(), width_px);
 }
 Result<std::string> layout_pdf(const LayoutPicture& picture) {
-  return detail::scene_pdf(detail::Composer(picture).compose());
+  return detail::scene_pdf(detail::Composer(picture).compose(), detail::layout_tables(picture));
 }
 
 }  // namespace lekalo::io

@@ -22,7 +22,7 @@ using layout::Document;
 using layout::Placement;
 using layout::Sheet;
 
-constexpr double kLargestLetter = 8, kSmallestLetter = 0.5;  // mm
+constexpr double kLargestLetter = 6, kSmallestLetter = 0.5;  // mm
 constexpr double kLongestGrainLine = 150;                    // mm
 
 geom::Region region_of(const GridRegion& polygon) {
@@ -191,11 +191,11 @@ class SheetMaker {
     const LabelPlace place = label_place(outline);
     shape.grain = grain_line(part, placement, outline, place);
     shape.label = fmt::format("{} {}", part.name.empty() ? part.id : part.name, placement.id);
-    shape.label_at = place.at;
     // Widths are multiples of the font's size, of which capitals are 0.72.
-    const double height = std::min({kLargestLetter, place.height_mm / 8,
-                                    0.72 * 0.8 * place.width_mm / std::max(1.0, text_width(shape.label))});
-    shape.label_height = height >= kSmallestLetter ? height : 0;
+    const LabelFit fit =
+        fitted_label(outline, std::max(1.0, text_width(shape.label)) / 0.72, kSmallestLetter, kLargestLetter);
+    shape.label_at = fit.middle;
+    shape.label_height = fit.height;
     to.parts.push_back(std::move(shape));
     outlines.push_back(outline);
   }

@@ -124,8 +124,11 @@ Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions
     made.lines.push_back({line.from, line.to, layer(line.layer)});
   }
   for (const DrawnText& text : extras.texts) {
-    extend(text.middle);
-    made.texts.push_back({detail::clean_text(text.text), text.middle, text.height, layer(text.layer)});
+    // Widths are multiples of the font's size, of which capitals are 0.72.
+    std::string clean = detail::clean_text(text.text);
+    const Point half = text.height * Point{0.5 * detail::text_width(clean) / 0.72, 1};
+    extend(text.middle - half), extend(text.middle + half);
+    made.texts.push_back({std::move(clean), text.middle, text.height, layer(text.layer)});
   }
   for (const std::string& name : made.layers) {
     LayerColour colour{name, 7, 0};

@@ -31,7 +31,7 @@ class Tour {
   }
 
   std::vector<OrderedCut> make() {
-    put(outermost_);
+    put(outermost_, {});
     for (int pass = 0; pass < kStartPasses; ++pass) choose_starts();
     std::vector<OrderedCut> order;
     for (const std::size_t cut : order_) order.push_back({cut, chosen_[cut]});
@@ -50,11 +50,12 @@ class Tour {
 
   /// Appends cuts that do not wait for each other, each behind what it encloses. Depth: that of parts in
   /// holes of parts, which is at most the number of parts; a stack of our own would not be smaller.
-  void put(std::vector<std::size_t> cuts) {
+  /// \param then  where the way goes on
+  void put(std::vector<std::size_t> cuts, Point then) {
     nearest_next(cuts);
-    exchange(cuts);
+    exchange(cuts, then);
     for (const std::size_t cut : cuts) {
-      put(inner_[cut]);
+      put(inner_[cut], pierce(cut));
       order_.push_back(cut);
       here_ = end(cut, chosen_[cut]);
     }
@@ -79,7 +80,7 @@ class Tour {
   /// Turns stretches of the tour round while that shortens it. A cut's pierce and end lie a lead apart, so
   /// the travels as they are when reversed are compared by the pierces alone; the ways to and from a stretch
   /// count.
-  void exchange(std::vector<std::size_t>& cuts) {
+  void exchange(std::vector<std::size_t>& cuts, Point then) {
     const std::size_t n = cuts.size();
     bool better = n > 2;
     while (better && comparisons_ < kMostComparisons) {
@@ -89,7 +90,7 @@ class Tour {
         comparisons_ += n - i;
         for (std::size_t j = i + 1; j < n; ++j) {
           const Point first = pierce(cuts[i]), last = pierce(cuts[j]);
-          const Point after = j + 1 == n ? Point{} : pierce(cuts[j + 1]);
+          const Point after = j + 1 == n ? then : pierce(cuts[j + 1]);
           const double old_way = travel(before, first) + travel(last, after);
           const double new_way = travel(before, last) + travel(first, after);
           if (!(new_way < old_way * (1 - 0x1p-40))) continue;
