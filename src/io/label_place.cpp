@@ -76,18 +76,19 @@ LabelPlace label_place(const geom::GridRegion& outline) {
 
 LabelFit fitted_label(const geom::GridRegion& outline, double wide, double least, double most) {
   constexpr int kRows = 12;
-  constexpr double kSmaller = 0.8, kRoomBeside = 1.1;
+  constexpr double kSmaller = 0.8, kRoomBeside = 1.1, kRoomAbove = 1.6;  // some letters reach above and below
   const geom::GridBox box = bounds(outline);
   LabelFit best;
-  for (int row = 1; row < kRows; ++row) {
-    const double y = row_of(box, row, kRows);
+  for (int k = 1; k < kRows; ++k) {
+    // From the middle outwards: 6, 5, 7, 4, 8 ...
+    const double y = row_of(box, kRows / 2 + (k % 2 == 0 ? -k / 2 : k / 2), kRows);
     const std::vector<double> crossings = crossings_at(outline, y);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
       const geom::Point middle = geom::kGridStep * geom::Point{(crossings[i] + crossings[i + 1]) / 2, y};
       double height =
           std::min(most, geom::kGridStep * (crossings[i + 1] - crossings[i]) / (wide * kRoomBeside));
       for (; height >= least && height > best.height; height *= kSmaller) {
-        const geom::Point half = 0.5 * kRoomBeside * geom::Point{wide * height, height};
+        const geom::Point half = 0.5 * height * geom::Point{kRoomBeside * wide, kRoomAbove};
         if (crosses_box(outline, {middle - half, middle + half})) continue;
         best = {middle, height};
         break;
