@@ -268,6 +268,8 @@ class DxfWriter {
 
   void keep_exact_arcs(const WrittenContour& contour, const std::vector<Edge>& read,
                        const std::vector<std::size_t>& of_edge) {
+    // Scaling to millimetres rounds what they would have to agree with.
+    if (unit_ != LengthUnit::millimetre) return;
     for (const ExactArc& arc : exact_arcs_of(*contour.edges, read, of_edge))
       exact_arcs_.push_back(entity_ + ' ' + text_of(arc));
   }

@@ -134,9 +134,9 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
     if (p.bare_starts > 0)
       said += fmt::format("; {} cuts have no room for a lead and begin on the contour", p.bare_starts);
     if (p.left_over_mm > request.profile.tolerance_mm)
-      said +=
-          fmt::format("; the round kerf leaves up to {:.3f} mm in corners of outlines, most in placement {}",
-                      p.left_over_mm, p.left_over_of);
+      said += fmt::format(
+          "; corners lie up to {:.3f} mm from the kerf and keep that much material, most in placement {}",
+          p.left_over_mm, p.left_over_of);
     made.notes.push_back(std::move(said));
     made.files.push_back({sheet.name, program->text});
   }
@@ -160,14 +160,24 @@ Result<Exported> export_layout(const layout::Document& document, const std::stri
   const bool together = request.form == ExportForm::dxf || request.form == ExportForm::svg;
   std::vector<std::string> notes;
   const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, *sheets, together, notes);
+  const std::vector<layout::Violation> broken =
+      layout::check_some(document, document.placements, {}, layout::Depths::left_out);
+  if (request.form == ExportForm::gcode)
+    for (const layout::Violation& violation : broken)
+      if (violation.kind == layout::ViolationKind::overlap &&
+          std::find(sheets->begin(), sheets->end(), layout::Sheet{violation.stock, violation.copy}) !=
+              sheets->end())
+        return failure(
+            ErrorCode::bad_input,
+            fmt::format("placements {} and {} overlap, so they cannot both be cut; lekalo check says how to "
+                        "move them apart",
+                        violation.a, violation.b));
   Result<Exported> made = request.form == ExportForm::hpgl    ? plotted(shapes, request)
                           : request.form == ExportForm::gcode ? programmed(shapes, name, request)
                                                               : drawing(shapes, request);
   if (!made) return made;
-  if (const std::size_t broken =
-          layout::check_some(document, document.placements, {}, layout::Depths::left_out).size();
-      broken > 0)
-    notes.push_back(fmt::format("the layout breaks {} of its rules; lekalo check says which", broken));
+  if (!broken.empty())
+    notes.push_back(fmt::format("the layout breaks {} of its rules; lekalo check says which", broken.size()));
   made->notes.insert(made->notes.begin(), notes.begin(), notes.end());
   return made;
 }

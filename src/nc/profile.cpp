@@ -93,7 +93,7 @@ double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolu
   return sum;
 }
 
-/// How far a contour's corners lie from the kerf's edge at most: what stays there is more than the drawing.
+/// How far a corner of the contour lies from the kerf at most.
 double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& path,
                  const Resolution& resolution, double half_kerf) {
   std::vector<geom::Curve> curves;

@@ -131,22 +131,23 @@ inline Real distance_to_boundary(rs274::Point p, const geom::Region& region) {
   return least;
 }
 
-/// By turns about p, of points along the contour.
-inline bool is_in(rs274::Point p, const geom::Contour& contour) {
+/// By turns about p, of chords that lie within `sagitta` of the contour: p must be further from it.
+inline bool is_in(rs274::Point p, const geom::Contour& contour, Real sagitta) {
   Real turns = 0;
   for (const geom::Edge& edge : contour) {
-    constexpr int kPieces = 8;  // of an arc; it only has to turn less than half round the point at a time
     rs274::Point before{edge.from.x, edge.from.y};
     const bool arc = edge.kind != geom::EdgeKind::line;
-    const int pieces = arc ? kPieces : 1;
-    const double sweep = arc ? geom::arc_sweep(edge) * (edge.kind == geom::EdgeKind::arc_ccw ? 1 : -1) : 0;
+    const Real sweep = arc ? geom::arc_sweep(edge) : 0;
+    const Real dx = edge.from.x - edge.centre.x, dy = edge.from.y - edge.centre.y;
+    const int pieces = arc ? static_cast<int>(std::ceil(
+                                 sweep / std::min<Real>(0.7L, std::sqrt(8 * sagitta / std::hypot(dx, dy)))))
+                           : 1;
     for (int k = 1; k <= pieces; ++k) {
-      rs274::Point next{edge.from.x + (edge.to.x - edge.from.x) * Real(k) / pieces,
-                        edge.from.y + (edge.to.y - edge.from.y) * Real(k) / pieces};
-      if (arc) {
-        const Real c = std::cos(Real(sweep) * k / kPieces), s = std::sin(Real(sweep) * k / kPieces);
-        const Real dx = edge.from.x - edge.centre.x, dy = edge.from.y - edge.centre.y;
-        next = {edge.centre.x + c * dx - s * dy, edge.centre.y + s * dx + c * dy};
+      rs274::Point next{edge.to.x, edge.to.y};
+      if (k < pieces) {
+        const Real angle = sweep * k / pieces * (edge.kind == geom::EdgeKind::arc_ccw ? 1 : -1);
+        next = {edge.centre.x + std::cos(angle) * dx - std::sin(angle) * dy,
+                edge.centre.y + std::sin(angle) * dx + std::cos(angle) * dy};
       }
       turns += std::atan2((before.x - p.x) * (next.y - p.y) - (before.y - p.y) * (next.x - p.x),
                           (before.x - p.x) * (next.x - p.x) + (before.y - p.y) * (next.y - p.y));
@@ -155,10 +156,12 @@ inline bool is_in(rs274::Point p, const geom::Contour& contour) {
   }
   return std::abs(turns) > rs274::kPi;
 }
-inline bool in_material(rs274::Point p, const geom::Region& region) {
-  if (!is_in(p, region.outer)) return false;
+/// \param apart  of p from the boundary
+inline bool in_material(rs274::Point p, const geom::Region& region, Real apart) {
+  const Real sagitta = std::max<Real>(apart / 2, 1e-9L);
+  if (!is_in(p, region.outer, sagitta)) return false;
   for (const geom::Contour& hole : region.holes)
-    if (is_in(p, hole)) return false;
+    if (is_in(p, hole, sagitta)) return false;
   return true;
 }
 
@@ -169,7 +172,7 @@ inline Real depth_of_kerf(rs274::Point p, const geom::Region& region, Real kerf)
   if (p.x < box.low.x - far || p.x > box.high.x + far || p.y < box.low.y - far || p.y > box.high.y + far)
     return 0;
   const Real apart = distance_to_boundary(p, region);
-  return std::max<Real>(0, in_material(p, region) ? kerf / 2 + apart : kerf / 2 - apart);
+  return std::max<Real>(0, in_material(p, region, apart) ? kerf / 2 + apart : kerf / 2 - apart);
 }
 
 }  // namespace lekalo::cases

@@ -69,7 +69,8 @@ inline constexpr double kWrittenArcError = 0x1p-44;
 /// for a layer name that the format cannot hold: empty, longer than 255 characters, with one of < > / \ " : ;
 /// ? * | , = ` or a control character, a space at either end, or not UTF-8; and for hole_layers of another
 /// number than holes. Names that differ in case alone are one layer. \pre regions made by make_region
-/// \param unit  what the file says its numbers are; they are written as they come, unscaled
+/// \param unit  what the file says its numbers are; they are written as they come,
+/// unscaled. What stands beside curves of other units than millimetres is left out
 [[nodiscard]] Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions,
                                               const DrawingExtras& extras = {},
                                               LengthUnit unit = LengthUnit::millimetre);

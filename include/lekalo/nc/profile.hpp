@@ -55,11 +55,13 @@ struct ProfileProgram {
   std::size_t cuts = 0, shortened_leads = 0,
               bare_starts = 0;  ///< bare: pierced on the contour for want of room
   double cut_mm = 0, travel_mm = 0;
-  /// Material that the round kerf leaves in a corner or slot of a part's outline, at most; and whose.
+  /// How far a corner of a contour lies from the kerf at most, and whose. Material stays there: little in
+  /// corners that point inwards, which the kerf rounds; all of a slot that is narrower than the kerf.
   double left_over_mm = 0;
   std::uint64_t left_over_of = 0;
 };
 
+/// \pre parts do not overlap (of two in the same place neither's kerf enters the other)
 /// Outlines are followed clockwise, holes counter-clockwise: the part on the right (climb milling, and the
 /// square side of a plasma). Inner contours come before the outline of their part, parts that lie in a hole
 /// before that hole. Words have four decimals of a millimetre (Fanuc: three), of an inch five (four).
