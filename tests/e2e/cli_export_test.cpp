@@ -122,7 +122,7 @@ TEST(CliExport, the_program_passes_our_own_reader_and_locate) {
   ASSERT_EQ(run(folder.path(), Words{"export", "layout.json", "-o", "cut.nc"} + kCut).status, 0);
   const Ran ran = run(folder.path(), kLocatePlate + Words{"--nc", "cut.nc", "--nc-out", "moved.nc"});
   EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_NE(read_bytes(folder / "moved.nc").find("G3 "), std::string::npos);
+  EXPECT_NE(read_bytes(folder / "moved.nc").find("G2 "), std::string::npos);
 }
 
 }  // namespace
