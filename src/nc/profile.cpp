@@ -19,6 +19,8 @@ namespace {
 
 using geom::Point;
 
+constexpr std::size_t kLongestProgram = 500'000'000;  // bytes
+
 /// NaN fails every comparison, and so is out of every range.
 Result<void> check_range(const char* what, double value, double low, double high) {
   if (value >= low && value <= high) return {};
@@ -163,6 +165,11 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
     writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
                                cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
     writer.cut(start.lead, path);
+    if (writer.size() > kLongestProgram)
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("the program would be longer than {} MB; cut fewer parts at a time, or in fewer passes",
+                      kLongestProgram / 1'000'000));
     program.travel_mm += geom::norm(resolution.mm(start.pierce) - here);
     here = resolution.mm(start.on_contour);
     program.cut_mm += length_of(all, resolution);

@@ -15,7 +15,7 @@ namespace {
 using geom::Point;
 
 /// Travels compared in all exchanges of one program.
-constexpr std::size_t kMostComparisons = 300'000'000;
+constexpr std::size_t kMostComparisons = 60'000'000;
 /// Passes over the starts.
 constexpr int kStartPasses = 3;
 
@@ -61,18 +61,36 @@ class Tour {
     }
   }
 
+  /// All starts of a cut lie in a disc; few of them are looked at.
+  struct Disc {
+    Point centre;
+    double radius = 0;
+  };
+  [[nodiscard]] Disc disc_of(std::size_t cut) const {
+    Disc disc{pierce(cut, 0), 0};
+    for (std::size_t start = 0; start < starts_[cut].choices.size(); ++start)
+      disc.radius = std::max(disc.radius, travel(disc.centre, pierce(cut, start)));
+    return disc;
+  }
+
   void nearest_next(std::vector<std::size_t>& cuts) {
+    std::vector<Disc> discs;
+    for (const std::size_t cut : cuts) discs.push_back(disc_of(cut));
     Point from = here_;
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       std::size_t best = k;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t i = k; i < cuts.size(); ++i) {
+        const Point out = discs[i].centre - from;
+        const double reach = least + discs[i].radius;
+        if (geom::dot(out, out) > reach * reach) continue;
         for (std::size_t start = 0; start < starts_[cuts[i]].choices.size(); ++start) {
           const double way = travel(from, pierce(cuts[i], start));
           if (way < least) least = way, best = i, chosen_[cuts[i]] = start;
         }
       }
       std::swap(cuts[k], cuts[best]);
+      std::swap(discs[k], discs[best]);
       from = end(cuts[k], chosen_[cuts[k]]);
     }
   }
@@ -82,20 +100,21 @@ class Tour {
   /// count.
   void exchange(std::vector<std::size_t>& cuts, Point then) {
     const std::size_t n = cuts.size();
+    std::vector<Point> at{here_};  // the tour: from here_, the pierces, then
+    for (const std::size_t cut : cuts) at.push_back(pierce(cut));
+    at.push_back(then);
     bool better = n > 2;
     while (better && comparisons_ < kMostComparisons) {
       better = false;
-      for (std::size_t i = 0; i + 1 < n && comparisons_ < kMostComparisons; ++i) {
-        const Point before = i == 0 ? here_ : pierce(cuts[i - 1]);
+      for (std::size_t i = 1; i < n && comparisons_ < kMostComparisons; ++i) {
         comparisons_ += n - i;
-        for (std::size_t j = i + 1; j < n; ++j) {
-          const Point first = pierce(cuts[i]), last = pierce(cuts[j]);
-          const Point after = j + 1 == n ? then : pierce(cuts[j + 1]);
-          const double old_way = travel(before, first) + travel(last, after);
-          const double new_way = travel(before, last) + travel(first, after);
+        for (std::size_t j = i + 1; j <= n; ++j) {
+          const double old_way = travel(at[i - 1], at[i]) + travel(at[j], at[j + 1]);
+          const double new_way = travel(at[i - 1], at[j]) + travel(at[i], at[j + 1]);
           if (!(new_way < old_way * (1 - 0x1p-40))) continue;
-          std::reverse(cuts.begin() + static_cast<std::ptrdiff_t>(i),
-                       cuts.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+          const auto first = static_cast<std::ptrdiff_t>(i), last = static_cast<std::ptrdiff_t>(j);
+          std::reverse(at.begin() + first, at.begin() + last + 1);
+          std::reverse(cuts.begin() + first - 1, cuts.begin() + last);
           better = true;
         }
       }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ class ProfileWriter {
   /// A contour from its pierce: the lead, perhaps, and the closed path.
   void cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
   [[nodiscard]] std::string finish();
+  [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }
 
  private:
   void line(const std::string& words);

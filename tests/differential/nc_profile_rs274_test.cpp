@@ -81,7 +81,7 @@ TEST(NcProfileRs274, the_interpreter_cuts_beside_every_part) {
     options.lead = index % 2 == 0 ? LeadShape::arc : LeadShape::line;
     options.kerf_mm = random.uniform(0.1, 1.5);
     options.lead_in_mm = random.uniform(0.5, 6);
-    options.feed_mm_per_min = 1500, options.speed = 9000;
+    options.feed_mm_per_min = 1500, options.speed = index == 0 ? 0 : 9000;
     if (options.process == Process::plasma) options.pierce_s = 0.4;
     if (options.process == Process::router)
       options.depth_mm = 6, options.pass_mm = 2.5, options.plunge_mm_per_min = 200;

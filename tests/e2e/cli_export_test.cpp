@@ -58,8 +58,8 @@ TEST(CliExport, sheets_are_files_of_their_own_all_or_none) {
   EXPECT_NE(ran.err.find("Written: cut-1.nc, sheet s#1\n"), std::string::npos) << ran.err;
   EXPECT_NE(ran.err.find("note: sheet s#1: 4 cuts"), std::string::npos) << ran.err;
   EXPECT_EQ(folder.files().size(), 3U);
-  EXPECT_EQ(std::count(read_bytes(folder / "cut-1.nc").begin(), read_bytes(folder / "cut-1.nc").end(), '('),
-            6);
+  const std::string first = read_bytes(folder / "cut-1.nc");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '('), 6) << first;  // name, kerf, four contours
   const Ran without = run(folder.path(), Words{"export", "plates.json"} + kCut);
   EXPECT_EQ(without.status, 2);
   EXPECT_NE(without.err.find("for example --sheet s#1"), std::string::npos) << without.err;
