@@ -160,8 +160,7 @@ Result<Exported> export_layout(const layout::Document& document, const std::stri
   const bool together = request.form == ExportForm::dxf || request.form == ExportForm::svg;
   std::vector<std::string> notes;
   const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, *sheets, together, notes);
-  const std::vector<layout::Violation> broken =
-      layout::check_some(document, document.placements, {}, layout::Depths::left_out);
+  const std::vector<layout::Violation> broken = layout::check(document);
   if (request.form == ExportForm::gcode)
     for (const layout::Violation& violation : broken)
       if (violation.kind == layout::ViolationKind::overlap &&
