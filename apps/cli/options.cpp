@@ -44,7 +44,12 @@ constexpr std::array kCriteria{Word<locate::Criterion>{"smallest", locate::Crite
                                Word<locate::Criterion>{"even", locate::Criterion::even}};
 
 constexpr std::array kExportFormats{Word<ExportFormat>{"layout", ExportFormat::layout},
-                                    Word<ExportFormat>{"placements", ExportFormat::placements}};
+                                    Word<ExportFormat>{"placements", ExportFormat::placements},
+                                    Word<ExportFormat>{"dxf", ExportFormat::machine},
+                                    Word<ExportFormat>{"svg", ExportFormat::machine},
+                                    Word<ExportFormat>{"pdf", ExportFormat::pdf},
+                                    Word<ExportFormat>{"hpgl", ExportFormat::machine},
+                                    Word<ExportFormat>{"gcode", ExportFormat::machine}};
 
 template <class T, std::size_t N>
 const char* name_in(const std::array<Word<T>, N>& words, T value) noexcept {
@@ -431,6 +436,7 @@ void add_verify_options(CLI::App& verify, VerifyOptions& o) {
 struct LayoutWords {
   std::string path, instance, units, chords, join, picture, format, output, instance_name, commands;
   std::vector<std::string> layers;
+  std::vector<io::ExportWord> machine;  ///< of export: words that io::read_export_words understands
   bool json = false;
 };
 
@@ -502,9 +508,29 @@ Result<Command> to_export(const LayoutWords& w) {
   WordReader reader;
   if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, format);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
+  io::ExportRequest request;
+  std::vector<io::ExportWord> given;
+  for (const io::ExportWord& word : w.machine)
+    if (!word.second.empty()) given.push_back(word);
+  if (format == ExportFormat::machine) {
+    auto read = io::read_export_words(*io::export_form(w.format), given, "--");
+    if (!read) return tl::unexpected(read.error());
+    request = *std::move(read);
+  } else if (!given.empty()) {
+    return failure(ErrorCode::usage, fmt::format("--{} has no meaning for the form {}", given.front().first,
+                                                 w.format.empty() ? "layout" : w.format));
+  }
   return to_layout_source(w).map([&](LayoutSource&& source) {
-    return Command(ExportOptions{std::move(source), format, w.output, w.instance_name});
+    return Command(ExportOptions{std::move(source), format, w.output, w.instance_name, std::move(request)});
   });
+}
+
+void add_machine_words(CLI::App& command, LayoutWords& w) {
+  for (const io::ExportWordHelp& help : io::export_words()) w.machine.emplace_back(help.name, "");
+  for (std::size_t i = 0; i < w.machine.size(); ++i)
+    command.add_option("--" + w.machine[i].first, w.machine[i].second, io::export_words()[i].help)
+        ->type_name(io::export_words()[i].type)
+        ->group("For machines and other programs");
 }
 
 /// The words of `serve` alone.
@@ -611,6 +637,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
       .add_option("--instance-name", export_words.instance_name,
                   "What placements give as the file of their items [as the input says, or itself]")
       ->type_name("NAME");
+  add_machine_words(exported, export_words);
   CLI::App& edit =
       *app.add_subcommand("edit", "Carry out a file of commands on a layout: move, slide, settle, ...");
   add_layout_source(edit, edit_words);

@@ -9,6 +9,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
+#include "lekalo/io/layout_export.hpp"
 #include "lekalo/io/scan_file.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/guaranteed_blank.hpp"
@@ -95,13 +96,14 @@ struct ShowOptions {
   bool json = false;
 };
 
-enum class ExportFormat { layout, placements };
+enum class ExportFormat { layout, placements, pdf, machine };
 
 struct ExportOptions {
   LayoutSource source;
   ExportFormat format = ExportFormat::layout;
   std::string output;         ///< empty: stdout
   std::string instance_name;  ///< what placements name as their instance; empty: as the input does
+  io::ExportRequest request;  ///< of ExportFormat::machine: DXF, SVG, HPGL, G-code
 };
 
 struct EditOptions {

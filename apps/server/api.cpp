@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lekalo/io/layout_export.hpp"
 #include "lekalo/io/layout_json.hpp"
 #include "lekalo/io/layout_picture.hpp"
 #include "lekalo/io/nesting_files.hpp"
@@ -79,10 +80,33 @@ ApiAnswer history(Store& store, LayoutId id) {
   return json_answer(200, {{"entries", std::move(list)}});
 }
 
+/// The other fields of the request are the options of the command line: ?form=gcode&kerf=0.2&feed=2000.
+ApiAnswer export_for_machines(const std::string& name, const layout::Document& document, io::ExportForm form,
+                              const Target& target, const std::string& stem) {
+  std::vector<io::ExportWord> words;
+  for (const auto& field : target.fields)
+    if (field.first != "form") words.push_back(field);
+  const Result<io::ExportRequest> request = io::read_export_words(form, words, "");
+  if (!request) return api_error(400, request.error().message);
+  const Result<io::Exported> made = io::export_layout(document, name, *request);
+  if (!made) return api_error(400, made.error().message);
+  if (made->files.size() > 1)
+    return api_error(400,
+                     "several sheets are in use and each is a file of its own: name one, for example sheet=" +
+                         made->files.front().sheet);
+  const auto [type, ending] = [&]() -> std::pair<const char*, const char*> {
+    if (form == io::ExportForm::dxf) return {"image/vnd.dxf", ".dxf"};
+    if (form == io::ExportForm::svg) return {"image/svg+xml", ".svg"};
+    if (form == io::ExportForm::hpgl) return {"application/vnd.hp-hpgl", ".plt"};
+    return {"text/plain; charset=utf-8", ".nc"};
+  }();
+  return {200, made->files.front().bytes, type, stem + ending, {}};
+}
+
 ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
   const std::string* const form = target.find("form");
   if (form == nullptr)
-    return api_error(400, "the form is missing: ?form=layout, placements, svg, pdf or png");
+    return api_error(400, "the form is missing: ?form=layout, placements, pdf, png, dxf, svg, hpgl or gcode");
   const Result<StoredLayout> layout = store.load(id);
   if (!layout) return trouble(layout.error());
   const layout::Document& document = layout->document;
@@ -96,12 +120,13 @@ ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
     if (!strip) return trouble(strip.error());
     return file(io::write_placements(document, *strip, ""), "application/json", ".json");
   }
-  if (*form != "svg" && *form != "pdf" && *form != "png")
-    return api_error(400, "the form has to be layout, placements, svg, pdf or png");
+  if (const auto machine = io::export_form(*form))
+    return export_for_machines(layout->name, document, *machine, target, stem);
+  if (*form != "pdf" && *form != "png")
+    return api_error(400, "the form has to be layout, placements, pdf, png, dxf, svg, hpgl or gcode");
   const layout::Completeness completeness = layout::completeness(layout::Workspace(document));
   const std::vector<layout::Violation> violations = layout::check(document);
   const io::LayoutPicture picture{layout->name, document, completeness, violations};
-  if (*form == "svg") return file(io::layout_svg(picture), "image/svg+xml", ".svg");
   if (*form == "pdf") return file(io::layout_pdf(picture), "application/pdf", ".pdf");
   return file(io::layout_png(picture), "image/png", ".png");
 }

@@ -52,7 +52,8 @@ std::optional<tl::unexpected<Error>> fault_of_name(const std::string& name) {
 
 class DxfWriter {
  public:
-  explicit DxfWriter(const WrittenDrawing& drawing) : drawing_(drawing), layers_(drawing.layers) {
+  DxfWriter(const WrittenDrawing& drawing, LengthUnit unit)
+      : drawing_(drawing), unit_(unit), layers_(drawing.layers) {
     if (std::none_of(layers_.begin(), layers_.end(), [](const auto& name) { return name == "0"; }))
       layers_.insert(layers_.begin(), "0");
   }
@@ -85,10 +86,13 @@ class DxfWriter {
   void end_section() { group(0, "ENDSEC"); }
 
   [[nodiscard]] bool is_ascii() const {
-    return std::all_of(layers_.begin(), layers_.end(), [](const std::string& name) {
-      return std::all_of(name.begin(), name.end(),
+    const auto plain = [](const std::string& text) {
+      return std::all_of(text.begin(), text.end(),
                          [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    });
+    };
+    return std::all_of(layers_.begin(), layers_.end(), plain) &&
+           std::all_of(drawing_.texts.begin(), drawing_.texts.end(),
+                       [&](const WrittenText& text) { return plain(text.text); });
   }
 
   void write_header() {
@@ -100,8 +104,9 @@ class DxfWriter {
     variable("$EXTMIN"), point_in_space(10, drawing_.box.low);
     variable("$EXTMAX"), point_in_space(10, drawing_.box.high);
     variable("$HANDSEED"), group(5, fmt::format("{:X}", next_handle_));
-    variable("$INSUNITS"), group(70, 4);
-    variable("$MEASUREMENT"), group(70, 1);
+    const bool inch = unit_ == LengthUnit::inch;
+    variable("$INSUNITS"), group(70, inch ? 1 : 4);
+    variable("$MEASUREMENT"), group(70, inch ? 0 : 1);
     end_section();
     section("CLASSES");
     end_section();
@@ -150,9 +155,10 @@ class DxfWriter {
     end_table();
 
     table = begin_table("LAYER", layers_.size());
-    for (const std::string& name : layers_) {
-      entry("LAYER", table, "AcDbLayerTableRecord", name);
-      group(70, 0), group(62, 7), group(6, "Continuous");
+    const std::size_t before = layers_.size() - drawing_.layers.size();
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      entry("LAYER", table, "AcDbLayerTableRecord", layers_[i]);
+      group(70, 0), group(62, i < before ? 7 : drawing_.colours[i - before].index), group(6, "Continuous");
     }
     end_table();
 
@@ -203,22 +209,29 @@ class DxfWriter {
   void write_entities() {
     section("ENTITIES");
     for (const WrittenContour& contour : drawing_.contours) write(contour);
+    for (const WrittenLine& line : drawing_.lines) {
+      begin_entity("LINE", line.layer, "AcDbLine");
+      point_in_space(10, line.from), point_in_space(11, line.to);
+    }
+    for (const WrittenText& text : drawing_.texts) {
+      begin_entity("TEXT", text.layer, "AcDbText");
+      point_in_space(10, text.middle), group(40, text.height), group(1, text.text);
+      group(72, 1), point_in_space(11, text.middle);
+      group(100, "AcDbText"), group(73, 2);
+    }
     end_section();
   }
 
-  void begin_entity(const char* type, const WrittenContour& contour, const char* kind) {
+  void begin_entity(const char* type, std::size_t layer, const char* kind) {
     entity_ = handle();
     group(0, type), group(5, entity_), group(330, spaces_[0]), group(100, "AcDbEntity");
-    group(8, name_of(contour)), group(100, kind);
-  }
-  [[nodiscard]] const std::string& name_of(const WrittenContour& contour) const {
-    return layers_[contour.layer + layers_.size() - drawing_.layers.size()];
+    group(8, layers_[layer + layers_.size() - drawing_.layers.size()]), group(100, kind);
   }
 
   void write(const WrittenContour& contour) {
     const Edge& first = contour.edges->front();
     if (first.kind != EdgeKind::line && first.from == first.to) {
-      begin_entity("CIRCLE", contour, "AcDbCircle");
+      begin_entity("CIRCLE", contour.layer, "AcDbCircle");
       point_in_space(10, first.centre);
       const double radius = radius_of_circle(first);
       group(40, radius);
@@ -244,7 +257,7 @@ class DxfWriter {
       }
       of_edge.push_back(read.size() - before);
     }
-    begin_entity("LWPOLYLINE", contour, "AcDbPolyline");
+    begin_entity("LWPOLYLINE", contour.layer, "AcDbPolyline");
     group(90, fmt::format("{}", vertices.size())), group(70, 1), group(43, 0.0);
     for (const auto& [at, bulge] : vertices) {
       point(10, at);
@@ -255,6 +268,8 @@ class DxfWriter {
 
   void keep_exact_arcs(const WrittenContour& contour, const std::vector<Edge>& read,
                        const std::vector<std::size_t>& of_edge) {
+    // Scaling to millimetres rounds what they would have to agree with.
+    if (unit_ != LengthUnit::millimetre) return;
     for (const ExactArc& arc : exact_arcs_of(*contour.edges, read, of_edge))
       exact_arcs_.push_back(entity_ + ' ' + text_of(arc));
   }
@@ -278,6 +293,7 @@ class DxfWriter {
   static constexpr std::array<const char*, 2> kSpaces{"*Model_Space", "*Paper_Space"};
 
   const WrittenDrawing& drawing_;
+  LengthUnit unit_;
   std::vector<std::string>
       layers_;  ///< escaped; "0", which every drawing has, perhaps before those of the drawing
   std::array<std::string, 2> spaces_;
@@ -289,12 +305,13 @@ class DxfWriter {
 
 }  // namespace
 
-Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions) {
-  const auto drawing = written_drawing(regions, same_name);
+Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras,
+                                LengthUnit unit) {
+  const auto drawing = written_drawing(regions, extras, same_name);
   if (!drawing) return tl::unexpected(drawing.error());
   for (const std::string& name : drawing->layers)
     if (auto fault = fault_of_name(name)) return *fault;
-  return DxfWriter(*drawing).write();
+  return DxfWriter(*drawing, unit).write();
 }
 
 }  // namespace lekalo::io

@@ -9,6 +9,8 @@
 #include <optional>
 #include <set>
 
+#include "label_place.hpp"
+#include "layout_tables.hpp"
 #include "picture_colour.hpp"
 #include "picture_scene.hpp"
 #include "picture_text.hpp"
@@ -256,42 +258,11 @@ class Composer {
     for (const std::string& label :
          {part.name.empty() ? part.id : part.name, fmt::format("{}", placement.id)}) {
       if (size < 0.9 || text_width(label) * size > 0.7 * on_page.width) continue;
-      const Point at = label_point(outline);
-      const Point paper = view(at);
+      const Point paper = view(label_place(outline).at);
       sheet_.text(paper.x, paper.y + 0.35 * size, on_page.width, label,
                   {.size = size, .colour = kInk, .anchor = Anchor::middle, .kind = "part-label"});
       break;
     }
-  }
-
-  /// In the material, in the widest of a few rows.
-  [[nodiscard]] static Point label_point(const geom::GridRegion& outline) {
-    const geom::GridBox box = bounds(outline);
-    Point best = geom::mm_from_grid(
-        box.low + geom::GridPoint{(box.high.x - box.low.x) / 2, (box.high.y - box.low.y) / 2});
-    double widest = -1;
-    for (int row = 1; row <= 7; ++row) {
-      const double y =
-          static_cast<double>(box.low.y) + static_cast<double>(box.high.y - box.low.y) * row / 8 + 0.5;
-      std::vector<double> crossings;
-      for (std::size_t l = 0; l < outline.loops(); ++l) {
-        const std::uint32_t begin = outline.loop_starts[l], end = outline.loop_starts[l + 1];
-        for (std::uint32_t i = begin; i < end; ++i) {
-          const geom::GridPoint a = outline.points[i], b = outline.points[i + 1 == end ? begin : i + 1];
-          const double ay = static_cast<double>(a.y), by = static_cast<double>(b.y);
-          if ((ay > y) == (by > y)) continue;
-          crossings.push_back(static_cast<double>(a.x) +
-                              (y - ay) / (by - ay) * static_cast<double>(b.x - a.x));
-        }
-      }
-      std::sort(crossings.begin(), crossings.end());
-      for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-        if (crossings[i + 1] - crossings[i] > widest) {
-          widest = crossings[i + 1] - crossings[i];
-          best = geom::kGridStep * Point{(crossings[i] + crossings[i + 1]) / 2, y};
-        }
-    }
-    return best;
   }
 
   void draw_remnant(const layout::SheetUse& use, const View& view, const Rect& room) {
@@ -432,7 +403,7 @@ Result<std::string> layout_png(const LayoutPicture& picture, int width_px) {
   return detail::scene_png(detail::Composer(picture).compose(), width_px);
 }
 Result<std::string> layout_pdf(const LayoutPicture& picture) {
-  return detail::scene_pdf(detail::Composer(picture).compose());
+  return detail::scene_pdf(detail::Composer(picture).compose(), detail::layout_tables(picture));
 }
 
 }  // namespace lekalo::io

@@ -7,7 +7,7 @@
 
 namespace lekalo::io::detail {
 
-Result<std::string> scene_pdf(const Scene& scene) {
+Result<std::string> scene_pdf(const Scene& scene, const std::vector<Scene>& more) {
   constexpr double kPointsPerMillimetre = 72 / 25.4;
   std::string bytes;
   const Surface surface(cairo_pdf_surface_create_for_stream(
@@ -26,6 +26,10 @@ Result<std::string> scene_pdf(const Scene& scene) {
     cairo_scale(canvas.get(), kPointsPerMillimetre, kPointsPerMillimetre);
     paint_scene(scene, canvas.get());
     cairo_show_page(canvas.get());
+    for (const Scene& page : more) {
+      paint_scene(page, canvas.get());
+      cairo_show_page(canvas.get());
+    }
     status = cairo_status(canvas.get());
   }
   cairo_surface_finish(surface.get());

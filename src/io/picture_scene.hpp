@@ -78,7 +78,8 @@ struct Scene {
 /// PNG bytes, `width_px` wide (100 to 20000, else ErrorCode::usage). ErrorCode::environment when the drawing
 /// library fails.
 [[nodiscard]] Result<std::string> scene_png(const Scene& scene, int width_px);
-/// PDF bytes, one page, text as text, no date. ErrorCode::environment when the drawing library fails.
-[[nodiscard]] Result<std::string> scene_pdf(const Scene& scene);
+/// PDF bytes, a page for the scene and each of `more`, which have its size; text as text, no date.
+/// ErrorCode::environment when the drawing library fails.
+[[nodiscard]] Result<std::string> scene_pdf(const Scene& scene, const std::vector<Scene>& more = {});
 
 }  // namespace lekalo::io::detail

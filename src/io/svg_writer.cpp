@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "contour_number.hpp"
 #include "exact_arcs.hpp"
@@ -65,19 +66,39 @@ class SvgWriter {
     text_ += ">\n";
     for (std::size_t i = 0; i < drawing_.contours.size(); ++i) {
       const std::size_t layer = drawing_.contours[i].layer;
-      if (i == 0 || drawing_.contours[i - 1].layer != layer) {
-        if (i > 0) text_ += "</g>\n";
-        text_ += fmt::format(
-            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" fill=\"none\" stroke=\"#000000\" "
-            "stroke-width=\"{}\">\n",
-            detail::xml_text(drawing_.layers[layer]), kStrokeMm);
-      }
+      enter(layer);
       write(*drawing_.contours[i].edges);
     }
-    return std::move(text_) + "</g>\n</svg>\n";
+    for (const WrittenLine& line : drawing_.lines) {
+      enter(line.layer);
+      append("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n", line.from.x, upright(line.from.y),
+             line.to.x, upright(line.to.y));
+    }
+    for (const WrittenText& text : drawing_.texts) {
+      enter(text.layer);
+      // The font's size is more than the height of its capitals, about 0.72 of it.
+      append(
+          "<text x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"middle\" "
+          "fill=\"#{:06x}\" stroke=\"none\">{}</text>\n",
+          text.middle.x, upright(text.middle.y - 0.5 * text.height), text.height / 0.72,
+          drawing_.colours[text.layer].rgb, detail::xml_text(text.text));
+    }
+    if (open_layer_) text_ += "</g>\n";
+    return std::move(text_) + "</svg>\n";
   }
 
  private:
+  /// A group for every layer that follows another.
+  void enter(std::size_t layer) {
+    if (open_layer_ == layer) return;
+    if (open_layer_) text_ += "</g>\n";
+    open_layer_ = layer;
+    append(
+        "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" fill=\"none\" stroke=\"#{:06x}\" "
+        "stroke-width=\"{}\">\n",
+        detail::xml_text(drawing_.layers[layer]), drawing_.colours[layer].rgb, kStrokeMm);
+  }
+
   /// SVG counts y downwards.
   static double upright(double y) { return 0.0 - y; }
 
@@ -167,13 +188,14 @@ class SvgWriter {
   }
 
   const WrittenDrawing& drawing_;
+  std::optional<std::size_t> open_layer_;
   std::string text_;
 };
 
 }  // namespace
 
-Result<std::string> svg_drawing(const std::vector<LayeredRegion>& regions) {
-  const auto drawing = written_drawing(regions, same_name);
+Result<std::string> svg_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras) {
+  const auto drawing = written_drawing(regions, extras, same_name);
   if (!drawing) return tl::unexpected(drawing.error());
   for (const std::string& name : drawing->layers)
     if (auto fine = check_name(name); !fine) return tl::unexpected(fine.error());

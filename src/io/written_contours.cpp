@@ -13,6 +13,7 @@
 #include "drawn_shapes.hpp"
 #include "exact_arcs.hpp"
 #include "lekalo/geom/double_double.hpp"
+#include "picture_text.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -78,7 +79,7 @@ double largest_number(const geom::Contour& contour) {
 
 }  // namespace
 
-Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions,
+Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras,
                                        bool (*same_name)(const std::string&, const std::string&)) {
   WrittenDrawing made;
   const auto layer = [&](const std::string& name) {
@@ -113,6 +114,27 @@ Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions
     add(one.region.outer, one.layer);
     for (std::size_t h = 0; h < holes; ++h)
       add(one.region.holes[h], named == 0 ? one.layer : one.hole_layers[h]);
+  }
+  const auto extend = [&](Point p) {
+    made.box = {{std::min(made.box.low.x, p.x), std::min(made.box.low.y, p.y)},
+                {std::max(made.box.high.x, p.x), std::max(made.box.high.y, p.y)}};
+  };
+  for (const DrawnLine& line : extras.lines) {
+    extend(line.from), extend(line.to);
+    made.lines.push_back({line.from, line.to, layer(line.layer)});
+  }
+  for (const DrawnText& text : extras.texts) {
+    // Widths are multiples of the font's size, of which capitals are 0.72.
+    std::string clean = detail::clean_text(text.text);
+    const Point half = text.height * Point{0.5 * detail::text_width(clean) / 0.72, 1};
+    extend(text.middle - half), extend(text.middle + half);
+    made.texts.push_back({std::move(clean), text.middle, text.height, layer(text.layer)});
+  }
+  for (const std::string& name : made.layers) {
+    LayerColour colour{name, 7, 0};
+    for (const LayerColour& known : extras.colours)
+      if (same_name(known.layer, name)) colour = known;
+    made.colours.push_back(colour);
   }
   return made;
 }

@@ -16,14 +16,28 @@ struct WrittenContour {
   const geom::Contour* edges = nullptr;
   std::size_t layer = 0;  ///< into WrittenDrawing::layers
 };
+struct WrittenLine {
+  geom::Point from, to;
+  std::size_t layer = 0;
+};
+struct WrittenText {
+  std::string text;  ///< clean UTF-8
+  geom::Point middle;
+  double height = 1;
+  std::size_t layer = 0;
+};
 struct WrittenDrawing {
   std::vector<WrittenContour> contours;
-  std::vector<std::string> layers;  ///< in the order of their first contours
+  std::vector<WrittenLine> lines;
+  std::vector<WrittenText> texts;
+  std::vector<std::string> layers;   ///< in the order of their first contours, lines, texts
+  std::vector<LayerColour> colours;  ///< by layer
   geom::Box box;
 };
 
 /// `same_name` tells whether two names are one layer. Fails where hole_layers do not match the holes.
 [[nodiscard]] Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions,
+                                                     const DrawingExtras& extras,
                                                      bool (*same_name)(const std::string&,
                                                                        const std::string&));
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
 
 namespace lekalo::io {
@@ -16,6 +18,29 @@ struct LayeredRegion {
   geom::Region region;
   std::string layer = "0";
   std::vector<std::string> hole_layers;  ///< as many as holes; empty: all on `layer`
+};
+
+/// What else a drawing shows beside regions. Points and heights are in the drawing's unit.
+struct DrawnLine {
+  geom::Point from, to;
+  std::string layer;
+};
+struct DrawnText {
+  std::string text;    ///< one line; what is no UTF-8 and control characters are replaced
+  geom::Point middle;  ///< of the text, both ways
+  double height = 1;   ///< of capitals
+  std::string layer;
+};
+/// How a layer is shown: AutoCAD's colour index in DXF, the colour itself in SVG. Others are black (7).
+struct LayerColour {
+  std::string layer;
+  int index = 7;                 ///< 1 to 255
+  std::uint32_t rgb = 0x000000;  ///< 0xrrggbb
+};
+struct DrawingExtras {
+  std::vector<DrawnLine> lines;
+  std::vector<DrawnText> texts;
+  std::vector<LayerColour> colours;
 };
 
 /// What parse_dxf or parse_svg and make_regions make of the written text (tests/property/
@@ -44,7 +69,11 @@ inline constexpr double kWrittenArcError = 0x1p-44;
 /// for a layer name that the format cannot hold: empty, longer than 255 characters, with one of < > / \ " : ;
 /// ? * | , = ` or a control character, a space at either end, or not UTF-8; and for hole_layers of another
 /// number than holes. Names that differ in case alone are one layer. \pre regions made by make_region
-[[nodiscard]] Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions);
+/// \param unit  what the file says its numbers are; they are written as they come,
+/// unscaled. What stands beside curves of other units than millimetres is left out
+[[nodiscard]] Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions,
+                                              const DrawingExtras& extras = {},
+                                              LengthUnit unit = LengthUnit::millimetre);
 
 /// SVG 1.1 in millimetres: a path or circle for every contour, in a group for every layer that follows
 /// another. The page begins at the origin, or at the whole millimetre to the left of and below all that is
@@ -52,6 +81,7 @@ inline constexpr double kWrittenArcError = 0x1p-44;
 ///
 /// Fails with ErrorCode::usage for a layer name that is empty, not UTF-8 or holds a control character, and as
 /// above. \pre regions made by make_region, not empty
-[[nodiscard]] Result<std::string> svg_drawing(const std::vector<LayeredRegion>& regions);
+[[nodiscard]] Result<std::string> svg_drawing(const std::vector<LayeredRegion>& regions,
+                                              const DrawingExtras& extras = {});
 
 }  // namespace lekalo::io

@@ -25,6 +25,7 @@ struct LayoutPicture {
 /// \param width_px  100 to 20000, else ErrorCode::usage; ErrorCode::environment when the drawing library
 /// fails
 [[nodiscard]] Result<std::string> layout_png(const LayoutPicture& picture, int width_px = 2400);
+/// The page, and behind it pages of tables with every part, kit and sheet in use.
 [[nodiscard]] Result<std::string> layout_pdf(const LayoutPicture& picture);
 
 }  // namespace lekalo::io

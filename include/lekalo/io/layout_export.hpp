@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/layout/document.hpp"
+#include "lekalo/nc/profile.hpp"
+
+namespace lekalo::io {
+
+/// A layout for machines and for other programs. What is written, and how far it is from the outlines that
+/// were checked: docs/design/export.md, docs/formats.md.
+
+enum class ExportForm { dxf, svg, hpgl, gcode };
+[[nodiscard]] std::optional<ExportForm> export_form(std::string_view word) noexcept;
+
+/// Layers of the written drawings; HPGL: pens 1 to 7 in this order.
+inline constexpr const char* kExportLayers[] = {"CUT", "MARK", "LABEL", "SHEET", "DEFECT", "ZONE", "AREA"};
+
+struct ExportRequest {
+  ExportForm form = ExportForm::dxf;
+  std::string sheet;                         ///< STOCK or STOCK#COPY, copies from 1; empty: all in use
+  std::vector<std::string> only;             ///< layers to write, of kExportLayers; empty: all. Not of G-code
+  LengthUnit unit = LengthUnit::millimetre;  ///< of DXF and G-code
+  double chord_tolerance_mm = 0.02;          ///< of HPGL
+  nc::ProfileOptions profile;                ///< of G-code
+};
+
+/// A word of a command line ("kerf", "0.2") or of a request.
+using ExportWord = std::pair<std::string, std::string>;
+/// Every word that some form takes, with what stands for its value and what it means.
+struct ExportWordHelp {
+  const char *name, *type, *help;
+};
+[[nodiscard]] const std::vector<ExportWordHelp>& export_words();
+
+/// Fails with ErrorCode::usage and one sentence for words that the form does not take, that are missing, and
+/// for values that are none or out of range. \param prefix  before names in messages: "--" or ""
+[[nodiscard]] Result<ExportRequest> read_export_words(ExportForm form, const std::vector<ExportWord>& words,
+                                                      const std::string& prefix);
+
+struct ExportedFile {
+  std::string sheet;  ///< as in `ExportRequest::sheet`; empty where the file holds all sheets
+  std::string bytes;
+};
+struct Exported {
+  std::vector<ExportedFile> files;  ///< DXF and SVG one, HPGL and G-code one for each sheet
+  std::vector<std::string> notes;   ///< one sentence each
+};
+
+/// \param name  of the layout, for titles and comments
+/// Fails with ErrorCode::bad_input where there is nothing to write or the parts cannot be cut
+/// (nc/profile.hpp), with ErrorCode::usage for a sheet that is not there.
+[[nodiscard]] Result<Exported> export_layout(const layout::Document& document, const std::string& name,
+                                             const ExportRequest& request);
+
+}  // namespace lekalo::io

@@ -1,0 +1,187 @@
+#include "lekalo/nc/profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/edge_distance.hpp"
+#include "profile_leads.hpp"
+#include "profile_order.hpp"
+#include "profile_path.hpp"
+#include "profile_proof.hpp"
+#include "profile_words.hpp"
+
+namespace lekalo::nc {
+namespace {
+
+using geom::Point;
+
+constexpr std::size_t kLongestProgram = 500'000'000;  // bytes
+
+/// NaN fails every comparison, and so is out of every range.
+Result<void> check_range(const char* what, double value, double low, double high) {
+  if (value >= low && value <= high) return {};
+  return failure(ErrorCode::usage,
+                 fmt::format("{} is {:g}: from {:g} to {:g} is allowed", what, value, low, high));
+}
+
+Result<void> check_options(const ProfileOptions& o) {
+  const bool router = o.process == Process::router;
+  constexpr double kAlmostNothing = 1e-3;
+  struct Range {
+    const char* what;
+    double value, low, high;
+    bool needed;
+  };
+  const Range ranges[] = {
+      {"kerf in mm", o.kerf_mm, 0.01, 100, true},
+      {"lead-in in mm", o.lead_in_mm, 0, 1000, true},
+      {"feed in mm/min", o.feed_mm_per_min, 0.1, 1e6, true},
+      {"speed (S word)", o.speed, 0, 1e6, true},
+      {"pierce in s", o.pierce_s, 0, 100, true},
+      {"depth in mm", o.depth_mm, 0.01, 1000, router},
+      {"pass in mm", o.pass_mm, o.pass_mm == 0 ? 0 : std::max(0.01, o.depth_mm * kAlmostNothing), 1000,
+       router},
+      {"safe height in mm", o.safe_height_mm, 0.1, 1000, router},
+      {"plunge in mm/min", o.plunge_mm_per_min, 0.1, 1e6, router},
+  };
+  for (const Range& range : ranges)
+    if (range.needed)
+      if (auto fine = check_range(range.what, range.value, range.low, range.high); !fine) return fine;
+  if (auto fine = check_range("tolerance in mm (less than a quarter of the kerf)", o.tolerance_mm, 1e-4,
+                              0.25 * o.kerf_mm);
+      !fine)
+    return fine;
+  if (router && !(o.speed >= 1))
+    return failure(ErrorCode::usage, "a router needs the speed of its spindle, the S word");
+  if (o.post == Post::grbl && o.process == Process::laser && !(o.speed >= 1))
+    return failure(ErrorCode::usage,
+                   "a GRBL laser needs the power of its beam, the S word: without it the beam stays dark");
+  if (router && o.pierce_s > 0)
+    return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
+  return {};
+}
+
+tl::unexpected<Error> entered(const std::vector<ProfilePart>& parts, const Cut& cut,
+                              const KerfProof::Finding& finding, const ProfileOptions& options) {
+  const ProfilePart &own = parts[cut.part], &other = parts[finding.part];
+  const std::string contour = cut.outline ? "the outline" : fmt::format("hole {}", cut.hole + 1);
+  if (cut.part == finding.part)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format(
+            "placement {}: cut along {} the kerf of {:g} mm would enter the part itself by up to {:.4g} mm, "
+            "{:g} mm is the tolerance; use a larger tolerance or a narrower kerf",
+            own.id, contour, options.kerf_mm, finding.deepest_mm, options.tolerance_mm));
+  return failure(
+      ErrorCode::bad_input,
+      fmt::format("placements {} and {} are too near for the kerf of {:g} mm: cut along {} of {} it would "
+                  "enter {} by up to {:.4g} mm, {:g} mm is the tolerance; move them apart or use a narrower "
+                  "kerf",
+                  std::min(own.id, other.id), std::max(own.id, other.id), options.kerf_mm, contour, own.id,
+                  other.id, finding.deepest_mm, options.tolerance_mm));
+}
+
+double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolution) {
+  double sum = 0;
+  for (const WrittenEdge& edge : edges) {
+    const geom::Edge mm = edge_mm(edge, resolution);
+    sum += mm.kind == geom::EdgeKind::line ? geom::norm(mm.to - mm.from)
+                                           : geom::arc_radius(mm) * geom::arc_sweep(mm);
+  }
+  return sum;
+}
+
+/// How far a corner of the contour lies from the kerf at most.
+double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& path,
+                 const Resolution& resolution, double half_kerf) {
+  std::vector<geom::Curve> curves;
+  for (const WrittenEdge& edge : path) curves.push_back(geom::make_curve(edge_mm(edge, resolution)));
+  std::vector<geom::Box> boxes;
+  for (const geom::Curve& curve : curves) boxes.push_back(geom::curve_box(curve));
+  const geom::BoxTree tree(std::move(boxes));
+  double most = 0;
+  for (const geom::Edge& edge : contour) {
+    double least = std::numeric_limits<double>::infinity();
+    // A corner is seldom far away: the search grows until what it has found cannot be beaten.
+    for (double reach = 2 * half_kerf; !(least <= reach) && reach < 1e9; reach *= 4)
+      tree.visit_meeting(
+          {edge.from - Point{reach, reach}, edge.from + Point{reach, reach}}, [&](std::uint32_t i) {
+            least = std::min(least, geom::norm(geom::nearest_on(curves[i], edge.from) - edge.from));
+          });
+    most = std::max(most, least - half_kerf);
+  }
+  return most;
+}
+
+/// The path begun at another of its edges.
+std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edge) {
+  std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(edge), path.end());
+  return path;
+}
+
+}  // namespace
+
+Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, const std::string& name,
+                                       const ProfileOptions& options) {
+  if (auto fine = check_options(options); !fine) return tl::unexpected(fine.error());
+  if (parts.empty()) return failure(ErrorCode::bad_input, "there is no part to cut");
+  const Resolution resolution = resolution_of(options);
+  Result<std::vector<Cut>> cuts = compensated_cuts(parts, options);
+  if (!cuts) return tl::unexpected(cuts.error());
+
+  const KerfProof proof(parts, options);
+  ProfileProgram program;
+  std::vector<Starts> starts;
+  for (Cut& cut : *cuts) {
+    starts.push_back(starts_of(cut.path, proof, options));
+    // The path is looked at as it will be written, after starts_of has begun new edges in it.
+    const KerfProof::Finding finding = proof.look(cut.path);
+    if (finding.inside || !(finding.deepest_mm <= options.tolerance_mm))
+      return entered(parts, cut, finding, options);
+    const ProfilePart& part = parts[cut.part];
+    const double left = left_over(cut.outline ? part.region.outer : part.region.holes[cut.hole], cut.path,
+                                  resolution, 0.5 * options.kerf_mm);
+    if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
+  }
+  const std::vector<OrderedCut> order = ordered_cuts(starts, enclosing_cuts(parts, *cuts, resolution));
+
+  ProfileWriter writer(name, options);
+  Point here;
+  for (const OrderedCut& ordered : order) {
+    const Cut& cut = (*cuts)[ordered.cut];
+    const Starts& its = starts[ordered.cut];
+    const Start& start = its.choices[ordered.start];
+    const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);
+    std::vector<WrittenEdge> all = start.lead;
+    all.insert(all.end(), path.begin(), path.end());
+    const KerfProof::Finding finding = proof.look(all);
+    if (finding.inside || !(finding.deepest_mm <= options.tolerance_mm))
+      return entered(parts, cut, finding, options);
+    program.deepest_mm = std::max(program.deepest_mm, finding.deepest_mm);
+    writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
+                               cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
+    writer.cut(start.lead, path);
+    if (writer.size() > kLongestProgram)
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("the program would be longer than {} MB; cut fewer parts at a time, or in fewer passes",
+                      kLongestProgram / 1'000'000));
+    program.travel_mm += geom::norm(resolution.mm(start.pierce) - here);
+    here = resolution.mm(start.on_contour);
+    program.cut_mm += length_of(all, resolution);
+    ++program.cuts;
+    if (options.lead_in_mm > 0 && start.lead.empty())
+      ++program.bare_starts;
+    else if (its.lead_mm < options.lead_in_mm)
+      ++program.shortened_leads;
+  }
+  program.travel_mm += geom::norm(here);
+  program.text = writer.finish();
+  return program;
+}
+
+}  // namespace lekalo::nc

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/nc/profile.hpp"
+
+namespace lekalo::nc {
+
+/// A point as the program writes it: whole units of the last decimal.
+struct WrittenPoint {
+  std::int64_t x = 0, y = 0;
+  friend bool operator==(const WrittenPoint&, const WrittenPoint&) = default;
+};
+
+/// The words' last decimal.
+struct Resolution {
+  int decimals = 4;
+  LengthUnit unit = LengthUnit::millimetre;
+
+  [[nodiscard]] double step_mm() const noexcept;
+  [[nodiscard]] WrittenPoint rounded(geom::Point mm) const noexcept;
+  [[nodiscard]] geom::Point mm(WrittenPoint p) const noexcept;
+};
+[[nodiscard]] Resolution resolution_of(const ProfileOptions& options) noexcept;
+
+/// One motion as written; the centre of an arc is a whole number of units too.
+struct WrittenEdge {
+  geom::EdgeKind kind = geom::EdgeKind::line;
+  WrittenPoint from, to, centre;
+};
+/// In mm, within rounding of a double.
+[[nodiscard]] geom::Edge edge_mm(const WrittenEdge& edge, const Resolution& resolution) noexcept;
+
+/// Edges as written: arcs of at most half a turn, those that are lines to the resolution as lines, nothing of
+/// no length.
+[[nodiscard]] std::vector<WrittenEdge> written_edges(const std::vector<geom::Edge>& edges,
+                                                     const Resolution& resolution);
+
+/// A closed contour to cut, in the direction of the cut.
+struct Cut {
+  std::size_t part = 0;  ///< index into the parts
+  bool outline = true;   ///< or a hole
+  std::size_t hole = 0;
+  std::vector<WrittenEdge> path;
+};
+
+/// All cuts of all parts, in their order, holes of a part before its outline. Fails as profile_program for
+/// what the kerf closes.
+[[nodiscard]] Result<std::vector<Cut>> compensated_cuts(const std::vector<ProfilePart>& parts,
+                                                        const ProfileOptions& options);
+
+}  // namespace lekalo::nc

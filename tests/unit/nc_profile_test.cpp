@@ -1,0 +1,222 @@
+#include "lekalo/nc/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/profile_parts.hpp"
+
+namespace lekalo::nc {
+namespace {
+
+using cases::box_contour;
+using cases::circle_contour;
+using cases::region_of_contours;
+
+ProfileOptions plain() {
+  ProfileOptions options;
+  options.kerf_mm = 1, options.feed_mm_per_min = 600, options.tolerance_mm = 0.01;
+  return options;
+}
+ProfilePart square(std::uint64_t id, double x, double y, double side = 10) {
+  return {id, region_of_contours(box_contour(x, y, side, side))};
+}
+
+TEST(NcProfile, a_square_with_a_hole_is_these_lines) {
+  ProfileOptions options = plain();
+  options.lead_in_mm = 2, options.speed = 80;
+  const auto made = profile_program(
+      {{4, region_of_contours(box_contour(10, 10, 30, 20), {circle_contour({20, 20}, 3.5, true)})}},
+      "Plate, 'ä'", options);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->text,
+            "(PLATE)\n"
+            "(KERF 1.0000 COMPENSATED IN THE PATH NO G41 G42)\n"
+            "G21 G17 G90\n"
+            "G40 G49 G80 G54 G94 G91.1 G61\n"
+            "(PLACEMENT 4 HOLE 1)\n"
+            "G0 X19.0000 Y20.0000\n"
+            "M3 S80\n"
+            "G1 X17.0000 Y20.0000 F600.0\n"
+            "G3 X23.0000 Y20.0000 I3.0000 J0.0000\n"
+            "G3 X17.0000 Y20.0000 I-3.0000 J0.0000\n"
+            "M5\n"
+            "(PLACEMENT 4 OUTLINE)\n"
+            "G0 X7.5000 Y10.0000\n"
+            "M3 S80\n"
+            "G1 X9.5000 Y10.0000 F600.0\n"
+            "G1 X9.5000 Y20.0000\n"
+            "G1 X9.5000 Y30.0000\n"
+            "G2 X10.0000 Y30.5000 I0.5000 J0.0000\n"
+            "G1 X25.0000 Y30.5000\n"
+            "G1 X40.0000 Y30.5000\n"
+            "G2 X40.5000 Y30.0000 I0.0000 J-0.5000\n"
+            "G1 X40.5000 Y20.0000\n"
+            "G1 X40.5000 Y10.0000\n"
+            "G2 X40.0000 Y9.5000 I-0.5000 J0.0000\n"
+            "G1 X25.0000 Y9.5000\n"
+            "G1 X10.0000 Y9.5000\n"
+            "G2 X9.5000 Y10.0000 I0.0000 J0.5000\n"
+            "M5\n"
+            "M5\n"
+            "G0 X0.0000 Y0.0000\n"
+            "M2\n")
+      << made->text;
+}
+
+struct Wrong {
+  const char* what;
+  void (*change)(ProfileOptions&);
+  const char* says;
+};
+
+TEST(NcProfile, options_out_of_range_are_refused_by_name) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
+  const auto refused = [](const ProfileOptions& options) {
+    const auto made = profile_program({square(1, 0, 0)}, "x", options);
+    EXPECT_FALSE(made);
+    EXPECT_TRUE(made || made.error().code == ErrorCode::usage);
+    return made ? std::string() : made.error().message;
+  };
+  for (const double bad : {nan, infinite, -1.0, 0.0, 101.0}) {
+    ProfileOptions options = plain();
+    options.kerf_mm = bad;
+    EXPECT_NE(refused(options).find("kerf"), std::string::npos) << bad;
+  }
+  const Wrong wrongs[] = {
+      {"feed", [](ProfileOptions& o) { o.feed_mm_per_min = 0; }, "feed"},
+      {"lead", [](ProfileOptions& o) { o.lead_in_mm = -1; }, "lead-in"},
+      {"tolerance", [](ProfileOptions& o) { o.tolerance_mm = 0.3; }, "tolerance"},
+      {"pierce", [](ProfileOptions& o) { o.pierce_s = 1000; }, "pierce"},
+      {"router without speed",
+       [](ProfileOptions& o) { o.process = Process::router, o.depth_mm = 1, o.plunge_mm_per_min = 1; },
+       "spindle"},
+      {"router without depth",
+       [](ProfileOptions& o) { o.process = Process::router, o.speed = 100, o.plunge_mm_per_min = 1; },
+       "depth"},
+      {"a million passes",
+       [](ProfileOptions& o) {
+         o.process = Process::router, o.speed = 100, o.plunge_mm_per_min = 1, o.depth_mm = 1000,
+         o.pass_mm = 0.01;
+       },
+       "pass"},
+      {"dark beam", [](ProfileOptions& o) { o.post = Post::grbl; }, "beam stays dark"},
+  };
+  for (const Wrong& wrong : wrongs) {
+    ProfileOptions options = plain();
+    wrong.change(options);
+    EXPECT_NE(refused(options).find(wrong.says), std::string::npos) << wrong.what;
+  }
+}
+
+TEST(NcProfile, what_the_kerf_cannot_cut_is_refused_by_name) {
+  struct Case {
+    std::vector<ProfilePart> parts;
+    const char* says;
+  };
+  const geom::Contour keyhole = cases::ring_contour({{0, 0},
+                                                     {30, 0},
+                                                     {30, 9.6},
+                                                     {10, 9.6},
+                                                     {10, 5},
+                                                     {5, 5},
+                                                     {5, 15},
+                                                     {10, 15},
+                                                     {10, 10.4},
+                                                     {30, 10.4},
+                                                     {30, 20},
+                                                     {0, 20}});
+  const geom::Contour dumbbell = cases::ring_contour({{5, 5},
+                                                      {8, 5},
+                                                      {8, 9.7},
+                                                      {12, 9.7},
+                                                      {12, 5},
+                                                      {15, 5},
+                                                      {15, 15},
+                                                      {12, 15},
+                                                      {12, 10.3},
+                                                      {8, 10.3},
+                                                      {8, 15},
+                                                      {5, 15}});
+  const Case cases_of_trouble[] = {
+      {{}, "there is no part to cut"},
+      {{{9, region_of_contours(box_contour(0, 0, 10, 10), {circle_contour({5, 5}, 0.45, true)})}},
+       "placement 9: hole 1 is narrower than the kerf of 1 mm"},
+      {{{9, region_of_contours(keyhole)}}, "placement 9: the mouth of a notch is narrower"},
+      {{{9, region_of_contours(box_contour(0, 0, 20, 20), {dumbbell})}},
+       "placement 9: a neck of hole 1 is narrower"},
+      {{square(2, 0, 0), square(5, 10.5, 0)}, "placements 2 and 5 are too near for the kerf of 1 mm"},
+      {{square(2, 0, 0), square(5, 5, 5)}, "placements 2 and 5 are too near"},        // overlapping
+      {{square(2, 0, 0, 30), square(5, 10, 10)}, "placements 2 and 5 are too near"},  // one inside the other
+  };
+  for (const Case& one : cases_of_trouble) {
+    const auto made = profile_program(one.parts, "x", plain());
+    ASSERT_FALSE(made) << one.says;
+    EXPECT_EQ(made.error().code, ErrorCode::bad_input);
+    EXPECT_NE(made.error().message.find(one.says), std::string::npos) << made.error().message;
+  }
+}
+
+TEST(NcProfile, a_narrow_slot_stays_and_is_reported) {
+  // 0.6 wide, open at the top: the kerf of 1 passes by. The slot's end is 8 from the cut below the part.
+  const auto made = profile_program(
+      {{1, region_of_contours(cases::ring_contour(
+               {{0, 0}, {20, 0}, {20, 20}, {10.3, 20}, {10.3, 8}, {9.7, 8}, {9.7, 20}, {0, 20}}))}},
+      "x", plain());
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_NEAR(made->left_over_mm, 8, 1e-3);
+  EXPECT_EQ(made->left_over_of, 1U);
+}
+
+TEST(NcProfile, leads_are_shortened_and_left_out_where_there_is_no_room) {
+  ProfileOptions options = plain();
+  options.lead_in_mm = 4;
+  const auto lead = [&](double hole_radius) {
+    const auto made = profile_program(
+        {{1, region_of_contours(box_contour(0, 0, 50, 50), {circle_contour({25, 25}, hole_radius, true)})}},
+        "x", options);
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? std::pair(made->shortened_leads, made->bare_starts) : std::pair<std::size_t, std::size_t>();
+  };
+  EXPECT_EQ(lead(10), std::pair(0UL, 0UL));
+  EXPECT_EQ(lead(2.2), std::pair(1UL, 0UL));  // 2 mm of lead in a path of radius 1.7
+  EXPECT_EQ(lead(0.55), std::pair(0UL, 1UL));
+}
+
+TEST(NcProfile, the_posts_write_their_own_words) {
+  ProfileOptions options = plain();
+  options.speed = 700, options.pierce_s = 0.5;
+  const auto text = [&] {
+    const auto made = profile_program({square(1, 5, 5)}, "x", options);
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? made->text : std::string();
+  };
+  const auto has = [](const std::string& all, const char* part) {
+    return all.find(part) != std::string::npos;
+  };
+  options.post = Post::grbl;
+  EXPECT_TRUE(has(text(), "M4 S700\nG4 P0.500\n"));
+  EXPECT_FALSE(has(text(), "G80"));
+  options.process = Process::plasma;
+  EXPECT_TRUE(has(text(), "M3 S700\n"));
+  options.post = Post::fanuc;
+  EXPECT_EQ(text().rfind("%\nO0001 (X)\n", 0), 0U);
+  EXPECT_TRUE(has(text(), "G4 P500\n"));
+  EXPECT_TRUE(has(text(), "X4.500"));
+  EXPECT_FALSE(has(text(), "X4.5000"));
+  EXPECT_TRUE(text().ends_with("M30\n%\n"));
+  options.unit = LengthUnit::inch;
+  EXPECT_TRUE(has(text(), "G20 G17 G90"));
+  EXPECT_TRUE(has(text(), "F23.62"));
+  options.pierce_s = 0, options.process = Process::router, options.post = Post::linuxcnc,
+  options.unit = LengthUnit::millimetre;
+  options.depth_mm = 5, options.pass_mm = 2, options.plunge_mm_per_min = 90;
+  EXPECT_TRUE(has(text(), "G0 Z5.0000\nM3 S700\n"));
+  for (const char* down : {"G1 Z-2.0000 F90.0\n", "G1 Z-4.0000 F90.0\n", "G1 Z-5.0000 F90.0\n"})
+    EXPECT_TRUE(has(text(), down));
+  EXPECT_FALSE(has(text(), "Z-6"));
+}
+
+}  // namespace
+}  // namespace lekalo::nc
