@@ -42,8 +42,6 @@ using ClientMessage = std::variant<CommandMessage, UndoMessage, SelectMessage>;
 
 /// Of a layout: 1 to 200 bytes of UTF-8 without control characters.
 [[nodiscard]] Result<void> check_layout_name(std::string_view name);
-/// Whether the bytes are UTF-8, without control characters.
-[[nodiscard]] bool is_plain_text(std::string_view bytes);
 
 /// The whole of a text as a number in [0, kLargestCount], digits only.
 [[nodiscard]] std::optional<std::uint64_t> whole_number(std::string_view text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -76,8 +77,14 @@ class Room {
   [[nodiscard]] Outbound select(ClientNumber client, const SelectMessage& message);
   [[nodiscard]] Stack& stack_of(Client& client);
   [[nodiscard]] std::string who(ClientNumber client) const;
-  /// Who changed the placement last, as a sentence's end.
+  [[nodiscard]] std::string preview_text(std::uint64_t seq, const layout::Change& change);
+  /// Who changed the placement or the feature last, as a sentence's end.
   [[nodiscard]] Result<std::string> later_change(std::uint64_t id, Revision since);
+  [[nodiscard]] Result<std::string> later_change(std::uint32_t stock, const layout::Feature& feature,
+                                                 Revision since);
+  [[nodiscard]] Result<std::string> later_change(const std::string& what, const Toucher* known,
+                                                 Revision since,
+                                                 const std::function<bool(const layout::Change&)>& touches);
   /// Why a change cannot be put in place of the state that is there, or nothing.
   [[nodiscard]] Result<void> check_standing(const StoredChange& command, const layout::Change& wanted);
   /// Store first, then the state, then everyone hears of it.
@@ -95,6 +102,7 @@ class Room {
   std::map<ClientNumber, Client> clients_;
   std::map<std::string, Stack> stacks_;                    ///< by author
   std::unordered_map<std::uint64_t, Toucher> last_touch_;  ///< by placement, since the room is open
+  std::unordered_map<std::string, Toucher> last_draw_;     ///< by feature, likewise
 };
 
 }  // namespace lekalo::server

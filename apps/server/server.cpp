@@ -35,6 +35,7 @@
 
 #include "access.hpp"
 #include "api.hpp"
+#include "lekalo/base/plain_text.hpp"
 #include "messages.hpp"
 #include "outbox.hpp"
 #include "page_files.hpp"

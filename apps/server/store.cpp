@@ -46,6 +46,18 @@ CREATE TABLE change (
 ) STRICT;
 )";
 
+/// New in format 2.
+constexpr const char* kPhotoSchema = R"(
+CREATE TABLE photo (
+  layout INTEGER NOT NULL REFERENCES layout ON DELETE CASCADE,
+  stock TEXT NOT NULL,
+  type TEXT NOT NULL,
+  scale TEXT NOT NULL,
+  image BLOB NOT NULL,
+  PRIMARY KEY (layout, stock)
+) STRICT;
+)";
+
 constexpr const char* kNow = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
 /// Orders layouts by their last change, where the clock may stand still or go back.
 constexpr const char* kNextNumber = "(SELECT coalesce(max(change_number), 0) + 1 FROM layout)";
@@ -68,25 +80,14 @@ Result<void> make_file(const std::string& path) {
   return {};
 }
 
-void carry_out(std::vector<layout::Placement>& placements, const layout::Change& change) {
-  const auto before_id = [](const layout::Placement& p, std::uint64_t id) { return p.id < id; };
-  for (const layout::PlacementChange& one : change.placements) {
-    const std::uint64_t id = one.after ? one.after->id : one.before->id;
-    const auto at = std::lower_bound(placements.begin(), placements.end(), id, before_id);
-    const bool there = at != placements.end() && at->id == id;
-    if (one.after && there) *at = *one.after;
-    if (one.after && !there) placements.insert(at, *one.after);
-    if (!one.after && there) placements.erase(at);
-  }
-}
-
-/// Indices in what the store holds are those of the snapshot, or the file is damaged.
+/// What the store holds belongs to the state before it, or the file is damaged.
 bool fits(const layout::Change& change, const layout::Document& document) {
   for (const layout::PlacementChange& one : change.placements)
     for (const auto& side : {one.before, one.after})
       if (side && (side->part >= document.parts.size() || side->stock >= document.stocks.size()))
         return false;
-  return true;
+  return std::all_of(change.features.begin(), change.features.end(),
+                     [&](const layout::FeatureChange& one) { return one.stock < document.stocks.size(); });
 }
 
 }  // namespace
@@ -133,7 +134,8 @@ Result<void> Store::prepare_file() {
       return failure(ErrorCode::environment, "this is a database of another program; name another --store");
     Result<Transaction> all = Transaction::begin(database_);
     if (!all) return tl::unexpected(all.error());
-    if (Result<void> made = database_.run(kSchema); !made) return made;
+    for (const char* schema : {kSchema, kPhotoSchema})
+      if (Result<void> made = database_.run(schema); !made) return made;
     const std::string marks =
         fmt::format("PRAGMA application_id={}; PRAGMA user_version={}", kApplicationId, kStoreFormat);
     if (Result<void> marked = database_.run(marks.c_str()); !marked) return marked;
@@ -141,7 +143,7 @@ Result<void> Store::prepare_file() {
   }
   const Result<std::int64_t> format = database_.number("PRAGMA user_version");
   if (!format) return tl::unexpected(format.error());
-  if (*format != kStoreFormat)
+  if (*format < 1 || *format > kStoreFormat)
     return failure(ErrorCode::environment,
                    fmt::format("the store has format {}, this program knows format {}; use the version of "
                                "lekalo that wrote it",
@@ -152,7 +154,13 @@ Result<void> Store::prepare_file() {
   if (!row) return tl::unexpected(row.error());
   if (const std::string said = check->text(0); said != "ok")
     return failure(ErrorCode::environment, "the store is damaged: " + said.substr(0, said.find('\n')));
-  return {};
+  if (*format == kStoreFormat) return {};
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  const std::string mark = fmt::format("PRAGMA user_version={}", kStoreFormat);
+  for (const char* change : {kPhotoSchema, mark.c_str()})
+    if (Result<void> made = database_.run(change); !made) return made;
+  return all->commit();
 }
 
 Result<LayoutId> Store::create_locked(const std::string& name, const layout::Document& document,
@@ -248,8 +256,7 @@ Result<StoredLayout> Store::load_locked(LayoutId id, std::optional<Revision> rev
       return failure(
           ErrorCode::environment,
           fmt::format("the store is damaged: revision {} of layout {} is missing or wrong", at, id));
-    carry_out(layout.document.placements, *change);
-    layout.document.next_id = change->next_id_after;
+    layout::carry_out(layout.document, *change);
   }
   if (at != layout.revision)
     return failure(ErrorCode::environment,

@@ -19,12 +19,13 @@ using Revision = std::int64_t;
 
 /// After so many changes a layout is written whole again, so that opening reads at most so many of them.
 inline constexpr Revision kSnapshotEvery = 256;
-inline constexpr std::int64_t kStoreFormat = 1;
+/// Format 1 had no changes of features and no photographs; it is taken over when it is opened.
+inline constexpr std::int64_t kStoreFormat = 2;
 
 enum class ChangeKind : std::uint8_t { command, undo, redo, restore };
 [[nodiscard]] const char* name_of(ChangeKind kind) noexcept;
 
-/// One revision: what was done, and the placements before and after.
+/// One revision: what was done, and what it changed, before and after.
 struct StoredChange {
   Revision revision = 0;
   ChangeKind kind = ChangeKind::command;
@@ -100,7 +101,8 @@ class Store {
   std::unique_ptr<std::mutex> turn_ = std::make_unique<std::mutex>();
 };
 
-/// The placements of a change as text: exact, a line for each before (-) and after (+). Not for people.
+/// A change as text: exact, a line for each placement before (-) and after (+) and each feature before (<)
+/// and after (>). Not for people.
 [[nodiscard]] std::string change_text(const layout::Change& change);
 /// Fails with ErrorCode::environment for anything that change_text does not write.
 [[nodiscard]] Result<layout::Change> change_from_text(std::string_view text);

@@ -209,6 +209,98 @@ TEST_F(TwoClients, WhatCannotBeStoredIsNotDone) {
   EXPECT_EQ(room_->revision(), 0);
 }
 
+constexpr const char* kScar = "add-defect sheet scar 1 outline 22 42 24 42 24 44";
+
+TEST_F(TwoClients, HearOfADefectAndWhatLiesOnIt) {
+  const auto heard = command(1, kScar);
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[0]["type"], "done");
+  EXPECT_EQ(heard[0]["violations"][0]["kind"], "defect");
+  EXPECT_EQ(heard[0]["violations"][0]["feature"], "scar");
+  EXPECT_EQ(heard[1]["placements"], Json::array());
+  const Json& feature = heard[1]["features"][0];
+  EXPECT_EQ(feature["stock"], "sheet");
+  EXPECT_EQ(feature["kind"], "defect");
+  EXPECT_EQ(feature["id"], "scar");
+  EXPECT_EQ(feature["index"], 0);
+  EXPECT_EQ(feature["after"]["severity"], 1);
+  EXPECT_EQ(feature["after"]["outline"]["polygon"]["outer"], Json::parse("[[22, 42], [24, 42], [24, 44]]"));
+  EXPECT_EQ(heard_.back().second, heard[1]);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  EXPECT_EQ(command(2, "remove-defect sheet scar")[1]["features"][0]["after"], nullptr);
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(command(1, "add-defect sheet x 1 outline 0 0 4 4 4 0 0 4")[0]["type"], "refused");
+  const auto preview = say(1, CommandMessage{3, layout::Mode::strict, kScar, true});
+  ASSERT_EQ(preview.size(), 1u);
+  EXPECT_EQ(preview[0]["features"].size(), 1u);
+  EXPECT_EQ(preview[0]["violations"].size(), 1u);
+  EXPECT_EQ(room_->document(), first_);
+}
+
+TEST_F(TwoClients, UndoDefectsUnlessALaterCommandStandsOnThem) {
+  command(1, kScar);
+  command(2, "grade-defect sheet scar 3");
+  auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  std::string why = heard[0]["message"];
+  EXPECT_NE(why.find("client 2 changed defect 'scar' by 'grade-defect"), std::string::npos) << why;
+  EXPECT_EQ(say(2, UndoMessage{1, false})[1]["features"][0]["after"]["severity"], 1);
+  EXPECT_EQ(say(1, UndoMessage{2, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(say(1, UndoMessage{3, true})[0]["type"], "done");
+  // A part that was put where the defect had been.
+  command(1, "remove-defect sheet scar");
+  command(2, "move 1 by 0.5 0");
+  heard = say(1, UndoMessage{4, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  why = heard[0]["message"];
+  EXPECT_NE(why.find("move 1 by 0.5 0"), std::string::npos) << why;
+  // A defect where the part had been.
+  command(2, "move 2 by 0 20");
+  command(1, "add-defect sheet spot 1 outline 62 42 64 42 64 44");
+  heard = say(2, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  why = heard[0]["message"];
+  EXPECT_NE(why.find("add-defect"), std::string::npos) << why;
+}
+
+TEST_F(TwoClients, FindWhoChangedADefectBeforeARestart) {
+  command(1, kScar);
+  command(2, "grade-defect sheet scar 3");
+  reopen();
+  const auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  EXPECT_NE(heard[0]["message"].get<std::string>().find("grade-defect"), std::string::npos);
+}
+
+TEST_F(TwoClients, RestoreDefectsInTheirOrder) {
+  command(1, kScar);
+  command(2, "add-defect sheet other 1 outline 82 82 84 82 84 84");
+  const layout::Document both = room_->document();
+  command(1, "remove-defect sheet scar");
+  command(1, kScar);  // now the second
+  hear(room_->restore(2).value());
+  EXPECT_EQ(room_->document(), both);
+  EXPECT_EQ(store_->load(id_)->document, both);
+  hear(room_->restore(0).value());
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(store_->load(id_)->document, first_);
+}
+
+TEST_F(TwoClients, AreToldOfLongCommandsInShort) {
+  std::string line = "add-defect sheet scar 1 outline";
+  for (int i = 0; i < 400; ++i) line += " " + std::to_string(i % 100) + " " + std::to_string(i / 100);
+  std::string round = "reshape-defect sheet scar outline 80 80";
+  for (int i = 1; i < 300; ++i)
+    round += " " + std::to_string(80 + i * 0.01) + " " + std::to_string(80 + i * i * 0.0001);
+  EXPECT_EQ(command(1, line)[0]["type"], "refused");
+  EXPECT_EQ(command(1, kScar)[0]["type"], "done");
+  EXPECT_EQ(command(2, round)[0]["type"], "done");
+  const auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  EXPECT_LT(heard[0]["message"].get<std::string>().size(), 400u);
+}
+
 Outgoing sized(std::size_t bytes, Loss loss) {
   return {1, std::make_shared<const std::string>(bytes, 'x'), loss};
 }
