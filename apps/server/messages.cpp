@@ -108,11 +108,15 @@ class MessageReader : public nlohmann::json_sax<Json> {
       if (!exactly({"seq"})) return failure(ErrorCode::bad_input, fault_);
       return UndoMessage{seq_, type_ == "redo"};
     }
+    if (type_ == "stop") {
+      if (!exactly({"seq"})) return failure(ErrorCode::bad_input, fault_);
+      return StopMessage{seq_};
+    }
     if (type_ == "select") {
       if (!exactly({"ids"})) return failure(ErrorCode::bad_input, fault_);
       return SelectMessage{std::move(ids_)};
     }
-    return failure(ErrorCode::bad_input, "the type has to be command, preview, undo, redo or select");
+    return failure(ErrorCode::bad_input, "the type has to be command, preview, undo, redo, stop or select");
   }
 
  private:

@@ -117,6 +117,7 @@ layout::Change difference(const std::vector<Placement>& from, const std::vector<
 
 /// What is refused in strict mode, to be shown: the violations that the command would make.
 std::string violations_of_refused(const layout::Workspace& workspace, const layout::Command& command) {
+  if (job_of(command, layout::Mode::free)) return "[]";  // takes too long to be tried again for this
   const Result<layout::Change> free = layout::plan(workspace, command, layout::Mode::free);
   if (!free) return "[]";
   return io::violations_json(workspace.document(), workspace.violations_of(placed_by(*free)));
@@ -164,6 +165,8 @@ Outbound Room::leave(ClientNumber client) {
   if (at == clients_.end()) return out;
   const bool selected = !at->second.selected.empty();
   clients_.erase(at);
+  for (auto& [number, running] : running_)  // nobody waits for it any more
+    if (running.client == client) *running.stop = true;
   if (selected) to_all(selections_text(), Loss::as_newer, out);
   return out;
 }
@@ -172,6 +175,10 @@ Outbound Room::handle(ClientNumber client, const ClientMessage& said) {
   if (clients_.find(client) == clients_.end()) return {};
   if (const auto* one = std::get_if<CommandMessage>(&said)) return command(client, *one);
   if (const auto* one = std::get_if<UndoMessage>(&said)) return undo(client, *one);
+  if (const auto* one = std::get_if<StopMessage>(&said)) {
+    stop(client, *one);
+    return {};
+  }
   return select(client, std::get<SelectMessage>(said));
 }
 
@@ -190,38 +197,130 @@ Outbound Room::command(ClientNumber client, const CommandMessage& said) {
     out.push_back(message(client, refused(said.seq, command.error().message)));
     return out;
   }
+  if (std::optional<Job> job = job_of(*command, said.mode)) {
+    start({client, said, *command, std::move(*job), nullptr, 0});
+    return out;
+  }
   Result<layout::Change> change = layout::plan(workspace_, *command, said.mode);
-  if (!change) {
-    const std::string violations =
-        change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
-    out.push_back(message(client, refused(said.seq, change.error().message, violations)));
-    return out;
-  }
+  if (change) return carry_out(client, said, *command, std::move(*change));
+  const std::string violations =
+      change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
+  out.push_back(message(client, refused(said.seq, change.error().message, violations)));
+  return out;
+}
+
+Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const layout::Command& command,
+                         layout::Change change, bool stopped) {
+  Outbound out;
+  std::string more = stopped ? ", \"stopped\": true" : "";
   if (said.preview) {
-    out.push_back(message(client, preview_text(said.seq, *change)));
+    out.push_back(message(client, preview_text(said.seq, change)));
     return out;
   }
-  if (change->is_nothing()) {
-    out.push_back(message(client, done(said.seq, revision_, ", \"nothing\": true")));
+  if (change.is_nothing()) {
+    out.push_back(message(client, done(said.seq, revision_, ", \"nothing\": true" + more)));
     return out;
   }
   StoredChange stored;
   stored.mode = said.mode;
-  stored.text = layout::to_text(*command, document());
-  stored.change = *change;
-  const layout::Change& changed = *change;
+  stored.text = layout::to_text(command, document()) + (stopped ? " # stopped early" : "");
+  stored.change = change;
   if (Result<void> kept = commit(client, std::move(stored), out); !kept) {
     out.push_back(message(client, refused(said.seq, kept.error().message)));
     return out;
   }
   // A defect is where it is: admitted, and what lies on it is named.
-  std::string broken;
-  if (!changed.features.empty())
-    broken = ", \"violations\": " + io::violations_json(document(), violations_with(workspace_, changed));
-  out.insert(out.begin(), message(client, done(said.seq, revision_, broken)));
+  if (!change.features.empty())
+    more += ", \"violations\": " + io::violations_json(document(), violations_with(workspace_, change));
+  out.insert(out.begin(), message(client, done(said.seq, revision_, more)));
   Stack& stack = stack_of(clients_[client]);
   stack.done.push_back(revision_);
   stack.undone.clear();
+  return out;
+}
+
+void Room::start(Running running) {
+  running.stop = std::make_shared<std::atomic<bool>>(false);
+  ++running.attempts;
+  const JobNumber number = ++last_job_;
+  starting_.push_back({number, running.job, document(), running.stop});
+  running_.emplace(number, std::move(running));
+}
+
+void Room::stop(ClientNumber client, const StopMessage& said) {
+  for (auto& [number, running] : running_)
+    if (running.client == client && running.said.seq == said.seq) *running.stop = true;
+}
+
+bool Room::is_busy(ClientNumber client) const {
+  return std::any_of(running_.begin(), running_.end(),
+                     [&](const auto& one) { return one.second.client == client; });
+}
+
+ClientNumber Room::client_of(JobNumber job) const {
+  const auto at = running_.find(job);
+  return at == running_.end() ? 0 : at->second.client;
+}
+
+std::vector<JobStart> Room::take_jobs() { return std::exchange(starting_, {}); }
+
+Outbound Room::job_progress(JobNumber job, double fraction, std::optional<double> seconds_left) const {
+  Outbound out;
+  const auto at = running_.find(job);
+  if (at == running_.end()) return out;
+  out.push_back(message(at->second.client,
+                        fmt::format("{{\"type\": \"progress\", \"seq\": {}, \"fraction\": {:.4f}, "
+                                    "\"seconds_left\": {}}}",
+                                    at->second.said.seq, fraction,
+                                    seconds_left ? fmt::format("{:.1f}", *seconds_left) : "null"),
+                        Loss::as_newer));
+  return out;
+}
+
+Outbound Room::job_improved(JobNumber job, const layout::Change& change) const {
+  Outbound out;
+  const auto at = running_.find(job);
+  if (at == running_.end()) return out;
+  out.push_back(message(at->second.client,
+                        fmt::format("{{\"type\": \"improved\", \"seq\": {}, \"placements\": {}}}",
+                                    at->second.said.seq, placements_text(document(), change)),
+                        Loss::as_newer));
+  return out;
+}
+
+std::optional<layout::Change> Room::rebased(const layout::Change& change, layout::Mode mode) const {
+  layout::Change now;
+  now.next_id_before = now.next_id_after = document().next_id;
+  for (const PlacementChange& one : change.placements) {
+    const Placement* const there = one.before ? workspace_.find(one.before->id) : nullptr;
+    if (one.before && (there == nullptr || *there != *one.before)) return std::nullopt;
+    now.placements.push_back(one);
+    if (!one.before) now.placements.back().after->id = now.next_id_after++;
+  }
+  if (mode == layout::Mode::strict && !workspace_.is_clear(placed_by(now))) return std::nullopt;
+  return now;
+}
+
+Outbound Room::job_ended(JobNumber job, const Result<layout::Change>& found) {
+  Outbound out;
+  auto node = running_.extract(job);
+  if (node.empty() || clients_.find(node.mapped().client) == clients_.end()) return out;
+  Running& running = node.mapped();
+  const auto refuse = [&](const std::string& why, const std::string& violations = "[]") {
+    out.push_back(message(running.client, refused(running.said.seq, why, violations)));
+    return out;
+  };
+  if (!found)
+    return refuse(found.error().message, found.error().code == ErrorCode::refuted
+                                             ? violations_of_refused(workspace_, running.command)
+                                             : "[]");
+  if (auto change = rebased(*found, running.said.mode))
+    return carry_out(running.client, running.said, running.command, std::move(*change), *running.stop);
+  constexpr int kMostAttempts = 3;
+  if (*running.stop || running.attempts == kMostAttempts)
+    return refuse(
+        "others changed meanwhile what this command moves, or the places it found; nothing was done");
+  start(std::move(running));
   return out;
 }
 
@@ -413,6 +512,31 @@ Result<Outbound> Room::rename(const std::string& name) {
   if (Result<void> kept = store_.rename(id_, name); !kept) return tl::unexpected(kept.error());
   name_ = name;
   to_all(fmt::format("{{\"type\": \"name\", \"name\": {}}}", json_text(name)), Loss::as_newer, out);
+  return out;
+}
+
+Result<Outbound> Room::set_photo(const Photo& photo, const std::string& image) {
+  const auto& stocks = document().stocks;
+  if (std::none_of(stocks.begin(), stocks.end(), [&](const auto& one) { return one.id == photo.stock; }))
+    return failure(ErrorCode::usage, fmt::format("the layout has no stock '{}'", photo.stock));
+  if (Result<void> kept = store_.set_photo(id_, photo, image); !kept) return tl::unexpected(kept.error());
+  return photos_changed();
+}
+
+Result<Outbound> Room::set_photo_scale(const std::string& stock, const PhotoScale& scale) {
+  if (Result<void> kept = store_.set_photo_scale(id_, stock, scale); !kept)
+    return tl::unexpected(kept.error());
+  return photos_changed();
+}
+
+Result<Outbound> Room::remove_photo(const std::string& stock) {
+  if (Result<void> kept = store_.remove_photo(id_, stock); !kept) return tl::unexpected(kept.error());
+  return photos_changed();
+}
+
+Outbound Room::photos_changed() const {
+  Outbound out;
+  to_all("{\"type\": \"photos\"}", Loss::as_newer, out);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/io/layout_json.hpp"
 
 namespace lekalo::server {
@@ -163,10 +164,8 @@ Result<void> Store::prepare_file() {
   return all->commit();
 }
 
-Result<LayoutId> Store::create_locked(const std::string& name, const layout::Document& document,
-                                      const std::string& origin) {
-  Result<Transaction> all = Transaction::begin(database_);
-  if (!all) return tl::unexpected(all.error());
+Result<LayoutId> Store::create_rows(const std::string& name, const layout::Document& document,
+                                    const std::string& origin) {
   Result<Statement> row = database_.prepare(fmt::format(
       "INSERT INTO layout (name, origin, revision, placements, changed, change_number) VALUES (?, ?, 0, ?, "
       "{}, {})",
@@ -179,14 +178,18 @@ Result<LayoutId> Store::create_locked(const std::string& name, const layout::Doc
   if (!snapshot) return tl::unexpected(snapshot.error());
   snapshot->bind(1, id).bind(2, io::write_layout(document));
   if (Result<void> done = snapshot->run(); !done) return tl::unexpected(done.error());
-  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
   return id;
 }
 
 Result<LayoutId> Store::create(const std::string& name, const layout::Document& document,
                                const std::string& origin) {
   const std::lock_guard lock(*turn_);
-  return create_locked(name, document, origin);
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  const Result<LayoutId> made = create_rows(name, document, origin);
+  if (!made) return made;
+  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  return made;
 }
 
 Result<std::optional<LayoutId>> Store::find_origin(const std::string& origin) {
@@ -279,7 +282,17 @@ Result<LayoutId> Store::copy(LayoutId id, const std::string& name) {
   const std::lock_guard lock(*turn_);
   const Result<StoredLayout> layout = load_locked(id, std::nullopt);
   if (!layout) return tl::unexpected(layout.error());
-  return create_locked(name, layout->document, {});
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  const Result<LayoutId> made = create_rows(name, layout->document, {});
+  if (!made) return made;
+  Result<Statement> photos =
+      database_.prepare("INSERT INTO photo SELECT ?, stock, type, scale, image FROM photo WHERE layout = ?");
+  if (!photos) return tl::unexpected(photos.error());
+  if (Result<void> done = photos->bind(1, *made).bind(2, id).run(); !done)
+    return tl::unexpected(done.error());
+  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  return made;
 }
 
 Result<void> Store::one_row(LayoutId id, Result<void> done) {
@@ -390,6 +403,94 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
     entries.push_back(std::move(entry));
   }
   return entries;
+}
+
+namespace {
+
+tl::unexpected<Error> no_photo(const std::string& stock) {
+  return failure(ErrorCode::usage, fmt::format("there is no photograph of stock '{}'", stock));
+}
+
+std::string scale_text(const PhotoScale& scale) {
+  return fmt::format("{} {}", fmt::join(scale.pixels, " "), fmt::join(scale.mm, " "));
+}
+
+std::optional<PhotoScale> scale_from(std::string_view text) {
+  PhotoScale scale;
+  for (double* number : {scale.pixels, scale.pixels + 1, scale.pixels + 2, scale.pixels + 3, scale.mm,
+                         scale.mm + 1, scale.mm + 2, scale.mm + 3}) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const auto value = double_of_text(text.substr(0, end));
+    if (!value) return std::nullopt;
+    *number = *value;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return scale;
+}
+
+}  // namespace
+
+Result<std::vector<Photo>> Store::photos(LayoutId id) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> layout = database_.prepare("SELECT 1 FROM layout WHERE id = ?");
+  if (!layout) return tl::unexpected(layout.error());
+  const Result<bool> there = layout->bind(1, id).step();
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return no_layout(id);
+  Result<Statement> rows = database_.prepare(
+      "SELECT stock, type, length(image), scale FROM photo WHERE layout = ? ORDER BY stock");
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, id);
+  std::vector<Photo> photos;
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return photos;
+    const auto scale = scale_from(rows->text(3));
+    if (!scale)
+      return failure(ErrorCode::environment, "the store is damaged: the scale of a photograph is no scale");
+    photos.push_back({rows->text(0), rows->text(1), rows->integer(2), *scale});
+  }
+}
+
+Result<std::string> Store::photo_image(LayoutId id, const std::string& stock) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("SELECT image FROM photo WHERE layout = ? AND stock = ?");
+  if (!row) return tl::unexpected(row.error());
+  const Result<bool> found = row->bind(1, id).bind(2, stock).step();
+  if (!found) return tl::unexpected(found.error());
+  if (!*found) return no_photo(stock);
+  return row->bytes(0);
+}
+
+Result<void> Store::set_photo(LayoutId id, const Photo& photo, const std::string& image) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("INSERT OR REPLACE INTO photo VALUES (?, ?, ?, ?, ?)");
+  if (!row) return tl::unexpected(row.error());
+  return row->bind(1, id)
+      .bind(2, photo.stock)
+      .bind(3, photo.type)
+      .bind(4, scale_text(photo.scale))
+      .bind_bytes(5, image)
+      .run();
+}
+
+Result<void> Store::set_photo_scale(LayoutId id, const std::string& stock, const PhotoScale& scale) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("UPDATE photo SET scale = ? WHERE layout = ? AND stock = ?");
+  if (!row) return tl::unexpected(row.error());
+  Result<void> done = row->bind(1, scale_text(scale)).bind(2, id).bind(3, stock).run();
+  if (done && database_.changed_rows() == 0) return no_photo(stock);
+  return done;
+}
+
+Result<void> Store::remove_photo(LayoutId id, const std::string& stock) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("DELETE FROM photo WHERE layout = ? AND stock = ?");
+  if (!row) return tl::unexpected(row.error());
+  Result<void> done = row->bind(1, id).bind(2, stock).run();
+  if (done && database_.changed_rows() == 0) return no_photo(stock);
+  return done;
 }
 
 }  // namespace lekalo::server

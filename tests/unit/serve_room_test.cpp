@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/layout/check.hpp"
 #include "server/access.hpp"
 #include "server/outbox.hpp"
 #include "support/layout_cases.hpp"
@@ -299,6 +300,111 @@ TEST_F(TwoClients, AreToldOfLongCommandsInShort) {
   const auto heard = say(1, UndoMessage{1, false});
   ASSERT_EQ(heard[0]["type"], "refused");
   EXPECT_LT(heard[0]["message"].get<std::string>().size(), 400u);
+}
+
+/// What a job found when it is run here, to its end.
+Result<layout::Change> ran(const JobStart& start, std::vector<layout::Change>* improved = nullptr) {
+  JobContext context;
+  context.run.stop = start.stop.get();
+  context.improved = [&](const layout::Change& change) {
+    if (improved != nullptr) improved->push_back(change);
+  };
+  return start.job(start.document, context);
+}
+
+TEST_F(TwoClients, GoOnWhileALongCommandOfOneIsUnderWay) {
+  EXPECT_TRUE(command(1, "compact sheet 0 towards 0 -1").empty());
+  EXPECT_TRUE(room_->is_busy(1));
+  EXPECT_FALSE(room_->is_busy(2));
+  const std::vector<JobStart> jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 1u);
+  EXPECT_TRUE(room_->take_jobs().empty());
+  hear(room_->job_progress(jobs[0].number, 0.25, 3.0));
+  EXPECT_EQ(heard_.back().second,
+            Json::parse(R"({"type": "progress", "seq": 7, "fraction": 0.25, "seconds_left": 3.0})"));
+  EXPECT_EQ(command(2, "place square sheet 0 1 0 0 80 upright")[0]["type"], "done");  // not in its way
+  const auto before = heard_.size();
+  hear(room_->job_ended(jobs[0].number, ran(jobs[0])));
+  EXPECT_EQ(heard_[before].second["type"], "done");
+  EXPECT_EQ(heard_[before].second["revision"], 2);
+  EXPECT_EQ(heard_[before + 1].second["placements"].size(), 2u);
+  EXPECT_FALSE(room_->is_busy(1));
+  EXPECT_LT(room_->document().placements[0].at.y, 10);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  EXPECT_EQ(say(1, UndoMessage{8, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document().placements[0], first_.placements[0]);
+}
+
+TEST_F(TwoClients, ALongCommandBeginsAgainWhereOthersChangedWhatItMoves) {
+  command(1, "compact sheet 0 towards 0 -1");
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    const std::vector<JobStart> jobs = room_->take_jobs();
+    ASSERT_EQ(jobs.size(), 1u);
+    const auto found = ran(jobs[0]);
+    command(2, "move 2 by 0 1");
+    const auto before = heard_.size();
+    hear(room_->job_ended(jobs[0].number, found));
+    if (attempt < 3) {
+      EXPECT_EQ(heard_.size(), before);
+    } else {
+      EXPECT_EQ(heard_[before].second["type"], "refused");
+    }
+  }
+  EXPECT_FALSE(room_->is_busy(1));
+  EXPECT_EQ(room_->document().placements[0], first_.placements[0]);
+}
+
+TEST_F(TwoClients, TwoFitsAtOnceDoNotMeet) {
+  command(1, "fit square sheet 0");
+  command(2, "fit square sheet 0");
+  std::vector<JobStart> jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 2u);
+  const auto a = ran(jobs[0]), b = ran(jobs[1]);  // the same place
+  hear(room_->job_ended(jobs[0].number, a));
+  hear(room_->job_ended(jobs[1].number, b));
+  EXPECT_EQ(room_->document().placements.size(), 3u);
+  jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 1u);
+  hear(room_->job_ended(jobs[0].number, ran(jobs[0])));
+  EXPECT_EQ(room_->document().placements.size(), 4u);
+  EXPECT_EQ(room_->document().placements.back().id, 4u);
+  EXPECT_TRUE(layout::check(room_->document()).empty());
+}
+
+TEST_F(TwoClients, StopALongCommandAndKeepWhatItHas) {
+  command(1, "compact sheet 0 towards 0 -1");
+  const std::vector<JobStart> jobs = room_->take_jobs();
+  EXPECT_TRUE(room_->handle(2, StopMessage{7}).empty());  // not its own
+  EXPECT_FALSE(*jobs[0].stop);
+  EXPECT_TRUE(room_->handle(1, StopMessage{7}).empty());
+  EXPECT_TRUE(*jobs[0].stop);
+  const auto before = heard_.size();
+  hear(room_->job_ended(jobs[0].number, ran(jobs[0])));
+  EXPECT_EQ(heard_[before].second["stopped"], true);
+  EXPECT_EQ(heard_[before + 1].second["placements"].size(), 1u);  // it had one
+  // Whoever leaves wants nothing any more.
+  command(1, "compact sheet 0 towards 1 0");
+  const std::vector<JobStart> left = room_->take_jobs();
+  hear(room_->leave(1));
+  EXPECT_TRUE(*left[0].stop);
+  EXPECT_TRUE(room_->job_ended(left[0].number, ran(left[0])).empty());
+  EXPECT_EQ(room_->revision(), 1);
+}
+
+TEST(Jobs, CompactingAllSheetsShowsABetterLayoutAfterEach) {
+  layout::Document document = cases::two_squares();
+  document.stocks[0].count = 2;
+  document.placements[1].copy = 1;
+  const layout::Command command = layout::CompactCommand{std::nullopt, {0, -1}};
+  const JobStart start{1, *job_of(command, layout::Mode::strict), document,
+                       std::make_shared<std::atomic<bool>>(false)};
+  std::vector<layout::Change> improved;
+  const auto found = ran(start, &improved);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(improved.size(), 2u);
+  EXPECT_EQ(improved[0].placements.size(), 1u);
+  EXPECT_EQ(improved[1], *found);
+  EXPECT_EQ(*found, *plan(layout::Workspace(document), command, layout::Mode::strict));
 }
 
 Outgoing sized(std::size_t bytes, Loss loss) {
