@@ -10,9 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto message = server::parse_client_message(bytes);
   if (!message) {
     must(message.error().code == ErrorCode::bad_input && !message.error().message.empty());
-    must(server::is_plain_text(message.error().message));
+    must(is_plain_text(message.error().message));
   } else if (const auto* command = std::get_if<server::CommandMessage>(&*message)) {
-    must(command->seq <= server::kLargestCount && server::is_plain_text(command->text));
+    must(command->seq <= server::kLargestCount && is_plain_text(command->text));
   } else if (const auto* select = std::get_if<server::SelectMessage>(&*message)) {
     must(select->ids.size() <= server::kMostSelected);
     for (const std::uint64_t id : select->ids) must(id <= server::kLargestCount);

@@ -1,11 +1,15 @@
 #include "api.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/io/layout_export.hpp"
 #include "lekalo/io/layout_json.hpp"
 #include "lekalo/io/layout_picture.hpp"
@@ -169,7 +173,92 @@ ApiAnswer remove_layout(const ChangeRoom& change_room, LayoutId id) {
   return done ? json_answer(200, Json::object()) : trouble(done.error());
 }
 
+/// "x,y,x,y" of two points that are not one, within +-`most`.
+Result<void> take_points(const Target& target, const char* field, double most, double (&points)[4]) {
+  const std::string* const text = target.find(field);
+  if (text == nullptr)
+    return failure(ErrorCode::bad_input,
+                   fmt::format("the field {0} is missing: ?{0}=x,y,x,y of two points", field));
+  std::string_view rest = *text;
+  for (int i = 0; i < 4; ++i) {
+    const std::size_t end = i < 3 ? std::min(rest.find(','), rest.size()) : rest.size();
+    const auto value = double_of_text(rest.substr(0, end));
+    if (!value || !(std::abs(*value) <= most))
+      return failure(ErrorCode::bad_input,
+                     fmt::format("the field {} has to be four numbers x,y,x,y within +-{}", field, most));
+    points[i] = *value;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (points[0] == points[2] && points[1] == points[3])
+    return failure(ErrorCode::bad_input, fmt::format("the two points of {} are one", field));
+  return {};
+}
+
+Result<PhotoScale> scale_in(const Target& target) {
+  constexpr double kMostPixels = 65535, kMostMm = 0x1p18;
+  PhotoScale scale;
+  if (Result<void> taken = take_points(target, "pixels", kMostPixels, scale.pixels); !taken)
+    return tl::unexpected(taken.error());
+  if (Result<void> taken = take_points(target, "mm", kMostMm, scale.mm); !taken)
+    return tl::unexpected(taken.error());
+  return scale;
+}
+
+ApiAnswer list_photos(Store& store, LayoutId id) {
+  const Result<std::vector<Photo>> photos = store.photos(id);
+  if (!photos) return trouble(photos.error());
+  Json list = Json::array();
+  for (const Photo& one : *photos)
+    list.push_back({{"stock", one.stock},
+                    {"type", one.type},
+                    {"bytes", one.bytes},
+                    {"pixels", one.scale.pixels},
+                    {"mm", one.scale.mm}});
+  return json_answer(200, {{"photos", std::move(list)}});
+}
+
+ApiAnswer photo(Store& store, const ChangeRoom& change_room, const std::string& method, LayoutId id,
+                const Target& target, const std::string& body) {
+  const std::string* const stock = target.find("stock");
+  if (stock == nullptr) return api_error(400, "the stock is missing: ?stock=");
+  if (method == "GET") {
+    Result<std::string> image = store.photo_image(id, *stock);
+    if (!image) return trouble(image.error());
+    std::string type = image_type(*image);
+    return {200, std::move(*image), std::move(type), {}, {}};
+  }
+  Result<void> done;
+  if (method == "DELETE") {
+    done = change_room(id, [&](Room& room) { return room.remove_photo(*stock); });
+  } else {
+    const Result<PhotoScale> scale = scale_in(target);
+    if (!scale) return trouble(scale.error());
+    if (method == "PATCH") {
+      done = change_room(id, [&](Room& room) { return room.set_photo_scale(*stock, *scale); });
+    } else {
+      const std::string type = image_type(body);
+      if (type.empty()) return api_error(415, "a photograph is a PNG or JPEG file; this is neither");
+      const Photo given{*stock, type, static_cast<std::int64_t>(body.size()), *scale};
+      done = change_room(id, [&](Room& room) { return room.set_photo(given, body); });
+    }
+  }
+  return done ? json_answer(200, Json::object()) : trouble(done.error());
+}
+
 }  // namespace
+
+std::string image_type(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
+  if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
+  return {};
+}
+
+std::size_t most_body(std::string_view method, std::string_view path) {
+  constexpr std::size_t kLargestFile = std::size_t{64} << 20;
+  if (method == "POST" && path == "/api/layouts") return kLargestFile;
+  if (method == "PUT" && path.starts_with("/api/layouts/") && path.ends_with("/photo")) return kLargestPhoto;
+  return 0;
+}
 
 ApiAnswer api_error(int status, const std::string& sentence) {
   return json_answer(status, {{"error", sentence}});
@@ -204,6 +293,12 @@ ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::str
     return method == "POST" ? restore_layout(change_room, id, target) : wrong_method("POST");
   if (what == "/history") return method == "GET" ? history(store, id) : wrong_method("GET");
   if (what == "/export") return method == "GET" ? export_layout(store, id, target) : wrong_method("GET");
+  if (what == "/photos") return method == "GET" ? list_photos(store, id) : wrong_method("GET");
+  if (what == "/photo") {
+    const bool known = method == "GET" || method == "PUT" || method == "PATCH" || method == "DELETE";
+    return known ? photo(store, change_room, method, id, target, body)
+                 : wrong_method("GET, PUT, PATCH, DELETE");
+  }
   return nothing;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "messages.hpp"
 #include "room.hpp"
@@ -18,6 +20,13 @@ struct ApiAnswer {
   std::string file_name;  ///< not empty: to be saved under this name
   std::string allow;      ///< with 405: the methods that there are
 };
+
+/// Of a photograph, bytes.
+inline constexpr std::size_t kLargestPhoto = std::size_t{16} << 20;
+/// The type of an image by its first bytes: "image/png", "image/jpeg", or "" for all others.
+[[nodiscard]] std::string image_type(std::string_view bytes);
+/// How many bytes of body a request may have; 0: none.
+[[nodiscard]] std::size_t most_body(std::string_view method, std::string_view path);
 
 [[nodiscard]] ApiAnswer api_error(int status, const std::string& sentence);
 

@@ -1,10 +1,11 @@
-// The placements of a change as the store keeps them.
+// A change as the store keeps it.
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <iterator>
 
+#include "lekalo/io/layout_messages.hpp"
 #include "store.hpp"
 
 namespace lekalo::server {
@@ -15,6 +16,13 @@ using layout::Placement;
 void append_line(std::string& text, char sign, const Placement& p) {
   fmt::format_to(std::back_inserter(text), "{}{} {} {} {} {} {} {} {} {} {}\n", sign, p.id, p.part, p.stock,
                  p.copy, p.rotation.c, p.rotation.s, p.at.x, p.at.y, p.mirrored ? 1 : 0, p.locked ? 1 : 0);
+}
+
+/// A feature is JSON to the end of the line, which has no line ends of its own.
+void append_line(std::string& text, char sign, const layout::FeatureChange& where,
+                 const layout::Feature& feature) {
+  fmt::format_to(std::back_inserter(text), "{}{} {} {} {}\n", sign, where.stock, where.index,
+                 static_cast<int>(feature.kind), io::feature_json(feature));
 }
 
 /// Takes whole numbers, each followed by one given character.
@@ -41,8 +49,18 @@ class NumberTaker {
   char take_sign() {
     const char sign = text_.front();
     text_.remove_prefix(1);
-    if (sign != '-' && sign != '+') ok_ = false;
+    if (sign != '-' && sign != '+' && sign != '<' && sign != '>') ok_ = false;
     return sign;
+  }
+  std::string_view take_line() {
+    const std::size_t end = text_.find('\n');
+    if (end == text_.npos) {
+      ok_ = false;
+      return {};
+    }
+    const std::string_view line = text_.substr(0, end);
+    text_.remove_prefix(end + 1);
+    return line;
   }
   [[nodiscard]] bool empty() const { return text_.empty(); }
   [[nodiscard]] bool ok() const { return ok_; }
@@ -52,6 +70,43 @@ class NumberTaker {
   bool ok_ = true;
 };
 
+bool take_placement(NumberTaker& numbers, char sign, std::vector<layout::PlacementChange>& list) {
+  Placement p;
+  numbers.take(p.id, ' ');
+  numbers.take(p.part, ' ');
+  numbers.take(p.stock, ' ');
+  numbers.take(p.copy, ' ');
+  numbers.take(p.rotation.c, ' ');
+  numbers.take(p.rotation.s, ' ');
+  numbers.take(p.at.x, ' ');
+  numbers.take(p.at.y, ' ');
+  numbers.take_truth(p.mirrored, ' ');
+  numbers.take_truth(p.locked, '\n');
+  if (!numbers.ok()) return false;
+  const bool joins = sign == '+' && !list.empty() && list.back().before && !list.back().after &&
+                     list.back().before->id == p.id;
+  if (!joins) list.emplace_back();
+  (sign == '-' ? list.back().before : list.back().after) = p;
+  return true;
+}
+
+bool take_feature(NumberTaker& numbers, char sign, std::vector<layout::FeatureChange>& list) {
+  layout::FeatureChange one;
+  unsigned kind = 0;
+  numbers.take(one.stock, ' ');
+  numbers.take(one.index, ' ');
+  numbers.take(kind, ' ');
+  if (!numbers.ok() || kind > 1) return false;
+  auto feature = io::read_feature(static_cast<layout::FeatureKind>(kind), numbers.take_line(), "a change");
+  if (!feature) return false;
+  const bool joins = sign == '>' && !list.empty() && list.back().before && !list.back().after &&
+                     list.back().stock == one.stock && list.back().index == one.index &&
+                     list.back().before->kind == feature->kind && list.back().before->id == feature->id;
+  if (!joins) list.push_back(one);
+  (sign == '<' ? list.back().before : list.back().after) = std::move(*feature);
+  return true;
+}
+
 }  // namespace
 
 std::string change_text(const layout::Change& change) {
@@ -59,6 +114,10 @@ std::string change_text(const layout::Change& change) {
   for (const layout::PlacementChange& one : change.placements) {
     if (one.before) append_line(text, '-', *one.before);
     if (one.after) append_line(text, '+', *one.after);
+  }
+  for (const layout::FeatureChange& one : change.features) {
+    if (one.before) append_line(text, '<', one, *one.before);
+    if (one.after) append_line(text, '>', one, *one.after);
   }
   return text;
 }
@@ -68,28 +127,13 @@ Result<layout::Change> change_from_text(std::string_view text) {
   NumberTaker numbers(text);
   numbers.take(change.next_id_before, ' ');
   numbers.take(change.next_id_after, '\n');
-  while (numbers.ok() && !numbers.empty()) {
+  bool ok = numbers.ok();
+  while (ok && !numbers.empty()) {
     const char sign = numbers.take_sign();
-    Placement p;
-    numbers.take(p.id, ' ');
-    numbers.take(p.part, ' ');
-    numbers.take(p.stock, ' ');
-    numbers.take(p.copy, ' ');
-    numbers.take(p.rotation.c, ' ');
-    numbers.take(p.rotation.s, ' ');
-    numbers.take(p.at.x, ' ');
-    numbers.take(p.at.y, ' ');
-    numbers.take_truth(p.mirrored, ' ');
-    numbers.take_truth(p.locked, '\n');
-    if (!numbers.ok()) break;
-    auto& list = change.placements;
-    const bool joins = sign == '+' && !list.empty() && list.back().before && !list.back().after &&
-                       list.back().before->id == p.id;
-    if (!joins) list.emplace_back();
-    (sign == '-' ? list.back().before : list.back().after) = p;
+    ok = numbers.ok() && (sign == '-' || sign == '+' ? take_placement(numbers, sign, change.placements)
+                                                     : take_feature(numbers, sign, change.features));
   }
-  if (!numbers.ok())
-    return failure(ErrorCode::environment, "the store is damaged: a change in it cannot be read");
+  if (!ok) return failure(ErrorCode::environment, "the store is damaged: a change in it cannot be read");
   return change;
 }
 

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "lekalo/base/plain_text.hpp"
+
 namespace lekalo::server {
 namespace {
 
@@ -106,11 +108,15 @@ class MessageReader : public nlohmann::json_sax<Json> {
       if (!exactly({"seq"})) return failure(ErrorCode::bad_input, fault_);
       return UndoMessage{seq_, type_ == "redo"};
     }
+    if (type_ == "stop") {
+      if (!exactly({"seq"})) return failure(ErrorCode::bad_input, fault_);
+      return StopMessage{seq_};
+    }
     if (type_ == "select") {
       if (!exactly({"ids"})) return failure(ErrorCode::bad_input, fault_);
       return SelectMessage{std::move(ids_)};
     }
-    return failure(ErrorCode::bad_input, "the type has to be command, preview, undo, redo or select");
+    return failure(ErrorCode::bad_input, "the type has to be command, preview, undo, redo, stop or select");
   }
 
  private:
@@ -145,30 +151,6 @@ Result<ClientMessage> parse_client_message(std::string_view bytes) {
   // Its word is in the reader, which keeps the first fault.
   static_cast<void>(Json::sax_parse(bytes.begin(), bytes.end(), &reader));
   return reader.message();
-}
-
-bool is_plain_text(std::string_view bytes) {
-  for (std::size_t i = 0; i < bytes.size();) {
-    const auto lead = static_cast<unsigned char>(bytes[i]);
-    if (lead < 0x20 || lead == 0x7f) return false;
-    const std::size_t length = lead < 0x80       ? 1
-                               : lead >> 5 == 6  ? 2
-                               : lead >> 4 == 14 ? 3
-                               : lead >> 3 == 30 ? 4
-                                                 : 0;
-    if (length == 0 || i + length > bytes.size()) return false;
-    std::uint32_t code = length == 1 ? lead : lead & (0xffu >> (length + 1));
-    for (std::size_t k = 1; k < length; ++k) {
-      const auto next = static_cast<unsigned char>(bytes[i + k]);
-      if (next >> 6 != 2) return false;
-      code = code << 6 | (next & 0x3f);
-    }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < kLeast[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return false;
-    if (code >= 0x80 && code < 0xa0) return false;
-    i += length;
-  }
-  return true;
 }
 
 Result<void> check_layout_name(std::string_view name) {

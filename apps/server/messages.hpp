@@ -30,10 +30,14 @@ struct UndoMessage {
   std::uint64_t seq = 0;
   bool redo = false;
 };
+/// Ends the client's own long command of this number early, with the best it has.
+struct StopMessage {
+  std::uint64_t seq = 0;
+};
 struct SelectMessage {
   std::vector<std::uint64_t> ids;
 };
-using ClientMessage = std::variant<CommandMessage, UndoMessage, SelectMessage>;
+using ClientMessage = std::variant<CommandMessage, UndoMessage, SelectMessage, StopMessage>;
 
 /// Reads one message. Fails with ErrorCode::bad_input and a sentence for anything else: not UTF-8, not one
 /// JSON object, fields unknown, twice, missing or of another type, numbers out of range, texts with control
@@ -42,8 +46,6 @@ using ClientMessage = std::variant<CommandMessage, UndoMessage, SelectMessage>;
 
 /// Of a layout: 1 to 200 bytes of UTF-8 without control characters.
 [[nodiscard]] Result<void> check_layout_name(std::string_view name);
-/// Whether the bytes are UTF-8, without control characters.
-[[nodiscard]] bool is_plain_text(std::string_view bytes);
 
 /// The whole of a text as a number in [0, kLargestCount], digits only.
 [[nodiscard]] std::optional<std::uint64_t> whole_number(std::string_view text);

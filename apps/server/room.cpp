@@ -42,6 +42,38 @@ std::vector<Placement> placed_by(const layout::Change& change) {
   return placed;
 }
 
+/// Of a feature, as the store of last changes knows it.
+std::string feature_key(std::uint32_t stock, const layout::Feature& feature) {
+  return fmt::format("{} {} {}", stock, static_cast<int>(feature.kind), feature.id);
+}
+
+/// A command in a sentence: the outlines in some are long.
+std::string brief(const std::string& text) {
+  constexpr std::size_t kMost = 100;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return text.substr(0, end) + " ...";
+}
+
+std::string features_text(const layout::Document& document, const layout::Change& change) {
+  return io::features_json(document, change.features);
+}
+
+/// The violations of all parts with the features that a change leaves behind. \pre carried out
+std::vector<layout::Violation> violations_with(const layout::Workspace& workspace,
+                                               const layout::Change& change) {
+  std::vector<layout::Violation> all;
+  for (const layout::FeatureChange& one : change.features) {
+    if (!one.after) continue;
+    const auto index = find_feature(workspace.document().stocks[one.stock], one.after->kind, one.after->id);
+    if (!index) continue;  // a later change of the same list took it
+    const auto some = workspace.violations_with(one.stock, one.after->kind, *index);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
 Outgoing message(ClientNumber to, std::string text, Loss loss = Loss::never) {
   return {to, std::make_shared<const std::string>(std::move(text)), loss};
 }
@@ -51,9 +83,9 @@ std::string refused(std::uint64_t seq, const std::string& why, const std::string
                      json_text(why), violations);
 }
 
-std::string done(std::uint64_t seq, Revision revision, bool nothing) {
-  return fmt::format("{{\"type\": \"done\", \"seq\": {}, \"revision\": {}{}}}", seq, revision,
-                     nothing ? ", \"nothing\": true" : "");
+/// \param more  further fields, each after a comma
+std::string done(std::uint64_t seq, Revision revision, const std::string& more = {}) {
+  return fmt::format("{{\"type\": \"done\", \"seq\": {}, \"revision\": {}{}}}", seq, revision, more);
 }
 
 /// Numbers of placements are never given again while others may speak of them, so going back keeps them.
@@ -61,6 +93,8 @@ layout::Change reversed(const layout::Change& change, std::uint64_t next_id) {
   layout::Change back;
   back.next_id_before = back.next_id_after = next_id;
   for (const PlacementChange& one : change.placements) back.placements.push_back({one.after, one.before});
+  for (auto one = change.features.rbegin(); one != change.features.rend(); ++one)
+    back.features.push_back({one->stock, one->index, one->after, one->before});
   return back;
 }
 
@@ -83,6 +117,7 @@ layout::Change difference(const std::vector<Placement>& from, const std::vector<
 
 /// What is refused in strict mode, to be shown: the violations that the command would make.
 std::string violations_of_refused(const layout::Workspace& workspace, const layout::Command& command) {
+  if (job_of(command, layout::Mode::free)) return "[]";  // takes too long to be tried again for this
   const Result<layout::Change> free = layout::plan(workspace, command, layout::Mode::free);
   if (!free) return "[]";
   return io::violations_json(workspace.document(), workspace.violations_of(placed_by(*free)));
@@ -130,6 +165,8 @@ Outbound Room::leave(ClientNumber client) {
   if (at == clients_.end()) return out;
   const bool selected = !at->second.selected.empty();
   clients_.erase(at);
+  for (auto& [number, running] : running_)  // nobody waits for it any more
+    if (running.client == client) *running.stop = true;
   if (selected) to_all(selections_text(), Loss::as_newer, out);
   return out;
 }
@@ -138,6 +175,10 @@ Outbound Room::handle(ClientNumber client, const ClientMessage& said) {
   if (clients_.find(client) == clients_.end()) return {};
   if (const auto* one = std::get_if<CommandMessage>(&said)) return command(client, *one);
   if (const auto* one = std::get_if<UndoMessage>(&said)) return undo(client, *one);
+  if (const auto* one = std::get_if<StopMessage>(&said)) {
+    stop(client, *one);
+    return {};
+  }
   return select(client, std::get<SelectMessage>(said));
 }
 
@@ -156,37 +197,130 @@ Outbound Room::command(ClientNumber client, const CommandMessage& said) {
     out.push_back(message(client, refused(said.seq, command.error().message)));
     return out;
   }
+  if (std::optional<Job> job = job_of(*command, said.mode)) {
+    start({client, said, *command, std::move(*job), nullptr, 0});
+    return out;
+  }
   Result<layout::Change> change = layout::plan(workspace_, *command, said.mode);
-  if (!change) {
-    const std::string violations =
-        change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
-    out.push_back(message(client, refused(said.seq, change.error().message, violations)));
-    return out;
-  }
+  if (change) return carry_out(client, said, *command, std::move(*change));
+  const std::string violations =
+      change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
+  out.push_back(message(client, refused(said.seq, change.error().message, violations)));
+  return out;
+}
+
+Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const layout::Command& command,
+                         layout::Change change, bool stopped) {
+  Outbound out;
+  std::string more = stopped ? ", \"stopped\": true" : "";
   if (said.preview) {
-    const auto violations = workspace_.violations_of(placed_by(*change));
-    out.push_back(message(client, fmt::format("{{\"type\": \"preview\", \"seq\": {}, \"placements\": {}, "
-                                              "\"violations\": {}}}",
-                                              said.seq, placements_text(document(), *change),
-                                              io::violations_json(document(), violations))));
+    out.push_back(message(client, preview_text(said.seq, change)));
     return out;
   }
-  if (change->placements.empty() && change->next_id_before == change->next_id_after) {
-    out.push_back(message(client, done(said.seq, revision_, true)));
+  if (change.is_nothing()) {
+    out.push_back(message(client, done(said.seq, revision_, ", \"nothing\": true" + more)));
     return out;
   }
   StoredChange stored;
   stored.mode = said.mode;
-  stored.text = layout::to_text(*command, document());
-  stored.change = std::move(*change);
+  stored.text = layout::to_text(command, document()) + (stopped ? " # stopped early" : "");
+  stored.change = change;
   if (Result<void> kept = commit(client, std::move(stored), out); !kept) {
     out.push_back(message(client, refused(said.seq, kept.error().message)));
     return out;
   }
-  out.insert(out.begin(), message(client, done(said.seq, revision_, false)));
+  // A defect is where it is: admitted, and what lies on it is named.
+  if (!change.features.empty())
+    more += ", \"violations\": " + io::violations_json(document(), violations_with(workspace_, change));
+  out.insert(out.begin(), message(client, done(said.seq, revision_, more)));
   Stack& stack = stack_of(clients_[client]);
   stack.done.push_back(revision_);
   stack.undone.clear();
+  return out;
+}
+
+void Room::start(Running running) {
+  running.stop = std::make_shared<std::atomic<bool>>(false);
+  ++running.attempts;
+  const JobNumber number = ++last_job_;
+  starting_.push_back({number, running.job, document(), running.stop});
+  running_.emplace(number, std::move(running));
+}
+
+void Room::stop(ClientNumber client, const StopMessage& said) {
+  for (auto& [number, running] : running_)
+    if (running.client == client && running.said.seq == said.seq) *running.stop = true;
+}
+
+bool Room::is_busy(ClientNumber client) const {
+  return std::any_of(running_.begin(), running_.end(),
+                     [&](const auto& one) { return one.second.client == client; });
+}
+
+ClientNumber Room::client_of(JobNumber job) const {
+  const auto at = running_.find(job);
+  return at == running_.end() ? 0 : at->second.client;
+}
+
+std::vector<JobStart> Room::take_jobs() { return std::exchange(starting_, {}); }
+
+Outbound Room::job_progress(JobNumber job, double fraction, std::optional<double> seconds_left) const {
+  Outbound out;
+  const auto at = running_.find(job);
+  if (at == running_.end()) return out;
+  out.push_back(message(at->second.client,
+                        fmt::format("{{\"type\": \"progress\", \"seq\": {}, \"fraction\": {:.4f}, "
+                                    "\"seconds_left\": {}}}",
+                                    at->second.said.seq, fraction,
+                                    seconds_left ? fmt::format("{:.1f}", *seconds_left) : "null"),
+                        Loss::as_newer));
+  return out;
+}
+
+Outbound Room::job_improved(JobNumber job, const layout::Change& change) const {
+  Outbound out;
+  const auto at = running_.find(job);
+  if (at == running_.end()) return out;
+  out.push_back(message(at->second.client,
+                        fmt::format("{{\"type\": \"improved\", \"seq\": {}, \"placements\": {}}}",
+                                    at->second.said.seq, placements_text(document(), change)),
+                        Loss::as_newer));
+  return out;
+}
+
+std::optional<layout::Change> Room::rebased(const layout::Change& change, layout::Mode mode) const {
+  layout::Change now;
+  now.next_id_before = now.next_id_after = document().next_id;
+  for (const PlacementChange& one : change.placements) {
+    const Placement* const there = one.before ? workspace_.find(one.before->id) : nullptr;
+    if (one.before && (there == nullptr || *there != *one.before)) return std::nullopt;
+    now.placements.push_back(one);
+    if (!one.before) now.placements.back().after->id = now.next_id_after++;
+  }
+  if (mode == layout::Mode::strict && !workspace_.is_clear(placed_by(now))) return std::nullopt;
+  return now;
+}
+
+Outbound Room::job_ended(JobNumber job, const Result<layout::Change>& found) {
+  Outbound out;
+  auto node = running_.extract(job);
+  if (node.empty() || clients_.find(node.mapped().client) == clients_.end()) return out;
+  Running& running = node.mapped();
+  const auto refuse = [&](const std::string& why, const std::string& violations = "[]") {
+    out.push_back(message(running.client, refused(running.said.seq, why, violations)));
+    return out;
+  };
+  if (!found)
+    return refuse(found.error().message, found.error().code == ErrorCode::refuted
+                                             ? violations_of_refused(workspace_, running.command)
+                                             : "[]");
+  if (auto change = rebased(*found, running.said.mode))
+    return carry_out(running.client, running.said, running.command, std::move(*change), *running.stop);
+  constexpr int kMostAttempts = 3;
+  if (*running.stop || running.attempts == kMostAttempts)
+    return refuse(
+        "others changed meanwhile what this command moves, or the places it found; nothing was done");
+  start(std::move(running));
   return out;
 }
 
@@ -212,40 +346,80 @@ Outbound Room::undo(ClientNumber client, const UndoMessage& said) {
   if (said.redo) next.change = reversed(next.change, next_id);
   if (Result<void> fine = check_standing(*stored, next.change); !fine) return refuse(fine.error().message);
   if (Result<void> kept = commit(client, std::move(next), out); !kept) return refuse(kept.error().message);
-  out.insert(out.begin(), message(client, done(said.seq, revision_, false)));
+  out.insert(out.begin(), message(client, done(said.seq, revision_)));
   to.push_back(from.back());
   from.pop_back();
   return out;
 }
 
+std::string Room::preview_text(std::uint64_t seq, const layout::Change& change) {
+  std::vector<layout::Violation> violations = workspace_.violations_of(placed_by(change));
+  std::string shown = io::violations_json(document(), violations);
+  if (!change.features.empty()) {
+    layout::carry_out(workspace_, change);
+    violations = violations_with(workspace_, change);
+    shown = io::violations_json(document(), violations);
+    layout::take_back(workspace_, change);
+  }
+  return fmt::format(
+      "{{\"type\": \"preview\", \"seq\": {}, \"placements\": {}, \"features\": {}, \"violations\": {}}}", seq,
+      placements_text(document(), change), features_text(document(), change), shown);
+}
+
 Result<std::string> Room::later_change(std::uint64_t id, Revision since) {
-  const auto known = last_touch_.find(id);
-  if (known != last_touch_.end())
-    return fmt::format("{} changed placement {} by '{}' (revision {})", known->second.who, id,
-                       known->second.text, known->second.revision);
+  return later_change(fmt::format("placement {}", id),
+                      last_touch_.find(id) != last_touch_.end() ? &last_touch_[id] : nullptr, since,
+                      [id](const layout::Change& change) {
+                        return std::any_of(change.placements.begin(), change.placements.end(),
+                                           [id](const PlacementChange& one) { return id_of(one) == id; });
+                      });
+}
+
+Result<std::string> Room::later_change(std::uint32_t stock, const layout::Feature& feature, Revision since) {
+  const auto known = last_draw_.find(feature_key(stock, feature));
+  return later_change(
+      fmt::format("{} '{}'", name_of(feature.kind), feature.id),
+      known != last_draw_.end() ? &known->second : nullptr, since, [&](const layout::Change& change) {
+        return std::any_of(
+            change.features.begin(), change.features.end(), [&](const layout::FeatureChange& one) {
+              return one.stock == stock && one.either().kind == feature.kind && one.either().id == feature.id;
+            });
+      });
+}
+
+Result<std::string> Room::later_change(const std::string& what, const Toucher* known, Revision since,
+                                       const std::function<bool(const layout::Change&)>& touches) {
+  if (known != nullptr)
+    return fmt::format("{} changed {} by '{}' (revision {})", known->who, what, brief(known->text),
+                       known->revision);
   // Before the room was opened: the store knows.
   for (Revision r = revision_; r > since; --r) {
     const Result<StoredChange> change = store_.change_at(id_, r);
     if (!change) return tl::unexpected(change.error());
-    for (const PlacementChange& one : change->change.placements)
-      if (id_of(one) == id)
-        return fmt::format("{} changed placement {} by '{}' (revision {})",
-                           change->author.empty() ? "another client" : change->author, id, change->text, r);
+    if (touches(change->change))
+      return fmt::format("{} changed {} by '{}' (revision {})",
+                         change->author.empty() ? "another client" : change->author, what,
+                         brief(change->text), r);
   }
-  return fmt::format("placement {} was changed", id);
+  return what + " was changed";
 }
 
 Result<void> Room::check_standing(const StoredChange& command, const layout::Change& wanted) {
-  const auto refuse = [&](std::uint64_t id) -> Result<void> {
-    const Result<std::string> who = later_change(id, command.revision);
+  const auto refuse = [&](const Result<std::string>& who) -> Result<void> {
     if (!who) return tl::unexpected(who.error());
-    return failure(ErrorCode::refuted,
-                   fmt::format("'{}' stands in the way of a later command: {} since", command.text, *who));
+    return failure(ErrorCode::refuted, fmt::format("'{}' stands in the way of a later command: {} since",
+                                                   brief(command.text), *who));
   };
   for (const PlacementChange& one : wanted.placements) {
     const Placement* const now = workspace_.find(id_of(one));
     const bool same = one.before ? now != nullptr && *now == *one.before : now == nullptr;
-    if (!same) return refuse(id_of(one));
+    if (!same) return refuse(later_change(id_of(one), command.revision));
+  }
+  for (const layout::FeatureChange& one : wanted.features) {
+    const layout::Stock& stock = document().stocks[one.stock];
+    const auto at = find_feature(stock, one.either().kind, one.either().id);
+    const bool same = one.before ? at && feature_at(stock, one.either().kind, *at) == *one.before : !at;
+    if (!same) return refuse(later_change(one.stock, one.either(), command.revision));
   }
   // What was put in the place that became free stands on the command too, where the rules hold.
   if (command.mode == layout::Mode::free) return {};
@@ -253,12 +427,27 @@ Result<void> Room::check_standing(const StoredChange& command, const layout::Cha
   const auto is_wanted = [&](std::uint64_t id) {
     return std::any_of(placed.begin(), placed.end(), [&](const Placement& p) { return p.id == id; });
   };
+  const auto later = [&](std::uint64_t id) {
+    const auto touched = last_touch_.find(id);
+    return touched != last_touch_.end() && touched->second.revision > command.revision;
+  };
   for (const layout::Violation& v : workspace_.violations_of(placed)) {
     const std::uint64_t other = is_wanted(v.a) ? v.b : v.a;
-    if (other == 0 || is_wanted(other)) continue;
-    const auto touched = last_touch_.find(other);
-    if (touched != last_touch_.end() && touched->second.revision > command.revision) return refuse(other);
+    if (other != 0 && !is_wanted(other) && later(other)) return refuse(later_change(other, command.revision));
+    if (feature_id(document(), v).empty()) continue;
+    const auto kind =
+        v.kind == layout::ViolationKind::quality ? layout::FeatureKind::zone : layout::FeatureKind::defect;
+    const layout::Feature feature = feature_at(document().stocks[v.stock], kind, v.feature);
+    const auto drawn = last_draw_.find(feature_key(v.stock, feature));
+    if (drawn != last_draw_.end() && drawn->second.revision > command.revision)
+      return refuse(later_change(v.stock, feature, command.revision));
   }
+  if (wanted.features.empty()) return {};
+  layout::carry_out(workspace_, wanted);
+  const std::vector<layout::Violation> broken = violations_with(workspace_, wanted);
+  layout::take_back(workspace_, wanted);
+  for (const layout::Violation& v : broken)
+    if (later(v.a)) return refuse(later_change(v.a, command.revision));
   return {};
 }
 
@@ -276,10 +465,13 @@ Result<void> Room::commit(ClientNumber client, StoredChange change, Outbound& ou
   revision_ = change.revision;
   for (const PlacementChange& one : change.change.placements)
     last_touch_[id_of(one)] = {revision_, who(client), change.text};
+  for (const layout::FeatureChange& one : change.change.features)
+    last_draw_[feature_key(one.stock, one.either())] = {revision_, who(client), change.text};
   to_all(fmt::format("{{\"type\": \"change\", \"revision\": {}, \"client\": {}, \"text\": {}, \"kind\": "
-                     "\"{}\", \"placements\": {}, \"next_id\": {}}}",
+                     "\"{}\", \"placements\": {}, \"features\": {}, \"next_id\": {}}}",
                      revision_, client, json_text(change.text), name_of(change.kind),
-                     placements_text(document(), change.change), document().next_id),
+                     placements_text(document(), change.change), features_text(document(), change.change),
+                     document().next_id),
          Loss::as_newer, out);
   return {};
 }
@@ -309,7 +501,8 @@ Result<Outbound> Room::restore(Revision revision) {
   change.text = fmt::format("restore {}", revision);
   change.change = difference(document().placements, state->placements);
   change.change.next_id_before = change.change.next_id_after = document().next_id;
-  if (change.change.placements.empty()) return out;
+  change.change.features = layout::feature_difference(document(), *state);
+  if (change.change.is_nothing()) return out;
   if (Result<void> kept = commit(0, std::move(change), out); !kept) return tl::unexpected(kept.error());
   return out;
 }
@@ -319,6 +512,31 @@ Result<Outbound> Room::rename(const std::string& name) {
   if (Result<void> kept = store_.rename(id_, name); !kept) return tl::unexpected(kept.error());
   name_ = name;
   to_all(fmt::format("{{\"type\": \"name\", \"name\": {}}}", json_text(name)), Loss::as_newer, out);
+  return out;
+}
+
+Result<Outbound> Room::set_photo(const Photo& photo, const std::string& image) {
+  const auto& stocks = document().stocks;
+  if (std::none_of(stocks.begin(), stocks.end(), [&](const auto& one) { return one.id == photo.stock; }))
+    return failure(ErrorCode::usage, fmt::format("the layout has no stock '{}'", photo.stock));
+  if (Result<void> kept = store_.set_photo(id_, photo, image); !kept) return tl::unexpected(kept.error());
+  return photos_changed();
+}
+
+Result<Outbound> Room::set_photo_scale(const std::string& stock, const PhotoScale& scale) {
+  if (Result<void> kept = store_.set_photo_scale(id_, stock, scale); !kept)
+    return tl::unexpected(kept.error());
+  return photos_changed();
+}
+
+Result<Outbound> Room::remove_photo(const std::string& stock) {
+  if (Result<void> kept = store_.remove_photo(id_, stock); !kept) return tl::unexpected(kept.error());
+  return photos_changed();
+}
+
+Outbound Room::photos_changed() const {
+  Outbound out;
+  to_all("{\"type\": \"photos\"}", Loss::as_newer, out);
   return out;
 }
 

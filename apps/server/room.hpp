@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "job.hpp"
 #include "lekalo/layout/workspace.hpp"
 #include "messages.hpp"
 #include "store.hpp"
@@ -41,6 +44,18 @@ class Room {
   [[nodiscard]] Result<Outbound> join(ClientNumber client, const std::string& author);
   [[nodiscard]] Outbound leave(ClientNumber client);
   [[nodiscard]] Outbound handle(ClientNumber client, const ClientMessage& message);
+  /// Whether a long command of this client is under way. Its further commands then have to wait.
+  [[nodiscard]] bool is_busy(ClientNumber client) const;
+  /// Jobs that are to be run now, each once; the three below are told of them.
+  [[nodiscard]] std::vector<JobStart> take_jobs();
+  /// Whose it is; 0 for a job that has ended.
+  [[nodiscard]] ClientNumber client_of(JobNumber job) const;
+  [[nodiscard]] Outbound job_progress(JobNumber job, double fraction,
+                                      std::optional<double> seconds_left) const;
+  [[nodiscard]] Outbound job_improved(JobNumber job, const layout::Change& change) const;
+  /// Carries out what it found, or has it begin again where others changed what it builds on.
+  [[nodiscard]] Outbound job_ended(JobNumber job, const Result<layout::Change>& found);
+
   /// The layout as it is now, to one who missed some of it.
   [[nodiscard]] Outbound resend(ClientNumber client) const;
 
@@ -48,6 +63,10 @@ class Room {
   /// revision.
   [[nodiscard]] Result<Outbound> restore(Revision revision);
   [[nodiscard]] Result<Outbound> rename(const std::string& name);
+  /// Keeps a photograph of a stock, its scale alone, or takes it away; everyone is told.
+  [[nodiscard]] Result<Outbound> set_photo(const Photo& photo, const std::string& image);
+  [[nodiscard]] Result<Outbound> set_photo_scale(const std::string& stock, const PhotoScale& scale);
+  [[nodiscard]] Result<Outbound> remove_photo(const std::string& stock);
   /// From the store too. Everyone in the room is told.
   [[nodiscard]] Result<Outbound> remove();
 
@@ -65,6 +84,15 @@ class Room {
     Stack own;  ///< of one without an author
     std::vector<std::uint64_t> selected;
   };
+  /// A long command under way.
+  struct Running {
+    ClientNumber client = 0;
+    CommandMessage said;
+    layout::Command command;
+    Job job;
+    std::shared_ptr<std::atomic<bool>> stop;
+    int attempts = 0;
+  };
   struct Toucher {
     Revision revision = 0;
     std::string who;
@@ -72,16 +100,31 @@ class Room {
   };
 
   [[nodiscard]] Outbound command(ClientNumber client, const CommandMessage& message);
+  /// Answers a command that is planned: shown, or carried out.
+  [[nodiscard]] Outbound carry_out(ClientNumber client, const CommandMessage& said,
+                                   const layout::Command& command, layout::Change change,
+                                   bool stopped = false);
+  void start(Running running);
+  void stop(ClientNumber client, const StopMessage& message);
+  /// A change that was planned on an earlier state, in this one; none where that is not possible any more.
+  [[nodiscard]] std::optional<layout::Change> rebased(const layout::Change& change, layout::Mode mode) const;
   [[nodiscard]] Outbound undo(ClientNumber client, const UndoMessage& message);
   [[nodiscard]] Outbound select(ClientNumber client, const SelectMessage& message);
   [[nodiscard]] Stack& stack_of(Client& client);
   [[nodiscard]] std::string who(ClientNumber client) const;
-  /// Who changed the placement last, as a sentence's end.
+  [[nodiscard]] std::string preview_text(std::uint64_t seq, const layout::Change& change);
+  /// Who changed the placement or the feature last, as a sentence's end.
   [[nodiscard]] Result<std::string> later_change(std::uint64_t id, Revision since);
+  [[nodiscard]] Result<std::string> later_change(std::uint32_t stock, const layout::Feature& feature,
+                                                 Revision since);
+  [[nodiscard]] Result<std::string> later_change(const std::string& what, const Toucher* known,
+                                                 Revision since,
+                                                 const std::function<bool(const layout::Change&)>& touches);
   /// Why a change cannot be put in place of the state that is there, or nothing.
   [[nodiscard]] Result<void> check_standing(const StoredChange& command, const layout::Change& wanted);
   /// Store first, then the state, then everyone hears of it.
   [[nodiscard]] Result<void> commit(ClientNumber client, StoredChange change, Outbound& out);
+  [[nodiscard]] Outbound photos_changed() const;
   void to_all(const std::string& text, Loss loss, Outbound& out) const;
   [[nodiscard]] std::string layout_text(ClientNumber client) const;
   [[nodiscard]] std::string selections_text() const;
@@ -93,8 +136,12 @@ class Room {
   bool removed_ = false;
   layout::Workspace workspace_;
   std::map<ClientNumber, Client> clients_;
+  std::map<JobNumber, Running> running_;
+  std::vector<JobStart> starting_;
+  JobNumber last_job_ = 0;
   std::map<std::string, Stack> stacks_;                    ///< by author
   std::unordered_map<std::uint64_t, Toucher> last_touch_;  ///< by placement, since the room is open
+  std::unordered_map<std::string, Toucher> last_draw_;     ///< by feature, likewise
 };
 
 }  // namespace lekalo::server

@@ -24,6 +24,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <future>
 #include <map>
 #include <memory>
@@ -35,6 +36,7 @@
 
 #include "access.hpp"
 #include "api.hpp"
+#include "lekalo/base/plain_text.hpp"
 #include "messages.hpp"
 #include "outbox.hpp"
 #include "page_files.hpp"
@@ -55,6 +57,9 @@ constexpr std::size_t kMostConnections = 512;
 constexpr std::uint32_t kLargestHeader = 16 * 1024;
 constexpr std::uint64_t kLargestUpload = std::uint64_t{64} << 20;
 constexpr int kMostFaults = 20;
+constexpr std::size_t kMostHeld = 64;
+constexpr std::size_t kMostJobs = 4;
+constexpr auto kProgressEvery = std::chrono::milliseconds(200);
 constexpr auto kHeaderTime = seconds(30), kBodyTime = seconds(120), kSilence = seconds(60);
 constexpr auto kFarewell = seconds(1);
 constexpr std::string_view kSubprotocol = "lekalo.1";
@@ -87,6 +92,8 @@ struct Service {
   asio::io_context& io = *network;
   asio::thread_pool pool;         ///< runs the strands of rooms; nothing on it waits for another
   asio::thread_pool api_pool{2};  ///< requests, which may wait for a room
+  asio::thread_pool job_pool{kMostJobs};
+  std::atomic<bool> ending = false;  ///< jobs end
   AccessRules rules;
   bool stopping = false;  ///< of the network's thread, like the following
   std::size_t connections = 0;
@@ -118,6 +125,11 @@ struct Service {
   }
   /// From a room's strand.
   void deliver(Outbound out);
+  /// On the room's strand: runs the jobs that were started there.
+  void run_jobs(const std::shared_ptr<OpenRoom>& room);
+  [[nodiscard]] Result<layout::Change> run_job(const std::shared_ptr<OpenRoom>& room, const JobStart& start);
+  /// From a room's strand: the client's long command has ended.
+  void free_client(ClientNumber client);
 };
 
 /// One WebSocket connection.
@@ -164,6 +176,11 @@ class Talk : public std::enable_shared_from_this<Talk> {
     });
   }
 
+  /// A long command of this client has ended: what waited for it goes on.
+  void is_free() {
+    busy_ = false;
+    go_on();
+  }
   void hear(const Outgoing& message) {
     outbox_.push(message);
     write();
@@ -208,7 +225,9 @@ class Talk : public std::enable_shared_from_this<Talk> {
   }
 
   void read() {
+    reading_ = true;
     socket_.async_read(incoming_, [self = shared_from_this()](error_code error, std::size_t) {
+      self->reading_ = false;
       if (error) return self->over();
       self->take();
     });
@@ -225,11 +244,41 @@ class Talk : public std::enable_shared_from_this<Talk> {
       if (++faults_ == kMostFaults) close_after(websocket::close_code::policy_error);
       return read();
     }
-    // The next message is read when this one is answered: who asks faster than he is answered waits.
-    in_room([said = std::move(*message)](Talk& talk) {
-      if (talk.room_->room) talk.service_.deliver(talk.room_->room->handle(talk.number_, said));
-      asio::post(talk.service_.io, [self = talk.shared_from_this()] { self->read(); });
+    // During a long command others wait, but for what ends it.
+    const bool waits =
+        !std::holds_alternative<StopMessage>(*message) && !std::holds_alternative<SelectMessage>(*message);
+    if (waits && (busy_ || working_ > 0 || !held_.empty()))
+      held_.push_back(std::move(*message));
+    else
+      give(std::move(*message));
+    go_on();
+  }
+  void give(ClientMessage message) {
+    ++working_;
+    in_room([said = std::move(message)](Talk& talk) {
+      bool busy = false;
+      if (talk.room_->room) {
+        talk.service_.deliver(talk.room_->room->handle(talk.number_, said));
+        busy = talk.room_->room->is_busy(talk.number_);
+        talk.service_.run_jobs(talk.room_);
+      }
+      asio::post(talk.service_.io, [self = talk.shared_from_this(), busy] {
+        --self->working_;
+        // Its end is told after this, on the same way.
+        self->busy_ = self->busy_ || busy;
+        self->go_on();
+      });
     });
+  }
+  /// The next message is read when this one is answered: who asks faster than he is answered waits.
+  void go_on() {
+    if (working_ > 0 || over_) return;
+    if (!busy_ && !held_.empty()) {
+      ClientMessage next = std::move(held_.front());
+      held_.pop_front();
+      return give(std::move(next));
+    }
+    if (!reading_ && held_.size() < kMostHeld) read();
   }
 
   void write() {
@@ -273,8 +322,9 @@ class Talk : public std::enable_shared_from_this<Talk> {
   Outbox outbox_;
   std::shared_ptr<const std::string> writing_;
   std::optional<websocket::close_code> closing_;
-  int faults_ = 0;
-  bool closed_ = false, over_ = false;
+  std::deque<ClientMessage> held_;  ///< wait for the end of a long command
+  int faults_ = 0, working_ = 0;    ///< working: messages the room has
+  bool reading_ = false, busy_ = false, closed_ = false, over_ = false;
 };
 
 void Service::deliver(Outbound out) {
@@ -286,6 +336,58 @@ void Service::deliver(Outbound out) {
       if (const std::shared_ptr<Talk> talk = at->second.lock()) talk->hear(message);
     }
   });
+}
+
+void Service::free_client(ClientNumber client) {
+  asio::post(io, [this, client] {
+    const auto at = talks.find(client);
+    if (at == talks.end()) return;
+    if (const std::shared_ptr<Talk> talk = at->second.lock()) talk->is_free();
+  });
+}
+
+void Service::run_jobs(const std::shared_ptr<OpenRoom>& room) {
+  for (JobStart& start : room->room->take_jobs())
+    asio::post(job_pool, [this, room, start = std::move(start)] {
+      Result<layout::Change> found = run_job(room, start);
+      asio::post(room->strand, [this, room, number = start.number, found = std::move(found)] {
+        const ClientNumber client = room->room->client_of(number);
+        deliver(room->room->job_ended(number, found));
+        if (!room->room->is_busy(client)) free_client(client);
+        run_jobs(room);
+      });
+    });
+}
+
+Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, const JobStart& start) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  auto next = begin + kProgressEvery;
+  JobContext context;
+  context.run.stop = start.stop.get();
+  context.run.progress = [&](const Progress& progress) {
+    if (ending) *start.stop = true;
+    const auto now = Clock::now();
+    if (now < next) return;
+    next = now + kProgressEvery;
+    const double passed = std::chrono::duration<double>(now - begin).count(), fraction = progress.fraction;
+    constexpr double kEnoughToTell = 0.01;
+    std::optional<double> left;
+    if (fraction > kEnoughToTell) left = passed * (1 - fraction) / fraction;
+    asio::post(room->strand, [this, room, number = start.number, fraction, left] {
+      deliver(room->room->job_progress(number, fraction, left));
+    });
+  };
+  context.improved = [&](const layout::Change& change) {
+    asio::post(room->strand, [this, room, number = start.number, change] {
+      deliver(room->room->job_improved(number, change));
+    });
+  };
+  try {
+    return start.job(start.document, context);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::environment, "not enough memory for this");
+  }
 }
 
 std::string media_type(std::string_view path) {
@@ -317,7 +419,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kLargestHeader);
-    parser_->body_limit(kLargestUpload);
+    parser_->body_limit(kLargestUpload);  // until the header says what it is for
     socket_.expires_after(kHeaderTime);
     http::async_read_header(socket_, incoming_, *parser_,
                             [self = shared_from_this()](error_code error, std::size_t) {
@@ -347,11 +449,12 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (!why.empty()) return refuse(403, why);
     new_token_ = token != nullptr && !service_.rules.token.empty();
     if (target_->path == "/ws") return start_talk();
-    const bool uploads = request.method() == http::verb::post && target_->path == "/api/layouts";
-    if (!uploads) parser_->body_limit(0);
+    const std::size_t most = most_body(view(request.method_string()), target_->path);
+    parser_->body_limit(most);
     const auto length = parser_->content_length();
-    if (length && *length > (uploads ? kLargestUpload : 0))
-      return refuse(413, uploads ? "the file is larger than 64 MiB" : "this request has no body");
+    if (length && *length > most)
+      return refuse(413, most > 0 ? fmt::format("the file is larger than {} MiB", most >> 20)
+                                  : "this request has no body");
     if (view(request[http::field::expect]) == "100-continue") return go_on();
     read_body();
   }
@@ -629,7 +732,9 @@ Result<void> serve(const ServerOptions& options, Store store,
 
   Result<void> done = run_until_signal(service, std::move(socket), options, listening);
   // What was begun is finished, then what waits for the network goes, while all it refers to is there.
+  service.ending = true;
   service.api_pool.join();
+  service.job_pool.join();
   service.pool.join();
   service.network.reset();
   return done;

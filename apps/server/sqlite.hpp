@@ -19,6 +19,7 @@ class Statement {
   /// Parameters count from 1. Text is copied.
   Statement& bind(int index, std::int64_t value);
   Statement& bind(int index, std::string_view value);
+  Statement& bind_bytes(int index, std::string_view bytes);
   /// True: there is a row. Fails with ErrorCode::environment.
   [[nodiscard]] Result<bool> step();
   /// Runs to the end and makes it ready for other values.
@@ -26,6 +27,7 @@ class Statement {
   /// Columns count from 0; valid until the next step.
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] std::string text(int column) const;
+  [[nodiscard]] std::string bytes(int column) const;
   void reset();
 
  private:

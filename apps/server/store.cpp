@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/io/layout_json.hpp"
 
 namespace lekalo::server {
@@ -46,6 +47,18 @@ CREATE TABLE change (
 ) STRICT;
 )";
 
+/// New in format 2.
+constexpr const char* kPhotoSchema = R"(
+CREATE TABLE photo (
+  layout INTEGER NOT NULL REFERENCES layout ON DELETE CASCADE,
+  stock TEXT NOT NULL,
+  type TEXT NOT NULL,
+  scale TEXT NOT NULL,
+  image BLOB NOT NULL,
+  PRIMARY KEY (layout, stock)
+) STRICT;
+)";
+
 constexpr const char* kNow = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
 /// Orders layouts by their last change, where the clock may stand still or go back.
 constexpr const char* kNextNumber = "(SELECT coalesce(max(change_number), 0) + 1 FROM layout)";
@@ -68,25 +81,14 @@ Result<void> make_file(const std::string& path) {
   return {};
 }
 
-void carry_out(std::vector<layout::Placement>& placements, const layout::Change& change) {
-  const auto before_id = [](const layout::Placement& p, std::uint64_t id) { return p.id < id; };
-  for (const layout::PlacementChange& one : change.placements) {
-    const std::uint64_t id = one.after ? one.after->id : one.before->id;
-    const auto at = std::lower_bound(placements.begin(), placements.end(), id, before_id);
-    const bool there = at != placements.end() && at->id == id;
-    if (one.after && there) *at = *one.after;
-    if (one.after && !there) placements.insert(at, *one.after);
-    if (!one.after && there) placements.erase(at);
-  }
-}
-
-/// Indices in what the store holds are those of the snapshot, or the file is damaged.
+/// What the store holds belongs to the state before it, or the file is damaged.
 bool fits(const layout::Change& change, const layout::Document& document) {
   for (const layout::PlacementChange& one : change.placements)
     for (const auto& side : {one.before, one.after})
       if (side && (side->part >= document.parts.size() || side->stock >= document.stocks.size()))
         return false;
-  return true;
+  return std::all_of(change.features.begin(), change.features.end(),
+                     [&](const layout::FeatureChange& one) { return one.stock < document.stocks.size(); });
 }
 
 }  // namespace
@@ -133,7 +135,8 @@ Result<void> Store::prepare_file() {
       return failure(ErrorCode::environment, "this is a database of another program; name another --store");
     Result<Transaction> all = Transaction::begin(database_);
     if (!all) return tl::unexpected(all.error());
-    if (Result<void> made = database_.run(kSchema); !made) return made;
+    for (const char* schema : {kSchema, kPhotoSchema})
+      if (Result<void> made = database_.run(schema); !made) return made;
     const std::string marks =
         fmt::format("PRAGMA application_id={}; PRAGMA user_version={}", kApplicationId, kStoreFormat);
     if (Result<void> marked = database_.run(marks.c_str()); !marked) return marked;
@@ -141,7 +144,7 @@ Result<void> Store::prepare_file() {
   }
   const Result<std::int64_t> format = database_.number("PRAGMA user_version");
   if (!format) return tl::unexpected(format.error());
-  if (*format != kStoreFormat)
+  if (*format < 1 || *format > kStoreFormat)
     return failure(ErrorCode::environment,
                    fmt::format("the store has format {}, this program knows format {}; use the version of "
                                "lekalo that wrote it",
@@ -152,13 +155,17 @@ Result<void> Store::prepare_file() {
   if (!row) return tl::unexpected(row.error());
   if (const std::string said = check->text(0); said != "ok")
     return failure(ErrorCode::environment, "the store is damaged: " + said.substr(0, said.find('\n')));
-  return {};
-}
-
-Result<LayoutId> Store::create_locked(const std::string& name, const layout::Document& document,
-                                      const std::string& origin) {
+  if (*format == kStoreFormat) return {};
   Result<Transaction> all = Transaction::begin(database_);
   if (!all) return tl::unexpected(all.error());
+  const std::string mark = fmt::format("PRAGMA user_version={}", kStoreFormat);
+  for (const char* change : {kPhotoSchema, mark.c_str()})
+    if (Result<void> made = database_.run(change); !made) return made;
+  return all->commit();
+}
+
+Result<LayoutId> Store::create_rows(const std::string& name, const layout::Document& document,
+                                    const std::string& origin) {
   Result<Statement> row = database_.prepare(fmt::format(
       "INSERT INTO layout (name, origin, revision, placements, changed, change_number) VALUES (?, ?, 0, ?, "
       "{}, {})",
@@ -171,14 +178,18 @@ Result<LayoutId> Store::create_locked(const std::string& name, const layout::Doc
   if (!snapshot) return tl::unexpected(snapshot.error());
   snapshot->bind(1, id).bind(2, io::write_layout(document));
   if (Result<void> done = snapshot->run(); !done) return tl::unexpected(done.error());
-  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
   return id;
 }
 
 Result<LayoutId> Store::create(const std::string& name, const layout::Document& document,
                                const std::string& origin) {
   const std::lock_guard lock(*turn_);
-  return create_locked(name, document, origin);
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  const Result<LayoutId> made = create_rows(name, document, origin);
+  if (!made) return made;
+  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  return made;
 }
 
 Result<std::optional<LayoutId>> Store::find_origin(const std::string& origin) {
@@ -248,8 +259,7 @@ Result<StoredLayout> Store::load_locked(LayoutId id, std::optional<Revision> rev
       return failure(
           ErrorCode::environment,
           fmt::format("the store is damaged: revision {} of layout {} is missing or wrong", at, id));
-    carry_out(layout.document.placements, *change);
-    layout.document.next_id = change->next_id_after;
+    layout::carry_out(layout.document, *change);
   }
   if (at != layout.revision)
     return failure(ErrorCode::environment,
@@ -272,7 +282,17 @@ Result<LayoutId> Store::copy(LayoutId id, const std::string& name) {
   const std::lock_guard lock(*turn_);
   const Result<StoredLayout> layout = load_locked(id, std::nullopt);
   if (!layout) return tl::unexpected(layout.error());
-  return create_locked(name, layout->document, {});
+  Result<Transaction> all = Transaction::begin(database_);
+  if (!all) return tl::unexpected(all.error());
+  const Result<LayoutId> made = create_rows(name, layout->document, {});
+  if (!made) return made;
+  Result<Statement> photos =
+      database_.prepare("INSERT INTO photo SELECT ?, stock, type, scale, image FROM photo WHERE layout = ?");
+  if (!photos) return tl::unexpected(photos.error());
+  if (Result<void> done = photos->bind(1, *made).bind(2, id).run(); !done)
+    return tl::unexpected(done.error());
+  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  return made;
 }
 
 Result<void> Store::one_row(LayoutId id, Result<void> done) {
@@ -383,6 +403,94 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
     entries.push_back(std::move(entry));
   }
   return entries;
+}
+
+namespace {
+
+tl::unexpected<Error> no_photo(const std::string& stock) {
+  return failure(ErrorCode::usage, fmt::format("there is no photograph of stock '{}'", stock));
+}
+
+std::string scale_text(const PhotoScale& scale) {
+  return fmt::format("{} {}", fmt::join(scale.pixels, " "), fmt::join(scale.mm, " "));
+}
+
+std::optional<PhotoScale> scale_from(std::string_view text) {
+  PhotoScale scale;
+  for (double* number : {scale.pixels, scale.pixels + 1, scale.pixels + 2, scale.pixels + 3, scale.mm,
+                         scale.mm + 1, scale.mm + 2, scale.mm + 3}) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const auto value = double_of_text(text.substr(0, end));
+    if (!value) return std::nullopt;
+    *number = *value;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return scale;
+}
+
+}  // namespace
+
+Result<std::vector<Photo>> Store::photos(LayoutId id) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> layout = database_.prepare("SELECT 1 FROM layout WHERE id = ?");
+  if (!layout) return tl::unexpected(layout.error());
+  const Result<bool> there = layout->bind(1, id).step();
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return no_layout(id);
+  Result<Statement> rows = database_.prepare(
+      "SELECT stock, type, length(image), scale FROM photo WHERE layout = ? ORDER BY stock");
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, id);
+  std::vector<Photo> photos;
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return photos;
+    const auto scale = scale_from(rows->text(3));
+    if (!scale)
+      return failure(ErrorCode::environment, "the store is damaged: the scale of a photograph is no scale");
+    photos.push_back({rows->text(0), rows->text(1), rows->integer(2), *scale});
+  }
+}
+
+Result<std::string> Store::photo_image(LayoutId id, const std::string& stock) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("SELECT image FROM photo WHERE layout = ? AND stock = ?");
+  if (!row) return tl::unexpected(row.error());
+  const Result<bool> found = row->bind(1, id).bind(2, stock).step();
+  if (!found) return tl::unexpected(found.error());
+  if (!*found) return no_photo(stock);
+  return row->bytes(0);
+}
+
+Result<void> Store::set_photo(LayoutId id, const Photo& photo, const std::string& image) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("INSERT OR REPLACE INTO photo VALUES (?, ?, ?, ?, ?)");
+  if (!row) return tl::unexpected(row.error());
+  return row->bind(1, id)
+      .bind(2, photo.stock)
+      .bind(3, photo.type)
+      .bind(4, scale_text(photo.scale))
+      .bind_bytes(5, image)
+      .run();
+}
+
+Result<void> Store::set_photo_scale(LayoutId id, const std::string& stock, const PhotoScale& scale) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("UPDATE photo SET scale = ? WHERE layout = ? AND stock = ?");
+  if (!row) return tl::unexpected(row.error());
+  Result<void> done = row->bind(1, scale_text(scale)).bind(2, id).bind(3, stock).run();
+  if (done && database_.changed_rows() == 0) return no_photo(stock);
+  return done;
+}
+
+Result<void> Store::remove_photo(LayoutId id, const std::string& stock) {
+  const std::lock_guard lock(*turn_);
+  Result<Statement> row = database_.prepare("DELETE FROM photo WHERE layout = ? AND stock = ?");
+  if (!row) return tl::unexpected(row.error());
+  Result<void> done = row->bind(1, id).bind(2, stock).run();
+  if (done && database_.changed_rows() == 0) return no_photo(stock);
+  return done;
 }
 
 }  // namespace lekalo::server

@@ -150,8 +150,7 @@ Nearest nearest(const Workspace& layout, const std::vector<Placement>& placement
     probe.tolerates = document.parts[one.part].tolerated_severity;
     if (!stock.defects.empty()) {
       if (const phi::NearestBody near = scene.nearest(probe, reach); near.body != phi::kNoBody) {
-        // The border is body 0, the defects follow it in their order.
-        best.take(near.edges, 2, static_cast<double>(near.body - 1), one.id);
+        best.take(near.edges, 2, static_cast<double>(layout.feature_of(sheet, near.body)), one.id);
       }
     }
     const phi::EdgeDistance border =
@@ -255,6 +254,58 @@ std::int32_t lekalo_set_next_id(std::int32_t handle, double id) {
   return 0;
 }
 
+namespace {
+/// The stock of a call about features; the sentence is written where it is none.
+std::optional<std::uint32_t> stock_of(const Workspace& layout, double stock, std::int32_t kind) {
+  const auto which = index(stock, static_cast<double>(layout.document().stocks.size()));
+  if (which && (kind == 0 || kind == 1)) return which;
+  fail("there is no such stock, or no such kind: 0 is a defect, 1 a zone");
+  return std::nullopt;
+}
+FeatureKind feature_kind(std::int32_t kind) { return kind == 0 ? FeatureKind::defect : FeatureKind::zone; }
+}  // namespace
+
+std::int32_t lekalo_set_feature(std::int32_t handle, double stock, std::int32_t kind, double at,
+                                std::uint32_t bytes) {
+  Workspace* layout = begin(handle);
+  if (layout == nullptr) return kFailed;
+  const auto which = stock_of(*layout, stock, kind);
+  if (!which) return kFailed;
+  const auto place = index(at, static_cast<double>(kMostFeatures));
+  if (!place) return fail(fmt::format("there is no place {} in a list", at));
+  const auto feature = io::read_feature(feature_kind(kind), input_text(bytes), "feature");
+  if (!feature) return fail(feature.error().message);
+  layout->set_feature(*which, *place, *feature);
+  return 0;
+}
+
+std::int32_t lekalo_erase_feature(std::int32_t handle, double stock, std::int32_t kind, std::uint32_t bytes) {
+  Workspace* layout = begin(handle);
+  if (layout == nullptr) return kFailed;
+  const auto which = stock_of(*layout, stock, kind);
+  if (!which) return kFailed;
+  const std::string id(input_text(bytes));
+  if (!find_feature(layout->document().stocks[*which], feature_kind(kind), id))
+    return fail(fmt::format("there is no {} of this id", name_of(feature_kind(kind))));
+  layout->erase_feature(*which, feature_kind(kind), id);
+  return 0;
+}
+
+std::int32_t lekalo_violations_with(std::int32_t handle, double stock, std::int32_t kind, double at,
+                                    std::int32_t depths) {
+  const Workspace* layout = begin(handle);
+  if (layout == nullptr) return kFailed;
+  const auto which = stock_of(*layout, stock, kind);
+  if (!which) return kFailed;
+  const FeatureKind drawn = feature_kind(kind);
+  const auto place = index(at, static_cast<double>(feature_count(layout->document().stocks[*which], drawn)));
+  if (!place) return fail(fmt::format("there is no {} {}", name_of(drawn), at));
+  const auto violations =
+      layout->violations_with(*which, drawn, *place, depths != 0 ? Depths::measured : Depths::left_out);
+  for (const Violation& violation : violations) put(violation);
+  return static_cast<std::int32_t>(violations.size());
+}
+
 std::int32_t lekalo_state(std::int32_t handle, std::uint32_t count, double dx, double dy, double degrees,
                           double reach, std::int32_t depths) {
   const Workspace* layout = begin(handle);
@@ -329,7 +380,8 @@ std::int32_t lekalo_plan(std::int32_t handle, std::uint32_t bytes, std::int32_t 
     put(one.after ? *one.after : *one.before);
     if (!one.after) numbers[numbers.size() - kPlacementSize + 1] = -1;
   }
-  return change->placements.empty() ? 0 : 1;
+  if (!change->features.empty()) text = io::features_json(layout->document(), change->features);
+  return change->is_nothing() ? 0 : 1;
 }
 
 std::int32_t lekalo_pick(std::int32_t handle, double stock, double copy, double x, double y) {

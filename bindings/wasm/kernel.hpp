@@ -40,6 +40,20 @@ LEKALO_EXPORT(lekalo_set) std::int32_t lekalo_set(std::int32_t handle);
 LEKALO_EXPORT(lekalo_erase) std::int32_t lekalo_erase(std::int32_t handle, double id);
 LEKALO_EXPORT(lekalo_set_next_id) std::int32_t lekalo_set_next_id(std::int32_t handle, double id);
 
+/// Adds or replaces a defect (kind 0) or a zone (kind 1) of a stock; input: it, as layout files have it, JSON
+/// of `bytes`. A new one comes to lie at `index` of its list, or at the end of a shorter one. Takes one away
+/// (input: its id, `bytes` of text). As change messages say it: docs/protocol.md.
+LEKALO_EXPORT(lekalo_set_feature)
+std::int32_t lekalo_set_feature(std::int32_t handle, double stock, std::int32_t kind, double index,
+                                std::uint32_t bytes);
+LEKALO_EXPORT(lekalo_erase_feature)
+std::int32_t lekalo_erase_feature(std::int32_t handle, double stock, std::int32_t kind, std::uint32_t bytes);
+/// Numbers: the VIOLATIONs of all parts with one defect or zone. \param depths as in lekalo_state \return how
+/// many
+LEKALO_EXPORT(lekalo_violations_with)
+std::int32_t lekalo_violations_with(std::int32_t handle, double stock, std::int32_t kind, double index,
+                                    std::int32_t depths);
+
 /// What would be so if these `count` placements (input: ids) were turned about the middle of their box by
 /// `degrees` and then moved by (dx, dy). Numbers: the NEAREST, then every VIOLATION in the order of check().
 /// NEAREST is 8 doubles: distance (-1: nothing within `reach`, or not asked for because something is
@@ -58,7 +72,8 @@ std::int32_t lekalo_state_of(std::int32_t handle, std::uint32_t count, double re
 LEKALO_EXPORT(lekalo_check) std::int32_t lekalo_check(std::int32_t handle);
 
 /// Plans a command line (`bytes` of input) without carrying it out. Numbers: the next id after it, then a
-/// PLACEMENT for each that changes; part is -1 where it goes. \return 1, or 0 when nothing would change
+/// PLACEMENT for each that changes; part is -1 where it goes. Text: what becomes of defects and zones, the
+/// list "features" of change messages, or nothing. \return 1, or 0 when nothing would change
 LEKALO_EXPORT(lekalo_plan)
 std::int32_t lekalo_plan(std::int32_t handle, std::uint32_t bytes, std::int32_t strict);
 

@@ -12,6 +12,7 @@
 #include "layout_outline.hpp"
 #include "layout_reader.hpp"
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_messages.hpp"
 
 namespace lekalo::io {
 namespace detail {
@@ -28,6 +29,9 @@ constexpr std::int64_t kMostLevel = 1'000'000;  ///< qualities, severities, prio
 constexpr std::int64_t kLargestId = (std::int64_t{1} << 53) - 1;
 constexpr double kMostMoney = 1e12;
 constexpr std::string_view kFormat = "lekalo-layout/1";
+// What commands make can be read again.
+static_assert(layout::kMostSeverity == kNeverTolerated && layout::kMostQuality == kMostLevel &&
+              layout::kMostFeaturePoints == kMostOutlinePoints && layout::kLongestFeatureId == kLongestText);
 
 class LayoutReader {
  public:
@@ -51,6 +55,11 @@ class LayoutReader {
     items(root, "placements", kMostPlacements, [&](JsonValue v) { placement(v); });
     if (reader_.ok()) order_placements(root);
     return {std::move(document_), notices()};
+  }
+
+  layout::Feature read_feature(layout::FeatureKind kind) {
+    std::unordered_set<std::string> taken;
+    return feature(reader_.tree().root(), kind, taken);
   }
 
  private:
@@ -139,25 +148,33 @@ class LayoutReader {
              [&](JsonValue v) { stock.grain_degrees = reader_.number(v, -kMostDegrees, kMostDegrees); });
     stock.kind == layout::StockKind::strip ? strip(value, stock) : no_strip(value, stock);
     std::unordered_set<std::string> defect_ids, zone_ids;
-    items(value, "defects", kMostParts, [&](JsonValue v) {
-      layout::Defect defect;
-      if (!reader_.expect_object(v, {"id", "severity", "outline"})) return;
-      defect.id = id(v, defect_ids, "defects of this stock");
-      optional(v, "severity", [&](JsonValue s) { defect.severity = level(s, 1, kNeverTolerated); });
-      defect.outline = outline(v, geom::ChordSide::grow);
-      stock.defects.push_back(std::move(defect));
+    items(value, "defects", layout::kMostFeatures, [&](JsonValue v) {
+      layout::Feature defect = feature(v, layout::FeatureKind::defect, defect_ids);
+      stock.defects.push_back({std::move(defect.id), defect.grade, std::move(defect.outline)});
     });
-    items(value, "zones", kMostParts, [&](JsonValue v) {
-      layout::QualityZone zone;
-      if (!reader_.expect_object(v, {"id", "quality", "outline"})) return;
-      zone.id = id(v, zone_ids, "zones of this stock");
-      if (const auto q = reader_.need(v, "quality", "a whole number, higher is better"))
-        zone.quality = level(*q);
-      zone.outline = outline(v, geom::ChordSide::grow);
-      stock.zones.push_back(std::move(zone));
+    items(value, "zones", layout::kMostFeatures, [&](JsonValue v) {
+      layout::Feature zone = feature(v, layout::FeatureKind::zone, zone_ids);
+      stock.zones.push_back({std::move(zone.id), zone.grade, std::move(zone.outline)});
     });
     stock_index_.emplace(stock.id, static_cast<std::uint32_t>(document_.stocks.size()));
     document_.stocks.push_back(std::move(stock));
+  }
+
+  layout::Feature feature(JsonValue v, layout::FeatureKind kind, std::unordered_set<std::string>& taken) {
+    layout::Feature feature;
+    feature.kind = kind;
+    if (kind == layout::FeatureKind::defect) {
+      if (!reader_.expect_object(v, {"id", "severity", "outline"})) return feature;
+      feature.id = id(v, taken, "defects of this stock");
+      optional(v, "severity", [&](JsonValue s) { feature.grade = level(s, 1, kNeverTolerated); });
+    } else {
+      if (!reader_.expect_object(v, {"id", "quality", "outline"})) return feature;
+      feature.id = id(v, taken, "zones of this stock");
+      if (const auto q = reader_.need(v, "quality", "a whole number, higher is better"))
+        feature.grade = level(*q);
+    }
+    feature.outline = outline(v, geom::ChordSide::grow);
+    return feature;
   }
 
   void strip(JsonValue value, layout::Stock& stock) {
@@ -406,6 +423,16 @@ Result<LayoutFile> read_layout(std::string_view bytes, const std::string& name) 
   const auto tree = detail::JsonTree::parse(bytes, name);
   if (!tree) return tl::unexpected(tree.error());
   return detail::read_layout_tree(*tree, name);
+}
+
+Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
+                                     const std::string& name) {
+  const auto tree = detail::JsonTree::parse(bytes, name);
+  if (!tree) return tl::unexpected(tree.error());
+  detail::JsonReader reader(*tree, name);
+  layout::Feature feature = detail::LayoutReader(reader).read_feature(kind);
+  if (!reader.ok()) return tl::unexpected(reader.fault());
+  return feature;
 }
 
 }  // namespace lekalo::io

@@ -97,6 +97,22 @@ void append_placement(std::string& text, const Placement& placement, const std::
   fields.close();
 }
 
+void append_defect(std::string& text, const std::string& id, int severity, const Outline& outline) {
+  Fields fields(text);
+  fields.text("id", id);
+  fields.integer("severity", severity);
+  fields.outline(outline);
+  fields.close();
+}
+
+void append_zone(std::string& text, const std::string& id, int quality, const Outline& outline) {
+  Fields fields(text);
+  fields.text("id", id);
+  fields.integer("quality", quality);
+  fields.outline(outline);
+  fields.close();
+}
+
 class Writer {
  public:
   explicit Writer(const Document& document) : document_(document) {
@@ -150,25 +166,11 @@ class Writer {
       fields.outline(stock.outline);
     }
     if (!stock.defects.empty())
-      append_list(fields.field("defects"), stock.defects, "\n  ", [this](const Defect& d) { defect(d); });
+      append_list(fields.field("defects"), stock.defects, "\n  ",
+                  [this](const Defect& d) { append_defect(text_, d.id, d.severity, d.outline); });
     if (!stock.zones.empty())
-      append_list(fields.field("zones"), stock.zones, "\n  ", [this](const QualityZone& z) { zone(z); });
-    fields.close();
-  }
-
-  void defect(const Defect& defect) {
-    Fields fields(text_);
-    fields.text("id", defect.id);
-    fields.integer("severity", defect.severity);
-    fields.outline(defect.outline);
-    fields.close();
-  }
-
-  void zone(const QualityZone& zone) {
-    Fields fields(text_);
-    fields.text("id", zone.id);
-    fields.integer("quality", zone.quality);
-    fields.outline(zone.outline);
+      append_list(fields.field("zones"), stock.zones, "\n  ",
+                  [this](const QualityZone& z) { append_zone(text_, z.id, z.quality, z.outline); });
     fields.close();
   }
 
@@ -246,6 +248,27 @@ std::string placement_json(const Document& document, const Placement& placement)
   std::string text;
   append_placement(text, placement, quoted(document.parts[placement.part].id),
                    quoted(document.stocks[placement.stock].id));
+  return text;
+}
+
+std::string feature_json(const Feature& feature) {
+  std::string text;
+  (feature.kind == FeatureKind::defect ? append_defect : append_zone)(text, feature.id, feature.grade,
+                                                                      feature.outline);
+  return text;
+}
+
+std::string features_json(const Document& document, const std::vector<FeatureChange>& changes) {
+  std::string text;
+  append_list(text, changes, "", [&](const FeatureChange& one) {
+    Fields fields(text);
+    fields.text("stock", document.stocks[one.stock].id);
+    fields.text("kind", std::string(name_of(one.either().kind)));
+    fields.text("id", one.either().id);
+    fields.integer("index", one.index);
+    fields.field("after") += one.after ? feature_json(*one.after) : "null";
+    fields.close();
+  });
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "group.hpp"
+#include "lekalo/base/plain_text.hpp"
 #include "lekalo/layout/command.hpp"
 #include "places.hpp"
 
@@ -100,12 +101,13 @@ struct Outcome {
   Placements changed;
   std::vector<std::uint64_t> removed;
   bool breaks_no_rule = false;  ///< by its nature: no check needed
+  std::vector<FeatureChange> features = {};
 };
 
 class Planner {
  public:
-  Planner(const Workspace& workspace, Mode mode)
-      : workspace_(workspace), document_(workspace.document()), mode_(mode) {}
+  Planner(const Workspace& workspace, Mode mode, const RunControl& run)
+      : workspace_(workspace), document_(workspace.document()), mode_(mode), run_(run) {}
 
   Result<Outcome> operator()(const PlaceCommand& c) const {
     if (c.part >= document_.parts.size()) return wrong(fmt::format("there is no part number {}", c.part));
@@ -239,34 +241,38 @@ class Planner {
   }
 
   Result<Outcome> operator()(const CompactCommand& c) const {
-    if (auto sheet = known_sheet(document_, c.sheet); !sheet) return tl::unexpected(sheet.error());
+    if (c.sheet) {
+      if (auto sheet = known_sheet(document_, *c.sheet); !sheet) return tl::unexpected(sheet.error());
+    }
     if (auto fault = fault_of(c.direction)) return tl::unexpected(std::move(*fault));
     const geom::Point direction = unit_vector(c.direction);
     Workspace work = workspace_;
-    Placements changed;
+    std::vector<Sheet> sheets = c.sheet ? std::vector{*c.sheet} : sheets_in_use();
     constexpr int kMostRounds = 8;
-    for (int round = 0; round < kMostRounds; ++round) {
-      bool any = false;
-      for (const std::uint64_t id : foremost_first(work, c.sheet, direction)) {
-        const Placement before = *work.find(id);
-        Placement after = before;
-        {
-          Group group(work, {before});
-          if (!group.is_clear()) {
-            if (mode_ == Mode::free) continue;
-            return failure(ErrorCode::refuted,
-                           fmt::format("placement {} breaks a rule where it lies; mend that first", id));
-          }
-          group.settle(direction);
-          after = group.placements()[0];
+    // The first round moves most of it, and few need the last: half of what is left goes to each.
+    const auto total = static_cast<double>(std::max<std::size_t>(sheets.size(), 1));
+    std::uint64_t settled = 0;
+    bool stopped = false;
+    for (std::size_t i = 0; i < sheets.size() && !stopped; ++i) {
+      double begun = 0;
+      for (int round = 0; round < kMostRounds && !stopped; ++round) {
+        bool any = false;
+        const std::vector<std::uint64_t> ids = foremost_first(work, sheets[i], direction);
+        const double share = (1 - begun) / 2;
+        for (std::size_t k = 0; k < ids.size() && !stopped; ++k) {
+          auto moved = settled_by(work, ids[k], direction);
+          if (!moved) return tl::unexpected(moved.error());
+          any = any || *moved;
+          ++settled;
+          const double done = begun + share * static_cast<double>(k + 1) / static_cast<double>(ids.size());
+          if (run_.progress) run_.progress({settled, (static_cast<double>(i) + done) / total});
+          stopped = run_.stop_requested();
         }
-        const GridPoint way = after.at - before.at;
-        if (dot(way, way) < 64) continue;
-        any = true;
-        work.set(after);
+        begun += share;
+        if (!any) break;
       }
-      if (!any) break;
     }
+    Placements changed;
     for (const Placement& placement : work.document().placements)
       if (const Placement* before = workspace_.find(placement.id); *before != placement)
         changed.push_back(placement);
@@ -285,12 +291,72 @@ class Planner {
   Result<Outcome> operator()(const FitCommand& c) const {
     if (c.part >= document_.parts.size()) return wrong(fmt::format("there is no part number {}", c.part));
     if (auto sheet = known_sheet(document_, c.sheet); !sheet) return tl::unexpected(sheet.error());
-    std::vector<Placement> places = fits_where(workspace_, c.part, c.sheet, 1, c.mirrored);
+    std::vector<Placement> places = fits_where(workspace_, c.part, c.sheet, 1, c.mirrored, run_);
     if (!places.empty()) {
       places[0].id = document_.next_id;
       return limited({places[0]});
     }
-    return wrong(fmt::format("no place was found where part '{}' fits", document_.parts[c.part].id));
+    return wrong(fmt::format("{} where part '{}' fits",
+                             run_.stop_requested() ? "stopped before a place was found" : "no place was found",
+                             document_.parts[c.part].id));
+  }
+
+  Result<Outcome> operator()(const AddFeatureCommand& c) const {
+    if (auto fault = fault_of_stock(c.stock)) return tl::unexpected(std::move(*fault));
+    const Stock& stock = document_.stocks[c.stock];
+    if (c.id.empty() || c.id.size() > kLongestFeatureId || !is_plain_text(c.id))
+      return malformed(fmt::format("the id of a {} has 1 to {} bytes of UTF-8 without control characters",
+                                   name_of(c.kind), kLongestFeatureId));
+    if (find_feature(stock, c.kind, c.id))
+      return wrong(fmt::format("stock '{}' has a {} '{}' already; give the new one another id", stock.id,
+                               name_of(c.kind), c.id));
+    if (feature_count(stock, c.kind) >= kMostFeatures)
+      return wrong(
+          fmt::format("stock '{}' has {} {}s; no more are kept", stock.id, kMostFeatures, name_of(c.kind)));
+    if (auto fault = fault_of_grade(c.kind, c.grade)) return tl::unexpected(std::move(*fault));
+    auto outline = drawn_outline(c.loops);
+    if (!outline) return tl::unexpected(outline.error());
+    return of_feature({c.stock, static_cast<std::uint32_t>(feature_count(stock, c.kind)), std::nullopt,
+                       Feature{c.kind, c.id, c.grade, std::move(*outline)}});
+  }
+
+  Result<Outcome> operator()(const MoveFeatureCommand& c) const {
+    return changed_feature(c, [&](Feature& feature) -> Result<void> {
+      if (c.by == GridPoint{}) return {};
+      if (!on_grid(c.by, geom::kGridLimit)) return wrong("a shift beyond the limits of the grid");
+      const GridBox box = bounds(feature.outline.polygon);
+      constexpr std::int64_t kMost = geom::kGridLimit / 4;
+      if (!on_grid(box.low + c.by, kMost) || !on_grid(box.high + c.by, kMost))
+        return wrong(fmt::format("{} '{}' would leave the range of +-{} mm", name_of(c.kind), c.id,
+                                 geom::mm_from_grid(kMost)));
+      // Arcs at doubles would be rounded, and might then reach out of their polygon.
+      feature.outline = {geom::moved(std::move(feature.outline.polygon), c.by), {}, 0};
+      return {};
+    });
+  }
+
+  Result<Outcome> operator()(const ReshapeFeatureCommand& c) const {
+    return changed_feature(c, [&](Feature& feature) -> Result<void> {
+      auto outline = drawn_outline(c.loops);
+      if (!outline) return tl::unexpected(outline.error());
+      feature.outline = std::move(*outline);
+      return {};
+    });
+  }
+
+  Result<Outcome> operator()(const GradeFeatureCommand& c) const {
+    return changed_feature(c, [&](Feature& feature) -> Result<void> {
+      if (auto fault = fault_of_grade(c.kind, c.grade)) return tl::unexpected(std::move(*fault));
+      feature.grade = c.grade;
+      return {};
+    });
+  }
+
+  Result<Outcome> operator()(const RemoveFeatureCommand& c) const {
+    auto change = feature_named(c);
+    if (!change) return tl::unexpected(change.error());
+    change->after.reset();
+    return of_feature(std::move(*change));
   }
 
  private:
@@ -298,6 +364,82 @@ class Planner {
     auto within = within_limits(std::move(placements));
     if (!within) return tl::unexpected(within.error());
     return Outcome{std::move(*within), {}, false};
+  }
+
+  std::optional<Error> fault_of_stock(std::uint32_t stock) const {
+    if (stock < document_.stocks.size()) return std::nullopt;
+    return Error{ErrorCode::usage, fmt::format("there is no stock number {}", stock)};
+  }
+  static tl::unexpected<Error> malformed(std::string message) {
+    return failure(ErrorCode::bad_input, std::move(message));
+  }
+  static std::optional<Error> fault_of_grade(FeatureKind kind, int grade) {
+    const bool defect = kind == FeatureKind::defect;
+    const int low = defect ? 1 : 0, high = defect ? kMostSeverity : kMostQuality;
+    if (grade >= low && grade <= high) return std::nullopt;
+    return Error{ErrorCode::bad_input,
+                 fmt::format("the {} of a {} is a whole number from {} to {}, not {}",
+                             defect ? "severity" : "quality", name_of(kind), low, high, grade)};
+  }
+  static Result<Outline> drawn_outline(const std::vector<std::vector<GridPoint>>& loops) {
+    std::size_t points = 0;
+    for (const auto& loop : loops) points += loop.size();
+    if (points > kMostFeaturePoints)
+      return malformed(
+          fmt::format("an outline of {} points; at most {} are kept", points, kMostFeaturePoints));
+    auto polygon = geom::make_grid_region(loops);
+    if (!polygon) return tl::unexpected(polygon.error());
+    return Outline{std::move(*polygon), {}, 0};
+  }
+  /// The feature that a command names, before and (as yet) after.
+  template <class Named>
+  Result<FeatureChange> feature_named(const Named& c) const {
+    if (auto fault = fault_of_stock(c.stock)) return tl::unexpected(std::move(*fault));
+    const Stock& stock = document_.stocks[c.stock];
+    const auto index = find_feature(stock, c.kind, c.id);
+    if (!index) return wrong(fmt::format("stock '{}' has no {} '{}'", stock.id, name_of(c.kind), c.id));
+    const Feature feature = feature_at(stock, c.kind, *index);
+    return FeatureChange{c.stock, *index, feature, feature};
+  }
+  static Outcome of_feature(FeatureChange change) {
+    Outcome outcome{{}, {}, true};
+    if (change.before != change.after) outcome.features.push_back(std::move(change));
+    return outcome;
+  }
+  template <class Named, class Edit>
+  Result<Outcome> changed_feature(const Named& c, Edit&& edit) const {
+    auto change = feature_named(c);
+    if (!change) return tl::unexpected(change.error());
+    if (Result<void> edited = edit(*change->after); !edited) return tl::unexpected(edited.error());
+    return of_feature(std::move(*change));
+  }
+
+  std::vector<Sheet> sheets_in_use() const {
+    std::set<Sheet> sheets;
+    for (const Placement& placement : document_.placements)
+      if (placement.copy >= 0 && placement.copy < document_.stocks[placement.stock].count)
+        sheets.insert({placement.stock, placement.copy});
+    return {sheets.begin(), sheets.end()};
+  }
+
+  /// Settles one placement of a workspace. \return whether it went further than a few steps
+  Result<bool> settled_by(Workspace& work, std::uint64_t id, geom::Point direction) const {
+    const Placement before = *work.find(id);
+    Placement after = before;
+    {
+      Group group(work, {before});
+      if (!group.is_clear()) {
+        if (mode_ == Mode::free) return false;
+        return failure(ErrorCode::refuted,
+                       fmt::format("placement {} breaks a rule where it lies; mend that first", id));
+      }
+      group.settle(direction);
+      after = group.placements()[0];
+    }
+    const GridPoint way = after.at - before.at;
+    if (dot(way, way) < 64) return false;
+    work.set(after);
+    return true;
   }
 
   static std::optional<Error> fault_of(GridPoint direction) {
@@ -390,6 +532,7 @@ class Planner {
   const Workspace& workspace_;
   const Document& document_;
   Mode mode_;
+  const RunControl& run_;
 };
 
 std::string described(const Violation& violation) {
@@ -401,8 +544,8 @@ std::string described(const Violation& violation) {
 
 }  // namespace
 
-Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode) {
-  auto outcome = std::visit(Planner(workspace, mode), command);
+Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode, const RunControl& run) {
+  auto outcome = std::visit(Planner(workspace, mode, run), command);
   if (!outcome) return tl::unexpected(outcome.error());
   const bool new_one =
       std::holds_alternative<PlaceCommand>(command) || std::holds_alternative<FitCommand>(command);
@@ -414,6 +557,7 @@ Result<Change> plan(const Workspace& workspace, const Command& command, Mode mod
                     violations.size() > 1 ? fmt::format(" (and {} more)", violations.size() - 1) : ""));
   }
   Change change;
+  change.features = std::move(outcome->features);
   const std::uint64_t next = workspace.document().next_id;
   change.next_id_before = next;
   change.next_id_after = new_one ? next + 1 : next;
@@ -437,16 +581,47 @@ void carry_out(Workspace& workspace, const Change& change) {
       workspace.set(*one.after);
     else
       workspace.erase(one.before->id);
+  for (const FeatureChange& one : change.features)
+    if (one.after)
+      workspace.set_feature(one.stock, one.index, *one.after);
+    else
+      workspace.erase_feature(one.stock, one.before->kind, one.before->id);
   workspace.set_next_id(change.next_id_after);
 }
 
 void take_back(Workspace& workspace, const Change& change) {
+  for (auto one = change.features.rbegin(); one != change.features.rend(); ++one)
+    if (one->before)
+      workspace.set_feature(one->stock, one->index, *one->before);
+    else
+      workspace.erase_feature(one->stock, one->after->kind, one->after->id);
   for (const PlacementChange& one : change.placements)
     if (one.before)
       workspace.set(*one.before);
     else
       workspace.erase(one.after->id);
   workspace.set_next_id(change.next_id_before);
+}
+
+void carry_out(Document& document, const Change& change) {
+  auto& placements = document.placements;
+  const auto before_id = [](const Placement& p, std::uint64_t id) { return p.id < id; };
+  for (const PlacementChange& one : change.placements) {
+    const std::uint64_t id = one.after ? one.after->id : one.before->id;
+    const auto at = std::lower_bound(placements.begin(), placements.end(), id, before_id);
+    const bool there = at != placements.end() && at->id == id;
+    if (one.after && there) *at = *one.after;
+    if (one.after && !there) placements.insert(at, *one.after);
+    if (!one.after && there) placements.erase(at);
+  }
+  for (const FeatureChange& one : change.features) {
+    Stock& stock = document.stocks[one.stock];
+    if (one.after)
+      put_feature(stock, one.index, *one.after);
+    else if (const auto at = find_feature(stock, one.before->kind, one.before->id))
+      take_feature(stock, one.before->kind, *at);
+  }
+  document.next_id = change.next_id_after;
 }
 
 }  // namespace lekalo::layout

@@ -30,6 +30,15 @@ std::string text_of(GridPoint p) {
   return fmt::format("{} {}", geom::mm_from_grid(p.x), geom::mm_from_grid(p.y));
 }
 
+std::string text_of(const std::vector<std::vector<GridPoint>>& loops) {
+  std::string text = "outline";
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (i > 0) text += " hole";
+    for (const GridPoint p : loops[i]) text += " " + text_of(p);
+  }
+  return text;
+}
+
 class Writer {
  public:
   explicit Writer(const Document& document) : document_(document) {}
@@ -69,7 +78,8 @@ class Writer {
     return fmt::format("snap {} within {}", c.id, geom::mm_from_grid(c.reach));
   }
   std::string operator()(const CompactCommand& c) const {
-    return fmt::format("compact {} towards {}", text_of(c.sheet), layout::text_of(c.direction));
+    return fmt::format("compact {}towards {}", c.sheet ? text_of(*c.sheet) + " " : "",
+                       layout::text_of(c.direction));
   }
   std::string operator()(const NearestCommand& c) const {
     return fmt::format("nearest {} by {}{}", layout::text_of(c.ids), layout::text_of(c.by), to(c.to));
@@ -78,8 +88,25 @@ class Writer {
     return fmt::format("fit {} {}{}", quoted(document_.parts[c.part].id), text_of(c.sheet),
                        c.mirrored ? (*c.mirrored ? " mirrored" : " upright") : "");
   }
+  std::string operator()(const AddFeatureCommand& c) const {
+    return fmt::format("add-{} {} {}", named(c), c.grade, layout::text_of(c.loops));
+  }
+  std::string operator()(const MoveFeatureCommand& c) const {
+    return fmt::format("move-{} by {}", named(c), layout::text_of(c.by));
+  }
+  std::string operator()(const ReshapeFeatureCommand& c) const {
+    return fmt::format("reshape-{} {}", named(c), layout::text_of(c.loops));
+  }
+  std::string operator()(const GradeFeatureCommand& c) const {
+    return fmt::format("grade-{} {}", named(c), c.grade);
+  }
+  std::string operator()(const RemoveFeatureCommand& c) const { return "remove-" + named(c); }
 
  private:
+  template <class Named>
+  std::string named(const Named& c) const {
+    return fmt::format("{} {} {}", name_of(c.kind), quoted(document_.stocks[c.stock].id), quoted(c.id));
+  }
   std::string text_of(Sheet sheet) const {
     return fmt::format("{} {}", quoted(document_.stocks[sheet.stock].id), sheet.copy);
   }
@@ -113,12 +140,14 @@ class Reader {
     if (const std::string found = word(); found != wanted)
       fail(fmt::format("'{}' where '{}' belongs", found, wanted));
   }
+  [[nodiscard]] bool next_is(std::string_view wanted) {
+    skip_spaces();
+    return rest_.starts_with(wanted) &&
+           (rest_.size() == wanted.size() || rest_.find_first_of(" \t\r", wanted.size()) == wanted.size());
+  }
   /// Takes the word when it is the next one.
   bool take(std::string_view wanted) {
-    skip_spaces();
-    if (!rest_.starts_with(wanted)) return false;
-    if (rest_.size() > wanted.size() && rest_.find_first_of(" \t\r", wanted.size()) != wanted.size())
-      return false;
+    if (!next_is(wanted)) return false;
     rest_.remove_prefix(wanted.size());
     return true;
   }
@@ -163,6 +192,23 @@ class Reader {
   GridPoint vector() {
     const std::int64_t x = length();
     return {x, length()};
+  }
+  std::uint32_t stock() { return index(document_.stocks, "stock"); }
+  /// "outline" and the points of it, and of a hole after each "hole".
+  std::vector<std::vector<GridPoint>> loops() {
+    expect("outline");
+    std::vector<std::vector<GridPoint>> found(1);
+    std::size_t points = 0;
+    while (fault_.empty() && !at_end()) {
+      if (take("hole")) {
+        found.emplace_back();
+        continue;
+      }
+      found.back().push_back(vector());
+      if (++points > kMostFeaturePoints)
+        fail(fmt::format("an outline of more than {} points", kMostFeaturePoints));
+    }
+    return found;
   }
   Sheet sheet() {
     const std::uint32_t stock = index(document_.stocks, "stock");
@@ -216,6 +262,24 @@ class Reader {
   std::string fault_;
 };
 
+std::optional<Command> feature_command(std::string_view what, FeatureKind kind, Reader& in) {
+  if (what != "add-" && what != "move-" && what != "reshape-" && what != "grade-" && what != "remove-")
+    return std::nullopt;
+  const std::uint32_t stock = in.stock();
+  std::string id = in.word();
+  if (what == "add-") {
+    const int grade = in.integer<int>();
+    return AddFeatureCommand{kind, stock, std::move(id), grade, in.loops()};
+  }
+  if (what == "move-") {
+    in.expect("by");
+    return MoveFeatureCommand{kind, stock, std::move(id), in.vector()};
+  }
+  if (what == "reshape-") return ReshapeFeatureCommand{kind, stock, std::move(id), in.loops()};
+  if (what == "grade-") return GradeFeatureCommand{kind, stock, std::move(id), in.integer<int>()};
+  return RemoveFeatureCommand{kind, stock, std::move(id)};
+}
+
 std::optional<Command> command_named(std::string_view name, Reader& in) {
   // The order of the words is that of evaluation, so each is read in a statement of its own or a braced list.
   if (name == "place") {
@@ -247,7 +311,8 @@ std::optional<Command> command_named(std::string_view name, Reader& in) {
     return c;
   }
   if (name == "compact") {
-    CompactCommand c{in.sheet(), {}};
+    CompactCommand c;
+    if (!in.next_is("towards")) c.sheet = in.sheet();
     in.expect("towards");
     c.direction = in.vector();
     return c;
@@ -287,6 +352,10 @@ std::optional<Command> command_named(std::string_view name, Reader& in) {
     auto [ids, by] = directed("by");
     return NearestCommand{std::move(ids), by, in.destination()};
   }
+  for (const FeatureKind kind : {FeatureKind::defect, FeatureKind::zone})
+    if (name.ends_with(name_of(kind)))
+      if (auto command = feature_command(name.substr(0, name.size() - name_of(kind).size()), kind, in))
+        return command;
   return std::nullopt;
 }
 
@@ -306,7 +375,9 @@ Result<Command> command_from_text(std::string_view line, const Document& documen
         ErrorCode::bad_input,
         fmt::format(
             "there is no command '{}'; there are place, fit, move, rotate, flip, remove, swap, lock, unlock, "
-            "slide, slide-along, settle, push, snap, compact and nearest",
+            "slide, slide-along, settle, push, snap, compact and nearest, and add-, move-, reshape-, grade- "
+            "and "
+            "remove-, each with defect or zone",
             name));
   if (!in.at_end()) return failure(ErrorCode::bad_input, fmt::format("'{}' is left over", in.word()));
   return *command;

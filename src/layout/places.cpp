@@ -202,7 +202,7 @@ std::optional<std::vector<Placement>> nearest_place(const Workspace& workspace,
 }
 
 std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part_index, Sheet sheet,
-                                  std::size_t most, std::optional<bool> only) {
+                                  std::size_t most, std::optional<bool> only, const RunControl& run) {
   const Document& document = workspace.document();
   const Part& part = document.parts[part_index];
   std::vector<geom::GridRotation> angles;
@@ -229,9 +229,14 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
     world.high.x = std::min(world.high.x, last + 2 * (own.high.x - own.low.x + own.high.y - own.low.y));
   }
   std::vector<Placement> places;
+  constexpr std::int64_t kStarts = 24;
+  const std::size_t forms = angles.size() * (part.may_mirror && !only ? 2 : 1);
+  std::size_t form = 0;
+  std::uint64_t rows = 0;
   for (int mirrored = 0; mirrored <= (part.may_mirror ? 1 : 0); ++mirrored) {
     if (only && *only != (mirrored != 0)) continue;
     for (const geom::GridRotation angle : angles) {
+      const auto begun = static_cast<double>(form++);
       Placement placement;
       placement.part = part_index;
       placement.stock = sheet.stock;
@@ -239,11 +244,14 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
       placement.rotation = angle;
       placement.mirrored = mirrored != 0;
       const GridBox box = bounds(placed_outline(part, placement));
-      constexpr std::int64_t kStarts = 24;
       const GridPoint low = world.low - box.low, room = (world.high - box.high) - low;
       if (room.x < 0 || room.y < 0) continue;
       std::size_t settled = 0;
-      for (std::int64_t iy = 0; iy <= kStarts && settled < most; ++iy)
+      for (std::int64_t iy = 0; iy <= kStarts && settled < most; ++iy) {
+        if (run.stop_requested()) break;
+        if (run.progress)
+          run.progress(
+              {++rows, (begun + static_cast<double>(iy) / (kStarts + 1)) / static_cast<double>(forms)});
         for (std::int64_t ix = 0; ix <= kStarts && settled < most; ++ix) {
           placement.at = {low.x + room.x / kStarts * ix, low.y + room.y / kStarts * iy};
           if (!workspace.is_clear_of_scene(placement)) continue;
@@ -254,6 +262,7 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
           places.push_back(group.placements()[0]);
           ++settled;
         }
+      }
     }
   }
   const auto key = [&](const Placement& placement) {

@@ -13,8 +13,7 @@ std::string_view name_of(Mode mode) noexcept { return mode == Mode::strict ? "mo
 
 Result<Change> Session::apply(const Command& command) {
   auto change = plan(workspace_, command, mode_);
-  if (!change || (change->placements.empty() && change->next_id_before == change->next_id_after))
-    return change;
+  if (!change || change->is_nothing()) return change;
   std::string text = to_text(command, document());
   carry_out(workspace_, *change);
   entries_.resize(done_);

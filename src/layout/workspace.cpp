@@ -1,6 +1,8 @@
 #include "lekalo/layout/workspace.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <set>
 
 #include "lekalo/base/assert.hpp"
 #include "quality.hpp"
@@ -53,22 +55,34 @@ Workspace::SheetScene& Workspace::sheet_scene(Sheet sheet) const {
     count += placement.stock == sheet.stock && placement.copy == sheet.copy ? 1 : 0;
   SheetScene& made = scenes_.try_emplace(sheet, world_of(document_, sheet), 4 * count + 64).first->second;
   const Stock& stock = document_.stocks[sheet.stock];
-  const auto put_feature = [&](const Outline& outline, phi::Body body, std::size_t index) {
-    body.shape = made.scene.add_shape(outline.polygon);
-    const phi::BodyIndex at = made.scene.put(body);
-    LEKALO_ASSERT(at == made.placements.size());
-    made.placements.push_back(0);
-    made.features.push_back(static_cast<std::uint32_t>(index));
-  };
-  put_feature(stock.outline, {.layers = kBorderLayer, .container = true}, 0);
-  for (std::size_t i = 0; i < stock.defects.size(); ++i)
-    put_feature(stock.defects[i].outline, {.layers = kDefectLayer, .rank = stock.defects[i].severity}, i);
-  for (std::size_t i = 0; i < stock.zones.size(); ++i)
-    put_feature(stock.zones[i].outline, {.layers = kZoneLayer, .rank = -std::int64_t{stock.zones[i].quality}},
-                i);
+  made.scene.put(
+      {.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorderLayer, .container = true});
+  made.placements.push_back(0);
+  made.features.push_back(0);
+  for (const FeatureKind kind : {FeatureKind::defect, FeatureKind::zone})
+    for (std::uint32_t i = 0; i < feature_count(stock, kind); ++i)
+      put_feature_body(made, feature_at(stock, kind, i), i);
   for (const Placement& placement : document_.placements)
     if (placement.stock == sheet.stock && placement.copy == sheet.copy) put(made, placement);
   return made;
+}
+
+void Workspace::put_feature_body(SheetScene& in, const Feature& feature, std::uint32_t index) const {
+  const bool defect = feature.kind == FeatureKind::defect;
+  const phi::BodyIndex body =
+      in.scene.put({.shape = in.scene.add_shape(feature.outline.polygon),
+                    .layers = defect ? kDefectLayer : kZoneLayer,
+                    .rank = defect ? std::int64_t{feature.grade} : -std::int64_t{feature.grade}});
+  if (body >= in.placements.size()) in.placements.resize(body + 1), in.features.resize(body + 1);
+  in.placements[body] = 0;
+  in.features[body] = index;
+  auto& drawn = in.drawn[static_cast<std::size_t>(feature.kind)];
+  drawn.insert(drawn.begin() + index, body);
+}
+
+void Workspace::number_features(SheetScene& in, FeatureKind kind, std::size_t from) const {
+  const auto& drawn = in.drawn[static_cast<std::size_t>(kind)];
+  for (std::size_t i = from; i < drawn.size(); ++i) in.features[drawn[i]] = static_cast<std::uint32_t>(i);
 }
 
 void Workspace::put(SheetScene& in, const Placement& placement) const {
@@ -105,11 +119,19 @@ std::uint64_t Workspace::placement_of(Sheet sheet, phi::BodyIndex body) const {
   return sheet_scene(sheet).placements[body];
 }
 
+std::uint32_t Workspace::feature_of(Sheet sheet, phi::BodyIndex body) const {
+  return sheet_scene(sheet).features[body];
+}
+
 void Workspace::sort_bodies(Sheet sheet, std::vector<phi::BodyIndex>& bodies) const {
   const SheetScene& in = sheet_scene(sheet);
-  std::sort(bodies.begin(), bodies.end(), [&](phi::BodyIndex a, phi::BodyIndex b) {
-    return std::pair(in.placements[a], a) < std::pair(in.placements[b], b);
-  });
+  // The border, defects, zones, parts; which body is which depends on what came and went.
+  const auto key = [&](phi::BodyIndex body) {
+    const std::uint64_t id = in.placements[body];
+    return id != 0 ? std::tuple{id, 0U, 0U} : std::tuple{id, in.scene.body(body).layers, in.features[body]};
+  };
+  std::sort(bodies.begin(), bodies.end(),
+            [&](phi::BodyIndex a, phi::BodyIndex b) { return key(a) < key(b); });
 }
 
 std::vector<phi::BodyIndex> Workspace::near(Sheet sheet, const GridBox& box, std::int64_t reach,
@@ -132,7 +154,8 @@ void Workspace::forget_old_shapes(Sheet sheet) {
   // made anew from the document when it is asked for next.
   constexpr std::size_t kSpare = 2000;
   const auto in = scenes_.find(sheet);
-  if (in != scenes_.end() && in->second.shapes.size() > kSpare + 4 * in->second.bodies.size())
+  if (in != scenes_.end() &&
+      in->second.shapes.size() + in->second.old_shapes > kSpare + 4 * in->second.bodies.size())
     scenes_.erase(in);
 }
 
@@ -158,6 +181,69 @@ void Workspace::erase(std::uint64_t id) {
   if (const auto in = scenes_.find({placement->stock, placement->copy}); in != scenes_.end())
     take(in->second, id);
   document_.placements.erase(document_.placements.begin() + (placement - document_.placements.data()));
+}
+
+void Workspace::set_feature(std::uint32_t stock, std::uint32_t index, const Feature& feature) {
+  const FeaturePlace place = put_feature(document_.stocks[stock], index, feature);
+  const auto kind = static_cast<std::size_t>(feature.kind);
+  for (auto at = scenes_.lower_bound({stock, std::numeric_limits<std::int64_t>::min()});
+       at != scenes_.end() && at->first.stock == stock;) {
+    const Sheet sheet = at->first;
+    SheetScene& in = at->second;
+    ++at;
+    if (!place.is_new) {
+      in.scene.take(in.drawn[kind][place.index]);
+      in.drawn[kind].erase(in.drawn[kind].begin() + place.index);
+      ++in.old_shapes;
+    }
+    put_feature_body(in, feature, place.index);
+    if (place.is_new) number_features(in, feature.kind, place.index + std::size_t{1});
+    forget_old_shapes(sheet);
+  }
+}
+
+void Workspace::erase_feature(std::uint32_t stock, FeatureKind kind, std::string_view id) {
+  const auto index = find_feature(document_.stocks[stock], kind, id);
+  LEKALO_ASSERT(index.has_value());
+  take_feature(document_.stocks[stock], kind, *index);
+  for (auto at = scenes_.lower_bound({stock, std::numeric_limits<std::int64_t>::min()});
+       at != scenes_.end() && at->first.stock == stock;) {
+    const Sheet sheet = at->first;
+    SheetScene& in = at->second;
+    ++at;
+    auto& drawn = in.drawn[static_cast<std::size_t>(kind)];
+    in.scene.take(drawn[*index]);
+    drawn.erase(drawn.begin() + *index);
+    ++in.old_shapes;
+    number_features(in, kind, *index);
+    forget_old_shapes(sheet);
+  }
+}
+
+std::vector<Violation> Workspace::violations_with(std::uint32_t stock, FeatureKind kind, std::uint32_t index,
+                                                  Depths depths) const {
+  const bool defect = kind == FeatureKind::defect;
+  const Stock& of = document_.stocks[stock];
+  const GridBox box = bounds(defect ? of.defects[index].outline.polygon : of.zones[index].outline.polygon);
+  std::int64_t reach = 0;
+  std::set<std::int64_t> copies;
+  for (const Placement& placement : document_.placements) {
+    if (placement.stock != stock || placement.copy < 0 || placement.copy >= of.count) continue;
+    copies.insert(placement.copy);
+    reach = std::max(reach, defect_gap_of(document_, document_.parts[placement.part]));
+  }
+  std::vector<Violation> violations;
+  for (const std::int64_t copy : copies) {
+    const Sheet sheet{stock, copy};
+    for (const phi::BodyIndex body : near(sheet, box, defect ? reach : 0, kPartLayer)) {
+      const Placement& placement = *find(placement_of(sheet, body));
+      const geom::GridRegion outline = placed_outline(document_.parts[placement.part], placement);
+      const auto violation = defect ? defect_violation(document_, placement, outline, index, depths)
+                                    : quality_violation(document_, placement, outline, index, depths);
+      if (violation) violations.push_back(*violation);
+    }
+  }
+  return violations;
 }
 
 std::int64_t Workspace::gap_to(const Part& part, Sheet sheet, phi::BodyIndex body) const {

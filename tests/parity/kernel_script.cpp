@@ -15,6 +15,7 @@
 
 #include "kernel.hpp"
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_messages.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 #include "support/layout_commands.hpp"
@@ -110,7 +111,10 @@ void session(std::size_t index) {
     for (int a = 0; a < 3; ++a) CALL(lekalo_outline, "", handle, kind, a, random.below(2) == 0 ? 0 : 1);
   for (int step = 0; step < 60 && !workspace.document().placements.empty(); ++step) {
     drag(handle, workspace, random);
-    const std::string line = to_text(cases::some_command(workspace.document(), random), workspace.document());
+    const std::string line =
+        to_text(random.below(4) == 0 ? cases::some_feature_command(workspace.document(), random)
+                                     : cases::some_command(workspace.document(), random),
+                workspace.document());
     const Mode mode = random.below(3) == 0 ? Mode::free : Mode::strict;
     const std::int32_t done = CALL(lekalo_plan, line, handle, static_cast<std::uint32_t>(line.size()),
                                    mode == Mode::strict ? 1 : 0);
@@ -126,6 +130,18 @@ void session(std::size_t index) {
         CALL(lekalo_erase, "", handle, one[0]);
       else
         CALL(lekalo_set, bytes_of(one), handle);
+    }
+    for (const FeatureChange& one : change->features) {
+      const int kind = static_cast<int>(one.either().kind);
+      if (one.after) {
+        const std::string drawn = io::feature_json(*one.after);
+        CALL(lekalo_set_feature, drawn, handle, one.stock, kind, one.index,
+             static_cast<std::uint32_t>(drawn.size()));
+        CALL(lekalo_violations_with, "", handle, one.stock, kind, one.index, 1);
+      } else {
+        CALL(lekalo_erase_feature, one.before->id, handle, one.stock, kind,
+             static_cast<std::uint32_t>(one.before->id.size()));
+      }
     }
     CALL(lekalo_set_next_id, "", handle, numbers[0]);
     carry_out(workspace, *change);
@@ -167,6 +183,14 @@ void refusals() {
         "1e-310}}" +
             std::string(" ")})
     CALL(lekalo_open, text, size(text));
+  for (const std::string text : {"", "{", "{\"id\": \"a\"}", "{\"id\": \"a\", \"severity\": 0}",
+                                 "{\"id\": \"a\", \"quality\": 1, \"outline\": {\"polygon\": {\"outer\": "
+                                 "[[0, 0], [1, 1], [1, 0], [0, 1]]}}}"})
+    for (const int kind : {-1, 0, 1, 2}) {
+      CALL(lekalo_set_feature, text, handle, 0, kind, 0, size(text));
+      CALL(lekalo_erase_feature, text, handle, 0, kind, size(text));
+      CALL(lekalo_violations_with, "", handle, 7, kind, 1e9, 0);
+    }
   for (const double value : {0.0, -1.0, 0.5, 1e18})
     CALL(lekalo_erase, "", handle, value), CALL(lekalo_outline, "", handle, 0, value, 0),
         CALL(lekalo_pick, "", handle, value, 0, 1e9, 0);

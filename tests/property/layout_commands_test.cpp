@@ -24,6 +24,7 @@ constexpr int kSteps = 200;  ///< commands of a session
 std::size_t session_count() { return std::max<std::size_t>(1, cases::case_count(8 * 25) / 25); }
 
 using cases::some_command;
+using cases::some_feature_command;
 using cases::some_id;
 using cases::some_vector;
 
@@ -73,7 +74,8 @@ TEST(LayoutCommands, WhatIsUndoneIsAsItWasAndWhatIsRedoneAsItBecame) {
         continue;
       }
       if (random.below(20) == 0) session.set_mode(random.below(2) == 0 ? Mode::strict : Mode::free);
-      (void)session.apply(some_command(session.document(), random));
+      (void)session.apply(random.below(4) == 0 ? some_feature_command(session.document(), random)
+                                               : some_command(session.document(), random));
     }
     const Document last = session.document();
     const std::string log = session.log();
@@ -94,6 +96,23 @@ TEST(LayoutCommands, WhatIsUndoneIsAsItWasAndWhatIsRedoneAsItBecame) {
   std::printf("digest of the sessions %016llx\n", static_cast<unsigned long long>(digest.value()));
 }
 
+/// Of every feature, the violations that the check of the whole document finds with it.
+void check_features(const Workspace& workspace) {
+  const std::vector<Violation> all = check(workspace.document());
+  for (std::uint32_t stock = 0; stock < workspace.document().stocks.size(); ++stock)
+    for (const FeatureKind kind : {FeatureKind::defect, FeatureKind::zone})
+      for (std::uint32_t i = 0; i < feature_count(workspace.document().stocks[stock], kind); ++i) {
+        std::vector<Violation> expected;
+        for (const Violation& v : all) {
+          const bool of_defect = v.kind == ViolationKind::defect || v.kind == ViolationKind::defect_gap;
+          if (v.stock == stock && v.feature == i &&
+              (kind == FeatureKind::defect ? of_defect : v.kind == ViolationKind::quality))
+            expected.push_back(v);
+        }
+        EXPECT_EQ(workspace.violations_with(stock, kind, i), expected);
+      }
+}
+
 TEST(LayoutCommands, AWorkspaceSaysWhatTheCheckSays) {
   for (std::size_t i = 0; i < session_count(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
@@ -103,6 +122,11 @@ TEST(LayoutCommands, AWorkspaceSaysWhatTheCheckSays) {
     for (int step = 0; step < 20; ++step) {
       const std::uint64_t id = some_id(session.document(), random);
       (void)session.apply(MoveCommand{{id}, some_vector(random, 15), std::nullopt});
+      if (random.below(2) == 0)
+        (void)session.apply(some_feature_command(session.document(), random));
+      else if (session.can_undo() && random.below(4) == 0)
+        session.undo();
+      check_features(session.workspace());
       const Placement& placement = *session.workspace().find(id);
       std::vector<Violation> expected;
       for (const Violation& violation : check(session.document()))

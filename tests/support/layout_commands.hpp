@@ -3,6 +3,7 @@
 // Random commands of correction.
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lekalo/layout/command.hpp"
@@ -24,6 +25,37 @@ inline geom::GridPoint some_vector(Random& random, double most_mm) {
     }
     default:
       return random_point(random, {-most_mm, -most_mm}, {most_mm, most_mm}) + geom::GridPoint{0, 1};
+  }
+}
+
+/// A gesture on a defect or a zone of a stock; some are to be refused.
+inline layout::Command some_feature_command(const layout::Document& document, Random& random) {
+  using layout::FeatureKind;
+  const auto stock = static_cast<std::uint32_t>(random.below(document.stocks.size()));
+  const FeatureKind kind = random.below(3) == 0 ? FeatureKind::zone : FeatureKind::defect;
+  const std::size_t count = feature_count(document.stocks[stock], kind);
+  std::string id = "n" + std::to_string(random.below(40));
+  if (count > 0 && random.below(8) != 0)
+    id = feature_at(document.stocks[stock], kind, static_cast<std::uint32_t>(random.below(count))).id;
+  const auto loops = [&] {
+    const geom::Point at{random.uniform(0, 300), random.uniform(0, 200)};
+    const double size = random.uniform(1, 20);
+    std::vector<std::vector<geom::GridPoint>> all{star(random, at, size / 2, size, 3 + random.below(6))};
+    if (random.below(5) == 0) all.push_back(star(random, at, size / 20, size / 10, 4));
+    return all;
+  };
+  const int grade = static_cast<int>(random.below(5));
+  switch (random.below(count < 4 ? 6 : 5)) {
+    case 0:
+      return layout::MoveFeatureCommand{kind, stock, id, some_vector(random, 30)};
+    case 1:
+      return layout::ReshapeFeatureCommand{kind, stock, id, loops()};
+    case 2:
+      return layout::GradeFeatureCommand{kind, stock, id, grade};
+    case 3:
+      return layout::RemoveFeatureCommand{kind, stock, id};
+    default:
+      return layout::AddFeatureCommand{kind, stock, "n" + std::to_string(random.below(40)), grade, loops()};
   }
 }
 
@@ -69,7 +101,7 @@ inline layout::Command some_command(const layout::Document& document, Random& ra
     case 12:
       return layout::SnapCommand{id, geom::grid_from_mm(random.uniform(1, 20))};
     case 13:
-      if (random.below(8) == 0) return layout::CompactCommand{{0, 0}, {-1, 0}};
+      if (random.below(8) == 0) return layout::CompactCommand{layout::Sheet{0, 0}, {-1, 0}};
       return layout::SlideCommand{ids, {-1, 0}};
     default:
       return layout::NearestCommand{ids, some_vector(random, 40), std::nullopt};

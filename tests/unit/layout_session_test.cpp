@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -152,7 +154,7 @@ TEST(LayoutSession, ALogWithAFaultNamesItsLine) {
       fault("lekalo-commands/1\n\n  # note\nmove 1 by 1 0\n"),
       "line 3: there is no command '#'; there are "
       "place, fit, move, rotate, flip, remove, swap, lock, unlock, slide, slide-along, settle, push, snap, "
-      "compact and nearest");
+      "compact and nearest, and add-, move-, reshape-, grade- and remove-, each with defect or zone");
   EXPECT_EQ(fault("lekalo-commands/1\n\n# note\nmove 1 by 35 0\n"),
             "line 4: not admitted: placement 1: overlap with placement 2, 5 mm");
   EXPECT_EQ(fault("lekalo-commands/2\n"), "line 1: a log of commands begins with 'lekalo-commands/1'");
@@ -339,6 +341,197 @@ TEST(LayoutCommandsUnit, FitTakesTheLowestPlaceLeftmostFirstUntilNothingFits) {
   // The command in the log is the command; the place follows from it.
   EXPECT_EQ(session.log(), "lekalo-commands/1\nfit \"square\" \"sheet\" 0\nfit \"square\" \"sheet\" 0\n");
   EXPECT_EQ(fits_where(session.workspace(), 0, {0, 1}, 3).size(), 1U) << "starts that settle to one place";
+}
+
+/// Kind, placement and feature of every violation.
+std::vector<std::string> broken(const Session& session) {
+  std::vector<std::string> all;
+  for (const Violation& v : check(session.document()))
+    all.push_back(std::string(name_of(v.kind)) + " " + std::to_string(v.a) + " " +
+                  feature_id(session.document(), v));
+  return all;
+}
+
+TEST(LayoutFeatures, ADefectThatIsReallyThereIsAdmittedAndThePartsOnItAreListed) {
+  Document d = two();
+  d.parts[0].tolerated_severity = 1;
+  d.rules.defect_gap = 2 * mm;
+  Session session(d);
+  const std::string spot = " outline 25 45 27 45 27 47 25 47";
+  ASSERT_EQ(carry_out(session, "add-defect sheet scar 2" + spot), "");
+  EXPECT_EQ(broken(session), (std::vector<std::string>{"defect 1 scar"}));
+  const Workspace& workspace = session.workspace();
+  EXPECT_EQ(workspace.violations_with(0, FeatureKind::defect, 0), check(session.document()));
+  // The other part cannot go there, and the one on it can go away.
+  EXPECT_EQ(carry_out(session, "move 2 by -38 0").find("not admitted"), 0u);
+  ASSERT_EQ(carry_out(session, "grade-defect sheet scar 1"), "");
+  EXPECT_TRUE(broken(session).empty());
+  ASSERT_EQ(carry_out(session, "grade-defect sheet scar 3"), "");
+  ASSERT_EQ(carry_out(session, "move-defect sheet scar by 6 0"), "");
+  EXPECT_EQ(broken(session), (std::vector<std::string>{"defect-gap 1 scar"}));
+  ASSERT_EQ(carry_out(session, "reshape-defect sheet scar outline 25 45 70 45 70 47 25 47"), "");
+  EXPECT_EQ(broken(session), (std::vector<std::string>{"defect 1 scar", "defect 2 scar"}));
+  ASSERT_EQ(carry_out(session, "remove-defect sheet scar"), "");
+  EXPECT_TRUE(broken(session).empty());
+  const std::string log = session.log();
+  for (int i = 0; i < 3; ++i) session.undo();
+  EXPECT_EQ(session.document().stocks[0].defects[0].severity, 3);
+  for (; session.can_undo();) session.undo();
+  EXPECT_TRUE(session.document() == d);
+  for (; session.can_redo();) session.redo();
+  EXPECT_EQ(session.log(), log);
+}
+
+TEST(LayoutFeatures, ZonesCountByTheirQuality) {
+  Document d = two();
+  d.parts[0].quality = 2;
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "add-zone sheet belly 1 outline 0 0 50 0 50 100 0 100"), "");
+  ASSERT_EQ(carry_out(session, "add-defect sheet belly 1 outline 90 90 91 90 91 91"), "");  // its own list
+  EXPECT_EQ(broken(session), (std::vector<std::string>{"quality 1 belly"}));
+  EXPECT_EQ(session.workspace().violations_with(0, FeatureKind::zone, 0), check(session.document()));
+  ASSERT_EQ(carry_out(session, "grade-zone sheet belly 2"), "");
+  EXPECT_TRUE(broken(session).empty());
+}
+
+TEST(LayoutFeatures, WhatCannotBeIsRefusedInOneSentence) {
+  Session session(two());
+  ASSERT_EQ(carry_out(session, "add-defect sheet a 1 outline 1 1 2 1 2 2"), "");
+  const Document before = session.document();
+  const std::pair<const char*, const char*> refusals[] = {
+      {"add-defect sheet a 1 outline 1 1 2 1 2 2", "has a defect 'a' already"},
+      {"add-defect sheet b 0 outline 1 1 2 1 2 2", "the severity of a defect is a whole number from 1"},
+      {"add-zone sheet b -1 outline 1 1 2 1 2 2", "the quality of a zone is a whole number from 0"},
+      {"add-zone sheet b 1000001 outline 1 1 2 1 2 2", "to 1000000, not 1000001"},
+      {"add-defect sheet \"\" 1 outline 1 1 2 1 2 2", "the id of a defect has 1 to 1000 bytes"},
+      {"add-defect sheet \"a\nb\" 1 outline 1 1 2 1 2 2", "without control characters"},
+      {"add-defect sheet b 1 outline", "outline"},
+      {"add-defect sheet b 1 outline 1 1 2 1", "outline"},
+      {"add-defect sheet b 1 outline 0 0 4 4 4 0 0 4", "outline"},
+      {"add-defect sheet b 1 outline 0 0 9 0 9 9 0 9 hole 20 20 21 20 21 21", "hole 0"},
+      {"add-defect sheet b 1 outline 0 0 300000 0 0 9", "outline"},
+      {"reshape-defect sheet a outline 0 0 4 4 4 0 0 4", "outline"},
+      {"move-defect sheet a by 262144 0", "defect 'a' would leave the range of +-262144 mm"},
+      {"move-zone sheet a by 1 0", "stock 'sheet' has no zone 'a'"},
+      {"remove-defect sheet b", "stock 'sheet' has no defect 'b'"},
+      {"grade-defect sheet a 0", "the severity of a defect"},
+  };
+  for (const auto& [line, why] : refusals) {
+    SCOPED_TRACE(line);
+    const std::string said = carry_out(session, line);
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+  EXPECT_TRUE(session.document() == before);
+  // What changes nothing leaves no trace.
+  for (const char* line :
+       {"move-defect sheet a by 0 0", "grade-defect sheet a 1", "reshape-defect sheet a outline 1 1 2 1 2 2"})
+    ASSERT_EQ(carry_out(session, line), "");
+  session.undo();
+  EXPECT_FALSE(session.can_undo());
+}
+
+TEST(LayoutFeatures, AMovedDefectIsItsPolygonAndUndoBringsTheCurvesBack) {
+  Document d = two();
+  Defect defect;
+  defect.id = "round";
+  geom::Region drawn;
+  const geom::Point corners[] = {{70, 70}, {80, 70}, {70, 80}};
+  for (int i = 0; i < 3; ++i) {
+    geom::Edge edge;
+    edge.from = corners[i];
+    edge.to = corners[(i + 1) % 3];
+    drawn.outer.push_back(edge);
+  }
+  defect.outline = outline_of({{grid_point(70, 70), grid_point(80, 70), grid_point(70, 80)}});
+  defect.outline.curves = {drawn};
+  defect.outline.chord_tolerance_mm = 0.01;
+  d.stocks[0].defects = {defect};
+  Session session(d);
+  ASSERT_EQ(carry_out(session, "move-defect sheet round by 0.5 0"), "");
+  EXPECT_TRUE(session.document().stocks[0].defects[0].outline.curves.empty());
+  EXPECT_EQ(session.document().stocks[0].defects[0].outline.chord_tolerance_mm, 0);
+  session.undo();
+  EXPECT_TRUE(session.document() == d);
+}
+
+TEST(LayoutFeatures, DifferencesLeadFromOneDocumentToTheOther) {
+  Document a = two();
+  const auto defect = [](const char* id, double x) {
+    return Defect{id, 1, outline_of({box_loop(x, 0, x + 1, 1)})};
+  };
+  a.stocks[0].defects = {defect("a", 0), defect("b", 2), defect("c", 4), defect("d", 6)};
+  const auto leads_to = [&](std::vector<Defect> defects) {
+    Document b = a;
+    b.stocks[0].defects = std::move(defects);
+    Change change;
+    change.next_id_before = change.next_id_after = a.next_id;
+    change.features = feature_difference(a, b);
+    Document made = a;
+    carry_out(made, change);
+    EXPECT_TRUE(made == b);
+    Workspace workspace(a);
+    (void)workspace.scene({0, 0});
+    carry_out(workspace, change);
+    EXPECT_TRUE(workspace.document() == b);
+    take_back(workspace, change);
+    EXPECT_TRUE(workspace.document() == a);
+    return change.features.size();
+  };
+  EXPECT_EQ(leads_to(a.stocks[0].defects), 0u);
+  EXPECT_EQ(leads_to({}), 4u);
+  EXPECT_EQ(leads_to({defect("a", 0), defect("x", 1), defect("b", 3), defect("d", 6), defect("y", 9)}), 4u);
+  EXPECT_EQ(leads_to({defect("d", 6), defect("a", 0), defect("e", 8)}), 7u);  // another order
+}
+
+TEST(LayoutFeatures, DrawingForHoursKeepsTheMemory) {
+  Session session(two());
+  ASSERT_EQ(carry_out(session, "add-defect sheet a 1 outline 1 1 2 1 2 2"), "");
+  const Sheet sheet{0, 0};
+  std::size_t early = 0, late = 0;
+  for (int turn = 0; turn < 9000; ++turn) {
+    ASSERT_TRUE(session.apply(
+        MoveFeatureCommand{FeatureKind::defect, 0, "a", {turn % 2 == 0 ? mm : -mm, turn % 3 * mm / 100}}));
+    std::size_t& most = turn < 4000 ? early : late;
+    most = std::max(most, session.workspace().scene(sheet).bytes());
+  }
+  EXPECT_LE(late, early + early / 4);
+}
+
+TEST(LayoutCommandsUnit, CompactOfAllSheetsIsThatOfEach) {
+  Document d = two();
+  d.placements[1].copy = 1;
+  Session all(d), each(d);
+  ASSERT_EQ(carry_out(all, "compact towards -1 0"), "");
+  ASSERT_EQ(carry_out(each, "compact sheet 0 towards -1 0"), "");
+  ASSERT_EQ(carry_out(each, "compact sheet 1 towards -1 0"), "");
+  EXPECT_TRUE(all.document() == each.document());
+  EXPECT_FALSE(all.document() == d);
+}
+
+TEST(LayoutCommandsUnit, LongCommandsSayHowFarTheyAreAndGiveWhatTheyHaveWhenStopped) {
+  const Workspace workspace(two());
+  const Command compact = *command_from_text("compact sheet 0 towards 0 -1", workspace.document());
+  std::vector<double> heard;
+  std::atomic<bool> stop = false;
+  RunControl run;
+  run.stop = &stop;
+  run.progress = [&](const Progress& progress) { heard.push_back(progress.fraction); };
+  const auto whole = plan(workspace, compact, Mode::strict, run);
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(*whole == *plan(workspace, compact, Mode::strict));
+  EXPECT_EQ(whole->placements.size(), 2u);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_LE(heard.back(), 1);
+  run.progress = [&](const Progress&) { stop = true; };
+  const auto part = plan(workspace, compact, Mode::strict, run);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->placements.size(), 1u);
+  const auto none =
+      plan(workspace, *command_from_text("fit square sheet 0", workspace.document()), Mode::strict, run);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "stopped before a place was found where part 'square' fits");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/layout/check.hpp"
 #include "server/access.hpp"
 #include "server/outbox.hpp"
 #include "support/layout_cases.hpp"
@@ -207,6 +208,203 @@ TEST_F(TwoClients, WhatCannotBeStoredIsNotDone) {
   EXPECT_EQ(heard[0]["type"], "refused");
   EXPECT_EQ(room_->document(), first_);
   EXPECT_EQ(room_->revision(), 0);
+}
+
+constexpr const char* kScar = "add-defect sheet scar 1 outline 22 42 24 42 24 44";
+
+TEST_F(TwoClients, HearOfADefectAndWhatLiesOnIt) {
+  const auto heard = command(1, kScar);
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[0]["type"], "done");
+  EXPECT_EQ(heard[0]["violations"][0]["kind"], "defect");
+  EXPECT_EQ(heard[0]["violations"][0]["feature"], "scar");
+  EXPECT_EQ(heard[1]["placements"], Json::array());
+  const Json& feature = heard[1]["features"][0];
+  EXPECT_EQ(feature["stock"], "sheet");
+  EXPECT_EQ(feature["kind"], "defect");
+  EXPECT_EQ(feature["id"], "scar");
+  EXPECT_EQ(feature["index"], 0);
+  EXPECT_EQ(feature["after"]["severity"], 1);
+  EXPECT_EQ(feature["after"]["outline"]["polygon"]["outer"], Json::parse("[[22, 42], [24, 42], [24, 44]]"));
+  EXPECT_EQ(heard_.back().second, heard[1]);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  EXPECT_EQ(command(2, "remove-defect sheet scar")[1]["features"][0]["after"], nullptr);
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(command(1, "add-defect sheet x 1 outline 0 0 4 4 4 0 0 4")[0]["type"], "refused");
+  const auto preview = say(1, CommandMessage{3, layout::Mode::strict, kScar, true});
+  ASSERT_EQ(preview.size(), 1u);
+  EXPECT_EQ(preview[0]["features"].size(), 1u);
+  EXPECT_EQ(preview[0]["violations"].size(), 1u);
+  EXPECT_EQ(room_->document(), first_);
+}
+
+TEST_F(TwoClients, UndoDefectsUnlessALaterCommandStandsOnThem) {
+  command(1, kScar);
+  command(2, "grade-defect sheet scar 3");
+  auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  std::string why = heard[0]["message"];
+  EXPECT_NE(why.find("client 2 changed defect 'scar' by 'grade-defect"), std::string::npos) << why;
+  EXPECT_EQ(say(2, UndoMessage{1, false})[1]["features"][0]["after"]["severity"], 1);
+  EXPECT_EQ(say(1, UndoMessage{2, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(say(1, UndoMessage{3, true})[0]["type"], "done");
+  // A part that was put where the defect had been.
+  command(1, "remove-defect sheet scar");
+  command(2, "move 1 by 0.5 0");
+  heard = say(1, UndoMessage{4, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  why = heard[0]["message"];
+  EXPECT_NE(why.find("move 1 by 0.5 0"), std::string::npos) << why;
+  // A defect where the part had been.
+  command(2, "move 2 by 0 20");
+  command(1, "add-defect sheet spot 1 outline 62 42 64 42 64 44");
+  heard = say(2, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  why = heard[0]["message"];
+  EXPECT_NE(why.find("add-defect"), std::string::npos) << why;
+}
+
+TEST_F(TwoClients, FindWhoChangedADefectBeforeARestart) {
+  command(1, kScar);
+  command(2, "grade-defect sheet scar 3");
+  reopen();
+  const auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  EXPECT_NE(heard[0]["message"].get<std::string>().find("grade-defect"), std::string::npos);
+}
+
+TEST_F(TwoClients, RestoreDefectsInTheirOrder) {
+  command(1, kScar);
+  command(2, "add-defect sheet other 1 outline 82 82 84 82 84 84");
+  const layout::Document both = room_->document();
+  command(1, "remove-defect sheet scar");
+  command(1, kScar);  // now the second
+  hear(room_->restore(2).value());
+  EXPECT_EQ(room_->document(), both);
+  EXPECT_EQ(store_->load(id_)->document, both);
+  hear(room_->restore(0).value());
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(store_->load(id_)->document, first_);
+}
+
+TEST_F(TwoClients, AreToldOfLongCommandsInShort) {
+  std::string line = "add-defect sheet scar 1 outline";
+  for (int i = 0; i < 400; ++i) line += " " + std::to_string(i % 100) + " " + std::to_string(i / 100);
+  std::string round = "reshape-defect sheet scar outline 80 80";
+  for (int i = 1; i < 300; ++i)
+    round += " " + std::to_string(80 + i * 0.01) + " " + std::to_string(80 + i * i * 0.0001);
+  EXPECT_EQ(command(1, line)[0]["type"], "refused");
+  EXPECT_EQ(command(1, kScar)[0]["type"], "done");
+  EXPECT_EQ(command(2, round)[0]["type"], "done");
+  const auto heard = say(1, UndoMessage{1, false});
+  ASSERT_EQ(heard[0]["type"], "refused");
+  EXPECT_LT(heard[0]["message"].get<std::string>().size(), 400u);
+}
+
+/// What a job found when it is run here, to its end.
+Result<layout::Change> ran(const JobStart& start, std::vector<layout::Change>* improved = nullptr) {
+  JobContext context;
+  context.run.stop = start.stop.get();
+  context.improved = [&](const layout::Change& change) {
+    if (improved != nullptr) improved->push_back(change);
+  };
+  return start.job(start.document, context);
+}
+
+TEST_F(TwoClients, GoOnWhileALongCommandOfOneIsUnderWay) {
+  EXPECT_TRUE(command(1, "compact sheet 0 towards 0 -1").empty());
+  EXPECT_TRUE(room_->is_busy(1));
+  EXPECT_FALSE(room_->is_busy(2));
+  const std::vector<JobStart> jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 1u);
+  EXPECT_TRUE(room_->take_jobs().empty());
+  hear(room_->job_progress(jobs[0].number, 0.25, 3.0));
+  EXPECT_EQ(heard_.back().second,
+            Json::parse(R"({"type": "progress", "seq": 7, "fraction": 0.25, "seconds_left": 3.0})"));
+  EXPECT_EQ(command(2, "place square sheet 0 1 0 0 80 upright")[0]["type"], "done");  // not in its way
+  const auto before = heard_.size();
+  hear(room_->job_ended(jobs[0].number, ran(jobs[0])));
+  EXPECT_EQ(heard_[before].second["type"], "done");
+  EXPECT_EQ(heard_[before].second["revision"], 2);
+  EXPECT_EQ(heard_[before + 1].second["placements"].size(), 2u);
+  EXPECT_FALSE(room_->is_busy(1));
+  EXPECT_LT(room_->document().placements[0].at.y, 10);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  EXPECT_EQ(say(1, UndoMessage{8, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document().placements[0], first_.placements[0]);
+}
+
+TEST_F(TwoClients, ALongCommandBeginsAgainWhereOthersChangedWhatItMoves) {
+  command(1, "compact sheet 0 towards 0 -1");
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    const std::vector<JobStart> jobs = room_->take_jobs();
+    ASSERT_EQ(jobs.size(), 1u);
+    const auto found = ran(jobs[0]);
+    command(2, "move 2 by 0 1");
+    const auto before = heard_.size();
+    hear(room_->job_ended(jobs[0].number, found));
+    if (attempt < 3) {
+      EXPECT_EQ(heard_.size(), before);
+    } else {
+      EXPECT_EQ(heard_[before].second["type"], "refused");
+    }
+  }
+  EXPECT_FALSE(room_->is_busy(1));
+  EXPECT_EQ(room_->document().placements[0], first_.placements[0]);
+}
+
+TEST_F(TwoClients, TwoFitsAtOnceDoNotMeet) {
+  command(1, "fit square sheet 0");
+  command(2, "fit square sheet 0");
+  std::vector<JobStart> jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 2u);
+  const auto a = ran(jobs[0]), b = ran(jobs[1]);  // the same place
+  hear(room_->job_ended(jobs[0].number, a));
+  hear(room_->job_ended(jobs[1].number, b));
+  EXPECT_EQ(room_->document().placements.size(), 3u);
+  jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 1u);
+  hear(room_->job_ended(jobs[0].number, ran(jobs[0])));
+  EXPECT_EQ(room_->document().placements.size(), 4u);
+  EXPECT_EQ(room_->document().placements.back().id, 4u);
+  EXPECT_TRUE(layout::check(room_->document()).empty());
+}
+
+TEST_F(TwoClients, StopALongCommandAndKeepWhatItHas) {
+  command(1, "compact sheet 0 towards 0 -1");
+  const std::vector<JobStart> jobs = room_->take_jobs();
+  EXPECT_TRUE(room_->handle(2, StopMessage{7}).empty());  // not its own
+  EXPECT_FALSE(*jobs[0].stop);
+  EXPECT_TRUE(room_->handle(1, StopMessage{7}).empty());
+  EXPECT_TRUE(*jobs[0].stop);
+  const auto before = heard_.size();
+  hear(room_->job_ended(jobs[0].number, ran(jobs[0])));
+  EXPECT_EQ(heard_[before].second["stopped"], true);
+  EXPECT_EQ(heard_[before + 1].second["placements"].size(), 1u);  // it had one
+  // Whoever leaves wants nothing any more.
+  command(1, "compact sheet 0 towards 1 0");
+  const std::vector<JobStart> left = room_->take_jobs();
+  hear(room_->leave(1));
+  EXPECT_TRUE(*left[0].stop);
+  EXPECT_TRUE(room_->job_ended(left[0].number, ran(left[0])).empty());
+  EXPECT_EQ(room_->revision(), 1);
+}
+
+TEST(Jobs, CompactingAllSheetsShowsABetterLayoutAfterEach) {
+  layout::Document document = cases::two_squares();
+  document.stocks[0].count = 2;
+  document.placements[1].copy = 1;
+  const layout::Command command = layout::CompactCommand{std::nullopt, {0, -1}};
+  const JobStart start{1, *job_of(command, layout::Mode::strict), document,
+                       std::make_shared<std::atomic<bool>>(false)};
+  std::vector<layout::Change> improved;
+  const auto found = ran(start, &improved);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(improved.size(), 2u);
+  EXPECT_EQ(improved[0].placements.size(), 1u);
+  EXPECT_EQ(improved[1], *found);
+  EXPECT_EQ(*found, *plan(layout::Workspace(document), command, layout::Mode::strict));
 }
 
 Outgoing sized(std::size_t bytes, Loss loss) {

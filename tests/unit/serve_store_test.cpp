@@ -11,8 +11,11 @@
 #include <string>
 
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout_messages.hpp"
 #include "lekalo/layout/workspace.hpp"
+#include "support/cases.hpp"
 #include "support/layout_cases.hpp"
+#include "support/layout_commands.hpp"
 
 namespace lekalo::server {
 namespace {
@@ -184,11 +187,11 @@ TEST_F(StoreFile, RefusesANewerFormat) {
   { Store store = open(); }
   {
     Database database = Database::open(path_).value();
-    ASSERT_TRUE(database.run("PRAGMA user_version=2"));
+    ASSERT_TRUE(database.run("PRAGMA user_version=3"));
   }
   const Result<Store> store = Store::open(path_);
   ASSERT_FALSE(store);
-  EXPECT_NE(store.error().message.find("format 2"), std::string::npos);
+  EXPECT_NE(store.error().message.find("format 3"), std::string::npos);
 }
 
 TEST_F(StoreFile, NoticesDamage) {
@@ -262,6 +265,47 @@ TEST_F(StoreFile, OnAFullDiskSaysSoAndKeepsWhatItHad) {
   EXPECT_EQ(store.load(id)->document, document);
 }
 
+TEST_F(StoreFile, KeepsDefectsAndZonesThatWereDrawn) {
+  layout::Document first = cases::two_squares();
+  layout::Workspace now(first);
+  Random random(cases::seed(), 77);
+  std::vector<layout::Document> states{first};
+  LayoutId id = 0;
+  {
+    Store store = open();
+    id = store.create("a", first).value();
+    while (states.size() < 40) {
+      const auto change =
+          plan(now, cases::some_feature_command(now.document(), random), layout::Mode::strict);
+      if (!change || change->is_nothing()) continue;
+      carry_out(now, *change);
+      StoredChange stored;
+      stored.revision = static_cast<Revision>(states.size());
+      stored.change = *change;
+      ASSERT_TRUE(store.append(id, stored, now.document()));
+      states.push_back(now.document());
+    }
+  }
+  Store store = open();
+  for (std::size_t r = 0; r < states.size(); ++r)
+    EXPECT_EQ(store.state_at(id, static_cast<Revision>(r)).value(), states[r]) << r;
+}
+
+TEST_F(StoreFile, OfTheFirstFormatIsTakenOver) {
+  LayoutId id = 0;
+  {
+    Store store = open();
+    id = store.create("a", cases::two_squares()).value();
+  }
+  {
+    Database database = Database::open(path_).value();
+    ASSERT_TRUE(database.run("DROP TABLE photo; PRAGMA user_version=1"));
+  }
+  { EXPECT_EQ(open().load(id)->document, cases::two_squares()); }
+  Store store = open();
+  EXPECT_EQ(store.load(id)->document, cases::two_squares());
+}
+
 TEST(ChangeText, IsExactAndRefusesEverythingElse) {
   layout::Change change;
   layout::Placement p;
@@ -276,6 +320,14 @@ TEST(ChangeText, IsExactAndRefusesEverythingElse) {
   change.placements = {{std::nullopt, r}, {p, q}};
   change.next_id_before = 3;
   change.next_id_after = 5;
+  layout::Feature scar{layout::FeatureKind::defect, "scar \"1\"", 3,
+                       cases::outline_of({cases::box_loop(0, 0, 1.1, 7)})};
+  layout::Feature worse = scar;
+  worse.grade = 4;
+  layout::Feature belly{layout::FeatureKind::zone, "belly", 1,
+                        cases::outline_of({cases::box_loop(0, 0, 9, 7), cases::box_loop(1, 1, 2, 2)})};
+  change.features = {
+      {2, 0, scar, worse}, {0, 7, std::nullopt, belly}, {0, 7, belly, std::nullopt}, {2, 0, worse, scar}};
   const std::string text = change_text(change);
   EXPECT_EQ(change_from_text(text).value(), change);
   for (std::size_t cut = 0; cut + 1 < text.size(); ++cut) {
@@ -286,6 +338,10 @@ TEST(ChangeText, IsExactAndRefusesEverythingElse) {
   }
   EXPECT_FALSE(change_from_text("1 1\n*1 0 0 0 0 0 0 0 0 0\n"));
   EXPECT_FALSE(change_from_text("1 1\n+1 0 0 0 0 0 0 0 0 2\n"));
+  EXPECT_FALSE(change_from_text("1 1\n>0 0 0 {}\n"));
+  EXPECT_FALSE(change_from_text("1 1\n>0 0 2 " + io::feature_json(scar) + "\n"));
+  EXPECT_FALSE(change_from_text("1 1\n>0 0 1 " + io::feature_json(scar) + "\n"));
+  EXPECT_FALSE(change_from_text("1 1\n>0 0 0 " + io::feature_json(scar)));
   EXPECT_FALSE(change_from_text("1 1\n+1 0 0 0 0 0 0 99999999999999999999 0 0\n"));
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "lekalo/base/error.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
+#include "lekalo/layout/feature.hpp"
 
 namespace lekalo::io {
 
@@ -14,6 +17,16 @@ namespace lekalo::io {
 /// The placement exactly as write_layout writes it. Cost: O(1). \pre part and stock are the document's
 [[nodiscard]] std::string placement_json(const layout::Document& document,
                                          const layout::Placement& placement);
+
+/// A defect or a zone exactly as write_layout writes it. Law: read_feature(feature_json(f)) is f. Cost:
+/// O(points).
+[[nodiscard]] std::string feature_json(const layout::Feature& feature);
+/// Fails with ErrorCode::bad_input as read_layout does; `name` stands for the file.
+[[nodiscard]] Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
+                                                   const std::string& name);
+/// What became of features, as docs/protocol.md has it. Cost: O(points).
+[[nodiscard]] std::string features_json(const layout::Document& document,
+                                        const std::vector<layout::FeatureChange>& changes);
 
 /// A list of violations as `lekalo check --json` has it: docs/formats.md. Cost: O(violations).
 [[nodiscard]] std::string violations_json(const layout::Document& document,

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/run_control.hpp"
 #include "lekalo/layout/document.hpp"
+#include "lekalo/layout/feature.hpp"
 #include "lekalo/layout/workspace.hpp"
 
 namespace lekalo::layout {
@@ -85,7 +87,7 @@ struct SnapCommand {  ///< the nearest edge of a neighbour or border within reac
   friend bool operator==(const SnapCommand&, const SnapCommand&) = default;
 };
 struct CompactCommand {  ///< everything on a sheet that is not locked settles in a direction, foremost first
-  Sheet sheet;
+  std::optional<Sheet> sheet;  ///< absent: every sheet that something lies on
   geom::GridPoint direction;
   friend bool operator==(const CompactCommand&, const CompactCommand&) = default;
 };
@@ -103,9 +105,50 @@ struct FitCommand {  ///< a new placement in the first of the places where it fi
   friend bool operator==(const FitCommand&, const FitCommand&) = default;
 };
 
-using Command = std::variant<PlaceCommand, MoveCommand, RotateCommand, FlipCommand, RemoveCommand,
-                             SwapCommand, LockCommand, SlideCommand, SlideAlongCommand, SettleCommand,
-                             PushCommand, SnapCommand, CompactCommand, NearestCommand, FitCommand>;
+/// Defects and quality zones as they really are: admitted in both modes, whatever lies there; what breaks a
+/// rule by it shows as violations. A feature that is moved or given another outline is its polygon from then
+/// on, curves are left behind.
+struct AddFeatureCommand {
+  FeatureKind kind = FeatureKind::defect;
+  std::uint32_t stock = 0;
+  std::string id;  ///< of none of its kind on the stock yet; not empty, plain text
+  int grade = 1;   ///< severity or quality
+  std::vector<std::vector<geom::GridPoint>> loops;  ///< the outline, then holes
+  friend bool operator==(const AddFeatureCommand&, const AddFeatureCommand&) = default;
+};
+struct MoveFeatureCommand {
+  FeatureKind kind = FeatureKind::defect;
+  std::uint32_t stock = 0;
+  std::string id;
+  geom::GridPoint by;
+  friend bool operator==(const MoveFeatureCommand&, const MoveFeatureCommand&) = default;
+};
+struct ReshapeFeatureCommand {
+  FeatureKind kind = FeatureKind::defect;
+  std::uint32_t stock = 0;
+  std::string id;
+  std::vector<std::vector<geom::GridPoint>> loops;
+  friend bool operator==(const ReshapeFeatureCommand&, const ReshapeFeatureCommand&) = default;
+};
+struct GradeFeatureCommand {
+  FeatureKind kind = FeatureKind::defect;
+  std::uint32_t stock = 0;
+  std::string id;
+  int grade = 1;
+  friend bool operator==(const GradeFeatureCommand&, const GradeFeatureCommand&) = default;
+};
+struct RemoveFeatureCommand {
+  FeatureKind kind = FeatureKind::defect;
+  std::uint32_t stock = 0;
+  std::string id;
+  friend bool operator==(const RemoveFeatureCommand&, const RemoveFeatureCommand&) = default;
+};
+
+using Command =
+    std::variant<PlaceCommand, MoveCommand, RotateCommand, FlipCommand, RemoveCommand, SwapCommand,
+                 LockCommand, SlideCommand, SlideAlongCommand, SettleCommand, PushCommand, SnapCommand,
+                 CompactCommand, NearestCommand, FitCommand, AddFeatureCommand, MoveFeatureCommand,
+                 ReshapeFeatureCommand, GradeFeatureCommand, RemoveFeatureCommand>;
 
 /// One line, without its end: `slide 3 5 : -1 0`. Millimetres, degrees and names of parts and stocks, nothing
 /// is lost.
@@ -118,7 +161,8 @@ enum class Mode : std::uint8_t {
   free     ///< it is, and shown as violations
 };
 
-/// What a command changes: placements before and after. Undoing it is putting back what was before.
+/// What a command changes: placements and features before and after. Undoing it is putting back what was
+/// before, the features in reverse order.
 struct PlacementChange {
   std::optional<Placement> before, after;  ///< at least one, of one id
   friend bool operator==(const PlacementChange&, const PlacementChange&) = default;
@@ -126,6 +170,10 @@ struct PlacementChange {
 struct Change {
   std::vector<PlacementChange> placements;  ///< ascending by id; none when nothing moved
   std::uint64_t next_id_before = 1, next_id_after = 1;
+  std::vector<FeatureChange> features;  ///< in the order in which they are carried out
+  [[nodiscard]] bool is_nothing() const noexcept {
+    return placements.empty() && features.empty() && next_id_before == next_id_after;
+  }
   friend bool operator==(const Change&, const Change&) = default;
 };
 
@@ -134,11 +182,18 @@ struct Change {
 /// Strict: fails with ErrorCode::refuted, in one sentence with the first violation, when a placement that it
 /// changes would break a rule. (Removing and locking break none.) Free: only commands that slide insist on
 /// valid places, since they need one to start from. Fails with ErrorCode::usage for ids, parts or sheets that
-/// are not there, locked placements, no direction, and what leaves the grid. Deterministic; the workspace is
-/// as before.
-[[nodiscard]] Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode);
+/// are not there, locked placements, no direction, and what leaves the grid; with ErrorCode::bad_input for
+/// outlines that make_grid_region refuses, ids and grades that features cannot have. Deterministic; the
+/// workspace is as before.
+///
+/// \param run  for commands that take long, CompactCommand and FitCommand: stopped, they give what they have
+/// so far, or fail with ErrorCode::usage where that is nothing yet. The work limit does not count.
+[[nodiscard]] Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode,
+                                  const RunControl& run = {});
 
 void carry_out(Workspace& workspace, const Change& change);
+/// The same on a document alone. \pre stocks and parts are there
+void carry_out(Document& document, const Change& change);
 void take_back(Workspace& workspace, const Change& change);
 
 /// Places where a part would lie clear on a sheet, at most `most`, lowest and then leftmost first: settled
@@ -146,7 +201,7 @@ void take_back(Workspace& workspace, const Change& change);
 /// range) and mirrored where it may be. Found by trying; not all there are. Ids are 0.
 /// \param mirrored  so or not so only; absent: either
 [[nodiscard]] std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part, Sheet sheet,
-                                                std::size_t most,
-                                                std::optional<bool> mirrored = std::nullopt);
+                                                std::size_t most, std::optional<bool> mirrored = std::nullopt,
+                                                const RunControl& run = {});
 
 }  // namespace lekalo::layout

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/document.hpp"
+#include "lekalo/layout/feature.hpp"
 #include "lekalo/phi/scene.hpp"
 
 namespace lekalo::layout {
@@ -24,8 +26,9 @@ struct Sheet {
 inline constexpr std::uint32_t kPartLayer = 1, kBorderLayer = 2, kDefectLayer = 4, kZoneLayer = 8;
 
 /// A document and what answers questions about it at once (one thread at a time, questions too: they fill
-/// caches): every sheet's scene, kept in step with the placements. Says the same as check() of the same
-/// document. Cost of a change: that of putting one body.
+/// caches): every sheet's scene, kept in step with the placements and features. Says the same as check() of
+/// the same document. Cost of a change: that of putting one body, of a feature one on every copy of its
+/// stock.
 class Workspace {
  public:
   /// \pre read or made as documents must be (io/layout_json.hpp refuses others)
@@ -42,6 +45,16 @@ class Workspace {
   void erase(std::uint64_t id);
   void set_next_id(std::uint64_t id) noexcept { document_.next_id = id; }
 
+  /// Adds or replaces a feature, as put_feature() does.
+  void set_feature(std::uint32_t stock, std::uint32_t index, const Feature& feature);
+  /// \pre it is there
+  void erase_feature(std::uint32_t stock, FeatureKind kind, std::string_view id);
+  /// The violations of all parts with one feature, on all copies of its stock, in the order of check(). Cost:
+  /// O(placements), and the check of those near it. \pre it is there
+  [[nodiscard]] std::vector<Violation> violations_with(std::uint32_t stock, FeatureKind kind,
+                                                       std::uint32_t index,
+                                                       Depths depths = Depths::measured) const;
+
   /// Whether these placements, in place of those with their ids, break no rule, neither against all others
   /// nor among themselves. Their ids need not exist.
   [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
@@ -55,6 +68,8 @@ class Workspace {
   [[nodiscard]] phi::ShapeIndex shape(Sheet sheet, const Placement& placement) const;
   /// Id of the placement of a body; 0 for stock, defects and zones.
   [[nodiscard]] std::uint64_t placement_of(Sheet sheet, phi::BodyIndex body) const;
+  /// Index of the defect or zone that a body is. \pre it is one
+  [[nodiscard]] std::uint32_t feature_of(Sheet sheet, phi::BodyIndex body) const;
   /// The gap between a part and a body of the scene it would lie in, in steps.
   [[nodiscard]] std::int64_t gap_to(const Part& part, Sheet sheet, phi::BodyIndex body) const;
 
@@ -94,13 +109,17 @@ class Workspace {
     explicit SheetScene(const geom::GridBox& world, std::size_t cells) : scene(world, cells) {}
     phi::Scene scene;
     std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t, bool>, phi::ShapeIndex> shapes;
-    std::map<std::uint64_t, phi::BodyIndex> bodies;  ///< by placement
-    std::vector<std::uint64_t> placements;           ///< by body; 0 for what belongs to the stock
-    std::vector<std::uint32_t> features;             ///< by body: index of the defect or zone
+    std::map<std::uint64_t, phi::BodyIndex> bodies;    ///< by placement
+    std::vector<std::uint64_t> placements;             ///< by body; 0 for what belongs to the stock
+    std::vector<std::uint32_t> features;               ///< by body: index of the defect or zone
+    std::array<std::vector<phi::BodyIndex>, 2> drawn;  ///< by kind of feature and index
+    std::size_t old_shapes = 0;                        ///< of features that were changed or taken
   };
   [[nodiscard]] SheetScene& sheet_scene(Sheet sheet) const;
   void put(SheetScene& in, const Placement& placement) const;
   void take(SheetScene& in, std::uint64_t id) const;
+  void put_feature_body(SheetScene& in, const Feature& feature, std::uint32_t index) const;
+  void number_features(SheetScene& in, FeatureKind kind, std::size_t from) const;
   void forget_old_shapes(Sheet sheet);
 
   Document document_;
