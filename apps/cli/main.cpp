@@ -12,6 +12,7 @@
 #include "outputs.hpp"
 #include "serve_command.hpp"
 #include "show_command.hpp"
+#include "simulate_command.hpp"
 #include "verify_command.hpp"
 
 namespace lekalo::cli {
@@ -19,6 +20,7 @@ namespace {
 
 Result<int> run(const LocateOptions& options) { return run_locate(options); }
 Result<int> run(const VerifyOptions& options) { return run_verify(options); }
+Result<int> run(const SimulateOptions& options) { return run_simulate(options); }
 Result<int> run(const CheckOptions& options) { return run_check(options); }
 Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }

@@ -427,6 +427,31 @@ void add_verify_options(CLI::App& verify, VerifyOptions& o) {
   verify.add_flag("--json", o.json, "Print the report as JSON on stdout");
 }
 
+/// The words of `simulate`, as typed.
+struct SimulateWords {
+  std::string program, pocket, tool, stock_to_leave, step_over, top, acceleration, rapid, samples;
+  bool json = false;
+};
+
+void add_simulate_options(CLI::App& simulate, SimulateWords& w) {
+  simulate.add_option("program", w.program, "NC program: G0 to G3, G20/G21, G90/G91")
+      ->required()
+      ->type_name("FILE");
+  const auto add = [&](const char* name, std::string& word, const char* type, const char* help) {
+    return simulate.add_option(name, word, help)->type_name(type);
+  };
+  add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
+      ->required();
+  add("--tool", w.tool, "MM", "Diameter of the tool")->required();
+  add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
+  add("--step-over", w.step_over, "PART", "Of the diameter, for the lower bound of the time [0.4]");
+  add("--top", w.top, "MM", "Z of the stock's upper face [0]");
+  add("--acceleration", w.acceleration, "MM/S2", "Of the machine, for the time [500]");
+  add("--rapid", w.rapid, "MM/MIN", "Feed of G0 [5000]");
+  add("--samples", w.samples, "FILE", "Write the engagement along the path as CSV");
+  simulate.add_flag("--json", w.json, "Print the report as JSON on stdout");
+}
+
 /// The words of the commands on layouts, as typed.
 struct LayoutWords {
   std::string path, instance, units, chords, join, picture, format, output, instance_name, commands;
@@ -527,6 +552,22 @@ void add_serve_options(CLI::App& serve, ServeWords& w) {
       "cannot be had.");
 }
 
+Result<Command> to_simulate(const SimulateWords& w) {
+  WordReader read;
+  SimulateOptions o{w.program, w.pocket, {}, w.samples, w.json};
+  const char* const above = "a number above 0";
+  read.number("--tool", w.tool, 1e-3, 1e4, "a diameter from 0.001 to 10000 mm", o.machining.tool_diameter);
+  read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
+              o.machining.stock_to_leave);
+  read.number("--step-over", w.step_over, 1e-3, 1.0, "a part of the diameter from 0.001 to 1",
+              o.machining.step_over);
+  read.number("--top", w.top, -1e6, 1e6, "a height within 1000 m of 0, in mm", o.machining.top);
+  read.number("--acceleration", w.acceleration, 1e-3, 1e9, above, o.machining.acceleration);
+  read.number("--rapid", w.rapid, 1e-3, 1e9, above, o.machining.rapid_feed);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
 Result<Command> to_serve(const LayoutWords& layout, const ServeWords& w) {
   Result<LayoutSource> source = to_layout_source(layout);
   if (!source) return tl::unexpected(source.error());
@@ -586,6 +627,14 @@ Result<Command> parse_command_line(int argc, char** argv) {
   verify.footer(
       "Exit codes: 0 confirmed, 1 clearance confirmed but there is no proof of the bound, 4 refuted,\n"
       "2 wrong command line, 3 a file cannot be read.");
+
+  SimulateWords simulate_words;
+  CLI::App& simulate = *app.add_subcommand(
+      "simulate", "Say what an NC program cuts of a pocket: coverage, gouges, engagement, time");
+  add_simulate_options(simulate, simulate_words);
+  simulate.footer(
+      "Exit codes: 0 whatever the figures are, 2 wrong command line, 3 a file cannot be read or judged,\n"
+      "5 disk or memory. What the figures mean: docs/design/simulate.md");
 
   LayoutWords check_words, show_words, export_words, edit_words;
   CLI::App& check =
@@ -655,6 +704,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
   }
   if (locate) return to_options(words).map([](LocateOptions&& o) { return Command(std::move(o)); });
   if (verify) return verify_options;
+  if (simulate) return to_simulate(simulate_words);
   if (check) return to_drawn<CheckOptions>(check_words);
   if (show) return to_drawn<ShowOptions>(show_words);
   if (exported) return to_export(export_words);

@@ -15,6 +15,7 @@
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/nc/rewrite.hpp"
+#include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::cli {
 
@@ -83,6 +84,13 @@ struct LayoutSource {
   std::vector<std::string> layers;              ///< of drawings; empty: all that are shown
 };
 
+struct SimulateOptions {
+  std::string program, pocket;
+  verify::SimulateOptions machining;
+  std::string samples;  ///< file; may be empty
+  bool json = false;
+};
+
 struct CheckOptions {
   LayoutSource source;
   std::string picture;  ///< may be empty
@@ -128,8 +136,8 @@ struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<LocateOptions, VerifyOptions, CheckOptions, ShowOptions, ExportOptions,
-                             EditOptions, ServeOptions, PrintText>;
+using Command = std::variant<LocateOptions, VerifyOptions, SimulateOptions, CheckOptions, ShowOptions,
+                             ExportOptions, EditOptions, ServeOptions, PrintText>;
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);
