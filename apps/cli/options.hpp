@@ -14,6 +14,7 @@
 #include "lekalo/locate/guaranteed_blank.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
+#include "lekalo/mill/pocket.hpp"
 #include "lekalo/nc/rewrite.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -91,6 +92,11 @@ struct SimulateOptions {
   bool json = false;
 };
 
+struct PocketOptions {
+  std::string pocket, output;  ///< output may be empty: stdout
+  mill::PocketOptions path;
+};
+
 struct CheckOptions {
   LayoutSource source;
   std::string picture;  ///< may be empty
@@ -136,8 +142,8 @@ struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<LocateOptions, VerifyOptions, SimulateOptions, CheckOptions, ShowOptions,
-                             ExportOptions, EditOptions, ServeOptions, PrintText>;
+using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, CheckOptions,
+                             ShowOptions, ExportOptions, EditOptions, ServeOptions, PrintText>;
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);

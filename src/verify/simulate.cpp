@@ -37,6 +37,26 @@ double turning_of(const CutPath& path) {
   return sum;
 }
 
+/// The fastest feed, but for a twentieth of what cuts: a link that grazes a wall does not make the bound.
+double cutting_feed(const std::vector<Move>& moves, const std::vector<EngagementSample>& samples) {
+  std::vector<std::pair<double, double>> feeds;  // with the length cut at each
+  double whole = 0;
+  std::size_t next = 0;
+  for (const EngagementSample& sample : samples) {
+    while (next < moves.size() && moves[next].line < sample.line) ++next;
+    if (sample.engagement < 3 || next == moves.size()) continue;
+    feeds.emplace_back(moves[next].feed, sample.length);
+    whole += sample.length;
+  }
+  std::sort(feeds.rbegin(), feeds.rend());
+  double faster = 0;
+  for (const auto& [feed, mm] : feeds) {
+    faster += mm;
+    if (faster > 0.05 * whole) return feed;
+  }
+  return 0;
+}
+
 }  // namespace
 
 Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o) {
@@ -62,8 +82,7 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   measure_gouge(*path, *reach, report);
   find_unreachable(*reach, radius, report);
   report.seconds = machine_seconds(*moves, o);
-  double feed = 0;
-  for (const Move& move : *moves) feed = std::max(feed, move.feed);
+  const double feed = cutting_feed(*moves, report.samples);
   if (feed > 0)
     report.lower_bound_seconds = std::max(0.0, report.reachable_mm2 - kPi * radius * radius) /
                                  (o.step_over * o.tool_diameter * feed / 60);
