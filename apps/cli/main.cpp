@@ -10,8 +10,10 @@
 #include "locate_command.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "pocket_command.hpp"
 #include "serve_command.hpp"
 #include "show_command.hpp"
+#include "simulate_command.hpp"
 #include "verify_command.hpp"
 
 namespace lekalo::cli {
@@ -19,6 +21,8 @@ namespace {
 
 Result<int> run(const LocateOptions& options) { return run_locate(options); }
 Result<int> run(const VerifyOptions& options) { return run_verify(options); }
+Result<int> run(const PocketOptions& options) { return run_pocket(options); }
+Result<int> run(const SimulateOptions& options) { return run_simulate(options); }
 Result<int> run(const CheckOptions& options) { return run_check(options); }
 Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }

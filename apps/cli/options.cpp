@@ -432,6 +432,55 @@ void add_verify_options(CLI::App& verify, VerifyOptions& o) {
   verify.add_flag("--json", o.json, "Print the report as JSON on stdout");
 }
 
+/// The words of `pocket`, as typed.
+struct PocketWords {
+  std::string pocket, tool, step_over, stock_to_leave, depth, feed, plunge_feed, link_feed, safe_height,
+      output;
+};
+
+void add_pocket_options(CLI::App& pocket, PocketWords& w) {
+  pocket.add_option("pocket", w.pocket, "The pocket's outline, JSON regions with lines, arcs and islands")
+      ->required()
+      ->type_name("FILE");
+  const auto add = [&](const char* name, std::string& word, const char* type, const char* help) {
+    return pocket.add_option(name, word, help)->type_name(type);
+  };
+  add("--tool", w.tool, "MM", "Diameter of the tool")->required();
+  add("--depth", w.depth, "MM", "Below Z 0, cut in one level")->required();
+  add("--stepover", w.step_over, "PERCENT", "Of the tool's diameter, from 1% to 50% [40%]");
+  add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
+  add("--feed", w.feed, "MM/MIN", "In the cut [1500]");
+  add("--plunge-feed", w.plunge_feed, "MM/MIN", "Straight down [300]");
+  add("--link-feed", w.link_feed, "MM/MIN", "At depth through what is cut already [5000]");
+  add("--safe-height", w.safe_height, "MM", "Above Z 0 [5]");
+  add("-o,--output", w.output, "FILE", "Write the program to this file [stdout]");
+}
+
+/// The words of `simulate`, as typed.
+struct SimulateWords {
+  std::string program, pocket, tool, stock_to_leave, step_over, top, acceleration, rapid, samples;
+  bool json = false;
+};
+
+void add_simulate_options(CLI::App& simulate, SimulateWords& w) {
+  simulate.add_option("program", w.program, "NC program: G0 to G3, G20/G21, G90/G91")
+      ->required()
+      ->type_name("FILE");
+  const auto add = [&](const char* name, std::string& word, const char* type, const char* help) {
+    return simulate.add_option(name, word, help)->type_name(type);
+  };
+  add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
+      ->required();
+  add("--tool", w.tool, "MM", "Diameter of the tool")->required();
+  add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
+  add("--step-over", w.step_over, "PART", "Of the diameter, for the lower bound of the time [0.4]");
+  add("--top", w.top, "MM", "Z of the stock's upper face [0]");
+  add("--acceleration", w.acceleration, "MM/S2", "Of the machine, for the time [500]");
+  add("--rapid", w.rapid, "MM/MIN", "Feed of G0 [5000]");
+  add("--samples", w.samples, "FILE", "Write the engagement along the path as CSV");
+  simulate.add_flag("--json", w.json, "Print the report as JSON on stdout");
+}
+
 /// The words of the commands on layouts, as typed.
 struct LayoutWords {
   std::string path, instance, units, chords, join, picture, format, output, instance_name, commands;
@@ -553,6 +602,42 @@ void add_serve_options(CLI::App& serve, ServeWords& w) {
       "cannot be had.");
 }
 
+Result<Command> to_pocket(PocketWords w) {
+  WordReader read;
+  PocketOptions o{w.pocket, w.output, {}};
+  const char* const feed = "a feed above 0, mm/min";
+  double percent = 40;
+  if (!w.step_over.empty() && w.step_over.back() == '%') w.step_over.pop_back();
+  read.number("--stepover", w.step_over, 1.0, 50.0, "a share of the diameter from 1% to 50%", percent);
+  o.path.step_over = percent / 100;
+  read.number("--tool", w.tool, 0.01, 1e4, "a diameter from 0.01 to 10000 mm", o.path.tool_diameter);
+  read.number("--depth", w.depth, 1e-3, 1e4, "a depth from 0.001 to 10000 mm", o.path.depth);
+  read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
+              o.path.stock_to_leave);
+  read.number("--feed", w.feed, 1e-3, 1e6, feed, o.path.feed);
+  read.number("--plunge-feed", w.plunge_feed, 1e-3, 1e6, feed, o.path.plunge_feed);
+  read.number("--link-feed", w.link_feed, 1e-3, 1e6, feed, o.path.link_feed);
+  read.number("--safe-height", w.safe_height, 1e-3, 1e4, "a height above 0, mm", o.path.safe_height);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
+Result<Command> to_simulate(const SimulateWords& w) {
+  WordReader read;
+  SimulateOptions o{w.program, w.pocket, {}, w.samples, w.json};
+  const char* const above = "a number above 0";
+  read.number("--tool", w.tool, 1e-3, 1e4, "a diameter from 0.001 to 10000 mm", o.machining.tool_diameter);
+  read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
+              o.machining.stock_to_leave);
+  read.number("--step-over", w.step_over, 1e-3, 1.0, "a part of the diameter from 0.001 to 1",
+              o.machining.step_over);
+  read.number("--top", w.top, -1e6, 1e6, "a height within 1000 m of 0, in mm", o.machining.top);
+  read.number("--acceleration", w.acceleration, 1e-3, 1e9, above, o.machining.acceleration);
+  read.number("--rapid", w.rapid, 1e-3, 1e9, above, o.machining.rapid_feed);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
 Result<Command> to_serve(const LayoutWords& layout, const ServeWords& w) {
   Result<LayoutSource> source = to_layout_source(layout);
   if (!source) return tl::unexpected(source.error());
@@ -612,6 +697,22 @@ Result<Command> parse_command_line(int argc, char** argv) {
   verify.footer(
       "Exit codes: 0 confirmed, 1 clearance confirmed but there is no proof of the bound, 4 refuted,\n"
       "2 wrong command line, 3 a file cannot be read.");
+
+  PocketWords pocket_words;
+  CLI::App& pocket =
+      *app.add_subcommand("pocket", "Make the NC program that clears a pocket with bounded engagement");
+  add_pocket_options(pocket, pocket_words);
+  pocket.footer(
+      "Exit codes: 0 done, 2 wrong command line, 3 a file cannot be read or the tool fits nowhere,\n"
+      "5 disk or memory. lekalo simulate judges the program.");
+
+  SimulateWords simulate_words;
+  CLI::App& simulate = *app.add_subcommand(
+      "simulate", "Say what an NC program cuts of a pocket: coverage, gouges, engagement, time");
+  add_simulate_options(simulate, simulate_words);
+  simulate.footer(
+      "Exit codes: 0 whatever the figures are, 2 wrong command line, 3 a file cannot be read or judged,\n"
+      "5 disk or memory. What the figures mean: docs/design/simulate.md");
 
   LayoutWords check_words, show_words, export_words, edit_words;
   CLI::App& check =
@@ -682,6 +783,8 @@ Result<Command> parse_command_line(int argc, char** argv) {
   }
   if (locate) return to_options(words).map([](LocateOptions&& o) { return Command(std::move(o)); });
   if (verify) return verify_options;
+  if (pocket) return to_pocket(pocket_words);
+  if (simulate) return to_simulate(simulate_words);
   if (check) return to_drawn<CheckOptions>(check_words);
   if (show) return to_drawn<ShowOptions>(show_words);
   if (exported) return to_export(export_words);

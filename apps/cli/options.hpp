@@ -15,7 +15,9 @@
 #include "lekalo/locate/guaranteed_blank.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
+#include "lekalo/mill/pocket.hpp"
 #include "lekalo/nc/rewrite.hpp"
+#include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::cli {
 
@@ -84,6 +86,18 @@ struct LayoutSource {
   std::vector<std::string> layers;              ///< of drawings; empty: all that are shown
 };
 
+struct SimulateOptions {
+  std::string program, pocket;
+  verify::SimulateOptions machining;
+  std::string samples;  ///< file; may be empty
+  bool json = false;
+};
+
+struct PocketOptions {
+  std::string pocket, output;  ///< output may be empty: stdout
+  mill::PocketOptions path;
+};
+
 struct CheckOptions {
   LayoutSource source;
   std::string picture;  ///< may be empty
@@ -130,8 +144,8 @@ struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<LocateOptions, VerifyOptions, CheckOptions, ShowOptions, ExportOptions,
-                             EditOptions, ServeOptions, PrintText>;
+using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, CheckOptions,
+                             ShowOptions, ExportOptions, EditOptions, ServeOptions, PrintText>;
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lekalo/field/contour_model.hpp"
+
+namespace lekalo::field {
+
+/// Square grid: node (i, j) is at origin + pitch (i, j), number j * columns + i.
+struct GridFrame {
+  geom::Point origin;
+  double pitch = 1;
+  std::size_t columns = 0, rows = 0;
+
+  [[nodiscard]] std::size_t size() const { return columns * rows; }
+  [[nodiscard]] geom::Point node(std::size_t i, std::size_t j) const {
+    return {origin.x + pitch * static_cast<double>(i), origin.y + pitch * static_cast<double>(j)};
+  }
+};
+
+/// Value and gradient at the nodes, single precision.
+struct FieldGrid {
+  GridFrame frame;
+  std::vector<float> value, dx, dy;
+};
+
+/// What a sampled value may be off, relative to the largest of itself, the grid's pitch and the longest
+/// segment, for a linear conjunction and for distances; a quadratic one is rounded from doubles. Held by
+/// tests/property/field_grid_test.cpp. Gradients are exact to kFieldGridError where one segment is nearest by
+/// more than that; elsewhere they belong to one of those that are.
+inline constexpr double kFieldGridError = 1e-5;
+
+/// The signed model at every node: positive inside. The same bytes for any number of threads.
+/// Cost of a linear conjunction: tiles are divided by four, and keep the segments whose lower bound
+/// (floz_bounds) is below the least upper bound of all, so that a node looks at few; it is for FLOZ itself,
+/// not for distance: the nearest segment need not have the least FLOZ. A quadratic conjunction has no segment
+/// that does not matter: O(nodes * segments). \pre frame.pitch > 0, threads > 0
+[[nodiscard]] FieldGrid sample(const ContourModel& model, const GridFrame& frame, unsigned threads = 2);
+
+/// The signed distance from the model's segments at every node, positive inside, likewise.
+[[nodiscard]] FieldGrid sample_distance(const ContourModel& model, const GridFrame& frame,
+                                        unsigned threads = 2);
+
+}  // namespace lekalo::field

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <limits>
+
+#include "cut_path.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kLeaf = 0.004;  // mm, side of the smallest squares
+constexpr double kSameLevel = 1e-6;
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// Squares, divided until they are surely cut, surely not to be cut, or no larger than kLeaf.
+class Coverage {
+ public:
+  Coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report)
+      : pocket_(pocket), radius_(radius), report_(report) {
+    for (const Cut& cut : path.cuts)
+      if (std::max(cut.from_z, cut.to_z) <= path.deepest + kSameLevel) floor_.push_back(cut.stroke);
+    const Place pad{radius, radius};
+    index_ = StrokeIndex(pocket.low() - pad, pocket.high() + pad, radius);
+    for (std::size_t i = 0; i < floor_.size(); ++i) index_.add(static_cast<std::uint32_t>(i), floor_[i]);
+  }
+
+  void run() {
+    const double side = radius_ / 2;
+    const Place low = pocket_.low(), high = pocket_.high();
+    Numbers cuts, limits;
+    for (double y = low.y; y < high.y; y += side)
+      for (double x = low.x; x < high.x; x += side) {
+        const Place middle{x + side / 2, y + side / 2};
+        const double reach = radius_ + side;
+        index_.near(middle, reach, cuts);
+        pocket_.limit_index().near(middle, reach, limits);
+        look(middle, side, cuts, limits, false, cuts.empty() ? index_.nearest(middle, floor_) : kFar);
+      }
+    report_.coverage_percent = 100 * (1 - report_.uncut_mm2 / report_.reachable_mm2);
+    report_.coverage_low_percent = std::max(0.0, 100 * (1 - undecided_ / report_.reachable_mm2));
+  }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+
+  /// Distance from `middle` to the nearest; keeps those that may matter to the square.
+  static double nearest(Place middle, double reach, const std::vector<Stroke>& strokes, const Numbers& from,
+                        Numbers& kept) {
+    double least = kFar;
+    for (const std::uint32_t i : from) {
+      const double d = distance(middle, strokes[i]);
+      least = std::min(least, d);
+      if (d <= reach) kept.push_back(i);
+    }
+    return least;
+  }
+
+  /// \param farthest  the nearest cut is not farther from the middle than this
+  void look(Place middle, double side, const Numbers& cuts, const Numbers& limits, bool all_reachable,
+            double farthest) {
+    const double half = side * 0.7071067811865476;
+    Numbers near_cuts, near_limits;
+    double off = 0;  // from the places where the tool's middle may be
+    if (!all_reachable) {
+      off = nearest(middle, radius_ + half, pocket_.limit(), limits, near_limits);
+      if (near_limits.empty()) {  // all of the square is among these places, or none of it can be cut
+        if (!pocket_.allowed(middle)) return;
+        off = 0;
+      } else if (off > radius_ - half && pocket_.allowed(middle)) {
+        off = 0;
+      }
+      if (off - half > radius_) return;
+      all_reachable = off + half <= radius_;
+    }
+    const double swept = std::min(farthest, nearest(middle, radius_ + half, floor_, cuts, near_cuts));
+    if (swept + half <= radius_) {
+      if (all_reachable) {
+        report_.reachable_mm2 += side * side;
+        return;
+      }
+      if (side <= 16 * kLeaf) {
+        report_.reachable_mm2 += side * side * share(radius_ - off, side);
+        return;
+      }
+    }
+    if (near_cuts.empty() && all_reachable) return add_uncut(middle, side);
+    if (side <= kLeaf) return add_leaf(side, off, swept);
+    for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
+      look(middle + side / 4 * corner, side / 2, near_cuts, near_limits, all_reachable, swept + half);
+  }
+
+  /// Part of a square on this side of a line `past` beyond its middle.
+  static double share(double past, double side) { return std::clamp(0.5 + past / side, 0.0, 1.0); }
+
+  void add_uncut(Place middle, double side) {
+    report_.reachable_mm2 += side * side;
+    report_.uncut_mm2 += side * side;
+    undecided_ += side * side;
+    widen(middle, side);
+  }
+
+  /// The widest uncut place of a square, where it may be wider than what is known.
+  void widen(Place middle, double side) {
+    const double half = side * 0.7071067811865476, deep = index_.nearest(middle, floor_) - radius_;
+    const double most = std::min(2 * (deep + half), length(pocket_.high() - pocket_.low()));
+    if (most <= report_.uncut_width_mm) return;
+    if (side <= kLeaf || half <= 0.01 * deep) return widest(most);
+    for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
+      widen(middle + side / 4 * corner, side / 2);
+  }
+
+  void add_leaf(double side, double off, double swept) {
+    const double half = side * 0.7071067811865476;
+    const double reachable = share(radius_ - off, side), left = share(swept - radius_, side);
+    report_.reachable_mm2 += side * side * reachable;
+    report_.uncut_mm2 += side * side * std::max(0.0, reachable + left - 1);
+    undecided_ += side * side;
+    widest(std::min(2 * (swept + half - radius_), (swept - radius_) + (radius_ - off) + 2 * half));
+  }
+
+  void widest(double width) { report_.uncut_width_mm = std::max(report_.uncut_width_mm, width); }
+
+  const PocketReach& pocket_;
+  double radius_;
+  SimulateReport& report_;
+  std::vector<Stroke> floor_;
+  StrokeIndex index_;
+  double undecided_ = 0;
+};
+
+/// The least signed distance of a stroke's places from the outline, from below: exact to rounding where the
+/// stroke is not near to crossing it, else within `step`.
+double least_depth(const Stroke& stroke, const PocketReach& pocket, double enough,
+                   std::vector<std::uint32_t>& near) {
+  const double half = 0.5 * length(stroke);
+  const double middle = pocket.depth(at_share(stroke, 0.5));
+  if (middle - half >= enough) return enough;
+  if (middle - half > 0) {  // all of it is inside
+    pocket.outline_index().near(at_share(stroke, 0.5), middle + 2 * half, near);
+    double least = enough;
+    for (const std::uint32_t i : near) least = std::min(least, distance_apart(stroke, pocket.outline()[i]));
+    return least;
+  }
+  constexpr double kStep = 1e-3;
+  if (half <= kStep) return middle - half;
+  const Place cut = at_share(stroke, 0.5);
+  return std::min(least_depth(until(stroke, cut), pocket, enough, near),
+                  least_depth(beginning(stroke, cut), pocket, enough, near));
+}
+
+}  // namespace
+
+void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report) {
+  Coverage(path, pocket, radius, report).run();
+}
+
+void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report) {
+  double least = pocket.clearance();
+  std::vector<std::uint32_t> near;
+  for (const Stroke& stroke : path.strokes) {
+    if (length(stroke.to - stroke.from) > 0)
+      least = std::min(least, least_depth(stroke, pocket, pocket.clearance(), near));
+    else
+      least = std::min(least, pocket.depth(stroke.from));
+  }
+  report.gouge_mm = pocket.clearance() - least;
+}
+
+void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& report) {
+  const Place low = pocket.low(), size = pocket.high() - low;
+  const double step = std::max(radius / 12, std::max(size.x, size.y) / 2000);
+  const auto columns = static_cast<std::size_t>(size.x / step) + 1,
+             rows = static_cast<std::size_t>(size.y / step) + 1;
+  std::vector<float> off(columns * rows, 0.0F);
+  const auto place = [&](std::size_t i) {
+    return low + step * Place{static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5};
+  };
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    const Place p = place(i);
+    if (pocket.inside(p)) off[i] = static_cast<float>(std::max(0.0, pocket.from_allowed(p) - radius));
+  }
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (!(off[i] > 0)) continue;
+    UnreachableSpot spot;
+    open.assign(1, i);
+    const auto take = [&](std::size_t k) {
+      spot.area_mm2 += step * step;
+      if (off[k] > spot.distance_mm) {
+        const Place p = place(k);
+        spot.x = p.x, spot.y = p.y, spot.distance_mm = static_cast<double>(off[k]);
+      }
+      off[k] = 0;
+    };
+    take(i);
+    while (!open.empty()) {
+      const std::size_t k = open.back();
+      open.pop_back();
+      const std::size_t column = k % columns, row = k / columns;
+      for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(rows - 1, row + 1); ++r)
+        for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(columns - 1, column + 1); ++c)
+          if (off[r * columns + c] > 0) {
+            take(r * columns + c);
+            open.push_back(r * columns + c);
+          }
+    }
+    report.unreachable.push_back(spot);
+  }
+}
+
+}  // namespace lekalo::verify

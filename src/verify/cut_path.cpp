@@ -1,0 +1,89 @@
+#include "cut_path.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lekalo::verify {
+namespace {
+
+constexpr std::size_t kMostCuts = 10'000'000;
+
+double whole_length(const Move& move) {
+  return move.arc ? 2 * kPi * move.turns * length(move.from - move.centre) : length(move.to - move.from);
+}
+
+std::vector<Stroke> strokes_of(const Move& move, double longest) {
+  std::vector<Stroke> strokes;
+  if (!move.arc) {
+    add_line(move.from, move.to, longest, strokes);
+    return strokes;
+  }
+  for (int turn = 1; turn < move.turns; ++turn)
+    add_arc(move.from, move.from, move.centre, move.ccw, longest, strokes);
+  add_arc(move.from, move.to, move.centre, move.ccw, longest, strokes);
+  return strokes;
+}
+
+/// Adds the share of the stroke between two shares of its way.
+void add_part(const Stroke& stroke, double begin, double end, Cut cut, CutPath& path) {
+  const Place from = at_share(stroke, begin), to = at_share(stroke, end);
+  cut.stroke = beginning(until(stroke, to), from);
+  if (!(length(to - from) > 0)) cut.stroke.arc = false;
+  path.cuts.push_back(cut);
+  path.strokes.push_back(cut.stroke);
+  path.deepest = std::min({path.deepest, cut.from_z, cut.to_z});
+}
+
+}  // namespace
+
+Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double longest,
+                         const std::string& name) {
+  CutPath path;
+  path.deepest = top;
+  bool down = false;
+  std::size_t entries = 0;
+  for (const Move& move : moves) {
+    if (!(move.from_z < top) && !(move.to_z < top)) {
+      down = false;
+      continue;
+    }
+    if (!(whole_length(move) / longest <
+          static_cast<double>(kMostCuts - std::min(kMostCuts, path.cuts.size()))))
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}:{}: the path is longer than ten million half radii of "
+                                 "the tool; give the tool's diameter in mm",
+                                 name, move.line));
+    const std::vector<Stroke> strokes = strokes_of(move, longest);
+    double whole = 0;
+    for (const Stroke& s : strokes) whole += length(s);
+    double done = 0;
+    for (const Stroke& s : strokes) {
+      const double begin = whole > 0 ? done / whole : 0;
+      done += length(s);
+      const double end = whole > 0 ? std::min(1.0, done / whole) : 1;
+      const auto z_at = [&](double share) {
+        return share >= 1 ? move.to_z : move.from_z + share * (move.to_z - move.from_z);
+      };
+      Cut cut;
+      cut.from_z = z_at(begin), cut.to_z = &s == &strokes.back() ? move.to_z : z_at(end);
+      cut.line = move.line, cut.rapid = move.rapid;
+      const double drop = cut.to_z - cut.from_z;
+      if (!(cut.from_z < top) && !(cut.to_z < top)) {
+        down = false;
+        continue;
+      }
+      if (!down) ++entries;
+      cut.entry = entries;
+      double first = 0, last = 1;
+      if (cut.from_z > top) first = (top - cut.from_z) / drop, cut.from_z = top;
+      if (cut.to_z > top) last = (top - cut.to_z + drop) / drop, cut.to_z = top;
+      add_part(s, first, last, cut, path);
+      down = cut.to_z < top;
+    }
+  }
+  path.retracts = entries > 0 ? entries - 1 : 0;
+  return path;
+}
+
+}  // namespace lekalo::verify

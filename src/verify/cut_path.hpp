@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/verify/simulate.hpp"
+#include "nc_moves.hpp"
+#include "pocket_reach.hpp"
+#include "stroke_index.hpp"
+
+namespace lekalo::verify {
+
+/// A short piece of the path with the tool below the stock's upper face.
+struct Cut {
+  Stroke stroke;  ///< of no length for a plunge
+  double from_z = 0, to_z = 0;
+  std::size_t line = 0;
+  std::size_t entry = 0;  ///< how many times the tool came down into the stock before
+  bool rapid = false;
+  [[nodiscard]] bool level() const { return from_z == to_z; }
+};
+
+struct CutPath {
+  std::vector<Cut> cuts;
+  std::vector<Stroke> strokes;  ///< of the cuts, in their order
+  std::size_t retracts = 0;
+  double deepest = 0;
+};
+
+/// Pieces no longer than `longest`; bad_input where they would be more than ten million.
+[[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double longest,
+                                       const std::string& name);
+
+/// Engagement along the path: fills samples and all figures of `report` that come from them.
+void measure_engagement(const CutPath& path, double radius, double spacing, SimulateReport& report);
+
+/// Coverage, uncut spots, gouge and unreachable spots.
+void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report);
+void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report);
+void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& report);
+
+/// Seconds for all moves: docs/design/simulate.md.
+[[nodiscard]] double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& options);
+
+}  // namespace lekalo::verify

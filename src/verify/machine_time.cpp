@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include "cut_path.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kJunctionDeviation = 0.01;  // mm
+constexpr double kWindow = 0.5;              // mm of path, over which curvature is averaged
+constexpr double kLongest = 0.25;            // mm of a piece of an arc
+
+struct Direction {
+  double x, y, z;
+};
+double dot(Direction a, Direction b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+struct Piece {
+  double length, feed;    // mm, mm/s
+  Direction first, last;  // of travel
+  double square_limit;    // of the speed on it, (mm/s)^2
+};
+
+double turn_between(Direction a, Direction b) {
+  const Direction c{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return std::abs(angle_between({1, 0}, {dot(a, b), std::sqrt(dot(c, c))}));
+}
+
+std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptions& o) {
+  std::vector<Piece> pieces;
+  for (const Move& move : moves) {
+    const double feed = (move.rapid ? o.rapid_feed : move.feed) / 60;
+    const double rise = move.to_z - move.from_z;
+    std::vector<Stroke> strokes;
+    if (move.arc) {
+      const double radius = verify::length(move.from - move.centre);
+      const double longest = std::max(kLongest, radius / 32);
+      for (int turn = 1; turn < move.turns; ++turn)
+        add_arc(move.from, move.from, move.centre, move.ccw, longest, strokes);
+      add_arc(move.from, move.to, move.centre, move.ccw, longest, strokes);
+    } else {
+      strokes.push_back({false, true, move.from, move.to, {}, 0});
+    }
+    double flat = 0;
+    for (const Stroke& s : strokes) flat += verify::length(s);
+    const double whole = std::sqrt(flat * flat + rise * rise);
+    if (!(whole > 0)) continue;
+    for (const Stroke& s : strokes) {
+      const double share = flat > 0 ? verify::length(s) / flat : 1;
+      if (!(share > 0)) continue;
+      const Place in = flat > 0 ? heading(s, s.from) : Place{}, out = flat > 0 ? heading(s, s.to) : Place{};
+      const double level = flat / whole, up = rise / whole;
+      // Across the axis of a helix of slope up / level the acceleration is (v level)^2 / radius.
+      const double limit = s.arc ? o.acceleration * s.radius / (level * level) : 1e300;
+      pieces.push_back(
+          {share * whole, feed, {level * in.x, level * in.y, up}, {level * out.x, level * out.y, up}, limit});
+    }
+  }
+  return pieces;
+}
+
+/// Angle the path has turned up to a length of path.
+class Turned {
+ public:
+  explicit Turned(const std::vector<Piece>& pieces) {
+    double s = 0, turn = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (i > 0) turn += turn_between(pieces[i - 1].last, pieces[i].first);
+      at_.push_back(s), before_.push_back(turn);
+      s += pieces[i].length, turn += turn_between(pieces[i].first, pieces[i].last);
+      at_.push_back(s), before_.push_back(turn);
+    }
+  }
+  [[nodiscard]] double operator()(double s) const {
+    if (at_.empty() || s <= at_.front()) return 0;
+    if (s >= at_.back()) return before_.back();
+    const auto k = static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), s) - at_.begin());
+    const double gap = at_[k] - at_[k - 1];
+    return gap > 0 ? before_[k - 1] + (s - at_[k - 1]) / gap * (before_[k] - before_[k - 1]) : before_[k];
+  }
+
+ private:
+  std::vector<double> at_, before_;
+};
+
+}  // namespace
+
+double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o) {
+  const std::vector<Piece> pieces = pieces_of(moves, o);
+  if (pieces.empty()) return 0;
+  const Turned turned(pieces);
+  const double a = o.acceleration;
+  std::vector<double> square(pieces.size() + 1, 0.0);  // of the speed at each end
+  double s = 0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    s += pieces[i - 1].length;
+    const double cosine = dot(pieces[i - 1].last, pieces[i].first);
+    const double half = std::sqrt(std::max(0.0, 0.5 * (1 + cosine)));  // sine of half the inner angle
+    double radius = half < 1 ? kJunctionDeviation * half / (1 - half) : 1e300;
+    const double bend = turned(s + kWindow / 2) - turned(s - kWindow / 2);
+    if (bend > 0) radius = std::min(radius, kWindow / bend);
+    const double slower = std::min(pieces[i - 1].feed, pieces[i].feed);
+    square[i] = std::min({slower * slower, a * radius, pieces[i - 1].square_limit, pieces[i].square_limit});
+  }
+  for (std::size_t i = 1; i < square.size(); ++i)
+    square[i] = std::min(square[i], square[i - 1] + 2 * a * pieces[i - 1].length);
+  for (std::size_t i = square.size() - 1; i-- > 0;)
+    square[i] = std::min(square[i], square[i + 1] + 2 * a * pieces[i].length);
+  double seconds = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& p = pieces[i];
+    const double top =
+        std::min({p.feed * p.feed, p.square_limit, 0.5 * (square[i] + square[i + 1] + 2 * a * p.length)});
+    const double v = std::sqrt(top);
+    const double ramps = (2 * top - square[i] - square[i + 1]) / (2 * a);
+    seconds +=
+        (2 * v - std::sqrt(square[i]) - std::sqrt(square[i + 1])) / a + std::max(0.0, p.length - ramps) / v;
+  }
+  return seconds;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "stroke_index.hpp"
+
+namespace lekalo::verify {
+
+/// A pocket, where the middle of the tool may be in it, and how far any place is from both.
+class PocketReach {
+ public:
+  /// \param clearance  of the tool's middle from the outline: its radius and the stock to leave
+  static Result<PocketReach> make(const Document& pocket, double clearance);
+
+  [[nodiscard]] bool inside(Place p) const;
+  /// Distance from the outline, positive in the pocket.
+  [[nodiscard]] double depth(Place p) const;
+  /// Whether the tool's middle may be here: depth(p) >= clearance, but for `slack`.
+  [[nodiscard]] bool allowed(Place p, double slack = 1e-9) const { return depth(p) >= clearance_ - slack; }
+  /// Distance from the places where the tool's middle may be, 0 in them.
+  [[nodiscard]] double from_allowed(Place p) const;
+
+  [[nodiscard]] const std::vector<Stroke>& outline() const { return outline_; }
+  [[nodiscard]] const StrokeIndex& outline_index() const { return outline_index_; }
+  /// The boundary of the allowed places.
+  [[nodiscard]] const std::vector<Stroke>& limit() const { return limit_; }
+  [[nodiscard]] const StrokeIndex& limit_index() const { return limit_index_; }
+  [[nodiscard]] Place low() const { return low_; }
+  [[nodiscard]] Place high() const { return high_; }
+  [[nodiscard]] double clearance() const { return clearance_; }
+
+ private:
+  void sort_rows();
+  void find_limit();
+
+  double clearance_ = 0;
+  Place low_, high_;
+  std::vector<Stroke> outline_;      ///< material on the left
+  std::vector<char> starts_corner_;  ///< of each stroke: its beginning is a vertex of the file
+  StrokeIndex outline_index_, limit_index_;
+  std::vector<Stroke> limit_;
+  std::vector<std::vector<std::uint32_t>> rows_;  ///< strokes whose box meets a band of y
+  double row_height_ = 1;
+};
+
+}  // namespace lekalo::verify

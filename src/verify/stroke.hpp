@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace lekalo::verify {
+
+/// A place or direction of the plane in plain doubles, mm.
+struct Place {
+  double x = 0, y = 0;
+};
+[[nodiscard]] inline Place operator+(Place a, Place b) { return {a.x + b.x, a.y + b.y}; }
+[[nodiscard]] inline Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
+[[nodiscard]] inline Place operator*(double k, Place a) { return {k * a.x, k * a.y}; }
+[[nodiscard]] inline double dot(Place a, Place b) { return a.x * b.x + a.y * b.y; }
+[[nodiscard]] inline double cross(Place a, Place b) { return a.x * b.y - a.y * b.x; }
+[[nodiscard]] inline double length(Place a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] inline Place unit(Place a) { return (1 / length(a)) * a; }
+[[nodiscard]] inline Place left_of(Place a) { return {-a.y, a.x}; }
+
+inline constexpr double kPi = 3.141592653589793;
+
+/// Angle from a counter-clockwise to b in (-pi, pi], within 1e-15; our own, so that every build gives the
+/// same.
+[[nodiscard]] double angle_between(Place a, Place b);
+
+/// A line, or an arc of at most a quarter turn (with rounding), short enough that all of it is near its ends.
+struct Stroke {
+  bool arc = false, ccw = true;
+  Place from, to, centre;
+  double radius = 0;  ///< of an arc: mean of its ends
+};
+
+[[nodiscard]] double length(const Stroke& stroke);
+/// Unit direction of travel at a place on the stroke. \pre a stroke of positive length
+[[nodiscard]] Place heading(const Stroke& stroke, Place at);
+/// The place on it that is nearest.
+[[nodiscard]] Place nearest_on(const Stroke& stroke, Place p);
+[[nodiscard]] double distance(Place p, const Stroke& stroke);
+/// Least distance of two strokes that do not cross; where they cross it may be larger than 0.
+[[nodiscard]] double distance_apart(const Stroke& a, const Stroke& b);
+/// Where they cross, tangent points with rounding left out; none for strokes on one carrier.
+void add_crossings(const Stroke& a, const Stroke& b, std::vector<Place>& places);
+/// The part up to a place on it, and from it on.
+[[nodiscard]] Stroke until(const Stroke& stroke, Place at);
+[[nodiscard]] Stroke beginning(const Stroke& stroke, Place at);
+/// A place at a share t of the way, by angle halving for arcs (not exactly by length). t in [0, 1]
+[[nodiscard]] Place at_share(const Stroke& stroke, double t);
+
+/// A line in pieces no longer than `longest`.
+void add_line(Place from, Place to, double longest, std::vector<Stroke>& strokes);
+/// An arc of any sweep in pieces no longer than `longest`; from == to is a full turn.
+void add_arc(Place from, Place to, Place centre, bool ccw, double longest, std::vector<Stroke>& strokes);
+
+}  // namespace lekalo::verify

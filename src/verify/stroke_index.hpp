@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stroke.hpp"
+
+namespace lekalo::verify {
+
+/// Finds strokes near a place: square cells that know which strokes' boxes meet them. Strokes may be added in
+/// between. At most 2^20 cells, however large the area.
+class StrokeIndex {
+ public:
+  StrokeIndex() = default;
+  StrokeIndex(Place low, Place high, double cell);
+
+  void add(std::uint32_t number, const Stroke& stroke);
+  /// Numbers of all strokes within `reach` of p, and of some others, ascending, each once.
+  void near(Place p, double reach, std::vector<std::uint32_t>& numbers) const;
+  /// Distance to the nearest of `strokes`; infinity when there is none.
+  [[nodiscard]] double nearest(Place p, const std::vector<Stroke>& strokes) const;
+
+ private:
+  struct Cells {
+    long low_x, low_y, high_x, high_y;
+  };
+  [[nodiscard]] Cells cells(Place low, Place high) const;
+
+  Place low_;
+  double cell_ = 1;
+  long columns_ = 0, rows_ = 0;
+  std::vector<std::vector<std::uint32_t>> lists_;
+};
+
+/// Corners of a box that holds the stroke.
+void box_of(const Stroke& stroke, Place& low, Place& high);
+
+}  // namespace lekalo::verify

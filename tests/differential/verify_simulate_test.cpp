@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/random.hpp"
+#include "lekalo/verify/simulate.hpp"
+#include "support/cases.hpp"
+
+// Against a raster: the same figures from thousands of discs along the path, counted.
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kPi = 3.141592653589793, kRadius = 3, kWidth = 40, kHeight = 30, kStep = 0.02;
+
+struct Spot {
+  double x, y;
+};
+
+struct Drawn {
+  std::string program;
+  std::vector<Spot> path;  ///< every kStep
+};
+
+Drawn random_path(Random& random) {
+  Drawn drawn;
+  const auto rounded = [](double v) { return std::round(v * 1e3) / 1e3; };
+  Spot at{rounded(random.uniform(4, kWidth - 4)), rounded(random.uniform(4, kHeight - 4))};
+  drawn.program = fmt::format("G21 G90 G17\nG0 X{} Y{} Z5\nG1 Z-1 F300\n", at.x, at.y);
+  drawn.path.push_back(at);
+  for (int i = 0; i < 8; ++i) {
+    if (random.below(2) == 0) {
+      const Spot to{rounded(random.uniform(4, kWidth - 4)), rounded(random.uniform(4, kHeight - 4))};
+      const double whole = std::hypot(to.x - at.x, to.y - at.y);
+      for (double s = kStep; s < whole; s += kStep)
+        drawn.path.push_back({at.x + s / whole * (to.x - at.x), at.y + s / whole * (to.y - at.y)});
+      drawn.program += fmt::format("G1 X{} Y{} F1500\n", to.x, to.y);
+      at = to;
+    } else {  // any sweep about a centre within 6 mm, small radii among them
+      const double radius = random.uniform(0.3, 6), begin = random.uniform(0, 2 * kPi);
+      const double sweep = random.uniform(0.1, 2 * kPi - 0.1);
+      const bool ccw = random.below(2) == 0;
+      const Spot centre{at.x - radius * std::cos(begin), at.y - radius * std::sin(begin)};
+      Spot to{};
+      for (double s = 0;; s += kStep) {
+        const double angle = begin + (ccw ? 1 : -1) * std::min(sweep, s / radius);
+        to = {centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+        drawn.path.push_back(to);
+        if (s / radius >= sweep) break;
+      }
+      drawn.program += fmt::format("G{} X{:.9f} Y{:.9f} I{:.9f} J{:.9f} F1500\n", ccw ? 3 : 2, to.x, to.y,
+                                   centre.x - at.x, centre.y - at.y);
+      at = to;
+    }
+  }
+  return drawn;
+}
+
+const std::string kPocket =
+    R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[40,0]}},{"line":{"from":[40,0],"to":[40,30]}},)"
+    R"({"line":{"from":[40,30],"to":[0,30]}},{"line":{"from":[0,30],"to":[0,0]}}]})";
+
+TEST(VerifySimulateRaster, EngagementAndCoverageAreThoseOfManyDiscs) {
+  for (std::size_t i = 0; i < cases::case_count(3); ++i) {
+    Random random(cases::seed(), i + 1);
+    const Drawn drawn = random_path(random);
+    SCOPED_TRACE(fmt::format("seed {} case {}\n{}", cases::seed(), i, drawn.program));
+    SimulateOptions options;
+    options.tool_diameter = 2 * kRadius;
+    const auto report = simulate({"random.ngc", drawn.program}, {"pocket.json", kPocket}, options);
+    ASSERT_TRUE(report) << report.error().message;
+
+    double done = 0;
+    std::size_t number = 0, upto = 0;
+    const auto apart = [](const Spot& a, const EngagementSample& b) {
+      return std::hypot(a.x - b.x, a.y - b.y);
+    };
+    for (const EngagementSample& sample : report->samples) {
+      done += sample.length;
+      if (number++ % 97 != 0) continue;
+      // Rim points that no earlier disc holds. Discs that touch within their step count as holding.
+      while (upto + 1 < drawn.path.size() && static_cast<double>(upto) * kStep < done + 1 &&
+             (apart(drawn.path[upto], sample) > kStep))
+        ++upto;
+      std::vector<Spot> near;
+      for (std::size_t p = 0; p <= upto; ++p)
+        if (apart(drawn.path[p], sample) < 2 * kRadius + kStep) near.push_back(drawn.path[p]);
+      int open_low = 0, open_high = 0;
+      constexpr int kRim = 360;
+      for (int k = 0; k < kRim; ++k) {
+        const double angle = 2 * kPi * (k + 0.5) / kRim;
+        const Spot rim{sample.x + kRadius * std::cos(angle), sample.y + kRadius * std::sin(angle)};
+        double least = 1e9;
+        for (const Spot& p : near) least = std::min(least, std::hypot(rim.x - p.x, rim.y - p.y));
+        open_low += least > kRadius + 2e-4 ? 1 : 0;
+        open_high += least > kRadius - 2.5 * kStep ? 1 : 0;
+      }
+      EXPECT_GE(sample.engagement, 360.0 * open_low / kRim - 1.5) << "at " << done;
+      EXPECT_LE(sample.engagement, 360.0 * open_high / kRim + 1.5) << "at " << done;
+    }
+
+    // Coverage: squares of 0.2 mm by their middles.
+    std::size_t reachable = 0, cut = 0;
+    for (double y = 0.1; y < kHeight; y += 0.2) {
+      for (double x = 0.1; x < kWidth; x += 0.2) {
+        const double dx = std::max({3 - x, x - (kWidth - 3), 0.0}),
+                     dy = std::max({3 - y, y - (kHeight - 3), 0.0});
+        if (std::hypot(dx, dy) > kRadius) continue;
+        ++reachable;
+        bool held = false;
+        for (std::size_t p = 0; p < drawn.path.size() && !held; p += 2)
+          held = std::hypot(x - drawn.path[p].x, y - drawn.path[p].y) <= kRadius;
+        cut += held ? 1 : 0;
+      }
+    }
+    EXPECT_NEAR(report->coverage_percent, 100.0 * static_cast<double>(cut) / static_cast<double>(reachable),
+                0.15);
+    EXPECT_NEAR(report->reachable_mm2, 0.04 * static_cast<double>(reachable), 2);
+
+    double gouge = 0;
+    for (const Spot& p : drawn.path)
+      gouge = std::max(gouge, kRadius - std::min({p.x, p.y, kWidth - p.x, kHeight - p.y}));
+    EXPECT_NEAR(report->gouge_mm, gouge, 0.021);
+  }
+}
+
+}  // namespace
+}  // namespace lekalo::verify

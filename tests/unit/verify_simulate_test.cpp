@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "lekalo/verify/simulate.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+std::string rectangle(double width, double height) {
+  return fmt::format(
+      R"({{"units":"mm","outer":[{{"line":{{"from":[0,0],"to":[{0},0]}}}},{{"line":{{"from":[{0},0],"to":[{0},{1}]}}}},)"
+      R"({{"line":{{"from":[{0},{1}],"to":[0,{1}]}}}},{{"line":{{"from":[0,{1}],"to":[0,0]}}}}]}})",
+      width, height);
+}
+
+std::string disc(double radius) {
+  return fmt::format(
+      R"({{"units":"mm","outer":[{{"arc":{{"from":[{0},0],"to":[-{0},0],"centre":[0,0],"ccw":true}}}},)"
+      R"({{"arc":{{"from":[-{0},0],"to":[{0},0],"centre":[0,0],"ccw":true}}}}]}})",
+      radius);
+}
+
+SimulateOptions tool(double diameter) {
+  SimulateOptions options;
+  options.tool_diameter = diameter;
+  return options;
+}
+
+SimulateReport run(const std::string& program, const std::string& pocket,
+                   const SimulateOptions& options = tool(6)) {
+  const auto report = simulate({"part.ngc", program}, {"pocket.json", pocket}, options);
+  if (!report) {
+    ADD_FAILURE() << report.error().message;
+    return {};
+  }
+  return *report;
+}
+
+std::string complaint_of(const std::string& program, const std::string& pocket,
+                         const SimulateOptions& options = tool(6)) {
+  const auto report = simulate({"part.ngc", program}, {"pocket.json", pocket}, options);
+  return report ? "" : report.error().message;
+}
+
+const std::string kBegin = "G21 G90 G17\nG0 X10 Y10 Z5\nG1 Z-1 F300\n";
+
+TEST(VerifySimulate, AFullSlotEngagesHalfTheRim) {
+  const auto report = run(kBegin + "G1 X50 F1500\n", rectangle(70, 40));
+  EXPECT_NEAR(report.engagement_max_deg, 180, 1e-4);
+  EXPECT_NEAR(report.engagement_p95_deg, 180, 1e-4);
+  EXPECT_EQ(report.retracts, 0U);
+  EXPECT_NEAR(report.length_mm, 40, 1e-9);
+}
+
+TEST(VerifySimulate, ASecondPassEngagesTheArcOfItsStepOver) {
+  for (const double step : {0.3, 2.4, 4.5}) {
+    const auto report =
+        run(kBegin + fmt::format("G1 X60 F1500\nG0 Z5\nG0 X10 Y{0}\nG1 Z-1 F300\nG1 X60 F1500\n", 10 + step),
+            rectangle(70, 40));
+    const double expected = std::acos(1 - step / 3) * 180 / kPi;
+    double found = 0;
+    for (const auto& sample : report.samples)
+      if (sample.line == 8 && std::abs(sample.x - 35) < 0.03) found = sample.engagement;
+    EXPECT_NEAR(found, expected, 1e-4) << step;
+    EXPECT_EQ(report.retracts, 1U);
+  }
+}
+
+TEST(VerifySimulate, ACircleOutsideACircleFollowsTheLawOfCosines) {
+  // (R0 + r)^2 = R1^2 + r^2 + 2 R1 r cos(alpha)
+  for (const double inner : {1.0, 5.0, 10.0}) {
+    for (const double step : {1.6}) {
+      const double outer = inner + step, r = 3;
+      const auto report = run(fmt::format("G21 G90\nG0 X{0} Y0 Z5\nG1 Z-1 F300\nG3 X{0} Y0 I-{0} J0 F1500\n"
+                                          "G3 X{0} Y0 I-{0} J0\nG1 X{1}\nG3 X{1} Y0 I-{1} J0\n",
+                                          inner, outer),
+                              disc(16));
+      const double cosine = ((inner + r) * (inner + r) - outer * outer - r * r) / (2 * outer * r);
+      double found = 0;
+      for (const auto& sample : report.samples)
+        if (sample.line == 7 && sample.x < -0.999 * outer) found = sample.engagement;
+      EXPECT_NEAR(found, std::acos(cosine) * 180 / kPi, 2e-3) << inner << " " << step;
+    }
+  }
+}
+
+TEST(VerifySimulate, AGougeIsMeasuredExactly) {
+  EXPECT_NEAR(run("G0 X10 Y3 Z5\nG1 Z-1 F300\nG1 X60 F1500\n", rectangle(70, 40)).gouge_mm, 0, 1e-12);
+  EXPECT_NEAR(run("G0 X10 Y2.9 Z5\nG1 Z-1 F300\nG1 X60 F1500\n", rectangle(70, 40)).gouge_mm, 0.1, 1e-9);
+  EXPECT_NEAR(run("G0 X20 Y0 Z5\nG1 Z-1 F300\nG3 X-20 Y0 I-20 J0 F1500\n", disc(22.75)).gouge_mm, 0.25, 1e-9);
+  // Out through the wall: 7 mm past it with the middle, 10 with the rim.
+  EXPECT_NEAR(run("G0 X50 Y20 Z5\nG1 Z-1 F300\nG1 Y-7 F1500\n", rectangle(70, 40)).gouge_mm, 10, 2e-3);
+  auto options = tool(6);
+  options.stock_to_leave = 0.5;
+  EXPECT_NEAR(run("G0 X10 Y3 Z5\nG1 Z-1 F300\nG1 X60 F1500\n", rectangle(70, 40), options).gouge_mm, 0.5,
+              1e-9);
+}
+
+TEST(VerifySimulate, CoverageIsTheSweptShareOfWhatIsReachable) {
+  const auto report = run(kBegin + "G1 X60 F1500\n", rectangle(70, 40));
+  const double reachable = 2800 - (4 - kPi) * 9, swept = 50 * 6 + kPi * 9;
+  EXPECT_NEAR(report.reachable_mm2, reachable, 0.05);
+  EXPECT_NEAR(report.coverage_percent, 100 * swept / reachable, 1e-3);
+  EXPECT_LE(report.coverage_low_percent, report.coverage_percent);
+  EXPECT_EQ(report.unreachable.size(), 4U);
+  for (const auto& corner : report.unreachable) {
+    EXPECT_NEAR(corner.distance_mm, 3 * (std::sqrt(2) - 1), 0.2);
+    EXPECT_NEAR(corner.area_mm2, 9 * (1 - kPi / 4), 0.4);
+  }
+}
+
+TEST(VerifySimulate, AStripThatIsLeftShowsItsWidth) {
+  // Two passes 6.1 mm apart in a slot 12.1 mm wide leave 0.1 mm between them.
+  const std::string program = "G0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X37 F1500\nG1 Y9.1\nG1 X3\nG1 Y3\n";
+  const auto report = run(program, rectangle(40, 12.1));
+  EXPECT_GE(report.uncut_width_mm, 0.1);
+  EXPECT_LE(report.uncut_width_mm, 0.1 + 0.012);
+  const auto closed =
+      run("G0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X37 F1500\nG1 Y8.9\nG1 X3\nG1 Y3\n", rectangle(40, 11.9));
+  EXPECT_LE(closed.uncut_width_mm, 0.006);
+  EXPECT_NEAR(closed.coverage_percent, 100, 1e-4);
+}
+
+TEST(VerifySimulate, EveryWayOfWritingAnArcIsTheSameArc) {
+  const std::string pocket = rectangle(70, 40);
+  const auto plain = run(kBegin + "G1 X40 Y10 F1500\nG3 X50 Y20 I0 J10\nG2 X60 Y30 I10 J0\n", pocket);
+  const auto radius = run(kBegin + "G1 X40 Y10 F1500\nG3 X50 Y20 R10 \nG2 X60 Y30 R10\n", pocket);
+  const auto absolute =
+      run("G90.1\n" + kBegin + "G1 X40 Y10 F1500\nG3 X50 Y20 I40 J20\nG2 X60 Y30 I60 J20\n", pocket);
+  const auto steps = run(kBegin + "G91\nG1 X30 Y0 F1500\nG3 X10 Y10 I0 J10\nG2 X10 Y10 I10 J0\n", pocket);
+  EXPECT_NEAR(plain.length_mm, 30 + 10 * kPi, 1e-6);
+  for (const auto& other : {radius, absolute, steps}) {
+    EXPECT_NEAR(other.length_mm, plain.length_mm, 1e-6);
+    EXPECT_NEAR(other.seconds, plain.seconds, 1e-6);
+    EXPECT_NEAR(other.coverage_percent, plain.coverage_percent, 1e-4);
+    EXPECT_NEAR(other.engagement_max_deg, plain.engagement_max_deg, 1e-3);
+  }
+  const auto inches = run("G20 G90 G0 X0.5 Y0.5 Z0.2\nG1 Z-0.04 F10\nG1 X1.5 F60\n", pocket);
+  EXPECT_NEAR(inches.length_mm, 25.4, 1e-9);
+}
+
+TEST(VerifySimulate, TimeIsThatOfTheTrapezoids) {
+  // Length, feed, speeds at the ends; 500 mm/s2, long enough to reach the feed.
+  const auto trapezoid = [](double mm, double feed, double begin, double end) {
+    const double ramps = (2 * feed * feed - begin * begin - end * end) / 1000;
+    return (2 * feed - begin - end) / 500 + (mm - ramps) / feed;
+  };
+  // At a quarter turn the junction's radius is 0.01 * s / (1 - s), s the sine of 45 degrees.
+  const double s = std::sqrt(0.5), corner = std::sqrt(500 * 0.01 * s / (1 - s));
+  const double down = trapezoid(6, 5, 0, corner);
+  EXPECT_NEAR(run(kBegin + "G1 X60 F1500\n", rectangle(70, 40)).seconds, down + trapezoid(50, 25, corner, 0),
+              1e-9);
+  EXPECT_NEAR(run(kBegin + "G1 X30 F1500\nG1 Y30\n", rectangle(70, 40)).seconds,
+              down + trapezoid(20, 25, corner, corner) + trapezoid(20, 25, corner, 0), 1e-9);
+}
+
+TEST(VerifySimulate, AHelixAndTheTurnThatLevelsItsFloorAreEntry) {
+  const auto report =
+      run("G0 X52 Y30 Z1\nG1 Z0 F300\nG3 X52 Y30 Z-1 I-2 J0 P2\nG3 X52 Y30 I-2 J0\nG1 X53 F1500\nG3 X53 Y30 "
+          "I-3 J0\n",
+          rectangle(70, 40));
+  EXPECT_NEAR(report.entry_mm, 3 * 4 * kPi, 0.3);
+  EXPECT_NEAR(report.samples.back().engagement, 0, 1e-3);  // back where the circle began
+  for (const auto& sample : report.samples) {
+    if (sample.line == 6 && sample.x < 47.01)
+      EXPECT_NEAR(sample.engagement, std::acos(7.0 / 18) * 180 / kPi, 0.01);
+  }
+  EXPECT_EQ(report.retracts, 0U);
+}
+
+TEST(VerifySimulate, ALevelIsJudgedByWhatWasCutAsDeep) {
+  const std::string pass = "G1 X60 F1500\nG1 X10\n";
+  const auto report = run(kBegin + pass + "G1 Z-2 F300\n" + pass, rectangle(70, 40));
+  std::size_t slots = 0;
+  for (const auto& sample : report.samples) slots += sample.engagement > 179.9 ? 1 : 0;
+  EXPECT_EQ(slots, report.samples.size() / 2);  // out at each depth; back cuts nothing
+  EXPECT_NEAR(report.air_percent, 50, 0.2);
+}
+
+TEST(VerifySimulate, ARapidThroughMaterialIsFound) {
+  EXPECT_NEAR(run(kBegin + "G0 X20\n", rectangle(70, 40)).rapid_cut_mm, 10, 1e-9);
+}
+
+TEST(VerifySimulate, WhatItCannotJudgeIsRefusedByName) {
+  const std::string pocket = rectangle(70, 40);
+  const auto says = [&](const std::string& program, const std::string& words) {
+    EXPECT_NE(complaint_of(program, pocket).find(words), std::string::npos)
+        << program << complaint_of(program, pocket);
+  };
+  says(kBegin + "G41 D1\n", "part.ngc:4: G41 is not understood");
+  says(kBegin + "G1 X#1 F100\n", "X is not followed by a plain number");
+  says(kBegin + "G3 X20 Y20 I1 J1 F100\n", "mm from its centre");
+  says(kBegin + "G3 X20 Y20 F100\n", "without I, J or R");
+  says(kBegin + "G3 X40 Y20 R2 F100\n", "no arc of radius");
+  says("G1 X1 Y1 Z-1\n", "before any F");
+  says("G91 G0 X1\n", "no block has said");
+  says(kBegin + "G1 X1e9 F100\n", "E is not");
+  says(kBegin + "G1 X9999999 F100\n", "farther than");
+  says("(open\n", "not closed");
+  says("", "never goes below");
+  says("G0 X1 Y1 Z1\n", "never goes below");
+  EXPECT_NE(complaint_of(kBegin, rectangle(5, 40)).find("fits nowhere"), std::string::npos);
+  EXPECT_NE(complaint_of(kBegin, "{}").find("pocket"), std::string::npos);
+  EXPECT_NE(complaint_of(kBegin, pocket, tool(0)).find("tool diameter"), std::string::npos);
+  EXPECT_NE(complaint_of(kBegin, pocket, tool(std::nan(""))).find("tool diameter"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lekalo::verify
