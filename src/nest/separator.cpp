@@ -1,0 +1,322 @@
+#include "separator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lekalo::nest {
+
+namespace {
+constexpr double kFar = std::numeric_limits<double>::infinity();
+}
+
+Separator::Separator(const Problem& problem, const Items& items, Random random)
+    : problem_(problem), items_(items), random_(random), total_(items.parts.size()) {
+  weights_.assign(items_.movable * total_, 1);
+  in_conflict_.assign(total_, 0);
+  boxes_.resize(total_);
+  tolerance_ = 3e-6;
+  for (const std::uint32_t part : items_.parts) {
+    const Forms& forms = problem_.forms_of(part);
+    const Box& b = problem_.forms()[forms.first].box;
+    min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
+  }
+}
+
+void Separator::load(const State& state) {
+  state_ = state;
+  for (std::size_t i = 0; i < total_; ++i) set_spot(i, state_.spots[i]);
+}
+
+void Separator::set_spot(std::size_t i, const Spot& spot) {
+  state_.spots[i] = spot;
+  const Box& b = problem_.forms()[spot.form].box;
+  boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
+}
+
+void Separator::set_end(std::uint32_t bin, double x1) {
+  state_.ends[bin] = x1;
+  for (std::size_t i = 0; i < items_.movable; ++i) {
+    Spot spot = state_.spots[i];
+    if (spot.bin != bin) continue;
+    const Range r = range_of(spot.form, bin, items_.parts[i]);
+    spot.x = std::max(r.x0, std::min(r.x1, spot.x));
+    spot.y = std::max(r.y0, std::min(r.y1, spot.y));
+    set_spot(i, spot);
+  }
+}
+
+void Separator::forget_weights() { std::fill(weights_.begin(), weights_.end(), 1.0f); }
+
+Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const {
+  const Box& b = problem_.forms()[form].box;
+  const Box& in = problem_.bins()[bin].box;
+  const double gap = problem_.border_gap_of(part);
+  return {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, in.y1 - gap - b.y1};
+}
+
+void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
+  near_.resize(total_);
+  std::size_t count = 0;
+  const double gap = problem_.widest_gap();
+  const double x0 = box.x0 - gap, x1 = box.x1 + gap, y0 = box.y0 - gap, y1 = box.y1 + gap;
+  for (std::size_t j = 0; j < total_; ++j) {
+    near_[count] = static_cast<std::uint32_t>(j);
+    const Box& b = boxes_[j];
+    count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) &
+                                      (state_.spots[j].bin == bin) & (j != but));
+  }
+  near_.resize(count);
+}
+
+/// With the items gathered around.
+double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
+  ++work_;
+  const Form& form = problem_.forms()[spot.form];
+  const Box& b = form.box;
+  const double gap = problem_.widest_gap();
+  const double x0 = spot.x + b.x0 - gap, x1 = spot.x + b.x1 + gap, y0 = spot.y + b.y0 - gap,
+               y1 = spot.y + b.y1 + gap;
+  double sum = 0;
+  const float* weights = &weights_[i * total_];
+  for (const std::uint32_t j : near_) {
+    const Box& o = boxes_[j];
+    if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) continue;
+    const Spot& other = state_.spots[j];
+    const double depth =
+        problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y);
+    if (depth > 0) {
+      sum += static_cast<double>(weights[j]) * depth;
+      if (sum >= limit) return sum;
+    }
+  }
+  return sum;
+}
+
+double Separator::evaluate_all(std::size_t i, const Spot& spot, double limit) {
+  const Box& b = problem_.forms()[spot.form].box;
+  gather({spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1}, spot.bin, i);
+  return evaluate(i, spot, limit);
+}
+
+void Separator::descend(std::size_t i, Candidate& best, double step, double until) {
+  const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
+  const Box& b = problem_.forms()[best.spot.form].box;
+  double reach = 3 * step;
+  double ax = best.spot.x, ay = best.spot.y;
+  const auto gather_here = [&] {
+    ax = best.spot.x;
+    ay = best.spot.y;
+    gather({ax + b.x0 - reach, ay + b.y0 - reach, ax + b.x1 + reach, ay + b.y1 + reach}, best.spot.bin, i);
+  };
+  gather_here();
+  double sx = step, sy = step;
+  while (best.loss > 0 && (sx > until || sy > until)) {
+    const std::uint64_t axis = random_.below(4);
+    const double dx = axis == 1 ? 0 : axis == 0 ? sx : 0.7071 * sx;
+    const double dy = axis == 0 ? 0 : axis == 1 ? sy : axis == 2 ? 0.7071 * sy : -0.7071 * sy;
+    bool better = false;
+    for (const double sign : {1.0, -1.0}) {
+      Spot spot = best.spot;
+      spot.x = std::max(r.x0, std::min(r.x1, spot.x + sign * dx));
+      spot.y = std::max(r.y0, std::min(r.y1, spot.y + sign * dy));
+      const double loss = evaluate(i, spot, best.loss);
+      if (loss < best.loss) {
+        best.loss = loss;
+        best.spot = spot;
+        better = true;
+        break;
+      }
+    }
+    const double factor = better ? 1.1 : 0.5;
+    if (axis == 0) {
+      sx *= factor;
+    } else if (axis == 1) {
+      sy *= factor;
+    } else {
+      const double half = better ? 1.05 : 0.7071;
+      sx *= half;
+      sy *= half;
+    }
+    if (std::abs(best.spot.x - ax) + sx > reach || std::abs(best.spot.y - ay) + sy > reach) {
+      reach = std::max(reach, 2 * std::max(sx, sy));
+      gather_here();
+    }
+  }
+}
+
+/// Along the ways out of what it still overlaps, one after the other: the corner between two comes out exactly.
+void Separator::push_out(std::size_t i, Candidate& best) {
+  const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
+  Spot spot = best.spot;
+  const Form& form = problem_.forms()[spot.form];
+  for (int round = 0; round < 12 && best.loss > 0; ++round) {
+    for (const std::uint32_t j : near_) {
+      const Box& o = boxes_[j];
+      if (o.x0 >= spot.x + form.box.x1 + problem_.widest_gap() || o.x1 <= spot.x + form.box.x0 - problem_.widest_gap() ||
+          o.y0 >= spot.y + form.box.y1 + problem_.widest_gap() || o.y1 <= spot.y + form.box.y0 - problem_.widest_gap())
+        continue;
+      const Spot& other = state_.spots[j];
+      const NoFit::Way way =
+          problem_.way_out(problem_.forms()[other.form], form, spot.x - other.x, spot.y - other.y);
+      if (way.depth <= 0) continue;
+      const double by = way.depth + 0.25 * tolerance_;
+      spot.x = std::max(r.x0, std::min(r.x1, spot.x + by * way.direction.x));
+      spot.y = std::max(r.y0, std::min(r.y1, spot.y + by * way.direction.y));
+    }
+    const double loss = evaluate(i, spot, best.loss);
+    if (loss < best.loss) {
+      best.loss = loss;
+      best.spot = spot;
+    } else if (round >= 6) {
+      break;
+    }
+  }
+}
+
+void Separator::move(std::size_t i) {
+  const std::uint32_t part = items_.parts[i];
+  const Forms& forms = problem_.forms_of(part);
+  const Spot now = state_.spots[i];
+  Candidate current{now, evaluate_all(i, now, kFar)};
+  if (current.loss <= 0) return;
+  std::array<Candidate, 3> best;
+  best.fill({now, kFar});
+  const auto offer = [&](const Candidate& c) {
+    if (!(c.loss < best[2].loss)) return;
+    best[2] = c;
+    if (best[2].loss < best[1].loss) std::swap(best[1], best[2]);
+    if (best[1].loss < best[0].loss) std::swap(best[0], best[1]);
+  };
+  const auto form_any = [&] {
+    return forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+  };
+  const auto bin_any = [&] {
+    return problem_.bins().size() == 1 ? 0 : static_cast<std::uint32_t>(random_.below(problem_.bins().size()));
+  };
+  constexpr int kFocused = 25, kAnywhere = 50;
+  offer(current);
+  const Box& size = problem_.forms()[now.form].box;
+  const double w = size.x1 - size.x0, h = size.y1 - size.y0;
+  for (int k = 0; k < kFocused; ++k) {
+    Spot spot = now;
+    spot.form = form_any();
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    const Box& b = problem_.forms()[spot.form].box;
+    // Middles of the boxes near one another.
+    const double cx = now.x + 0.5 * (size.x0 + size.x1), cy = now.y + 0.5 * (size.y0 + size.y1);
+    spot.x = cx - 0.5 * (b.x0 + b.x1) + random_.uniform(-0.5, 0.5) * w;
+    spot.y = cy - 0.5 * (b.y0 + b.y1) + random_.uniform(-0.5, 0.5) * h;
+    spot.x = std::max(r.x0, std::min(r.x1, spot.x));
+    spot.y = std::max(r.y0, std::min(r.y1, spot.y));
+    offer({spot, evaluate_all(i, spot, best[2].loss)});
+  }
+  for (int k = 0; k < kAnywhere; ++k) {
+    Spot spot;
+    spot.form = form_any();
+    spot.bin = bin_any();
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    spot.x = random_.uniform(r.x0, r.x1);
+    spot.y = random_.uniform(r.y0, r.y1);
+    offer({spot, evaluate_all(i, spot, best[2].loss)});
+  }
+  const double scale = min_dim_[i];
+  std::size_t first = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (best[k].loss == kFar) continue;
+    descend(i, best[k], 0.25 * scale, 0.02 * scale);
+    if (first == 3 || best[k].loss < best[first].loss) first = k;
+  }
+  Candidate& chosen = best[first];
+  descend(i, chosen, 0.01 * scale, 0.001 * scale);
+  push_out(i, chosen);
+  if (chosen.loss < current.loss) set_spot(i, chosen.spot);
+}
+
+double Separator::overlap() {
+  conflicts_.clear();
+  std::fill(in_conflict_.begin(), in_conflict_.end(), 0);
+  double sum = 0;
+  for (std::size_t i = 0; i < items_.movable; ++i) {
+    gather(boxes_[i], state_.spots[i].bin, i);
+    const Spot& spot = state_.spots[i];
+    for (const std::uint32_t j : near_) {
+      if (j < i) continue;
+      const Spot& other = state_.spots[j];
+      const double depth = problem_.depth(problem_.forms()[spot.form], problem_.forms()[other.form],
+                                          other.x - spot.x, other.y - spot.y);
+      if (depth <= tolerance_) continue;
+      conflicts_.push_back({static_cast<std::uint32_t>(i), j, depth});
+      in_conflict_[i] = in_conflict_[j] = 1;
+      sum += depth;
+    }
+  }
+  return sum;
+}
+
+bool Separator::is_in_conflict(std::size_t i) { return in_conflict_[i] != 0; }
+
+double Separator::pass() {
+  if (conflicts_.empty() && overlap() <= 0) return 0;
+  order_.clear();
+  for (std::uint32_t i = 0; i < items_.movable; ++i)
+    if (in_conflict_[i]) order_.push_back(i);
+  for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[random_.below(k)]);
+  for (const std::uint32_t i : order_) move(i);
+  const double sum = overlap();
+  double most = 0;
+  for (const Conflict& c : conflicts_) most = std::max(most, c.depth);
+  for (float& w : weights_) w = std::max(1.0f, 0.95f * w);
+  for (const Conflict& c : conflicts_) {
+    const float factor = static_cast<float>((1.2 + 0.8 * c.depth / most) / 0.95);
+    weight(c.a, c.b) = std::min(1e12f, weight(c.a, c.b) * factor);
+    if (c.b < items_.movable) weight(c.b, c.a) = weight(c.a, c.b);
+  }
+  return sum;
+}
+
+bool Separator::place_low(std::size_t i, std::size_t samples) {
+  const std::uint32_t part = items_.parts[i];
+  const Forms& forms = problem_.forms_of(part);
+  bool found = false;
+  Spot best;
+  double best_cost = kFar;
+  const auto cost_of = [&](const Spot& s) {
+    const Box& b = problem_.forms()[s.form].box;
+    return s.x + b.x1 + 0.05 * (s.y + b.y1);
+  };
+  for (std::size_t k = 0; k < samples; ++k) {
+    Spot spot;
+    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    spot.x = random_.uniform(r.x0, r.x1);
+    spot.y = random_.uniform(r.y0, r.y1);
+    if (cost_of(spot) >= best_cost) continue;
+    if (evaluate_all(i, spot, 1e-12) > 0) continue;
+    double step = 0.5 * min_dim_[i];
+    while (step > 1e-3 * min_dim_[i]) {
+      bool better = false;
+      for (int direction = 0; direction < 2; ++direction) {
+        Spot to = spot;
+        (direction == 0 ? to.x : to.y) -= step;
+        to.x = std::max(r.x0, to.x);
+        to.y = std::max(r.y0, to.y);
+        if ((to.x < spot.x || to.y < spot.y) && evaluate_all(i, to, 1e-12) <= 0) {
+          spot = to;
+          better = true;
+        }
+      }
+      if (!better) step *= 0.5;
+    }
+    found = true;
+    best = spot;
+    best_cost = cost_of(spot);
+  }
+  if (found) set_spot(i, best);
+  return found;
+}
+
+}  // namespace lekalo::nest
