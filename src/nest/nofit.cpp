@@ -9,7 +9,7 @@ namespace {
 
 using geom::Point;
 
-struct Box {
+struct Bounds {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   void add(Point p) {
@@ -20,7 +20,7 @@ struct Box {
 
 struct Sum {
   ConvexPiece corners;
-  Box box;
+  Bounds box;
 };
 
 /// The shifts of b at which two convex pieces overlap: a less b.
@@ -115,9 +115,11 @@ Shape turned(const Shape& shape, double c, double s) {
   return result;
 }
 
-NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells) : gap_(gap) {
+NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free,
+             const Box& window)
+    : gap_(gap) {
   std::vector<Sum> sums;
-  Box all;
+  Bounds all;
   for (const ConvexPiece& p : a.pieces)
     for (const ConvexPiece& q : b.pieces) {
       sums.push_back(difference_of(p, q));
@@ -136,7 +138,7 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells) : ga
   const auto covered_by = [&](Point start, Point direction, double length,
                               std::vector<std::pair<double, double>>& into) {
     into.clear();
-    Box box;
+    Bounds box;
     box.add(start);
     box.add(start + length * direction);
     for (const Sum& sum : sums) {
@@ -171,14 +173,16 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells) : ga
       segments_.push_back({contact.from + from * direction, direction, to - from, false});
     });
     // Where the outer side is forbidden too but the contact itself is not: a slot just wide enough.
+    if (!is_free) continue;
     covered_by(contact.from, direction, length, at_all);
     gaps_of(at_all, length, [&](double from, double to) {
       double at = from;
       for (const auto& [low, high] : covered) {
         const double begin = std::max(at, low), end = std::min(to, high);
         if (begin < end) {
-          segments_.push_back({contact.from + begin * direction, direction, end - begin, true});
           at = end;
+          if (!is_free(contact.from + 0.5 * (begin + end) * direction)) continue;
+          segments_.push_back({contact.from + begin * direction, direction, end - begin, true});
         }
       }
     });
@@ -188,6 +192,13 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells) : ga
   const double margin = gap_ + 1e-9 * size;
   all.low = all.low - Point{margin, margin};
   all.high = all.high + Point{margin, margin};
+  if (window.x1 > window.x0) {
+    Bounds of_b;
+    for (const auto& loop : b.loops)
+      for (const Point p : loop) of_b.add(p);
+    all.low = {std::max(all.low.x, window.x0 - of_b.high.x), std::max(all.low.y, window.y0 - of_b.high.y)};
+    all.high = {std::min(all.high.x, window.x1 - of_b.low.x), std::min(all.high.y, window.y1 - of_b.low.y)};
+  }
   const double w = all.high.x - all.low.x, h = all.high.y - all.low.y;
   const double side = std::sqrt(w * h / static_cast<double>(cells));
   per_mm_ = 1 / side;

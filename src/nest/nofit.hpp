@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct Shape {
   std::vector<std::vector<geom::Point>> loops;
   std::vector<ConvexPiece> pieces;
 };
+struct Box {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
 [[nodiscard]] Shape turned(const Shape& shape, double c, double s);
 
 /// How deep an outline b, moved by t, lies in an outline a: the shifts at which they overlap (or come nearer
@@ -22,8 +26,12 @@ struct Shape {
 /// rounding near the border, interpolated from a raster further in. docs/design/nest.md
 class NoFit {
  public:
-  /// \param cells  about how many cells the raster has
-  NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells);
+  using IsFree = std::function<bool(geom::Point)>;
+  /// \param cells    about how many cells the raster has
+  /// \param is_free  decides whether a shift at which edges fit exactly is free; absent: it is not
+  /// \param window   b is never asked about where it reaches out of it; empty: anywhere
+  NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free = {},
+        const Box& window = {});
 
   /// mm; 0 where they do not overlap.
   [[nodiscard]] double depth(double x, double y) const noexcept {

@@ -14,10 +14,6 @@ namespace lekalo::nest {
 
 /// A layout document as the search sees it: numbers in doubles, mm, and what can be looked up.
 
-struct Box {
-  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
 /// A part, mirrored or not, or something of the stock that forbids.
 struct SearchShape {
   enum class Kind : std::uint8_t { part, border, defect, zone };
@@ -27,6 +23,7 @@ struct SearchShape {
   int level = 0;           ///< severity of a defect, quality of a zone
   /// Of parts: what needs more than a zone of a quality has, by quality.
   std::vector<std::pair<int, Shape>> demanding;
+  Box window;  ///< of borders: where parts can be at all
 };
 
 /// A shape at an angle.
@@ -43,6 +40,12 @@ struct Forms {
   std::uint32_t first = 0, last = 0;
 };
 
+/// What lies where it lies: locked parts, borders that are no rectangle, holes, defects, zones.
+struct Obstacle {
+  std::uint32_t form = 0;
+  double x = 0, y = 0;
+};
+
 /// A rectangle that parts lie in, and what else forbids there. Hides: the rectangle around them, and their
 /// border as an obstacle.
 struct Bin {
@@ -51,29 +54,35 @@ struct Bin {
   Box box;
   bool open = false;  ///< a strip: x1 is what is sought
   double area = 0;    ///< material, mm^2
-  struct Obstacle {
-    std::uint32_t form = 0;
-    double x = 0, y = 0;
-  };
+  bool holds_locked = false;
+  double locked_reach = -std::numeric_limits<double>::infinity();  ///< x up to which locked parts reach
   std::vector<Obstacle> obstacles;
 };
 
 struct SearchOptions {
   std::size_t angles_of_any = 24;  ///< of a part that may be turned anyhow
-  std::size_t cells = 4096;        ///< of a raster
+  std::size_t cells = 2048;        ///< of a raster
 };
 
 class Problem {
  public:
+  /// \param document  outlives the problem; placements that are not locked do not count
   Problem(const layout::Document& document, const SearchOptions& options);
 
   const layout::Document& document() const noexcept { return *document_; }
   const std::vector<Form>& forms() const noexcept { return forms_; }
+  /// Of part \p part at this rotation, where it is among the forms.
+  std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
   const Forms& forms_of(std::uint32_t part) const noexcept { return by_part_[part]; }
   const std::vector<Bin>& bins() const noexcept { return bins_; }
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
   double hull_area_of(std::uint32_t part) const noexcept { return hull_areas_[part]; }
   double border_gap_of(std::uint32_t part) const noexcept { return border_gaps_[part]; }
+  /// Every corner of parts, at every angle they may have, and of the stock lies on multiples of this, mm; 0
+  /// where there is no such length worth speaking of.
+  double unit() const noexcept { return unit_; }
+  /// Whether the part's box fits on some stock in some form.
+  bool fits_somewhere(std::uint32_t part) const noexcept;
   /// The widest gap that may count between any two.
   double widest_gap() const noexcept { return widest_gap_; }
 
@@ -94,6 +103,13 @@ class Problem {
     return found != nullptr ? *found : make_table(at, a, b);
   }
   const NoFit& make_table(std::size_t at, const Form& a, const Form& b) const;
+  void add_parts();
+  void add_bins();
+  void add_locked();
+  void find_unit();
+  void add_stock_obstacles(std::uint32_t stock, Bin& bin);
+  void add_relative_angles();
+  std::uint32_t obstacle_form(SearchShape::Kind kind, int level, Shape shape);
   std::uint32_t angle_index(geom::GridRotation rotation);
   void add_form(std::uint32_t shape, geom::GridRotation rotation, bool mirrored);
 
@@ -104,7 +120,7 @@ class Problem {
   std::vector<Forms> by_part_;
   std::vector<Bin> bins_;
   std::vector<double> areas_, hull_areas_, border_gaps_;
-  double widest_gap_ = 0;
+  double widest_gap_ = 0, unit_ = 0;
   std::vector<geom::GridRotation> angles_;
   std::vector<std::uint32_t> relative_;
   std::vector<std::pair<double, double>> relative_pairs_;

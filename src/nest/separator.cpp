@@ -1,26 +1,37 @@
 #include "separator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lekalo::nest {
 
 namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
+/// Depths up to this are rounding, mm: what is left of them is set right on the grid.
+constexpr double kTolerance = 3e-6;
+/// What an overlap costs at least, as a share of the middling part's size: many small ones are then not
+/// cheaper than one.
+constexpr double kLeastValue = 0.003;
+constexpr int kFocused = 5, kAnywhere = 20;  ///< candidate places of a move
+/// Steps as shares of the item's narrow side.
+constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
+constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
 }
 
 Separator::Separator(const Problem& problem, const Items& items, Random random)
-    : problem_(problem), items_(items), random_(random), total_(items.parts.size()) {
-  weights_.assign(items_.movable * total_, 1);
+    : problem_(problem), items_(items), random_(random), total_(items.total()) {
+  weights_.assign(items_.movable() * total_, 1);
   in_conflict_.assign(total_, 0);
   boxes_.resize(total_);
-  tolerance_ = 3e-6;
+  for (const std::uint32_t part : items_.parts) unit_ += std::sqrt(problem_.hull_area_of(part));
+  unit_ /= static_cast<double>(items_.movable());
   for (const std::uint32_t part : items_.parts) {
     const Forms& forms = problem_.forms_of(part);
     const Box& b = problem_.forms()[forms.first].box;
+    size_.push_back(std::sqrt(problem_.hull_area_of(part)) / unit_);
     min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
   }
+  size_.resize(total_, 1);
 }
 
 void Separator::load(const State& state) {
@@ -36,14 +47,28 @@ void Separator::set_spot(std::size_t i, const Spot& spot) {
 
 void Separator::set_end(std::uint32_t bin, double x1) {
   state_.ends[bin] = x1;
-  for (std::size_t i = 0; i < items_.movable; ++i) {
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
     Spot spot = state_.spots[i];
     if (spot.bin != bin) continue;
-    const Range r = range_of(spot.form, bin, items_.parts[i]);
+    Range r = range_of(spot.form, bin, items_.parts[i]);
+    if (r.x1 < r.x0) {  // another angle may be narrower
+      const Forms& forms = problem_.forms_of(items_.parts[i]);
+      for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+        const Range other = range_of(f, bin, items_.parts[i]);
+        if (other.x1 < other.x0 || other.y1 < other.y0) continue;
+        spot.form = f;
+        r = other;
+        break;
+      }
+    }
     spot.x = std::max(r.x0, std::min(r.x1, spot.x));
     spot.y = std::max(r.y0, std::min(r.y1, spot.y));
     set_spot(i, spot);
   }
+}
+
+double Separator::value_of(std::size_t i, std::size_t j, double depth) const noexcept {
+  return (depth / unit_ + kLeastValue) * std::sqrt(size_[i] * size_[j]);
 }
 
 void Separator::forget_weights() { std::fill(weights_.begin(), weights_.end(), 1.0f); }
@@ -52,7 +77,11 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
   const Box& b = problem_.forms()[form].box;
   const Box& in = problem_.bins()[bin].box;
   const double gap = problem_.border_gap_of(part);
-  return {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, in.y1 - gap - b.y1};
+  Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, in.y1 - gap - b.y1};
+  // What fits exactly fits: rounding does not decide.
+  if (r.x1 < r.x0 && r.x0 - r.x1 < 1e-6) r.x0 = r.x1 = 0.5 * (r.x0 + r.x1);
+  if (r.y1 < r.y0 && r.y0 - r.y1 < 1e-6) r.y0 = r.y1 = 0.5 * (r.y0 + r.y1);
+  return r;
 }
 
 void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
@@ -86,7 +115,7 @@ double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
     const double depth =
         problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y);
     if (depth > 0) {
-      sum += static_cast<double>(weights[j]) * depth;
+      sum += static_cast<double>(weights[j]) * value_of(i, j, depth);
       if (sum >= limit) return sum;
     }
   }
@@ -160,7 +189,7 @@ void Separator::push_out(std::size_t i, Candidate& best) {
       const NoFit::Way way =
           problem_.way_out(problem_.forms()[other.form], form, spot.x - other.x, spot.y - other.y);
       if (way.depth <= 0) continue;
-      const double by = way.depth + 0.25 * tolerance_;
+      const double by = way.depth + 0.25 * kTolerance;
       spot.x = std::max(r.x0, std::min(r.x1, spot.x + by * way.direction.x));
       spot.y = std::max(r.y0, std::min(r.y1, spot.y + by * way.direction.y));
     }
@@ -180,22 +209,17 @@ void Separator::move(std::size_t i) {
   const Spot now = state_.spots[i];
   Candidate current{now, evaluate_all(i, now, kFar)};
   if (current.loss <= 0) return;
-  std::array<Candidate, 3> best;
-  best.fill({now, kFar});
+  Candidate best = current;
   const auto offer = [&](const Candidate& c) {
-    if (!(c.loss < best[2].loss)) return;
-    best[2] = c;
-    if (best[2].loss < best[1].loss) std::swap(best[1], best[2]);
-    if (best[1].loss < best[0].loss) std::swap(best[0], best[1]);
+    if (c.loss < best.loss) best = c;
   };
   const auto form_any = [&] {
     return forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
   };
   const auto bin_any = [&] {
-    return problem_.bins().size() == 1 ? 0 : static_cast<std::uint32_t>(random_.below(problem_.bins().size()));
+    return state_.open_bins.size() == 1 ? state_.open_bins[0]
+                                        : state_.open_bins[random_.below(state_.open_bins.size())];
   };
-  constexpr int kFocused = 25, kAnywhere = 50;
-  offer(current);
   const Box& size = problem_.forms()[now.form].box;
   const double w = size.x1 - size.x0, h = size.y1 - size.y0;
   for (int k = 0; k < kFocused; ++k) {
@@ -210,7 +234,7 @@ void Separator::move(std::size_t i) {
     spot.y = cy - 0.5 * (b.y0 + b.y1) + random_.uniform(-0.5, 0.5) * h;
     spot.x = std::max(r.x0, std::min(r.x1, spot.x));
     spot.y = std::max(r.y0, std::min(r.y1, spot.y));
-    offer({spot, evaluate_all(i, spot, best[2].loss)});
+    offer({spot, evaluate_all(i, spot, best.loss)});
   }
   for (int k = 0; k < kAnywhere; ++k) {
     Spot spot;
@@ -220,26 +244,22 @@ void Separator::move(std::size_t i) {
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;
     spot.x = random_.uniform(r.x0, r.x1);
     spot.y = random_.uniform(r.y0, r.y1);
-    offer({spot, evaluate_all(i, spot, best[2].loss)});
+    offer({spot, evaluate_all(i, spot, best.loss)});
   }
   const double scale = min_dim_[i];
-  std::size_t first = 3;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (best[k].loss == kFar) continue;
-    descend(i, best[k], 0.25 * scale, 0.02 * scale);
-    if (first == 3 || best[k].loss < best[first].loss) first = k;
-  }
-  Candidate& chosen = best[first];
-  descend(i, chosen, 0.01 * scale, 0.001 * scale);
-  push_out(i, chosen);
-  if (chosen.loss < current.loss) set_spot(i, chosen.spot);
+  descend(i, best, kFirstStep * scale, kCoarse * scale);
+  descend(i, best, 0.5 * kCoarse * scale, kFine * scale);
+  push_out(i, best);
+  if (best.loss < current.loss) set_spot(i, best.spot);
 }
 
 double Separator::overlap() {
   conflicts_.clear();
+  deepest_ = 0;
   std::fill(in_conflict_.begin(), in_conflict_.end(), 0);
   double sum = 0;
-  for (std::size_t i = 0; i < items_.movable; ++i) {
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    if (state_.spots[i].bin == kNowhere) continue;
     gather(boxes_[i], state_.spots[i].bin, i);
     const Spot& spot = state_.spots[i];
     for (const std::uint32_t j : near_) {
@@ -247,10 +267,11 @@ double Separator::overlap() {
       const Spot& other = state_.spots[j];
       const double depth = problem_.depth(problem_.forms()[spot.form], problem_.forms()[other.form],
                                           other.x - spot.x, other.y - spot.y);
-      if (depth <= tolerance_) continue;
+      if (depth <= kTolerance) continue;
       conflicts_.push_back({static_cast<std::uint32_t>(i), j, depth});
       in_conflict_[i] = in_conflict_[j] = 1;
       sum += depth;
+      deepest_ = std::max(deepest_, depth);
     }
   }
   return sum;
@@ -258,26 +279,92 @@ double Separator::overlap() {
 
 bool Separator::is_in_conflict(std::size_t i) { return in_conflict_[i] != 0; }
 
+bool Separator::snap(double unit) {
+  const std::vector<Spot> before = state_.spots;
+  bool fits = true;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    Spot spot = before[i];
+    if (spot.bin == kNowhere) continue;
+    spot.x = std::round(spot.x / unit) * unit;
+    spot.y = std::round(spot.y / unit) * unit;
+    const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
+    fits = fits && spot.x >= r.x0 - kTolerance && spot.x <= r.x1 + kTolerance && spot.y >= r.y0 - kTolerance &&
+           spot.y <= r.y1 + kTolerance;
+    set_spot(i, spot);
+  }
+  if (fits && overlap() <= 0) return true;
+  for (std::size_t i = 0; i < items_.movable(); ++i) set_spot(i, before[i]);
+  overlap();
+  return false;
+}
+
 double Separator::pass() {
+  ++work_;
   if (conflicts_.empty() && overlap() <= 0) return 0;
   order_.clear();
-  for (std::uint32_t i = 0; i < items_.movable; ++i)
+  for (std::uint32_t i = 0; i < items_.movable(); ++i)
     if (in_conflict_[i]) order_.push_back(i);
   for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[random_.below(k)]);
   for (const std::uint32_t i : order_) move(i);
   const double sum = overlap();
   double most = 0;
-  for (const Conflict& c : conflicts_) most = std::max(most, c.depth);
-  for (float& w : weights_) w = std::max(1.0f, 0.95f * w);
+  for (Conflict& c : conflicts_) most = std::max(most, c.depth = value_of(c.a, c.b, c.depth));
+  for (float& w : weights_) w = std::max(1.0f, static_cast<float>(kDecay) * w);
   for (const Conflict& c : conflicts_) {
-    const float factor = static_cast<float>((1.2 + 0.8 * c.depth / most) / 0.95);
+    const float factor = static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
     weight(c.a, c.b) = std::min(1e12f, weight(c.a, c.b) * factor);
-    if (c.b < items_.movable) weight(c.b, c.a) = weight(c.a, c.b);
+    if (c.b < items_.movable()) weight(c.b, c.a) = weight(c.a, c.b);
   }
   return sum;
 }
 
-bool Separator::place_low(std::size_t i, std::size_t samples) {
+void Separator::open_bin(std::uint32_t bin) { state_.open_bins.push_back(bin); }
+
+void Separator::close_bin(std::uint32_t bin) { std::erase(state_.open_bins, bin); }
+
+double Separator::least_length(std::uint32_t bin) const {
+  const Box& in = problem_.bins()[bin].box;
+  double least = 0;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    if (state_.spots[i].bin != bin) continue;
+    const std::uint32_t part = items_.parts[i];
+    const double gap = 2 * problem_.border_gap_of(part);
+    double narrowest = kFar;
+    const Forms& forms = problem_.forms_of(part);
+    for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+      const Box& b = problem_.forms()[f].box;
+      if (b.y1 - b.y0 + gap <= in.y1 - in.y0 + 1e-6) narrowest = std::min(narrowest, b.x1 - b.x0 + gap);
+    }
+    least = std::max(least, narrowest);
+  }
+  return least;
+}
+
+bool Separator::can_hold(std::uint32_t bin, std::uint32_t part) const {
+  const Forms& forms = problem_.forms_of(part);
+  for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+    const Range r = range_of(f, bin, part);
+    if (r.x1 >= r.x0 && r.y1 >= r.y0) return true;
+  }
+  return false;
+}
+
+void Separator::put_anywhere(std::size_t i) {
+  const std::uint32_t part = items_.parts[i];
+  const Forms& forms = problem_.forms_of(part);
+  for (int tries = 0; tries < 1000; ++tries) {
+    Spot spot;
+    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    spot.bin = state_.open_bins[random_.below(state_.open_bins.size())];
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    spot.x = random_.uniform(r.x0, r.x1);
+    spot.y = random_.uniform(r.y0, r.y1);
+    return set_spot(i, spot);
+  }
+}
+
+bool Separator::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
   const std::uint32_t part = items_.parts[i];
   const Forms& forms = problem_.forms_of(part);
   bool found = false;
@@ -289,6 +376,7 @@ bool Separator::place_low(std::size_t i, std::size_t samples) {
   };
   for (std::size_t k = 0; k < samples; ++k) {
     Spot spot;
+    spot.bin = bin;
     spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
     const Range r = range_of(spot.form, spot.bin, part);
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;

@@ -17,15 +17,19 @@ struct Spot {
 
 /// All items and the end of the strip.
 struct State {
-  std::vector<Spot> spots;  ///< by item
+  std::vector<Spot> spots;   ///< by item that is moved, then what stays
   std::vector<double> ends;  ///< by bin: x1
+  std::vector<std::uint32_t> open_bins;  ///< those that may be used
 };
 
-/// What is moved: pieces of parts; those that are locked come last and stay.
+/// What is moved, and after that what stays.
 struct Items {
-  std::vector<std::uint32_t> parts;  ///< by item
-  std::size_t movable = 0;
+  std::vector<std::uint32_t> parts;  ///< by item that is moved
+  std::vector<Spot> fixed;           ///< obstacles of all bins
+  std::size_t movable() const noexcept { return parts.size(); }
+  std::size_t total() const noexcept { return parts.size() + fixed.size(); }
 };
+inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
 /// Overlap minimisation with guided local search. docs/design/nest.md
 class Separator {
@@ -43,10 +47,22 @@ class Separator {
   /// Moves every item in conflict once, in random order, then raises the weights of what is still in
   /// conflict. Returns overlap().
   double pass();
+  /// Puts every item on the multiples of `unit` nearest to it; takes it back where that is not valid.
+  bool snap(double unit);
+  /// The largest depth that the last overlap() found, mm.
+  double deepest() const noexcept { return deepest_; }
   /// Candidate places looked at.
   std::uint64_t work() const noexcept { return work_; }
-  /// Moves item i to the free place found with the least cost x + small y; false if none.
-  bool place_low(std::size_t i, std::size_t samples);
+  /// Moves item i to the free place on a bin found furthest left; false if none.
+  bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
+  /// Anywhere on the open bins.
+  void put_anywhere(std::size_t i);
+  void open_bin(std::uint32_t bin);
+  void close_bin(std::uint32_t bin);
+  /// The length that the widest item on it needs.
+  double least_length(std::uint32_t bin) const;
+  /// Whether the box of the part fits in some form.
+  bool can_hold(std::uint32_t bin, std::uint32_t part) const;
   void set_end(std::uint32_t bin, double x1);
   void set_spot(std::size_t i, const Spot& spot);
   bool is_in_conflict(std::size_t i);
@@ -68,6 +84,8 @@ class Separator {
   void descend(std::size_t i, Candidate& from, double step, double until);
   void push_out(std::size_t i, Candidate& from);
   void move(std::size_t i);
+  /// What an overlap costs before its weight.
+  double value_of(std::size_t i, std::size_t j, double depth) const noexcept;
   float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
 
   const Problem& problem_;
@@ -89,8 +107,10 @@ class Separator {
   std::vector<Conflict> conflicts_;
   std::vector<char> in_conflict_;
   std::vector<double> min_dim_;
+  double deepest_ = 0;
   std::uint64_t work_ = 0;
-  double tolerance_ = 0;
+  double unit_ = 0;            ///< mm: the middling part's size
+  std::vector<double> size_;  ///< in units; 1 for what stays
 };
 
 }  // namespace lekalo::nest
