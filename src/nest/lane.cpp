@@ -48,13 +48,26 @@ Lane::Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::
   }
 }
 
-double Lane::reach_of(const State& state, std::uint32_t bin) const {
-  double reach = problem_.bins()[bin].locked_reach;
-  for (std::size_t i = 0; i < items_.movable(); ++i)
-    if (state.spots[i].bin == bin)
-      reach = std::max(reach, state.spots[i].x + problem_.forms()[state.spots[i].form].box.x1 +
-                                  problem_.border_gap_of(items_.parts[i]));
-  return std::max(reach, problem_.bins()[bin].box.x0);
+double Lane::reach_of(const State& state, std::uint32_t b, int axis) const {
+  const Bin& bin = problem_.bins()[b];
+  double reach = axis == 0 ? std::max(0.0, bin.locked_reach - bin.box.x0) : 0;
+  if (axis == 1 && bin.holds_locked) return bin.box.y1 - bin.box.y0;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    const Spot& spot = state.spots[i];
+    if (spot.bin != b) continue;
+    const Box& box = problem_.forms()[spot.form].box;
+    const double gap = problem_.border_gap_of(items_.parts[i]);
+    reach = std::max(reach, gap + (axis == 0 ? spot.x + box.x1 - bin.box.x0 : spot.y + box.y1 - bin.box.y0));
+  }
+  return reach;
+}
+
+void Lane::open_up(State& state) const {
+  for (std::uint32_t b = 0; b < state.ends.size(); ++b) {
+    const Bin& bin = problem_.bins()[b];
+    if (!bin.open) state.ends[b] = bin.box.x1;
+    state.tops[b] = bin.box.y1;
+  }
 }
 
 double Lane::used_area(const State& state, std::uint32_t bin) const {
@@ -73,8 +86,8 @@ Merit Lane::merit_of(const State& state) const {
     }
   for (const std::uint32_t bin : state.open_bins)
     merit.cost += problem_.document().stocks[problem_.bins()[bin].stock].cost;
-  const Bin& last = problem_.bins()[target_];
-  merit.reach = reach_of(state, target_) - last.box.x0;
+  merit.reach = reach_of(state, target_, 0);
+  if (!problem_.bins()[target_].open) merit.reach *= reach_of(state, target_, 1);
   return merit;
 }
 
@@ -92,6 +105,7 @@ void Lane::build() {
   state.spots.insert(state.spots.end(), items_.fixed.begin(), items_.fixed.end());
   for (std::uint32_t b = 0; b < bins.size(); ++b) {
     state.ends.push_back(bins[b].box.x1);
+    state.tops.push_back(bins[b].box.y1);
     if (bins[b].holds_locked) state.open_bins.push_back(b);
   }
   const bool strip = bins.size() == 1 && bins[0].open;
@@ -121,7 +135,8 @@ void Lane::build() {
         if (separator_.state().open_bins.empty())
           separator_.open_bin(0);
         else
-          separator_.set_end(0, std::min(bins[0].box.x1, separator_.state().ends[0] + widest));
+          separator_.set_limits(0, std::min(bins[0].box.x1, separator_.state().ends[0] + widest),
+                                bins[0].box.y1);
         continue;
       }
       std::uint32_t next = kNowhere;
@@ -156,8 +171,7 @@ void Lane::build() {
 
 void Lane::start(const State& state) {
   best_ = state;
-  for (std::uint32_t b = 0; b < best_.ends.size(); ++b)
-    if (!problem_.bins()[b].open) best_.ends[b] = problem_.bins()[b].box.x1;
+  open_up(best_);
   failures_ = 0;
   pool_.clear();
   done_ = false;
@@ -230,29 +244,44 @@ void Lane::attempt_shrink(bool random_split) {
       if (best_.spots[i].bin == target_) separator_.put_anywhere(i);
     return begin_separation();
   }
-  const double length = reach_of(best_, target_) - bin.box.x0;
+  const bool strip = bin.open;
+  const double reach[2] = {reach_of(best_, target_, 0), reach_of(best_, target_, 1)};
+  const double across = axis_ == 1 ? bin.box.x1 - bin.box.x0 : bin.box.y1 - bin.box.y0;
   // No shorter than what lies on it can be.
-  const double least = std::max({separator_.least_length(target_), bin.locked_reach - bin.box.x0,
-                                 used_area(best_, target_) / (bin.box.y1 - bin.box.y0)});
-  if (length <= least * (1 + 1e-12)) {
-    done_ = best_.open_bins.size() == 1;
-    if (done_) return;
-    ratio_ = 1;
-    return attempt_shrink(false);
+  const auto least_of = [&](int axis) {
+    double least = std::max(separator_.least_side(target_, axis), used_area(best_, target_) / across);
+    if (axis == 0) least = std::max(least, bin.locked_reach - bin.box.x0);
+    return axis == 1 && bin.holds_locked ? reach[1] : least;
+  };
+  if (reach[axis_] <= least_of(axis_) * (1 + 1e-12)) {
+    if (!strip && reach[1 - axis_] > least_of(1 - axis_) * (1 + 1e-12)) {
+      axis_ = 1 - axis_;
+    } else {
+      done_ = best_.open_bins.size() == 1;
+      if (done_) return;
+      ratio_ = 1;
+      return attempt_shrink(false);
+    }
   }
-  const double end = bin.box.x0 + std::max(length * (1 - ratio_), least);
-  const double by = bin.box.x0 + length - end;
-  const double split = bin.box.x0 + (random_split ? random.uniform() : 0.5) * length;
+  const double length = reach[axis_];
+  const double shorter = std::max(length * (1 - ratio_), least_of(axis_));
+  const double low = axis_ == 0 ? bin.box.x0 : bin.box.y0;
+  const double split = low + (random_split ? random.uniform() : 0.5) * length;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
     Spot spot = separator_.state().spots[i];
     if (spot.bin != target_) continue;
     const Box& b = problem_.forms()[spot.form].box;
-    if (spot.x + 0.5 * (b.x0 + b.x1) > split) {
-      spot.x -= by;
-      separator_.set_spot(i, spot);
-    }
+    const double middle = axis_ == 0 ? spot.x + 0.5 * (b.x0 + b.x1) : spot.y + 0.5 * (b.y0 + b.y1);
+    if (middle <= split) continue;
+    (axis_ == 0 ? spot.x : spot.y) -= length - shorter;
+    separator_.set_spot(i, spot);
   }
-  separator_.set_end(target_, end);
+  if (strip)
+    separator_.set_limits(target_, low + shorter, bin.box.y1);
+  else if (axis_ == 0)
+    separator_.set_limits(target_, low + shorter, bin.box.y0 + reach[1]);
+  else
+    separator_.set_limits(target_, bin.box.x0 + reach[0], low + shorter);
   begin_separation();
 }
 
@@ -305,18 +334,20 @@ void Lane::attempt_disrupted() {
     s.bin = move.bin;
     separator_.set_spot(move.item, s);
   }
-  for (const std::uint32_t bin : {bin_a, bin_b}) separator_.set_end(bin, state.ends[bin]);
+  for (const std::uint32_t bin : {bin_a, bin_b})
+    separator_.set_limits(bin, state.ends[bin], state.tops[bin]);
   begin_separation();
 }
 
 void Lane::on_valid() {
   if (problem_.unit() > 0) separator_.snap(problem_.unit());
+  // What does not fit between the limits at all was left beyond them.
+  if (phase_ != Phase::insert && !(merit_of(separator_.state()) < merit_)) return on_stuck();
   const Phase before = phase_;
   const double ratio = ratio_;
   const std::uint32_t target = target_;
   best_ = separator_.state();
-  for (std::uint32_t b = 0; b < best_.ends.size(); ++b)
-    if (!problem_.bins()[b].open) best_.ends[b] = problem_.bins()[b].box.x1;
+  open_up(best_);
   failures_ = 0;
   pool_.clear();
   choose_goal();
@@ -343,6 +374,7 @@ void Lane::on_stuck() {
     if (ratio_ < kCompressTo) {
       phase_ = Phase::explore;
       ratio_ = problem_.bins()[target_].open ? kExploreShrink : first_ratio();
+      if (!problem_.bins()[target_].open) axis_ = 1 - axis_;
       pool_.clear();
       failures_ = 0;
     }

@@ -11,7 +11,7 @@ namespace lekalo::nest {
 struct Merit {
   double unplaced = 0;  ///< mm^2, weighed by priority
   double cost = 0;      ///< of the stock in use
-  double reach = 0;     ///< mm from the left, on the sheet with least on it or the strip
+  double reach = 0;     ///< of a strip, mm; else the box from the corner that holds what is on the last, mm^2
   friend auto operator<=>(const Merit&, const Merit&) = default;
 };
 
@@ -42,7 +42,10 @@ class Lane {
     double overlap;
   };
   enum class Phase { insert, explore, compress };
-  double reach_of(const State& state, std::uint32_t bin) const;
+  /// How far along an axis what is on a bin reaches, border gaps included, mm from its corner.
+  double reach_of(const State& state, std::uint32_t bin, int axis) const;
+  /// Takes limits of sheets back.
+  void open_up(State& state) const;
   double used_area(const State& state, std::uint32_t bin) const;
   double first_ratio() const;
   Merit merit_of(const State& state) const;
@@ -65,6 +68,7 @@ class Lane {
   bool done_ = false;
   Phase phase_ = Phase::explore;
   std::uint32_t target_ = 0;  ///< the bin that is shortened
+  int axis_ = 0;              ///< along x, or y of sheets
   double ratio_ = 0;
   int failures_ = 0;
   std::vector<Failed> pool_;

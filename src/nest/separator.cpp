@@ -45,13 +45,14 @@ void Separator::set_spot(std::size_t i, const Spot& spot) {
   boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
 }
 
-void Separator::set_end(std::uint32_t bin, double x1) {
+void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
   state_.ends[bin] = x1;
+  state_.tops[bin] = y1;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
     Spot spot = state_.spots[i];
     if (spot.bin != bin) continue;
     Range r = range_of(spot.form, bin, items_.parts[i]);
-    if (r.x1 < r.x0) {  // another angle may be narrower
+    if (r.x1 < r.x0 || r.y1 < r.y0) {  // another angle may be narrower
       const Forms& forms = problem_.forms_of(items_.parts[i]);
       for (std::uint32_t f = forms.first; f < forms.last; ++f) {
         const Range other = range_of(f, bin, items_.parts[i]);
@@ -77,7 +78,7 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
   const Box& b = problem_.forms()[form].box;
   const Box& in = problem_.bins()[bin].box;
   const double gap = problem_.border_gap_of(part);
-  Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, in.y1 - gap - b.y1};
+  Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, state_.tops[bin] - gap - b.y1};
   // What fits exactly fits: rounding does not decide.
   if (r.x1 < r.x0 && r.x0 - r.x1 < 1e-6) r.x0 = r.x1 = 0.5 * (r.x0 + r.x1);
   if (r.y1 < r.y0 && r.y0 - r.y1 < 1e-6) r.y0 = r.y1 = 0.5 * (r.y0 + r.y1);
@@ -322,7 +323,7 @@ void Separator::open_bin(std::uint32_t bin) { state_.open_bins.push_back(bin); }
 
 void Separator::close_bin(std::uint32_t bin) { std::erase(state_.open_bins, bin); }
 
-double Separator::least_length(std::uint32_t bin) const {
+double Separator::least_side(std::uint32_t bin, int axis) const {
   const Box& in = problem_.bins()[bin].box;
   double least = 0;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
@@ -333,7 +334,9 @@ double Separator::least_length(std::uint32_t bin) const {
     const Forms& forms = problem_.forms_of(part);
     for (std::uint32_t f = forms.first; f < forms.last; ++f) {
       const Box& b = problem_.forms()[f].box;
-      if (b.y1 - b.y0 + gap <= in.y1 - in.y0 + 1e-6) narrowest = std::min(narrowest, b.x1 - b.x0 + gap);
+      const double w = b.x1 - b.x0 + gap, h = b.y1 - b.y0 + gap;
+      if (w <= in.x1 - in.x0 + 1e-6 && h <= in.y1 - in.y0 + 1e-6)
+        narrowest = std::min(narrowest, axis == 0 ? w : h);
     }
     least = std::max(least, narrowest);
   }

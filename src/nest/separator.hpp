@@ -18,7 +18,8 @@ struct Spot {
 /// All items and the end of the strip.
 struct State {
   std::vector<Spot> spots;   ///< by item that is moved, then what stays
-  std::vector<double> ends;  ///< by bin: x1
+  std::vector<double> ends;  ///< by bin: x up to which items may lie
+  std::vector<double> tops;  ///< likewise y
   std::vector<std::uint32_t> open_bins;  ///< those that may be used
 };
 
@@ -59,11 +60,12 @@ class Separator {
   void put_anywhere(std::size_t i);
   void open_bin(std::uint32_t bin);
   void close_bin(std::uint32_t bin);
-  /// The length that the widest item on it needs.
-  double least_length(std::uint32_t bin) const;
+  /// The length (axis 0) or height (axis 1) that the widest item on it needs.
+  double least_side(std::uint32_t bin, int axis) const;
   /// Whether the box of the part fits in some form.
   bool can_hold(std::uint32_t bin, std::uint32_t part) const;
-  void set_end(std::uint32_t bin, double x1);
+  /// Items beyond are pushed back.
+  void set_limits(std::uint32_t bin, double x1, double y1);
   void set_spot(std::size_t i, const Spot& spot);
   bool is_in_conflict(std::size_t i);
   /// The depths of item i with all others, unweighted.
