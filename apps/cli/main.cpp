@@ -8,6 +8,7 @@
 #include "export_command.hpp"
 #include "lekalo/base/error.hpp"
 #include "locate_command.hpp"
+#include "nest_command.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "pocket_command.hpp"
@@ -27,6 +28,7 @@ Result<int> run(const CheckOptions& options) { return run_check(options); }
 Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }
 Result<int> run(const EditOptions& options) { return run_edit(options); }
+Result<int> run(const NestOptions& options) { return run_nest(options); }
 Result<int> run(const ServeOptions& options) { return run_serve(options); }
 Result<int> run(const PrintText& command) {
   return print(command.text).map([] { return 0; });

@@ -582,6 +582,52 @@ void add_machine_words(CLI::App& command, LayoutWords& w) {
         ->group("For machines and other programs");
 }
 
+/// The words of `nest` alone.
+struct NestWords {
+  std::string time, work, seed, threads, angles;
+};
+
+void add_nest_options(CLI::App& nest, LayoutWords& layout, NestWords& w) {
+  nest.add_option("-o,--output", layout.output, "Write the layout to this file [stdout]")->type_name("FILE");
+  const auto add = [&](const char* name, std::string& word, const char* type, const char* help) {
+    nest.add_option(name, word, help)->type_name(type)->group("Search");
+  };
+  add("--time", w.time, "SECONDS", "Stop after this time; the report's work repeats it [60 without --work]");
+  add("--work", w.work, "N", "Stop after about N candidate places: same bytes on every machine");
+  add("--threads", w.threads, "N", "Changes the speed, not the result [2]");
+  add("--seed", w.seed, "S", "Seed of all random choices [0]");
+  add("--angles", w.angles, "N", "Angles to try of parts that may be turned anyhow [24]");
+  nest.footer(
+      "Locked placements stay, others are made anew. Ctrl-C keeps the best so far. What is written passes\n"
+      "lekalo check.\n"
+      "Exit codes: 0 everything is placed, 1 some pieces are not, 2 wrong command line, 3 a file cannot be\n"
+      "read or nested, 4 the layout found did not pass the check (please report), 5 disk or memory.");
+}
+
+Result<Command> to_nest(const LayoutWords& layout, const NestWords& w) {
+  if (Result<void> fine = fine_picture(layout.picture); !fine) return tl::unexpected(fine.error());
+  Result<LayoutSource> source = to_layout_source(layout);
+  if (!source) return tl::unexpected(source.error());
+  NestOptions o;
+  o.source = std::move(*source);
+  o.output = layout.output;
+  o.picture = layout.picture;
+  o.json = layout.json;
+  WordReader read;
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
+  read.number("--seed", w.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
+  read.number("--work", w.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
+  read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.threads);
+  read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360", o.angles);
+  if (!w.time.empty() || w.work.empty()) {
+    double seconds = 60;
+    read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
+    o.seconds = seconds;
+  }
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
 /// The words of `serve` alone.
 struct ServeWords {
   std::string store, listen = "127.0.0.1", port = "8080", token;
@@ -755,6 +801,13 @@ Result<Command> parse_command_line(int argc, char** argv) {
 
   exported.footer(kNoVerdict);
 
+  LayoutWords nest_layout;
+  NestWords nest_words;
+  CLI::App& nest = *app.add_subcommand("nest", "Place parts on strips, sheets and hides, densely");
+  add_layout_source(nest, nest_layout);
+  add_nest_options(nest, nest_layout, nest_words);
+  add_layout_outputs(nest, nest_layout);
+
   LayoutWords serve_layout;
   ServeWords serve_words;
   CLI::App& serve = *app.add_subcommand("serve", "Correct layouts in a browser, with a live exact check");
@@ -792,6 +845,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
     return to_layout_source(edit_words).map([&](LayoutSource&& source) {
       return Command(EditOptions{std::move(source), edit_words.commands, edit_words.output});
     });
+  if (nest) return to_nest(nest_layout, nest_words);
   if (serve) return to_serve(serve_layout, serve_words);
   return completion_script(app, shell).map([](std::string&& text) {
     return Command(PrintText{std::move(text)});

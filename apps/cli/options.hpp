@@ -125,6 +125,17 @@ struct EditOptions {
   std::string commands, output;  ///< output may be empty: stdout
 };
 
+struct NestOptions {
+  LayoutSource source;
+  std::string output, picture;  ///< may be empty; output: stdout, unless the report goes there
+  std::optional<double> seconds;
+  std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t seed = 0;
+  unsigned threads = 2;
+  std::size_t angles = 24;  ///< of parts that may be turned anyhow
+  bool json = false;
+};
+
 struct ServeOptions {
   LayoutSource source;  ///< an empty path: none
   std::string store;    ///< empty: among the user's data
@@ -145,7 +156,7 @@ struct PrintText {
 };
 
 using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, CheckOptions,
-                             ShowOptions, ExportOptions, EditOptions, ServeOptions, PrintText>;
+                             ShowOptions, ExportOptions, EditOptions, NestOptions, ServeOptions, PrintText>;
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);

@@ -1,0 +1,434 @@
+#include "lane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lekalo::nest {
+namespace {
+
+constexpr double kExploreShrink = 0.001, kFirstShrink = 0.02;
+constexpr double kCompressFrom = 0.0005, kCompressTo = 0.00001;
+/// Passes without 2 % less overlap that end an attempt, and attempts from the best so far.
+struct Patience {
+  int passes, strikes;
+};
+constexpr Patience kExplore = {200, 3}, kCompress = {100, 5}, kHasty = {50, 1}, kInsert = {100, 2};
+constexpr int kFailuresToCompress = 12;
+
+double about_normal(Random& random) {
+  double sum = 0;
+  for (int k = 0; k < 12; ++k) sum += random.uniform();
+  return sum - 6;
+}
+
+}  // namespace
+
+Lane::Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::uint64_t stream)
+    : problem_(problem), items_(items), separator_(problem, items, Random(seed, stream + 1)) {
+  by_size_.resize(items.movable());
+  std::iota(by_size_.begin(), by_size_.end(), 0u);
+  const auto& parts = problem.document().parts;
+  std::stable_sort(by_size_.begin(), by_size_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t p = items_.parts[a], q = items_.parts[b];
+    if (parts[p].priority != parts[q].priority) return parts[p].priority > parts[q].priority;
+    return problem.hull_area_of(p) > problem.hull_area_of(q);
+  });
+  // Those that make up three quarters of all hulls.
+  std::vector<std::uint32_t> order = by_size_;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return problem.hull_area_of(items_.parts[a]) > problem.hull_area_of(items_.parts[b]);
+  });
+  double all = 0, sum = 0;
+  for (const std::uint32_t i : order) all += problem_.hull_area_of(items_.parts[i]);
+  for (const std::uint32_t i : order) {
+    if (sum > 0.75 * all && large_.size() >= 2) break;
+    sum += problem_.hull_area_of(items_.parts[i]);
+    large_.push_back(i);
+  }
+}
+
+double Lane::reach_of(const State& state, std::uint32_t b, int axis) const {
+  const Bin& bin = problem_.bins()[b];
+  double reach = axis == 0 ? std::max(0.0, bin.locked_reach - bin.box.x0) : 0;
+  if (axis == 1 && bin.holds_locked) return bin.box.y1 - bin.box.y0;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    const Spot& spot = state.spots[i];
+    if (spot.bin != b) continue;
+    const Box& box = problem_.forms()[spot.form].box;
+    const double gap = problem_.border_gap_of(items_.parts[i]);
+    reach = std::max(reach, gap + (axis == 0 ? spot.x + box.x1 - bin.box.x0 : spot.y + box.y1 - bin.box.y0));
+  }
+  return reach;
+}
+
+void Lane::open_up(State& state) const {
+  for (std::uint32_t b = 0; b < state.ends.size(); ++b) {
+    const Bin& bin = problem_.bins()[b];
+    if (!bin.open) state.ends[b] = bin.box.x1;
+    state.tops[b] = bin.box.y1;
+  }
+}
+
+double Lane::used_area(const State& state, std::uint32_t bin) const {
+  double area = 0;
+  for (std::size_t i = 0; i < items_.movable(); ++i)
+    if (state.spots[i].bin == bin) area += problem_.area_of(items_.parts[i]);
+  return area;
+}
+
+Merit Lane::merit_of(const State& state) const {
+  Merit merit;
+  for (std::size_t i = 0; i < items_.movable(); ++i)
+    if (state.spots[i].bin == kNowhere) {
+      const int priority = problem_.document().parts[items_.parts[i]].priority;
+      merit.unplaced += problem_.area_of(items_.parts[i]) * (1 + std::max(0, priority));
+    }
+  for (const std::uint32_t bin : state.open_bins)
+    merit.cost += problem_.document().stocks[problem_.bins()[bin].stock].cost;
+  merit.reach = reach_of(state, target_, 0);
+  if (!problem_.bins()[target_].open) merit.reach *= reach_of(state, target_, 1);
+  return merit;
+}
+
+void Lane::build() {
+  const auto& bins = problem_.bins();
+  State state;
+  double area = 0, widest = 0;
+  for (const std::uint32_t part : items_.parts) {
+    const Forms& forms = problem_.forms_of(part);
+    state.spots.push_back({0, 0, forms.first, kNowhere});
+    area += problem_.area_of(part);
+    for (std::uint32_t f = forms.first; f < forms.last; ++f)
+      widest = std::max(widest, problem_.forms()[f].box.x1 - problem_.forms()[f].box.x0);
+  }
+  state.spots.insert(state.spots.end(), items_.fixed.begin(), items_.fixed.end());
+  for (std::uint32_t b = 0; b < bins.size(); ++b) {
+    state.ends.push_back(bins[b].box.x1);
+    state.tops.push_back(bins[b].box.y1);
+    if (bins[b].holds_locked) state.open_bins.push_back(b);
+  }
+  const bool strip = bins.size() == 1 && bins[0].open;
+  if (strip)
+    state.ends[0] = std::min(bins[0].box.x1, bins[0].box.x0 + std::max(bins[0].locked_reach, 0.0) + widest +
+                                                 0.5 * area / (bins[0].box.y1 - bins[0].box.y0));
+  separator_.load(state);
+  // Cheap stock first, large of equals.
+  std::vector<std::uint32_t> order(bins.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double ca = problem_.document().stocks[bins[a].stock].cost / bins[a].area,
+                 cb = problem_.document().stocks[bins[b].stock].cost / bins[b].area;
+    return ca != cb ? ca < cb : bins[a].area > bins[b].area;
+  });
+  std::vector<std::uint32_t> hopeless;  // parts that found no place on any
+  for (const std::uint32_t i : by_size_) {
+    if (std::find(hopeless.begin(), hopeless.end(), items_.parts[i]) != hopeless.end()) continue;
+    bool placed = false;
+    while (!placed) {
+      for (const std::uint32_t bin : separator_.state().open_bins) {
+        placed = separator_.place_low(i, bin, bins.size() == 1 ? 200 : 400);
+        if (placed) break;
+      }
+      if (placed) break;
+      if (strip && separator_.state().ends[0] < bins[0].box.x1) {
+        if (separator_.state().open_bins.empty())
+          separator_.open_bin(0);
+        else
+          separator_.set_limits(0, std::min(bins[0].box.x1, separator_.state().ends[0] + widest),
+                                bins[0].box.y1);
+        continue;
+      }
+      std::uint32_t next = kNowhere;
+      for (const std::uint32_t bin : order) {
+        const auto& open = separator_.state().open_bins;
+        if (std::find(open.begin(), open.end(), bin) != open.end()) continue;
+        if (!separator_.can_hold(bin, items_.parts[i])) continue;
+        next = bin;
+        break;
+      }
+      if (next == kNowhere) break;
+      separator_.open_bin(next);
+      placed = separator_.place_low(i, next, 2000);
+      if (!placed) {  // this part will not fit there
+        separator_.close_bin(next);
+        for (const std::uint32_t bin : order) {
+          const auto& open = separator_.state().open_bins;
+          if (bin == next || std::find(open.begin(), open.end(), bin) != open.end()) continue;
+          if (bins[bin].stock == bins[next].stock || !separator_.can_hold(bin, items_.parts[i])) continue;
+          separator_.open_bin(bin);
+          placed = separator_.place_low(i, bin, 2000);
+          if (placed) break;
+          separator_.close_bin(bin);
+        }
+        break;
+      }
+    }
+    if (!placed) hopeless.push_back(items_.parts[i]);
+  }
+  start(separator_.state());
+}
+
+void Lane::start(const State& state) {
+  best_ = state;
+  open_up(best_);
+  failures_ = 0;
+  pool_.clear();
+  done_ = false;
+  choose_goal();
+  merit_ = merit_of(best_);
+  if (!done_) next_attempt();
+}
+
+double Lane::first_ratio() const {
+  // Emptying a sheet is worth a try while another is there.
+  if (problem_.bins()[target_].open) return kFirstShrink;
+  return best_.open_bins.size() > 1 ? 1.0 : 0.5;
+}
+
+void Lane::choose_goal() {
+  phase_ = Phase::explore;
+  for (std::size_t i = 0; i < items_.movable(); ++i)
+    if (best_.spots[i].bin == kNowhere) phase_ = Phase::insert;
+  if (best_.open_bins.empty()) {
+    done_ = true;
+    return;
+  }
+  // Sheets with nothing on them are given back.
+  std::erase_if(best_.open_bins, [&](std::uint32_t bin) {
+    return best_.open_bins.size() > 1 && !problem_.bins()[bin].holds_locked && used_area(best_, bin) == 0;
+  });
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t bin : best_.open_bins) {
+    const double area = used_area(best_, bin) + (problem_.bins()[bin].holds_locked ? 1e30 : 0);
+    if (area < least) {
+      least = area;
+      target_ = bin;
+    }
+  }
+  if (phase_ == Phase::explore && used_area(best_, target_) == 0) done_ = true;
+  ratio_ = first_ratio();
+}
+
+void Lane::begin_separation() {
+  separator_.forget_weights();
+  least_overlap_ = strike_overlap_ = separator_.overlap();
+  least_ = separator_.state();
+  without_gain_ = strikes_ = 0;
+}
+
+void Lane::next_attempt() {
+  if (phase_ == Phase::insert) return attempt_insert();
+  attempt_shrink(phase_ == Phase::compress);
+}
+
+void Lane::attempt_insert() {
+  separator_.load(best_);
+  std::vector<std::uint32_t> nowhere;
+  for (const std::uint32_t i : by_size_)
+    if (best_.spots[i].bin == kNowhere) nowhere.push_back(i);
+  Random& random = separator_.random();
+  // Mostly the first, which is the largest or the most wanted.
+  const std::size_t pick = random.below(2) == 0 ? 0 : random.below(nowhere.size());
+  separator_.put_anywhere(nowhere[pick]);
+  begin_separation();
+}
+
+void Lane::attempt_shrink(bool random_split) {
+  separator_.load(best_);
+  const Bin& bin = problem_.bins()[target_];
+  Random& random = separator_.random();
+  if (ratio_ >= 1) {
+    separator_.close_bin(target_);
+    for (std::uint32_t i = 0; i < items_.movable(); ++i)
+      if (best_.spots[i].bin == target_) separator_.put_anywhere(i);
+    return begin_separation();
+  }
+  const bool strip = bin.open;
+  const double reach[2] = {reach_of(best_, target_, 0), reach_of(best_, target_, 1)};
+  const double across = axis_ == 1 ? bin.box.x1 - bin.box.x0 : bin.box.y1 - bin.box.y0;
+  // No shorter than what lies on it can be.
+  const auto least_of = [&](int axis) {
+    double least = std::max(separator_.least_side(target_, axis), used_area(best_, target_) / across);
+    if (axis == 0) least = std::max(least, bin.locked_reach - bin.box.x0);
+    return axis == 1 && bin.holds_locked ? reach[1] : least;
+  };
+  if (reach[axis_] <= least_of(axis_) * (1 + 1e-12)) {
+    if (!strip && reach[1 - axis_] > least_of(1 - axis_) * (1 + 1e-12)) {
+      axis_ = 1 - axis_;
+    } else {
+      done_ = best_.open_bins.size() == 1;
+      if (done_) return;
+      ratio_ = 1;
+      return attempt_shrink(false);
+    }
+  }
+  const double length = reach[axis_];
+  const double shorter = std::max(length * (1 - ratio_), least_of(axis_));
+  const double low = axis_ == 0 ? bin.box.x0 : bin.box.y0;
+  const double split = low + (random_split ? random.uniform() : 0.5) * length;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    Spot spot = separator_.state().spots[i];
+    if (spot.bin != target_) continue;
+    const Box& b = problem_.forms()[spot.form].box;
+    const double middle = axis_ == 0 ? spot.x + 0.5 * (b.x0 + b.x1) : spot.y + 0.5 * (b.y0 + b.y1);
+    if (middle <= split) continue;
+    (axis_ == 0 ? spot.x : spot.y) -= length - shorter;
+    separator_.set_spot(i, spot);
+  }
+  if (strip)
+    separator_.set_limits(target_, low + shorter, bin.box.y1);
+  else if (axis_ == 0)
+    separator_.set_limits(target_, low + shorter, bin.box.y0 + reach[1]);
+  else
+    separator_.set_limits(target_, bin.box.x0 + reach[0], low + shorter);
+  begin_separation();
+}
+
+void Lane::attempt_disrupted() {
+  Random& random = separator_.random();
+  std::stable_sort(pool_.begin(), pool_.end(),
+                   [](const Failed& a, const Failed& b) { return a.overlap < b.overlap; });
+  const auto pick = static_cast<std::size_t>(
+      std::min(0.999, std::abs(0.25 * about_normal(random))) * static_cast<double>(pool_.size()));
+  separator_.load(pool_[pick].state);
+  if (large_.size() < 2) return begin_separation();
+  const State& state = separator_.state();
+  const std::uint32_t a = large_[random.below(large_.size())];
+  std::uint32_t b = a;
+  for (int tries = 0; tries < 50 && items_.parts[b] == items_.parts[a]; ++tries)
+    b = large_[random.below(large_.size())];
+  if (items_.parts[a] == items_.parts[b] || state.spots[a].bin == kNowhere || state.spots[b].bin == kNowhere)
+    return begin_separation();
+  const auto middle = [&](std::uint32_t i) {
+    const Spot& s = state.spots[i];
+    const Box& box = problem_.forms()[s.form].box;
+    return geom::Point{s.x + 0.5 * (box.x0 + box.x1), s.y + 0.5 * (box.y0 + box.y1)};
+  };
+  const geom::Point way = middle(b) - middle(a);
+  const auto lies_in = [&](std::uint32_t i, std::uint32_t of) {
+    const Spot& s = state.spots[of];
+    const Box& box = problem_.forms()[s.form].box;
+    const geom::Point m = middle(i);
+    return state.spots[i].bin == s.bin && m.x > s.x + box.x0 && m.x < s.x + box.x1 && m.y > s.y + box.y0 &&
+           m.y < s.y + box.y1 &&
+           problem_.hull_area_of(items_.parts[i]) < 0.5 * problem_.hull_area_of(items_.parts[of]);
+  };
+  struct Move {
+    std::uint32_t item, bin;
+    geom::Point by;
+  };
+  const std::uint32_t bin_a = state.spots[a].bin, bin_b = state.spots[b].bin;
+  std::vector<Move> moves = {{a, bin_b, way}, {b, bin_a, -way}};
+  for (std::uint32_t i = 0; i < items_.movable(); ++i) {
+    if (i == a || i == b) continue;
+    if (lies_in(i, a))
+      moves.push_back({i, bin_b, way});
+    else if (lies_in(i, b))
+      moves.push_back({i, bin_a, -way});
+  }
+  for (const Move& move : moves) {
+    Spot s = state.spots[move.item];
+    s.x += move.by.x;
+    s.y += move.by.y;
+    s.bin = move.bin;
+    separator_.set_spot(move.item, s);
+  }
+  for (const std::uint32_t bin : {bin_a, bin_b})
+    separator_.set_limits(bin, state.ends[bin], state.tops[bin]);
+  begin_separation();
+}
+
+void Lane::on_valid() {
+  if (problem_.unit() > 0) separator_.snap(problem_.unit());
+  // What does not fit between the limits at all was left beyond them.
+  if (phase_ != Phase::insert && !(merit_of(separator_.state()) < merit_)) return on_stuck();
+  const Phase before = phase_;
+  const double ratio = ratio_;
+  const std::uint32_t target = target_;
+  best_ = separator_.state();
+  open_up(best_);
+  failures_ = 0;
+  pool_.clear();
+  choose_goal();
+  if (!done_ && before != Phase::insert && target_ == target) {
+    phase_ = before;
+    ratio_ = ratio;
+  }
+  if (before == Phase::insert && phase_ != Phase::insert) pool_.clear();
+  merit_ = merit_of(best_);
+  if (!done_) next_attempt();
+}
+
+void Lane::on_stuck() {
+  ++failures_;
+  if (phase_ == Phase::insert) {
+    // Not the goal any more after many tries: then the least material for what is there.
+    if (failures_ % 2 == 0 || least_overlap_ <= 0) return attempt_insert();
+    pool_.push_back({least_, least_overlap_});
+    if (pool_.size() > 8) pool_.erase(pool_.begin());
+    return attempt_disrupted();
+  }
+  if (phase_ == Phase::compress) {
+    ratio_ *= 0.85;
+    if (ratio_ < kCompressTo) {
+      phase_ = Phase::explore;
+      ratio_ = problem_.bins()[target_].open ? kExploreShrink : first_ratio();
+      if (!problem_.bins()[target_].open) axis_ = 1 - axis_;
+      pool_.clear();
+      failures_ = 0;
+    }
+    return next_attempt();
+  }
+  if (ratio_ > kExploreShrink) {
+    // A sheet that might go is tried harder than a little length.
+    if (ratio_ < 1 || failures_ >= 4) {
+      ratio_ = std::max(kExploreShrink, 0.5 * ratio_);
+      failures_ = 0;
+    }
+    return next_attempt();
+  }
+  pool_.push_back({least_, least_overlap_});
+  if (failures_ >= kFailuresToCompress) {
+    phase_ = Phase::compress;
+    ratio_ = kCompressFrom;
+    failures_ = 0;
+    pool_.clear();
+    return next_attempt();
+  }
+  attempt_disrupted();
+}
+
+void Lane::step() {
+  const double overlap = separator_.pass();
+  if (overlap <= 0 || (separator_.deepest() < problem_.unit() && separator_.snap(problem_.unit())))
+    return on_valid();
+  const Patience patience = phase_ == Phase::insert     ? kInsert
+                            : phase_ == Phase::compress ? kCompress
+                            : ratio_ >= 1               ? kInsert
+                            : ratio_ > kExploreShrink   ? kHasty
+                                                        : kExplore;
+  if (overlap < 0.98 * strike_overlap_) {
+    strike_overlap_ = overlap;
+    without_gain_ = 0;
+  } else {
+    ++without_gain_;
+  }
+  if (overlap < least_overlap_) {
+    least_overlap_ = overlap;
+    least_ = separator_.state();
+  }
+  if (without_gain_ < patience.passes) return;
+  without_gain_ = 0;
+  strike_overlap_ = least_overlap_;
+  if (++strikes_ >= patience.strikes) return on_stuck();
+  separator_.load(least_);
+  separator_.overlap();
+}
+
+void Lane::run(std::uint64_t work) {
+  const std::uint64_t until = separator_.work() + work;
+  while (!done_ && separator_.work() < until) step();
+}
+
+}  // namespace lekalo::nest

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "separator.hpp"
+
+namespace lekalo::nest {
+
+/// How good a valid state is; less is better.
+struct Merit {
+  double unplaced = 0;  ///< mm^2, weighed by priority
+  double cost = 0;      ///< of the stock in use
+  double reach = 0;     ///< of a strip, mm; else the box from the corner that holds what is on the last, mm^2
+  friend auto operator<=>(const Merit&, const Merit&) = default;
+};
+
+/// One strand of the search; strands run on their own between merges. It takes pieces that lie nowhere in,
+/// empties sheets and shortens the last one, each by asking for a little more than there is and ending the
+/// overlaps.
+class Lane {
+ public:
+  Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::uint64_t stream);
+
+  /// A first valid state: one piece after the other, large ones first. Pieces for which no place is found lie
+  /// nowhere.
+  void build();
+  /// Goes on from a valid state.
+  void start(const State& state);
+  /// Until about so much more work is done; less where nothing is left to be gained.
+  void run(std::uint64_t work);
+
+  const State& best() const noexcept { return best_; }
+  const Merit& merit() const noexcept { return merit_; }
+  std::uint64_t work() const noexcept { return separator_.work(); }
+  /// Nothing is left to be gained.
+  bool is_done() const noexcept { return done_; }
+
+ private:
+  struct Failed {
+    State state;
+    double overlap;
+  };
+  enum class Phase { insert, explore, compress };
+  /// How far along an axis what is on a bin reaches, border gaps included, mm from its corner.
+  double reach_of(const State& state, std::uint32_t bin, int axis) const;
+  /// Takes limits of sheets back.
+  void open_up(State& state) const;
+  double used_area(const State& state, std::uint32_t bin) const;
+  double first_ratio() const;
+  Merit merit_of(const State& state) const;
+  void choose_goal();
+  void next_attempt();
+  void attempt_insert();
+  void attempt_shrink(bool random_split);
+  void attempt_disrupted();
+  void begin_separation();
+  void step();
+  void on_valid();
+  void on_stuck();
+
+  const Problem& problem_;
+  const Items& items_;
+  Separator separator_;
+  std::vector<std::uint32_t> by_size_, large_;
+  State best_;
+  Merit merit_;
+  bool done_ = false;
+  Phase phase_ = Phase::explore;
+  std::uint32_t target_ = 0;  ///< the bin that is shortened
+  int axis_ = 0;              ///< along x, or y of sheets
+  double ratio_ = 0;
+  int failures_ = 0;
+  std::vector<Failed> pool_;
+  State least_;
+  double least_overlap_ = 0, strike_overlap_ = 0;
+  int without_gain_ = 0, strikes_ = 0;
+};
+
+}  // namespace lekalo::nest

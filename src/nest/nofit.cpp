@@ -1,0 +1,340 @@
+#include "nofit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lekalo::nest {
+namespace {
+
+using geom::Point;
+
+struct Bounds {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  void add(Point p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+struct Sum {
+  ConvexPiece corners;
+  Bounds box;
+};
+
+/// The shifts of b at which two convex pieces overlap: a less b.
+Sum difference_of(const ConvexPiece& a, const ConvexPiece& b) {
+  const auto lowest = [](const ConvexPiece& p, double sign) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < p.size(); ++k) {
+      const double y = sign * p[k].y, by = sign * p[best].y;
+      if (y < by || (y == by && sign * p[k].x < sign * p[best].x)) best = k;
+    }
+    return best;
+  };
+  const std::size_t n = a.size(), m = b.size();
+  const std::size_t a0 = lowest(a, 1), b0 = lowest(b, -1);
+  Sum sum;
+  std::size_t i = 0, j = 0;
+  while (i < n || j < m) {
+    const Point p = a[(a0 + i) % n], q = b[(b0 + j) % m];
+    sum.corners.push_back(p - q);
+    const Point da = a[(a0 + i + 1) % n] - p, db = q - b[(b0 + j + 1) % m];
+    const double side = i >= n ? -1 : j >= m ? 1 : cross(da, db);
+    if (side >= 0) ++i;
+    if (side <= 0) ++j;
+  }
+  for (const Point p : sum.corners) sum.box.add(p);
+  return sum;
+}
+
+/// The part of a segment strictly inside a convex polygon, as [from, to] along it; empty when from >= to.
+std::pair<double, double> inside_of(const ConvexPiece& polygon, Point start, Point direction, double length,
+                                    double reserve) {
+  double from = 0, to = length;
+  const std::size_t n = polygon.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Point p = polygon[k], edge = polygon[k + 1 == n ? 0 : k + 1] - p;
+    const double edge_length = norm(edge);
+    if (edge_length == 0) continue;
+    // cross(edge, start + s direction - p) > reserve
+    const double at_start = cross(edge, start - p) / edge_length - reserve;
+    const double rate = cross(edge, direction) / edge_length;
+    if (std::abs(rate) < 1e-13) {
+      if (at_start <= 0) return {0, 0};
+    } else if (rate > 0) {
+      from = std::max(from, -at_start / rate);
+    } else {
+      to = std::min(to, -at_start / rate);
+    }
+    if (from >= to) return {0, 0};
+  }
+  return {from, to};
+}
+
+struct Contact {
+  Point from, to;
+};
+
+/// Shifts at which a corner of one that is no dent lies on an edge of the other, on its outer side.
+void add_contacts(const Shape& edges_of, const Shape& corners_of, bool edges_move, std::vector<Contact>& to) {
+  for (const auto& loop : edges_of.loops) {
+    for (std::size_t e = 0; e < loop.size(); ++e) {
+      const Point a = loop[e], b = loop[(e + 1) % loop.size()];
+      const Point along = b - a;
+      const Point out = {along.y, -along.x};
+      const double size = norm(out);
+      if (size == 0) continue;
+      for (const auto& corners : corners_of.loops) {
+        const std::size_t n = corners.size();
+        for (std::size_t v = 0; v < n; ++v) {
+          const Point p = corners[v], before = corners[(v + n - 1) % n] - p, after = corners[(v + 1) % n] - p;
+          const double slack = -1e-9 * size;
+          if (dot(before, out) < slack * norm(before) || dot(after, out) < slack * norm(after)) continue;
+          if (cross(before, after) > 0) continue;  // a dent
+          if (edges_move)
+            to.push_back({p - a, p - b});
+          else
+            to.push_back({a - p, b - p});
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Shape turned(const Shape& shape, double c, double s) {
+  Shape result = shape;
+  const auto turn = [&](Point& p) { p = {c * p.x - s * p.y, s * p.x + c * p.y}; };
+  for (auto& loop : result.loops)
+    for (Point& p : loop) turn(p);
+  for (auto& piece : result.pieces)
+    for (Point& p : piece) turn(p);
+  return result;
+}
+
+NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free,
+             const Box& window)
+    : gap_(gap) {
+  std::vector<Sum> sums;
+  Bounds all;
+  for (const ConvexPiece& p : a.pieces)
+    for (const ConvexPiece& q : b.pieces) {
+      sums.push_back(difference_of(p, q));
+      all.add(sums.back().box.low);
+      all.add(sums.back().box.high);
+    }
+  if (sums.empty()) return;
+  const double size = std::max(all.high.x - all.low.x, all.high.y - all.low.y);
+  const double outward = 1e-10 * size, reserve = 1e-11 * size;
+  tie_ = 1e-8 * size;
+
+  std::vector<Contact> contacts;
+  add_contacts(a, b, false, contacts);
+  add_contacts(b, a, true, contacts);
+  std::vector<std::pair<double, double>> covered, at_all;
+  const auto covered_by = [&](Point start, Point direction, double length,
+                              std::vector<std::pair<double, double>>& into) {
+    into.clear();
+    Bounds box;
+    box.add(start);
+    box.add(start + length * direction);
+    for (const Sum& sum : sums) {
+      if (sum.box.low.x >= box.high.x || sum.box.high.x <= box.low.x || sum.box.low.y >= box.high.y ||
+          sum.box.high.y <= box.low.y) {
+        // A segment along an axis has a flat box: it may still run inside.
+        if (sum.box.low.x > box.high.x || sum.box.high.x < box.low.x || sum.box.low.y > box.high.y ||
+            sum.box.high.y < box.low.y)
+          continue;
+      }
+      const auto [from, to] = inside_of(sum.corners, start, direction, length, reserve);
+      if (from < to) into.emplace_back(from, to);
+    }
+    std::sort(into.begin(), into.end());
+  };
+  const auto gaps_of = [&](const std::vector<std::pair<double, double>>& intervals, double length,
+                           auto&& visit) {
+    double at = 0;
+    for (const auto& [from, to] : intervals) {
+      if (from > at + 4 * outward) visit(at, from);
+      at = std::max(at, to);
+    }
+    if (length > at + 4 * outward) visit(at, length);
+  };
+  for (const Contact& contact : contacts) {
+    const double length = norm(contact.to - contact.from);
+    if (!(length > 0)) continue;
+    const Point direction = (1 / length) * (contact.to - contact.from);
+    const Point out = {direction.y, -direction.x};
+    covered_by(contact.from + outward * out, direction, length, covered);
+    gaps_of(covered, length, [&](double from, double to) {
+      segments_.push_back({contact.from + from * direction, direction, to - from, false});
+    });
+    // Where the outer side is forbidden too but the contact itself is not: a slot just wide enough.
+    if (!is_free) continue;
+    covered_by(contact.from, direction, length, at_all);
+    gaps_of(at_all, length, [&](double from, double to) {
+      double at = from;
+      for (const auto& [low, high] : covered) {
+        const double begin = std::max(at, low), end = std::min(to, high);
+        if (begin < end) {
+          at = end;
+          if (!is_free(contact.from + 0.5 * (begin + end) * direction)) continue;
+          segments_.push_back({contact.from + begin * direction, direction, end - begin, true});
+        }
+      }
+    });
+  }
+  if (segments_.size() > 65'000) segments_.resize(65'000);
+
+  const double margin = gap_ + 1e-9 * size;
+  all.low = all.low - Point{margin, margin};
+  all.high = all.high + Point{margin, margin};
+  if (window.x1 > window.x0) {
+    Bounds of_b;
+    for (const auto& loop : b.loops)
+      for (const Point p : loop) of_b.add(p);
+    all.low = {std::max(all.low.x, window.x0 - of_b.high.x), std::max(all.low.y, window.y0 - of_b.high.y)};
+    all.high = {std::min(all.high.x, window.x1 - of_b.low.x), std::min(all.high.y, window.y1 - of_b.low.y)};
+  }
+  const double w = all.high.x - all.low.x, h = all.high.y - all.low.y;
+  const double side = std::sqrt(w * h / static_cast<double>(cells));
+  per_mm_ = 1 / side;
+  x0_ = all.low.x;
+  y0_ = all.low.y;
+  columns_ = static_cast<std::uint32_t>(std::ceil(w * per_mm_)) + 1;
+  rows_ = static_cast<std::uint32_t>(std::ceil(h * per_mm_)) + 1;
+  width_ = columns_;
+  height_ = rows_;
+  cells_.assign(std::size_t{columns_} * rows_, kClear);
+  nodes_.assign(std::size_t{columns_ + 1} * (rows_ + 1), 0);
+  std::uint32_t square = 1;
+  while (square < columns_ || square < rows_) square *= 2;
+  std::vector<std::uint16_t> every(segments_.size());
+  for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<std::uint16_t>(k);
+  if (!every.empty()) fill(0, 0, square, every);
+}
+
+/// Cells of a block: segments that are the nearest of no point in it are left out on the way down.
+void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
+                 const std::vector<std::uint16_t>& candidates) {
+  if (x >= columns_ || y >= rows_) return;
+  const double side = 1 / per_mm_;
+  const double radius = 0.5 * size * side * 1.4142136 + tie_;
+  const Point centre = {x0_ + (x + 0.5 * size) * side, y0_ + (y + 0.5 * size) * side};
+  std::vector<double> distances;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint16_t k : candidates) {
+    const Segment& s = segments_[k];
+    const Point d = centre - s.from;
+    const double along = std::clamp(dot(d, s.direction), 0.0, s.length);
+    distances.push_back(norm(d - along * s.direction));
+    least = std::min(least, distances.back());
+  }
+  std::vector<std::uint16_t> kept;
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    if (distances[k] <= least + 2 * radius) kept.push_back(candidates[k]);
+  if (size > 1) {
+    const std::uint32_t half = size / 2;
+    fill(x, y, half, kept);
+    fill(x + half, y, half, kept);
+    fill(x, y + half, half, kept);
+    fill(x + half, y + half, half, kept);
+    return;
+  }
+  const std::uint16_t* begin = kept.data();
+  const std::uint16_t* end = begin + kept.size();
+  const double middle = signed_distance(begin, end, centre.x, centre.y).distance + gap_;
+  std::uint32_t& cell = cells_[std::size_t{y} * columns_ + x];
+  if (middle < -radius) {
+    cell = kClear;
+  } else if (middle > radius) {
+    cell = kDeep;
+  } else {
+    cell = static_cast<std::uint32_t>(lists_.size()) + 2;
+    lists_.push_back(static_cast<std::uint16_t>(kept.size()));
+    lists_.insert(lists_.end(), kept.begin(), kept.end());
+  }
+  for (std::uint32_t j = 0; j < 2; ++j)
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const Point p = {x0_ + (x + i) * side, y0_ + (y + j) * side};
+      nodes_[std::size_t{y + j} * (columns_ + 1) + x + i] = static_cast<float>(
+          std::max(0.0, signed_distance(begin, end, p.x, p.y).distance + gap_));
+    }
+}
+
+NoFit::Signed NoFit::signed_distance(const std::uint16_t* begin, const std::uint16_t* end, double x,
+                                     double y) const noexcept {
+  double best = std::numeric_limits<double>::infinity(), best_side = 0;
+  Point nearest;
+  bool two_sided = false;
+  for (const std::uint16_t* k = begin; k != end; ++k) {
+    const Segment& s = segments_[*k];
+    const double dx = x - s.from.x, dy = y - s.from.y;
+    double along = dx * s.direction.x + dy * s.direction.y;
+    const double side = s.direction.x * dy - s.direction.y * dx;
+    along = along < 0 ? 0 : along > s.length ? s.length : along;
+    const double ex = dx - along * s.direction.x, ey = dy - along * s.direction.y;
+    const double distance = std::sqrt(ex * ex + ey * ey);
+    // At a corner two are equally near: the one whose line is further away knows the side.
+    if (distance < best - tie_ ||
+        (distance < best + tie_ && (distance < best ? std::abs(side) >= std::abs(best_side) - tie_
+                                                    : std::abs(side) > std::abs(best_side) + tie_))) {
+      best_side = side;
+      two_sided = s.two_sided;
+      nearest = {s.from.x + along * s.direction.x, s.from.y + along * s.direction.y};
+      if (distance < best) best = distance;
+    } else if (distance < best) {
+      best = distance;
+    }
+  }
+  return {best_side > 0 || two_sided ? best : -best, nearest};
+}
+
+double NoFit::depth_near(std::uint32_t cell, double x, double y) const noexcept {
+  const std::uint16_t* list = &lists_[cell - 2];
+  const double distance = signed_distance(list + 1, list + 1 + *list, x, y).distance + gap_;
+  return distance > 0 ? distance : 0;
+}
+
+NoFit::Way NoFit::way_out(double x, double y) const noexcept {
+  const double fx = (x - x0_) * per_mm_, fy = (y - y0_) * per_mm_;
+  if (!(fx >= 0 && fy >= 0 && fx < width_ && fy < height_)) return {};
+  const auto ix = static_cast<std::uint32_t>(fx), iy = static_cast<std::uint32_t>(fy);
+  const std::uint32_t cell = cells_[iy * columns_ + ix];
+  if (cell == kClear) return {};
+  if (cell == kDeep) {
+    const float* node = &nodes_[iy * (columns_ + 1) + ix];
+    const double u = fx - ix, v = fy - iy;
+    const double a = static_cast<double>(node[0]), b = static_cast<double>(node[1]),
+                 c = static_cast<double>(node[columns_ + 1]), d = static_cast<double>(node[columns_ + 2]);
+    const Point up = {(b - a) * (1 - v) + (d - c) * v, (c - a) * (1 - u) + (d - b) * u};
+    const double length = norm(up);
+    const double value = (a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v;
+    if (!(length > 0)) return {value, {1, 0}};
+    return {value, (-1 / length) * up};
+  }
+  const std::uint16_t* list = &lists_[cell - 2];
+  const Signed at = signed_distance(list + 1, list + 1 + *list, x, y);
+  if (!(at.distance + gap_ > 0)) return {};
+  const Point to = at.distance >= 0 ? at.nearest - Point{x, y} : Point{x, y} - at.nearest;
+  const double length = norm(to);
+  if (!(length > 1e-12)) {  // on the border: across the nearest edge
+    double best = std::numeric_limits<double>::infinity();
+    Point direction;
+    for (const std::uint16_t* k = list + 1; k != list + 1 + *list; ++k) {
+      const Segment& s = segments_[*k];
+      const double side = std::abs(cross(s.direction, Point{x, y} - s.from));
+      if (side < best) {
+        best = side;
+        direction = {s.direction.y, -s.direction.x};
+      }
+    }
+    return {at.distance + gap_, direction};
+  }
+  return {at.distance + gap_, (1 / length) * to};
+}
+
+}  // namespace lekalo::nest

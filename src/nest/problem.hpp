@@ -1,0 +1,134 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "lekalo/layout/document.hpp"
+#include "nofit.hpp"
+
+namespace lekalo::nest {
+
+/// A layout document as the search sees it: numbers in doubles, mm, and what can be looked up.
+
+/// A part, mirrored or not, or something of the stock that forbids.
+struct SearchShape {
+  enum class Kind : std::uint8_t { part, border, defect, zone };
+  Kind kind = Kind::part;
+  Shape whole;
+  std::uint32_t part = 0;  ///< of parts
+  int level = 0;           ///< severity of a defect, quality of a zone
+  /// Of parts: what needs more than a zone of a quality has, by quality.
+  std::vector<std::pair<int, Shape>> demanding;
+  Box window;  ///< of borders: where parts can be at all
+};
+
+/// A shape at an angle.
+struct Form {
+  std::uint32_t shape = 0, angle = 0;
+  double c = 1, s = 0;
+  geom::GridRotation rotation;
+  bool mirrored = false;
+  Box box;  ///< around the origin
+};
+
+/// Forms that one part may have: [first, last).
+struct Forms {
+  std::uint32_t first = 0, last = 0;
+};
+
+/// What lies where it lies: locked parts, borders that are no rectangle, holes, defects, zones.
+struct Obstacle {
+  std::uint32_t form = 0;
+  double x = 0, y = 0;
+};
+
+/// A rectangle that parts lie in, and what else forbids there. Hides: the rectangle around them, and their
+/// border as an obstacle.
+struct Bin {
+  std::uint32_t stock = 0;
+  std::int64_t copy = 0;
+  Box box;
+  bool open = false;  ///< a strip: x1 is what is sought
+  double area = 0;    ///< material, mm^2
+  bool holds_locked = false;
+  double locked_reach = -std::numeric_limits<double>::infinity();  ///< x up to which locked parts reach
+  std::vector<Obstacle> obstacles;
+};
+
+struct SearchOptions {
+  std::size_t angles_of_any = 24;  ///< of a part that may be turned anyhow
+  std::size_t cells = 2048;        ///< of a raster
+};
+
+class Problem {
+ public:
+  /// \param document  outlives the problem; placements that are not locked do not count
+  Problem(const layout::Document& document, const SearchOptions& options);
+
+  const layout::Document& document() const noexcept { return *document_; }
+  const std::vector<Form>& forms() const noexcept { return forms_; }
+  /// Of part \p part at this rotation, where it is among the forms.
+  std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
+  const Forms& forms_of(std::uint32_t part) const noexcept { return by_part_[part]; }
+  const std::vector<Bin>& bins() const noexcept { return bins_; }
+  double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
+  double hull_area_of(std::uint32_t part) const noexcept { return hull_areas_[part]; }
+  double border_gap_of(std::uint32_t part) const noexcept { return border_gaps_[part]; }
+  /// Every corner of parts, at every angle they may have, and of the stock lies on multiples of this, mm; 0
+  /// where there is no such length worth speaking of.
+  double unit() const noexcept { return unit_; }
+  /// Whether the part's box fits on some stock in some form.
+  bool fits_somewhere(std::uint32_t part) const noexcept;
+  /// The widest gap that may count between any two.
+  double widest_gap() const noexcept { return widest_gap_; }
+
+  /// How deep form b at a shift of (dx, dy) from form a lies in it.
+  double depth(const Form& a, const Form& b, double dx, double dy) const {
+    if (a.shape <= b.shape) return table(a, b).depth(a.c * dx + a.s * dy, a.c * dy - a.s * dx);
+    return table(b, a).depth(-(b.c * dx + b.s * dy), b.s * dx - b.c * dy);
+  }
+  /// The same, and the direction in which b gets free.
+  NoFit::Way way_out(const Form& a, const Form& b, double dx, double dy) const;
+  std::size_t tables() const noexcept { return made_.load(); }
+
+ private:
+  const NoFit& table(const Form& a, const Form& b) const {
+    const std::size_t at =
+        (std::size_t{a.shape} * shapes_.size() + b.shape) * relative_count_ + relative_[a.angle * angles_.size() + b.angle];
+    const NoFit* found = tables_[at].load(std::memory_order_acquire);
+    return found != nullptr ? *found : make_table(at, a, b);
+  }
+  const NoFit& make_table(std::size_t at, const Form& a, const Form& b) const;
+  void add_parts();
+  void add_bins();
+  void add_locked();
+  void find_unit();
+  void add_stock_obstacles(std::uint32_t stock, Bin& bin);
+  void add_relative_angles();
+  std::uint32_t obstacle_form(SearchShape::Kind kind, int level, Shape shape);
+  std::uint32_t angle_index(geom::GridRotation rotation);
+  void add_form(std::uint32_t shape, geom::GridRotation rotation, bool mirrored);
+
+  const layout::Document* document_;
+  SearchOptions options_;
+  std::vector<SearchShape> shapes_;
+  std::vector<Form> forms_;
+  std::vector<Forms> by_part_;
+  std::vector<Bin> bins_;
+  std::vector<double> areas_, hull_areas_, border_gaps_;
+  double widest_gap_ = 0, unit_ = 0;
+  std::vector<geom::GridRotation> angles_;
+  std::vector<std::uint32_t> relative_;
+  std::vector<std::pair<double, double>> relative_pairs_;
+  std::size_t relative_count_ = 1;
+  mutable std::unique_ptr<std::atomic<const NoFit*>[]> tables_;
+  mutable std::vector<std::unique_ptr<NoFit>> owned_;
+  mutable std::mutex making_;
+  mutable std::atomic<std::size_t> made_{0};
+};
+
+}  // namespace lekalo::nest

@@ -1,0 +1,413 @@
+#include "separator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lekalo::nest {
+
+namespace {
+constexpr double kFar = std::numeric_limits<double>::infinity();
+/// Depths up to this are rounding, mm: what is left of them is set right on the grid.
+constexpr double kTolerance = 3e-6;
+/// What an overlap costs at least, as a share of the middling part's size: many small ones are then not
+/// cheaper than one.
+constexpr double kLeastValue = 0.003;
+constexpr int kFocused = 5, kAnywhere = 20;  ///< candidate places of a move
+/// Steps as shares of the item's narrow side.
+constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
+constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
+}
+
+Separator::Separator(const Problem& problem, const Items& items, Random random)
+    : problem_(problem), items_(items), random_(random), total_(items.total()) {
+  weights_.assign(items_.movable() * total_, 1);
+  in_conflict_.assign(total_, 0);
+  boxes_.resize(total_);
+  for (const std::uint32_t part : items_.parts) unit_ += std::sqrt(problem_.hull_area_of(part));
+  unit_ /= static_cast<double>(items_.movable());
+  for (const std::uint32_t part : items_.parts) {
+    const Forms& forms = problem_.forms_of(part);
+    const Box& b = problem_.forms()[forms.first].box;
+    size_.push_back(std::sqrt(problem_.hull_area_of(part)) / unit_);
+    min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
+  }
+  size_.resize(total_, 1);
+}
+
+void Separator::load(const State& state) {
+  state_ = state;
+  for (std::size_t i = 0; i < total_; ++i) set_spot(i, state_.spots[i]);
+}
+
+void Separator::set_spot(std::size_t i, const Spot& spot) {
+  state_.spots[i] = spot;
+  const Box& b = problem_.forms()[spot.form].box;
+  boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
+}
+
+void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
+  state_.ends[bin] = x1;
+  state_.tops[bin] = y1;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    Spot spot = state_.spots[i];
+    if (spot.bin != bin) continue;
+    Range r = range_of(spot.form, bin, items_.parts[i]);
+    if (r.x1 < r.x0 || r.y1 < r.y0) {  // another angle may be narrower
+      const Forms& forms = problem_.forms_of(items_.parts[i]);
+      for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+        const Range other = range_of(f, bin, items_.parts[i]);
+        if (other.x1 < other.x0 || other.y1 < other.y0) continue;
+        spot.form = f;
+        r = other;
+        break;
+      }
+    }
+    spot.x = std::max(r.x0, std::min(r.x1, spot.x));
+    spot.y = std::max(r.y0, std::min(r.y1, spot.y));
+    set_spot(i, spot);
+  }
+}
+
+double Separator::value_of(std::size_t i, std::size_t j, double depth) const noexcept {
+  return (depth / unit_ + kLeastValue) * std::sqrt(size_[i] * size_[j]);
+}
+
+void Separator::forget_weights() { std::fill(weights_.begin(), weights_.end(), 1.0f); }
+
+Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const {
+  const Box& b = problem_.forms()[form].box;
+  const Box& in = problem_.bins()[bin].box;
+  const double gap = problem_.border_gap_of(part);
+  Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, state_.tops[bin] - gap - b.y1};
+  // What fits exactly fits: rounding does not decide.
+  if (r.x1 < r.x0 && r.x0 - r.x1 < 1e-6) r.x0 = r.x1 = 0.5 * (r.x0 + r.x1);
+  if (r.y1 < r.y0 && r.y0 - r.y1 < 1e-6) r.y0 = r.y1 = 0.5 * (r.y0 + r.y1);
+  return r;
+}
+
+void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
+  near_.resize(total_);
+  std::size_t count = 0;
+  const double gap = problem_.widest_gap();
+  const double x0 = box.x0 - gap, x1 = box.x1 + gap, y0 = box.y0 - gap, y1 = box.y1 + gap;
+  for (std::size_t j = 0; j < total_; ++j) {
+    near_[count] = static_cast<std::uint32_t>(j);
+    const Box& b = boxes_[j];
+    count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) &
+                                      (state_.spots[j].bin == bin) & (j != but));
+  }
+  near_.resize(count);
+}
+
+/// With the items gathered around.
+double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
+  ++work_;
+  const Form& form = problem_.forms()[spot.form];
+  const Box& b = form.box;
+  const double gap = problem_.widest_gap();
+  const double x0 = spot.x + b.x0 - gap, x1 = spot.x + b.x1 + gap, y0 = spot.y + b.y0 - gap,
+               y1 = spot.y + b.y1 + gap;
+  double sum = 0;
+  const float* weights = &weights_[i * total_];
+  for (const std::uint32_t j : near_) {
+    const Box& o = boxes_[j];
+    if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) continue;
+    const Spot& other = state_.spots[j];
+    const double depth =
+        problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y);
+    if (depth > 0) {
+      sum += static_cast<double>(weights[j]) * value_of(i, j, depth);
+      if (sum >= limit) return sum;
+    }
+  }
+  return sum;
+}
+
+double Separator::evaluate_all(std::size_t i, const Spot& spot, double limit) {
+  const Box& b = problem_.forms()[spot.form].box;
+  gather({spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1}, spot.bin, i);
+  return evaluate(i, spot, limit);
+}
+
+void Separator::descend(std::size_t i, Candidate& best, double step, double until) {
+  const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
+  const Box& b = problem_.forms()[best.spot.form].box;
+  double reach = 3 * step;
+  double ax = best.spot.x, ay = best.spot.y;
+  const auto gather_here = [&] {
+    ax = best.spot.x;
+    ay = best.spot.y;
+    gather({ax + b.x0 - reach, ay + b.y0 - reach, ax + b.x1 + reach, ay + b.y1 + reach}, best.spot.bin, i);
+  };
+  gather_here();
+  double sx = step, sy = step;
+  while (best.loss > 0 && (sx > until || sy > until)) {
+    const std::uint64_t axis = random_.below(4);
+    const double dx = axis == 1 ? 0 : axis == 0 ? sx : 0.7071 * sx;
+    const double dy = axis == 0 ? 0 : axis == 1 ? sy : axis == 2 ? 0.7071 * sy : -0.7071 * sy;
+    bool better = false;
+    for (const double sign : {1.0, -1.0}) {
+      Spot spot = best.spot;
+      spot.x = std::max(r.x0, std::min(r.x1, spot.x + sign * dx));
+      spot.y = std::max(r.y0, std::min(r.y1, spot.y + sign * dy));
+      const double loss = evaluate(i, spot, best.loss);
+      if (loss < best.loss) {
+        best.loss = loss;
+        best.spot = spot;
+        better = true;
+        break;
+      }
+    }
+    const double factor = better ? 1.1 : 0.5;
+    if (axis == 0) {
+      sx *= factor;
+    } else if (axis == 1) {
+      sy *= factor;
+    } else {
+      const double half = better ? 1.05 : 0.7071;
+      sx *= half;
+      sy *= half;
+    }
+    if (std::abs(best.spot.x - ax) + sx > reach || std::abs(best.spot.y - ay) + sy > reach) {
+      reach = std::max(reach, 2 * std::max(sx, sy));
+      gather_here();
+    }
+  }
+}
+
+/// Along the ways out of what it still overlaps, one after the other: the corner between two comes out exactly.
+void Separator::push_out(std::size_t i, Candidate& best) {
+  const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
+  Spot spot = best.spot;
+  const Form& form = problem_.forms()[spot.form];
+  for (int round = 0; round < 12 && best.loss > 0; ++round) {
+    for (const std::uint32_t j : near_) {
+      const Box& o = boxes_[j];
+      if (o.x0 >= spot.x + form.box.x1 + problem_.widest_gap() || o.x1 <= spot.x + form.box.x0 - problem_.widest_gap() ||
+          o.y0 >= spot.y + form.box.y1 + problem_.widest_gap() || o.y1 <= spot.y + form.box.y0 - problem_.widest_gap())
+        continue;
+      const Spot& other = state_.spots[j];
+      const NoFit::Way way =
+          problem_.way_out(problem_.forms()[other.form], form, spot.x - other.x, spot.y - other.y);
+      if (way.depth <= 0) continue;
+      const double by = way.depth + 0.25 * kTolerance;
+      spot.x = std::max(r.x0, std::min(r.x1, spot.x + by * way.direction.x));
+      spot.y = std::max(r.y0, std::min(r.y1, spot.y + by * way.direction.y));
+    }
+    const double loss = evaluate(i, spot, best.loss);
+    if (loss < best.loss) {
+      best.loss = loss;
+      best.spot = spot;
+    } else if (round >= 6) {
+      break;
+    }
+  }
+}
+
+void Separator::move(std::size_t i) {
+  const std::uint32_t part = items_.parts[i];
+  const Forms& forms = problem_.forms_of(part);
+  const Spot now = state_.spots[i];
+  Candidate current{now, evaluate_all(i, now, kFar)};
+  if (current.loss <= 0) return;
+  Candidate best = current;
+  const auto offer = [&](const Candidate& c) {
+    if (c.loss < best.loss) best = c;
+  };
+  const auto form_any = [&] {
+    return forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+  };
+  const auto bin_any = [&] {
+    return state_.open_bins.size() == 1 ? state_.open_bins[0]
+                                        : state_.open_bins[random_.below(state_.open_bins.size())];
+  };
+  const Box& size = problem_.forms()[now.form].box;
+  const double w = size.x1 - size.x0, h = size.y1 - size.y0;
+  for (int k = 0; k < kFocused; ++k) {
+    Spot spot = now;
+    spot.form = form_any();
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    const Box& b = problem_.forms()[spot.form].box;
+    // Middles of the boxes near one another.
+    const double cx = now.x + 0.5 * (size.x0 + size.x1), cy = now.y + 0.5 * (size.y0 + size.y1);
+    spot.x = cx - 0.5 * (b.x0 + b.x1) + random_.uniform(-0.5, 0.5) * w;
+    spot.y = cy - 0.5 * (b.y0 + b.y1) + random_.uniform(-0.5, 0.5) * h;
+    spot.x = std::max(r.x0, std::min(r.x1, spot.x));
+    spot.y = std::max(r.y0, std::min(r.y1, spot.y));
+    offer({spot, evaluate_all(i, spot, best.loss)});
+  }
+  for (int k = 0; k < kAnywhere; ++k) {
+    Spot spot;
+    spot.form = form_any();
+    spot.bin = bin_any();
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    spot.x = random_.uniform(r.x0, r.x1);
+    spot.y = random_.uniform(r.y0, r.y1);
+    offer({spot, evaluate_all(i, spot, best.loss)});
+  }
+  const double scale = min_dim_[i];
+  descend(i, best, kFirstStep * scale, kCoarse * scale);
+  descend(i, best, 0.5 * kCoarse * scale, kFine * scale);
+  push_out(i, best);
+  if (best.loss < current.loss) set_spot(i, best.spot);
+}
+
+double Separator::overlap() {
+  conflicts_.clear();
+  deepest_ = 0;
+  std::fill(in_conflict_.begin(), in_conflict_.end(), 0);
+  double sum = 0;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    if (state_.spots[i].bin == kNowhere) continue;
+    gather(boxes_[i], state_.spots[i].bin, i);
+    const Spot& spot = state_.spots[i];
+    for (const std::uint32_t j : near_) {
+      if (j < i) continue;
+      const Spot& other = state_.spots[j];
+      const double depth = problem_.depth(problem_.forms()[spot.form], problem_.forms()[other.form],
+                                          other.x - spot.x, other.y - spot.y);
+      if (depth <= kTolerance) continue;
+      conflicts_.push_back({static_cast<std::uint32_t>(i), j, depth});
+      in_conflict_[i] = in_conflict_[j] = 1;
+      sum += depth;
+      deepest_ = std::max(deepest_, depth);
+    }
+  }
+  return sum;
+}
+
+bool Separator::is_in_conflict(std::size_t i) { return in_conflict_[i] != 0; }
+
+bool Separator::snap(double unit) {
+  const std::vector<Spot> before = state_.spots;
+  bool fits = true;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    Spot spot = before[i];
+    if (spot.bin == kNowhere) continue;
+    spot.x = std::round(spot.x / unit) * unit;
+    spot.y = std::round(spot.y / unit) * unit;
+    const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
+    fits = fits && spot.x >= r.x0 - kTolerance && spot.x <= r.x1 + kTolerance && spot.y >= r.y0 - kTolerance &&
+           spot.y <= r.y1 + kTolerance;
+    set_spot(i, spot);
+  }
+  if (fits && overlap() <= 0) return true;
+  for (std::size_t i = 0; i < items_.movable(); ++i) set_spot(i, before[i]);
+  overlap();
+  return false;
+}
+
+double Separator::pass() {
+  ++work_;
+  if (conflicts_.empty() && overlap() <= 0) return 0;
+  order_.clear();
+  for (std::uint32_t i = 0; i < items_.movable(); ++i)
+    if (in_conflict_[i]) order_.push_back(i);
+  for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[random_.below(k)]);
+  for (const std::uint32_t i : order_) move(i);
+  const double sum = overlap();
+  double most = 0;
+  for (Conflict& c : conflicts_) most = std::max(most, c.depth = value_of(c.a, c.b, c.depth));
+  for (float& w : weights_) w = std::max(1.0f, static_cast<float>(kDecay) * w);
+  for (const Conflict& c : conflicts_) {
+    const float factor = static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
+    weight(c.a, c.b) = std::min(1e12f, weight(c.a, c.b) * factor);
+    if (c.b < items_.movable()) weight(c.b, c.a) = weight(c.a, c.b);
+  }
+  return sum;
+}
+
+void Separator::open_bin(std::uint32_t bin) { state_.open_bins.push_back(bin); }
+
+void Separator::close_bin(std::uint32_t bin) { std::erase(state_.open_bins, bin); }
+
+double Separator::least_side(std::uint32_t bin, int axis) const {
+  const Box& in = problem_.bins()[bin].box;
+  double least = 0;
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    if (state_.spots[i].bin != bin) continue;
+    const std::uint32_t part = items_.parts[i];
+    const double gap = 2 * problem_.border_gap_of(part);
+    double narrowest = kFar;
+    const Forms& forms = problem_.forms_of(part);
+    for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+      const Box& b = problem_.forms()[f].box;
+      const double w = b.x1 - b.x0 + gap, h = b.y1 - b.y0 + gap;
+      if (w <= in.x1 - in.x0 + 1e-6 && h <= in.y1 - in.y0 + 1e-6)
+        narrowest = std::min(narrowest, axis == 0 ? w : h);
+    }
+    least = std::max(least, narrowest);
+  }
+  return least;
+}
+
+bool Separator::can_hold(std::uint32_t bin, std::uint32_t part) const {
+  const Forms& forms = problem_.forms_of(part);
+  for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+    const Range r = range_of(f, bin, part);
+    if (r.x1 >= r.x0 && r.y1 >= r.y0) return true;
+  }
+  return false;
+}
+
+void Separator::put_anywhere(std::size_t i) {
+  const std::uint32_t part = items_.parts[i];
+  const Forms& forms = problem_.forms_of(part);
+  for (int tries = 0; tries < 1000; ++tries) {
+    Spot spot;
+    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    spot.bin = state_.open_bins[random_.below(state_.open_bins.size())];
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    spot.x = random_.uniform(r.x0, r.x1);
+    spot.y = random_.uniform(r.y0, r.y1);
+    return set_spot(i, spot);
+  }
+}
+
+bool Separator::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
+  const std::uint32_t part = items_.parts[i];
+  const Forms& forms = problem_.forms_of(part);
+  bool found = false;
+  Spot best;
+  double best_cost = kFar;
+  const auto cost_of = [&](const Spot& s) {
+    const Box& b = problem_.forms()[s.form].box;
+    return s.x + b.x1 + 0.05 * (s.y + b.y1);
+  };
+  for (std::size_t k = 0; k < samples; ++k) {
+    Spot spot;
+    spot.bin = bin;
+    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    const Range r = range_of(spot.form, spot.bin, part);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    spot.x = random_.uniform(r.x0, r.x1);
+    spot.y = random_.uniform(r.y0, r.y1);
+    if (cost_of(spot) >= best_cost) continue;
+    if (evaluate_all(i, spot, 1e-12) > 0) continue;
+    double step = 0.5 * min_dim_[i];
+    while (step > 1e-3 * min_dim_[i]) {
+      bool better = false;
+      for (int direction = 0; direction < 2; ++direction) {
+        Spot to = spot;
+        (direction == 0 ? to.x : to.y) -= step;
+        to.x = std::max(r.x0, to.x);
+        to.y = std::max(r.y0, to.y);
+        if ((to.x < spot.x || to.y < spot.y) && evaluate_all(i, to, 1e-12) <= 0) {
+          spot = to;
+          better = true;
+        }
+      }
+      if (!better) step *= 0.5;
+    }
+    found = true;
+    best = spot;
+    best_cost = cost_of(spot);
+  }
+  if (found) set_spot(i, best);
+  return found;
+}
+
+}  // namespace lekalo::nest

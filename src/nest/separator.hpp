@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/base/random.hpp"
+#include "problem.hpp"
+
+namespace lekalo::nest {
+
+/// Where an item lies.
+struct Spot {
+  double x = 0, y = 0;
+  std::uint32_t form = 0;
+  std::uint32_t bin = 0;
+};
+
+/// All items and the end of the strip.
+struct State {
+  std::vector<Spot> spots;   ///< by item that is moved, then what stays
+  std::vector<double> ends;  ///< by bin: x up to which items may lie
+  std::vector<double> tops;  ///< likewise y
+  std::vector<std::uint32_t> open_bins;  ///< those that may be used
+};
+
+/// What is moved, and after that what stays.
+struct Items {
+  std::vector<std::uint32_t> parts;  ///< by item that is moved
+  std::vector<Spot> fixed;           ///< obstacles of all bins
+  std::size_t movable() const noexcept { return parts.size(); }
+  std::size_t total() const noexcept { return parts.size() + fixed.size(); }
+};
+inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+
+/// Overlap minimisation with guided local search. docs/design/nest.md
+class Separator {
+ public:
+  Separator(const Problem& problem, const Items& items, Random random);
+
+  void load(const State& state);
+  const State& state() const noexcept { return state_; }
+  Random& random() noexcept { return random_; }
+
+  /// Weights as at the beginning.
+  void forget_weights();
+  /// Sum of all depths now. 0: valid but for rounding.
+  double overlap();
+  /// Moves every item in conflict once, in random order, then raises the weights of what is still in
+  /// conflict. Returns overlap().
+  double pass();
+  /// Puts every item on the multiples of `unit` nearest to it; takes it back where that is not valid.
+  bool snap(double unit);
+  /// The largest depth that the last overlap() found, mm.
+  double deepest() const noexcept { return deepest_; }
+  /// Candidate places looked at.
+  std::uint64_t work() const noexcept { return work_; }
+  /// Moves item i to the free place on a bin found furthest left; false if none.
+  bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
+  /// Anywhere on the open bins.
+  void put_anywhere(std::size_t i);
+  void open_bin(std::uint32_t bin);
+  void close_bin(std::uint32_t bin);
+  /// The length (axis 0) or height (axis 1) that the widest item on it needs.
+  double least_side(std::uint32_t bin, int axis) const;
+  /// Whether the box of the part fits in some form.
+  bool can_hold(std::uint32_t bin, std::uint32_t part) const;
+  /// Items beyond are pushed back.
+  void set_limits(std::uint32_t bin, double x1, double y1);
+  void set_spot(std::size_t i, const Spot& spot);
+  bool is_in_conflict(std::size_t i);
+  /// The depths of item i with all others, unweighted.
+  double loss_of(std::size_t i);
+
+ private:
+  struct Range {
+    double x0, x1, y0, y1;
+  };
+  struct Candidate {
+    Spot spot;
+    double loss;
+  };
+  Range range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const;
+  void gather(const Box& box, std::uint32_t bin, std::size_t but);
+  double evaluate(std::size_t i, const Spot& spot, double limit);
+  double evaluate_all(std::size_t i, const Spot& spot, double limit);
+  void descend(std::size_t i, Candidate& from, double step, double until);
+  void push_out(std::size_t i, Candidate& from);
+  void move(std::size_t i);
+  /// What an overlap costs before its weight.
+  double value_of(std::size_t i, std::size_t j, double depth) const noexcept;
+  float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
+
+  const Problem& problem_;
+  const Items& items_;
+  Random random_;
+  State state_;
+  std::size_t total_ = 0;
+  std::vector<Box> boxes_;
+  std::vector<float> weights_;
+  std::vector<std::uint32_t> near_;
+  Box near_box_;
+  std::uint32_t near_bin_ = 0;
+  bool near_valid_ = false;
+  std::vector<std::uint32_t> order_;
+  struct Conflict {
+    std::uint32_t a, b;
+    double depth;
+  };
+  std::vector<Conflict> conflicts_;
+  std::vector<char> in_conflict_;
+  std::vector<double> min_dim_;
+  double deepest_ = 0;
+  std::uint64_t work_ = 0;
+  double unit_ = 0;            ///< mm: the middling part's size
+  std::vector<double> size_;  ///< in units; 1 for what stays
+};
+
+}  // namespace lekalo::nest

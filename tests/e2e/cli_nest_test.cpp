@@ -1,0 +1,79 @@
+#include "e2e/cli_run.hpp"
+#include "support/layout_texts.hpp"
+#include "support/places.hpp"
+
+namespace lekalo::test {
+namespace {
+
+using cases::add_part;
+using cases::LayoutJson;
+using cases::outline_json;
+using cases::rectangle;
+
+LayoutJson order() {
+  LayoutJson layout = cases::empty_layout();
+  layout["stocks"][0]["outline"] = outline_json(rectangle(0, 0, 100, 100));
+  add_part(layout, "square", outline_json(rectangle(0, 0, 30, 30)))["demand"] = 5;
+  add_part(layout, "bar", outline_json(rectangle(0, 0, 60, 10)))["demand"] = 3;
+  return layout;
+}
+
+TEST(CliNest, PlacesEverythingAndTheCheckAgrees) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "order.json", order().dump());
+  const Ran ran = run(folder.path(), {"nest", "order.json", "-o", "layout.json", "--work", "300000", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json report = ran.json();
+  EXPECT_EQ(report["status"], "complete");
+  EXPECT_TRUE(report["unplaced"].empty());
+  EXPECT_EQ(report["stocks"].size(), 1u);
+  EXPECT_GE(report["work"].get<std::uint64_t>(), 300000u);
+  EXPECT_EQ(run(folder.path(), {"check", "layout.json"}).status, 0);
+}
+
+TEST(CliNest, TheSameBytesWithOneThreadAndTwo) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "order.json", order().dump());
+  for (const std::string threads : {"1", "2"})
+    ASSERT_EQ(run(folder.path(), {"nest", "order.json", "-o", "layout" + threads + ".json", "--work", "900000",
+                                  "--seed", "3", "--threads", threads})
+                  .status,
+              0);
+  EXPECT_EQ(read_bytes(folder / "layout1.json"), read_bytes(folder / "layout2.json"));
+}
+
+TEST(CliNest, CtrlCKeepsTheBest) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "order.json", order().dump());
+  Program program(folder.path(), {"nest", "order.json", "-o", "layout.json", "--time", "600"});
+  program.send_when_caught(SIGINT);
+  EXPECT_EQ(program.wait().status, 0);
+  EXPECT_EQ(run(folder.path(), {"check", "layout.json"}).status, 0);
+}
+
+TEST(CliNest, SaysWhatIsNotPlacedAndWhy) {
+  const TemporaryFolder folder;
+  LayoutJson layout = order();
+  add_part(layout, "long", outline_json(rectangle(0, 0, 200, 5)))["demand"] = 2;
+  write_bytes(folder / "order.json", layout.dump());
+  const Ran ran = run(folder.path(), {"nest", "order.json", "--work", "1000", "--json"});
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const Json unplaced = ran.json()["unplaced"];
+  ASSERT_EQ(unplaced.size(), 1u);
+  EXPECT_EQ(unplaced[0]["part"], "long");
+  EXPECT_EQ(unplaced[0]["count"], 2);
+  EXPECT_EQ(unplaced[0]["reason"], "too-large");
+}
+
+TEST(CliNest, WrongWordsAreRefused) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "order.json", order().dump());
+  for (const Words& words : {Words{"--time", "nan"}, {"--time", "-1"}, {"--work", "0"}, {"--threads", "0"},
+                             {"--angles", "361"}, {"--seed", "x"}, {"-o", "order.json"}})
+    EXPECT_EQ(run(folder.path(), Words{"nest", "order.json"} + words).status, 2) << words[1];
+  write_bytes(folder / "empty.json", cases::empty_layout().dump());
+  EXPECT_EQ(run(folder.path(), {"nest", "empty.json"}).status, 3);
+}
+
+}  // namespace
+}  // namespace lekalo::test

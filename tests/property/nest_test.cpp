@@ -1,0 +1,131 @@
+#include "lekalo/nest/nest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "lekalo/io/layout_json.hpp"
+#include "lekalo/layout/check.hpp"
+#include "support/cases.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+layout::Document small_order(std::size_t index) {
+  layout::Document document = cases::random_order(cases::seed(), index);
+  for (layout::Part& part : document.parts) part.demand = 2;
+  return document;
+}
+
+Nested nested(const layout::Document& document, unsigned threads, std::uint64_t work) {
+  Options options;
+  options.threads = threads;
+  options.seed = 5;
+  options.angles = 4;
+  RunControl control;
+  control.work_limit = work;
+  auto result = nest(document, options, control);
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+TEST(Nest, EveryLayoutPassesTheCheckAndEveryPieceIsPlacedOrNamed) {
+  for (std::size_t i = 0; i < cases::case_count(8); ++i) {
+    const layout::Document document = small_order(i);
+    const Nested found = nested(document, 1, 50'000);
+    EXPECT_TRUE(layout::check(found.document).empty()) << "case " << i << " of seed " << cases::seed();
+    std::vector<std::int64_t> count(document.parts.size(), 0);
+    for (const layout::Placement& p : found.document.placements) ++count[p.part];
+    for (const Unplaced& u : found.unplaced) count[u.part] += u.count;
+    for (std::uint32_t p = 0; p < count.size(); ++p)
+      EXPECT_EQ(count[p], layout::wanted(document, p)) << "case " << i << ", part " << p;
+  }
+}
+
+TEST(Nest, TheSameBytesWhateverTheThreads) {
+  for (std::size_t i = 0; i < cases::case_count(3); ++i) {
+    const layout::Document document = small_order(20 + i);
+    const Nested one = nested(document, 1, 500'000), two = nested(document, 2, 500'000);
+    EXPECT_EQ(io::write_layout(one.document), io::write_layout(two.document)) << "case " << i;
+    EXPECT_EQ(one.work, two.work);
+    // The work that a run says it took repeats it.
+    EXPECT_EQ(io::write_layout(nested(document, 2, one.work).document), io::write_layout(one.document));
+  }
+}
+
+TEST(Nest, LockedPlacementsStay) {
+  layout::Document document = cases::two_squares();
+  document.parts[0].demand = 30;
+  document.placements[0].locked = true;
+  const Nested found = nested(document, 1, 100'000);
+  ASSERT_FALSE(found.document.placements.empty());
+  EXPECT_EQ(found.document.placements[0], document.placements[0]);
+  EXPECT_EQ(found.document.placements.size(), std::size_t{30});
+  EXPECT_TRUE(layout::check(found.document).empty());
+}
+
+TEST(Nest, SquaresFillASheetToTheLast) {
+  layout::Document document = cases::two_squares();
+  document.placements.clear();
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 30, 20)});
+  document.parts[0].demand = 6;
+  document.parts[0].rotations = {{0, 0}};
+  const Nested found = nested(document, 1, 2'000'000);
+  EXPECT_TRUE(found.unplaced.empty());
+  EXPECT_TRUE(layout::check(found.document).empty());
+}
+
+TEST(Nest, SaysWhyAPieceIsNotPlaced) {
+  layout::Document document = cases::two_squares();
+  document.placements.clear();
+  document.parts[0].demand = 1;
+  layout::Part large = document.parts[0];
+  large.id = "large";
+  large.outline = cases::outline_of({cases::box_loop(0, 0, 101, 10)});
+  large.rotations = {{0, 0}, {90, 90}};
+  layout::Part many = document.parts[0];
+  many.id = "many";
+  many.outline = cases::outline_of({cases::box_loop(0, 0, 60, 60)});
+  many.demand = 2;
+  many.rotations = {{0, 0}};
+  layout::Part askew = document.parts[0];
+  askew.id = "askew";
+  askew.rotations = {{0, 0}};
+  askew.grain = layout::Grain{45, 1};
+  document.stocks[0].grain_degrees = 0;
+  document.parts.insert(document.parts.end(), {large, many, askew});
+  const Nested found = nested(document, 1, 100'000);
+  const std::vector<Unplaced> expected = {
+      {1, 1, Reason::too_large}, {2, 1, Reason::no_room}, {3, 1, Reason::no_angle}};
+  EXPECT_EQ(found.unplaced, expected);
+}
+
+TEST(Nest, RefusesWhatCannotBeNested) {
+  layout::Document document = cases::two_squares();
+  const RunControl control;
+  EXPECT_FALSE(nest(document, {}, control));  // nothing wanted
+  document.parts[0].demand = 1;
+  document.placements[1].at = document.placements[0].at;
+  document.placements[0].locked = document.placements[1].locked = true;
+  const auto overlapping = nest(document, {}, control);
+  ASSERT_FALSE(overlapping);
+  EXPECT_NE(overlapping.error().message.find("locked placement 1"), std::string::npos);
+  document.placements.clear();
+  document.stocks.clear();
+  EXPECT_FALSE(nest(document, {}, control));
+}
+
+TEST(Nest, StopsWithTheBestSoFar) {
+  const std::atomic<bool> stop{true};
+  RunControl control;
+  control.stop = &stop;
+  layout::Document document = small_order(1);
+  const auto found = nest(document, {}, control);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->merges, 1u);
+  EXPECT_TRUE(layout::check(found->document).empty());
+}
+
+}  // namespace
+}  // namespace lekalo::nest
