@@ -89,7 +89,7 @@ ApiAnswer export_for_machines(const std::string& name, const layout::Document& d
                               const Target& target, const std::string& stem) {
   std::vector<io::ExportWord> words;
   for (const auto& field : target.fields)
-    if (field.first != "form") words.push_back(field);
+    if (field.first != "form" && field.first != "token") words.push_back(field);
   const Result<io::ExportRequest> request = io::read_export_words(form, words, "");
   if (!request) return api_error(400, request.error().message);
   const Result<io::Exported> made = io::export_layout(document, name, *request);

@@ -284,6 +284,39 @@ TEST(Serve, TwoClientsOnOneLayoutStayInStep) {
   EXPECT_EQ(b.hear("bye")["type"], "bye");
 }
 
+TEST(Serve, ExportsForMachinesAsTheCommandLineDoes) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  write_bytes(folder / "shoes.commands",
+              read_bytes(cases::source_dir() + "/examples/layouts/shoes.commands"));
+  ASSERT_EQ(run(folder.path(), {"edit", cases::source_dir() + "/examples/layouts/shoes.json", "--commands",
+                                "shoes.commands", "-o", "shoes.json"})
+                .status,
+            0);
+  const Answer created =
+      ask(server, http::verb::post, "/api/layouts?name=shoes", read_bytes(folder / "shoes.json"));
+  ASSERT_EQ(created.status, 201u) << created.body;
+  const std::vector<std::pair<std::string, Words>> forms{
+      {"form=dxf&unit=inch", {"--format", "dxf", "--unit", "inch"}},
+      {"form=svg&only=CUT,MARK", {"--format", "svg", "--only", "CUT,MARK"}},
+      {"form=hpgl", {"--format", "hpgl"}},
+      {"form=gcode&kerf=0.3&feed=2000&lead-in=2&sheet=hide",
+       {"--format", "gcode", "--kerf", "0.3", "--feed", "2000", "--lead-in", "2", "--sheet", "hide"}}};
+  for (const auto& [query, words] : forms) {
+    const Answer exported = ask(server, http::verb::get, "/api/layouts/1/export?" + query);
+    ASSERT_EQ(exported.status, 200u) << query << ": " << exported.body;
+    // The title of a program is the layout's name, there the document's, here the store's.
+    const auto from_second_line = [](const std::string& text) { return text.substr(text.find('\n')); };
+    EXPECT_EQ(from_second_line(exported.body),
+              from_second_line(run(folder.path(), Words{"export", "shoes.json"} + words).out))
+        << query;
+  }
+  for (const char* wrong :
+       {"form=gcode", "form=dxf&kerf=1", "form=svg&sheet=x", "form=hpgl&tolerance=nan", "form=gif"})
+    EXPECT_EQ(ask(server, http::verb::get, std::string("/api/layouts/1/export?") + wrong).status, 400u)
+        << wrong;
+}
+
 TEST(Serve, KilledAtAnyMomentItKeepsEveryAcknowledgedGesture) {
   const TemporaryFolder folder;
   Random random(cases::seed(), 1);
