@@ -1,6 +1,7 @@
 // `lekalo serve` as a process of its own, with real sockets: nothing acknowledged is lost when it is killed,
 // clients agree, strangers are refused.
 
+#include <sys/mount.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -199,7 +200,8 @@ class Client {
     send(message.dump());
     for (;;) {
       Json said = hear();
-      if (said.contains("seq") && said["seq"] == seq_) return said;
+      const bool on_the_way = said["type"] == "progress" || said["type"] == "improved";
+      if (!on_the_way && said.contains("seq") && said["seq"] == seq_) return said;
     }
   }
   Json command(const std::string& text, const std::string& mode = "strict") {
@@ -627,16 +629,30 @@ TEST(Serve, OnAFullDiskRefusesWithTheReasonAndBreaksNothing) {
 
 TEST(Serve, SaysThatAStoreCannotBeWritten) {
   const TemporaryFolder folder;
+  const fs::path disk = folder / "disk";
+  fs::create_directory(disk);
+  // Root may write every file but on a disk that is read-only.
+  const bool mounted = mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4m") == 0;
+  if (!mounted && geteuid() == 0) GTEST_SKIP() << "root may write every file, and cannot mount here";
+  std::string before;
   {
-    ServerProcess server(folder.path()), &made = server;
-    create(made);
-    made.end(SIGTERM);
+    ServerProcess server(disk);
+    create(server);
+    server.end(SIGTERM);
+    before = read_bytes(disk / "store.sqlite");
   }
-  if (geteuid() == 0) GTEST_SKIP() << "root may write every file";
-  fs::permissions(folder / "store.sqlite", fs::perms::owner_read);
-  const Ran ran = run(folder.path(), {"serve", "--store", "store.sqlite", "--port", "0"});
+  if (mounted)
+    ASSERT_EQ(mount(nullptr, disk.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr), 0);
+  else
+    fs::permissions(disk / "store.sqlite", fs::perms::owner_read);
+  const Ran ran = run(folder.path(), {"serve", "--store", "disk/store.sqlite", "--port", "0"});
   EXPECT_EQ(ran.status, 5);
-  EXPECT_NE(ran.err.find("cannot be opened for writing"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("disk/store.sqlite: the store cannot be opened for writing"), std::string::npos)
+      << ran.err;
+  EXPECT_EQ(read_bytes(disk / "store.sqlite"), before);
+  if (mounted) {
+    EXPECT_EQ(umount(disk.c_str()), 0);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#include "job.hpp"
+
+#include <set>
+#include <utility>
+
+#include "lekalo/layout/workspace.hpp"
+
+namespace lekalo::server {
+namespace {
+
+using layout::Placement;
+using layout::Sheet;
+using layout::Workspace;
+
+/// What leads from one list of placements to another one with the same ids.
+layout::Change difference(const layout::Document& from, const Workspace& to) {
+  layout::Change change;
+  change.next_id_before = change.next_id_after = from.next_id;
+  for (const Placement& before : from.placements)
+    if (const Placement* after = to.find(before.id); *after != before)
+      change.placements.push_back({before, *after});
+  return change;
+}
+
+/// Sheet by sheet, which is what the command does, and each is a better layout than the last.
+Result<layout::Change> compact_all(const layout::Document& document, const JobContext& context,
+                                   layout::CompactCommand command, layout::Mode mode) {
+  std::set<Sheet> sheets;
+  for (const Placement& placement : document.placements)
+    if (placement.copy >= 0 && placement.copy < document.stocks[placement.stock].count)
+      sheets.insert({placement.stock, placement.copy});
+  Workspace work(document);
+  double done = 0;
+  RunControl run = context.run;
+  run.progress = [&](const Progress& progress) {
+    if (context.run.progress)
+      context.run.progress({progress.work, (done + progress.fraction) / static_cast<double>(sheets.size())});
+  };
+  for (const Sheet sheet : sheets) {
+    command.sheet = sheet;
+    const auto change = plan(work, command, mode, run);
+    if (!change) return tl::unexpected(change.error());
+    carry_out(work, *change);
+    done += 1;
+    if (context.run.stop_requested()) break;
+    if (context.improved && !change->is_nothing()) context.improved(difference(document, work));
+  }
+  return difference(document, work);
+}
+
+}  // namespace
+
+std::optional<Job> job_of(const layout::Command& command, layout::Mode mode) {
+  if (const auto* compact = std::get_if<layout::CompactCommand>(&command); compact && !compact->sheet)
+    return [compact = *compact, mode](const layout::Document& document, const JobContext& context) {
+      return compact_all(document, context, compact, mode);
+    };
+  const bool is_long = std::holds_alternative<layout::CompactCommand>(command) ||
+                       std::holds_alternative<layout::FitCommand>(command);
+  if (!is_long) return std::nullopt;
+  return [command, mode](const layout::Document& document, const JobContext& context) {
+    return plan(Workspace(document), command, mode, context.run);
+  };
+}
+
+}  // namespace lekalo::server
