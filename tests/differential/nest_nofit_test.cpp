@@ -68,8 +68,9 @@ TEST(NoFit, SaysTheSameAsTheExactRelation) {
       const GridPoint at{geom::grid_from_mm(shift.x), geom::grid_from_mm(shift.y)};
       const bool meet = phi::interiors_meet(a, b, at);
       overlapping += meet;
-      if (depth > kBand)
+      if (depth > kBand) {
         EXPECT_TRUE(meet) << "case " << i << " of seed " << cases::seed() << ", depth " << depth;
+      }
       if (depth == 0 && meet) {
         // Only ever on the border itself.
         EXPECT_FALSE(phi::edges_nearer_than(a, b, 0, at));

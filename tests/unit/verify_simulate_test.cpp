@@ -167,8 +167,9 @@ TEST(VerifySimulate, AHelixAndTheTurnThatLevelsItsFloorAreEntry) {
   EXPECT_NEAR(report.entry_mm, 3 * 4 * kPi, 0.3);
   EXPECT_NEAR(report.samples.back().engagement, 0, 1e-3);  // back where the circle began
   for (const auto& sample : report.samples) {
-    if (sample.line == 6 && sample.x < 47.01)
+    if (sample.line == 6 && sample.x < 47.01) {
       EXPECT_NEAR(sample.engagement, std::acos(7.0 / 18) * 180 / kPi, 0.01);
+    }
   }
   EXPECT_EQ(report.retracts, 0U);
 }
