@@ -230,10 +230,32 @@ class Clearing {
   // ---- motion
   void go(PathMove::Kind kind, Point to, double z) {
     if (!path_.moves.empty() && path_.moves.back().to == to && path_.moves.back().z == z) return;
-    path_.moves.push_back({kind, to, z});
     at_ = to;
+    const std::size_t n = path_.moves.size();
+    if (n >= 2 && path_.moves[n - 1].kind == kind && path_.moves[n - 1].z == z && path_.moves[n - 2].z == z) {
+      const Point a = path_.moves[n - 1].to - path_.moves[n - 2].to, b = to - path_.moves[n - 1].to;
+      if (std::abs(cross(a, b)) <= 1e-9 * norm(a) && dot(a, b) > 0) {  // straight on
+        path_.moves[n - 1].to = to;
+        return;
+      }
+    }
+    path_.moves.push_back({kind, to, z});
   }
-  void cut_to(Point to) { go(PathMove::Kind::cut, to, -o_.depth); }
+  /// No place outside what is allowed; and a chord beside a wall that bends into the pocket would cut the
+  /// wall: it goes round in shorter ones.
+  void cut_to(Point to, int divided = 0) {
+    constexpr double kChord = 1e-3;
+    if (divided == 0 && !limit_.contains(to)) to = limit_.nearest(to).point;
+    const Point middle = 0.5 * (at_ + to);
+    if (divided < 6 && !limit_.contains(middle)) {
+      const auto wall = limit_.nearest(middle);
+      if (wall.distance > kChord) {
+        cut_to(wall.point, divided + 1);
+        return cut_to(to, divided + 1);
+      }
+    }
+    go(PathMove::Kind::cut, to, -o_.depth);
+  }
 
   void enter() {
     const Point start = entry_ + Point{helix_, 0};
@@ -444,8 +466,8 @@ class Clearing {
   }
 
   void link(Point to) {
-    if (norm(to - at_) < 1.5 * kSpacing + 0.3 * step_ || clear(at_, to))
-      return go(PathMove::Kind::link, to, -o_.depth);
+    if (norm(to - at_) < 1.5 * kSpacing + 0.3 * step_) return cut_to(to);
+    if (clear(at_, to)) return go(PathMove::Kind::link, to, -o_.depth);
     const std::size_t from = nearest_open(at_), goal = nearest_open(to);
     if (from == kNone || goal == kNone) return go(PathMove::Kind::cut, to, -o_.depth);
     std::vector<double> cost(owner_.size(), std::numeric_limits<double>::infinity());

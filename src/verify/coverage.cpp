@@ -30,7 +30,7 @@ class Coverage {
     for (double y = low.y; y < high.y; y += side)
       for (double x = low.x; x < high.x; x += side) {
         const Place middle{x + side / 2, y + side / 2};
-        const double reach = radius_ + side;
+        const double reach = radius_ + 2.2 * side;
         index_.near(middle, reach, cuts);
         pocket_.limit_index().near(middle, reach, limits);
         look(middle, side, cuts, limits, false, cuts.empty() ? index_.nearest(middle, floor_) : kFar);
@@ -71,7 +71,8 @@ class Coverage {
       if (off - half > radius_) return;
       all_reachable = off + half <= radius_;
     }
-    const double swept = std::min(farthest, nearest(middle, radius_ + half, floor_, cuts, near_cuts));
+    // Those a little too far are kept: they tell how wide a strip is that stays.
+    const double swept = std::min(farthest, nearest(middle, radius_ + 3 * half, floor_, cuts, near_cuts));
     if (swept + half <= radius_) {
       if (all_reachable) {
         report_.reachable_mm2 += side * side;
@@ -82,7 +83,7 @@ class Coverage {
         return;
       }
     }
-    if (near_cuts.empty() && all_reachable) return add_uncut(middle, side);
+    if (swept > radius_ + half && all_reachable) return add_uncut(middle, side);
     if (side <= kLeaf) return add_leaf(side, off, swept);
     for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
       look(middle + side / 4 * corner, side / 2, near_cuts, near_limits, all_reachable, swept + half);
