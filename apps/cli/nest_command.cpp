@@ -82,9 +82,8 @@ Json report_of(const LayoutInput& input, const NestOptions& o, const nest::Neste
   json["kits"] = std::move(kits);
   Json unplaced = Json::array();
   for (const nest::Unplaced& u : found.unplaced)
-    unplaced.push_back({{"part", found.document.parts[u.part].id},
-                        {"count", u.count},
-                        {"reason", nest::name_of(u.reason)}});
+    unplaced.push_back(
+        {{"part", found.document.parts[u.part].id}, {"count", u.count}, {"reason", nest::name_of(u.reason)}});
   json["unplaced"] = std::move(unplaced);
   return json;
 }

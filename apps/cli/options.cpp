@@ -618,7 +618,8 @@ Result<Command> to_nest(const LayoutWords& layout, const NestWords& w) {
   read.number("--seed", w.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
   read.number("--work", w.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
   read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.threads);
-  read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360", o.angles);
+  read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360",
+              o.angles);
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);

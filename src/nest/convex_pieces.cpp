@@ -28,7 +28,8 @@ bool crosses(GridPoint p, GridPoint q, GridPoint a, GridPoint b) {
            geom::sign(dot(x - q, p - q)) > 0;
   };
   return between(a) || between(b) || (ap == 0 && !(p == a) && !(p == b) && between(p)) ||
-         (ap == 0 && pa * pb < 0 && !(p == a) && !(p == b)) || (aq == 0 && pa * pb < 0 && !(q == a) && !(q == b));
+         (ap == 0 && pa * pb < 0 && !(p == a) && !(p == b)) ||
+         (aq == 0 && pa * pb < 0 && !(q == a) && !(q == b));
 }
 
 /// One loop that runs into every hole and back along the same way.
@@ -49,9 +50,8 @@ Loop joined_loops(const geom::GridRegion& region) {
     std::rotate(hole.begin(), right, hole.end());
     holes.push_back(std::move(hole));
   }
-  std::stable_sort(holes.begin(), holes.end(), [&](const Loop& a, const Loop& b) {
-    return points[a[0]].x > points[b[0]].x;
-  });
+  std::stable_sort(holes.begin(), holes.end(),
+                   [&](const Loop& a, const Loop& b) { return points[a[0]].x > points[b[0]].x; });
   for (std::size_t h = 0; h < holes.size(); ++h) {
     const GridPoint from = points[holes[h][0]];
     const auto is_free = [&](GridPoint to) {

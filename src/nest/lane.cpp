@@ -289,8 +289,8 @@ void Lane::attempt_disrupted() {
   Random& random = separator_.random();
   std::stable_sort(pool_.begin(), pool_.end(),
                    [](const Failed& a, const Failed& b) { return a.overlap < b.overlap; });
-  const auto pick = static_cast<std::size_t>(
-      std::min(0.999, std::abs(0.25 * about_normal(random))) * static_cast<double>(pool_.size()));
+  const auto pick = static_cast<std::size_t>(std::min(0.999, std::abs(0.25 * about_normal(random))) *
+                                             static_cast<double>(pool_.size()));
   separator_.load(pool_[pick].state);
   if (large_.size() < 2) return begin_separation();
   const State& state = separator_.state();
@@ -334,8 +334,7 @@ void Lane::attempt_disrupted() {
     s.bin = move.bin;
     separator_.set_spot(move.item, s);
   }
-  for (const std::uint32_t bin : {bin_a, bin_b})
-    separator_.set_limits(bin, state.ends[bin], state.tops[bin]);
+  for (const std::uint32_t bin : {bin_a, bin_b}) separator_.set_limits(bin, state.ends[bin], state.tops[bin]);
   begin_separation();
 }
 

@@ -54,8 +54,9 @@ Result<void> check_document(const layout::Document& document) {
   for (std::uint32_t p = 0; p < document.parts.size(); ++p) {
     pieces += layout::wanted(document, p);
     if (pieces > kMostPieces)
-      return failure(ErrorCode::bad_input,
-                     fmt::format("more than {} pieces are wanted; nest them in several layouts", kMostPieces));
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("more than {} pieces are wanted; nest them in several layouts", kMostPieces));
   }
   if (pieces == 0)
     return failure(ErrorCode::bad_input, "nothing to nest: no part has a demand and no kit is wanted");

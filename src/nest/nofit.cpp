@@ -9,6 +9,8 @@ namespace {
 
 using geom::Point;
 
+constexpr double kAreaCell = 2;  ///< cells of the raster of depths along a side of one of areas
+
 struct Bounds {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -73,6 +75,27 @@ std::pair<double, double> inside_of(const ConvexPiece& polygon, Point start, Poi
   return {from, to};
 }
 
+/// Of p and q moved by t.
+double area_in_common(const ConvexPiece& p, const ConvexPiece& q, Point t) {
+  ConvexPiece at, next;
+  for (const Point c : q) at.push_back(c + t);
+  for (std::size_t e = 0; e < p.size() && !at.empty(); ++e) {
+    const Point from = p[e], along = p[e + 1 == p.size() ? 0 : e + 1] - from;
+    next.clear();
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const Point c = at[k], d = at[k + 1 == at.size() ? 0 : k + 1];
+      const double side_c = cross(along, c - from), side_d = cross(along, d - from);
+      if (side_c >= 0) next.push_back(c);
+      if ((side_c > 0 && side_d < 0) || (side_c < 0 && side_d > 0))
+        next.push_back(c + (side_c / (side_c - side_d)) * (d - c));
+    }
+    std::swap(at, next);
+  }
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < at.size(); ++k) twice += cross(at[k] - at[0], at[k + 1] - at[0]);
+  return 0.5 * twice;
+}
+
 struct Contact {
   Point from, to;
 };
@@ -116,7 +139,7 @@ Shape turned(const Shape& shape, double c, double s) {
 }
 
 NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free,
-             const Box& window)
+             const Box& window, bool with_areas)
     : gap_(gap) {
   std::vector<Sum> sums;
   Bounds all;
@@ -215,6 +238,26 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, cons
   std::vector<std::uint16_t> every(segments_.size());
   for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<std::uint16_t>(k);
   if (!every.empty()) fill(0, 0, square, every);
+  if (!with_areas) return;
+  area_columns_ = static_cast<std::uint32_t>(std::ceil(w * per_mm_ / kAreaCell)) + 1;
+  const auto area_rows = static_cast<std::uint32_t>(std::ceil(h * per_mm_ / kAreaCell)) + 1;
+  area_per_mm_ = per_mm_ / kAreaCell;
+  area_width_ = area_columns_;
+  area_height_ = area_rows;
+  areas_.assign(std::size_t{area_columns_ + 1} * (area_rows + 1), 0);
+  for (std::uint32_t j = 0; j <= area_rows; ++j)
+    for (std::uint32_t i = 0; i <= area_columns_; ++i) {
+      const Point t = {x0_ + i / area_per_mm_, y0_ + j / area_per_mm_};
+      double area = 0;
+      auto sum = sums.begin();
+      for (const ConvexPiece& p : a.pieces)
+        for (const ConvexPiece& q : b.pieces) {
+          const Bounds& box = (sum++)->box;
+          if (t.x <= box.low.x || t.x >= box.high.x || t.y <= box.low.y || t.y >= box.high.y) continue;
+          area += area_in_common(p, q, t);
+        }
+      areas_[std::size_t{j} * (area_columns_ + 1) + i] = static_cast<float>(area);
+    }
 }
 
 /// Cells of a block: segments that are the nearest of no point in it are left out on the way down.
@@ -260,8 +303,8 @@ void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
   for (std::uint32_t j = 0; j < 2; ++j)
     for (std::uint32_t i = 0; i < 2; ++i) {
       const Point p = {x0_ + (x + i) * side, y0_ + (y + j) * side};
-      nodes_[std::size_t{y + j} * (columns_ + 1) + x + i] = static_cast<float>(
-          std::max(0.0, signed_distance(begin, end, p.x, p.y).distance + gap_));
+      nodes_[std::size_t{y + j} * (columns_ + 1) + x + i] =
+          static_cast<float>(std::max(0.0, signed_distance(begin, end, p.x, p.y).distance + gap_));
     }
 }
 

@@ -29,9 +29,10 @@ class NoFit {
   using IsFree = std::function<bool(geom::Point)>;
   /// \param cells    about how many cells the raster has
   /// \param is_free  decides whether a shift at which edges fit exactly is free; absent: it is not
+  /// \param with_areas  common_area() is wanted
   /// \param window   b is never asked about where it reaches out of it; empty: anywhere
   NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free = {},
-        const Box& window = {});
+        const Box& window = {}, bool with_areas = false);
 
   /// mm; 0 where they do not overlap.
   [[nodiscard]] double depth(double x, double y) const noexcept {
@@ -46,6 +47,18 @@ class NoFit {
                 v = static_cast<float>(fy) - static_cast<float>(iy);
     const float low = node[0] + u * (node[1] - node[0]);
     const float high = node[columns_ + 1] + u * (node[columns_ + 2] - node[columns_ + 1]);
+    return static_cast<double>(low + v * (high - low));
+  }
+  /// Material that both have in common, interpolated from a coarser raster, mm^2; 0 without areas.
+  double common_area(double x, double y) const noexcept {
+    const double fx = (x - x0_) * area_per_mm_, fy = (y - y0_) * area_per_mm_;
+    if (!(fx >= 0 && fy >= 0 && fx < area_width_ && fy < area_height_)) return 0;
+    const auto ix = static_cast<std::uint32_t>(fx), iy = static_cast<std::uint32_t>(fy);
+    const float* node = &areas_[iy * (area_columns_ + 1) + ix];
+    const float u = static_cast<float>(fx) - static_cast<float>(ix),
+                v = static_cast<float>(fy) - static_cast<float>(iy);
+    const float low = node[0] + u * (node[1] - node[0]);
+    const float high = node[area_columns_ + 1] + u * (node[area_columns_ + 2] - node[area_columns_ + 1]);
     return static_cast<double>(low + v * (high - low));
   }
   /// The depth and the direction, unit, in which b gets free.
@@ -72,10 +85,14 @@ class NoFit {
   [[nodiscard]] Signed signed_distance(const std::uint16_t* begin, const std::uint16_t* end, double x,
                                        double y) const noexcept;
   [[nodiscard]] double depth_near(std::uint32_t cell, double x, double y) const noexcept;
-  void fill(std::uint32_t x, std::uint32_t y, std::uint32_t size, const std::vector<std::uint16_t>& candidates);
+  void fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
+            const std::vector<std::uint16_t>& candidates);
 
   double x0_ = 0, y0_ = 0, per_mm_ = 0, width_ = 0, height_ = 0, gap_ = 0, tie_ = 0;
   std::uint32_t columns_ = 0, rows_ = 0;
+  double area_per_mm_ = 0, area_width_ = 0, area_height_ = 0;
+  std::uint32_t area_columns_ = 0;
+  std::vector<float> areas_;
   std::vector<std::uint32_t> cells_;
   std::vector<float> nodes_;
   std::vector<std::uint16_t> lists_;  ///< a count, then segments

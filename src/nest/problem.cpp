@@ -16,8 +16,8 @@ namespace {
 using geom::GridRegion;
 using geom::Point;
 
-/// Outlines with more corners are simplified outwards by up to this share of their size; what is placed at the
-/// end are the outlines themselves.
+/// Outlines with more corners are simplified outwards by up to this share of their size; what is placed at
+/// the end are the outlines themselves.
 constexpr double kSimplify = 0.0005;
 constexpr std::size_t kEnoughCorners = 48;
 
@@ -99,8 +99,10 @@ geom::Region drawn(const GridRegion& region) {
     geom::Contour contour;
     const auto loop = loop_of(region, l);
     for (std::size_t k = 0; k < loop.size(); ++k)
-      contour.push_back({geom::EdgeKind::line, geom::mm_from_grid(loop[k]),
-                         geom::mm_from_grid(loop[(k + 1) % loop.size()]), {}});
+      contour.push_back({geom::EdgeKind::line,
+                         geom::mm_from_grid(loop[k]),
+                         geom::mm_from_grid(loop[(k + 1) % loop.size()]),
+                         {}});
     (l == 0 ? result.outer : result.holes.emplace_back()) = std::move(contour);
   }
   return result;
@@ -136,7 +138,8 @@ Shape demanding_more(const layout::Part& part, int than, bool mirrored) {
     std::vector<std::vector<geom::GridPoint>> loops;
     const auto add_loop = [&](const geom::Contour& contour) {
       std::vector<geom::GridPoint> loop;
-      for (const geom::Edge& e : contour) loop.push_back({geom::grid_from_mm(e.from.x), geom::grid_from_mm(e.from.y)});
+      for (const geom::Edge& e : contour)
+        loop.push_back({geom::grid_from_mm(e.from.x), geom::grid_from_mm(e.from.y)});
       loops.push_back(std::move(loop));
     };
     add_loop(piece.outer);
@@ -183,7 +186,8 @@ void Problem::add_parts() {
     const double step = 360.0 / static_cast<double>(options_.angles_of_any);
     const auto add_range = [&](double from, double to) {
       if (to - from >= 360) {
-        for (std::size_t k = 0; k < options_.angles_of_any; ++k) angles.push_back(step * static_cast<double>(k));
+        for (std::size_t k = 0; k < options_.angles_of_any; ++k)
+          angles.push_back(step * static_cast<double>(k));
         return;
       }
       // Multiples of the step as far as they lie in it: parts then share differences of angles.
@@ -206,8 +210,9 @@ void Problem::add_parts() {
     for (int mirrored = 0; mirrored <= (part.may_mirror ? 1 : 0); ++mirrored) {
       SearchShape shape;
       shape.part = p;
-      shape.whole = shape_of(simplified(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
-                                        kSimplify * std::sqrt(hull_areas_.back()), kEnoughCorners));
+      shape.whole =
+          shape_of(simplified(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
+                              kSimplify * std::sqrt(hull_areas_.back()), kEnoughCorners));
       for (const int quality : qualities)
         shape.demanding.emplace_back(quality, demanding_more(part, quality, mirrored == 1));
       shapes_.push_back(std::move(shape));
@@ -256,8 +261,9 @@ void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
     bin.obstacles.push_back({obstacle_form(Kind::border, 0, shape_of(region_of(std::move(hole)))), 0, 0});
   }
   for (const layout::Defect& defect : stock.defects)
-    bin.obstacles.push_back(
-        {obstacle_form(Kind::defect, defect.severity, shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners))), 0, 0});
+    bin.obstacles.push_back({obstacle_form(Kind::defect, defect.severity,
+                                           shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners))),
+                             0, 0});
   for (const layout::QualityZone& zone : stock.zones)
     bin.obstacles.push_back({obstacle_form(Kind::zone, zone.quality, shape_of(zone.outline.polygon)), 0, 0});
 }
@@ -293,8 +299,8 @@ void Problem::add_locked() {
       if (form == forms_.size()) {
         SearchShape shape;
         shape.part = placement.part;
-        shape.whole = shape_of(
-            geom::turned(document.parts[placement.part].outline.polygon, geom::GridRotation{}, placement.mirrored));
+        shape.whole = shape_of(geom::turned(document.parts[placement.part].outline.polygon,
+                                            geom::GridRotation{}, placement.mirrored));
         shapes_.push_back(std::move(shape));
         add_form(static_cast<std::uint32_t>(shapes_.size() - 1), placement.rotation, placement.mirrored);
       }
@@ -306,7 +312,8 @@ void Problem::add_locked() {
   }
 }
 
-std::uint32_t Problem::form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept {
+std::uint32_t Problem::form_of(std::uint32_t part, geom::GridRotation rotation,
+                               bool mirrored) const noexcept {
   for (std::uint32_t f = by_part_[part].first; f < by_part_[part].last; ++f)
     if (forms_[f].rotation == rotation && forms_[f].mirrored == mirrored) return f;
   return static_cast<std::uint32_t>(forms_.size());
@@ -378,7 +385,8 @@ bool Problem::fits_somewhere(std::uint32_t part) const noexcept {
   for (const Bin& bin : bins_)
     for (std::uint32_t f = by_part_[part].first; f < by_part_[part].last; ++f) {
       const Box& b = forms_[f].box;
-      if (b.x1 - b.x0 + gap <= bin.box.x1 - bin.box.x0 + 1e-9 && b.y1 - b.y0 + gap <= bin.box.y1 - bin.box.y0 + 1e-9)
+      if (b.x1 - b.x0 + gap <= bin.box.x1 - bin.box.x0 + 1e-9 &&
+          b.y1 - b.y0 + gap <= bin.box.y1 - bin.box.y0 + 1e-9)
         return true;
     }
   return false;
@@ -393,7 +401,8 @@ NoFit::Way Problem::way_out(const Form& a, const Form& b, double dx, double dy) 
     y = -y;
   }
   NoFit::Way way = swapped ? table(b, a).way_out(x, y) : table(a, b).way_out(x, y);
-  way.direction = {f.c * way.direction.x - f.s * way.direction.y, f.s * way.direction.x + f.c * way.direction.y};
+  way.direction = {f.c * way.direction.x - f.s * way.direction.y,
+                   f.s * way.direction.x + f.c * way.direction.y};
   if (swapped) way.direction = -way.direction;
   return way;
 }
@@ -413,7 +422,8 @@ const NoFit& Problem::make_table(std::size_t at, const Form& a, const Form& b) c
     if (other.kind == SearchShape::Kind::defect)
       gap = geom::mm_from_grid(layout::defect_gap_of(*document_, rules));
     const Shape* of_part = &part.whole;
-    if (other.kind == SearchShape::Kind::defect && other.level <= rules.tolerated_severity) of_part = &nothing;
+    if (other.kind == SearchShape::Kind::defect && other.level <= rules.tolerated_severity)
+      of_part = &nothing;
     if (other.kind == SearchShape::Kind::zone) {
       of_part = &nothing;
       for (const auto& [quality, demanding] : part.demanding)
@@ -436,15 +446,18 @@ const NoFit& Problem::make_table(std::size_t at, const Form& a, const Form& b) c
   if (p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part) {
     const auto relative = [&](double v) { return static_cast<std::int64_t>(std::llround(v * 0x1p52)); };
     region_p = geom::turned(document_->parts[p.part].outline.polygon, geom::GridRotation{}, a.mirrored);
-    region_q = geom::turned(geom::turned(document_->parts[q.part].outline.polygon, geom::GridRotation{}, b.mirrored),
-                            {relative(c), relative(s)}, false);
+    region_q =
+        geom::turned(geom::turned(document_->parts[q.part].outline.polygon, geom::GridRotation{}, b.mirrored),
+                     {relative(c), relative(s)}, false);
     is_free = [&](geom::Point shift) {
-      return !phi::interiors_meet(region_p, region_q, {geom::grid_from_mm(shift.x), geom::grid_from_mm(shift.y)});
+      return !phi::interiors_meet(region_p, region_q,
+                                  {geom::grid_from_mm(shift.x), geom::grid_from_mm(shift.y)});
     };
   }
   const Shape turned_q = turned(*of_q, c, s);
   const Box window = p.kind == SearchShape::Kind::border ? p.window : Box{};
-  auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, options_.cells, is_free, window);
+  auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, options_.cells, is_free, window,
+                                      p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part);
   const std::lock_guard lock(making_);
   if (const NoFit* other = tables_[at].load(std::memory_order_acquire)) return *other;
   tables_[at].store(made.get(), std::memory_order_release);

@@ -91,14 +91,19 @@ class Problem {
     if (a.shape <= b.shape) return table(a, b).depth(a.c * dx + a.s * dy, a.c * dy - a.s * dx);
     return table(b, a).depth(-(b.c * dx + b.s * dy), b.s * dx - b.c * dy);
   }
+  /// Material that both have in common, roughly, mm^2; 0 for what is no part.
+  double common_area(const Form& a, const Form& b, double dx, double dy) const {
+    if (a.shape <= b.shape) return table(a, b).common_area(a.c * dx + a.s * dy, a.c * dy - a.s * dx);
+    return table(b, a).common_area(-(b.c * dx + b.s * dy), b.s * dx - b.c * dy);
+  }
   /// The same, and the direction in which b gets free.
   NoFit::Way way_out(const Form& a, const Form& b, double dx, double dy) const;
   std::size_t tables() const noexcept { return made_.load(); }
 
  private:
   const NoFit& table(const Form& a, const Form& b) const {
-    const std::size_t at =
-        (std::size_t{a.shape} * shapes_.size() + b.shape) * relative_count_ + relative_[a.angle * angles_.size() + b.angle];
+    const std::size_t at = (std::size_t{a.shape} * shapes_.size() + b.shape) * relative_count_ +
+                           relative_[a.angle * angles_.size() + b.angle];
     const NoFit* found = tables_[at].load(std::memory_order_acquire);
     return found != nullptr ? *found : make_table(at, a, b);
   }

@@ -12,11 +12,13 @@ constexpr double kTolerance = 3e-6;
 /// What an overlap costs at least, as a share of the middling part's size: many small ones are then not
 /// cheaper than one.
 constexpr double kLeastValue = 0.003;
-constexpr int kFocused = 5, kAnywhere = 20;  ///< candidate places of a move
+/// The depth of a long thin overlap says little: the root of its area counts beside it.
+constexpr double kAreaShare = 0.3;
+constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
 /// Steps as shares of the item's narrow side.
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
-}
+}  // namespace
 
 Separator::Separator(const Problem& problem, const Items& items, Random random)
     : problem_(problem), items_(items), random_(random), total_(items.total()) {
@@ -68,8 +70,12 @@ void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
   }
 }
 
-double Separator::value_of(std::size_t i, std::size_t j, double depth) const noexcept {
-  return (depth / unit_ + kLeastValue) * std::sqrt(size_[i] * size_[j]);
+double Separator::value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept {
+  return ((depth + kAreaShare * std::sqrt(area)) / unit_ + kLeastValue) * std::sqrt(size_[i] * size_[j]);
+}
+
+double Separator::area_of(const Spot& a, const Spot& b) const {
+  return problem_.common_area(problem_.forms()[a.form], problem_.forms()[b.form], b.x - a.x, b.y - a.y);
 }
 
 void Separator::forget_weights() { std::fill(weights_.begin(), weights_.end(), 1.0f); }
@@ -78,7 +84,8 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
   const Box& b = problem_.forms()[form].box;
   const Box& in = problem_.bins()[bin].box;
   const double gap = problem_.border_gap_of(part);
-  Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0, state_.tops[bin] - gap - b.y1};
+  Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0,
+             state_.tops[bin] - gap - b.y1};
   // What fits exactly fits: rounding does not decide.
   if (r.x1 < r.x0 && r.x0 - r.x1 < 1e-6) r.x0 = r.x1 = 0.5 * (r.x0 + r.x1);
   if (r.y1 < r.y0 && r.y0 - r.y1 < 1e-6) r.y0 = r.y1 = 0.5 * (r.y0 + r.y1);
@@ -116,7 +123,7 @@ double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
     const double depth =
         problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y);
     if (depth > 0) {
-      sum += static_cast<double>(weights[j]) * value_of(i, j, depth);
+      sum += static_cast<double>(weights[j]) * value_of(i, j, depth, area_of(spot, other));
       if (sum >= limit) return sum;
     }
   }
@@ -175,7 +182,8 @@ void Separator::descend(std::size_t i, Candidate& best, double step, double unti
   }
 }
 
-/// Along the ways out of what it still overlaps, one after the other: the corner between two comes out exactly.
+/// Along the ways out of what it still overlaps, one after the other: the corner between two comes out
+/// exactly.
 void Separator::push_out(std::size_t i, Candidate& best) {
   const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
   Spot spot = best.spot;
@@ -183,8 +191,10 @@ void Separator::push_out(std::size_t i, Candidate& best) {
   for (int round = 0; round < 12 && best.loss > 0; ++round) {
     for (const std::uint32_t j : near_) {
       const Box& o = boxes_[j];
-      if (o.x0 >= spot.x + form.box.x1 + problem_.widest_gap() || o.x1 <= spot.x + form.box.x0 - problem_.widest_gap() ||
-          o.y0 >= spot.y + form.box.y1 + problem_.widest_gap() || o.y1 <= spot.y + form.box.y0 - problem_.widest_gap())
+      if (o.x0 >= spot.x + form.box.x1 + problem_.widest_gap() ||
+          o.x1 <= spot.x + form.box.x0 - problem_.widest_gap() ||
+          o.y0 >= spot.y + form.box.y1 + problem_.widest_gap() ||
+          o.y1 <= spot.y + form.box.y0 - problem_.widest_gap())
         continue;
       const Spot& other = state_.spots[j];
       const NoFit::Way way =
@@ -289,8 +299,8 @@ bool Separator::snap(double unit) {
     spot.x = std::round(spot.x / unit) * unit;
     spot.y = std::round(spot.y / unit) * unit;
     const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
-    fits = fits && spot.x >= r.x0 - kTolerance && spot.x <= r.x1 + kTolerance && spot.y >= r.y0 - kTolerance &&
-           spot.y <= r.y1 + kTolerance;
+    fits = fits && spot.x >= r.x0 - kTolerance && spot.x <= r.x1 + kTolerance &&
+           spot.y >= r.y0 - kTolerance && spot.y <= r.y1 + kTolerance;
     set_spot(i, spot);
   }
   if (fits && overlap() <= 0) return true;
@@ -309,10 +319,14 @@ double Separator::pass() {
   for (const std::uint32_t i : order_) move(i);
   const double sum = overlap();
   double most = 0;
-  for (Conflict& c : conflicts_) most = std::max(most, c.depth = value_of(c.a, c.b, c.depth));
+  for (Conflict& c : conflicts_) {
+    c.depth = value_of(c.a, c.b, c.depth, area_of(state_.spots[c.a], state_.spots[c.b]));
+    most = std::max(most, c.depth);
+  }
   for (float& w : weights_) w = std::max(1.0f, static_cast<float>(kDecay) * w);
   for (const Conflict& c : conflicts_) {
-    const float factor = static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
+    const float factor =
+        static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
     weight(c.a, c.b) = std::min(1e12f, weight(c.a, c.b) * factor);
     if (c.b < items_.movable()) weight(c.b, c.a) = weight(c.a, c.b);
   }

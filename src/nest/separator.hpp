@@ -17,9 +17,9 @@ struct Spot {
 
 /// All items and the end of the strip.
 struct State {
-  std::vector<Spot> spots;   ///< by item that is moved, then what stays
-  std::vector<double> ends;  ///< by bin: x up to which items may lie
-  std::vector<double> tops;  ///< likewise y
+  std::vector<Spot> spots;               ///< by item that is moved, then what stays
+  std::vector<double> ends;              ///< by bin: x up to which items may lie
+  std::vector<double> tops;              ///< likewise y
   std::vector<std::uint32_t> open_bins;  ///< those that may be used
 };
 
@@ -87,7 +87,8 @@ class Separator {
   void push_out(std::size_t i, Candidate& from);
   void move(std::size_t i);
   /// What an overlap costs before its weight.
-  double value_of(std::size_t i, std::size_t j, double depth) const noexcept;
+  double value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept;
+  double area_of(const Spot& a, const Spot& b) const;
   float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
 
   const Problem& problem_;
@@ -111,7 +112,7 @@ class Separator {
   std::vector<double> min_dim_;
   double deepest_ = 0;
   std::uint64_t work_ = 0;
-  double unit_ = 0;            ///< mm: the middling part's size
+  double unit_ = 0;           ///< mm: the middling part's size
   std::vector<double> size_;  ///< in units; 1 for what stays
 };
 

@@ -71,11 +71,10 @@ TEST(NoFit, SaysTheSameAsTheExactRelation) {
       if (depth > kBand) {
         EXPECT_TRUE(meet) << "case " << i << " of seed " << cases::seed() << ", depth " << depth;
       }
-      if (depth == 0 && meet) {
-        // Only ever on the border itself.
-        EXPECT_FALSE(phi::edges_nearer_than(a, b, 0, at));
-        EXPECT_TRUE(phi::edge_distance(a, b, at).distance_mm <= kBand)
-            << "case " << i << " of seed " << cases::seed();
+      if (depth == 0 && meet) {  // only ever within rounding of contact
+        const GridPoint wayside{at.x + geom::grid_from_mm(kBand), at.y + geom::grid_from_mm(kBand)};
+        EXPECT_FALSE(phi::interiors_meet(a, b, wayside) && phi::interiors_meet(a, b, at - (wayside - at)))
+            << "case " << i << " of seed " << cases::seed() << " at " << shift.x << ", " << shift.y;
       }
     }
   }
@@ -88,9 +87,20 @@ TEST(NoFit, KeepsAGap) {
   const NoFit table(shape_of(square), shape_of(square), 2, 1024);
   EXPECT_EQ(table.depth(12.001, 0), 0);
   EXPECT_NEAR(table.depth(11.5, 0), 0.5, 1e-9);
-  // Round at the corner: 1.5 across and 1.5 up are 2.12 apart.
+  // Round at the corner: 1.5 across and 1.5 up are 2.12 apart, 1.4 and 1.4 are 1.98.
   EXPECT_EQ(table.depth(11.5, 11.5), 0);
-  EXPECT_NEAR(table.depth(11, 11), 2 - 1.4142135623730951, 1e-9);
+  EXPECT_NEAR(table.depth(11.4, 11.4), 2 - 1.4 * 1.4142135623730951, 1e-9);
+}
+
+TEST(NoFit, KnowsTheAreaInCommonRoughly) {
+  const GridRegion frame =
+      cases::outline_of({cases::box_loop(0, 0, 40, 40), cases::box_loop(10, 10, 30, 30)}).polygon;
+  const GridRegion square = cases::outline_of({cases::box_loop(0, 0, 10, 10)}).polygon;
+  const NoFit table(shape_of(frame), shape_of(square), 0, 2048, {}, {}, true);
+  EXPECT_NEAR(table.common_area(0, 15), 100, 15);  // a ridge, cut off between nodes
+  EXPECT_NEAR(table.common_area(5, 15), 50, 5);
+  EXPECT_NEAR(table.common_area(15, 15), 0, 1);
+  EXPECT_EQ(table.common_area(60, 0), 0);
 }
 
 /// A slot as wide as the tongue: only the exact answer can tell that it is free.

@@ -21,7 +21,8 @@ LayoutJson order() {
 TEST(CliNest, PlacesEverythingAndTheCheckAgrees) {
   const TemporaryFolder folder;
   write_bytes(folder / "order.json", order().dump());
-  const Ran ran = run(folder.path(), {"nest", "order.json", "-o", "layout.json", "--work", "300000", "--json"});
+  const Ran ran =
+      run(folder.path(), {"nest", "order.json", "-o", "layout.json", "--work", "300000", "--json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Json report = ran.json();
   EXPECT_EQ(report["status"], "complete");
@@ -35,8 +36,8 @@ TEST(CliNest, TheSameBytesWithOneThreadAndTwo) {
   const TemporaryFolder folder;
   write_bytes(folder / "order.json", order().dump());
   for (const std::string threads : {"1", "2"})
-    ASSERT_EQ(run(folder.path(), {"nest", "order.json", "-o", "layout" + threads + ".json", "--work", "900000",
-                                  "--seed", "3", "--threads", threads})
+    ASSERT_EQ(run(folder.path(), {"nest", "order.json", "-o", "layout" + threads + ".json", "--work",
+                                  "900000", "--seed", "3", "--threads", threads})
                   .status,
               0);
   EXPECT_EQ(read_bytes(folder / "layout1.json"), read_bytes(folder / "layout2.json"));
@@ -68,8 +69,13 @@ TEST(CliNest, SaysWhatIsNotPlacedAndWhy) {
 TEST(CliNest, WrongWordsAreRefused) {
   const TemporaryFolder folder;
   write_bytes(folder / "order.json", order().dump());
-  for (const Words& words : {Words{"--time", "nan"}, {"--time", "-1"}, {"--work", "0"}, {"--threads", "0"},
-                             {"--angles", "361"}, {"--seed", "x"}, {"-o", "order.json"}})
+  for (const Words& words : {Words{"--time", "nan"},
+                             {"--time", "-1"},
+                             {"--work", "0"},
+                             {"--threads", "0"},
+                             {"--angles", "361"},
+                             {"--seed", "x"},
+                             {"-o", "order.json"}})
     EXPECT_EQ(run(folder.path(), Words{"nest", "order.json"} + words).status, 2) << words[1];
   write_bytes(folder / "empty.json", cases::empty_layout().dump());
   EXPECT_EQ(run(folder.path(), {"nest", "empty.json"}).status, 3);

@@ -40,8 +40,8 @@ struct Nested {
 
 struct Options {
   std::uint64_t seed = 0;
-  unsigned threads = 1;       ///< 1 or more; changes the speed and nothing else
-  std::size_t angles = 24;    ///< that a part may have that may be turned anyhow; in [1, 360]
+  unsigned threads = 1;     ///< 1 or more; changes the speed and nothing else
+  std::size_t angles = 24;  ///< that a part may have that may be turned anyhow; in [1, 360]
   /// Called at a merge with every better layout, from the calling thread; may be empty.
   std::function<void(const Nested&)> improved;
 };
