@@ -296,9 +296,10 @@ class Planner {
       places[0].id = document_.next_id;
       return limited({places[0]});
     }
-    return wrong(fmt::format("{} where part '{}' fits",
-                             run_.stop_requested() ? "stopped before a place was found" : "no place was found",
-                             document_.parts[c.part].id));
+    return wrong(
+        fmt::format("{} where part '{}' fits",
+                    run_.stop_requested() ? "stopped before a place was found" : "no place was found",
+                    document_.parts[c.part].id));
   }
 
   Result<Outcome> operator()(const AddFeatureCommand& c) const {
