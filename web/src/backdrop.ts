@@ -4,7 +4,7 @@
 
 import { isGap, type Placement, type Violation } from './document';
 import type { Scene } from './draw';
-import { boxesMeet, type Box, type Model, type Sheet } from './model';
+import { boxesMeet, placedAt, type Box, type Model, type Sheet } from './model';
 
 export interface Painter {
   take(model: Model): void;
@@ -225,7 +225,7 @@ function described(scene: Scene): Painted {
   const { x, y, scale } = scene.view;
   return {
     x, y, scale, model: scene.model, theme: scene.theme, show: JSON.stringify(scene.show), looks,
-    sheets: scene.model.sheets.map((s) => `${s.x} ${s.y} ${s.box.right} ${s.box.top}`).join(),
+    sheets: `${scene.model.features} ${scene.photo ? [scene.photo.a, scene.photo.b, scene.photo.x, scene.photo.y].join(' ') : ''} ` + scene.model.sheets.map((s) => `${s.x} ${s.y} ${s.box.right} ${s.box.top}`).join(),
     violations: new Map(restingViolations(scene).map((v) => [`${v.kind} ${v.a} ${v.b} ${v.copy} ${v.at[0]} ${v.at[1]} ${v.amount_mm}`, v])),
   };
 }
@@ -238,4 +238,3 @@ function sameParts(a: Painted, b: Painted): boolean {
   }
   return a.violations.size === b.violations.size && [...a.violations.keys()].every((key) => b.violations.has(key));
 }
-const placedAt = (b: Box, s: Sheet): Box => ({ left: b.left + s.x, right: b.right + s.x, bottom: b.bottom + s.y, top: b.top + s.y });

@@ -14,6 +14,7 @@ export interface BarEvents {
   save(form: string): void;
   print(): void;
   fit(): void;
+  photo(file: File): void;
   theme(): void;
   language(): void;
   help(): void;
@@ -48,6 +49,10 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
     editor.tell('selection');
   } }), t(k)));
 
+  const picked = h('input', { type: 'file', accept: 'image/*', hidden: true, 'data-action': 'photo.file', 'aria-label': t('photo'), change: (e) => {
+    const file = (e.target as HTMLInputElement).files?.[0];
+    if (file) events.photo(file);
+  } });
   // Who worked by the keyboard stays where he was.
   const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
   bar.replaceChildren(
@@ -59,10 +64,11 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
     space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'),
     space(), action('lock'), action('swap'), action('copy'), action('remove'),
     h('span', { class: 'push' }), button('fit', events.fit),
-    menu('view', t('view'), ...shown, item('theme', t('theme'), events.theme)),
+    menu('view', t('view'), ...shown, picked, item('photo', t('photo'), () => picked.click()), item('theme', t('theme'), events.theme)),
     menu('export', t('export'), ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))), item('print', t('print'), events.print)),
     h('button', { 'aria-label': t('language'), 'data-action': 'language', click: events.language }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', events.help));
   tools.setAttribute('aria-label', t('tools'));
-  tools.replaceChildren(tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'));
+  tools.replaceChildren(tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'),
+    tool('defect'), tool('zone'), ...(editor.photo ? [tool('photo')] : []));
   if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
 }

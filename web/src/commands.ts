@@ -5,6 +5,9 @@ import { textOfMm } from './grid';
 import type { Sheet } from './model';
 
 const quoted = (name: string): string => `"${name.replace(/[\\"]/g, '\\$&').replace(/\n/g, '\\n')}"`;
+/// A defect or zone by its stock and id.
+interface Named { stock: string; kind: 'defect' | 'zone'; id: string }
+const named = (verb: string, f: Named): string => `${verb}-${f.kind} ${quoted(f.stock)} ${quoted(f.id)}`;
 const ids = (list: readonly number[]): string => [...list].sort((a, b) => a - b).join(',');
 const pair = (x: number, y: number): string => `${textOfMm(x)} ${textOfMm(y)}`;
 const sheetOf = (sheet?: Sheet): string => (sheet ? ` to ${quoted(sheet.stock.id)} ${sheet.copy}` : '');
@@ -28,4 +31,9 @@ export const settle = (list: readonly number[], x: number, y: number, x2: number
   `settle ${ids(list)} towards ${x} ${y} then ${x2} ${y2}`;
 export const push = (list: readonly number[], x: number, y: number): string => `push ${ids(list)} by ${pair(x, y)}`;
 export const snap = (id: number, reach: number): string => `snap ${id} within ${textOfMm(reach)}`;
+export const addFeature = (f: Named, grade: number, outline: readonly (readonly [number, number])[]): string =>
+  `${named('add', f)} ${grade} outline ${outline.map(([x, y]) => pair(x, y)).join(' ')}`;
+export const moveFeature = (f: Named, x: number, y: number): string => `${named('move', f)} by ${pair(x, y)}`;
+export const gradeFeature = (f: Named, grade: number): string => `${named('grade', f)} ${grade}`;
+export const removeFeature = (f: Named): string => named('remove', f);
 export const compact = (sheet: Sheet, x: number, y: number): string => `compact ${quoted(sheet.stock.id)} ${sheet.copy} towards ${x} ${y}`;

@@ -6,6 +6,8 @@ export interface Outline {
 }
 export interface Defect { id: string; severity?: number; outline: Outline }
 export interface Zone { id: string; quality: number; outline: Outline }
+/// What a change message says of a defect or zone (docs/protocol.md).
+export interface FeatureChange { stock: string; kind: 'defect' | 'zone'; id: string; index: number; after: Defect | Zone | null }
 export interface Stock {
   id: string; name?: string; kind: 'strip' | 'sheet' | 'hide'; count?: number;
   height?: number; length?: number; outline?: Outline; grain_deg?: number; defects?: Defect[]; zones?: Zone[];

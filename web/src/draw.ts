@@ -3,6 +3,7 @@
 
 import { Backdrop, type Painter } from './backdrop';
 import { isGap, type Part, type Placement, type Point, type Violation } from './document';
+import type { Photo } from './photo';
 import type { LiveState } from './kernel_api';
 import { innerPoint, placedBox, type Box, type Model, type Sheet } from './model';
 import type { View } from './view';
@@ -31,6 +32,9 @@ export interface Scene {
   moving: ReadonlyMap<number, Placement>;
   live: LiveState | null;
   band: Box | null;
+  /// An outline being drawn.
+  draft: readonly Point[];
+  photo: Photo | null;
   ruler: { from: Point; to: Point } | null;
   arrow: { from: Point; to: Point } | null;
   /// Of the chosen parts at rest; pixels.
@@ -218,6 +222,7 @@ export class Picture implements Painter {
       const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
       this.drawMeasure(ctx, scene, from, to, `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`, theme.select);
     }
+    if (scene.draft.length > 0) this.drawDraft(ctx, scene);
     if (scene.handle) this.drawHandle(ctx, theme, scene.handle.top, scene.handle.at);
     if (scene.arrow) this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
     if (scene.band) {
@@ -247,6 +252,14 @@ export class Picture implements Painter {
     }
     ctx.fillStyle = theme.material;
     ctx.fill(path, 'evenodd');
+    if (scene.photo) {
+      const { image, a, b, x, y } = scene.photo;
+      ctx.save();
+      ctx.clip(path, 'evenodd');
+      ctx.transform(a, b, b, -a, x - sheet.x, y - sheet.y);
+      ctx.drawImage(image, 0, 0);
+      ctx.restore();
+    }
     for (const hole of stock.outline?.polygon.holes ?? []) this.fillHatched(ctx, view, tracedPath([hole], 0), this.hatch(ctx, theme.faint, 'lines'));
     if (scene.show.zones) {
       ctx.save();
@@ -431,6 +444,20 @@ export class Picture implements Painter {
     }
     ctx.stroke();
     this.tag(ctx, scene.theme, text, (x0 + x1) / 2, (y0 + y1) / 2 - 14, colour);
+  }
+
+  private drawDraft(ctx: CanvasRenderingContext2D, { draft, view, theme }: Scene): void {
+    ctx.strokeStyle = ctx.fillStyle = theme.defect;
+    ctx.lineWidth = 1.8;
+    ctx.beginPath();
+    draft.forEach((p, i) => (i === 0 ? ctx.moveTo(...view.toScreen(...p)) : ctx.lineTo(...view.toScreen(...p))));
+    ctx.stroke();
+    for (const p of draft.length > 40 ? draft.slice(0, 1) : draft) {
+      const [x, y] = view.toScreen(...p);
+      ctx.beginPath();
+      ctx.arc(x, y, 3.5, 0, 7);
+      ctx.fill();
+    }
   }
 
   private drawHandle(ctx: CanvasRenderingContext2D, theme: Theme, [x0, y0]: Point, [x, y]: Point): void {

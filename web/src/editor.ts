@@ -1,14 +1,16 @@
 // The state of the page, and what a gesture does to it. Drawing and panels look at it and are told when it changes.
 
-import type { LayoutDocument, Placement, Violation } from './document';
+import type { FeatureChange, LayoutDocument, Placement, Violation } from './document';
 import { snapToGrid } from './grid';
 import { UNKNOWN, type Kernel, type LiveState, type Mode } from './kernel_api';
 import { Model, type Change } from './model';
+import type { Photo } from './photo';
 import type { Client, Connection } from './socket';
 import { t } from './i18n';
 
-export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan';
-export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show';
+export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
+export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show' | 'photo';
+export interface Feature { stock: string; kind: 'defect' | 'zone'; id: string }
 
 /// How far the nearest-distance line looks, mm.
 const REACH = 50;
@@ -27,6 +29,9 @@ export class Editor {
   moving = new Map<number, Placement>();
   live: LiveState | null = null;
   rotateStep = 15;
+  /// Severity of the next defect, quality of the next zone.
+  grades = { defect: 1, zone: 1 };
+  photo: Photo | null = null;
   show = { labels: true, grain: true, gap: true, zones: true };
   message = '';
   pending = 0;
@@ -64,9 +69,9 @@ export class Editor {
     this.tell('layout');
   }
 
-  apply(changes: readonly Change[], nextId: number): void {
-    this.model.apply(changes, nextId);
-    this.kernel.apply(changes, nextId);
+  apply(changes: readonly Change[], nextId: number, features: readonly FeatureChange[] = []): void {
+    this.model.apply(changes, nextId, features);
+    this.kernel.apply(changes, nextId, features);
     this.violations = this.kernel.check();
     for (const { id, after } of changes) if (!after) this.selection.delete(id);
     this.tell('layout');

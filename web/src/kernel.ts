@@ -31,6 +31,7 @@ export interface PlacementMessage {
 
 export interface ChangeMessage {
   placements: { id: number; after: PlacementMessage | null }[];
+  features?: readonly { stock: string; kind: 'defect' | 'zone'; id: string; index: number; after: object | null }[];
   next_id: number;
 }
 
@@ -100,6 +101,8 @@ interface Exports {
   lekalo_set(layout: number): number;
   lekalo_erase(layout: number, id: number): number;
   lekalo_set_next_id(layout: number, id: number): number;
+  lekalo_set_feature(layout: number, stock: number, kind: number, index: number, bytes: number): number;
+  lekalo_erase_feature(layout: number, stock: number, kind: number, bytes: number): number;
   lekalo_state(
     layout: number, count: number, dx: number, dy: number, degrees: number, reach: number,
     depths: number,
@@ -235,6 +238,14 @@ export class Layout {
 
   /** Follows the server: a "change" message of the protocol. */
   apply(change: ChangeMessage): void {
+    for (const { stock, kind, id, index, after } of change.features ?? []) {
+      const at = this.stockIndex.get(stock);
+      if (at === undefined) throw new Refusal(`there is no stock ${stock}`);
+      const which = kind === 'defect' ? 0 : 1;
+      this.kernel.demand(after === null
+        ? this.wasm.lekalo_erase_feature(this.handle, at, which, this.kernel.putText(id))
+        : this.wasm.lekalo_set_feature(this.handle, at, which, index, this.kernel.putText(JSON.stringify(after))));
+    }
     for (const { id, after } of change.placements) {
       if (after === null) this.erase(id);
       else this.set(this.placementOf(after));

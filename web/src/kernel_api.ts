@@ -1,7 +1,7 @@
 // Who decides what is allowed while a part is dragged. The WebAssembly kernel answers at once; without it the
 // server is asked (its `preview`), and until it has answered the state is 'unknown', never 'clear'.
 
-import type { LayoutDocument, Placement, Point, Violation } from './document';
+import type { FeatureChange, LayoutDocument, Placement, Point, Violation } from './document';
 import type { Change } from './model';
 
 export type Mode = 'strict' | 'free';
@@ -14,7 +14,7 @@ export interface Kernel {
   /// Says whether `state` answers within the call.
   readonly immediate: boolean;
   open(document: LayoutDocument): void;
-  apply(changes: readonly Change[], nextId: number): void;
+  apply(changes: readonly Change[], nextId: number, features: readonly FeatureChange[]): void;
   /// What would be so if these placements stood instead of those with their ids. \p text: the command that
   /// would bring it about.
   /// \p depths: how deep overlaps are, too; at each move of the pointer that would take too long.

@@ -13,6 +13,7 @@ import { ServerKernel } from './server_kernel';
 import { key, SHORTCUTS } from './tools/keys';
 import { Mirror, mirrorId } from './mirror';
 import { dragFromTray } from './tools/from_tray';
+import { photoBeneath } from './tools/features';
 import { PointerTool, turningHandle } from './tools/pointer';
 import { tray } from './panels/tray';
 import { View } from './view';
@@ -84,7 +85,7 @@ function later(duty: Duty): void {
 function scene(): Scene {
   return {
     model: editor.model, view, theme, selection: editor.selection, others: new Set([...editor.others.values()].flat()),
-    violations: editor.violations ?? [], moving: editor.moving, live: editor.live, ...pointer.overlay, show: editor.show,
+    violations: editor.violations ?? [], moving: editor.moving, live: editor.live, ...pointer.overlay, photo: editor.photo, show: editor.show,
     handle: editor.moving.size === 0 ? turningHandle(editor, view) : null,
   };
 }
@@ -132,6 +133,7 @@ function mirrorLater(): void {
 const showBar = (): void => showTools(bar, tools, editor, known, {
   openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void save(form), print: () => window.print(),
   fit: fitAll, help: showHelp,
+  photo: (file) => void photoBeneath(editor, view, file).catch((error: unknown) => editor.say(String(error))),
   theme: () => {
     theme = theme === DARK ? LIGHT : DARK;
     store('theme', theme === DARK ? 'dark' : 'light');
@@ -283,7 +285,7 @@ function openLayout(id: number): void {
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   editor.client = new Client(() => new WebSocket(url, 'lekalo.1') as unknown as Wire, {
     layout: (m) => editor.open(m.document, m.name),
-    change: (m) => editor.apply(m.placements, m.next_id),
+    change: (m) => editor.apply(m.placements, m.next_id, m.features),
     selections: (clients) => {
       editor.others = new Map(clients.map((c) => [c.client, c.ids]));
       editor.tell('selection');
@@ -309,7 +311,7 @@ editor.on((topic) => {
   picture.dataset.moving = String(isMoving);
   picture.dataset.level = editor.live?.level ?? '';
   if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
-  if (topic === 'mode' || topic === 'show') showBar();
+  if (topic === 'mode' || topic === 'show' || (topic === 'photo' && !tools.querySelector('[data-action="tool.photo"]'))) showBar();
   if ((topic === 'layout' || topic === 'selection') && !panelsDue) {
     panelsDue = true;
     setTimeout(() => {
@@ -336,6 +338,11 @@ document.addEventListener('keydown', (e) => {
   const inPicture = e.target === picture;
   if ((e.target as HTMLElement).closest('input, select, dialog, details') || (!inPicture && (e.key === 'Tab' || e.key === ' '))) return;
   if (e.code === 'Space') pointer.spaceDown = true;
+  if (pointer.features.draws && (e.key === 'Enter' || (e.key === 'Backspace' && pointer.features.back()))) {
+    if (e.key === 'Enter') pointer.finishDraft();
+    else later('top');
+    return e.preventDefault();
+  }
   const mine = key(e, editor, {
     fit: fitAll, help: showHelp, cancel: () => pointer.cancel(), reveal: revealPart,
     zoom: (factor) => {
@@ -407,6 +414,7 @@ const lekaloBench = {
     drawing.backdrop.follow(scene());
     base.getContext('2d')!.getImageData(0, 0, 1, 1);
   }),
+  photo: () => editor.photo && { a: editor.photo.a, b: editor.photo.b, x: editor.photo.x, y: editor.photo.y },
   paintAll: () => {
     drawing.resize(view, picture.clientWidth, picture.clientHeight);
     drawing.backdrop.draw(scene());

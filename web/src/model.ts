@@ -1,6 +1,6 @@
 // The layout as the page holds it: the document, its placements by id, where every sheet is drawn.
 
-import type { LayoutDocument, Part, Placement, Point, Stock } from './document';
+import type { Defect, FeatureChange, LayoutDocument, Part, Placement, Point, Stock, Zone } from './document';
 import { mmFromSteps, placedVertex, rotationFromPair, stepsFromMm } from './grid';
 
 export interface Box { left: number; bottom: number; right: number; top: number }
@@ -23,6 +23,7 @@ export function boxOf(points: Iterable<Point>): Box {
 }
 export const boxesMeet = (a: Box, b: Box): boolean =>
   a.left <= b.right && b.left <= a.right && a.bottom <= b.top && b.bottom <= a.top;
+export const placedAt = (b: Box, s: { x: number; y: number }): Box => ({ left: b.left + s.x, right: b.right + s.x, bottom: b.bottom + s.y, top: b.top + s.y });
 export const sheetKey = (stock: string, copy: number): string => `${copy} ${stock}`;
 
 /// Loops of a placed part by rule 4, mm, exact: steps below 2^40 are whole doubles.
@@ -103,6 +104,8 @@ export class Model {
   readonly placements = new Map<number, Placement>();
   sheets: Sheet[] = [];
   nextId: number;
+  /// Counts changes of defects and zones.
+  features = 0;
   private readonly boxes = new Map<number, { of: Placement; box: Box }>();
   private sheetOf = new Map<string, Sheet>();
 
@@ -142,8 +145,9 @@ export class Model {
       x >= s.x + s.box.left && x <= s.x + s.box.right && y >= s.y + s.box.bottom && y <= s.y + s.box.top);
   }
 
-  apply(changes: readonly Change[], nextId?: number): void {
+  apply(changes: readonly Change[], nextId?: number, features: readonly FeatureChange[] = []): void {
     let sheets = false;
+    for (const change of features) this.applyFeature(change);
     for (const { id, after } of changes) {
       const before = this.placements.get(id);
       if (after) this.placements.set(id, after);
@@ -154,6 +158,19 @@ export class Model {
     }
     if (nextId !== undefined) this.nextId = nextId;
     if (sheets) this.arrangeSheets();
+  }
+
+  private applyFeature({ stock: name, kind, id, index, after }: FeatureChange): void {
+    const stock = this.stocks.get(name);
+    if (!stock) return;
+    const list: (Defect | Zone)[] = [...((kind === 'defect' ? stock.defects : stock.zones) ?? [])];
+    const at = list.findIndex((f) => f.id === id);
+    if (!after) list.splice(at, at < 0 ? 0 : 1);
+    else if (at >= 0) list[at] = after;
+    else list.splice(Math.min(index, list.length), 0, after);
+    if (kind === 'defect') stock.defects = list as Defect[];
+    else stock.zones = list as Zone[];
+    this.features += 1;
   }
 
   /// Sheets in use, and one empty copy of each stock that has one left; side by side, left to right.

@@ -1,5 +1,6 @@
 // The right-hand side: one of its panels at a time.
 
+import * as line from './commands';
 import type { Violation } from './document';
 import type { Editor } from './editor';
 import { h } from './elements';
@@ -44,7 +45,21 @@ function sheets(editor: Editor, events: SideEvents): HTMLElement {
     const sheet = editor.model.sheet(p.stock, p.copy);
     if (sheet) counts.set(sheet, (counts.get(sheet) ?? 0) + 1);
   }
-  return h('ul', { class: 'list' }, ...editor.model.sheets.map((s) => h('li', { 'data-id': `sheet-${s.stock.id}-${s.copy}` },
+  return h('div', {}, h('ul', { class: 'list' }, ...editor.model.sheets.map((s) => h('li', { 'data-id': `sheet-${s.stock.id}-${s.copy}` },
     h('button', { click: () => events.sheet(s) }, h('b', {}, String(s.copy + 1)), h('span', {}, s.stock.name ?? s.stock.id),
-      h('small', {}, t('sheets.parts', { n: counts.get(s) ?? 0 }))))));
+      h('small', {}, t('sheets.parts', { n: counts.get(s) ?? 0 })))))), ...features(editor));
+}
+
+/// Defects and zones of every stock: their grade, and away with them. New ones are drawn with the tools.
+function features(editor: Editor): HTMLElement[] {
+  return (['defect', 'zone'] as const).map((kind) => h('section', {}, h('h2', {}, t(`${kind}s`)),
+    h('label', { class: 'field' }, t(`${kind}.next`), h('input', { type: 'number', class: 'grade', min: kind === 'defect' ? 1 : 0, step: 1, value: editor.grades[kind], 'data-action': `grade.${kind}`,
+      change: (e) => (editor.grades[kind] = Number((e.target as HTMLInputElement).value)) })),
+    h('ul', { class: 'list' }, ...[...editor.model.stocks.values()].flatMap((stock) => ((kind === 'defect' ? stock.defects : stock.zones) ?? []).map((f) => {
+      const named = { stock: stock.id, kind, id: f.id };
+      return h('li', { 'data-id': `${kind}-${stock.id}-${f.id}`, class: 'field' }, h('span', {}, f.id),
+        h('input', { type: 'number', class: 'grade', step: 1, 'aria-label': t(`${kind}.grade`), title: t(`${kind}.grade`), value: 'quality' in f ? f.quality : f.severity ?? 1,
+          change: (e) => void editor.command(line.gradeFeature(named, Number((e.target as HTMLInputElement).value))) }),
+        h('button', { class: 'small', 'aria-label': `${t('feature.remove')} ${f.id}`, click: () => void editor.command(line.removeFeature(named)) }, '✕'));
+    })))));
 }

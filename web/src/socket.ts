@@ -1,13 +1,13 @@
 // The client's side of docs/protocol.md. Knows messages and order, nothing of drawing.
 
-import type { LayoutDocument, Placement, Violation } from './document';
+import type { FeatureChange, LayoutDocument, Placement, Violation } from './document';
 import type { Mode } from './kernel_api';
 import type { Change } from './model';
 
 export interface LayoutMessage { type: 'layout'; client: number; revision: number; name: string; document: LayoutDocument }
 export interface ChangeMessage {
   type: 'change'; revision: number; client: number; text: string; kind: 'command' | 'undo' | 'redo' | 'restore';
-  placements: Change[]; next_id: number;
+  placements: Change[]; features?: FeatureChange[]; next_id: number;
 }
 export interface Refusal { message: string; violations: Violation[] }
 export type Answer =

@@ -1,7 +1,7 @@
 // The WebAssembly kernel (kernel.ts, lekalo.wasm) behind the page's interface.
 
 import { rotate } from './commands';
-import type { LayoutDocument, Placement, Stock, Violation, ViolationKind } from './document';
+import type { FeatureChange, LayoutDocument, Placement, Stock, Violation, ViolationKind } from './document';
 import { UNKNOWN, type Kernel, type Level, type LiveState } from './kernel_api';
 import type { Change } from './model';
 
@@ -16,7 +16,7 @@ interface LoadedKernel {
 }
 interface KernelLayout {
   close(): void;
-  apply(change: { placements: readonly Change[]; next_id: number }): void;
+  apply(change: { placements: readonly Change[]; features: readonly FeatureChange[]; next_id: number }): void;
   placementOf(p: Placement): unknown;
   stateAt(p: unknown[], options: { reach: number; depths: boolean }): {
     level: Exclude<Level, 'unknown'>; violations: KernelViolation[];
@@ -55,8 +55,8 @@ class WasmKernel implements Kernel {
     this.parts = (document.parts ?? []).map((p) => p.id);
     this.layout = this.kernel.open(JSON.stringify(document));
   }
-  apply(changes: readonly Change[], nextId: number): void {
-    this.layout?.apply({ placements: changes, next_id: nextId });
+  apply(changes: readonly Change[], nextId: number, features: readonly FeatureChange[]): void {
+    this.layout?.apply({ placements: changes, features, next_id: nextId });
   }
   rotation(degrees: number): { c: number; s: number } {
     return this.kernel.rotation(degrees);

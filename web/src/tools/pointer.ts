@@ -3,10 +3,11 @@
 import * as line from '../commands';
 import type { Placement, Point } from '../document';
 import { movedBy, type Editor } from '../editor';
+import { FeatureTool } from './features';
 import { boxesMeet, boxOf, contains, placedLoops, type Box, type Sheet } from '../model';
 import type { View } from '../view';
 
-export interface Overlay { band: Box | null; ruler: { from: Point; to: Point } | null; arrow: { from: Point; to: Point } | null }
+export interface Overlay { draft: Point[]; band: Box | null; ruler: { from: Point; to: Point } | null; arrow: { from: Point; to: Point } | null }
 
 /// Pixels from the box of the chosen parts to the handle that turns them, and how near a hand must come to it.
 const HANDLE = 26;
@@ -19,7 +20,7 @@ export function turningHandle(editor: Editor, view: View): Handle | null {
   const chosen = editor.placementsOf(editor.chosen()).filter((p) => !p.locked);
   const first = chosen[0];
   const sheet = first && editor.model.sheet(first.stock, first.copy);
-  if (!sheet || chosen.length > 200 || editor.tool === 'measure' || editor.tool === 'pan') return null;
+  if (!sheet || chosen.length > 200 || !['select', 'slide', 'push', 'nearest'].includes(editor.tool)) return null;
   const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
   for (const p of chosen) {
     if (editor.model.sheet(p.stock, p.copy) !== sheet) return null;
@@ -65,13 +66,16 @@ type Gesture =
   | { kind: 'turn'; about: Point; from: number; ids: number[]; degrees: number };
 
 export class PointerTool {
-  readonly overlay: Overlay = { band: null, ruler: null, arrow: null };
+  readonly features: FeatureTool;
+  readonly overlay: Overlay = { draft: [], band: null, ruler: null, arrow: null };
   private gesture: Gesture | null = null;
   private last: Point = [0, 0];
   private readonly fingers = new Map<number, Point>();
   spaceDown = false;
 
   constructor(private readonly element: HTMLElement, private readonly editor: Editor, private readonly view: View, private readonly redraw: (what: 'top' | 'view' | 'all') => void) {
+    this.features = new FeatureTool(editor, view);
+    element.addEventListener('dblclick', () => this.finishDraft());
     element.addEventListener('pointerdown', (e) => this.down(e));
     element.addEventListener('pointermove', (e) => this.move(e));
     element.addEventListener('pointerup', (e) => this.up(e));
@@ -89,7 +93,22 @@ export class PointerTool {
     element.addEventListener('contextmenu', (e) => e.preventDefault());
   }
 
+  finishDraft(): void {
+    this.features.finish();
+    this.showDraft();
+  }
+  private showDraft(): void {
+    const { moved } = this.features;
+    const sheet = moved && this.editor.model.sheets.find((s) => s.stock.id === moved.feature.stock);
+    const of = sheet && [...(sheet.stock.defects ?? []), ...(sheet.stock.zones ?? [])].find((f) => f.id === moved!.feature.id);
+    this.overlay.draft = of ? [...of.outline.polygon.outer, of.outline.polygon.outer[0]!].map(([x, y]): Point => [x + sheet.x + moved!.by[0], y + sheet.y + moved!.by[1]])
+      : this.features.shown();
+    this.redraw('top');
+  }
+
   cancel(): void {
+    this.features.cancel();
+    this.overlay.draft = [];
     if (this.gesture?.kind === 'drag' || this.gesture?.kind === 'turn') this.editor.release();
     this.gesture = null;
     this.overlay.band = this.overlay.ruler = this.overlay.arrow = null;
@@ -113,6 +132,7 @@ export class PointerTool {
       this.gesture = { kind: 'pan', from: at };
       return;
     }
+    if (this.features.down(world)) return this.showDraft();
     if (this.editor.tool === 'measure') {
       this.gesture = { kind: 'measure', from: world };
       this.overlay.ruler = { from: world, to: world };
@@ -152,6 +172,10 @@ export class PointerTool {
     this.fingers.set(e.pointerId, at);
     const gesture = this.gesture;
     const world = this.view.toWorld(...at);
+    if (!gesture && this.fingers.size === 1) {
+      this.features.move(world);
+      this.showDraft();
+    }
     switch (gesture?.kind) {
       case 'pan':
         this.view.pan(at[0] - this.last[0], at[1] - this.last[1]);
@@ -227,6 +251,8 @@ export class PointerTool {
 
   private up(e: PointerEvent): void {
     this.fingers.delete(e.pointerId);
+    this.features.up();
+    this.showDraft();
     const gesture = this.gesture;
     this.gesture = null;
     const { band, arrow } = this.overlay;

@@ -371,6 +371,83 @@ inEditor('paints what changed, moved or was zoomed exactly as if all were painte
   assert.equal(await same(), '');
 });
 
+inEditor('draws, moves, grades and removes defects and zones, and says what lies on them', async (page, server) => {
+  const defects = async () => JSON.parse(await export_(server)).stocks[0].defects;
+  const [x, y, box] = await at(page, 2);
+  const k = box.width / 80;
+  /** A point by millimetres from the middle of the second plate, at (200, 40). */
+  const to = (dx, dy) => [x + dx * k, y - dy * k];
+  await command(page, 'tool.defect');
+  await page.click('[data-action="side.sheets"]');
+  await page.fill('[data-action="grade.defect"]', '3');
+  await page.keyboard.press('Tab');
+  for (const p of [to(30, 100), to(60, 100), to(60, 130)]) await page.mouse.click(...p);
+  await page.keyboard.press('Enter');
+  await settled(page);
+  let made = (await defects()).at(-1);
+  assert.deepEqual([made.id, made.severity, made.outline.polygon.outer.length], ['defect 2', 3, 3]);
+  assert.ok(Math.hypot(made.outline.polygon.outer[0][0] - 230, made.outline.polygon.outer[0][1] - 140) < 1);
+  // Dragged onto the plate: admitted, and the plate is on a defect from then on, as the program says too.
+  await page.mouse.move(...to(55, 110));
+  await page.mouse.down();
+  await page.mouse.move(...to(0, 5), { steps: 4 });
+  await drop(page);
+  await page.click('[data-action="side.violations"]');
+  assert.equal(await page.locator('[data-id="violation-defect-2-defect 2"]').count(), 1);
+  const said = await checked(server);
+  assert.equal(said.exit, 1);
+  assert.equal(await page.textContent('[data-id="violation-defect-2-defect 2"] small'), `${said.violations[0].amount_mm.toFixed(3)} mm`);
+  await command(page, 'undo');
+  await settled(page);
+  assert.equal(await broken(page), 0);
+  // In one stroke.
+  await page.mouse.move(...to(-150, 180));
+  await page.mouse.down();
+  for (const p of [to(-120, 180), to(-110, 200), to(-140, 210), to(-155, 195)]) await page.mouse.move(...p, { steps: 4 });
+  await drop(page);
+  assert.equal((await defects()).length, 3);
+  await command(page, 'tool.zone');
+  for (const p of [to(-195, -35), to(-100, -35), to(-100, 20), to(-195, 20)]) await page.mouse.click(...p);
+  await page.keyboard.press('Enter');
+  await settled(page);
+  assert.equal(JSON.parse(await export_(server)).stocks[0].zones.at(-1).id, 'zone 2');
+  await page.click('[data-action="side.sheets"]');
+  await comparePicture(page, 'features');
+  await page.click('[data-id="zone-board-zone 2"] button');
+  await settled(page);
+  assert.equal(JSON.parse(await export_(server)).stocks[0].zones.length, 1);
+  await page.fill('[data-id="defect-board-defect 2"] input', '7');
+  await page.keyboard.press('Tab');
+  await settled(page);
+  made = (await defects()).find((d) => d.id === 'defect 2');
+  assert.equal(made.severity, 7);
+});
+
+inEditor('lays a photograph beneath, to scale by two points', async (page, server) => {
+  const picked = join(server.folder, 'hide.png');
+  writeFileSync(picked, await page.screenshot({ clip: { x: 300, y: 300, width: 400, height: 300 } }));
+  await page.setInputFiles('[data-action="photo.file"]', picked);
+  await command(page, 'tool.photo');
+  const where = () => page.evaluate(() => window.lekaloBench.photo());
+  const before = await where();
+  assert.ok(Math.abs(before.a - 1) < 1e-9); // 400 pixels over 400 mm
+  const k = await scaleOf(page);
+  const pull = async (from, to) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...to, { steps: 3 });
+    await drop(page);
+  };
+  const [x, y] = await at(page, 1);
+  await pull([x, y], [x + 20 * k, y]);
+  assert.ok(Math.abs((await where()).x - before.x - 20) < 0.5);
+  // The pin is at x + 20; what is 100 mm to the right of it goes to 150 mm: half as large again, the pin stays.
+  await pull([x + 120 * k, y], [x + 170 * k, y]);
+  const after = await where();
+  assert.ok(Math.abs(after.a - 1.5) < 0.01 && Math.abs(after.b) < 0.01, JSON.stringify(after));
+  assert.equal((await checked(server)).exit, 0);
+});
+
 inEditor('prints each sheet in use with its parts', async (page) => {
   await command(page, 'mode.free');
   await keys(page, 'Escape');
