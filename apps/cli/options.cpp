@@ -751,7 +751,7 @@ Result<Command> parse_command_line(int argc, char** argv) {
   add_pocket_options(pocket, pocket_words);
   pocket.footer(
       "Exit codes: 0 done, 2 wrong command line, 3 a file cannot be read or the tool fits nowhere,\n"
-      "5 disk or memory. lekalo simulate judges the program.");
+      "4 the program found failed its check, 5 disk or memory. lekalo simulate judges any program.");
 
   SimulateWords simulate_words;
   CLI::App& simulate = *app.add_subcommand(
