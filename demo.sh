@@ -51,6 +51,13 @@ show "$lekalo" check demo-out/shoes.json
 show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.svg
 show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.pdf
 
+# Three pairs on the same hide, laid out by the program.
+show "$lekalo" nest $layouts/shoes.json --work 4000000 --seed 1 -o demo-out/shoes-nested.json --picture demo-out/shoes-nested.svg
+
+# A pocket with an island: its program, and what that cuts.
+show "$lekalo" pocket examples/pockets/cover.json --tool 6 --depth 4 -o demo-out/cover.ngc
+show "$lekalo" simulate demo-out/cover.ngc --pocket examples/pockets/cover.json --tool 6
+
 # The editor, seen by a browser (tests drive it further: ctest -L browser).
 if [ -x "$(command -v chromium)" ] && [ -d web/node_modules ]; then
   show env LEKALO=$lekalo node web/bench/picture.mjs demo-out/shoes.json demo-out/editor.png
@@ -65,6 +72,8 @@ say "  bracket.svg, bracket.json, bracket.nc  a part with arcs, a slot and holes
 say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of primitives in a probed casting: picture,"
 say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
+say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
+say "  cover.ngc                          a pocket with an island: the program that clears it"
 say "  editor.png                         the same in the editor, a part in hand over another. To use it:"
 say ""
 say "    $lekalo serve $layouts/shoes.json"

@@ -95,10 +95,10 @@ void Lane::build() {
   const auto& bins = problem_.bins();
   State state;
   double area = 0, widest = 0;
-  for (const std::uint32_t part : items_.parts) {
-    const Forms& forms = problem_.forms_of(part);
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    const Forms& forms = items_.forms[i];
     state.spots.push_back({0, 0, forms.first, kNowhere});
-    area += problem_.area_of(part);
+    area += problem_.area_of(items_.parts[i]);
     for (std::uint32_t f = forms.first; f < forms.last; ++f)
       widest = std::max(widest, problem_.forms()[f].box.x1 - problem_.forms()[f].box.x0);
   }
@@ -121,9 +121,9 @@ void Lane::build() {
                  cb = problem_.document().stocks[bins[b].stock].cost / bins[b].area;
     return ca != cb ? ca < cb : bins[a].area > bins[b].area;
   });
-  std::vector<std::uint32_t> hopeless;  // parts that found no place on any
+  std::vector<Forms> hopeless;  // pieces like these found no place on any
   for (const std::uint32_t i : by_size_) {
-    if (std::find(hopeless.begin(), hopeless.end(), items_.parts[i]) != hopeless.end()) continue;
+    if (std::find(hopeless.begin(), hopeless.end(), items_.forms[i]) != hopeless.end()) continue;
     bool placed = false;
     while (!placed) {
       for (const std::uint32_t bin : separator_.state().open_bins) {
@@ -143,7 +143,7 @@ void Lane::build() {
       for (const std::uint32_t bin : order) {
         const auto& open = separator_.state().open_bins;
         if (std::find(open.begin(), open.end(), bin) != open.end()) continue;
-        if (!separator_.can_hold(bin, items_.parts[i])) continue;
+        if (!separator_.can_hold(bin, i)) continue;
         next = bin;
         break;
       }
@@ -155,7 +155,7 @@ void Lane::build() {
         for (const std::uint32_t bin : order) {
           const auto& open = separator_.state().open_bins;
           if (bin == next || std::find(open.begin(), open.end(), bin) != open.end()) continue;
-          if (bins[bin].stock == bins[next].stock || !separator_.can_hold(bin, items_.parts[i])) continue;
+          if (bins[bin].stock == bins[next].stock || !separator_.can_hold(bin, i)) continue;
           separator_.open_bin(bin);
           placed = separator_.place_low(i, bin, 2000);
           if (placed) break;
@@ -164,7 +164,7 @@ void Lane::build() {
         break;
       }
     }
-    if (!placed) hopeless.push_back(items_.parts[i]);
+    if (!placed) hopeless.push_back(items_.forms[i]);
   }
   start(separator_.state());
 }

@@ -25,22 +25,52 @@ struct Wanted {
   std::vector<Unplaced> unplaced;
 };
 
+/// Pieces of one part: of either hand, upright, mirrored.
+struct Hands {
+  std::int64_t either = 0, upright = 0, mirrored = 0;
+};
+
+/// What is still wanted beside what is locked. A locked piece that no kit wants of its hand serves where
+/// either does.
+std::vector<Hands> hands_wanted(const layout::Document& document) {
+  std::vector<Hands> wanted(document.parts.size());
+  for (std::size_t p = 0; p < wanted.size(); ++p) wanted[p].either = document.parts[p].demand;
+  for (const layout::Kit& kit : document.kits)
+    for (const layout::KitPiece& piece : kit.pieces) {
+      Hands& hands = wanted[piece.part];
+      (!piece.mirrored   ? hands.either
+       : *piece.mirrored ? hands.mirrored
+                         : hands.upright) += kit.demand * piece.count;
+    }
+  for (const layout::Placement& p : document.placements) {
+    if (!p.locked) continue;
+    Hands& hands = wanted[p.part];
+    std::int64_t& own = p.mirrored ? hands.mirrored : hands.upright;
+    --(own > 0 ? own : hands.either);
+  }
+  return wanted;
+}
+
 Wanted wanted_items(const Problem& problem) {
   const layout::Document& document = problem.document();
   Wanted wanted;
-  std::vector<std::int64_t> locked(document.parts.size(), 0);
-  for (const layout::Placement& p : document.placements)
-    if (p.locked) ++locked[p.part];
-  for (std::uint32_t p = 0; p < document.parts.size(); ++p) {
-    const std::int64_t count = layout::wanted(document, p) - locked[p];
-    if (count <= 0) continue;
-    if (problem.forms_of(p).first == problem.forms_of(p).last) {
+  const auto add = [&](std::uint32_t p, std::int64_t count, std::optional<bool> mirrored) {
+    if (count <= 0) return;
+    const Forms forms = problem.forms_of(p, mirrored);
+    if (forms.first == forms.last) {
       wanted.unplaced.push_back({p, count, Reason::no_angle});
-    } else if (!problem.fits_somewhere(p)) {
+    } else if (!problem.fits_somewhere(p, forms)) {
       wanted.unplaced.push_back({p, count, Reason::too_large});
     } else {
       wanted.items.parts.insert(wanted.items.parts.end(), static_cast<std::size_t>(count), p);
+      wanted.items.forms.insert(wanted.items.forms.end(), static_cast<std::size_t>(count), forms);
     }
+  };
+  const std::vector<Hands> hands = hands_wanted(document);
+  for (std::uint32_t p = 0; p < hands.size(); ++p) {
+    add(p, hands[p].either, std::nullopt);
+    add(p, hands[p].upright, false);
+    add(p, hands[p].mirrored, true);
   }
   for (std::uint32_t b = 0; b < problem.bins().size(); ++b)
     for (const Obstacle& o : problem.bins()[b].obstacles) wanted.items.fixed.push_back({o.x, o.y, o.form, b});

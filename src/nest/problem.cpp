@@ -380,10 +380,19 @@ void Problem::find_unit() {
   if (common >= kLeast) unit_ = geom::mm_from_grid(common);
 }
 
-bool Problem::fits_somewhere(std::uint32_t part) const noexcept {
+Forms Problem::forms_of(std::uint32_t part, std::optional<bool> mirrored) const noexcept {
+  Forms forms = by_part_[part];
+  if (!mirrored) return forms;
+  std::uint32_t turned_over = forms.first;
+  while (turned_over < forms.last && !forms_[turned_over].mirrored) ++turned_over;
+  (*mirrored ? forms.first : forms.last) = turned_over;
+  return forms;
+}
+
+bool Problem::fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept {
   const double gap = 2 * border_gaps_[part];
   for (const Bin& bin : bins_)
-    for (std::uint32_t f = by_part_[part].first; f < by_part_[part].last; ++f) {
+    for (std::uint32_t f = forms.first; f < forms.last; ++f) {
       const Box& b = forms_[f].box;
       if (b.x1 - b.x0 + gap <= bin.box.x1 - bin.box.x0 + 1e-9 &&
           b.y1 - b.y0 + gap <= bin.box.y1 - bin.box.y0 + 1e-9)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "lekalo/layout/document.hpp"
@@ -35,9 +36,10 @@ struct Form {
   Box box;  ///< around the origin
 };
 
-/// Forms that one part may have: [first, last).
+/// Forms that one part may have: [first, last). Upright ones come first.
 struct Forms {
   std::uint32_t first = 0, last = 0;
+  friend bool operator==(const Forms&, const Forms&) = default;
 };
 
 /// What lies where it lies: locked parts, borders that are no rectangle, holes, defects, zones.
@@ -73,7 +75,8 @@ class Problem {
   const std::vector<Form>& forms() const noexcept { return forms_; }
   /// Of part \p part at this rotation, where it is among the forms.
   std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
-  const Forms& forms_of(std::uint32_t part) const noexcept { return by_part_[part]; }
+  /// Those of one hand, or all.
+  Forms forms_of(std::uint32_t part, std::optional<bool> mirrored = std::nullopt) const noexcept;
   const std::vector<Bin>& bins() const noexcept { return bins_; }
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
   double hull_area_of(std::uint32_t part) const noexcept { return hull_areas_[part]; }
@@ -81,8 +84,8 @@ class Problem {
   /// Every corner of parts, at every angle they may have, and of the stock lies on multiples of this, mm; 0
   /// where there is no such length worth speaking of.
   double unit() const noexcept { return unit_; }
-  /// Whether the part's box fits on some stock in some form.
-  bool fits_somewhere(std::uint32_t part) const noexcept;
+  /// Whether the part's box fits on some stock in one of these forms.
+  bool fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept;
   /// The widest gap that may count between any two.
   double widest_gap() const noexcept { return widest_gap_; }
 

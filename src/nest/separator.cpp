@@ -27,10 +27,9 @@ Separator::Separator(const Problem& problem, const Items& items, Random random)
   boxes_.resize(total_);
   for (const std::uint32_t part : items_.parts) unit_ += std::sqrt(problem_.hull_area_of(part));
   unit_ /= static_cast<double>(items_.movable());
-  for (const std::uint32_t part : items_.parts) {
-    const Forms& forms = problem_.forms_of(part);
-    const Box& b = problem_.forms()[forms.first].box;
-    size_.push_back(std::sqrt(problem_.hull_area_of(part)) / unit_);
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    const Box& b = problem_.forms()[items_.forms[i].first].box;
+    size_.push_back(std::sqrt(problem_.hull_area_of(items_.parts[i])) / unit_);
     min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
   }
   size_.resize(total_, 1);
@@ -55,7 +54,7 @@ void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
     if (spot.bin != bin) continue;
     Range r = range_of(spot.form, bin, items_.parts[i]);
     if (r.x1 < r.x0 || r.y1 < r.y0) {  // another angle may be narrower
-      const Forms& forms = problem_.forms_of(items_.parts[i]);
+      const Forms& forms = items_.forms[i];
       for (std::uint32_t f = forms.first; f < forms.last; ++f) {
         const Range other = range_of(f, bin, items_.parts[i]);
         if (other.x1 < other.x0 || other.y1 < other.y0) continue;
@@ -216,7 +215,7 @@ void Separator::push_out(std::size_t i, Candidate& best) {
 
 void Separator::move(std::size_t i) {
   const std::uint32_t part = items_.parts[i];
-  const Forms& forms = problem_.forms_of(part);
+  const Forms& forms = items_.forms[i];
   const Spot now = state_.spots[i];
   Candidate current{now, evaluate_all(i, now, kFar)};
   if (current.loss <= 0) return;
@@ -345,7 +344,7 @@ double Separator::least_side(std::uint32_t bin, int axis) const {
     const std::uint32_t part = items_.parts[i];
     const double gap = 2 * problem_.border_gap_of(part);
     double narrowest = kFar;
-    const Forms& forms = problem_.forms_of(part);
+    const Forms& forms = items_.forms[i];
     for (std::uint32_t f = forms.first; f < forms.last; ++f) {
       const Box& b = problem_.forms()[f].box;
       const double w = b.x1 - b.x0 + gap, h = b.y1 - b.y0 + gap;
@@ -357,10 +356,10 @@ double Separator::least_side(std::uint32_t bin, int axis) const {
   return least;
 }
 
-bool Separator::can_hold(std::uint32_t bin, std::uint32_t part) const {
-  const Forms& forms = problem_.forms_of(part);
+bool Separator::can_hold(std::uint32_t bin, std::size_t i) const {
+  const Forms& forms = items_.forms[i];
   for (std::uint32_t f = forms.first; f < forms.last; ++f) {
-    const Range r = range_of(f, bin, part);
+    const Range r = range_of(f, bin, items_.parts[i]);
     if (r.x1 >= r.x0 && r.y1 >= r.y0) return true;
   }
   return false;
@@ -368,7 +367,7 @@ bool Separator::can_hold(std::uint32_t bin, std::uint32_t part) const {
 
 void Separator::put_anywhere(std::size_t i) {
   const std::uint32_t part = items_.parts[i];
-  const Forms& forms = problem_.forms_of(part);
+  const Forms& forms = items_.forms[i];
   for (int tries = 0; tries < 1000; ++tries) {
     Spot spot;
     spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
@@ -383,7 +382,7 @@ void Separator::put_anywhere(std::size_t i) {
 
 bool Separator::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
   const std::uint32_t part = items_.parts[i];
-  const Forms& forms = problem_.forms_of(part);
+  const Forms& forms = items_.forms[i];
   bool found = false;
   Spot best;
   double best_cost = kFar;

@@ -26,6 +26,7 @@ struct State {
 /// What is moved, and after that what stays.
 struct Items {
   std::vector<std::uint32_t> parts;  ///< by item that is moved
+  std::vector<Forms> forms;          ///< likewise: those it may have
   std::vector<Spot> fixed;           ///< obstacles of all bins
   std::size_t movable() const noexcept { return parts.size(); }
   std::size_t total() const noexcept { return parts.size() + fixed.size(); }
@@ -62,8 +63,8 @@ class Separator {
   void close_bin(std::uint32_t bin);
   /// The length (axis 0) or height (axis 1) that the widest item on it needs.
   double least_side(std::uint32_t bin, int axis) const;
-  /// Whether the box of the part fits in some form.
-  bool can_hold(std::uint32_t bin, std::uint32_t part) const;
+  /// Whether the box of item i fits in some form.
+  bool can_hold(std::uint32_t bin, std::size_t i) const;
   /// Items beyond are pushed back.
   void set_limits(std::uint32_t bin, double x1, double y1);
   void set_spot(std::size_t i, const Spot& spot);

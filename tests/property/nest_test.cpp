@@ -6,6 +6,7 @@
 
 #include "lekalo/io/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
+#include "lekalo/layout/completeness.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -63,6 +64,26 @@ TEST(Nest, LockedPlacementsStay) {
   EXPECT_EQ(found.document.placements[0], document.placements[0]);
   EXPECT_EQ(found.document.placements.size(), std::size_t{30});
   EXPECT_TRUE(layout::check(found.document).empty());
+}
+
+TEST(Nest, KitsGetTheirLeftAndRightPieces) {
+  layout::Document document = cases::two_squares();
+  layout::Part& part = document.parts[0];  // an L, which mirrored is another one
+  part.outline =
+      cases::outline_of({{cases::grid_point(0, 0), cases::grid_point(10, 0), cases::grid_point(10, 3),
+                          cases::grid_point(3, 3), cases::grid_point(3, 6), cases::grid_point(0, 6)}});
+  part.may_mirror = true;
+  part.demand = 1;
+  document.kits = {{"pair", "", 4, 1, {{0, 1, false}, {0, 2, true}}}};
+  document.placements.resize(1);
+  document.placements[0].locked = true;  // one of the four upright ones
+  const Nested found = nested(document, 1, 100'000);
+  EXPECT_TRUE(found.unplaced.empty());
+  const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+  EXPECT_EQ(done.kits[0].complete, 4);
+  EXPECT_EQ(done.surplus[0], 0);
+  EXPECT_EQ(done.placed[0].total(), 13);
+  EXPECT_GE(done.placed[0].mirrored, 8);
 }
 
 TEST(Nest, SquaresFillASheetToTheLast) {
