@@ -2,6 +2,7 @@
 
 import type { Editor, Tool } from './editor';
 import { h } from './elements';
+import { CHOICES, type ChosenForm } from './export_choices';
 import { icon } from './icons';
 import { currentLanguage, t, type Key } from './i18n';
 import { menu } from './menu';
@@ -12,6 +13,8 @@ export interface BarEvents {
   takeFiles(files: FileList | null): void;
   copyLayout(): void;
   save(form: string): void;
+  /// A form with choices.
+  choose(form: ChosenForm): void;
   print(): void;
   fit(): void;
   photo(file: File): void;
@@ -22,7 +25,7 @@ export interface BarEvents {
 
 /// What the server exports, with the name people know it by.
 const FORMS: readonly [string, string][] = [
-  ['layout', 'lekalo JSON'], ['placements', 'Placements JSON'], ['svg', 'SVG'], ['pdf', 'PDF'], ['png', 'PNG'], ['dxf', 'DXF'], ['hpgl', 'HPGL'], ['gcode', 'G-code'],
+  ['layout', 'lekalo JSON'], ['placements', 'Placements JSON'], ['svg', 'SVG'], ['pdf', 'PDF'], ['png', 'PNG'],
 ];
 
 export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, layouts: readonly { id: number; name: string }[], events: BarEvents): void {
@@ -65,7 +68,8 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
     space(), action('lock'), action('swap'), action('copy'), action('remove'),
     h('span', { class: 'push' }), button('fit', events.fit),
     menu('view', t('view'), ...shown, picked, item('photo', t('photo'), () => picked.click()), item('theme', t('theme'), events.theme)),
-    menu('export', t('export'), ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))), item('print', t('print'), events.print)),
+    menu('export', t('export'), ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))),
+      ...(Object.keys(CHOICES) as ChosenForm[]).map((form) => item(`export.${form}`, `${CHOICES[form].name}…`, () => events.choose(form))), item('print', t('print'), events.print)),
     h('button', { 'aria-label': t('language'), 'data-action': 'language', click: events.language }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', events.help));
   tools.setAttribute('aria-label', t('tools'));
   tools.replaceChildren(tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'),

@@ -36,4 +36,5 @@ export const addFeature = (f: Named, grade: number, outline: readonly (readonly 
 export const moveFeature = (f: Named, x: number, y: number): string => `${named('move', f)} by ${pair(x, y)}`;
 export const gradeFeature = (f: Named, grade: number): string => `${named('grade', f)} ${grade}`;
 export const removeFeature = (f: Named): string => named('remove', f);
-export const compact = (sheet: Sheet, x: number, y: number): string => `compact ${quoted(sheet.stock.id)} ${sheet.copy} towards ${x} ${y}`;
+/// Without a sheet: all in use.
+export const compact = (x: number, y: number, sheet?: Sheet): string => `compact ${sheet ? `${quoted(sheet.stock.id)} ${sheet.copy} ` : ''}towards ${x} ${y}`;

@@ -5,7 +5,7 @@ import { Backdrop, type Painter } from './backdrop';
 import { isGap, type Part, type Placement, type Point, type Violation } from './document';
 import type { Photo } from './photo';
 import type { LiveState } from './kernel_api';
-import { innerPoint, placedBox, type Box, type Model, type Sheet } from './model';
+import { boxesMeet, innerPoint, placedAt, placedBox, type Box, type Model, type Sheet } from './model';
 import type { View } from './view';
 
 export interface Theme {
@@ -31,6 +31,8 @@ export interface Scene {
   /// Placements in hand and what is known about where they are.
   moving: ReadonlyMap<number, Placement>;
   live: LiveState | null;
+  /// Where parts are going to be, by a command that is not carried out yet.
+  coming: ReadonlyMap<number, Placement>;
   band: Box | null;
   /// An outline being drawn.
   draft: readonly Point[];
@@ -203,6 +205,7 @@ export class Picture implements Painter {
         if (met) this.drawPart(ctx, scene, met, isGap(v.kind) ? 'near' : 'bad');
       }
     }
+    this.drawComing(ctx, scene);
     for (const p of scene.moving.values()) {
       this.drawPart(ctx, scene, p, level === 'forbidden' ? 'bad' : level === 'gap' ? 'near' : null, level === 'clear');
     }
@@ -238,6 +241,28 @@ export class Picture implements Painter {
       ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
       ctx.globalAlpha = 1;
     }
+  }
+
+  /// Dashed outlines: the parts themselves stand where they are until it is carried out.
+  private drawComing(ctx: CanvasRenderingContext2D, scene: Scene): void {
+    const { model, view, theme } = scene;
+    const seen = view.visible();
+    for (const p of scene.coming.values()) {
+      const sheet = model.sheet(p.stock, p.copy);
+      const part = model.parts.get(p.part);
+      if (!sheet || !part || !boxesMeet(placedAt(placedBox(part, p), sheet), seen)) continue;
+      const px = this.frame(ctx, view, sheet, p);
+      const path = this.shape(part).at(px);
+      ctx.globalAlpha = 0.12;
+      ctx.fillStyle = theme.select;
+      ctx.fill(path, 'evenodd');
+      ctx.globalAlpha = 1;
+      ctx.strokeStyle = theme.select;
+      ctx.lineWidth = 1.2 * px;
+      ctx.setLineDash(this.shape(part).reach / px < 5 ? [] : [5 * px, 3 * px]);
+      ctx.stroke(path);
+    }
+    ctx.setLineDash([]);
   }
 
   drawSheet(ctx: CanvasRenderingContext2D, scene: Scene, sheet: Sheet): void {

@@ -5,12 +5,32 @@ import { snapToGrid } from './grid';
 import { UNKNOWN, type Kernel, type LiveState, type Mode } from './kernel_api';
 import { Model, type Change } from './model';
 import type { Photo } from './photo';
-import type { Client, Connection } from './socket';
+import type { Client, Connection, Course } from './socket';
 import { t } from './i18n';
 
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
-export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show' | 'photo';
+export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show' | 'photo' | 'long';
 export interface Feature { stock: string; kind: 'defect' | 'zone'; id: string }
+/// A command that runs beside the layout.
+export interface Long {
+  verb: LongVerb;
+  seq: number;
+  /// Share done; null: nothing heard yet.
+  fraction: number | null;
+  secondsLeft: number | null;
+  /// What stopping it now would keep.
+  best: Placement[];
+  stopping: boolean;
+  ended: Promise<void>;
+}
+/// What was dropped and waits for its turn.
+export interface Queued { placements: Placement[] }
+/// A line for the server, or how to make one of the layout as it is when its turn comes; null: it means nothing any more.
+export type Line = string | (() => string | null);
+
+const LONG_VERBS = ['compact', 'fit'] as const;
+export type LongVerb = (typeof LONG_VERBS)[number];
+const longVerb = (text: string): LongVerb | undefined => LONG_VERBS.find((verb) => text.startsWith(`${verb} `));
 
 /// How far the nearest-distance line looks, mm.
 const REACH = 50;
@@ -35,6 +55,11 @@ export class Editor {
   show = { labels: true, grain: true, gap: true, zones: true };
   message = '';
   pending = 0;
+  long: Long | null = null;
+  /// Dropped while a long command runs: carried out, one after the other, when it has ended.
+  queued: Queued[] = [];
+  /// What the last change put on a sheet.
+  private fresh = new Set<number>();
   private listeners: ((topic: Topic) => void)[] = [];
   private asking = false;
   private next: { text: string } | null = null;
@@ -70,6 +95,7 @@ export class Editor {
   }
 
   apply(changes: readonly Change[], nextId: number, features: readonly FeatureChange[] = []): void {
+    this.fresh = new Set(changes.filter(({ id, after }) => after && !this.model.placements.has(id)).map(({ id }) => id));
     this.model.apply(changes, nextId, features);
     this.kernel.apply(changes, nextId, features);
     this.violations = this.kernel.check();
@@ -102,6 +128,7 @@ export class Editor {
 
   /// Shows placements in hand and finds out what is to be said about them. \p text: the command that would do it.
   hold(placements: readonly Placement[], text: string): void {
+    this.held = null; // what was dropped before is not what is in hand
     this.moving = new Map(placements.map((p) => [p.id, p]));
     if (this.kernel.immediate) {
       try {
@@ -153,23 +180,46 @@ export class Editor {
   }
 
   /// Sends a command; what is in hand stays shown where it is until the server has decided.
-  async command(text: string): Promise<boolean> {
-    return this.ask({ type: 'command', mode: this.mode, text });
+  async command(line: Line): Promise<boolean> {
+    return this.ask('command', line);
   }
   undo(): Promise<boolean> {
-    return this.ask({ type: 'undo' });
+    return this.ask('undo');
   }
   redo(): Promise<boolean> {
-    return this.ask({ type: 'redo' });
+    return this.ask('redo');
   }
 
-  private async ask(gesture: { type: 'command' | 'undo' | 'redo'; mode?: Mode; text?: string }): Promise<boolean> {
-    if (!this.client) return false;
-    const held = (this.held = Symbol());
-    const before = new Set(this.model.placements.keys());
+  /// Ends the long command with the best it has. \return whether there is one
+  stopLong(): boolean {
+    if (!this.long) return false;
+    this.client?.endEarly(this.long.seq);
+    this.long.stopping = true;
+    this.tell('long');
+    return true;
+  }
+
+  private async ask(type: 'command' | 'undo' | 'redo', line: Line = ''): Promise<boolean> {
+    const client = this.client;
+    if (!client) return false;
     this.pending += 1;
+    const queued = this.long ? this.enqueue() : null;
+    while (this.long) await this.long.ended; // those before this one may be long too
+    const text = typeof line === 'string' ? line : line();
+    if (text === null) {
+      this.pending -= 1;
+      this.say(t('changed.meanwhile'));
+      if (queued) this.leaveQueue(queued);
+      else this.release();
+      this.tell('connection');
+      return false;
+    }
+    // What waited is no longer in hand: the hand may hold something else.
+    const held = !queued && this.moving.size > 0 ? (this.held = Symbol()) : null;
     this.tell('connection');
-    const answer = await this.client.ask(gesture);
+    const verb = type === 'command' ? longVerb(text) : undefined;
+    const course = verb && this.beginLong(verb);
+    const answer = await client.ask(type === 'command' ? { type, mode: this.mode, text } : { type }, course);
     this.pending -= 1;
     if (answer.type === 'refused') {
       this.say(answer.message);
@@ -177,15 +227,61 @@ export class Editor {
       if (first && first.b !== null && this.model.placements.has(first.b)) this.others.set(-1, [first.b]);
     } else if (answer.type === 'lost') {
       this.say(t('lost.gesture'));
-    } else {
-      this.say(answer.type === 'done' && answer.nothing ? t('nothing.moved') : '');
+    } else if (answer.type === 'done') {
+      this.say(answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '');
       this.others.delete(-1);
-      const fresh = [...this.model.placements.keys()].filter((id) => !before.has(id));
-      if (fresh.length > 0 && gesture.type === 'command') this.select(fresh);
+      const fresh = (answer.placements ?? []).filter(({ id, after }) => after && this.fresh.has(id)).map(({ id }) => id);
+      if (fresh.length > 0 && type === 'command') this.select(fresh);
     }
-    if (this.held === held) this.release();
+    if (queued) this.leaveQueue(queued);
+    if (held && this.held === held) this.release();
+    course?.ended();
     this.tell('connection');
     return answer.type === 'done';
+  }
+
+  /// What is in hand stays in sight, and the hand is free for the next.
+  private enqueue(): Queued {
+    const mine: Queued = { placements: [...this.moving.values()] };
+    this.queued.push(mine);
+    this.release();
+    this.tell('long');
+    return mine;
+  }
+  private leaveQueue(one: Queued): void {
+    this.queued = this.queued.filter((other) => other !== one);
+    this.tell('long');
+  }
+
+  /// Where parts are going to be: what stopping now would keep, and what was dropped since.
+  coming(): Map<number, Placement> {
+    const all = [...(this.long?.best ?? []), ...this.queued.flatMap((one) => one.placements)];
+    return new Map(all.map((p) => [p.id, p]));
+  }
+
+  private beginLong(verb: LongVerb): Course & { ended(): void } {
+    let end = (): void => undefined;
+    const long: Long = { verb, seq: 0, fraction: null, secondsLeft: null, best: [], stopping: false, ended: new Promise((resolve) => (end = resolve)) };
+    this.long = long;
+    this.tell('long');
+    return {
+      begun: (seq) => (long.seq = seq),
+      progress: (fraction, secondsLeft) => {
+        // Less than before: others have changed its parts, and it begins again.
+        if (fraction < (long.fraction ?? 0)) long.best = [];
+        [long.fraction, long.secondsLeft] = [fraction, secondsLeft];
+        this.tell('long');
+      },
+      improved: (changes) => {
+        long.best = changes.flatMap(({ after }) => after ?? []);
+        this.tell('long');
+      },
+      ended: () => {
+        this.long = null;
+        end();
+        this.tell('long');
+      },
+    };
   }
 }
 

@@ -5,12 +5,15 @@ import type { Violation } from './document';
 import { showBar as showTools } from './bar';
 import { Editor, movedBy } from './editor';
 import { h } from './elements';
+import type { ChosenForm, Values } from './export_choices';
+import { exportDialog } from './export_dialog';
 import { currentLanguage, setLanguage, t, type Key, type Language } from './i18n';
 import { printed } from './print';
 import { showSidePanel, type Side } from './sides';
 import { Client, type Wire } from './socket';
 import { ServerKernel } from './server_kernel';
 import { key, SHORTCUTS } from './tools/keys';
+import { LongBar } from './long_bar';
 import { Mirror, mirrorId } from './mirror';
 import { dragFromTray } from './tools/from_tray';
 import { photoBeneath } from './tools/features';
@@ -58,6 +61,7 @@ const base = h('canvas', { 'aria-hidden': 'true' });
 const top = h('canvas', { 'aria-hidden': 'true' });
 const mirror = new Mirror();
 const legend = h('div', { class: 'legend' });
+const longBar = new LongBar(editor, () => picture.focus());
 const picture = h('main', { class: 'picture', tabindex: 0, role: 'application' }, base, top, mirror.element, legend);
 const bar = h('header', { class: 'bar' });
 const tools = h('nav', { class: 'tools' });
@@ -69,7 +73,7 @@ const message = h('span', { class: 'message', role: 'alert' });
 const where = h('span');
 const state = h('span', { role: 'status' });
 status.append(where, live, message, state);
-page.append(bar, left, tools, picture, right, status);
+page.append(bar, left, tools, picture, longBar.element, right, status);
 const drawing = new Picture(base, top);
 const pointer = new PointerTool(picture, editor, view, later);
 
@@ -85,7 +89,7 @@ function later(duty: Duty): void {
 function scene(): Scene {
   return {
     model: editor.model, view, theme, selection: editor.selection, others: new Set([...editor.others.values()].flat()),
-    violations: editor.violations ?? [], moving: editor.moving, live: editor.live, ...pointer.overlay, photo: editor.photo, show: editor.show,
+    violations: editor.violations ?? [], moving: editor.moving, coming: editor.coming(), live: editor.live, ...pointer.overlay, photo: editor.photo, show: editor.show,
     handle: editor.moving.size === 0 ? turningHandle(editor, view) : null,
   };
 }
@@ -131,7 +135,7 @@ function mirrorLater(): void {
 }
 
 const showBar = (): void => showTools(bar, tools, editor, known, {
-  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void save(form), print: () => window.print(),
+  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void download(new URLSearchParams({ form })).then((refused) => refused && editor.say(refused)), choose, print: () => window.print(),
   fit: fitAll, help: showHelp,
   photo: (file) => void photoBeneath(editor, view, file).catch((error: unknown) => editor.say(String(error))),
   theme: () => {
@@ -175,7 +179,7 @@ function showStatus(): void {
   message.textContent = message.title = editor.message;
   const others = [...editor.others.keys()].filter((c) => c >= 0).length;
   status.dataset.pending = String(editor.pending);
-  state.textContent = [others > 0 ? t('others', { n: others }) : '', t(editor.pending > 0 ? 'state.saving' : `state.${editor.connection}`)].filter(Boolean).join(' · ');
+  state.textContent = [others > 0 ? t('others', { n: others }) : '', t(editor.pending > (editor.long ? 1 + editor.queued.length : 0) ? 'state.saving' : `state.${editor.connection}`)].filter(Boolean).join(' · ');
 }
 function showAll(): void {
   document.documentElement.dataset.theme = theme === DARK ? 'dark' : 'light';
@@ -183,6 +187,7 @@ function showAll(): void {
   picture.dataset.drop = t('drop');
   legend.replaceChildren(...(['zone', 'defect', 'bad', 'near'] as const).map((k) => h('span', { class: k }, h('i'), t(`legend.${k}`))));
   showBar();
+  longBar.show();
   later('all');
   requestAnimationFrame(() => {
     showTray();
@@ -252,18 +257,34 @@ async function takeFiles(files: FileList | null): Promise<void> {
     if (made.notices.length > 0) editor.say(made.notices.join(' · '));
   }
 }
-/// Exports as a download; a refusal stands in the status line.
-async function save(form: string): Promise<void> {
+/// Exports as a download. \return why not, where it could not be
+async function download(fields: URLSearchParams): Promise<string | null> {
   try {
-    const answer = await fetch(`/api/layouts/${editor.layoutId}/export?form=${form}`);
-    if (!answer.ok) return editor.say(((await answer.json()) as { error?: string }).error ?? String(answer.status));
-    const name = /filename="([^"]*)"/.exec(answer.headers.get('Content-Disposition') ?? '')?.[1] ?? `layout.${form}`;
+    const answer = await fetch(`/api/layouts/${editor.layoutId}/export?${fields}`);
+    if (!answer.ok) return ((await answer.json()) as { error?: string }).error ?? String(answer.status);
+    const name = /filename="([^"]*)"/.exec(answer.headers.get('Content-Disposition') ?? '')?.[1] ?? `layout.${fields.get('form')}`;
     const address = URL.createObjectURL(await answer.blob());
     h('a', { href: address, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    return null;
   } catch (error) {
-    editor.say(error instanceof Error ? error.message : String(error));
+    return error instanceof Error ? error.message : String(error);
   }
+}
+function choose(form: ChosenForm): void {
+  const dialog = exportDialog(form, editor.model, {
+    download,
+    recall: (of) => {
+      try {
+        return JSON.parse(stored(`export.${of}`) ?? '{}') as Values;
+      } catch {
+        return {};
+      }
+    },
+    keep: (of, values) => store(`export.${of}`, JSON.stringify(values)),
+  });
+  page.append(dialog);
+  dialog.showModal();
 }
 async function copyLayout(): Promise<void> {
   const made = await api<{ id: number }>(`/api/layouts/${editor.layoutId}/copy?name=${encodeURIComponent(`${editor.name} 2`)}`, { method: 'POST' });
@@ -310,7 +331,10 @@ editor.on((topic) => {
   const isMoving = editor.moving.size > 0;
   picture.dataset.moving = String(isMoving);
   picture.dataset.level = editor.live?.level ?? '';
-  if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
+  if (topic === 'long') {
+    longBar.show();
+    later('top');
+  } else if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
   if (topic === 'mode' || topic === 'show' || (topic === 'photo' && !tools.querySelector('[data-action="tool.photo"]'))) showBar();
   if ((topic === 'layout' || topic === 'selection') && !panelsDue) {
     panelsDue = true;

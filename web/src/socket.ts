@@ -11,10 +11,17 @@ export interface ChangeMessage {
 }
 export interface Refusal { message: string; violations: Violation[] }
 export type Answer =
-  | { type: 'done'; seq: number; revision: number; nothing?: boolean }
+  /// `placements`: what its change brought, where this client saw it.
+  | { type: 'done'; seq: number; revision: number; nothing?: boolean; stopped?: boolean; placements?: Change[] }
   | ({ type: 'refused'; seq: number } & Refusal)
   | { type: 'preview'; seq: number; placements: Change[]; violations: Violation[] }
   | { type: 'lost' };
+/// What is heard of a long command before its answer.
+export interface Course {
+  begun(seq: number): void;
+  progress(fraction: number, secondsLeft: number | null): void;
+  improved(placements: Change[]): void;
+}
 export type Connection = 'connecting' | 'open' | 'lost' | 'stopped';
 
 export interface SocketEvents {
@@ -40,7 +47,8 @@ export class Client {
   private wire: Wire | null = null;
   private seq = 0;
   private readonly waiting = new Map<number, (answer: Answer) => void>();
-  private ahead: { revision: number; tell: () => void }[] = [];
+  private readonly courses = new Map<number, Course>();
+  private ahead: { revision: number; tell: (change?: ChangeMessage) => void }[] = [];
   private retries = 0;
   private timer: ReturnType<typeof setTimeout> | null = null;
   private ended = false;
@@ -74,13 +82,20 @@ export class Client {
   }
 
   /// Always answers: with 'lost' where the connection broke before the server said what became of it.
-  ask(gesture: Gesture): Promise<Answer> {
+  ask(gesture: Gesture, course?: Course): Promise<Answer> {
     if (!this.wire || this.revision < 0) return Promise.resolve({ type: 'lost' });
     const seq = ++this.seq;
     return new Promise((resolve) => {
       this.waiting.set(seq, resolve);
+      if (course) this.courses.set(seq, course);
+      course?.begun(seq);
       this.wire!.send(JSON.stringify({ ...gesture, seq }));
     });
+  }
+
+  /// Ends a long command early: its answer tells what came of it.
+  endEarly(seq: number): void {
+    if (this.connected && this.courses.has(seq)) this.wire!.send(JSON.stringify({ type: 'stop', seq }));
   }
 
   select(ids: readonly number[]): void {
@@ -115,7 +130,7 @@ export class Client {
         }
         this.revision = change.revision;
         this.events.change(change);
-        this.tellAhead(change.revision);
+        this.tellAhead(change.revision, change);
         break;
       }
       case 'done':
@@ -124,11 +139,19 @@ export class Client {
         const answer = message as unknown as Exclude<Answer, { type: 'lost' }>;
         const resolve = this.waiting.get(answer.seq);
         this.waiting.delete(answer.seq);
+        this.courses.delete(answer.seq);
         // The change comes after its `done`: who asked hears of it when the layout is as it says.
-        if (answer.type === 'done' && answer.revision > this.revision) this.ahead.push({ revision: answer.revision, tell: () => resolve?.(answer) });
-        else resolve?.(answer);
+        if (answer.type === 'done' && answer.revision > this.revision) {
+          this.ahead.push({ revision: answer.revision, tell: (change) => resolve?.(change?.revision === answer.revision ? { ...answer, placements: change.placements } : answer) });
+        } else resolve?.(answer);
         break;
       }
+      case 'progress':
+        this.courses.get(Number(message.seq))?.progress(Number(message.fraction), typeof message.seconds_left === 'number' ? message.seconds_left : null);
+        break;
+      case 'improved':
+        this.courses.get(Number(message.seq))?.improved(message.placements as Change[]);
+        break;
       case 'selections':
         this.events.selections((message.clients as { client: number; ids: number[] }[]).filter((c) => c.client !== this.id));
         break;
@@ -159,16 +182,17 @@ export class Client {
     this.timer = setTimeout(() => this.start(), Math.min(10_000, 250 * 2 ** this.retries++));
   }
 
-  private tellAhead(revision: number): void {
+  private tellAhead(revision: number, change?: ChangeMessage): void {
     const told = this.ahead.filter((one) => one.revision <= revision);
     this.ahead = this.ahead.filter((one) => one.revision > revision);
-    for (const one of told) one.tell();
+    for (const one of told) one.tell(change);
   }
 
   private answerAllLost(): void {
     this.tellAhead(Infinity); // they are durable
     const waiting = [...this.waiting.values()];
     this.waiting.clear();
+    this.courses.clear();
     for (const resolve of waiting) resolve({ type: 'lost' });
   }
 }

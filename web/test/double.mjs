@@ -1,8 +1,11 @@
 // A stand-in for the server in tests of the page: it keeps placements, moves and removes them, counts revisions.
+// `compact` is long: `onTheWay` says what comes of it, `endLong` ends it.
 // It checks nothing: `refuse` says which commands it refuses, `violations` what a preview answers.
 
 export class ServerDouble {
   constructor(document, { refuse = () => null, violations = () => [] } = {}) {
+    this.long = null;
+    this.stopped = [];
     this.document = structuredClone(document);
     this.placements = new Map((document.placements ?? []).map((p) => [p.id, p]));
     this.revision = 1;
@@ -23,9 +26,17 @@ export class ServerDouble {
   answer(text) {
     const m = JSON.parse(text);
     if (m.type === 'select') return [];
+    if (m.type === 'stop') {
+      this.stopped.push(m.seq);
+      return [];
+    }
     if (m.type === 'preview') return [{ type: 'preview', seq: m.seq, placements: this.plan(m.text), violations: this.violations(m.text) }];
     this.lines.push(m.text ?? m.type);
     if (m.type === 'command') {
+      if (m.text.startsWith('compact ')) {
+        this.long = m;
+        return [];
+      }
       const message = this.refuse(m.text, m.mode);
       if (message) return [{ type: 'refused', seq: m.seq, message, violations: [] }];
       const changes = this.plan(m.text);
@@ -39,6 +50,19 @@ export class ServerDouble {
     if (!step) return [{ type: 'refused', seq: m.seq, message: `nothing to ${m.type}`, violations: [] }];
     to.push(step);
     return this.carryOut(m, m.type === 'undo' ? step.before : step.after, m.type);
+  }
+  /** What a long command says on its way. */
+  onTheWay(fraction, secondsLeft, placements) {
+    const { seq } = this.long;
+    return [{ type: 'progress', seq, fraction, seconds_left: secondsLeft }, ...(placements ? [{ type: 'improved', seq, placements }] : [])];
+  }
+  /** The long command has ended with these changes, early if it was stopped. */
+  endLong(changes) {
+    const m = this.long;
+    this.long = null;
+    const answers = this.carryOut(m, changes, 'command');
+    if (this.stopped.includes(m.seq)) answers[0].stopped = true;
+    return answers;
   }
   carryOut(m, changes, kind) {
     for (const { id, after } of changes) {

@@ -15,8 +15,8 @@ export async function act(editor: Editor, action: Action): Promise<void> {
   const chosen = editor.placementsOf(ids);
   const first = chosen[0];
   if (action === 'compact') {
-    const sheet = first ? editor.model.sheet(first.stock, first.copy) : editor.model.sheets[0];
-    if (sheet) await editor.command(line.compact(sheet, -1, 0));
+    const sheet = first && editor.model.sheet(first.stock, first.copy);
+    await editor.command(line.compact(-1, 0, sheet));
     return;
   }
   if (!first) return;

@@ -65,7 +65,13 @@ export function key(e: KeyboardEvent, editor: Editor, view: ViewActions): boolea
     return true;
   }
   switch (e.key) {
-    case 'Escape': view.cancel(); editor.select([]); return true;
+    case 'Escape':
+      // First what is in hand, then what runs, then what is chosen.
+      if (editor.moving.size > 0 || !editor.stopLong()) {
+        view.cancel();
+        editor.select([]);
+      }
+      return true;
     case '+': case '=': view.zoom(1.25); return true;
     case '-': view.zoom(0.8); return true;
     case '/': view.find(); return true;

@@ -2,7 +2,7 @@
 
 import * as line from '../commands';
 import type { Placement, Point } from '../document';
-import { movedBy, type Editor } from '../editor';
+import { movedBy, type Editor, type Tool } from '../editor';
 import { FeatureTool } from './features';
 import { boxesMeet, boxOf, contains, placedLoops, type Box, type Sheet } from '../model';
 import type { View } from '../view';
@@ -59,8 +59,31 @@ function straightened(from: Point, to: Point): Point {
   return [from[0] + ux * length, from[1] + uy * length];
 }
 
+/// Half a step: shifts are whole steps.
+const near = (a: number, b: number): boolean => Math.abs(a - b) < 2 ** -21;
+
+/// The command that brings what is in hand where it is shown, from wherever the parts are when its turn comes.
+export function droppedLine(editor: Editor, tool: Tool): () => string | null {
+  const dropped = [...editor.moving.values()];
+  return () => {
+    const ids = dropped.map((p) => p.id);
+    const now = editor.placementsOf(ids);
+    const [to, from] = [dropped[0], now[0]];
+    if (!to || !from || now.length !== dropped.length) return null;
+    const [dx, dy] = [to.x - from.x, to.y - from.y];
+    const together = now.every((p, i) => {
+      const d = dropped[i]!;
+      return near(d.x - p.x, dx) && near(d.y - p.y, dy) && d.c === p.c && d.s === p.s && Boolean(d.mirrored) === Boolean(p.mirrored) &&
+        p.stock === from.stock && (p.copy ?? 0) === (from.copy ?? 0);
+    });
+    if (!together) return null;
+    const other = to.stock === from.stock && (to.copy ?? 0) === (from.copy ?? 0) ? undefined : editor.model.sheet(to.stock, to.copy);
+    return tool === 'push' && !other ? line.push(ids, dx, dy) : tool === 'nearest' ? line.nearest(ids, dx, dy, other) : line.move(ids, dx, dy, other);
+  };
+}
+
 type Gesture =
-  | { kind: 'drag'; from: Point; ids: number[]; origin: Sheet; text: string; moved: boolean }
+  | { kind: 'drag'; from: Point; ids: number[]; origin: Sheet; moved: boolean }
   | { kind: 'band' | 'pan' | 'measure'; from: Point }
   | { kind: 'flick'; from: Point; ids: number[] }
   | { kind: 'turn'; about: Point; from: number; ids: number[]; degrees: number };
@@ -161,7 +184,7 @@ export class PointerTool {
     const ids = this.editor.placementsOf(this.editor.chosen()).filter(same).map((p) => p.id);
     if (ids.length === 0) return;
     if (this.editor.tool === 'slide') this.gesture = { kind: 'flick', from: world, ids };
-    else this.gesture = { kind: 'drag', from: world, ids, origin: this.editor.model.sheet(hit.stock, hit.copy)!, text: '', moved: false };
+    else this.gesture = { kind: 'drag', from: world, ids, origin: this.editor.model.sheet(hit.stock, hit.copy)!, moved: false };
   }
 
   private move(e: PointerEvent): void {
@@ -211,8 +234,6 @@ export class PointerTool {
         const dx = world[0] - gesture.from[0] + gesture.origin.x - to.x;
         const dy = world[1] - gesture.from[1] + gesture.origin.y - to.y;
         const other = to === gesture.origin ? undefined : to;
-        gesture.text = this.editor.tool === 'push' && !other ? line.push(gesture.ids, dx, dy)
-          : this.editor.tool === 'nearest' ? line.nearest(gesture.ids, dx, dy, other) : line.move(gesture.ids, dx, dy, other);
         const moved = movedBy(this.editor.placementsOf(gesture.ids), dx, dy, { stock: to.stock.id, copy: to.copy });
         this.editor.hold(moved, line.move(gesture.ids, dx, dy, other));
         break;
@@ -257,7 +278,7 @@ export class PointerTool {
     this.gesture = null;
     const { band, arrow } = this.overlay;
     this.overlay.band = this.overlay.arrow = null;
-    if (gesture?.kind === 'drag' && gesture.moved) void this.editor.command(gesture.text);
+    if (gesture?.kind === 'drag' && gesture.moved) void this.editor.command(droppedLine(this.editor, this.editor.tool));
     if (gesture?.kind === 'turn') {
       if (gesture.degrees !== 0) void this.editor.command(line.rotate(gesture.ids, gesture.degrees));
       else this.editor.release();
