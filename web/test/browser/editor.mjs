@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { newTab, open, ready, run, serve, startBrowser, tabOf } from './harness.mjs';
 import { assertPictureDiffers, comparePicture } from './pictures.mjs';
+import { longLayout } from './long_layout.mjs';
 import { smallLayout } from './small_layout.mjs';
 
 const wide = { timeout: 60_000 };
@@ -477,6 +478,111 @@ inEditor('exports what the program reads again', async (page, server) => {
     if (form === 'pdf') assert.equal(readFileSync(file).subarray(0, 5).toString(), '%PDF-');
   }
 });
+
+inEditor('shows a long command on its way, takes what is dropped meanwhile, and keeps the best when it is stopped', async (page, server) => {
+  const bar = page.locator('.long');
+  const says = (pattern) => page.waitForFunction((p) => !document.querySelector('.long').hidden && new RegExp(p).test(document.querySelector('.long .says').textContent), pattern, { polling: 20 });
+  assert.equal(await bar.isVisible(), false);
+  const before = JSON.parse(await export_(server));
+  await command(page, 'compact');
+  await says('\\d+ % · \\d+ s left · \\d+ parts better placed');
+  const share = Number(await page.locator('.long progress').getAttribute('value'));
+  assert.ok(share > 0 && share < 1, String(share));
+  // Dashed outlines lie over the parts, which stand where they were.
+  assert.ok(await page.locator('.picture canvas').nth(1).evaluate((c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((v) => v > 0)));
+  const [x, y, box] = await at(page, 1);
+  const k = box.width / 13;
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 500 * k, y - 500 * k);
+  await page.mouse.move(x + 1000 * k, y - 1000 * k);
+  await page.mouse.up();
+  await says('1 step waits');
+  assert.equal(await picture(page).getAttribute('data-moving'), 'false');
+  assert.deepEqual(JSON.parse(await export_(server)).placements, before.placements);
+  await keys(page, 'Escape');
+  assert.equal(await bar.isVisible(), false);
+  const after = JSON.parse(await export_(server)).placements;
+  assert.ok(Math.hypot(after[0].x - 1005, after[0].y - before.placements[0].y - 1000) < 2, JSON.stringify(after[0])); // where it was dropped
+  assert.ok(after[1].x < before.placements[1].x - 10, JSON.stringify(after[1])); // compacted
+  assert.equal((await checked(server)).exit, 0);
+
+  await keys(page, 'Escape');
+  assert.match(await live(page), /Nothing selected/);
+  await command(page, 'compact');
+  await says('%');
+  await command(page, 'language');
+  assert.equal(await page.textContent('[data-action="long.stop"]'), 'Зупинити');
+  await says('\\d+ % · ще \\d+ с');
+  await command(page, 'language');
+  await command(page, 'long.stop');
+  await settled(page);
+  assert.match(await message(page), /best so far is kept/);
+  assert.equal(await bar.isVisible(), false);
+  assert.equal((await checked(server)).exit, 0);
+}, { layout: longLayout });
+
+inEditor('asks what an export needs, shows what the server says against it, and saves G-code and DXF', async (page, server) => {
+  const field = (name) => page.locator(`dialog [data-field="${name}"]`);
+  const begin = async (form) => {
+    await command(page, 'menu.export');
+    await command(page, `export.${form}`);
+  };
+  const saved = async () => {
+    const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
+    await page.waitForSelector('dialog', { state: 'detached' });
+    const file = join(server.folder, download.suggestedFilename());
+    await download.saveAs(file);
+    return [file, readFileSync(file, 'utf8')];
+  };
+  const refused = async (pattern) => {
+    await command(page, 'export.save');
+    await page.waitForFunction((p) => new RegExp(p).test(document.querySelector('dialog .trouble').textContent), pattern, { polling: 20 });
+  };
+  const numbers = (text, letter) => [...text.replace(/\([^)]*\)/g, '').matchAll(new RegExp(`${letter}(-?[\\d.]+)`, 'g'))].map((m) => Number(m[1]));
+
+  await begin('gcode');
+  await refused('^kerf is missing');
+  await field('kerf').fill('0,2');
+  await field('feed').fill('fast');
+  await refused('^feed fast: has to be a number');
+  await field('feed').fill('2000');
+  await field('lead-in').fill('2');
+  await field('post').selectOption('grbl');
+  await refused('^speed is missing: the power of the beam');
+  await field('post').selectOption('linuxcnc');
+  assert.equal(await field('depth').isVisible(), false);
+  await field('process').selectOption('router');
+  assert.equal(await field('depth').isVisible(), true);
+  assert.equal(await field('pierce').isVisible(), false);
+  await field('process').selectOption('laser');
+  await field('sheet').selectOption('board#2');
+  let [file, text] = await saved();
+  assert.match(file, /\.nc$/);
+  assert.match(text, /G21/);
+  assert.match(text, /F2000/);
+  // The plate of the second sheet alone, 80 x 50 about 200, 150; half a kerf outside, the lead at most 2 further out.
+  const [right, upper] = [Math.max(...numbers(text, 'X')), Math.max(...numbers(text, 'Y'))];
+  assert.ok(right >= 240.1 - 1e-3 && right <= 242.2 && upper >= 175.1 - 1e-3 && upper <= 177.2, `${right} ${upper}`);
+  await begin('gcode');
+  assert.equal(await field('kerf').inputValue(), '0.2'); // as the last time
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('dialog', { state: 'detached' });
+
+  const extent = async (unit) => {
+    await begin('dxf');
+    await field('unit').selectOption(unit);
+    [file, text] = await saved();
+    assert.match(file, /\.dxf$/);
+    assert.match(text, unit === 'inch' ? /\$INSUNITS\s+70\s+1\s/ : /\$INSUNITS\s+70\s+4\s/);
+    const lines = text.split(/\r?\n/);
+    return Math.max(...lines.filter((_, i) => i % 2 === 1 && lines[i - 1].trim() === '10').map(Number));
+  };
+  const [mm, inch] = [await extent('mm'), await extent('inch')];
+  assert.ok(mm > 400 && Math.abs(mm / 25.4 - inch) < 1e-3, `${mm} ${inch}`);
+  const read = run('check', file, '--layers', 'CUT', '--json');
+  assert.equal(read.status, 0, read.stderr);
+}, { layout: { ...smallLayout, placements: [...smallLayout.placements, { id: 4, part: 'plate', stock: 'board', copy: 1, c: 1, s: 0, x: 200, y: 150 }] }, expected: ['400'] });
 
 inEditor('speaks Ukrainian, and remembers it', async (page) => {
   await command(page, 'language');
