@@ -372,13 +372,23 @@ Result<StoredChange> Store::change_at(LayoutId id, Revision revision) {
                       std::move(*change)};
 }
 
-Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
-  const std::lock_guard lock(*turn_);
-  Result<Statement> layout = database_.prepare("SELECT 1 FROM layout WHERE id = ?");
+namespace {
+
+/// Fails where there is no such layout.
+Result<void> exists(Database& database, LayoutId id) {
+  Result<Statement> layout = database.prepare("SELECT 1 FROM layout WHERE id = ?");
   if (!layout) return tl::unexpected(layout.error());
   const Result<bool> there = layout->bind(1, id).step();
   if (!there) return tl::unexpected(there.error());
   if (!*there) return no_layout(id);
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
+  const std::lock_guard lock(*turn_);
+  if (Result<void> there = exists(database_, id); !there) return tl::unexpected(there.error());
   Result<Statement> rows = database_.prepare(
       "SELECT revision, at, author, text, kind, target FROM change WHERE layout = ? ORDER BY revision");
   if (!rows) return tl::unexpected(rows.error());
@@ -432,11 +442,7 @@ std::optional<PhotoScale> scale_from(std::string_view text) {
 
 Result<std::vector<Photo>> Store::photos(LayoutId id) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> layout = database_.prepare("SELECT 1 FROM layout WHERE id = ?");
-  if (!layout) return tl::unexpected(layout.error());
-  const Result<bool> there = layout->bind(1, id).step();
-  if (!there) return tl::unexpected(there.error());
-  if (!*there) return no_layout(id);
+  if (Result<void> there = exists(database_, id); !there) return tl::unexpected(there.error());
   Result<Statement> rows = database_.prepare(
       "SELECT stock, type, length(image), scale FROM photo WHERE layout = ? ORDER BY stock");
   if (!rows) return tl::unexpected(rows.error());

@@ -29,7 +29,12 @@ struct LinearFloz {
   [[nodiscard]] FlozBounds bounds(const FlozSegment& s, geom::Point x, double radius) const {
     return floz_bounds(s, x, radius, model.options().form);
   }
-  static float normalised_square(const NearSegment& s, float px, float py) {
+  /// What both forms are made of: the line's value f, f^2 / L, and root - t without cancellation, where root
+  /// is that of (f^2 / L)^2 + t^2.
+  struct Terms {
+    float f, u, root_less_t;
+  };
+  static Terms terms(const NearSegment& s, float px, float py) {
     const float dx = px - s.x, dy = py - s.y;
     const float f = s.along_x * dy - s.along_y * dx;
     const float t = s.length * 0.25F - (dx * dx + dy * dy) / s.length;
@@ -37,18 +42,16 @@ struct LinearFloz {
     const float root = std::sqrt(u * u + t * t);
     const float sum = root + std::abs(t);
     const float small = u * u / std::max(sum, std::numeric_limits<float>::min());
-    const float g = 0.5F * (t > 0 ? small : sum);
-    return f * f + g * g;
+    return {f, u, t > 0 ? small : sum};
+  }
+  static float normalised_square(const NearSegment& s, float px, float py) {
+    const Terms at = terms(s, px, py);
+    const float g = 0.5F * at.root_less_t;
+    return at.f * at.f + g * g;
   }
   static float algebraic(const NearSegment& s, float px, float py) {
-    const float dx = px - s.x, dy = py - s.y;
-    const float f = s.along_x * dy - s.along_y * dx;
-    const float t = s.length * 0.25F - (dx * dx + dy * dy) / s.length;
-    const float u = f * f / s.length;
-    const float root = std::sqrt(u * u + t * t);
-    const float sum = root + std::abs(t);
-    const float small = u * u / std::max(sum, std::numeric_limits<float>::min());
-    return u + (t > 0 ? small : sum);
+    const Terms at = terms(s, px, py);
+    return at.u + at.root_less_t;
   }
   /// Grows with the value; the value is its square root where rooted().
   [[nodiscard]] bool rooted() const { return model.options().form == FlozForm::normalised; }
