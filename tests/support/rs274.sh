@@ -62,7 +62,8 @@ run() {
   : >"$folder/rs274.var"
   local libraries
   libraries=$(printf '%s:' "$root"/usr/lib "$root"/usr/lib/linuxcnc "$root"/usr/lib/*-linux-gnu "$root"/lib/*-linux-gnu)
-  LD_LIBRARY_PATH=$libraries PYTHONHOME=$root/usr PYTHONDONTWRITEBYTECODE=1 \
+  # HOME: LinuxCNC maps ~/.tool.mmap, and a second interpreter truncates it beneath the first.
+  HOME=$folder LD_LIBRARY_PATH=$libraries PYTHONHOME=$root/usr PYTHONDONTWRITEBYTECODE=1 \
     timeout 60 "$root/usr/bin/rs274" -t "$root/tool.tbl" -v "$folder/rs274.var" -g -n 2 "$program" </dev/null
 }
 
