@@ -16,9 +16,9 @@ class WordTaker {
   WordTaker(ExportRequest& request, const std::string& prefix) : request_(request), prefix_(prefix) {}
 
   Result<void> take(const ExportWord& word) {
-    const auto& [name, value] = word;
     const auto known = std::find_if(export_words().begin(), export_words().end(),
-                                    [&](const ExportWordHelp& help) { return help.name == name; });
+                                    [&](const ExportWordHelp& help) { return help.name == word.first; });
+    const auto& [name, value] = word;
     if (known == export_words().end())
       return failure(ErrorCode::usage, fmt::format("there is no option {}{}", prefix_, name));
     if (!fits_form(name))

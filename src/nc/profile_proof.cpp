@@ -49,8 +49,7 @@ double distance_at_least(const Curve& a, const Curve& b) {
 }
 
 KerfProof::KerfProof(const std::vector<ProfilePart>& parts, const ProfileOptions& options)
-    : parts_(parts),
-      resolution_(resolution_of(options)),
+    : resolution_(resolution_of(options)),
       half_kerf_(0.5 * options.kerf_mm),
       tolerance_(options.tolerance_mm),
       indices_(indices_of(parts)) {

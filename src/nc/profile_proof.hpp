@@ -34,7 +34,6 @@ class KerfProof {
  private:
   [[nodiscard]] bool in_material(geom::Point p, std::size_t& part) const;
 
-  const std::vector<ProfilePart>& parts_;
   Resolution resolution_;
   double half_kerf_ = 0, tolerance_ = 0;
   std::vector<geom::RegionIndex> indices_;

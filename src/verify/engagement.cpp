@@ -81,7 +81,7 @@ class Engagement {
   }
 
   void sum_up() {
-    double air = 0, counted = 0;
+    double air = 0;
     std::vector<std::pair<double, double>> cutting;  // engagement, length
     for (const EngagementSample& s : report_.samples) {
       report_.length_mm += s.length;
@@ -90,7 +90,6 @@ class Engagement {
         continue;
       }
       report_.engagement_peak_deg = std::max(report_.engagement_peak_deg, s.engagement);
-      counted += s.length;
       if (s.engagement < kAirDegrees)
         air += s.length;
       else
