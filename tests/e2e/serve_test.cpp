@@ -518,7 +518,9 @@ TEST(Serve, FortyClientsAgreeInTheEnd) {
   table("20 on one layout", shared_ms);
   table("20 on their own ", alone_ms);
   std::printf("memory: %ld kB after a sixth, %ld kB at the end\n", early, late);
+#ifndef __SANITIZE_ADDRESS__  // which keeps what is freed for a while
   EXPECT_LT(late, early + 64 * 1024);
+#endif
 }
 
 /// 30 x 30 squares with room between them: what takes a while to settle.
