@@ -1,0 +1,40 @@
+#include <memory>
+
+#include "layout_words.hpp"
+#include "option_forms.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// A layout that is read, told and drawn.
+template <class Options>
+Typed add_drawn(CLI::App& app, const char* footer) {
+  auto words = std::make_shared<LayoutWords>();
+  add_layout_source(app, *words);
+  add_layout_outputs(app, *words);
+  app.footer(footer);
+  return [words]() -> Result<Command> {
+    if (Result<void> fine = fine_picture(words->picture); !fine) return tl::unexpected(fine.error());
+    return to_layout_source(*words).map([&](LayoutSource&& source) {
+      return Command(Options{std::move(source), words->picture, words->json});
+    });
+  };
+}
+
+}  // namespace
+
+Typed add_check_form(CLI::App& app) {
+  return add_drawn<CheckOptions>(
+      app,
+      "Exit codes: 0 valid, 1 violations, 2 wrong command line, 3 a file cannot be read,\n"
+      "4 the engine and the independent checker do not agree, 5 disk or memory.");
+}
+
+Typed add_show_form(CLI::App& app) {
+  return add_drawn<ShowOptions>(
+      app,
+      "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"
+      "5 disk or memory.");
+}
+
+}  // namespace lekalo::cli

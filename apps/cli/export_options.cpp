@@ -1,0 +1,72 @@
+#include <memory>
+
+#include "layout_words.hpp"
+#include "option_forms.hpp"
+#include "option_words.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+constexpr std::array kExportFormats{Word<ExportFormat>{"layout", ExportFormat::layout},
+                                    Word<ExportFormat>{"placements", ExportFormat::placements},
+                                    Word<ExportFormat>{"dxf", ExportFormat::machine},
+                                    Word<ExportFormat>{"svg", ExportFormat::machine},
+                                    Word<ExportFormat>{"pdf", ExportFormat::pdf},
+                                    Word<ExportFormat>{"hpgl", ExportFormat::machine},
+                                    Word<ExportFormat>{"gcode", ExportFormat::machine}};
+
+/// As typed.
+struct ExportWords {
+  LayoutWords layout;
+  std::string format, output, instance_name;
+  std::vector<io::ExportWord> machine;  ///< words that io::read_export_words understands
+};
+
+void add_machine_words(CLI::App& command, ExportWords& w) {
+  for (const io::ExportWordHelp& help : io::export_words()) w.machine.emplace_back(help.name, "");
+  for (std::size_t i = 0; i < w.machine.size(); ++i)
+    command.add_option("--" + w.machine[i].first, w.machine[i].second, io::export_words()[i].help)
+        ->type_name(io::export_words()[i].type)
+        ->group("For machines and other programs");
+}
+
+Result<Command> to_export(const ExportWords& w) {
+  ExportFormat format = ExportFormat::layout;
+  WordReader reader;
+  if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, format);
+  if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
+  io::ExportRequest request;
+  std::vector<io::ExportWord> given;
+  for (const io::ExportWord& word : w.machine)
+    if (!word.second.empty()) given.push_back(word);
+  if (format == ExportFormat::machine) {
+    auto read = io::read_export_words(*io::export_form(w.format), given, "--");
+    if (!read) return tl::unexpected(read.error());
+    request = *std::move(read);
+  } else if (!given.empty()) {
+    return failure(ErrorCode::usage, fmt::format("--{} has no meaning for the form {}", given.front().first,
+                                                 w.format.empty() ? "layout" : w.format));
+  }
+  return to_layout_source(w.layout).map([&](LayoutSource&& source) {
+    return Command(ExportOptions{std::move(source), format, w.output, w.instance_name, std::move(request)});
+  });
+}
+
+}  // namespace
+
+Typed add_export_form(CLI::App& app) {
+  auto words = std::make_shared<ExportWords>();
+  add_layout_source(app, words->layout);
+  app.add_option("--format", words->format, list_of(kExportFormats, "|"))->type_name("FORM");
+  app.add_option("-o,--output", words->output, "Write to this file [stdout]")->type_name("FILE");
+  app.add_option("--instance-name", words->instance_name,
+                 "What placements give as the file of their items [as the input says, or itself]")
+      ->type_name("NAME");
+  add_machine_words(app, *words);
+  app.footer(
+      "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"
+      "5 disk or memory.");
+  return [words] { return to_export(*words); };
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,60 @@
+#include "layout_words.hpp"
+
+#include "option_words.hpp"
+
+namespace lekalo::cli {
+
+void add_layout_source(CLI::App& command, LayoutWords& w, bool required) {
+  command
+      .add_option("layout", w.path,
+                  "A layout, a job or placements of a nesting program, a drawing, regions: told apart by "
+                  "content")
+      ->required(required)
+      ->type_name("FILE");
+  const WordAdder add(command, "Reading");
+  add("--instance", w.instance, "FILE", "Of placements: the file of the items, when not where they say");
+  add("--units", w.units, list_of(kUnits, "|"), "Of files that do not say theirs [mm]");
+  add("--chord-tolerance", w.chords, "MM", "How far chords lie from the arcs of drawings [0.01]");
+  add("--join", w.join, "MM", "Loose ends of drawings this near to each other are joined [0.01]");
+  command.add_option("--layers", w.layers, "Layers of a drawing that hold parts [all that are shown]")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->group("Reading");
+}
+
+void add_layout_outputs(CLI::App& command, LayoutWords& w) {
+  command.add_option("--picture", w.picture, "Draw it: .svg, .png or .pdf")
+      ->type_name("FILE")
+      ->group("Output");
+  command.add_flag("--json", w.json, "Print the report as JSON on stdout")->group("Output");
+}
+
+Result<LayoutSource> to_layout_source(const LayoutWords& w) {
+  LayoutSource source{w.path, w.instance, std::nullopt, std::nullopt, std::nullopt, w.layers};
+  WordReader reader;
+  if (!w.units.empty()) {
+    LengthUnit unit{};
+    reader.choice("--units", w.units, kUnits, unit);
+    source.units = unit;
+  }
+  const auto length = [&](const char* option, const std::string& word, double low,
+                          std::optional<double>& value) {
+    if (word.empty()) return;
+    double mm = 0;
+    reader.number(option, word, low, 1000.0, "a number of millimetres", mm);
+    value = mm;
+  };
+  length("--chord-tolerance", w.chords, 0x1p-16, source.chord_tolerance);
+  length("--join", w.join, 0.0, source.join);
+  if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
+  return source;
+}
+
+Result<void> fine_picture(const std::string& path) {
+  if (path.empty() || path.ends_with(".svg") || path.ends_with(".png") || path.ends_with(".pdf")) return {};
+  return failure(
+      ErrorCode::usage,
+      fmt::format("--picture {}: the name has to end in .svg, .png or .pdf, which says what is drawn", path));
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "options.hpp"
+
+namespace lekalo::cli {
+
+/// The options that say how a layout is read, and where it is drawn and told; as typed.
+struct LayoutWords {
+  std::string path, instance, units, chords, join, picture;
+  std::vector<std::string> layers;
+  bool json = false;
+};
+
+void add_layout_source(CLI::App& command, LayoutWords& words, bool required = true);
+void add_layout_outputs(CLI::App& command, LayoutWords& words);
+
+[[nodiscard]] Result<LayoutSource> to_layout_source(const LayoutWords& words);
+/// Whether a picture can be drawn under this name; empty: none is asked for.
+[[nodiscard]] Result<void> fine_picture(const std::string& path);
+
+}  // namespace lekalo::cli

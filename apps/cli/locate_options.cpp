@@ -1,0 +1,345 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "option_forms.hpp"
+#include "option_words.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+constexpr std::array kMethods{Word<Method>{"certified", Method::certified},
+                              Word<Method>{"ipopt", Method::ipopt}, Word<Method>{"icp", Method::icp}};
+constexpr std::array kStartRules{
+    Word<locate::StartRule>{"random", locate::StartRule::random},
+    Word<locate::StartRule>{"centroids", locate::StartRule::centroids},
+    Word<locate::StartRule>{"principal-axes", locate::StartRule::principal_axes}};
+constexpr std::array kModes{Word<nc::RewriteMode>{"coordinates", nc::RewriteMode::coordinates},
+                            Word<nc::RewriteMode>{"offset", nc::RewriteMode::offset},
+                            Word<nc::RewriteMode>{"g68", nc::RewriteMode::g68}};
+constexpr std::array kScanFrames{Word<nc::ScanFrame>{"machine", nc::ScanFrame::machine},
+                                 Word<nc::ScanFrame>{"wcs", nc::ScanFrame::wcs}};
+constexpr std::array kMirrors{Word<locate::Mirror>{"no", locate::Mirror::no},
+                              Word<locate::Mirror>{"yes", locate::Mirror::yes},
+                              Word<locate::Mirror>{"either", locate::Mirror::either}};
+constexpr std::array kCriteria{Word<locate::Criterion>{"smallest", locate::Criterion::smallest},
+                               Word<locate::Criterion>{"largest", locate::Criterion::largest},
+                               Word<locate::Criterion>{"even", locate::Criterion::even}};
+
+/// As typed.
+struct LocateWords {
+  std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
+      alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
+      report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up,
+      trade_off, join, curve, uncertainty, coverage, min_radius, max_dip, step, drop_outliers, simplify,
+      slice_height, slice_thickness;
+  std::vector<std::string> part_layers, blank_layers;
+  std::vector<std::string> window;
+  bool json = false;
+};
+
+constexpr double kLargestWindowAngle = 720.0;  // degrees: either way of writing a window fits
+constexpr double kClosedWindow = 1e-9;         // degrees: a smaller opening is none
+constexpr double kLongestTime = 1e7;           // seconds
+
+void read_window(const std::vector<std::string>& words, WordReader& read, LocateOptions& o) {
+  if (words.size() != 2) return;
+  const char* const wanted = "an angle between -720 and 720 degrees";
+  read.number("--window", words[0], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_from_deg);
+  read.number("--window", words[1], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_to_deg);
+  read.require(o.window_from_deg <= o.window_to_deg,
+               fmt::format("--window: the first angle, {}, is above the second, {}", words[0], words[1]));
+  if (o.window_to_deg - o.window_from_deg > 360 - kClosedWindow) {
+    o.window_from_deg = 0;
+    o.window_to_deg = 360;
+  }
+}
+
+void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  read_window(words.window, read, o);
+  if (!words.gap.empty())
+    read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0",
+                o.gap.emplace());
+  read.choice("--mirror", words.mirror, kMirrors, o.mirror);
+  for (const auto& [option, word, to] :
+       {std::tuple{"--lock-x", &words.lock_x, &o.locked.x}, {"--lock-y", &words.lock_y, &o.locked.y}})
+    if (!word->empty())
+      read.number(option, *word, -kLargestLength, kLargestLength, "a coordinate in mm up to 1e9",
+                  to->emplace());
+  o.features = words.features;
+  read.choice("--criterion", words.criterion, kCriteria, o.criterion);
+  read.number("--give-up", words.give_up, 0.0, kLargestLength, "a length in mm of 0 or more", o.give_up);
+  read.require(
+      words.give_up.empty() || o.criterion != locate::Criterion::smallest,
+      "--give-up is for --criterion largest and even: what they may take off the smallest allowance");
+  read.number("--trade-off", words.trade_off, std::size_t{2}, std::size_t{100},
+              "a whole number from 2 to 100", o.trade_off);
+  read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
+              o.min_allowance);
+  read.choice("--method", words.method, kMethods, o.method);
+  read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.starts);
+  read.choice("--start-rule", words.start_rule, kStartRules, o.start_rule);
+  constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
+  read.number("--seed", words.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
+  read.number("--work", words.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
+  if (!words.alternatives.empty()) {
+    read.number("--alternatives", words.alternatives, 0.0, kLargestLength, "a length in mm of 0 or more",
+                o.alternatives.emplace());
+  }
+  if (!words.time.empty()) {
+    read.number("--time", words.time, 1e-6, kLongestTime, "a time in seconds above 0", o.seconds.emplace());
+  }
+}
+
+void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  const auto length = [&](const char* option, const std::string& word, double least,
+                          std::optional<double>& to) {
+    if (word.empty()) return;
+    read.number(option, word, least, kLargestLength,
+                least > 0 ? "a length in mm above 0" : "a length in mm of 0 or more", to.emplace());
+  };
+  length("--join", words.join, 0, o.join);
+  length("--curve-tolerance", words.curve, kSmallestLength, o.curve);
+  o.part_layers = words.part_layers, o.blank_layers = words.blank_layers;
+
+  ScanWords scan;
+  locate::ScanOptions& m = scan.measurement;
+  std::optional<double> uncertainty, simplify, height, thickness;
+  length("--uncertainty", words.uncertainty, 0, uncertainty);
+  length("--min-radius", words.min_radius, kSmallestLength, m.min_radius);
+  length("--max-dip", words.max_dip, 0, m.max_dip);
+  length("--step", words.step, kSmallestLength, m.step);
+  length("--drop-outliers", words.drop_outliers, kSmallestLength, m.drop_outliers);
+  length("--simplify", words.simplify, kSmallestLength, simplify);
+  read.number("--coverage", words.coverage, 1e-3, 100.0, "a factor from 0.001 to 100", m.coverage_factor);
+  if (!words.slice_height.empty())
+    read.number("--slice-height", words.slice_height, -kLargestLength, kLargestLength,
+                "a height in mm up to 1e9", height.emplace());
+  length("--slice-thickness", words.slice_thickness, kSmallestLength, thickness);
+  if (uncertainty) m.uncertainty = *uncertainty;
+  if (simplify) m.simplify = *simplify;
+  read.require(height.has_value() == thickness.has_value(),
+               "--slice-height and --slice-thickness need each other");
+  if (height && thickness) scan.slice = io::ScanSlice{*height, *thickness};
+  const bool other =
+      m.min_radius || m.max_dip || m.step || m.drop_outliers || simplify || height || !words.coverage.empty();
+  read.require(uncertainty || !other,
+               "a scan needs --uncertainty MM, the standard uncertainty of one measured point");
+  if (uncertainty) o.scan = scan;
+}
+
+void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  o.nc = words.nc;
+  o.nc_out = words.nc_out;
+  read.require(o.nc.empty() || !o.nc_out.empty(),
+               "--nc: say with --nc-out FILE where the rewritten program goes");
+  read.require(o.nc_out.empty() || !o.nc.empty(), "--nc-out: say with --nc FILE which program to rewrite");
+  read.require(!o.nc.empty() || (words.nc_mode.empty() && words.wcs.empty() && words.scan_frame.empty()),
+               "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
+  read.choice("--nc-mode", words.nc_mode, kModes, o.rewrite.mode);
+  read.choice("--scan-frame", words.scan_frame, kScanFrames, o.rewrite.scan_frame);
+  read.number("--nc-angle-decimals", words.nc_angle_decimals, 0, 9, "a whole number from 0 to 9",
+              o.rewrite.g68_angle_decimals);
+  read.require(words.nc_angle_decimals.empty() || o.rewrite.mode == nc::RewriteMode::g68,
+               "--nc-angle-decimals is for --nc-mode g68 alone");
+  if (o.units) o.rewrite.start_unit = *o.units;
+  read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)", o.rewrite.work_offset);
+}
+
+void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  o.output = words.output;
+  o.certificate = words.certificate;
+  o.picture = words.picture;
+  o.report = words.report;
+  o.allowances = words.allowances;
+  o.drawing = words.drawing;
+  o.deviations = words.deviations;
+  o.compare = words.compare;
+  o.json = words.json;
+  const std::string ending = std::filesystem::path(o.picture).extension().string();
+  read.require(o.picture.empty() || ending == ".svg" || ending == ".png",
+               fmt::format("--picture: the name \"{}\" ends neither in .svg nor in .png", o.picture));
+  const std::string page = std::filesystem::path(o.report).extension().string();
+  read.require(
+      o.report.empty() || page == ".svg" || page == ".pdf" || page == ".png",
+      fmt::format("--report: the name \"{}\" ends neither in .svg nor in .pdf nor in .png", o.report));
+  read.require(o.drawing.empty() || o.drawing.ends_with(".dxf") || o.drawing.ends_with(".svg"),
+               fmt::format("--drawing: the name \"{}\" ends neither in .dxf nor in .svg", o.drawing));
+  read.require(o.allowances.empty() || std::filesystem::path(o.allowances).extension() == ".csv",
+               fmt::format("--allowances: the name \"{}\" does not end in .csv", o.allowances));
+}
+
+/// A file that a method cannot make is refused; a number that it does not look at is only worth a word.
+void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  const bool certified = o.method == Method::certified;
+  const std::string method = name_of(o.method);
+  read.require(certified || o.certificate.empty(),
+               "--certificate: --method " + method + " proves nothing, only --method certified does");
+  read.require(certified || !o.alternatives,
+               "--alternatives: --method " + method + " finds none, only --method certified does");
+  const auto no_effect = [&](bool given, const char* option) {
+    if (given) o.warnings.push_back(fmt::format("{} has no effect with --method {}", option, method));
+  };
+  no_effect(!words.gap.empty() && !certified, "--gap");
+  no_effect(!words.starts.empty() && o.method != Method::ipopt, "--starts");
+  no_effect(!words.start_rule.empty() && o.method != Method::ipopt, "--start-rule");
+  no_effect(!words.work.empty() && o.method == Method::icp, "--work");
+}
+
+Result<LocateOptions> to_options(const LocateWords& words) {
+  LocateOptions o;
+  WordReader read;
+  o.part = words.part;
+  o.blank = words.blank;
+  if (!words.units.empty()) read.choice("--units", words.units, kUnits, o.units.emplace());
+  if (!words.trim.empty()) {
+    read.number("--trim", words.trim, kSmallestLength, kLargestLength, "a length in mm above 0",
+                o.trim.emplace());
+  }
+  read_shapes(words, read, o);
+  read_search(words, read, o);
+  read_program(words, read, o);
+  read_outputs(words, read, o);
+  check_method(words, read, o);
+  if (!read.complaint().empty()) {
+    return failure(ErrorCode::usage, read.complaint() + " (see lekalo locate --help)");
+  }
+  return o;
+}
+
+constexpr const char* kLocateFooter =
+    "Examples:\n"
+    "  lekalo locate --part part.csv --blank probed.csv --min-allowance 0.3 --picture where.svg\n"
+    "  lekalo locate --part part.dxf --blank probed.xyz --trim 0.05 --nc part.ngc --nc-out here.ngc "
+    "\\\n"
+    "                --nc-mode coordinates --scan-frame wcs -o result.json\n"
+    "\n"
+    "Exit codes: 0 a placement, 1 there is none with this allowance, 2 wrong command line, 3 bad input "
+    "or "
+    "NC\n"
+    "program refused, 4 the self-check refuted the result, 5 disk or other surroundings. With 2 to 5 "
+    "no "
+    "file\n"
+    "is written; with 1 no NC program is. Angles on the command line are degrees, in JSON radians.";
+
+void add_input_options(CLI::App& locate, LocateWords& w) {
+  const WordAdder add(locate, "What to place");
+  add("--part", w.part, "FILE",
+      "The part: points (.csv .txt .xyz), drawing (.dxf .svg), or .json: regions, primitives")
+      ->required();
+  add("--blank", w.blank, "FILE",
+      "The blank: its outline in the same formats, or a scan (also .ply, see below)")
+      ->required();
+  locate.add_option("--part-layers", w.part_layers, "Layers of the part's drawing [all that are shown]")
+      ->type_name("NAME")
+      ->group("What to place");
+  locate.add_option("--blank-layers", w.blank_layers, "Layers of the blank's drawing [all that are shown]")
+      ->type_name("NAME")
+      ->group("What to place");
+  add("--join", w.join, "MM", "Loose ends of a drawing this near are joined [0.01]");
+  add("--curve-tolerance", w.curve, "MM", "Lines and arcs may be this far from an ellipse or spline [0.001]");
+  add("--units", w.units, list_of(kUnits, "|"), "Unit of contour files that do not name theirs [mm]");
+  add("--trim", w.trim, "MM",
+      "Cut dents of the blank up to this deep inwards to a convex contour; the loss is reported");
+  add("--compare", w.compare, "FILE", "Result of an earlier probing: report the shift since then");
+}
+
+void add_scan_options(CLI::App& locate, LocateWords& w) {
+  const WordAdder add(locate, "A blank from a scan");
+  add("--uncertainty", w.uncertainty, "MM", "The blank is a scan; standard uncertainty of one point");
+  add("--coverage", w.coverage, "K", "The surface lies within K times that of each point [2]");
+  add("--min-radius", w.min_radius, "MM", "No dent of the blank is sharper than this radius");
+  add("--max-dip", w.max_dip, "MM", "Between neighbouring points the surface dips at most this deep");
+  add("--step", w.step, "MM",
+      "Neighbours further apart leave the blank unknown between them [3 median spacings]");
+  add("--drop-outliers", w.drop_outliers, "MM", "Leave out and list points with no other this near [none]");
+  add("--simplify", w.simplify, "MM", "The outline may be drawn this much further in than it must [0.02]");
+  add("--slice-height", w.slice_height, "MM", "Take the points of a 3D scan about this height");
+  add("--slice-thickness", w.slice_thickness, "MM", "and this far up and down together");
+}
+
+void add_search_options(CLI::App& locate, LocateWords& w) {
+  const WordAdder add(locate, "How to search");
+  add("--min-allowance", w.min_allowance, "MM", "Least material demanded between part and blank surface [0]");
+  locate.add_option("--window", w.window, "Only angles from the first to the second, degrees [0 360]")
+      ->expected(2)
+      ->type_name("DEG")
+      ->group("How to search");
+  add("--gap", w.gap, "MM",
+      "Stop when no other placement can be better by more than this [1e-9; 1e-3 where a shape is not "
+      "convex]");
+  add("--mirror", w.mirror, list_of(kMirrors, "|"), "Whether the part must or may lie mirrored [no]");
+  add("--lock-x", w.lock_x, "MM", "x of the placement is given");
+  add("--lock-y", w.lock_y, "MM", "y of the placement is given");
+  add("--features", w.features, "FILE",
+      "Demands by feature: minimum, target, maximum, scale, finished (JSON)");
+  add("--criterion", w.criterion, list_of(kCriteria, "|"),
+      "After the largest smallest allowance: the smallest largest one, or the most even [smallest]");
+  add("--give-up", w.give_up, "MM", "What the second criterion may take off the smallest allowance [0]");
+  add("--trade-off", w.trade_off, "N", "Also N points of the curve of smallest against largest allowance");
+  add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
+  add("--method", w.method, list_of(kMethods, "|"),
+      "certified proves its result; ipopt and icp are there for comparison [certified]");
+  add("--starts", w.starts, "N", "Starts of --method ipopt [10]");
+  add("--start-rule", w.start_rule, list_of(kStartRules, "|"), "Where --method ipopt starts [random]");
+  add("--seed", w.seed, "S", "Seed of all random choices [0]");
+  add("--work", w.work, "N", "Stop after N units of work (linear programs, or starts) with the best so far");
+  add("--time", w.time, "SECONDS", "Stop after this time with the best so far; not reproducible");
+}
+
+void add_program_options(CLI::App& locate, LocateWords& w) {
+  const WordAdder add(locate, "NC program");
+  add("--nc", w.nc, "FILE", "ISO/RS-274 program written in the part's frame");
+  add("--nc-out", w.nc_out, "FILE", "The program for the blank as it lies");
+  add("--nc-mode", w.nc_mode, list_of(kModes, "|"),
+      "Turn every coordinate, or let the control do it: LinuxCNC G10 L2, Fanuc G68 [coordinates]");
+  add("--wcs", w.wcs, "N", "Work offset that the program runs in: 1 is G54 .. 9 is G59.3 [1]");
+  add("--nc-angle-decimals", w.nc_angle_decimals, "N",
+      "Decimals of a degree that the control takes in G68 R [3]");
+  add("--scan-frame", w.scan_frame, list_of(kScanFrames, "|"),
+      "Coordinates in which the blank was probed [machine]");
+}
+
+void add_output_options(CLI::App& locate, LocateWords& w) {
+  const WordAdder add(locate, "Output");
+  add("-o,--output", w.output, "FILE", "Write the result as JSON to this file");
+  add("--picture", w.picture, "FILE", "Draw blank, part and allowance: .svg or .png");
+  add("--report", w.report, "FILE",
+      "One page with placement, features, histogram, contacts and what is proved: .svg, .pdf or .png");
+  add("--drawing", w.drawing, "FILE",
+      "The blank and the part as it lies, on layers BLANK and PART: .dxf or .svg");
+  add("--allowances", w.allowances, "FILE", "CSV: the allowance along the part's outline");
+  add("--certificate", w.certificate, "FILE", "Write the proof to this file instead of into the result");
+  add("--deviations", w.deviations, "FILE",
+      "CSV: signed distance of every probed point from the placed part");
+  locate.add_flag("--json", w.json, "Print the result as JSON on stdout")->group("Output");
+}
+
+}  // namespace
+
+bool needs_convex(const LocateOptions& o) {
+  return o.method != Method::certified || o.trim || o.alternatives || !o.deviations.empty() ||
+         !o.compare.empty();
+}
+
+bool has_demands(const LocateOptions& o) {
+  return o.locked.x || o.locked.y || !o.features.empty() || o.criterion != locate::Criterion::smallest ||
+         o.trade_off > 0;
+}
+
+const char* name_of(Method method) noexcept { return name_in(kMethods, method); }
+const char* name_of(nc::RewriteMode mode) noexcept { return name_in(kModes, mode); }
+const char* name_of(nc::ScanFrame frame) noexcept { return name_in(kScanFrames, frame); }
+
+Typed add_locate_form(CLI::App& app) {
+  auto words = std::make_shared<LocateWords>();
+  add_input_options(app, *words);
+  add_scan_options(app, *words);
+  add_search_options(app, *words);
+  add_program_options(app, *words);
+  add_output_options(app, *words);
+  app.footer(kLocateFooter);
+  return [words] { return to_options(*words).map([](LocateOptions&& o) { return Command(std::move(o)); }); };
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,63 @@
+#include <memory>
+
+#include "layout_words.hpp"
+#include "option_forms.hpp"
+#include "option_words.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// As typed.
+struct NestWords {
+  LayoutWords layout;
+  std::string output, time, work, seed, threads, angles;
+};
+
+Result<Command> to_nest(const NestWords& w) {
+  if (Result<void> fine = fine_picture(w.layout.picture); !fine) return tl::unexpected(fine.error());
+  Result<LayoutSource> source = to_layout_source(w.layout);
+  if (!source) return tl::unexpected(source.error());
+  NestOptions o;
+  o.source = std::move(*source);
+  o.output = w.output;
+  o.picture = w.layout.picture;
+  o.json = w.layout.json;
+  WordReader read;
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
+  read.number("--seed", w.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
+  read.number("--work", w.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
+  read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.threads);
+  read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360",
+              o.angles);
+  if (!w.time.empty() || w.work.empty()) {
+    double seconds = 60;
+    read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
+    o.seconds = seconds;
+  }
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
+}  // namespace
+
+Typed add_nest_form(CLI::App& app) {
+  auto words = std::make_shared<NestWords>();
+  NestWords& w = *words;
+  add_layout_source(app, w.layout);
+  app.add_option("-o,--output", w.output, "Write the layout to this file [stdout]")->type_name("FILE");
+  const WordAdder add(app, "Search");
+  add("--time", w.time, "SECONDS", "Stop after this time; the report's work repeats it [60 without --work]");
+  add("--work", w.work, "N", "Stop after about N candidate places: same bytes on every machine");
+  add("--threads", w.threads, "N", "Changes the speed, not the result [2]");
+  add("--seed", w.seed, "S", "Seed of all random choices [0]");
+  add("--angles", w.angles, "N", "Angles to try of parts that may be turned anyhow [24]");
+  app.footer(
+      "Locked placements stay, others are made anew. Ctrl-C keeps the best so far. What is written passes\n"
+      "lekalo check.\n"
+      "Exit codes: 0 everything is placed, 1 some pieces are not, 2 wrong command line, 3 a file cannot be\n"
+      "read or nested, 4 the layout found did not pass the check (please report), 5 disk or memory.");
+  add_layout_outputs(app, w.layout);
+  return [words] { return to_nest(*words); };
+}
+
+}  // namespace lekalo::cli

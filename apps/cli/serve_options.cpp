@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <memory>
+
+#include "layout_words.hpp"
+#include "option_forms.hpp"
+#include "option_words.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// As typed.
+struct ServeWords {
+  LayoutWords layout;
+  std::string store, listen = "127.0.0.1", port, token;
+};
+
+Result<Command> to_serve(const ServeWords& w) {
+  Result<LayoutSource> source = to_layout_source(w.layout);
+  if (!source) return tl::unexpected(source.error());
+  WordReader read;
+  std::uint16_t port = 8080;
+  read.number("--port", w.port, std::uint16_t{0}, std::uint16_t{65535}, "a whole number from 0 to 65535",
+              port);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  constexpr std::size_t kShortest = 8, kLongest = 200;
+  const bool plain = std::all_of(w.token.begin(), w.token.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
+  });
+  if (!w.token.empty() && (!plain || w.token.size() < kShortest || w.token.size() > kLongest))
+    return failure(ErrorCode::usage,
+                   fmt::format("--token: has to be {} to {} letters, digits, - or _", kShortest, kLongest));
+  return Command(ServeOptions{std::move(*source), w.store, w.listen, port, w.token});
+}
+
+}  // namespace
+
+Typed add_serve_form(CLI::App& app) {
+  auto words = std::make_shared<ServeWords>();
+  ServeWords& w = *words;
+  add_layout_source(app, w.layout, false);
+  const WordAdder add(app);
+  add("--store", w.store, "FILE",
+      "The layouts and all that was done to them [lekalo/layouts.sqlite among the user's data]");
+  add("--port", w.port, "N", "0: any that is free [8080]");
+  add("--listen", w.listen, "ADDRESS", "Elsewhere than on this machine alone, with a token [127.0.0.1]");
+  add("--token", w.token, "TEXT", "What whoever opens the page has to know [made and printed with --listen]");
+  app.footer(
+      "The first line on stdout is \"listening URL\"; Ctrl-C stops it.\n"
+      "Exit codes: 0 stopped, 2 wrong command line, 3 the file cannot be read, 5 the port or the store\n"
+      "cannot be had.");
+  return [words] { return to_serve(*words); };
+}
+
+}  // namespace lekalo::cli

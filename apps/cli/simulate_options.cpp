@@ -1,0 +1,56 @@
+#include <memory>
+
+#include "option_forms.hpp"
+#include "option_words.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+/// As typed.
+struct SimulateWords {
+  std::string program, pocket, tool, stock_to_leave, step_over, top, acceleration, rapid, samples;
+  bool json = false;
+};
+
+Result<Command> to_simulate(const SimulateWords& w) {
+  WordReader read;
+  SimulateOptions o{w.program, w.pocket, {}, w.samples, w.json};
+  const char* const above = "a number above 0";
+  read.number("--tool", w.tool, 1e-3, 1e4, "a diameter from 0.001 to 10000 mm", o.machining.tool_diameter);
+  read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
+              o.machining.stock_to_leave);
+  read.number("--step-over", w.step_over, 1e-3, 1.0, "a part of the diameter from 0.001 to 1",
+              o.machining.step_over);
+  read.number("--top", w.top, -1e6, 1e6, "a height within 1000 m of 0, in mm", o.machining.top);
+  read.number("--acceleration", w.acceleration, 1e-3, 1e9, above, o.machining.acceleration);
+  read.number("--rapid", w.rapid, 1e-3, 1e9, above, o.machining.rapid_feed);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
+}  // namespace
+
+Typed add_simulate_form(CLI::App& app) {
+  auto words = std::make_shared<SimulateWords>();
+  SimulateWords& w = *words;
+  app.add_option("program", w.program, "NC program: G0 to G3, G20/G21, G90/G91")
+      ->required()
+      ->type_name("FILE");
+  const WordAdder add(app);
+  add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
+      ->required();
+  add("--tool", w.tool, "MM", "Diameter of the tool")->required();
+  add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
+  add("--step-over", w.step_over, "PART", "Of the diameter, for the lower bound of the time [0.4]");
+  add("--top", w.top, "MM", "Z of the stock's upper face [0]");
+  add("--acceleration", w.acceleration, "MM/S2", "Of the machine, for the time [500]");
+  add("--rapid", w.rapid, "MM/MIN", "Feed of G0 [5000]");
+  add("--samples", w.samples, "FILE", "Write the engagement along the path as CSV");
+  app.add_flag("--json", w.json, "Print the report as JSON on stdout");
+  app.footer(
+      "Exit codes: 0 whatever the figures are, 2 wrong command line, 3 a file cannot be read or judged,\n"
+      "5 disk or memory. What the figures mean: docs/design/simulate.md");
+  return [words] { return to_simulate(*words); };
+}
+
+}  // namespace lekalo::cli
