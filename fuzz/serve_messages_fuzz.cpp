@@ -1,4 +1,5 @@
 #include "io_contour_check.hpp"
+#include "lekalo/base/plain_text.hpp"
 #include "server/messages.hpp"
 
 // What clients say, as any bytes: a sentence, or a message within its limits; targets of requests likewise.
