@@ -25,7 +25,8 @@ using Json = nlohmann::ordered_json;
 
 ApiAnswer json_answer(int status, const Json& json) {
   return {
-      status, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n", "application/json", {}, {}};
+      status, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n", "application/json", {}, {},
+      {}};
 }
 
 ApiAnswer trouble(const Error& error) {
@@ -59,12 +60,14 @@ Result<std::string> name_in(const Target& target) {
   return check_layout_name(*name).map([&] { return *name; });
 }
 
-ApiAnswer create_layout(Store& store, const Target& target, const std::string& body) {
+ApiAnswer create_layout(Store& store, const Target& target, const std::string& body,
+                        const std::atomic<bool>& given_up) {
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
   if (body.empty()) return api_error(400, *name + ": the file is empty");
   Result<io::LayoutFile> file = io::read_any_layout(body, *name);
   if (!file) return trouble(file.error());
+  if (given_up) return api_error(503, *name + ": nobody waits for it any more");
   const Result<LayoutId> id = store.create(*name, file->document);
   if (!id) return trouble(id.error());
   return json_answer(201, {{"id", *id}, {"notices", file->notices}});
@@ -82,6 +85,24 @@ ApiAnswer history(Store& store, LayoutId id) {
                     {"kind", name_of(entry.kind)},
                     {"undone", entry.undone}});
   return json_answer(200, {{"entries", std::move(list)}});
+}
+
+/// For a header: no more than fits into one, with a word about the rest.
+std::string notes_json(const std::vector<std::string>& notes) {
+  if (notes.empty()) return {};
+  constexpr std::size_t kMost = 8000;
+  const auto text = [](const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); };
+  Json list = Json::array();
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    size += text(notes[i]).size() + 2;
+    if (size > kMost) {
+      list.push_back(fmt::format("... and {} more; lekalo export says all", notes.size() - i));
+      break;
+    }
+    list.push_back(notes[i]);
+  }
+  return text(list);
 }
 
 /// The other fields of the request are the options of the command line: ?form=gcode&kerf=0.2&feed=2000.
@@ -104,7 +125,7 @@ ApiAnswer export_for_machines(const std::string& name, const layout::Document& d
     if (form == io::ExportForm::hpgl) return {"application/vnd.hp-hpgl", ".plt"};
     return {"text/plain; charset=utf-8", ".nc"};
   }();
-  return {200, made->files.front().bytes, type, stem + ending, {}};
+  return {200, made->files.front().bytes, type, stem + ending, {}, notes_json(made->notes)};
 }
 
 ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
@@ -116,7 +137,7 @@ ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
   const layout::Document& document = layout->document;
   const std::string stem = "layout-" + std::to_string(id);
   const auto file = [&](const Result<std::string>& bytes, const char* type, const char* ending) {
-    return bytes ? ApiAnswer{200, *bytes, type, stem + ending, {}} : trouble(bytes.error());
+    return bytes ? ApiAnswer{200, *bytes, type, stem + ending, {}, {}} : trouble(bytes.error());
   };
   if (*form == "layout") return file(io::write_layout(document), "application/json", ".json");
   if (*form == "placements") {
@@ -225,7 +246,7 @@ ApiAnswer photo(Store& store, const ChangeRoom& change_room, const std::string& 
     Result<std::string> image = store.photo_image(id, *stock);
     if (!image) return trouble(image.error());
     std::string type = image_type(*image);
-    return {200, std::move(*image), std::move(type), {}, {}};
+    return {200, std::move(*image), std::move(type), {}, {}, {}};
   }
   Result<void> done;
   if (method == "DELETE") {
@@ -265,7 +286,7 @@ ApiAnswer api_error(int status, const std::string& sentence) {
 }
 
 ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
-                     const Target& target, const std::string& body) {
+                     const Target& target, const std::string& body, const std::atomic<bool>& given_up) {
   constexpr std::string_view kRoot = "/api/layouts";
   std::string_view rest = target.path;
   const ApiAnswer nothing = api_error(404, "there is nothing here");
@@ -273,7 +294,7 @@ ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::str
   rest.remove_prefix(kRoot.size());
   if (rest.empty()) {
     if (method == "GET") return list_layouts(store);
-    if (method == "POST") return create_layout(store, target, body);
+    if (method == "POST") return create_layout(store, target, body, given_up);
     return wrong_method("GET, POST");
   }
   if (rest.front() != '/') return nothing;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -19,6 +20,7 @@ struct ApiAnswer {
   std::string type = "application/json";
   std::string file_name;  ///< not empty: to be saved under this name
   std::string allow;      ///< with 405: the methods that there are
+  std::string notes;      ///< what is to be known of a file: a JSON array of sentences, ASCII; may be empty
 };
 
 /// Of a photograph, bytes.
@@ -34,8 +36,10 @@ inline constexpr std::size_t kLargestPhoto = std::size_t{16} << 20;
 /// the clients.
 using ChangeRoom = std::function<Result<void>(LayoutId, const std::function<Result<Outbound>(Room&)>&)>;
 
-/// Answers a request whose path begins with /api. \param method  as HTTP has it
+/// Answers a request whose path begins with /api. \param method  as HTTP has it \param given_up  set when
+/// nobody waits for the answer any more: a file that is read by then makes no layout
 [[nodiscard]] ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
-                                   const Target& target, const std::string& body);
+                                   const Target& target, const std::string& body,
+                                   const std::atomic<bool>& given_up);
 
 }  // namespace lekalo::server

@@ -520,23 +520,24 @@ Result<Outbound> Room::set_photo(const Photo& photo, const std::string& image) {
   if (std::none_of(stocks.begin(), stocks.end(), [&](const auto& one) { return one.id == photo.stock; }))
     return failure(ErrorCode::usage, fmt::format("the layout has no stock '{}'", photo.stock));
   if (Result<void> kept = store_.set_photo(id_, photo, image); !kept) return tl::unexpected(kept.error());
-  return photos_changed();
+  return photo_changed(photo.stock, true);
 }
 
 Result<Outbound> Room::set_photo_scale(const std::string& stock, const PhotoScale& scale) {
   if (Result<void> kept = store_.set_photo_scale(id_, stock, scale); !kept)
     return tl::unexpected(kept.error());
-  return photos_changed();
+  return photo_changed(stock, false);
 }
 
 Result<Outbound> Room::remove_photo(const std::string& stock) {
   if (Result<void> kept = store_.remove_photo(id_, stock); !kept) return tl::unexpected(kept.error());
-  return photos_changed();
+  return photo_changed(stock, true);
 }
 
-Outbound Room::photos_changed() const {
+Outbound Room::photo_changed(const std::string& stock, bool image) const {
   Outbound out;
-  to_all("{\"type\": \"photos\"}", Loss::as_newer, out);
+  to_all(fmt::format("{{\"type\": \"photos\", \"stock\": {}, \"image\": {}}}", json_text(stock), image),
+         Loss::as_newer, out);
   return out;
 }
 

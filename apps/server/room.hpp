@@ -124,7 +124,7 @@ class Room {
   [[nodiscard]] Result<void> check_standing(const StoredChange& command, const layout::Change& wanted);
   /// Store first, then the state, then everyone hears of it.
   [[nodiscard]] Result<void> commit(ClientNumber client, StoredChange change, Outbound& out);
-  [[nodiscard]] Outbound photos_changed() const;
+  [[nodiscard]] Outbound photo_changed(const std::string& stock, bool image) const;
   void to_all(const std::string& text, Loss loss, Outbound& out) const;
   [[nodiscard]] std::string layout_text(ClientNumber client) const;
   [[nodiscard]] std::string selections_text() const;

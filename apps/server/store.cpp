@@ -384,34 +384,42 @@ Result<void> exists(Database& database, LayoutId id) {
   return {};
 }
 
+/// The rows of a query about one layout, which has to be there. \param take  of a row, a Result<void>
+template <class Take>
+Result<void> each_row(Database& database, LayoutId id, const char* query, Take&& take) {
+  if (Result<void> there = exists(database, id); !there) return there;
+  Result<Statement> rows = database.prepare(query);
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, id);
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return {};
+    if (Result<void> taken = take(*rows); !taken) return taken;
+  }
+}
+
 }  // namespace
 
 Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
   const std::lock_guard lock(*turn_);
-  if (Result<void> there = exists(database_, id); !there) return tl::unexpected(there.error());
-  Result<Statement> rows = database_.prepare(
-      "SELECT revision, at, author, text, kind, target FROM change WHERE layout = ? ORDER BY revision");
-  if (!rows) return tl::unexpected(rows.error());
-  rows->bind(1, id);
   std::vector<HistoryEntry> entries;
-  for (;;) {
-    const Result<bool> row = rows->step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) break;
-    HistoryEntry entry{rows->integer(0),
-                       rows->text(1),
-                       rows->text(2),
-                       rows->text(3),
-                       static_cast<ChangeKind>(rows->integer(4)),
-                       rows->integer(5),
-                       false};
-    // Revisions begin at 1 and have no holes.
-    const bool takes_back = entry.kind == ChangeKind::undo, does_again = entry.kind == ChangeKind::redo;
-    if ((takes_back || does_again) && entry.target >= 1 &&
-        entry.target <= static_cast<Revision>(entries.size()))
-      entries[static_cast<std::size_t>(entry.target - 1)].undone = takes_back;
-    entries.push_back(std::move(entry));
-  }
+  Result<void> read = each_row(
+      database_, id,
+      "SELECT revision, at, author, text, kind, target FROM change WHERE layout = ? ORDER BY revision",
+      [&](const Statement& row) -> Result<void> {
+        const HistoryEntry entry{
+            row.integer(0), row.text(1), row.text(2), row.text(3), static_cast<ChangeKind>(row.integer(4)),
+            row.integer(5), false};
+        // Revisions begin at 1 and have no holes.
+        const bool takes_back = entry.kind == ChangeKind::undo, does_again = entry.kind == ChangeKind::redo;
+        if ((takes_back || does_again) && entry.target >= 1 &&
+            entry.target <= static_cast<Revision>(entries.size()))
+          entries[static_cast<std::size_t>(entry.target - 1)].undone = takes_back;
+        entries.push_back(entry);
+        return {};
+      });
+  if (!read) return tl::unexpected(read.error());
   return entries;
 }
 
@@ -442,21 +450,19 @@ std::optional<PhotoScale> scale_from(std::string_view text) {
 
 Result<std::vector<Photo>> Store::photos(LayoutId id) {
   const std::lock_guard lock(*turn_);
-  if (Result<void> there = exists(database_, id); !there) return tl::unexpected(there.error());
-  Result<Statement> rows = database_.prepare(
-      "SELECT stock, type, length(image), scale FROM photo WHERE layout = ? ORDER BY stock");
-  if (!rows) return tl::unexpected(rows.error());
-  rows->bind(1, id);
   std::vector<Photo> photos;
-  for (;;) {
-    const Result<bool> row = rows->step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) return photos;
-    const auto scale = scale_from(rows->text(3));
-    if (!scale)
-      return failure(ErrorCode::environment, "the store is damaged: the scale of a photograph is no scale");
-    photos.push_back({rows->text(0), rows->text(1), rows->integer(2), *scale});
-  }
+  Result<void> read = each_row(
+      database_, id, "SELECT stock, type, length(image), scale FROM photo WHERE layout = ? ORDER BY stock",
+      [&](const Statement& row) -> Result<void> {
+        const auto scale = scale_from(row.text(3));
+        if (!scale)
+          return failure(ErrorCode::environment,
+                         "the store is damaged: the scale of a photograph is no scale");
+        photos.push_back({row.text(0), row.text(1), row.integer(2), *scale});
+        return {};
+      });
+  if (!read) return tl::unexpected(read.error());
+  return photos;
 }
 
 Result<std::string> Store::photo_image(LayoutId id, const std::string& stock) {

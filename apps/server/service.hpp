@@ -1,0 +1,88 @@
+#pragma once
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "access.hpp"
+#include "room.hpp"
+#include "server.hpp"
+
+namespace lekalo::server {
+
+/// A client's connection, as the rest of the server knows it (talk.cpp). On the network's thread alone.
+class Talk {
+ public:
+  Talk() = default;
+  virtual ~Talk() = default;
+  Talk(const Talk&) = delete;
+  Talk& operator=(const Talk&) = delete;
+
+  virtual void hear(const Outgoing& message) = 0;
+  /// A long command of this client has ended: what waited for it goes on.
+  virtual void is_free() = 0;
+  /// A last sentence; it is closed when that is sent.
+  virtual void say_goodbye(const std::string& sentence) = 0;
+};
+
+/// A room and the strand on which it is touched.
+struct OpenRoom {
+  OpenRoom(LayoutId layout, boost::asio::thread_pool& pool) : id(layout), strand(pool.get_executor()) {}
+  LayoutId id;
+  boost::asio::strand<boost::asio::thread_pool::executor_type> strand;
+  std::unique_ptr<Room> room;  ///< on the strand alone
+  std::size_t users = 0;       ///< under Service::rooms_lock
+};
+
+/// What connections share.
+///
+/// One thread runs the sockets and owns the connections; up to four run what takes long. A layout's room is
+/// touched on its strand alone, so commands of one layout take turns and those of others go on. What a room
+/// says goes back to the network's thread in the order it was said.
+struct Service {
+  Service(const ServerOptions& options, Store opened);
+
+  Store store;
+  std::unique_ptr<boost::asio::io_context> network = std::make_unique<boost::asio::io_context>(1);
+  boost::asio::io_context& io = *network;
+  boost::asio::thread_pool pool;         ///< runs the strands of rooms; nothing on it waits for another
+  boost::asio::thread_pool api_pool{2};  ///< requests, which may wait for a room
+  boost::asio::thread_pool job_pool;
+  std::atomic<bool> ending = false;  ///< jobs end
+  AccessRules rules;
+  bool stopping = false;  ///< of the network's thread, like the following
+  std::size_t connections = 0;
+  std::unordered_map<ClientNumber, std::weak_ptr<Talk>> talks;
+  ClientNumber last_client = 0;
+  std::mutex rooms_lock;
+  std::map<LayoutId, std::shared_ptr<OpenRoom>> rooms;
+
+  [[nodiscard]] std::shared_ptr<OpenRoom> take_room(LayoutId id);
+  /// A room nobody uses is closed: its memory goes, its layout is in the store.
+  void give_back(const std::shared_ptr<OpenRoom>& room);
+  /// On the room's strand.
+  [[nodiscard]] Result<void> open(OpenRoom& room);
+  /// From a thread that may wait: a change of a layout where nobody else changes it.
+  [[nodiscard]] Result<void> change_room(LayoutId id, const std::function<Result<Outbound>(Room&)>& change);
+  /// From a room's strand.
+  void deliver(Outbound out);
+  /// On the room's strand: runs the jobs that were started there.
+  void run_jobs(const std::shared_ptr<OpenRoom>& room);
+  /// What was begun is finished, then what waits for the network goes, while all it refers to is there.
+  void end();
+
+ private:
+  [[nodiscard]] Result<layout::Change> run_job(const std::shared_ptr<OpenRoom>& room, const JobStart& start);
+  /// From a room's strand: the client's long command has ended.
+  void free_client(ClientNumber client);
+};
+
+}  // namespace lekalo::server
