@@ -48,6 +48,12 @@ build_and_test() {
   run_ctest "$1" --timeout 7200
 }
 
+# What starts threads: fields, nesting, the server, and the commands over them. The rest would be slow for nothing.
+threaded() {
+  build_preset tsan
+  LEKALO_CASES=$sanitizer_cases run_ctest tsan --timeout 7200 -R '^(unit|property|differential|e2e)\.(field|nest|mill|serve|io_files|cli_)'
+}
+
 few_cases() {
   LEKALO_CASES=$sanitizer_cases build_and_test "$1"
 }
@@ -97,7 +103,7 @@ step dev build_and_test dev
 step clang few_cases clang
 step builds-agree builds_agree
 step asan few_cases asan
-step tsan few_cases tsan
+step tsan threaded
 step fuzz fuzz_all
 step bench "$root/bench/run.sh"
 step demo "$root/demo.sh"
