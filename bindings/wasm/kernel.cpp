@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,7 +34,11 @@ constexpr int kClear = 0, kTooClose = 1, kForbidden = 2, kFailed = -1;
 std::vector<double> input;
 std::string text;
 std::vector<double> numbers;
-std::map<std::int32_t, Workspace> layouts;
+struct Open {
+  Workspace layout;
+  std::set<std::uint64_t> unchecked;  ///< what lekalo_check_some has still to look at
+};
+std::map<std::int32_t, Open> layouts;
 std::int32_t last_handle = 0;
 
 int fail(std::string sentence) {
@@ -42,13 +47,17 @@ int fail(std::string sentence) {
   return kFailed;
 }
 
-Workspace* begin(std::int32_t handle) {
+Open* begin_open(std::int32_t handle) {
   text.clear();
   numbers.clear();
   const auto found = layouts.find(handle);
   if (found != layouts.end()) return &found->second;
   fail(fmt::format("there is no layout {} here", handle));
   return nullptr;
+}
+Workspace* begin(std::int32_t handle) {
+  Open* const open = begin_open(handle);
+  return open == nullptr ? nullptr : &open->layout;
 }
 
 /// A whole number below `count`, as an index.
@@ -205,7 +214,10 @@ std::int32_t lekalo_open(std::uint32_t bytes) {
   auto file = io::read_layout(input_text(bytes), "layout");
   if (!file) return fail(file.error().message);
   for (const std::string& notice : file->notices) text += notice + "\n";
-  layouts.try_emplace(++last_handle, std::move(file->document));
+  Open& open =
+      layouts.try_emplace(++last_handle, Open{Workspace(std::move(file->document)), {}}).first->second;
+  for (const Placement& one : open.layout.document().placements)
+    open.unchecked.insert(open.unchecked.end(), one.id);
   return last_handle;
 }
 
@@ -223,23 +235,27 @@ std::int32_t lekalo_document(std::int32_t handle) {
 }
 
 std::int32_t lekalo_set(std::int32_t handle) {
-  Workspace* layout = begin(handle);
-  if (layout == nullptr) return kFailed;
+  Open* open = begin_open(handle);
+  if (open == nullptr) return kFailed;
+  Workspace& layout = open->layout;
   expect_input(kPlacementSize);
-  const auto made = placement(*layout, 0);
+  const auto made = placement(layout, 0);
   if (!made) return kFailed;
   if (made->id == 0) return fail("a placement with id 0; ids begin with 1");
-  layout->set(*made);
-  if (layout->document().next_id <= made->id) layout->set_next_id(made->id + 1);
+  layout.set(*made);
+  open->unchecked.insert(made->id);
+  if (layout.document().next_id <= made->id) layout.set_next_id(made->id + 1);
   return 0;
 }
 
 std::int32_t lekalo_erase(std::int32_t handle, double id) {
-  Workspace* layout = begin(handle);
-  if (layout == nullptr) return kFailed;
+  Open* open = begin_open(handle);
+  if (open == nullptr) return kFailed;
   const auto which = index<std::uint64_t>(id, kLargestId + 1);
-  if (!which || layout->find(*which) == nullptr) return fail(fmt::format("there is no placement {}", id));
-  layout->erase(*which);
+  if (!which || open->layout.find(*which) == nullptr)
+    return fail(fmt::format("there is no placement {}", id));
+  open->layout.erase(*which);
+  open->unchecked.erase(*which);
   return 0;
 }
 
@@ -263,31 +279,53 @@ std::optional<std::uint32_t> stock_of(const Workspace& layout, double stock, std
   return std::nullopt;
 }
 FeatureKind feature_kind(std::int32_t kind) { return kind == 0 ? FeatureKind::defect : FeatureKind::zone; }
+
+/// What a feature may concern is looked at again.
+void uncheck_near(Open& open, std::uint32_t stock, FeatureKind kind, std::string_view id) {
+  const Document& document = open.layout.document();
+  const Stock& of = document.stocks[stock];
+  const auto index = find_feature(of, kind, id);
+  if (!index) return;
+  const geom::GridBox box = bounds(feature_at(of, kind, *index).outline.polygon);
+  std::int64_t reach = 0;
+  std::set<std::int64_t> copies;
+  for (const Placement& one : document.placements) {
+    if (one.stock != stock) continue;
+    copies.insert(one.copy);
+    reach = std::max(reach, defect_gap_of(document, document.parts[one.part]));
+  }
+  for (const std::int64_t copy : copies)
+    for (const phi::BodyIndex body : open.layout.scene({stock, copy}).near(box, reach, kPartLayer))
+      open.unchecked.insert(open.layout.placement_of({stock, copy}, body));
+}
 }  // namespace
 
 std::int32_t lekalo_set_feature(std::int32_t handle, double stock, std::int32_t kind, double at,
                                 std::uint32_t bytes) {
-  Workspace* layout = begin(handle);
-  if (layout == nullptr) return kFailed;
-  const auto which = stock_of(*layout, stock, kind);
+  Open* open = begin_open(handle);
+  if (open == nullptr) return kFailed;
+  const auto which = stock_of(open->layout, stock, kind);
   if (!which) return kFailed;
   const auto place = index(at, static_cast<double>(kMostFeatures));
   if (!place) return fail(fmt::format("there is no place {} in a list", at));
   const auto feature = io::read_feature(feature_kind(kind), input_text(bytes), "feature");
   if (!feature) return fail(feature.error().message);
-  layout->set_feature(*which, *place, *feature);
+  uncheck_near(*open, *which, feature->kind, feature->id);
+  open->layout.set_feature(*which, *place, *feature);
+  uncheck_near(*open, *which, feature->kind, feature->id);
   return 0;
 }
 
 std::int32_t lekalo_erase_feature(std::int32_t handle, double stock, std::int32_t kind, std::uint32_t bytes) {
-  Workspace* layout = begin(handle);
-  if (layout == nullptr) return kFailed;
-  const auto which = stock_of(*layout, stock, kind);
+  Open* open = begin_open(handle);
+  if (open == nullptr) return kFailed;
+  const auto which = stock_of(open->layout, stock, kind);
   if (!which) return kFailed;
   const std::string id(input_text(bytes));
-  if (!find_feature(layout->document().stocks[*which], feature_kind(kind), id))
+  if (!find_feature(open->layout.document().stocks[*which], feature_kind(kind), id))
     return fail(fmt::format("there is no {} of this id", name_of(feature_kind(kind))));
-  layout->erase_feature(*which, feature_kind(kind), id);
+  uncheck_near(*open, *which, feature_kind(kind), id);
+  open->layout.erase_feature(*which, feature_kind(kind), id);
   return 0;
 }
 
@@ -364,6 +402,39 @@ std::int32_t lekalo_check(std::int32_t handle) {
   const Workspace* layout = begin(handle);
   if (layout == nullptr) return kFailed;
   const std::vector<Violation> violations = check(layout->document());
+  for (const Violation& violation : violations) put(violation);
+  return static_cast<std::int32_t>(violations.size());
+}
+
+std::int32_t lekalo_check_some(std::int32_t handle, std::uint32_t most) {
+  Open* open = begin_open(handle);
+  if (open == nullptr) return kFailed;
+  const Workspace& layout = open->layout;
+  const Document& document = layout.document();
+  std::vector<Placement> of;
+  std::set<std::uint64_t>& unchecked = open->unchecked;
+  while (of.size() < most && !unchecked.empty()) {
+    of.push_back(*layout.find(*unchecked.begin()));
+    unchecked.erase(unchecked.begin());
+  }
+  std::set<std::uint64_t> with;
+  for (const Placement& one : of) {
+    const Sheet sheet{one.stock, one.copy};
+    const phi::Scene& scene = layout.scene(sheet);
+    const geom::GridBox& box = scene.box(layout.shape(sheet, one));
+    const std::int64_t gap = document.parts[one.part].gap.value_or(document.rules.gap);
+    for (const phi::BodyIndex body :
+         scene.near({box.low + one.at, box.high + one.at}, std::max(gap, scene.widest_gap()), kPartLayer))
+      with.insert(layout.placement_of(sheet, body));
+  }
+  for (const Placement& one : of) with.erase(one.id);
+  std::vector<Placement> others;
+  for (const std::uint64_t id : with)
+    if (!unchecked.contains(id)) others.push_back(*layout.find(id));
+  const std::vector<Violation> violations = check_some(document, of, others);
+  numbers.push_back(static_cast<double>(unchecked.size()));
+  numbers.push_back(static_cast<double>(of.size()));
+  for (const Placement& one : of) numbers.push_back(static_cast<double>(one.id));
   for (const Violation& violation : violations) put(violation);
   return static_cast<std::int32_t>(violations.size());
 }

@@ -70,6 +70,13 @@ LEKALO_EXPORT(lekalo_state_of)
 std::int32_t lekalo_state_of(std::int32_t handle, std::uint32_t count, double reach, std::int32_t depths);
 /// Numbers: every VIOLATION of the document. \return how many
 LEKALO_EXPORT(lekalo_check) std::int32_t lekalo_check(std::int32_t handle);
+/// The same bit by bit. All placements are unchecked at first, and again when they are set or a feature near
+/// them changes. Looks at up to `most` of the unchecked, lowest ids first. Numbers: how many are left, how
+/// many were looked at, their ids, then every VIOLATION that one of these has a part in, but for those with
+/// an unchecked one, which come when its turn does. So who drops the violations of what was set, erased and
+/// looked at, and adds these, has those of lekalo_check once nothing is left. \return how many
+LEKALO_EXPORT(lekalo_check_some)
+std::int32_t lekalo_check_some(std::int32_t handle, std::uint32_t most);
 
 /// Plans a command line (`bytes` of input) without carrying it out. Numbers: the next id after it, then a
 /// PLACEMENT for each that changes; part is -1 where it goes. Text: what becomes of defects and zones, the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <tuple>
 
 #include "lekalo/base/assert.hpp"
@@ -263,11 +264,13 @@ std::vector<Violation> check(const Document& document) {
 std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
                                   std::span<const Placement> with, Depths depths) {
   std::vector<Violation> violations;
-  std::vector<Placed> mine, theirs;
-  for (const Placement& placement : of)
-    mine.push_back({&placement, placed_outline(part_of(document, placement), placement)});
-  for (const Placement& placement : with)
-    theirs.push_back({&placement, placed_outline(part_of(document, placement), placement)});
+  std::vector<Placed> placed;  // those of `of` first
+  for (const std::span<const Placement> some : {of, with})
+    for (const Placement& placement : some)
+      placed.push_back({&placement, placed_outline(part_of(document, placement), placement)});
+  const auto reach = [&](const Placed& one) {
+    return grown_box(one.outline, own_gap(document, part_of(document, *one.placement)));
+  };
   const auto add_pair = [&](const Placed& one, const Placed& other) {
     if (one.placement->stock != other.placement->stock || one.placement->copy != other.placement->copy)
       return;
@@ -277,10 +280,19 @@ std::vector<Violation> check_some(const Document& document, std::span<const Plac
             pair_violation(document, *a.placement, a.outline, *b.placement, b.outline, depths))
       violations.push_back(*violation);
   };
-  for (std::size_t i = 0; i < mine.size(); ++i) {
-    add_stock_violations(document, mine[i], Features(stock_of(document, of[i])), depths, violations);
-    for (std::size_t j = i + 1; j < mine.size(); ++j) add_pair(mine[i], mine[j]);
-    for (const Placed& other : theirs) add_pair(mine[i], other);
+  std::vector<geom::Box> boxes;
+  for (const Placed& one : placed) boxes.push_back(reach(one));
+  const geom::BoxTree all(std::move(boxes));
+  std::map<std::uint32_t, Features> features;  // by stock
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const std::uint32_t stock = of[i].stock;
+    add_stock_violations(document, placed[i],
+                         features.try_emplace(stock, stock_of(document, of[i])).first->second, depths,
+                         violations);
+    // Of two of `of` the later one meets the other.
+    all.visit_meeting(reach(placed[i]), [&](std::uint32_t j) {
+      if (j < i || j >= of.size()) add_pair(placed[i], placed[j]);
+    });
   }
   sort_violations(violations);
   return violations;

@@ -302,9 +302,10 @@ bool Workspace::has_room(const Placement& placement) const {
 
 Workspace::Lifted::Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids)
     : workspace_(workspace) {
+  std::set<std::uint64_t> taken;
   for (const std::uint64_t id : ids) {
     const Placement* placement = workspace.find(id);
-    if (placement == nullptr || std::find(ids_.begin(), ids_.end(), id) != ids_.end()) continue;
+    if (placement == nullptr || !taken.insert(id).second) continue;
     workspace.take(workspace.sheet_scene({placement->stock, placement->copy}), id);
     ids_.push_back(id);
   }

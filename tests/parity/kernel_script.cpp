@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -71,6 +73,62 @@ bool same(const Violation& v, std::span<const double> n) {
   return std::memcmp(expected, n.data(), sizeof expected) == 0;
 }
 
+/// A violation whose defect or zone is named, as indices shift.
+struct Held {
+  std::array<double, 11> numbers;
+  std::string feature;
+  friend auto operator<=>(const Held&, const Held&) = default;
+};
+std::vector<Held> held_from(std::span<const double> numbers, const Document& document) {
+  std::vector<Held> made;
+  for (; !numbers.empty(); numbers = numbers.subspan(11)) {
+    Violation v;
+    v.kind = static_cast<ViolationKind>(numbers[0]);
+    v.stock = static_cast<std::uint32_t>(numbers[3]);
+    v.feature = static_cast<std::uint32_t>(numbers[5]);
+    Held& one = made.emplace_back();
+    std::copy_n(numbers.begin(), 11, one.numbers.begin());
+    one.numbers[5] = 0;
+    one.feature = feature_id(document, v);
+  }
+  return made;
+}
+
+/// What a page keeps of the check that goes on bit by bit.
+class BitByBit {
+ public:
+  explicit BitByBit(std::int32_t handle) : handle_(handle) {}
+  void forget(std::uint64_t id) {
+    std::erase_if(held_, [&](const Held& one) {
+      return one.numbers[1] == static_cast<double>(id) || one.numbers[2] == static_cast<double>(id);
+    });
+  }
+  /// \return whether nothing is left
+  bool look(std::uint32_t most, const Document& document) {
+    const std::int32_t count = CALL(lekalo_check_some, "", handle_, most);
+    const std::vector<double> numbers = answer();
+    const auto looked = static_cast<std::size_t>(numbers[1]);
+    for (std::size_t i = 0; i < looked; ++i) forget(static_cast<std::uint64_t>(numbers[2 + i]));
+    const std::vector<Held> found = held_from(std::span(numbers).subspan(2 + looked), document);
+    require(static_cast<std::size_t>(count) == found.size(), "how many bit by bit");
+    held_.insert(held_.end(), found.begin(), found.end());
+    return numbers[0] == 0;
+  }
+  void compare(const Document& document) {
+    while (!look(5, document))
+      ;
+    std::sort(held_.begin(), held_.end());
+    CALL(lekalo_check, "", handle_);
+    std::vector<Held> all = held_from(answer(), document);
+    std::sort(all.begin(), all.end());
+    require(held_ == all, "the check bit by bit");
+  }
+
+ private:
+  std::int32_t handle_;
+  std::vector<Held> held_;
+};
+
 void drag(std::int32_t handle, const Workspace& workspace, Random& random) {
   std::vector<double> ids;
   std::vector<Placement> moved;
@@ -107,6 +165,7 @@ void session(std::size_t index) {
   const std::string document = io::write_layout(first);
   const std::int32_t handle = CALL(lekalo_open, document, static_cast<std::uint32_t>(document.size()));
   require(handle > 0, "open");
+  BitByBit bits(handle);
   for (int kind = 0; kind < 5; ++kind)
     for (int a = 0; a < 3; ++a) CALL(lekalo_outline, "", handle, kind, a, random.below(2) == 0 ? 0 : 1);
   for (int step = 0; step < 60 && !workspace.document().placements.empty(); ++step) {
@@ -126,6 +185,7 @@ void session(std::size_t index) {
     // As a page follows a server: placement by placement.
     for (std::size_t i = 0; i < change->placements.size(); ++i) {
       const std::span<const double> one = std::span(numbers).subspan(1 + 10 * i, 10);
+      bits.forget(static_cast<std::uint64_t>(one[0]));
       if (one[1] < 0)
         CALL(lekalo_erase, "", handle, one[0]);
       else
@@ -145,11 +205,12 @@ void session(std::size_t index) {
     }
     CALL(lekalo_set_next_id, "", handle, numbers[0]);
     carry_out(workspace, *change);
+    bits.look(static_cast<std::uint32_t>(1 + random.below(4)), workspace.document());
+    if (step % 4 == 0) bits.compare(workspace.document());
     if (step % 10 == 0) {
       CALL(lekalo_document, "", handle);
       require(std::string(lekalo_text(), lekalo_text_size()) == io::write_layout(workspace.document()),
               "the document");
-      CALL(lekalo_check, "", handle);
       CALL(lekalo_placements, "", handle);
       CALL(lekalo_completeness, "", handle);
     }
