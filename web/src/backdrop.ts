@@ -225,7 +225,7 @@ function described(scene: Scene): Painted {
   const { x, y, scale } = scene.view;
   return {
     x, y, scale, model: scene.model, theme: scene.theme, show: JSON.stringify(scene.show), looks,
-    sheets: `${scene.model.features} ${scene.photo ? [scene.photo.a, scene.photo.b, scene.photo.x, scene.photo.y].join(' ') : ''} ` + scene.model.sheets.map((s) => `${s.x} ${s.y} ${s.box.right} ${s.box.top}`).join(),
+    sheets: `${scene.model.features} ${scene.photos.count} ` + scene.model.sheets.map((s) => `${s.x} ${s.y} ${s.box.right} ${s.box.top}`).join(),
     violations: new Map(restingViolations(scene).map((v) => [`${v.kind} ${v.a} ${v.b} ${v.copy} ${v.at[0]} ${v.at[1]} ${v.amount_mm}`, v])),
   };
 }

@@ -73,6 +73,6 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
     h('button', { 'aria-label': t('language'), 'data-action': 'language', click: events.language }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', events.help));
   tools.setAttribute('aria-label', t('tools'));
   tools.replaceChildren(tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'),
-    tool('defect'), tool('zone'), ...(editor.photo ? [tool('photo')] : []));
+    tool('defect'), tool('zone'), ...(editor.photos.size > 0 ? [tool('photo')] : []));
   if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
 }

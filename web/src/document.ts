@@ -28,8 +28,9 @@ export interface LayoutDocument {
   rules?: { gap?: number; border_gap?: number; defect_gap?: number };
   stocks?: Stock[]; parts?: Part[]; kits?: Kit[]; placements?: Placement[]; next_id?: number;
 }
-export type ViolationKind =
-  | 'overlap' | 'gap' | 'outside' | 'border-gap' | 'defect' | 'defect-gap' | 'quality' | 'rotation' | 'mirror' | 'grain' | 'stock';
+/// In the order in which the check names them.
+export const VIOLATION_KINDS = ['overlap', 'gap', 'outside', 'border-gap', 'defect', 'defect-gap', 'quality', 'rotation', 'mirror', 'grain', 'stock'] as const;
+export type ViolationKind = (typeof VIOLATION_KINDS)[number];
 export interface Violation {
   kind: ViolationKind; a: number; b: number | null; stock: string; copy: number; amount_mm: number; at: Point;
   direction?: Point | null; feature?: string;

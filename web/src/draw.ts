@@ -3,7 +3,7 @@
 
 import { Backdrop, type Painter } from './backdrop';
 import { isGap, type Part, type Placement, type Point, type Violation } from './document';
-import type { Photo } from './photo';
+import type { Photos } from './photos';
 import type { LiveState } from './kernel_api';
 import { boxesMeet, innerPoint, placedAt, placedBox, type Box, type Model, type Sheet } from './model';
 import type { View } from './view';
@@ -36,7 +36,9 @@ export interface Scene {
   band: Box | null;
   /// An outline being drawn.
   draft: readonly Point[];
-  photo: Photo | null;
+  photos: Pick<Photos, 'get' | 'count'>;
+  /// What turning a photograph leaves where it is.
+  pins: readonly Point[];
   ruler: { from: Point; to: Point } | null;
   arrow: { from: Point; to: Point } | null;
   /// Of the chosen parts at rest; pixels.
@@ -226,6 +228,7 @@ export class Picture implements Painter {
       this.drawMeasure(ctx, scene, from, to, `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`, theme.select);
     }
     if (scene.draft.length > 0) this.drawDraft(ctx, scene);
+    for (const pin of scene.pins) this.drawPin(ctx, theme, view.toScreen(...pin));
     if (scene.handle) this.drawHandle(ctx, theme, scene.handle.top, scene.handle.at);
     if (scene.arrow) this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
     if (scene.band) {
@@ -277,11 +280,12 @@ export class Picture implements Painter {
     }
     ctx.fillStyle = theme.material;
     ctx.fill(path, 'evenodd');
-    if (scene.photo) {
-      const { image, a, b, x, y } = scene.photo;
+    const photo = scene.photos.get(stock.id);
+    if (photo) {
+      const { image, a, b, x, y } = photo;
       ctx.save();
       ctx.clip(path, 'evenodd');
-      ctx.transform(a, b, b, -a, x - sheet.x, y - sheet.y);
+      ctx.transform(a, b, b, -a, x, y);
       ctx.drawImage(image, 0, 0);
       ctx.restore();
     }
@@ -483,6 +487,22 @@ export class Picture implements Painter {
       ctx.arc(x, y, 3.5, 0, 7);
       ctx.fill();
     }
+  }
+
+  private drawPin(ctx: CanvasRenderingContext2D, theme: Theme, [x, y]: Point): void {
+    ctx.strokeStyle = theme.select;
+    ctx.fillStyle = theme.material;
+    ctx.lineWidth = 2;
+    ctx.beginPath();
+    ctx.arc(x, y, 6, 0, 7);
+    ctx.fill();
+    ctx.stroke();
+    ctx.beginPath();
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]] as const) {
+      ctx.moveTo(x + dx * 3, y + dy * 3);
+      ctx.lineTo(x + dx * 11, y + dy * 11);
+    }
+    ctx.stroke();
   }
 
   private drawHandle(ctx: CanvasRenderingContext2D, theme: Theme, [x0, y0]: Point, [x, y]: Point): void {

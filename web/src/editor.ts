@@ -1,15 +1,17 @@
 // The state of the page, and what a gesture does to it. Drawing and panels look at it and are told when it changes.
 
+import { Checking } from './checking';
 import type { FeatureChange, LayoutDocument, Placement, Violation } from './document';
 import { snapToGrid } from './grid';
 import { UNKNOWN, type Kernel, type LiveState, type Mode } from './kernel_api';
 import { Model, type Change } from './model';
-import type { Photo } from './photo';
+import { Photos } from './photos';
 import type { Client, Connection, Course } from './socket';
 import { t } from './i18n';
+import { Transfer, type Answer } from './transfer';
 
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
-export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show' | 'photo' | 'long';
+export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show' | 'photo' | 'long' | 'check' | 'transfer';
 export interface Feature { stock: string; kind: 'defect' | 'zone'; id: string }
 /// A command that runs beside the layout.
 export interface Long {
@@ -45,13 +47,12 @@ export class Editor {
   tool: Tool = 'select';
   selection = new Set<number>();
   others = new Map<number, readonly number[]>();
-  violations: Violation[] | null = null;
   moving = new Map<number, Placement>();
   live: LiveState | null = null;
   rotateStep = 15;
   /// Severity of the next defect, quality of the next zone.
   grades = { defect: 1, zone: 1 };
-  photo: Photo | null = null;
+  readonly photos = new Photos(this);
   show = { labels: true, grain: true, gap: true, zones: true };
   message = '';
   pending = 0;
@@ -65,8 +66,16 @@ export class Editor {
   private next: { text: string } | null = null;
   private held: symbol | null = null;
   private resting: ReturnType<typeof setTimeout> | null = null;
+  /// Files on their way from or to the server.
+  readonly transfers = new Set<Transfer>();
+  readonly checking = new Checking(() => this.kernel, () => this.model, (whole) => this.tell(whole ? 'layout' : 'check'));
 
   constructor(public kernel: Kernel) {}
+
+  /// What is known of them; null: not here.
+  get violations(): readonly Violation[] | null {
+    return this.checking.found;
+  }
 
   on(listener: (topic: Topic) => void): void {
     this.listeners.push(listener);
@@ -86,9 +95,9 @@ export class Editor {
     this.release();
     try {
       this.kernel.open(document);
-      this.violations = this.kernel.check();
+      this.checking.begin();
     } catch (error) {
-      this.violations = null;
+      this.checking.fail();
       this.say(error instanceof Error ? error.message : String(error));
     }
     this.tell('layout');
@@ -98,7 +107,7 @@ export class Editor {
     this.fresh = new Set(changes.filter(({ id, after }) => after && !this.model.placements.has(id)).map(({ id }) => id));
     this.model.apply(changes, nextId, features);
     this.kernel.apply(changes, nextId, features);
-    this.violations = this.kernel.check();
+    this.checking.changed(changes.map(({ id }) => id));
     for (const { id, after } of changes) if (!after) this.selection.delete(id);
     this.tell('layout');
   }
@@ -177,6 +186,19 @@ export class Editor {
     this.moving = new Map();
     this.live = null;
     this.tell('moving');
+  }
+
+  /// Asks the server for what may take a while. \return null: cancelled. Throws where there is no answer
+  async transfer(kind: Transfer['kind'], name: string, method: string, address: string, body?: Blob): Promise<Answer | null> {
+    const one = new Transfer(kind, name, () => this.tell('transfer'));
+    this.transfers.add(one);
+    this.tell('transfer');
+    try {
+      return await one.send(method, address, body);
+    } finally {
+      this.transfers.delete(one);
+      this.tell('transfer');
+    }
   }
 
   /// Sends a command; what is in hand stays shown where it is until the server has decided.

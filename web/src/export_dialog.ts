@@ -5,9 +5,11 @@ import { CHOICES, isAsked, request, sheetsInUse, type ChosenForm, type Field, ty
 import { t, type Key } from './i18n';
 import type { Model } from './model';
 
+/// What came of saving: why not, or null; and what there is to know about the file.
+export interface Saved { refused: string | null; notes: string[] }
+
 export interface ExportEvents {
-  /// \return why it could not be written, or null
-  download(fields: URLSearchParams): Promise<string | null>;
+  download(fields: URLSearchParams): Promise<Saved>;
   /// What was chosen the last time; a shop's machine is the same tomorrow.
   recall(form: ChosenForm): Values;
   keep(form: ChosenForm, values: Values): void;
@@ -30,6 +32,8 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
   });
   const sheet = h('select', { 'data-field': 'sheet' }, ...(sheetEach ? [] : [h('option', { value: '' }, t('export.sheet.all'))]), ...sheets.map((one) => h('option', { value: one }, one)));
   const trouble = h('p', { class: 'trouble', role: 'alert' });
+  const known = h('div', { class: 'notes', role: 'status' });
+  const cancel = h('button', { type: 'button', 'data-action': 'export.cancel', click: () => dialog.close() }, t('export.cancel'));
   const save = h('button', { type: 'submit', 'data-action': 'export.save' }, t('export.save'));
   /// A comma is what half of Europe writes; the server reads points.
   const values = (): Values => Object.fromEntries(rows.map(({ field, input }) => [field.name, field.of ? input.value : input.value.trim().replace(',', '.')]));
@@ -44,18 +48,22 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
       void (async () => {
         save.disabled = true;
         trouble.textContent = '';
+        known.replaceChildren();
         const chosen = values();
-        const refused = await events.download(request(form, sheets.length > 1 ? sheet.value : '', chosen));
+        const { refused, notes } = await events.download(request(form, sheets.length > 1 ? sheet.value : '', chosen));
         save.disabled = false;
         if (refused !== null) {
           trouble.textContent = refused;
           return save.focus();
         }
         events.keep(form, chosen);
-        dialog.close();
+        if (notes.length === 0) return dialog.close();
+        // What is to be known about the file is read before the dialog goes.
+        known.replaceChildren(h('p', {}, t('export.saved')), h('ul', {}, ...notes.map((note) => h('li', {}, note))));
+        cancel.textContent = t('close');
+        cancel.focus();
       })();
-    } }, h('div', { class: 'fields' }, sheets.length > 1 ? h('label', {}, h('span', {}, t('export.sheet')), sheet) : null, ...rows.map((r) => r.row)), trouble,
-    h('div', { class: 'buttons' }, h('button', { type: 'button', 'data-action': 'export.cancel', click: () => dialog.close() }, t('export.cancel')), save)));
+    } }, h('div', { class: 'fields' }, sheets.length > 1 ? h('label', {}, h('span', {}, t('export.sheet')), sheet) : null, ...rows.map((r) => r.row)), trouble, known, h('div', { class: 'buttons' }, cancel, save)));
   dialog.addEventListener('close', () => dialog.remove());
   showAsked();
   return dialog;

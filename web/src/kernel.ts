@@ -73,6 +73,15 @@ export interface State {
   violations: Violation[];
 }
 
+/** What a look at some of the unchecked placements found. */
+export interface Looked {
+  /** How many are still unchecked. */
+  left: number;
+  /** Ids of those that were looked at. */
+  ids: number[];
+  violations: Violation[];
+}
+
 export interface Plan {
   changed: Placement[];
   removed: number[];
@@ -109,6 +118,7 @@ interface Exports {
   ): number;
   lekalo_state_of(layout: number, count: number, reach: number, depths: number): number;
   lekalo_check(layout: number): number;
+  lekalo_check_some(layout: number, most: number): number;
   lekalo_plan(layout: number, bytes: number, strict: number): number;
   lekalo_pick(layout: number, stock: number, copy: number, x: number, y: number): number;
   lekalo_in_box(
@@ -298,6 +308,18 @@ export class Layout {
     return violationsFrom(this.kernel.numbers(), 0);
   }
 
+  /**
+   * The same a few placements at a time. All are unchecked at first, and again when they change or a feature near
+   * them does. Who drops the violations of what changed and was looked at, and adds these, has those of check()
+   * when none is left.
+   */
+  checkSome(most: number): Looked {
+    this.kernel.demand(this.wasm.lekalo_check_some(this.handle, most));
+    const n = this.kernel.numbers();
+    const first = 2 + n[1]!;
+    return { left: n[0]!, ids: [...n.subarray(2, first)], violations: violationsFrom(n, first) };
+  }
+
   /** What a command line would change. Throws a Refusal with the reason. */
   plan(line: string, mode: 'strict' | 'free'): Plan {
     this.kernel.demand(
@@ -395,39 +417,38 @@ function flat(p: Placement): number[] {
   return [p.id, p.part, p.stock, p.copy, p.c, p.s, p.x, p.y, Number(p.mirrored), Number(p.locked)];
 }
 
-function placementsFrom(n: Float64Array, from: number): Placement[] {
-  const made: Placement[] = [];
-  for (let i = from; i < n.length; i += placementSize) {
-    made.push({
-      id: n[i]!,
-      part: n[i + 1]!,
-      stock: n[i + 2]!,
-      copy: n[i + 3]!,
-      c: n[i + 4]!,
-      s: n[i + 5]!,
-      x: n[i + 6]!,
-      y: n[i + 7]!,
-      mirrored: n[i + 8] !== 0,
-      locked: n[i + 9] !== 0,
-    });
-  }
+/** Records of `size` numbers each, from an index on. */
+function recordsFrom<T>(n: Float64Array, from: number, size: number, read: (at: number) => T): T[] {
+  const made: T[] = [];
+  for (let at = from; at < n.length; at += size) made.push(read(at));
   return made;
 }
 
+function placementsFrom(n: Float64Array, from: number): Placement[] {
+  return recordsFrom(n, from, placementSize, (i) => ({
+    id: n[i]!,
+    part: n[i + 1]!,
+    stock: n[i + 2]!,
+    copy: n[i + 3]!,
+    c: n[i + 4]!,
+    s: n[i + 5]!,
+    x: n[i + 6]!,
+    y: n[i + 7]!,
+    mirrored: n[i + 8] !== 0,
+    locked: n[i + 9] !== 0,
+  }));
+}
+
 function violationsFrom(n: Float64Array, from: number): Violation[] {
-  const made: Violation[] = [];
-  for (let i = from; i < n.length; i += violationSize) {
-    made.push({
-      kind: violationKinds[n[i]!]!,
-      a: n[i + 1]!,
-      b: n[i + 2]!,
-      stock: n[i + 3]!,
-      copy: n[i + 4]!,
-      feature: n[i + 5]!,
-      amount: n[i + 6]!,
-      at: [n[i + 7]!, n[i + 8]!],
-      direction: [n[i + 9]!, n[i + 10]!],
-    });
-  }
-  return made;
+  return recordsFrom(n, from, violationSize, (i) => ({
+    kind: violationKinds[n[i]!]!,
+    a: n[i + 1]!,
+    b: n[i + 2]!,
+    stock: n[i + 3]!,
+    copy: n[i + 4]!,
+    feature: n[i + 5]!,
+    amount: n[i + 6]!,
+    at: [n[i + 7]!, n[i + 8]!],
+    direction: [n[i + 9]!, n[i + 10]!],
+  }));
 }

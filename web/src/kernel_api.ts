@@ -8,6 +8,9 @@ export type Mode = 'strict' | 'free';
 export type Level = 'clear' | 'gap' | 'forbidden' | 'unknown';
 export interface Nearest { distance: number; from: Point; to: Point }
 export interface LiveState { level: Level; violations: Violation[]; nearest: Nearest | null }
+/// What a look at some placements found: every violation that one of them has a part in, but for those with one
+/// that is still to be looked at.
+export interface Looked { left: number; ids: number[]; violations: Violation[] }
 export const UNKNOWN: LiveState = { level: 'unknown', violations: [], nearest: null };
 
 export interface Kernel {
@@ -25,4 +28,6 @@ export interface Kernel {
   turned(ids: readonly number[], degrees: number): Placement[] | null;
   /// Every violation of the layout; null: not known here.
   check(): Violation[] | null;
+  /// The same a few placements at a time: of those that changed since they were looked at.
+  checkSome(most: number): Looked | null;
 }

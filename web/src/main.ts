@@ -6,7 +6,7 @@ import { showBar as showTools } from './bar';
 import { Editor, movedBy } from './editor';
 import { h } from './elements';
 import type { ChosenForm, Values } from './export_choices';
-import { exportDialog } from './export_dialog';
+import { exportDialog, type Saved } from './export_dialog';
 import { currentLanguage, setLanguage, t, type Key, type Language } from './i18n';
 import { printed } from './print';
 import { showSidePanel, type Side } from './sides';
@@ -19,6 +19,7 @@ import { dragFromTray } from './tools/from_tray';
 import { photoBeneath } from './tools/features';
 import { PointerTool, turningHandle } from './tools/pointer';
 import { tray } from './panels/tray';
+import { sentenceOf } from './transfer';
 import { View } from './view';
 import { loadWasmKernel } from './wasm_kernel';
 
@@ -89,9 +90,17 @@ function later(duty: Duty): void {
 function scene(): Scene {
   return {
     model: editor.model, view, theme, selection: editor.selection, others: new Set([...editor.others.values()].flat()),
-    violations: editor.violations ?? [], moving: editor.moving, coming: editor.coming(), live: editor.live, ...pointer.overlay, photo: editor.photo, show: editor.show,
+    violations: editor.violations ?? [], moving: editor.moving, coming: editor.coming(), live: editor.live, ...pointer.overlay, photos: editor.photos, pins: pinsShown(), show: editor.show,
     handle: editor.moving.size === 0 ? turningHandle(editor, view) : null,
   };
+}
+/// Of the photographs, while they are pulled.
+function pinsShown(): [number, number][] {
+  if (editor.tool !== 'photo') return [];
+  return editor.model.sheets.flatMap((sheet): [number, number][] => {
+    const pinned = editor.photos.get(sheet.stock.id)?.pinned;
+    return pinned ? [[pinned[0] + sheet.x, pinned[1] + sheet.y]] : [];
+  });
 }
 function frame(): void {
   const duty = due;
@@ -126,7 +135,7 @@ function mirrorLater(): void {
   if (mirrorDue) clearTimeout(mirrorDue);
   mirrorDue = setTimeout(() => {
     mirrorDue = null;
-    mirror.update(editor.model, view, editor.selection, editor.violations);
+    mirror.update(editor.model, view, editor.selection, editor.violations, editor.violations !== null && editor.checking.left === 0);
     const first = editor.chosen()[0];
     if (first === undefined) picture.removeAttribute('aria-activedescendant');
     else picture.setAttribute('aria-activedescendant', mirrorId(first));
@@ -135,7 +144,7 @@ function mirrorLater(): void {
 }
 
 const showBar = (): void => showTools(bar, tools, editor, known, {
-  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void download(new URLSearchParams({ form })).then((refused) => refused && editor.say(refused)), choose, print: () => window.print(),
+  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void save(form), choose, print: () => window.print(),
   fit: fitAll, help: showHelp,
   photo: (file) => void photoBeneath(editor, view, file).catch((error: unknown) => editor.say(String(error))),
   theme: () => {
@@ -179,6 +188,7 @@ function showStatus(): void {
   message.textContent = message.title = editor.message;
   const others = [...editor.others.keys()].filter((c) => c >= 0).length;
   status.dataset.pending = String(editor.pending);
+  status.dataset.unchecked = String(editor.checking.left);
   state.textContent = [others > 0 ? t('others', { n: others }) : '', t(editor.pending > (editor.long ? 1 + editor.queued.length : 0) ? 'state.saving' : `state.${editor.connection}`)].filter(Boolean).join(' · ');
 }
 function showAll(): void {
@@ -250,26 +260,42 @@ async function readLayouts(): Promise<void> {
 }
 async function takeFiles(files: FileList | null): Promise<void> {
   for (const file of files ?? []) {
-    const made = await api<{ id: number; notices: string[] }>(`/api/layouts?name=${encodeURIComponent(file.name)}`, { method: 'POST', body: file });
-    if (!made) continue;
-    await readLayouts();
-    openLayout(made.id);
-    if (made.notices.length > 0) editor.say(made.notices.join(' · '));
+    try {
+      const answer = await editor.transfer('open', t('transfer.open', { name: file.name }), 'POST', `/api/layouts?name=${encodeURIComponent(file.name)}`, file);
+      if (!answer) continue;
+      if (answer.status !== 201) {
+        editor.say(await sentenceOf(answer));
+        continue;
+      }
+      const made = JSON.parse(await answer.body.text()) as { id: number; notices: string[] };
+      await readLayouts();
+      openLayout(made.id);
+      if (made.notices.length > 0) editor.say(made.notices.join(' · '));
+    } catch (error) {
+      editor.say(error instanceof Error ? error.message : String(error));
+    }
   }
 }
-/// Exports as a download. \return why not, where it could not be
-async function download(fields: URLSearchParams): Promise<string | null> {
+/// Exports as a download.
+async function download(fields: URLSearchParams): Promise<Saved> {
+  const form = fields.get('form')!;
   try {
-    const answer = await fetch(`/api/layouts/${editor.layoutId}/export?${fields}`);
-    if (!answer.ok) return ((await answer.json()) as { error?: string }).error ?? String(answer.status);
-    const name = /filename="([^"]*)"/.exec(answer.headers.get('Content-Disposition') ?? '')?.[1] ?? `layout.${fields.get('form')}`;
-    const address = URL.createObjectURL(await answer.blob());
+    const answer = await editor.transfer('export', t('transfer.export', { form }), 'GET', `/api/layouts/${editor.layoutId}/export?${fields}`);
+    if (!answer) return { refused: t('transfer.cancelled'), notes: [] };
+    if (answer.status !== 200) return { refused: await sentenceOf(answer), notes: [] };
+    const name = /filename="([^"]*)"/.exec(answer.header('Content-Disposition') ?? '')?.[1] ?? `layout.${form}`;
+    const address = URL.createObjectURL(answer.body);
     h('a', { href: address, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
-    return null;
+    return { refused: null, notes: JSON.parse(answer.header('Lekalo-Notes') ?? '[]') as string[] };
   } catch (error) {
-    return error instanceof Error ? error.message : String(error);
+    return { refused: error instanceof Error ? error.message : String(error), notes: [] };
   }
+}
+/// A form without choices.
+async function save(form: string): Promise<void> {
+  const { refused, notes } = await download(new URLSearchParams({ form }));
+  if (refused !== null || notes.length > 0) editor.say(refused ?? notes.join(' · '));
 }
 function choose(form: ChosenForm): void {
   const dialog = exportDialog(form, editor.model, {
@@ -297,6 +323,7 @@ function openLayout(id: number): void {
   editor.layoutId = id;
   editor.selection.clear();
   editor.others.clear();
+  editor.photos.clear();
   fitted = false;
   const here = new URL(location.href);
   here.searchParams.set('layout', String(id));
@@ -305,12 +332,16 @@ function openLayout(id: number): void {
   const url = new URL(`/ws?layout=${id}&author=${author}`, location.href);
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   editor.client = new Client(() => new WebSocket(url, 'lekalo.1') as unknown as Wire, {
-    layout: (m) => editor.open(m.document, m.name),
+    layout: (m) => {
+      editor.open(m.document, m.name);
+      void editor.photos.read('all');
+    },
     change: (m) => editor.apply(m.placements, m.next_id, m.features),
     selections: (clients) => {
       editor.others = new Map(clients.map((c) => [c.client, c.ids]));
       editor.tell('selection');
     },
+    photos: (stock, image) => void editor.photos.read(image ? { stock } : 'none'),
     error: (text) => editor.say(text),
     connection: (to) => {
       editor.connection = to;
@@ -331,12 +362,13 @@ editor.on((topic) => {
   const isMoving = editor.moving.size > 0;
   picture.dataset.moving = String(isMoving);
   picture.dataset.level = editor.live?.level ?? '';
-  if (topic === 'long') {
-    longBar.show();
-    later('top');
-  } else if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
-  if (topic === 'mode' || topic === 'show' || (topic === 'photo' && !tools.querySelector('[data-action="tool.photo"]'))) showBar();
-  if ((topic === 'layout' || topic === 'selection') && !panelsDue) {
+  if (topic === 'long' || topic === 'check' || topic === 'transfer' || topic === 'layout') longBar.show();
+  if (topic === 'long') later('top');
+  else if (topic === 'check' || topic === 'transfer') return;
+  else if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
+  if (topic === 'mode' || topic === 'show' || (topic === 'photo' && (editor.photos.size > 0) !== (tools.querySelector('[data-action="tool.photo"]') !== null))) showBar();
+  const photosAtRest = topic === 'photo' && side === 'sheets' && ![...editor.photos].some((photo) => photo.pulled);
+  if ((topic === 'layout' || topic === 'selection' || photosAtRest) && !panelsDue) {
     panelsDue = true;
     setTimeout(() => {
       panelsDue = false;
@@ -438,7 +470,7 @@ const lekaloBench = {
     drawing.backdrop.follow(scene());
     base.getContext('2d')!.getImageData(0, 0, 1, 1);
   }),
-  photo: () => editor.photo && { a: editor.photo.a, b: editor.photo.b, x: editor.photo.x, y: editor.photo.y },
+  photos: () => [...editor.photos].map(({ stock, a, b, x, y, image: { width, height } }) => ({ stock, a, b, x, y, width, height })),
   paintAll: () => {
     drawing.resize(view, picture.clientWidth, picture.clientHeight);
     drawing.backdrop.draw(scene());

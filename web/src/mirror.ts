@@ -25,7 +25,8 @@ export class Mirror {
     this.element.style.transform = `matrix(${view.scale}, 0, 0, ${view.scale}, ${view.x}, ${view.y})`;
   }
 
-  update(model: Model, view: View, selection: ReadonlySet<number>, violations: readonly Violation[] | null): void {
+  /// \param whole  what no violation names breaks no rule
+  update(model: Model, view: View, selection: ReadonlySet<number>, violations: readonly Violation[] | null, whole: boolean): void {
     if (this.of !== model) {
       this.of = model;
       this.shown.clear();
@@ -42,7 +43,7 @@ export class Mirror {
       item.remove();
       this.shown.delete(id);
     }
-    for (const p of wanted.values()) this.show(model, p, selection.has(p.id), violations ? broken.get(p.id) ?? [] : null);
+    for (const p of wanted.values()) this.show(model, p, selection.has(p.id), broken.get(p.id) ?? (whole ? [] : null));
   }
 
   private wanted(model: Model, view: View, selection: ReadonlySet<number>, broken: ReadonlyMap<number, unknown>): Map<number, Placement> {

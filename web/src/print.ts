@@ -39,7 +39,7 @@ function picture(editor: Editor, sheet: Sheet): HTMLCanvasElement {
   view.fit({ left: box.left + sheet.x, right: box.right + sheet.x, bottom: box.bottom + sheet.y, top: box.top + sheet.y }, MARGIN);
   drawing.backdrop.draw({
     model: editor.model, view, theme: { ...LIGHT, back: '#fff' }, selection: new Set(), others: new Set(), violations: editor.violations ?? [],
-    moving: new Map(), coming: new Map(), live: null, band: null, ruler: null, arrow: null, draft: [], photo: editor.photo, handle: null, show: { ...editor.show, labels: true },
+    moving: new Map(), coming: new Map(), live: null, band: null, ruler: null, arrow: null, draft: [], photos: editor.photos, pins: [], handle: null, show: { ...editor.show, labels: true },
   });
   return canvas;
 }

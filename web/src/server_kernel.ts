@@ -22,6 +22,9 @@ export class ServerKernel implements Kernel {
   check(): null {
     return null;
   }
+  checkSome(): null {
+    return null;
+  }
   async state(_placements: readonly Placement[], text: string): Promise<LiveState> {
     const client = this.client();
     if (!client) return UNKNOWN;

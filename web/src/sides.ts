@@ -47,7 +47,7 @@ function sheets(editor: Editor, events: SideEvents): HTMLElement {
   }
   return h('div', {}, h('ul', { class: 'list' }, ...editor.model.sheets.map((s) => h('li', { 'data-id': `sheet-${s.stock.id}-${s.copy}` },
     h('button', { click: () => events.sheet(s) }, h('b', {}, String(s.copy + 1)), h('span', {}, s.stock.name ?? s.stock.id),
-      h('small', {}, t('sheets.parts', { n: counts.get(s) ?? 0 })))))), ...features(editor));
+      h('small', {}, t('sheets.parts', { n: counts.get(s) ?? 0 })))))), ...features(editor), ...photos(editor));
 }
 
 /// Defects and zones of every stock: their grade, and away with them. New ones are drawn with the tools.
@@ -62,4 +62,16 @@ function features(editor: Editor): HTMLElement[] {
           change: (e) => void editor.command(line.gradeFeature(named, Number((e.target as HTMLInputElement).value))) }),
         h('button', { class: 'small', 'aria-label': `${t('feature.remove')} ${f.id}`, click: () => void editor.command(line.removeFeature(named)) }, '✕'));
     })))));
+}
+
+/// Of each stock that has one: to begin the scale anew, and away with it.
+function photos(editor: Editor): HTMLElement[] {
+  if (editor.photos.size === 0) return [];
+  return [h('section', {}, h('h2', {}, t('photos')), h('ul', { class: 'list' }, ...[...editor.photos].map((photo) => h('li', { 'data-id': `photo-${photo.stock}`, class: 'field' },
+    h('span', {}, editor.model.stocks.get(photo.stock)?.name ?? photo.stock),
+    h('button', { class: 'small', title: t('photo.unpin'), 'data-action': 'photo.unpin', click: () => {
+      photo.unpin();
+      editor.setTool('photo');
+    } }, t('photo.unpin.short')),
+    h('button', { class: 'small', 'aria-label': t('feature.remove'), click: () => void editor.photos.remove(photo.stock) }, '✕')))))];
 }

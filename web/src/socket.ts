@@ -28,6 +28,8 @@ export interface SocketEvents {
   layout(message: LayoutMessage): void;
   change(message: ChangeMessage): void;
   selections(clients: { client: number; ids: number[] }[]): void;
+  /// A photograph of this stock is another, or lies elsewhere.
+  photos?(stock: string, image: boolean): void;
   error(message: string): void;
   connection(state: Connection): void;
 }
@@ -154,6 +156,9 @@ export class Client {
         break;
       case 'selections':
         this.events.selections((message.clients as { client: number; ids: number[] }[]).filter((c) => c.client !== this.id));
+        break;
+      case 'photos':
+        this.events.photos?.(String(message.stock), message.image === true);
         break;
       case 'error':
         this.events.error(String(message.message));

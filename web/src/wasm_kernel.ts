@@ -2,7 +2,7 @@
 
 import { rotate } from './commands';
 import type { FeatureChange, LayoutDocument, Placement, Stock, Violation, ViolationKind } from './document';
-import { UNKNOWN, type Kernel, type Level, type LiveState } from './kernel_api';
+import { UNKNOWN, type Kernel, type Level, type LiveState, type Looked } from './kernel_api';
 import type { Change } from './model';
 
 interface KernelViolation {
@@ -23,6 +23,7 @@ interface KernelLayout {
     nearest: { distance: number; onOther: [number, number]; onPart: [number, number] } | null;
   };
   check(): KernelViolation[];
+  checkSome(most: number): { left: number; ids: number[]; violations: KernelViolation[] };
   plan(line: string, mode: 'strict' | 'free'): { changed: KernelPlacement[] };
 }
 interface KernelModule {
@@ -70,6 +71,10 @@ class WasmKernel implements Kernel {
   }
   check(): Violation[] | null {
     return this.layout ? this.layout.check().map((v) => this.violation(v)) : null;
+  }
+  checkSome(most: number): Looked | null {
+    const looked = this.layout?.checkSome(most);
+    return looked ? { ...looked, violations: looked.violations.map((v) => this.violation(v)) } : null;
   }
   state(placements: readonly Placement[], _text: string, reach: number, depths: boolean): LiveState {
     const layout = this.layout;

@@ -4,8 +4,8 @@
 import * as line from '../commands';
 import type { Point } from '../document';
 import type { Editor, Feature } from '../editor';
-import { contains, placedAt, type Sheet } from '../model';
-import { Photo } from '../photo';
+import { contains, type Sheet } from '../model';
+import type { Photo } from '../photo';
 import type { View } from '../view';
 
 /// Pixels: between points of a stroke, to the first point that closes an outline, of a stroke that is one.
@@ -19,7 +19,7 @@ export class FeatureTool {
   private sheet: Sheet | null = null;
   private stroke: Point[] | null = null;
   private moving: { feature: Feature; from: Point; by: Point } | null = null;
-  private pulling: Point | null = null;
+  private pulling: { photo: Photo; sheet: Sheet; from: Point } | null = null;
 
   constructor(private readonly editor: Editor, private readonly view: View) {}
 
@@ -35,7 +35,9 @@ export class FeatureTool {
   /// \return whether the press is for this tool
   down(world: Point): boolean {
     if (this.editor.tool === 'photo') {
-      if (this.editor.photo) this.pulling = world;
+      const sheet = this.editor.model.sheetAt(...world) ?? this.editor.model.sheets.find((one) => this.editor.photos.get(one.stock.id));
+      const photo = sheet && this.editor.photos.get(sheet.stock.id);
+      if (photo) this.pulling = { photo, sheet, from: [world[0] - sheet.x, world[1] - sheet.y] };
       return true;
     }
     const kind = this.draws;
@@ -58,9 +60,10 @@ export class FeatureTool {
   }
 
   move(world: Point): void {
-    if (this.pulling && this.editor.photo) {
-      this.editor.photo.pull(this.pulling, world);
-      this.editor.tell('photo');
+    if (this.pulling) {
+      const { photo, sheet, from } = this.pulling;
+      photo.pull(from, [world[0] - sheet.x, world[1] - sheet.y]);
+      this.editor.photos.changed();
     }
     if (this.moving) this.moving.by = [world[0] - this.moving.from[0], world[1] - this.moving.from[1]];
     if (this.stroke && this.pixels(this.stroke.at(-1)!, world) >= STROKE_STEP) this.stroke.push(world);
@@ -68,8 +71,9 @@ export class FeatureTool {
 
   up(): void {
     if (this.pulling) {
-      this.editor.photo?.pin();
+      const { photo } = this.pulling;
       this.pulling = null;
+      if (photo.pin()) void this.editor.photos.keep(photo);
     }
     if (this.moving) {
       const { feature, by } = this.moving;
@@ -135,10 +139,8 @@ export class FeatureTool {
   }
 }
 
-/// A photograph laid over the sheet that is in the middle of the view.
+/// A photograph for the stock whose sheet is in the middle of the view.
 export async function photoBeneath(editor: Editor, view: View, file: File): Promise<void> {
-  const image = await createImageBitmap(file);
   const sheet = editor.model.sheetAt(...view.toWorld(view.width / 2, view.height / 2)) ?? editor.model.sheets[0];
-  if (sheet) editor.photo = new Photo(image, placedAt(sheet.box, sheet));
-  editor.tell('photo');
+  if (sheet) await editor.photos.add(sheet.stock.id, sheet.box, file);
 }
