@@ -1,6 +1,7 @@
 #include "job.hpp"
 
-#include <set>
+#include <algorithm>
+#include <map>
 #include <utility>
 
 #include "lekalo/layout/workspace.hpp"
@@ -25,23 +26,25 @@ layout::Change difference(const layout::Document& from, const Workspace& to) {
 /// Sheet by sheet, which is what the command does, and each is a better layout than the last.
 Result<layout::Change> compact_all(const layout::Document& document, const JobContext& context,
                                    layout::CompactCommand command, layout::Mode mode) {
-  std::set<Sheet> sheets;
+  std::map<Sheet, double> sheets;  // with how many parts
+  double all = 0, done = 0;
   for (const Placement& placement : document.placements)
     if (placement.copy >= 0 && placement.copy < document.stocks[placement.stock].count)
-      sheets.insert({placement.stock, placement.copy});
+      sheets[{placement.stock, placement.copy}] += 1, all += 1;
   Workspace work(document);
-  double done = 0;
+  double parts = 0;
   RunControl run = context.run;
   run.progress = [&](const Progress& progress) {
     if (context.run.progress)
-      context.run.progress({progress.work, (done + progress.fraction) / static_cast<double>(sheets.size())});
+      context.run.progress({progress.work, std::min(1.0, (done + parts * progress.fraction) / all)});
   };
-  for (const Sheet sheet : sheets) {
+  for (const auto& [sheet, count] : sheets) {
     command.sheet = sheet;
+    parts = count;
     const auto change = plan(work, command, mode, run);
     if (!change) return tl::unexpected(change.error());
     carry_out(work, *change);
-    done += 1;
+    done += count;
     if (context.run.stop_requested()) break;
     if (context.improved && !change->is_nothing()) context.improved(difference(document, work));
   }

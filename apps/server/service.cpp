@@ -9,6 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "time_left.hpp"
+
 namespace lekalo::server {
 namespace {
 
@@ -102,6 +104,7 @@ Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, c
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   auto next = begin + kProgressEvery;
+  TimeLeft time_left;
   JobContext context;
   context.run.stop = start.stop.get();
   context.run.progress = [&](const Progress& progress) {
@@ -109,10 +112,9 @@ Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, c
     const auto now = Clock::now();
     if (now < next) return;
     next = now + kProgressEvery;
-    const double passed = std::chrono::duration<double>(now - begin).count(), fraction = progress.fraction;
-    constexpr double kEnoughToTell = 0.01;
-    std::optional<double> left;
-    if (fraction > kEnoughToTell) left = passed * (1 - fraction) / fraction;
+    time_left.take(std::chrono::duration<double>(now - begin).count(), progress.fraction);
+    const double fraction = progress.fraction;
+    const std::optional<double> left = time_left.seconds();
     asio::post(room->strand, [this, room, number = start.number, fraction, left] {
       deliver(room->room->job_progress(number, fraction, left));
     });

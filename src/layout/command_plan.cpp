@@ -249,28 +249,33 @@ class Planner {
     Workspace work = workspace_;
     std::vector<Sheet> sheets = c.sheet ? std::vector{*c.sheet} : sheets_in_use();
     constexpr int kMostRounds = 8;
-    // The first round moves most of it, and few need the last: half of what is left goes to each.
-    const auto total = static_cast<double>(std::max<std::size_t>(sheets.size(), 1));
+    // The first round moves most of it and takes as long as two of the others; those that are not needed end
+    // it sooner than was said.
+    constexpr double kShares = kMostRounds + 1;
+    std::map<Sheet, double> parts;
+    double total = 0;
+    for (const Placement& placement : document_.placements) parts[{placement.stock, placement.copy}] += 1;
+    for (const Sheet sheet : sheets) total += kShares * parts[sheet];
     std::uint64_t settled = 0;
+    double behind = 0;  // of the sheets that are done
     bool stopped = false;
     for (std::size_t i = 0; i < sheets.size() && !stopped; ++i) {
-      double begun = 0;
       for (int round = 0; round < kMostRounds && !stopped; ++round) {
         bool any = false;
         const std::vector<std::uint64_t> ids = foremost_first(work, sheets[i], direction);
-        const double share = (1 - begun) / 2;
+        const double begun = round == 0 ? 0 : round + 1, share = round == 0 ? 2 : 1;
         for (std::size_t k = 0; k < ids.size() && !stopped; ++k) {
           auto moved = settled_by(work, ids[k], direction);
           if (!moved) return tl::unexpected(moved.error());
           any = any || *moved;
           ++settled;
-          const double done = begun + share * static_cast<double>(k + 1) / static_cast<double>(ids.size());
-          if (run_.progress) run_.progress({settled, (static_cast<double>(i) + done) / total});
+          const double done = begun * parts[sheets[i]] + share * static_cast<double>(k + 1);
+          if (run_.progress) run_.progress({settled, std::min(1.0, (behind + done) / total)});
           stopped = run_.stop_requested();
         }
-        begun += share;
         if (!any) break;
       }
+      behind += kShares * parts[sheets[i]];
     }
     Placements changed;
     for (const Placement& placement : work.document().placements)

@@ -37,8 +37,8 @@ for (const n of sizes.length > 0 ? sizes : [1000, 10000]) {
   console.log(`${n} parts in view; first view ${first.toFixed(0)} ms after the page began to load\n${''.padEnd(44)}processor   median     99 %    worst, ms`);
   for (const [what, name, times] of [
     ['a loop that never changes, for comparison', 'loop', 1000], ['check while dragging', 'dragCheck', 1000], ['frame while dragging', 'dragFrame', 500],
-    ['frame while panning', 'pan', 300], ['frame while zooming', 'zoom', 200], ['slice of the sharp picture after zooming', 'sharpen', 300],
-    ['frame after a part is chosen', 'choose', 200], ['all painted anew', 'frames', 50], ['whole layout checked', 'check', 20],
+    ['frame while panning', 'pan', 300], ['frame while zooming', 'zoom', 200], ['frame while it turns sharp after zooming', 'sharpen', 300],
+    ['frame after a part is chosen', 'choose', 200], ['frame while all is painted anew', 'frames', 300], ['all painted anew at once, as for printing', 'whole', 50], ['whole layout checked', 'check', 20],
   ]) {
     const before = await processor();
     const said = await page.evaluate(([f, k]) => window.lekaloBench[f](k), [name, times]);

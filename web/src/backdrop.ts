@@ -1,6 +1,6 @@
 // The lower canvas, the layout at rest, without painting more of it than has changed: parts that look otherwise
-// than before are painted anew, a picture that is moved is moved along, one that is zoomed is stretched and painted
-// sharp in slices when the hand rests.
+// than before are painted anew, a picture that is moved is moved along, one that is zoomed is stretched, and what has
+// to be painted whole is painted aside in slices that leave a frame its time.
 
 import { isGap, type Placement, type Violation } from './document';
 import type { Scene } from './draw';
@@ -19,6 +19,8 @@ const OUT = 60;
 const MOST_RECTANGLES = 48;
 /// Parts between two looks at the clock.
 const AT_A_TIME = 32;
+/// Where changes come faster than it can be painted, it is painted at once after so long, ms.
+const LONGEST_STALE_MS = 300;
 
 interface Rectangle { left: number; top: number; right: number; bottom: number }
 /// What the canvas shows.
@@ -31,6 +33,8 @@ export class Backdrop {
   private readonly ctx: CanvasRenderingContext2D;
   private ratio = 1;
   private painted: Painted | null = null;
+  /// What is shown is old or stretched, since then; null: it is what it should be.
+  private stale: number | null = null;
   /// The last sharp picture, while a stretched copy of it is shown.
   private sharp: HTMLCanvasElement | null = null;
   private coming: { ctx: CanvasRenderingContext2D; of: Painted; steps: Generator<void> } | null = null;
@@ -39,42 +43,49 @@ export class Backdrop {
     this.ctx = canvas.getContext('2d', { alpha: false })!;
   }
 
+  /// What is shown is what should be.
+  get isWhole(): boolean {
+    return this.stale === null && this.painted !== null;
+  }
+
+  /// What was shown stays until draw() has painted what is to be.
   resize(width: number, height: number, ratio: number): void {
+    const old = this.painted ? copyOf(this.canvas) : null;
     this.ratio = ratio;
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
+    if (old) this.ctx.drawImage(old, 0, 0);
     this.painted = this.sharp = this.coming = null;
   }
 
-  /// Exact, now.
-  draw(scene: Scene): void {
+  /// Exact, in `ms` or less. \return false: that was too short, and sharpen() has to follow
+  draw(scene: Scene, ms = Infinity): boolean {
     this.painter.take(scene.model);
     const now = described(scene);
-    const rectangles = this.painted && !this.sharp && sameView(this.painted, now) ? this.changed(scene, this.painted, now) : null;
-    if (rectangles) for (const one of rectangles) this.paint(scene, one);
-    else this.paint(scene, this.whole());
+    const rectangles = this.painted && this.stale === null && sameView(this.painted, now) ? this.changed(scene, this.painted, now) : null;
+    if (!rectangles) {
+      this.stale ??= performance.now();
+      return this.sharpen(scene, ms);
+    }
+    for (const one of rectangles) this.paint(scene, one);
     this.painted = now;
-    this.sharp = this.coming = null;
+    return true;
   }
 
   /// Follows the view alone. \return false where what is shown is stretched, and sharpen() has to follow
-  follow(scene: Scene): boolean {
+  follow(scene: Scene, ms = Infinity): boolean {
     const { view } = scene;
     const { ctx, canvas, painted } = this;
-    if (!painted || painted.model !== scene.model) {
-      this.draw(scene);
-      return true;
-    }
+    if (!painted || painted.model !== scene.model) return this.draw(scene, ms);
     const k = view.scale / painted.scale;
     const dx = (view.x - painted.x * k) * this.ratio;
     const dy = (view.y - painted.y * k) * this.ratio;
     ctx.setTransform(1, 0, 0, 1, 0, 0);
-    if (!this.sharp && k === 1) {
+    if (this.stale === null && k === 1) {
       const [right, down] = [Math.round(dx), Math.round(dy)];
       if (Math.abs(dx - right) > 1e-3 || Math.abs(dy - down) > 1e-3 || Math.abs(right) >= canvas.width || Math.abs(down) >= canvas.height) {
-        this.painted = null;
-        this.draw(scene);
-        return true;
+        this.stale = performance.now();
+        return this.sharpen(scene, ms);
       }
       ctx.globalCompositeOperation = 'copy';
       ctx.drawImage(canvas, right, down);
@@ -85,11 +96,8 @@ export class Backdrop {
       [painted.x, painted.y] = [view.x, view.y];
       return true;
     }
-    if (!this.sharp) {
-      this.sharp = document.createElement('canvas');
-      [this.sharp.width, this.sharp.height] = [canvas.width, canvas.height];
-      this.sharp.getContext('2d', { alpha: false })!.drawImage(canvas, 0, 0);
-    }
+    this.sharp ??= copyOf(canvas);
+    this.stale = performance.now();
     ctx.fillStyle = scene.theme.back;
     ctx.fillRect(0, 0, canvas.width, canvas.height);
     ctx.imageSmoothingQuality = 'low';
@@ -98,24 +106,28 @@ export class Backdrop {
     return false;
   }
 
-  /// Paints the sharp picture aside for some milliseconds and shows it when it is whole.
+  /// Paints the picture aside for some milliseconds and shows it when it is whole.
   /// \return whether it is; if not, call again at the next frame
   sharpen(scene: Scene, ms: number): boolean {
-    if (!this.sharp) return true;
-    const until = performance.now() + ms;
+    if (this.stale === null) return true;
+    const begun = performance.now();
+    const until = begun - this.stale > LONGEST_STALE_MS ? Infinity : begun + ms;
     const now = described(scene);
     if (!this.coming || !sameView(this.coming.of, now) || !sameParts(this.coming.of, now)) {
       const canvas = document.createElement('canvas');
       [canvas.width, canvas.height] = [this.canvas.width, this.canvas.height];
-      const ctx = canvas.getContext('2d', { alpha: false })!;
+      const ctx = canvas.getContext('2d', { alpha: false, willReadFrequently: true })!;
       this.coming = { ctx, of: now, steps: this.steps(ctx, scene, this.whole()) };
     }
     do {
-      if (!this.coming.steps.next().done) continue;
+      const { done } = this.coming.steps.next();
+      // What was said is done when a pixel is read: else all of it would come with the last slice.
+      this.coming.ctx.getImageData(0, 0, 1, 1);
+      if (!done) continue;
       this.ctx.setTransform(1, 0, 0, 1, 0, 0);
       this.ctx.drawImage(this.coming.ctx.canvas, 0, 0);
       this.painted = this.coming.of;
-      this.sharp = this.coming = null;
+      this.stale = this.sharp = this.coming = null;
       return true;
     } while (performance.now() < until);
     return false;
@@ -146,7 +158,11 @@ export class Backdrop {
     ctx.fillStyle = theme.back;
     ctx.fillRect(left, top, right - left, bottom - top);
     const around = world(OUT);
-    for (const sheet of model.sheets) if (boxesMeet(placedAt(sheet.box, sheet), around)) this.painter.drawSheet(ctx, scene, sheet);
+    for (const sheet of model.sheets) {
+      if (!boxesMeet(placedAt(sheet.box, sheet), around)) continue;
+      this.painter.drawSheet(ctx, scene, sheet);
+      yield;
+    }
     const marks = marksOf(scene);
     const seen = world(3);
     let n = 0;
@@ -200,6 +216,13 @@ export class Backdrop {
     }
     return rectangles.length > MOST_RECTANGLES ? null : rectangles;
   }
+}
+
+function copyOf(canvas: HTMLCanvasElement): HTMLCanvasElement {
+  const copy = document.createElement('canvas');
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  copy.getContext('2d', { alpha: false })!.drawImage(canvas, 0, 0);
+  return copy;
 }
 
 function marksOf(scene: Scene): Map<number, 'bad' | 'near'> {

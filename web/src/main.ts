@@ -106,27 +106,41 @@ function frame(): void {
   const duty = due;
   due = 'none';
   const shown = scene();
-  if (duty === 'all') drawing.backdrop.draw(shown);
-  if (duty === 'view' && !drawing.backdrop.follow(shown)) sharpenLater();
+  // A photograph in hand is followed at every step, whatever that costs.
+  const pulled = [...editor.photos].some((photo) => photo.pulled);
+  if (duty === 'all' && !drawing.backdrop.draw(shown, pulled ? Infinity : SLICE_MS)) sharpenLater(0);
+  if (duty === 'view' && !drawing.backdrop.follow(shown, SLICE_MS)) sharpenLater();
   if (duty !== 'top') {
     mirror.place(view);
     mirrorLater();
   }
   drawing.drawTop(shown);
-  if (fitted && performance.getEntriesByName('first view').length === 0) performance.mark('first view');
+  markFirstView();
 }
-/// After the last of a row of zooming frames the picture is painted sharp, without holding up what comes next.
+function markFirstView(): void {
+  if (fitted && drawing.backdrop.isWhole && performance.getEntriesByName('first view').length === 0) performance.mark('first view');
+}
+/// What is old or stretched is painted as it should be, slice by slice, without holding up what comes next; while
+/// the hand zooms, not before it rests.
 const SLICE_MS = 8;
 let sharpenDue: ReturnType<typeof setTimeout> | null = null;
-function sharpenLater(): void {
+let slicing = false;
+function sharpenLater(wait = 70): void {
   if (sharpenDue) clearTimeout(sharpenDue);
-  const step = (): void => {
-    sharpenDue = null;
-    if (!drawing.backdrop.sharpen(scene(), SLICE_MS)) requestAnimationFrame(step);
-    else picture.dataset.sharp = 'true';
-  };
   picture.dataset.sharp = 'false';
-  sharpenDue = setTimeout(step, 70);
+  const slice = (): void => {
+    slicing = false;
+    if (!drawing.backdrop.sharpen(scene(), SLICE_MS)) return next();
+    picture.dataset.sharp = 'true';
+    markFirstView();
+  };
+  const next = (): void => {
+    sharpenDue = null;
+    if (!slicing) requestAnimationFrame(slice);
+    slicing = true;
+  };
+  if (wait > 0) sharpenDue = setTimeout(next, wait);
+  else next();
 }
 
 /// When the hand rests: nobody listens while the picture moves.
@@ -439,20 +453,33 @@ function timed(n: number, work: (i: number) => void): { median: number; p99: num
 }
 /// For bench/speed.mjs and the tests.
 const lekaloBench = {
-  /// All painted at the present view; reading a pixel waits until it is.
-  frames: (n: number) => timed(n, () => {
+  /// Frames of an opening, a resizing or another theme; reading a pixel waits until it is painted.
+  frames: (n: number) => {
+    let whole = true;
+    return timed(n, () => {
+      if (whole) {
+        drawing.resize(view, picture.clientWidth, picture.clientHeight);
+        whole = drawing.backdrop.draw(scene(), SLICE_MS);
+      } else whole = drawing.backdrop.sharpen(scene(), SLICE_MS);
+      base.getContext('2d')!.getImageData(0, 0, 1, 1);
+    });
+  },
+  /// All of it at once.
+  whole: (n: number) => timed(n, () => {
     lekaloBench.paintAll();
     base.getContext('2d')!.getImageData(0, 0, 1, 1);
   }),
   /// Slices of the sharp picture after zooming.
-  sharpen: (n: number) => timed(n, (i) => {
-    if (i % 8 === 0) {
-      view.zoomAt(400, 300, i % 16 === 0 ? 1.1 : 1 / 1.1);
-      drawing.backdrop.follow(scene());
-    }
-    drawing.backdrop.sharpen(scene(), SLICE_MS);
-    base.getContext('2d')!.getImageData(0, 0, 1, 1);
-  }),
+  sharpen: (n: number) => {
+    let whole = true;
+    return timed(n, (i) => {
+      if (whole) {
+        view.zoomAt(400, 300, i % 2 === 0 ? 1.1 : 1 / 1.1);
+        whole = drawing.backdrop.follow(scene());
+      } else whole = drawing.backdrop.sharpen(scene(), SLICE_MS);
+      base.getContext('2d')!.getImageData(0, 0, 1, 1);
+    });
+  },
   /// The frame after a part is chosen or let go.
   choose: (n: number) => timed(n, (i) => {
     editor.selection = new Set([[...editor.model.placements.keys()][(i * 7) % editor.model.placements.size]!]);

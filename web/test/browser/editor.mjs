@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { newTab, open, ready, run, serve, startBrowser, tabOf } from './harness.mjs';
 import { assertPictureDiffers, comparePicture } from './pictures.mjs';
+import { heapLayout } from './heap_layout.mjs';
 import { longLayout } from './long_layout.mjs';
 import { smallLayout } from './small_layout.mjs';
 
@@ -20,7 +21,7 @@ before(async () => {
 after(async () => browser?.close());
 
 /** A test with a server of its own and a page that must not complain. */
-function inEditor(name, work, { layout = smallLayout, options = null, expected = [] } = {}) {
+function inEditor(name, work, { layout = smallLayout, options = null, expected = [], whole = true } = {}) {
   test(name, wide, async (t) => {
     const server = await serve(layout);
     const page = options ? await newTab(browser, options) : usual;
@@ -30,7 +31,7 @@ function inEditor(name, work, { layout = smallLayout, options = null, expected =
     });
     page.problems.length = 0;
     await open(page, server.page);
-    await settled(page);
+    if (whole) await settled(page);
     await work(page, server, t);
     assert.deepEqual(page.problems.filter((p) => !expected.some((e) => p.includes(e))), []);
   });
@@ -39,7 +40,7 @@ function inEditor(name, work, { layout = smallLayout, options = null, expected =
 const picture = (page) => page.locator('.picture');
 const settled = async (page) => {
   await page.waitForFunction(() => document.querySelector('.status').dataset.pending === '0' && document.querySelector('.picture').dataset.moving === 'false' &&
-    document.querySelector('.picture').dataset.mirror === 'true' && document.querySelector('.picture').dataset.sharp !== 'false', null, { polling: 20 });
+    document.querySelector('.picture').dataset.mirror === 'true' && document.querySelector('.picture').dataset.sharp !== 'false' && document.querySelector('.status').dataset.unchecked === '0', null, { polling: 20 });
 };
 const message = (page) => page.textContent('.status .message');
 const live = (page) => page.textContent('.status .live');
@@ -424,14 +425,24 @@ inEditor('draws, moves, grades and removes defects and zones, and says what lies
   assert.equal(made.severity, 7);
 });
 
-inEditor('lays a photograph beneath, to scale by two points', async (page, server) => {
+inEditor('lays a photograph beneath, to scale by two points, kept for every tab and after a reload', async (page, server) => {
   const picked = join(server.folder, 'hide.png');
   writeFileSync(picked, await page.screenshot({ clip: { x: 300, y: 300, width: 400, height: 300 } }));
+  const photos = (tab) => tab.evaluate(() => window.lekaloBench.photos());
+  /** When the tab shows what this function says of the first. */
+  const lies = async (tab, where) => {
+    for (let i = 0; !where((await photos(tab))[0]); ++i) {
+      assert.ok(i < 500, `${JSON.stringify(await photos(tab))} after ${where}; ${await message(tab)}`);
+      await tab.waitForTimeout(20);
+    }
+  };
+  const other = await tabOf(page.context());
+  await open(other, server.page);
+  await page.bringToFront();
   await page.setInputFiles('[data-action="photo.file"]', picked);
+  await lies(page, (p) => p?.stock === 'board' && p.a === 1); // 400 pixels over 400 mm
   await command(page, 'tool.photo');
-  const where = () => page.evaluate(() => window.lekaloBench.photo());
-  const before = await where();
-  assert.ok(Math.abs(before.a - 1) < 1e-9); // 400 pixels over 400 mm
+  const [before] = await photos(page);
   const k = await scaleOf(page);
   const pull = async (from, to) => {
     await page.mouse.move(...from);
@@ -441,12 +452,28 @@ inEditor('lays a photograph beneath, to scale by two points', async (page, serve
   };
   const [x, y] = await at(page, 1);
   await pull([x, y], [x + 20 * k, y]);
-  assert.ok(Math.abs((await where()).x - before.x - 20) < 0.5);
+  assert.ok(Math.abs((await photos(page))[0].x - before.x - 20) < 0.5);
   // The pin is at x + 20; what is 100 mm to the right of it goes to 150 mm: half as large again, the pin stays.
   await pull([x + 120 * k, y], [x + 170 * k, y]);
-  const after = await where();
+  const [after] = await photos(page);
   assert.ok(Math.abs(after.a - 1.5) < 0.01 && Math.abs(after.b) < 0.01, JSON.stringify(after));
   assert.equal((await checked(server)).exit, 0);
+  // The other tab shows it in the same place, and so does this one when it comes anew.
+  await lies(other, (p) => p?.a > 1.4);
+  assert.deepEqual(await photos(other), [after]);
+  await page.reload();
+  await ready(page);
+  await lies(page, (p) => p?.a > 1.4);
+  assert.deepEqual(await photos(page), [after]);
+  await settled(page);
+  await comparePicture(page, 'photograph');
+  await command(page, 'side.sheets');
+  await page.click('[data-id="photo-board"] [aria-label="Remove"]');
+  await lies(other, (p) => !p);
+  await lies(page, (p) => !p);
+  assert.equal(await page.locator('[data-id="photo-board"]').count(), 0);
+  assert.equal(await page.locator('[data-action="tool.photo"]').count(), 0);
+  await other.close();
 });
 
 inEditor('prints each sheet in use with its parts', async (page) => {
@@ -479,14 +506,45 @@ inEditor('exports what the program reads again', async (page, server) => {
   }
 });
 
+inEditor('checks in the background what takes long, with a stop, and says what is not checked', async (page) => {
+  const bar = page.locator('[data-work="check"]');
+  await command(page, 'check.stop');
+  assert.equal(await bar.count(), 0);
+  const left = async () => Number(/^(\d+) parts are not checked yet/.exec(await page.textContent('.body .note'))[1]);
+  const first = await left();
+  assert.ok(first > 0 && first < 2500, String(first));
+  assert.ok((await broken(page)) > 0); // what was found by then
+  await command(page, 'check.resume');
+  await page.waitForFunction(() => /^\d+ % · \d+ s left$/.test(document.querySelector('[data-work="check"] .says')?.textContent), null, { polling: 20 });
+  // The hand is free meanwhile, and what it holds is checked.
+  const [x, y] = await at(page, 1, 0.5, 0.97);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 5, y + 5, { steps: 2 });
+  assert.equal(await picture(page).getAttribute('data-level'), 'forbidden');
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  await command(page, 'check.stop');
+  assert.ok((await left()) < first);
+}, { layout: heapLayout(2500), whole: false });
+
+inEditor('lists what the program lists, checked slice by slice', async (page, server) => {
+  const said = await checked(server);
+  assert.ok(said.violations.length > 500);
+  assert.match(await page.textContent('.body .note'), new RegExp(`^${said.violations.length} rules broken`));
+  const shown = await page.locator('.body li[data-id^="violation-"]').evaluateAll((list) => list.map((e) => `${e.dataset.id} ${e.querySelector('small').textContent}`));
+  assert.equal(shown.length, 500);
+  assert.deepEqual(shown, said.violations.slice(0, 500).map((v) => `violation-${v.kind}-${v.a}-${v.b} ${v.amount_mm.toFixed(3)} mm`));
+}, { layout: heapLayout(120) });
+
 inEditor('shows a long command on its way, takes what is dropped meanwhile, and keeps the best when it is stopped', async (page, server) => {
-  const bar = page.locator('.long');
-  const says = (pattern) => page.waitForFunction((p) => !document.querySelector('.long').hidden && new RegExp(p).test(document.querySelector('.long .says').textContent), pattern, { polling: 20 });
+  const bar = page.locator('[data-work="compact"]');
+  const says = (pattern) => page.waitForFunction((p) => document.querySelector('[data-work="compact"]')?.hidden === false && new RegExp(p).test(document.querySelector('[data-work="compact"] .says').textContent), pattern, { polling: 20 });
   assert.equal(await bar.isVisible(), false);
   const before = JSON.parse(await export_(server));
   await command(page, 'compact');
   await says('\\d+ % · \\d+ s left · \\d+ parts better placed');
-  const share = Number(await page.locator('.long progress').getAttribute('value'));
+  const share = Number(await page.locator('[data-work="compact"] progress').getAttribute('value'));
   assert.ok(share > 0 && share < 1, String(share));
   // Dashed outlines lie over the parts, which stand where they were.
   assert.ok(await page.locator('.picture canvas').nth(1).evaluate((c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((v) => v > 0)));
@@ -512,10 +570,10 @@ inEditor('shows a long command on its way, takes what is dropped meanwhile, and 
   await command(page, 'compact');
   await says('%');
   await command(page, 'language');
-  assert.equal(await page.textContent('[data-action="long.stop"]'), 'Зупинити');
+  assert.equal(await page.textContent('[data-action="compact.stop"]'), 'Зупинити');
   await says('\\d+ % · ще \\d+ с');
   await command(page, 'language');
-  await command(page, 'long.stop');
+  await command(page, 'compact.stop');
   await settled(page);
   assert.match(await message(page), /best so far is kept/);
   assert.equal(await bar.isVisible(), false);
@@ -528,8 +586,13 @@ inEditor('asks what an export needs, shows what the server says against it, and 
     await command(page, 'menu.export');
     await command(page, `export.${form}`);
   };
-  const saved = async () => {
+  const saved = async (notes) => {
     const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
+    // G-code comes with what was proved of it; the dialog stays until that is read.
+    if (notes) {
+      await page.waitForFunction((p) => new RegExp(p).test(document.querySelector('dialog .notes').textContent), notes, { polling: 20 });
+      await command(page, 'export.cancel');
+    }
     await page.waitForSelector('dialog', { state: 'detached' });
     const file = join(server.folder, download.suggestedFilename());
     await download.saveAs(file);
@@ -557,7 +620,7 @@ inEditor('asks what an export needs, shows what the server says against it, and 
   assert.equal(await field('pierce').isVisible(), false);
   await field('process').selectOption('laser');
   await field('sheet').selectOption('board#2');
-  let [file, text] = await saved();
+  let [file, text] = await saved('^Saved.*1 cuts.*the kerf enters no part by more than');
   assert.match(file, /\.nc$/);
   assert.match(text, /G21/);
   assert.match(text, /F2000/);
