@@ -97,6 +97,7 @@ Result<LayoutFile> read_any(std::string_view bytes, const std::string& name, con
   if (!parts) return tl::unexpected(parts.error());
   LayoutFile file;
   file.document.parts = std::move(parts->parts);
+  file.document.stocks = std::move(parts->stocks);
   file.notices = std::move(parts->notices);
   return file;
 }

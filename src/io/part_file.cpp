@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "json_tree.hpp"
 #include "layout_outline.hpp"
 #include "lekalo/io/drawing.hpp"
+#include "lekalo/io/layout_export.hpp"
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/io/shape_tree.hpp"
 #include "lekalo/io/svg.hpp"
@@ -27,6 +29,7 @@ struct DrawnPart {
 
 struct DrawnParts {
   std::vector<DrawnPart> parts;
+  std::vector<geom::Region> sheets;
   double tolerance = 0;  ///< mm: the true outlines are within this
   std::vector<std::string> notices;
 };
@@ -56,11 +59,40 @@ std::size_t edges_of(const geom::Region& region) {
   return edges;
 }
 
-Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, const DrawingOptions& options) {
+bool has_layer(const Drawing& drawing, std::string_view name) {
+  return std::any_of(drawing.layers.begin(), drawing.layers.end(),
+                     [&](const Layer& layer) { return layer.name == name; });
+}
+
+/// With the layers of lekalo's own exports.
+bool is_export(const Drawing& drawing) {
+  return has_layer(drawing, "CUT") &&
+         std::any_of(std::begin(kExportLayers), std::end(kExportLayers), [&](const char* layer) {
+           return std::string_view(layer) != "CUT" && has_layer(drawing, layer);
+         });
+}
+
+Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, DrawingOptions options) {
   if (!drawing) return tl::unexpected(drawing.error());
+  DrawnParts made;
+  if (options.take.empty() && options.leave.empty() && is_export(*drawing)) {
+    made.notices.push_back(
+        fmt::format("{}: the layers are those of lekalo's exports, so its parts are on CUT and its sheets on "
+                    "SHEET",
+                    drawing->name));
+    if (has_layer(*drawing, "SHEET")) {
+      options.take = {"SHEET"};
+      auto sheets = make_regions(*drawing, options);
+      if (!sheets) return tl::unexpected(sheets.error());
+      made.sheets = std::move(sheets->regions);
+      made.tolerance = sheets->tolerance;
+    }
+    options.take = {"CUT"};
+  }
   auto drawn = make_regions(*drawing, options);
   if (!drawn) return tl::unexpected(drawn.error());
-  DrawnParts made{{}, drawn->tolerance, std::move(drawn->notices)};
+  made.tolerance = std::max(made.tolerance, drawn->tolerance);
+  made.notices.insert(made.notices.end(), drawn->notices.begin(), drawn->notices.end());
   std::size_t edge = 0;
   for (geom::Region& region : drawn->regions) {
     const DrawnCurve& curve = drawing->curves[drawn->curve_of_edge[edge]];
@@ -75,7 +107,8 @@ Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, const
 Result<DrawnParts> of_tree(std::string_view bytes, const std::string& name, const PartOptions& options) {
   auto file = parse_shape_tree(bytes, name, options.unit);
   if (!file) return tl::unexpected(file.error());
-  DrawnParts made{{}, file->tolerance, {}};
+  DrawnParts made;
+  made.tolerance = file->tolerance;
   std::size_t edge = 0;
   for (geom::Region& region : file->regions) {
     const std::uint32_t named = file->name_of_edge[edge];
@@ -116,7 +149,19 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
   if (drawn->parts.size() > kMostParts)
     return failure(ErrorCode::bad_input, fmt::format("{}: {} outlines; at most {} parts are read", name,
                                                      drawn->parts.size(), kMostParts));
-  PartsFile file{{}, std::move(drawn->notices)};
+  PartsFile file;
+  file.notices = std::move(drawn->notices);
+  for (std::size_t i = 0; i < drawn->sheets.size(); ++i) {
+    layout::Stock sheet;
+    sheet.id = i == 0 ? "SHEET" : fmt::format("SHEET-{}", i + 1);
+    auto outline =
+        detail::outline_of_curves(drawn->sheets[i], geom::ChordSide::shrink, options.chord_tolerance);
+    if (!outline)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: sheet {}: {}", name, sheet.id, outline.error().message));
+    sheet.outline = *std::move(outline);
+    file.stocks.push_back(std::move(sheet));
+  }
   std::set<std::string> ids;
   std::map<std::string, std::size_t> last_of;
   std::size_t points = 0;

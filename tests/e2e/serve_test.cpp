@@ -110,6 +110,7 @@ tcp::socket connected(asio::io_context& io, unsigned short port) {
 struct Answer {
   unsigned status = 0;
   std::string body;
+  std::string notes;  ///< the header Lekalo-Notes
 };
 
 Answer ask(const ServerProcess& server, http::verb method, const std::string& target,
@@ -127,7 +128,7 @@ Answer ask(const ServerProcess& server, http::verb method, const std::string& ta
   http::response_parser<http::string_body> parser;
   parser.body_limit(std::uint64_t{1} << 28);
   http::read(socket, buffer, parser, error);
-  return {parser.get().result_int(), parser.get().body()};
+  return {parser.get().result_int(), parser.get().body(), std::string(parser.get()["Lekalo-Notes"])};
 }
 
 int create(const ServerProcess& server) {
@@ -312,11 +313,70 @@ TEST(Serve, ExportsForMachinesAsTheCommandLineDoes) {
     EXPECT_EQ(from_second_line(exported.body),
               from_second_line(run(folder.path(), Words{"export", "shoes.json"} + words).out))
         << query;
+    const bool has_notes =
+        query.find("hpgl") != std::string::npos || query.find("gcode") != std::string::npos;
+    ASSERT_EQ(!exported.notes.empty(), has_notes) << query;
+    if (!has_notes) continue;
+    EXPECT_NE(run(folder.path(), Words{"export", "shoes.json", "-o", "out"} + words)
+                  .err.find(Json::parse(exported.notes)[0].get<std::string>()),
+              std::string::npos)
+        << exported.notes;
   }
   for (const char* wrong :
        {"form=gcode", "form=dxf&kerf=1", "form=svg&sheet=x", "form=hpgl&tolerance=nan", "form=gif"})
     EXPECT_EQ(ask(server, http::verb::get, std::string("/api/layouts/1/export?") + wrong).status, 400u)
         << wrong;
+}
+
+TEST(Serve, LaysThePartsOfADrawingOnASheetThatIsGiven) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  const std::string drawing =
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="40mm" viewBox="0 0 50 40">
+<rect x="5" y="5" width="20" height="10"/></svg>)";
+  const auto post = [&](const std::string& more, const std::string& file) {
+    return ask(server, http::verb::post, "/api/layouts?name=a.svg" + more, file);
+  };
+  const Answer without = post("", drawing);
+  ASSERT_EQ(without.status, 201u) << without.body;
+  EXPECT_EQ(Json::parse(without.body)["stocks"], 0);
+  const Answer with = post("&sheet=300.5x200&count=3", drawing);
+  ASSERT_EQ(with.status, 201u) << with.body;
+  EXPECT_EQ(Json::parse(with.body)["stocks"], 1);
+  const Json made =
+      Json::parse(ask(server, http::verb::get, "/api/layouts/2/export?form=layout").body)["stocks"][0];
+  EXPECT_EQ(made["count"], 3);
+  EXPECT_EQ(made["outline"]["polygon"]["outer"], Json::parse("[[0, 0], [300.5, 0], [300.5, 200], [0, 200]]"));
+  Client client(server, 2);
+  client.hear("layout");
+  EXPECT_EQ(client.command("fit a sheet 2")["type"], "done");
+  for (const char* wrong : {"&sheet=", "&sheet=300", "&sheet=300x", "&sheet=x200", "&sheet=0x5",
+                            "&sheet=nanx5", "&sheet=1e9x5", "&sheet=300x200x1", "&sheet=300x200&count=0",
+                            "&sheet=300x200&count=1.5", "&sheet=300x200&count=999999"})
+    EXPECT_EQ(post(wrong, drawing).status, 400u) << wrong;
+  EXPECT_EQ(post("&sheet=300x200", squares()).status, 400u);  // it has a sheet
+}
+
+TEST(Serve, MakesNoLayoutOfAFileThatNobodyWaitsFor) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  // Long to read, so that the end of the connection is known before.
+  Json many = Json::parse(squares());
+  const Json one = many["placements"][0];
+  for (int i = 0; i < 150'000; ++i) many["placements"].push_back(one);
+  const std::string body = many.dump();
+  {
+    asio::io_context io;
+    tcp::socket socket = connected(io, server.port());
+    asio::write(socket,
+                asio::buffer("POST /api/layouts?name=a HTTP/1.1\r\nHost: " + server.host() +
+                             "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body));
+  }
+  // Its turn is over when this one, as large and begun later, is there.
+  ASSERT_EQ(ask(server, http::verb::post, "/api/layouts?name=b", body).status, 201u);
+  const Json list = Json::parse(ask(server, http::verb::get, "/api/layouts").body)["layouts"];
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0]["name"], "b");
 }
 
 TEST(Serve, KilledAtAnyMomentItKeepsEveryAcknowledgedGesture) {
@@ -451,6 +511,23 @@ TEST(Serve, RefusesStrangersAndStaysUp) {
     asio::write(socket, asio::buffer(bytes), error);
   }
   EXPECT_EQ(status("/api/layouts", known), 200u);
+  for (int i = 0; i < 16;
+       ++i) {  // another million into WebSockets: frames that are none, and as text and binary
+    Client client(server, 1, "", known);
+    client.hear("layout");
+    beast::error_code error;
+    std::string bytes;
+    for (int k = 0; k < 65536; ++k) bytes += static_cast<char>(random.below(i % 4 == 3 ? 128 : 256));
+    if (i % 2 == 0) asio::write(client.socket().next_layer(), asio::buffer(bytes), error);
+    client.socket().text(i % 4 == 3);  // of bytes below 128, which are text
+    for (std::size_t k = 0; i % 2 == 1 && k < bytes.size() && !error; k += 4096)
+      client.socket().write(asio::buffer(bytes.data() + k, 4096), error);
+    EXPECT_THROW(for (;;) client.hear(), std::exception);  // it is closed, not left hanging
+  }
+  EXPECT_EQ(status("/api/layouts", known), 200u);
+  Client client(server, 1, "", known);
+  client.hear("layout");
+  EXPECT_EQ(client.command("move 1 by -1 0")["type"], "done");
 }
 
 TEST(Serve, SaysWhenThePortOrTheStoreIsTaken) {
@@ -580,9 +657,10 @@ TEST(Serve, KeepsAPhotographOfAStock) {
   Client client(server, 1);
   client.hear("layout");
   ASSERT_EQ(ask(server, http::verb::put, at + scale, png).status, 200u);
-  client.hear("photos");
+  EXPECT_EQ(client.hear("photos"), Json::parse(R"({"type": "photos", "stock": "sheet", "image": true})"));
   EXPECT_EQ(ask(server, http::verb::get, at).body, png);
   EXPECT_EQ(ask(server, http::verb::patch, at + "&pixels=1,2,3,4&mm=5,6,7,8").status, 200u);
+  EXPECT_EQ(client.hear("photos"), Json::parse(R"({"type": "photos", "stock": "sheet", "image": false})"));
   ASSERT_EQ(ask(server, http::verb::post, "/api/layouts/1/copy?name=b").status, 201u);
   const Json list = Json::parse(ask(server, http::verb::get, "/api/layouts/2/photos").body);
   EXPECT_EQ(list["photos"][0]["stock"], "sheet");

@@ -1,4 +1,5 @@
 #include "lekalo/io/layout_export.hpp"
+#include "lekalo/io/open_layout.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -113,6 +114,32 @@ void expect_sample(const std::map<std::string, LayerSum>& sums) {
   EXPECT_NEAR(sums.at("DEFECT").area, 50, kOff);
   EXPECT_NEAR(sums.at("ZONE").area, 1000, kOff);
   EXPECT_NEAR(sums.at("AREA").area, 50, kOff);
+}
+
+TEST(LayoutExport, a_drawing_opened_again_gives_the_parts_and_the_sheets_alone) {
+  const layout::Document document = document_of(sample());
+  for (const ExportForm form : {ExportForm::dxf, ExportForm::svg}) {
+    const Exported made = exported(document, form, {});
+    const auto opened = read_any_layout(made.files.at(0).bytes, "out");
+    ASSERT_TRUE(opened) << opened.error().message;
+    const layout::Document& again = opened->document;
+    double cut = 0;
+    for (const layout::Part& part : again.parts) cut += geom::area_mm2(part.outline.polygon);
+    EXPECT_EQ(again.parts.size(), 5U);
+    EXPECT_NEAR(cut, kWasher + kDisc + kHalf + 2 * kPlate, 2.0);  // chords outside of arcs
+    ASSERT_EQ(again.stocks.size(), 2U);
+    EXPECT_EQ(again.stocks[0].id, "SHEET");
+    EXPECT_EQ(again.stocks[1].id, "SHEET-2");
+    ASSERT_FALSE(opened->notices.empty());
+    EXPECT_NE(opened->notices[0].find("its parts are on CUT and its sheets on SHEET"), std::string::npos);
+    // What was asked for counts.
+    PartOptions options;
+    options.drawing.take = {"DEFECT"};
+    const auto defect = read_any_layout(made.files.at(0).bytes, "out", options);
+    ASSERT_TRUE(defect) << defect.error().message;
+    EXPECT_EQ(defect->document.parts.size(), 1U);
+    EXPECT_TRUE(defect->document.stocks.empty());
+  }
 }
 
 TEST(LayoutExport, dxf_read_again_has_every_layer_with_true_arcs) {

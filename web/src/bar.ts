@@ -12,6 +12,7 @@ export interface BarEvents {
   openLayout(id: number): void;
   takeFiles(files: FileList | null): void;
   copyLayout(): void;
+  nameLayout(): void;
   save(form: string): void;
   /// A form with choices.
   choose(form: ChosenForm): void;
@@ -59,7 +60,7 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
   // Who worked by the keyboard stays where he was.
   const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
   bar.replaceChildren(
-    h('span', { class: 'brand' }, 'lekalo'), choice, button('open.file', () => file.click()), file, button('copy.layout', events.copyLayout),
+    h('span', { class: 'brand' }, 'lekalo'), choice, button('open.file', () => file.click()), file, button('copy.layout', events.copyLayout), button('name.layout', events.nameLayout),
     space(), h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...(['strict', 'free'] as const).map((m) =>
       h('button', { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) }, t(m)))),
     space(), action('undo'), action('redo'),

@@ -82,6 +82,11 @@ function tracedPath(loops: readonly Point[][], apart: number): Path2D {
 type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };
 const loopsOf = (o: Outlined): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
 
+export function measured(from: Point, to: Point): string {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  return `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`;
+}
+
 export class Picture implements Painter {
   readonly backdrop: Backdrop;
   private readonly top: CanvasRenderingContext2D;
@@ -224,8 +229,7 @@ export class Picture implements Painter {
     }
     if (scene.ruler) {
       const { from, to } = scene.ruler;
-      const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-      this.drawMeasure(ctx, scene, from, to, `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`, theme.select);
+      this.drawMeasure(ctx, scene, from, to, measured(from, to), theme.select);
     }
     if (scene.draft.length > 0) this.drawDraft(ctx, scene);
     for (const pin of scene.pins) this.drawPin(ctx, theme, view.toScreen(...pin));

@@ -2,7 +2,7 @@
 
 const PATHS: Record<string, string> = {
   'open.file': 'M3 16V4h5l2 2h7v10zM10 9v5M7.5 11.5h5', 'copy.layout': 'M7 7h9v10H7zM4 13V3h9', undo: 'M8 4 4 8l4 4M4 8h7a5 5 0 0 1 0 9H8',
-  redo: 'm12 4 4 4-4 4M16 8H9a5 5 0 0 0 0 9h3', 'tool.select': 'M5 3v13l3.5-3.5 2 4.5 2-1-2-4.200h4.500z', 'tool.slide': 'M3 10h10M9.500 6l4 4-4 4M17 3v14',
+  'name.layout': 'M4 16h3L16 7l-3-3-9 9zM11 6l3 3', redo: 'm12 4 4 4-4 4M16 8H9a5 5 0 0 0 0 9h3', 'tool.select': 'M5 3v13l3.5-3.5 2 4.5 2-1-2-4.200h4.500z', 'tool.slide': 'M3 10h10M9.500 6l4 4-4 4M17 3v14',
   'tool.push': 'M2 10h5M5 7.500 7.500 10 5 12.500M9 5h4v10H9zM14.500 10H18M16 8l2 2-2 2', 'tool.nearest': 'M10 2v4M10 14v4M2 10h4M14 10h4M10 6a4 4 0 1 0 .01 0M10 9.500v1',
   'tool.measure': 'M2 13 13 2l5 5L7 18zM6 9l2 2M9 6l2 2M12 3l2 2', 'tool.pan': 'M10 2v16M2 10h16M8 4l2-2 2 2M8 16l2 2 2-2M4 8l-2 2 2 2M16 8l2 2-2 2',
   'tool.defect': 'M4 14c-2-5 2-10 7-10s7 5 5 9-4 2-6 3-5 1-6-2zM7 12l5-5M10 13l4-4', 'tool.zone': 'M3 6h14v9H3zM3 10h3M9 10h3M15 10h2', 'tool.photo': 'M3 5h14v11H3zM3 13l4-4 4 4 2-2 4 3M13.500 8.200h.01',

@@ -1,6 +1,6 @@
 // Puts the page together.
 
-import { DARK, LIGHT, Picture, type Scene } from './draw';
+import { DARK, LIGHT, measured, Picture, type Scene } from './draw';
 import type { Violation } from './document';
 import { showBar as showTools } from './bar';
 import { Editor, movedBy } from './editor';
@@ -13,11 +13,13 @@ import { showSidePanel, type Side } from './sides';
 import { Client, type Wire } from './socket';
 import { ServerKernel } from './server_kernel';
 import { key, SHORTCUTS } from './tools/keys';
+import { layoutDialog } from './layout_dialog';
 import { LongBar } from './long_bar';
 import { Mirror, mirrorId } from './mirror';
 import { dragFromTray } from './tools/from_tray';
 import { photoBeneath } from './tools/features';
 import { PointerTool, turningHandle } from './tools/pointer';
+import { sheetDialog, type SheetSize } from './sheet_dialog';
 import { tray } from './panels/tray';
 import { sentenceOf } from './transfer';
 import { View } from './view';
@@ -115,6 +117,7 @@ function frame(): void {
     mirrorLater();
   }
   drawing.drawTop(shown);
+  if (duty === 'top' && editor.tool === 'measure') showStatus();
   markFirstView();
 }
 function markFirstView(): void {
@@ -158,7 +161,7 @@ function mirrorLater(): void {
 }
 
 const showBar = (): void => showTools(bar, tools, editor, known, {
-  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), save: (form) => void save(form), choose, print: () => window.print(),
+  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), nameLayout, save: (form) => void save(form), choose, print: () => window.print(),
   fit: fitAll, help: showHelp,
   photo: (file) => void photoBeneath(editor, view, file).catch((error: unknown) => editor.say(String(error))),
   theme: () => {
@@ -196,7 +199,8 @@ function showStatus(): void {
   const now = editor.live;
   const depth = now?.violations.reduce((most, v) => Math.max(most, v.amount_mm), 0) ?? 0;
   live.className = `live ${now?.level ?? ''}`;
-  live.textContent = now
+  const { ruler } = pointer.overlay;
+  live.textContent = ruler ? measured(ruler.from, ruler.to) : now
     ? [t(`live.${now.level}`), depth > 0 ? t('live.depth', { mm: depth.toFixed(3) }) : '', now.nearest ? t('live.nearest', { mm: now.nearest.distance.toFixed(3) }) : ''].filter(Boolean).join(' · ')
     : editor.selection.size > 0 ? t('selected', { n: editor.selection.size }) : t('nothing');
   message.textContent = message.title = editor.message;
@@ -273,22 +277,41 @@ async function readLayouts(): Promise<void> {
   showBar();
 }
 async function takeFiles(files: FileList | null): Promise<void> {
-  for (const file of files ?? []) {
-    try {
-      const answer = await editor.transfer('open', t('transfer.open', { name: file.name }), 'POST', `/api/layouts?name=${encodeURIComponent(file.name)}`, file);
-      if (!answer) continue;
-      if (answer.status !== 201) {
-        editor.say(await sentenceOf(answer));
-        continue;
-      }
-      const made = JSON.parse(await answer.body.text()) as { id: number; notices: string[] };
-      await readLayouts();
-      openLayout(made.id);
-      if (made.notices.length > 0) editor.say(made.notices.join(' · '));
-    } catch (error) {
-      editor.say(error instanceof Error ? error.message : String(error));
-    }
+  for (const file of [...(files ?? [])]) {
+    const made = await take(file);
+    if (typeof made === 'string') editor.say(made);
+    else if (made?.stocks === 0) askSheet(file, made.id);
   }
+}
+interface Made { id: number; stocks: number; notices: string[] }
+/// Makes a layout of a file and opens it. \return why not; null: cancelled
+async function take(file: File, sheet: Record<string, string> = {}): Promise<Made | string | null> {
+  try {
+    const answer = await editor.transfer('open', t('transfer.open', { name: file.name }), 'POST', `/api/layouts?${new URLSearchParams({ name: file.name, ...sheet })}`, file);
+    if (!answer) return null;
+    if (answer.status !== 201) return await sentenceOf(answer);
+    const made = JSON.parse(await answer.body.text()) as Made;
+    await readLayouts();
+    openLayout(made.id);
+    if (made.notices.length > 0) editor.say(made.notices.join(' · '));
+    return made;
+  } catch (error) {
+    return error instanceof Error ? error.message : String(error);
+  }
+}
+/// Parts without stock: the same file once more with a sheet, in place of the first.
+function askSheet(file: File, without: number): void {
+  const kept = JSON.parse(stored('sheet') ?? '{"width": "2500", "height": "1250", "count": "1"}') as SheetSize;
+  const dialog = sheetDialog(file.name, kept, async (size) => {
+    const made = await take(file, { sheet: `${size.width}x${size.height}`, count: size.count });
+    if (made === null || typeof made === 'string') return made ?? t('transfer.cancelled');
+    store('sheet', JSON.stringify(size));
+    await api(`/api/layouts/${without}`, { method: 'DELETE' });
+    await readLayouts();
+    return null;
+  });
+  page.append(dialog);
+  dialog.showModal();
 }
 /// Exports as a download.
 async function download(fields: URLSearchParams): Promise<Saved> {
@@ -332,6 +355,29 @@ async function copyLayout(): Promise<void> {
   await readLayouts();
   openLayout(made.id);
 }
+function nameLayout(): void {
+  const { layoutId } = editor;
+  if (layoutId === 0) return;
+  const asked = async (path: string, method: string): Promise<string | null> => {
+    const answer = await fetch(`/api/layouts/${layoutId}${path}`, { method });
+    if (!answer.ok) return ((await answer.json()) as { error?: string }).error ?? String(answer.status);
+    await readLayouts();
+    return null;
+  };
+  const dialog = layoutDialog(editor.name, {
+    rename: (name) => asked(`?name=${encodeURIComponent(name)}`, 'PATCH'),
+    remove: async () => {
+      editor.client?.stop();
+      const refused = await asked('', 'DELETE');
+      const next = known[0];
+      if (next) openLayout(next.id);
+      else location.reload();
+      return refused;
+    },
+  });
+  page.append(dialog);
+  dialog.showModal();
+}
 function openLayout(id: number): void {
   editor.client?.stop();
   editor.layoutId = id;
@@ -354,6 +400,10 @@ function openLayout(id: number): void {
     selections: (clients) => {
       editor.others = new Map(clients.map((c) => [c.client, c.ids]));
       editor.tell('selection');
+    },
+    name: (name) => {
+      editor.name = name;
+      void readLayouts();
     },
     photos: (stock, image) => void editor.photos.read(image ? { stock } : 'none'),
     error: (text) => editor.say(text),
@@ -406,7 +456,8 @@ picture.addEventListener('pointermove', (e) => {
 /// Wherever the focus is but in a field or a dialog; going from part to part and the space bar, in the picture alone.
 document.addEventListener('keydown', (e) => {
   const inPicture = e.target === picture;
-  if ((e.target as HTMLElement).closest('input, select, dialog, details') || (!inPicture && (e.key === 'Tab' || e.key === ' '))) return;
+  const idle = inPicture || e.target === document.body;
+  if ((e.target as HTMLElement).closest('input, select, dialog, details') || (!inPicture && e.key === 'Tab') || (!idle && e.key === ' ')) return;
   if (e.code === 'Space') pointer.spaceDown = true;
   if (pointer.features.draws && (e.key === 'Enter' || (e.key === 'Backspace' && pointer.features.back()))) {
     if (e.key === 'Enter') pointer.finishDraft();
@@ -425,9 +476,9 @@ document.addEventListener('keydown', (e) => {
       right.querySelector('input')?.focus();
     },
   });
-  if (mine || (inPicture && e.code === 'Space')) e.preventDefault();
+  if (mine || e.code === 'Space') e.preventDefault();
 });
-picture.addEventListener('keyup', (e) => {
+document.addEventListener('keyup', (e) => {
   if (e.code === 'Space') pointer.spaceDown = false;
 });
 for (const [type, on] of [['dragover', true], ['dragleave', false], ['drop', false]] as const) {

@@ -28,6 +28,7 @@ export interface SocketEvents {
   layout(message: LayoutMessage): void;
   change(message: ChangeMessage): void;
   selections(clients: { client: number; ids: number[] }[]): void;
+  name?(name: string): void;
   /// A photograph of this stock is another, or lies elsewhere.
   photos?(stock: string, image: boolean): void;
   error(message: string): void;
@@ -156,6 +157,9 @@ export class Client {
         break;
       case 'selections':
         this.events.selections((message.clients as { client: number; ids: number[] }[]).filter((c) => c.client !== this.id));
+        break;
+      case 'name':
+        this.events.name?.(String(message.name));
         break;
       case 'photos':
         this.events.photos?.(String(message.stock), message.image === true);

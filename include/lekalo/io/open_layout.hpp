@@ -18,7 +18,8 @@ struct OpenOptions {
 
 /// Reads whatever holds a layout or a part of one, told apart by what is in the file, not by its name: a
 /// layout (layout_json.hpp), jobs and placements of other nesting programs (nesting_files.hpp), drawings,
-/// regions and trees of primitives (part_file.hpp), which give a document of parts without stock.
+/// regions and trees of primitives (part_file.hpp), which give a document of parts, and of sheets where an export of
+/// lekalo has them.
 ///
 /// Fails as the readers of these do, and with ErrorCode::bad_input for what is none of them, with the list of
 /// what is known.

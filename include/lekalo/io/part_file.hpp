@@ -21,6 +21,7 @@ struct PartOptions {
 
 struct PartsFile {
   std::vector<layout::Part> parts;
+  std::vector<layout::Stock> stocks;  ///< sheets; of drawings with the layers below alone
   std::vector<std::string> notices;
 };
 
@@ -31,6 +32,9 @@ struct PartsFile {
 /// Ids: of an SVG drawing the id of the outline's element, of a DXF drawing its layer, of a tree the name of
 /// the outline's primitive, else the file's name without its ending; "-2", "-3" after those that come again.
 /// The name is the layer's, or as the id.
+///
+/// A drawing that has a layer CUT beside others of kExportLayers (layout_export.hpp), as lekalo's exports
+/// have, holds its parts on CUT and its sheets on SHEET, unless layers are asked for; a notice says so.
 ///
 /// Ellipses, splines and rounding make the outlines differ from the drawing; by how much a notice says where
 /// it is more than a step. Fails as parse_dxf, parse_svg, make_regions, parse_regions and parse_shape_tree

@@ -49,6 +49,31 @@ export function pick(editor: Editor, x: number, y: number): Placement | null {
   return found;
 }
 
+/// What is measured is from corner to corner, where the hand is near one: of a part or of the material.
+function cornerNear(editor: Editor, view: View, world: Point): Point {
+  const { model } = editor;
+  const sheet = model.sheetAt(...world);
+  if (!sheet) return world;
+  const at: Point = [world[0] - sheet.x, world[1] - sheet.y];
+  const reach = NEAR.mouse / view.scale;
+  let best = reach;
+  let found = at;
+  const take = (loops: readonly Point[][]): void => {
+    for (const loop of loops) {
+      for (const corner of loop) {
+        const d = Math.hypot(corner[0] - at[0], corner[1] - at[1]);
+        if (d < best) [best, found] = [d, corner];
+      }
+    }
+  };
+  const around = { left: at[0] - reach, right: at[0] + reach, bottom: at[1] - reach, top: at[1] + reach };
+  for (const p of model.placements.values()) {
+    if (p.stock === sheet.stock.id && (p.copy ?? 0) === sheet.copy && boxesMeet(model.box(p), around)) take(placedLoops(model.part(p), p));
+  }
+  if (sheet.stock.outline) take([sheet.stock.outline.polygon.outer, ...(sheet.stock.outline.polygon.holes ?? [])]);
+  return [found[0] + sheet.x, found[1] + sheet.y];
+}
+
 /// A hand means one of eight directions when it is near it: a hair off, a slide along a border ends at once.
 function straightened(from: Point, to: Point): Point {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -157,8 +182,9 @@ export class PointerTool {
     }
     if (this.features.down(world)) return this.showDraft();
     if (this.editor.tool === 'measure') {
-      this.gesture = { kind: 'measure', from: world };
-      this.overlay.ruler = { from: world, to: world };
+      const from = e.altKey ? world : cornerNear(this.editor, this.view, world);
+      this.gesture = { kind: 'measure', from };
+      this.overlay.ruler = { from, to: from };
       return;
     }
     const handle = turningHandle(this.editor, this.view);
@@ -205,7 +231,7 @@ export class PointerTool {
         this.redraw('view');
         break;
       case 'measure':
-        this.overlay.ruler = { from: gesture.from, to: world };
+        this.overlay.ruler = { from: gesture.from, to: e.altKey ? world : cornerNear(this.editor, this.view, world) };
         this.redraw('top');
         break;
       case 'band':

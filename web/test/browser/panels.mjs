@@ -1,0 +1,222 @@
+// What stands around the picture: tray, lists, measure, view, files, and what is said of all of it.
+
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { run } from './harness.mjs';
+import { smallLayout } from './small_layout.mjs';
+import { at, broken, checked, command, drop, hold, inEditor, keys, message, placed, placementOf, press, scaleOf, settled } from './steps.mjs';
+
+const kits = {
+  ...smallLayout, parts: smallLayout.parts.map(({ demand, ...part }) => part),
+  kits: [{ id: 'box', name: 'Box', demand: 2, pieces: [{ part: 'plate', count: 2 }, { part: 'bracket', count: 1 }] }],
+};
+
+inEditor('counts in the tray and in the table of kits what is placed and what is missing', async (page) => {
+  const tray = (part) => page.textContent(`[data-id="part-${part}"]`);
+  assert.match(await tray('plate'), /Plate.*2 left.*2\/4/);
+  assert.match(await tray('bracket'), /Bracket.*1 left.*1\/2/);
+  assert.equal(await page.locator('[data-id="part-plate"] svg path').first().evaluate((e) => e.getBBox().width), 80);
+  await command(page, 'side.kits');
+  assert.match(await page.textContent('.body table'), /Box.*1 ?\/ ?2/s);
+  await page.click('[data-id="part-plate"] .piece');
+  await settled(page);
+  await page.click('[data-id="part-plate"] .piece');
+  await settled(page);
+  assert.match(await tray('plate'), /all placed.*4\/4/);
+  assert.match(await page.textContent('.body table'), /1 ?\/ ?2.*Bracket/s);
+  await page.click('[data-id="part-bracket"] .piece');
+  await settled(page);
+  assert.match(await page.textContent('.body table'), /2 ?\/ ?2/s);
+}, { layout: kits });
+
+inEditor('puts parts in by the keyboard alone', async (page, server) => {
+  await page.focus('[data-id="part-bracket"] .piece');
+  await page.keyboard.press('Enter');
+  await settled(page);
+  assert.equal(await placed(page), 4);
+  assert.equal((await checked(server)).exit, 0);
+});
+
+inEditor('finds a part by its name and by its number', async (page) => {
+  await page.keyboard.press('/');
+  await page.keyboard.type('brack');
+  assert.deepEqual(await page.locator('.body li').evaluateAll((list) => list.map((e) => e.dataset.id)), ['found-3']);
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Enter');
+  await settled(page);
+  assert.equal(await page.getAttribute('[data-id="placement-3"]', 'aria-selected'), 'true');
+  await page.fill('.body input', '2');
+  assert.deepEqual(await page.locator('.body li').evaluateAll((list) => list.map((e) => e.dataset.id)), ['found-2']);
+});
+
+inEditor('shows where a rule is broken', async (page) => {
+  await command(page, 'mode.free');
+  await hold(page, 2, -100, 0);
+  await drop(page);
+  const before = await scaleOf(page);
+  await page.click('[data-id="violation-overlap-1-2"] button');
+  await settled(page);
+  assert.ok((await scaleOf(page)) > 1.5 * before);
+  const view = await page.locator('.picture').boundingBox();
+  const [x] = await at(page, 1, 1);
+  assert.ok(Math.abs(x - view.x - view.width / 2) < view.width / 4); // the overlap is in the middle
+  assert.deepEqual(await page.locator('.mirror [aria-selected="true"]').evaluateAll((list) => list.map((e) => e.dataset.id).sort()), ['placement-1', 'placement-2']);
+});
+
+inEditor('measures', async (page) => {
+  await keys(page, '5');
+  const k = await scaleOf(page);
+  const [x, y] = await at(page, 2);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 60 * k, y - 80 * k, { steps: 3 });
+  assert.match(await page.textContent('.status .live'), /^100\.\d+ mm  \((59|60)\.\d+, (79|80)\.\d+\)$/);
+  await page.mouse.up();
+  assert.match(await page.textContent('.status .live'), /^100\./);
+  await page.keyboard.press('Escape');
+  assert.match(await page.textContent('.status .live'), /Nothing selected/);
+});
+
+inEditor('zooms at the cursor, pans, and shows all again', async (page) => {
+  const k = await scaleOf(page);
+  const [x, y] = await at(page, 2);
+  await page.mouse.move(x, y);
+  await page.mouse.wheel(0, -600);
+  await settled(page);
+  const [x1, y1] = await at(page, 2);
+  assert.ok((await scaleOf(page)) > 2 * k && Math.hypot(x1 - x, y1 - y) < 1.5);
+  await page.keyboard.down(' ');
+  await page.mouse.down();
+  await page.mouse.move(x + 40, y + 30, { steps: 3 });
+  await page.mouse.up();
+  await page.keyboard.up(' ');
+  await settled(page);
+  const [x2, y2] = await at(page, 2);
+  assert.ok(Math.hypot(x2 - x1 - 40, y2 - y1 - 30) < 1.5, `${x2 - x1} ${y2 - y1}`);
+  await page.focus('.picture');
+  await keys(page, '-', '+', 'f');
+  assert.ok(Math.abs((await scaleOf(page)) - k) < 1e-6);
+  await command(page, 'side.sheets');
+  await page.click('[data-id="sheet-board-1"] button');
+  await settled(page);
+  assert.ok((await scaleOf(page)) > 1.5 * k); // one sheet of two
+});
+
+inEditor('shows labels, grain, gaps and zones, or not', async (page) => {
+  await press(page, 2);
+  const seen = () => page.locator('.picture canvas').first().evaluate((canvas) => canvas.toDataURL());
+  await command(page, 'menu.view');
+  for (const name of ['labels', 'grain', 'gap', 'zones']) {
+    const before = await seen();
+    await command(page, `show.${name}`);
+    await settled(page);
+    assert.ok(before !== (await seen()), name);
+    await command(page, `show.${name}`);
+    await settled(page);
+    assert.ok(before === (await seen()), `${name} again`);
+  }
+});
+
+inEditor('goes back to any state, and to that before', async (page, server) => {
+  await press(page, 3);
+  await keys(page, 'ArrowUp', 'ArrowUp', 'ArrowUp');
+  await command(page, 'side.history');
+  await page.click('[data-id="revision-1"] button');
+  await page.waitForFunction(() => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel), null, { polling: 20 });
+  assert.equal((await placementOf(server, 3)).y, 121);
+  await page.waitForSelector('[data-id="revision-4"]');
+  await page.click('[data-id="revision-3"] button');
+  await page.waitForFunction(() => /20.00 123.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel), null, { polling: 20 });
+});
+
+inEditor('has several layouts: a copy, another name, another one, none', async (page, server) => {
+  await command(page, 'copy.layout');
+  await page.waitForFunction(() => document.querySelectorAll('.layouts option').length === 2);
+  await command(page, 'name.layout');
+  await page.fill('dialog [data-field="name"]', 'Second');
+  await command(page, 'name.save');
+  await page.waitForFunction(() => /Second/.test(document.querySelector('.layouts').selectedOptions[0].textContent));
+  await press(page, 3);
+  await keys(page, 'ArrowUp');
+  await page.selectOption('.layouts', { index: 1 });
+  await page.waitForFunction(() => /20.00 120.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel), null, { polling: 20 });
+  await page.selectOption('.layouts', { label: 'Second' });
+  await page.waitForFunction(() => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel), null, { polling: 20 });
+  await command(page, 'name.layout');
+  await command(page, 'name.delete');
+  await command(page, 'name.delete'); // sure
+  await page.waitForFunction(() => document.querySelectorAll('.layouts option').length === 1);
+  await page.waitForFunction(() => /20.00 120.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel), null, { polling: 20 });
+});
+
+/** Drops a file on the page as a hand does. */
+async function dropFile(page, name, text) {
+  const data = await page.evaluateHandle(([n, t]) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([t], n));
+    return transfer;
+  }, [name, text]);
+  await page.dispatchEvent('.picture', 'dragover', { dataTransfer: data });
+  assert.ok(await page.locator('.picture.dropping').count());
+  await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
+}
+
+inEditor('takes a dropped layout, and a drawing with the sheet that it asks for', async (page, server) => {
+  await dropFile(page, 'again.json', JSON.stringify({ ...smallLayout, name: 'Again', placements: smallLayout.placements.slice(0, 1) }));
+  await page.waitForFunction(() => document.querySelectorAll('.mirror li').length === 1);
+  const svg = '<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100"><rect id="lid" x="5" y="5" width="60" height="30"/><circle id="disc" cx="120" cy="50" r="20"/></svg>';
+  await dropFile(page, 'parts.svg', svg);
+  await page.waitForSelector('dialog [data-field="width"]');
+  await page.fill('dialog [data-field="width"]', 'wide');
+  await command(page, 'sheet.give');
+  await page.waitForFunction(() => /the sheet is WIDTHxHEIGHT/.test(document.querySelector('dialog .trouble').textContent));
+  await page.fill('dialog [data-field="width"]', '300,5');
+  await page.fill('dialog [data-field="height"]', '200');
+  await page.fill('dialog [data-field="count"]', '2');
+  await command(page, 'sheet.give');
+  await page.waitForSelector('dialog', { state: 'detached' });
+  await page.waitForSelector('[data-id="part-disc"]');
+  await page.click('[data-id="part-disc"] .piece');
+  await settled(page);
+  assert.equal(await placed(page), 1);
+  await command(page, 'side.sheets');
+  assert.equal(await page.locator('[data-id^="sheet-sheet-"]').count(), 2);
+  // The layout without a sheet is gone.
+  assert.equal((await (await fetch(new URL('/api/layouts', server.url))).json()).layouts.length, 3);
+}, { expected: ['400'] });
+
+inEditor('reads the drawing that it has exported: parts and sheets, no labels', async (page, server) => {
+  await command(page, 'menu.export');
+  await command(page, 'export.dxf');
+  const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
+  const file = join(server.folder, 'out.dxf');
+  await download.saveAs(file);
+  await dropFile(page, 'out.dxf', readFileSync(file, 'utf8'));
+  await page.waitForSelector('[data-id="part-CUT"]');
+  assert.equal(await page.locator('.tray li').count(), 3);
+  assert.match(await message(page), /its parts are on CUT and its sheets on SHEET/);
+  await page.click('[data-id="part-CUT-2"] .piece');
+  await settled(page);
+  assert.equal(await placed(page), 1);
+  assert.equal(await broken(page), 0);
+  const read = run('check', file, '--json');
+  assert.equal(read.status, 0, read.stderr);
+});
+
+inEditor('says every key, and closes again', async (page) => {
+  await command(page, 'help');
+  const text = await page.textContent('dialog');
+  for (const key of ['Tab', 'Ctrl + ← ↑ → ↓', '[ ]', 'Ctrl+Z', 'Esc', '/', '?']) assert.ok(text.includes(key), key);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('dialog').count(), 0);
+});
+
+inEditor('has every word in Ukrainian', async (page) => {
+  await command(page, 'language');
+  await command(page, 'side.sheets');
+  const words = await page.evaluate(() => [...document.querySelectorAll('button, summary, h2, label, th')].flatMap((e) => [e.textContent, e.title, e.ariaLabel]).filter(Boolean));
+  const latin = words.filter((word) => /[A-Za-z]{4}/.test(word) && !/JSON|lekalo|DXF|HPGL|G-code|Plate|Bracket|Small|edge|knot|board|Shift|Enter/.test(word));
+  assert.deepEqual(latin, []);
+  await command(page, 'language');
+});
