@@ -60,18 +60,18 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
   // Who worked by the keyboard stays where he was.
   const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
   bar.replaceChildren(
-    h('span', { class: 'brand' }, 'lekalo'), choice, button('open.file', () => file.click()), file, button('copy.layout', events.copyLayout), button('name.layout', events.nameLayout),
-    space(), h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...(['strict', 'free'] as const).map((m) =>
+    h('span', { class: 'files' }, h('span', { class: 'brand' }, 'lekalo'), choice, button('open.file', () => file.click()), file, button('copy.layout', events.copyLayout), button('name.layout', events.nameLayout)),
+    h('span', { class: 'commands' }, space(), h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...(['strict', 'free'] as const).map((m) =>
       h('button', { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) }, t(m)))),
     space(), action('undo'), action('redo'),
     space(), action('rotate.left'), step, action('rotate.right'), action('flip'),
     space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'),
-    space(), action('lock'), action('swap'), action('copy'), action('remove'),
-    h('span', { class: 'push' }), button('fit', events.fit),
+    space(), action('lock'), action('swap'), action('copy'), action('remove')),
+    h('span', { class: 'push' }), h('span', { class: 'ends' }, button('fit', events.fit),
     menu('view', t('view'), ...shown, picked, item('photo', t('photo'), () => picked.click()), item('theme', t('theme'), events.theme)),
     menu('export', t('export'), ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))),
       ...(Object.keys(CHOICES) as ChosenForm[]).map((form) => item(`export.${form}`, `${CHOICES[form].name}…`, () => events.choose(form))), item('print', t('print'), events.print)),
-    h('button', { 'aria-label': t('language'), 'data-action': 'language', click: events.language }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', events.help));
+    h('button', { 'aria-label': t('language'), 'data-action': 'language', click: events.language }, currentLanguage() === 'en' ? 'УКР' : 'ENG'), button('help', events.help)));
   tools.setAttribute('aria-label', t('tools'));
   tools.replaceChildren(tool('select'), tool('slide'), tool('push'), tool('nearest'), tool('measure'), tool('pan'),
     tool('defect'), tool('zone'), ...(editor.photos.size > 0 ? [tool('photo')] : []));

@@ -82,6 +82,24 @@ function tracedPath(loops: readonly Point[][], apart: number): Path2D {
 type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };
 const loopsOf = (o: Outlined): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
 
+/// How far one can go from a point of a part both ways along a direction of its own frame without leaving it, mm.
+function roomAlong(part: Part, [x, y]: Point, [dx, dy]: Point): number {
+  let room = Infinity;
+  for (const loop of loopsOf(part.outline)) {
+    let [ax, ay] = loop.at(-1)!;
+    for (const [bx, by] of loop) {
+      // Heights over the line.
+      const [ha, hb] = [dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)];
+      if (ha > 0 !== hb > 0) {
+        const k = ha / (ha - hb);
+        room = Math.min(room, Math.abs(dx * (ax + k * (bx - ax) - x) + dy * (ay + k * (by - ay) - y)));
+      }
+      [ax, ay] = [bx, by];
+    }
+  }
+  return room;
+}
+
 export function measured(from: Point, to: Point): string {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   return `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`;
@@ -384,7 +402,6 @@ export class Picture implements Painter {
     }
     const size = shape.reach / px;
     if (size < 18) return;
-    const box = scene.moving.has(p.id) ? placedBox(part, p) : model.box(p);
     const [ix, iy] = this.captionOf(part.outline);
     const mx = p.mirrored ? -ix : ix;
     const [sx, sy] = view.toScreen(sheet.x + p.x + p.c * mx - p.s * iy, sheet.y + p.y + p.s * mx + p.c * iy);
@@ -394,9 +411,7 @@ export class Picture implements Painter {
       ctx.textAlign = 'center';
       ctx.textBaseline = 'middle';
       ctx.fillStyle = theme.partInk;
-      const [left] = view.toScreen(sheet.x + box.left, 0);
-      const [right] = view.toScreen(sheet.x + box.right, 0);
-      const room = 2 * Math.min(sx - left, right - sx);
+      const room = (2 * roomAlong(part, [ix, iy], p.mirrored ? [-p.c, -p.s] : [p.c, -p.s])) / px;
       const marks = `${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`;
       const name = part.name ?? part.id;
       // Over hatching a text needs ground to stand on.

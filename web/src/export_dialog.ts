@@ -28,7 +28,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
     : h('input', { name: field.name, 'data-field': field.name, inputmode: 'decimal', 'aria-required': field.required ? 'true' : undefined, autocomplete: 'off', value: kept[field.name] ?? field.value ?? '' });
   const rows = fields.map((field) => {
     const input = inputOf(field);
-    return { field, input, row: h('label', {}, h('span', {}, t(`export.${field.name}` as Key)), input) };
+    return { field, input, row: h('label', {}, h('span', {}, `${t(`export.${field.name}` as Key)}${field.required ? ' *' : ''}`), input) };
   });
   const sheet = h('select', { 'data-field': 'sheet' }, ...(sheetEach ? [] : [h('option', { value: '' }, t('export.sheet.all'))]), ...sheets.map((one) => h('option', { value: one }, one)));
   const trouble = h('p', { class: 'trouble', role: 'alert' });

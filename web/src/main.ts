@@ -232,8 +232,11 @@ function showHelp(): void {
   dialog.showModal();
 }
 
+function fitView(): void {
+  view.fit(editor.model.extent(), 28, true);
+}
 function fitAll(): void {
-  view.fit(editor.model.extent());
+  fitView();
   later('view');
 }
 function reveal(v: Violation): void {
@@ -420,7 +423,7 @@ editor.on((topic) => {
   if (topic === 'layout') drawing.take(editor.model);
   if (topic === 'layout' && !fitted) {
     fitted = true;
-    view.fit(editor.model.extent());
+    fitView();
   }
   const wasMoving = picture.dataset.moving === 'true';
   const isMoving = editor.moving.size > 0;
@@ -445,7 +448,9 @@ editor.on((topic) => {
 
 new ResizeObserver(() => {
   drawing.resize(view, picture.clientWidth, picture.clientHeight);
-  if (editor.model.sheets.length > 0) later('all');
+  if (editor.model.sheets.length === 0) return;
+  if (view.isFitted) fitView();
+  later('all');
 }).observe(picture);
 picture.addEventListener('pointermove', (e) => {
   const box = picture.getBoundingClientRect();

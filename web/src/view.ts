@@ -13,6 +13,7 @@ export class View {
   /// Pixels of the screen to one of the page.
   ratio = 1;
   private rest: [number, number] = [0, 0];
+  private fitted = '';
 
   toScreen(x: number, y: number): [number, number] {
     return [this.x + x * this.scale, this.y - y * this.scale];
@@ -34,12 +35,17 @@ export class View {
     this.x = x - wx * this.scale;
     this.y = y + wy * this.scale;
   }
-  fit(box: Box, margin = 28): void {
+  fit(box: Box, margin = 28, whole = false): void {
     const w = Math.max(box.right - box.left, 1e-6);
     const h = Math.max(box.top - box.bottom, 1e-6);
     this.scale = Math.max(1e-4, Math.min((this.width - 2 * margin) / w, (this.height - 2 * margin) / h));
     this.x = (this.width - (box.left + box.right) * this.scale) / 2;
     this.y = (this.height + (box.bottom + box.top) * this.scale) / 2;
+    if (whole) this.fitted = `${this.scale} ${this.x} ${this.y}`;
+  }
+  /// Nobody has moved it since fit() of everything.
+  get isFitted(): boolean {
+    return this.fitted === `${this.scale} ${this.x} ${this.y}`;
   }
   visible(): Box {
     const [left, top] = this.toWorld(0, 0);

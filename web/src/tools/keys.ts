@@ -5,7 +5,7 @@ import type { Editor } from '../editor';
 import { act, type Action } from './actions';
 
 export const SHORTCUTS: [string, string][] = [
-  ['Tab / Shift+Tab', 'key.next'], ['← ↑ → ↓', 'key.move'], ['Ctrl + ← ↑ → ↓', 'key.slide'], ['[ ]', 'rotate.left'], ['M', 'flip'], ['G', 'settle'],
+  ['Tab / Shift+Tab', 'key.next'], ['← ↑ → ↓', 'key.move'], ['Ctrl + ← ↑ → ↓', 'key.slide'], ['[ ]', 'key.turn'], ['M', 'flip'], ['G', 'settle'],
   ['S', 'snap'], ['L', 'lock'], ['X', 'swap'], ['Del', 'remove'], ['Ctrl+D', 'copy'], ['C', 'compact'], ['Ctrl+Z', 'undo'], ['Ctrl+Y', 'redo'],
   ['Ctrl+A', 'key.all'], ['Esc', 'key.cancel'], ['+ −', 'key.zoom'], ['Space', 'key.pan'], ['F', 'fit'], ['1', 'tool.select'], ['2', 'tool.slide'],
   ['3', 'tool.push'], ['4', 'tool.nearest'], ['5', 'tool.measure'], ['/', 'find'], ['?', 'help'],
