@@ -150,7 +150,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (!target_->path.starts_with("/api")) return send(answer_page(method, target_->path));
     // The answer may take long: not on the network's thread.
     watch();
-    asio::post(service_.api_pool, [self = shared_from_this(), method, body = std::move(request.body())] {
+    asio::post(service_.api_pool, [self = shared_from_this(), method,
+                                   body = std::move(request.body())]() mutable {
       Service& service = self->service_;
       const auto change_room = [&service](LayoutId id, const std::function<Result<Outbound>(Room&)>& change) {
         return service.change_room(id, change);
@@ -161,7 +162,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
       } catch (const std::bad_alloc&) {
         *answer = api_error(503, "not enough memory for this");
       }
-      asio::post(service.io, [self, answer] { self->send(std::move(*answer)); });
+      // Not held here any more: what a connection ends with belongs to the network's thread.
+      asio::post(service.io, [self = std::move(self), answer] { self->send(std::move(*answer)); });
     });
   }
 
