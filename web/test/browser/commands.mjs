@@ -25,7 +25,7 @@ inEditor('turns by the step of the toolbar, by buttons and keys', async (page, s
   // A plate lies at right angles alone, and the sentence says so.
   await press(page, 2);
   await keys(page, 'Shift+ArrowUp', '[');
-  assert.match(await message(page), /not admitted.*angle/);
+  assert.match(await message(page), /not admitted: placement 2: rotation/);
   assert.equal((await checked(server)).exit, 0);
 });
 
@@ -44,10 +44,10 @@ inEditor('flips, settles, snaps and locks by buttons and keys', async (page, ser
   await settled(page);
   near((await placementOf(server, 2)).y, 30);
   await keys(page, 'Control+z');
-  // 15 mm above where the lower border's gap lets it lie: on to it.
+  // 5 mm from where the left border's gap lets it lie: on to it.
   await press(page, 1);
-  await keys(page, 'ArrowUp', 'ArrowUp', 'ArrowUp', 'ArrowUp', 'ArrowUp', 's');
-  near((await placementOf(server, 1)).y, 30);
+  await keys(page, 's');
+  near((await placementOf(server, 1)).x, 45);
   await command(page, 'lock');
   await settled(page);
   assert.equal((await placementOf(server, 1)).locked, true);
