@@ -1,5 +1,4 @@
 #include "lekalo/io/layout_export.hpp"
-#include "lekalo/io/open_layout.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "lekalo/io/drawing.hpp"
 #include "lekalo/io/drawing_regions.hpp"
 #include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/open_layout.hpp"
 #include "lekalo/io/svg.hpp"
 #include "support/layout_texts.hpp"
 #include "support/profile_parts.hpp"

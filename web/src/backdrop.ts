@@ -37,6 +37,7 @@ export class Backdrop {
   private stale: number | null = null;
   /// The last sharp picture, while a stretched copy of it is shown.
   private sharp: HTMLCanvasElement | null = null;
+  private aside: CanvasRenderingContext2D | null = null;
   private coming: { ctx: CanvasRenderingContext2D; of: Painted; steps: Generator<void> } | null = null;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly painter: Painter) {
@@ -63,12 +64,13 @@ export class Backdrop {
     this.painter.take(scene.model);
     const now = described(scene);
     const rectangles = this.painted && this.stale === null && sameView(this.painted, now) ? this.changed(scene, this.painted, now) : null;
-    if (!rectangles) {
+    if (!rectangles && ms < Infinity) {
       this.stale ??= performance.now();
       return this.sharpen(scene, ms);
     }
-    for (const one of rectangles) this.paint(scene, one);
+    for (const one of rectangles ?? [this.whole()]) this.paint(scene, one);
     this.painted = now;
+    this.stale = this.sharp = this.coming = null;
     return true;
   }
 
@@ -114,9 +116,7 @@ export class Backdrop {
     const until = begun - this.stale > LONGEST_STALE_MS ? Infinity : begun + ms;
     const now = described(scene);
     if (!this.coming || !sameView(this.coming.of, now) || !sameParts(this.coming.of, now)) {
-      const canvas = document.createElement('canvas');
-      [canvas.width, canvas.height] = [this.canvas.width, this.canvas.height];
-      const ctx = canvas.getContext('2d', { alpha: false, willReadFrequently: true })!;
+      const ctx = this.asideContext();
       this.coming = { ctx, of: now, steps: this.steps(ctx, scene, this.whole()) };
     }
     do {
@@ -131,6 +131,18 @@ export class Backdrop {
       return true;
     } while (performance.now() < until);
     return false;
+  }
+
+  /// As large as the canvas; the same again and again, as making one takes milliseconds.
+  private asideContext(): CanvasRenderingContext2D {
+    const { width, height } = this.canvas;
+    if (this.aside?.canvas.width !== width || this.aside.canvas.height !== height) {
+      const canvas = document.createElement('canvas');
+      [canvas.width, canvas.height] = [width, height];
+      this.aside = canvas.getContext('2d', { alpha: false, willReadFrequently: true })!;
+    }
+    this.aside.reset();
+    return this.aside;
   }
 
   private whole(): Rectangle {

@@ -125,7 +125,7 @@ function markFirstView(): void {
 }
 /// What is old or stretched is painted as it should be, slice by slice, without holding up what comes next; while
 /// the hand zooms, not before it rests.
-const SLICE_MS = 8;
+const SLICE_MS = 6;
 let sharpenDue: ReturnType<typeof setTimeout> | null = null;
 let slicing = false;
 function sharpenLater(wait = 70): void {
