@@ -434,7 +434,7 @@ inEditor('checks in the background what takes long, with a stop, and says what i
   assert.ok(first > 0 && first < 2500, String(first));
   assert.ok((await broken(page)) > 0); // what was found by then
   await command(page, 'check.resume');
-  await page.waitForFunction(() => /^\d+ % · \d+ s left$/.test(document.querySelector('[data-work="check"] .says')?.textContent), null, { polling: 20 });
+  await page.waitForFunction(() => /^\d+ % · \d+ (s|min) left$/.test(document.querySelector('[data-work="check"] .says')?.textContent), null, { polling: 20 });
   // The hand is free meanwhile, and what it holds is checked.
   const [x, y] = await at(page, 1, 0.5, 0.97);
   await page.mouse.move(x, y);
@@ -462,7 +462,7 @@ inEditor('shows a long command on its way, takes what is dropped meanwhile, and 
   assert.equal(await bar.isVisible(), false);
   const before = JSON.parse(await export_(server));
   await command(page, 'compact');
-  await says('\\d+ % · \\d+ s left · \\d+ parts better placed');
+  await says('\\d+ % · \\d+ (s|min) left · \\d+ parts better placed');
   const share = Number(await page.locator('[data-work="compact"] progress').getAttribute('value'));
   assert.ok(share > 0 && share < 1, String(share));
   // Dashed outlines lie over the parts, which stand where they were.
@@ -490,7 +490,7 @@ inEditor('shows a long command on its way, takes what is dropped meanwhile, and 
   await says('%');
   await command(page, 'language');
   assert.equal(await page.textContent('[data-action="compact.stop"]'), 'Зупинити');
-  await says('\\d+ % · ще \\d+ с');
+  await says('\\d+ % · ще \\d+ (с|хв)');
   await command(page, 'language');
   await command(page, 'compact.stop');
   await settled(page);
