@@ -35,11 +35,7 @@ for (const n of sizes.length > 0 ? sizes : [1000, 10000]) {
   /** Processor time of the page's thread, ms: what others do on the machine is not in it. */
   const processor = async () => (await cdp.send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration').value * 1000;
   console.log(`${n} parts in view; first view ${first.toFixed(0)} ms after the page began to load\n${''.padEnd(44)}processor   median     99 %    worst, ms`);
-  for (const [what, name, times] of [
-    ['a loop that never changes, for comparison', 'loop', 1000], ['check while dragging', 'dragCheck', 1000], ['frame while dragging', 'dragFrame', 500],
-    ['frame while panning', 'pan', 300], ['frame while zooming', 'zoom', 200], ['frame while it turns sharp after zooming', 'sharpen', 300],
-    ['frame after a part is chosen', 'choose', 200], ['frame while all is painted anew', 'frames', 300], ['all painted anew at once, as for printing', 'whole', 50], ['whole layout checked', 'check', 20],
-  ]) {
+  for (const [name, what, times] of await page.evaluate(() => window.lekaloBench.rows)) {
     const before = await processor();
     const said = await page.evaluate(([f, k]) => window.lekaloBench[f](k), [name, times]);
     const spent = ((await processor()) - before) / times;

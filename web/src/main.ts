@@ -3,7 +3,8 @@
 import { DARK, LIGHT, measured, Picture, type Scene } from './draw';
 import type { Violation } from './document';
 import { showBar as showTools } from './bar';
-import { Editor, movedBy } from './editor';
+import { benchmark, paintAll, printFigures, ROWS } from './benchmark';
+import { Editor } from './editor';
 import { h } from './elements';
 import type { ChosenForm, Values } from './export_choices';
 import { exportDialog, type Saved } from './export_dialog';
@@ -121,7 +122,10 @@ function frame(): void {
   markFirstView();
 }
 function markFirstView(): void {
-  if (fitted && drawing.backdrop.isWhole && performance.getEntriesByName('first view').length === 0) performance.mark('first view');
+  if (fitted && drawing.backdrop.isWhole && performance.getEntriesByName('first view').length === 0) {
+    performance.mark('first view');
+    if (new URL(location.href).searchParams.has('benchmark')) void printFigures(bench);
+  }
 }
 /// What is old or stretched is painted as it should be, slice by slice, without holding up what comes next; while
 /// the hand zooms, not before it rests.
@@ -498,93 +502,16 @@ document.body.append(paper);
 window.addEventListener('beforeprint', () => paper.replaceChildren(...printed(editor)));
 window.addEventListener('afterprint', () => paper.replaceChildren());
 
-/// Times `work` for the benchmark, ms.
-function timed(n: number, work: (i: number) => void): { median: number; p99: number; worst: number } {
-  const times = Array.from({ length: n }, (_, i) => {
-    const begin = performance.now();
-    work(i);
-    return performance.now() - begin;
-  }).sort((a, b) => a - b);
-  return { median: times[n >> 1]!, p99: times[Math.min(n - 1, Math.floor(n * 0.99))]!, worst: times[n - 1]! };
-}
+const bench = { editor, view, drawing, picture, base, top, scene, sliceMs: SLICE_MS };
 /// For bench/speed.mjs and the tests.
-const lekaloBench = {
-  /// Frames of an opening, a resizing or another theme; reading a pixel waits until it is painted.
-  frames: (n: number) => {
-    let whole = true;
-    return timed(n, () => {
-      if (whole) {
-        drawing.resize(view, picture.clientWidth, picture.clientHeight);
-        whole = drawing.backdrop.draw(scene(), SLICE_MS);
-      } else whole = drawing.backdrop.sharpen(scene(), SLICE_MS);
-      base.getContext('2d')!.getImageData(0, 0, 1, 1);
-    });
+Object.assign(window, {
+  lekaloBench: {
+    ...benchmark(bench),
+    rows: ROWS,
+    paintAll: () => paintAll(bench),
+    photos: () => [...editor.photos].map(({ stock, a, b, x, y, image: { width, height } }) => ({ stock, a, b, x, y, width, height })),
   },
-  /// All of it at once.
-  whole: (n: number) => timed(n, () => {
-    lekaloBench.paintAll();
-    base.getContext('2d')!.getImageData(0, 0, 1, 1);
-  }),
-  /// Slices of the sharp picture after zooming.
-  sharpen: (n: number) => {
-    let whole = true;
-    return timed(n, (i) => {
-      if (whole) {
-        view.zoomAt(400, 300, i % 2 === 0 ? 1.1 : 1 / 1.1);
-        whole = drawing.backdrop.follow(scene());
-      } else whole = drawing.backdrop.sharpen(scene(), SLICE_MS);
-      base.getContext('2d')!.getImageData(0, 0, 1, 1);
-    });
-  },
-  /// The frame after a part is chosen or let go.
-  choose: (n: number) => timed(n, (i) => {
-    editor.selection = new Set([[...editor.model.placements.keys()][(i * 7) % editor.model.placements.size]!]);
-    drawing.backdrop.draw(scene());
-    base.getContext('2d')!.getImageData(0, 0, 1, 1);
-  }),
-  /// Frames while the view moves a few pixels, or is zoomed.
-  pan: (n: number) => timed(n, (i) => {
-    view.pan(i % 40 < 20 ? 7 : -7, i % 40 < 20 ? 4 : -4);
-    drawing.backdrop.follow(scene());
-    base.getContext('2d')!.getImageData(0, 0, 1, 1);
-  }),
-  zoom: (n: number) => timed(n, (i) => {
-    view.zoomAt(400, 300, i % 20 < 10 ? 1.1 : 1 / 1.1);
-    drawing.backdrop.follow(scene());
-    base.getContext('2d')!.getImageData(0, 0, 1, 1);
-  }),
-  photos: () => [...editor.photos].map(({ stock, a, b, x, y, image: { width, height } }) => ({ stock, a, b, x, y, width, height })),
-  paintAll: () => {
-    drawing.resize(view, picture.clientWidth, picture.clientHeight);
-    drawing.backdrop.draw(scene());
-  },
-  /// The check of the whole layout, after each change.
-  check: (n: number) => timed(n, () => void editor.kernel.check()),
-  /// One part in hand at n places across the sheet: the check, the drawing.
-  dragCheck: (n: number) => {
-    const p = editor.placementsOf([...editor.model.placements.keys()].slice(0, 1));
-    const made = timed(n, (i) => editor.hold(movedBy(p, (i * 37) % 900, (i * 53) % 700), ''));
-    editor.release();
-    return made;
-  },
-  dragFrame: (n: number) => {
-    const p = editor.placementsOf([...editor.model.placements.keys()].slice(0, 1));
-    const made = timed(n, (i) => {
-      editor.moving = new Map(movedBy(p, i, i).map((q) => [q.id, q]));
-      drawing.drawTop(scene());
-      top.getContext('2d')!.getImageData(0, 0, 1, 1);
-    });
-    editor.release();
-    return made;
-  },
-  /// What the machine itself does to such figures.
-  loop: (n: number) => timed(n, () => {
-    let sum = 0;
-    for (let i = 0; i < 1e6; ++i) sum += i ^ (i >> 3);
-    if (sum === 1) throw new Error('never');
-  }),
-};
-Object.assign(window, { lekaloBench });
+});
 
 showAll();
 void (async () => {

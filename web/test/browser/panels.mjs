@@ -204,6 +204,17 @@ inEditor('reads the drawing that it has exported: parts and sheets, no labels', 
   assert.equal(read.status, 0, read.stderr);
 });
 
+inEditor('prints how quick it is on this layout when asked in the address', async (page, server) => {
+  await page.goto(`${server.page}${server.page.includes('?') ? '&' : '?'}benchmark`);
+  await page.waitForSelector('dialog.benchmark[data-done]', { timeout: 50_000 });
+  const rows = await page.locator('dialog.benchmark tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.equal(rows.length, await page.evaluate(() => window.lekaloBench.rows.length));
+  for (const [what, ...figures] of rows) for (const figure of figures) assert.ok(Number(figure) >= 0, `${what}: ${figure}`);
+  assert.match(await page.textContent('dialog.benchmark p'), /first view \d+ ms/);
+  await page.click('dialog.benchmark button');
+  assert.equal(await page.locator('dialog.benchmark').count(), 0);
+});
+
 inEditor('says every key, and closes again', async (page) => {
   await command(page, 'help');
   const text = await page.textContent('dialog');
