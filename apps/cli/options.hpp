@@ -16,6 +16,7 @@
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/mill/pocket.hpp"
+#include "lekalo/mill/program.hpp"
 #include "lekalo/nc/rewrite.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -96,6 +97,7 @@ struct SimulateOptions {
 struct PocketOptions {
   std::string pocket, output;  ///< output may be empty: stdout
   mill::PocketOptions path;
+  mill::ProgramOptions program;
 };
 
 struct CheckOptions {

@@ -64,7 +64,7 @@ Result<int> run_pocket(const PocketOptions& o) {
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", o.pocket, *fault));
   const Result<mill::PocketPath> path = mill::pocket_path(file->regions, o.path);
   if (!path) return failure(path.error().code, fmt::format("{}: {}", o.pocket, path.error().message));
-  const std::string program = mill::program_of(*path, o.path);
+  const std::string program = mill::program_of(*path, o.program);
   const Result<verify::SimulateReport> judged = judgement_of(program, *bytes, o);
   if (!judged) return tl::unexpected(judged.error());
   if (Result<void> done = deliver(o.output, program); !done) return tl::unexpected(done.error());

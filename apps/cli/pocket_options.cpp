@@ -14,7 +14,7 @@ struct PocketWords {
 
 Result<Command> to_pocket(PocketWords w) {
   WordReader read;
-  PocketOptions o{w.pocket, w.output, {}};
+  PocketOptions o{w.pocket, w.output, {}, {}};
   const char* const feed = "a feed above 0, mm/min";
   double percent = 40;
   if (!w.step_over.empty() && w.step_over.back() == '%') w.step_over.pop_back();
@@ -24,9 +24,9 @@ Result<Command> to_pocket(PocketWords w) {
   read.number("--depth", w.depth, 1e-3, 1e4, "a depth from 0.001 to 10000 mm", o.path.depth);
   read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
               o.path.stock_to_leave);
-  read.number("--feed", w.feed, 1e-3, 1e6, feed, o.path.feed);
-  read.number("--plunge-feed", w.plunge_feed, 1e-3, 1e6, feed, o.path.plunge_feed);
-  read.number("--link-feed", w.link_feed, 1e-3, 1e6, feed, o.path.link_feed);
+  read.number("--feed", w.feed, 1e-3, 1e6, feed, o.program.feed_mm_per_min);
+  read.number("--plunge-feed", w.plunge_feed, 1e-3, 1e6, feed, o.program.plunge_feed_mm_per_min);
+  read.number("--link-feed", w.link_feed, 1e-3, 1e6, feed, o.program.link_feed_mm_per_min);
   read.number("--safe-height", w.safe_height, 1e-3, 1e4, "a height above 0, mm", o.path.safe_height);
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
   return Command(std::move(o));

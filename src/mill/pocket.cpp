@@ -1,6 +1,4 @@
-#include "lekalo/mill/pocket.hpp"
-
-#include <fmt/format.h>
+#include "level_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -545,51 +543,10 @@ class Clearing {
 
 }  // namespace
 
-Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o) {
-  const auto outside = [](double v, double low, double high) { return !(v >= low && v <= high); };
-  const auto wrong = [](const char* what, double v, const char* wanted) {
-    return failure(ErrorCode::bad_input, fmt::format("a {} of {:g}: it is to be {}", what, v, wanted));
-  };
-  if (outside(o.tool_diameter, 0.01, 1e4)) return wrong("tool diameter", o.tool_diameter, "0.01 to 10000 mm");
-  if (outside(o.step_over, 0.01, 0.5)) return wrong("step-over", o.step_over, "0.01 to 0.5 of the diameter");
-  if (outside(o.stock_to_leave, 0, 1e4)) return wrong("stock to leave", o.stock_to_leave, "0 to 10000 mm");
-  if (outside(o.depth, 1e-3, 1e4)) return wrong("depth", o.depth, "0.001 to 10000 mm");
-  auto allowed = geom::offset(pockets, -(o.tool_diameter / 2 + o.stock_to_leave));
-  if (!allowed) return tl::unexpected(allowed.error());
-  if (allowed->regions.empty())
-    return failure(
-        ErrorCode::bad_input,
-        fmt::format("a tool of {:g} mm that leaves {:g} mm on the walls fits nowhere in this pocket",
-                    o.tool_diameter, o.stock_to_leave));
-  PocketPath whole;
-  for (const Region& region : allowed->regions) {
-    auto path = Clearing({region}, o).run();
-    if (!path) return tl::unexpected(path.error());
-    whole.fronts += path->fronts;
-    whole.moves.insert(whole.moves.end(), path->moves.begin(), path->moves.end());
-  }
-  return whole;
-}
-
-std::string program_of(const PocketPath& path, const PocketOptions& o) {
-  std::string text = "G21 G90 G17 G40 G49 G80 G94\n";
-  double feed = 0;
-  geom::Point at{std::nan(""), 0};
-  double z = std::nan("");
-  for (const PathMove& move : path.moves) {
-    const bool rapid = move.kind == PathMove::Kind::rapid;
-    const double f = move.kind == PathMove::Kind::plunge  ? o.plunge_feed
-                     : move.kind == PathMove::Kind::link  ? o.link_feed
-                     : move.kind == PathMove::Kind::helix ? o.feed / 2
-                                                          : o.feed;
-    text += rapid ? "G0" : "G1";
-    if (!(move.to == at)) text += fmt::format(" X{:.4f} Y{:.4f}", move.to.x, move.to.y);
-    if (!(move.z == z)) text += fmt::format(" Z{:.4f}", move.z);
-    if (!rapid && f != feed) text += fmt::format(" F{:g}", feed = f);
-    text += "\n";
-    at = move.to, z = move.z;
-  }
-  return text + "M2\n";
+Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
+                              const std::vector<Region>& cut_already) {
+  static_cast<void>(cut_already);
+  return Clearing({allowed}, options).run();
 }
 
 }  // namespace lekalo::mill

@@ -5,6 +5,7 @@
 
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
+#include "lekalo/mill/program.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 // The path, judged by the independent checker. Bounds stated here are those the path keeps today; what it is
@@ -30,7 +31,7 @@ Judged judge(const std::string& pocket, const PocketOptions& options = {}) {
     return {};
   }
   Judged judged;
-  judged.program = program_of(*path, options);
+  judged.program = program_of(*path, {});
   verify::SimulateOptions simulation;
   simulation.tool_diameter = options.tool_diameter;
   simulation.stock_to_leave = options.stock_to_leave;
