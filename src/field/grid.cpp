@@ -25,65 +25,135 @@ struct NearSegment {
   float x, y, along_x, along_y, length;
 };
 
-/// Value and gradient of some nodes of a tile, and which of its segments they belong to.
+/// Some nodes of a tile, what is least there and of which of the tile's segments.
 struct Block {
-  std::array<float, kBlock> x, y, value, dx, dy;
+  std::array<float, kBlock> x, y, least;
   std::array<std::uint32_t, kBlock> which;
+  std::array<float, kBlock> from_x, from_y, along_x, along_y, length;  ///< node from segment; the segment
+  std::array<float, kBlock> value, dx, dy, sign;
 };
 
-/// Keeps what is less than what is there. Loops of this kind are made vector instructions by the compiler:
-/// no branch, no call, no order of sums that matters.
-struct LeastOf {
-  Block& block;
-  std::uint32_t number;
-  void operator()(std::size_t i, float value, float dx, float dy) const {
-    const bool less = value < block.value[i];
-    block.value[i] = less ? value : block.value[i];
-    block.dx[i] = less ? dx : block.dx[i];
-    block.dy[i] = less ? dy : block.dy[i];
-    block.which[i] = less ? number : block.which[i];
+// The loops below become vector instructions: no branch, no call, no order of sums that matters. Wider ones
+// are taken where the processor has them; they round the same.
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define LEKALO_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define LEKALO_WIDE
+#endif
+
+/// f is the line's value, u = f^2 / L, and over = sqrt(u^2 + t^2) - t without cancellation, as in floz().
+struct Terms {
+  float f, u, over, root;
+};
+inline Terms terms(float x, float y, float along_x, float along_y, float length, float per_length) {
+  const float f = along_x * y - along_y * x;
+  const float t = length * 0.25F - (x * x + y * y) * per_length;
+  const float u = f * f * per_length;
+  const float root = std::sqrt(u * u + t * t) + kLeast;
+  const float sum = root + std::abs(t);
+  const float small = u * u / sum;
+  return {f, u, t > 0 ? small : sum, root};
+}
+
+inline void keep_least(Block& block, std::size_t i, float value, std::uint32_t number) {
+  const bool less = value < block.least[i];
+  block.least[i] = less ? value : block.least[i];
+  block.which[i] = less ? number : block.which[i];
+}
+
+LEKALO_WIDE void least_normalised(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
+  const float per_length = 1 / s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Terms at = terms(block.x[i] - s.x, block.y[i] - s.y, s.along_x, s.along_y, s.length, per_length);
+    keep_least(block, i, at.f * at.f + 0.25F * at.over * at.over, number);  // the square
   }
-};
+}
 
-/// What a kind of function is: bounds over a disc, jets at nodes in single precision, a jet in double.
+/// The same where t < 0: no node lies in the disc that has the segment as diameter.
+LEKALO_WIDE void least_normalised_beyond(const NearSegment& s, Block& block, std::size_t n,
+                                         std::uint32_t number) {
+  const float per_length = 1 / s.length, quarter = 0.25F * s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.x[i] - s.x, y = block.y[i] - s.y;
+    const float f = s.along_x * y - s.along_y * x, square = f * f;
+    const float past = (x * x + y * y) * per_length - quarter, u = square * per_length;
+    const float over = past + std::sqrt(u * u + past * past);
+    keep_least(block, i, square + 0.25F * over * over, number);
+  }
+}
+
+LEKALO_WIDE void least_algebraic(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
+  const float per_length = 1 / s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Terms at = terms(block.x[i] - s.x, block.y[i] - s.y, s.along_x, s.along_y, s.length, per_length);
+    keep_least(block, i, at.u + at.over, number);
+  }
+}
+
+LEKALO_WIDE void least_distance(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
+  const float half = s.length * 0.5F;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.x[i] - s.x, y = block.y[i] - s.y;
+    const float f = s.along_x * y - s.along_y * x, along = s.along_x * x + s.along_y * y;
+    const float past = std::max(0.0F, std::abs(along) - half);
+    keep_least(block, i, f * f + past * past, number);  // the square
+  }
+}
+
+/// grad over = 2 (over d + u f n) / (L root), because t / root - 1 = -over / root.
+LEKALO_WIDE void jets_normalised(Block& block, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.from_x[i], y = block.from_y[i], ax = block.along_x[i], ay = block.along_y[i];
+    const float per_length = 1 / block.length[i];
+    const Terms at = terms(x, y, ax, ay, block.length[i], per_length);
+    const float g = 0.5F * at.over, value = std::sqrt(at.f * at.f + g * g), by = 1 / (value + kLeast);
+    const float scale = g * per_length / at.root, turn = scale * at.u * at.f + at.f;
+    block.value[i] = value;
+    block.dx[i] = by * (scale * at.over * x - turn * ay);
+    block.dy[i] = by * (scale * at.over * y + turn * ax);
+  }
+}
+
+LEKALO_WIDE void jets_algebraic(Block& block, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.from_x[i], y = block.from_y[i], ax = block.along_x[i], ay = block.along_y[i];
+    const float per_length = 1 / block.length[i];
+    const Terms at = terms(x, y, ax, ay, block.length[i], per_length);
+    const float scale = 2 * per_length / at.root, turn = scale * at.u * at.f + 2 * at.f * per_length;
+    block.value[i] = at.u + at.over;
+    block.dx[i] = scale * at.over * x - turn * ay;
+    block.dy[i] = scale * at.over * y + turn * ax;
+  }
+}
+
+LEKALO_WIDE void jets_distance(Block& block, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.from_x[i], y = block.from_y[i], ax = block.along_x[i], ay = block.along_y[i];
+    const float half = 0.5F * block.length[i];
+    const float f = ax * y - ay * x, along = ax * x + ay * y;
+    const float past = along - std::min(std::max(along, -half), half);
+    const float value = std::sqrt(f * f + past * past), by = 1 / (value + kLeast);
+    block.value[i] = value;
+    block.dx[i] = by * (past * ax - f * ay), block.dy[i] = by * (past * ay + f * ax);
+  }
+}
+
+/// What a kind of function is: bounds over a disc, what is least at nodes and jets of it in single precision,
+/// a jet in double.
 struct LinearFloz {
   const ContourModel& model;
   [[nodiscard]] FlozBounds bounds(const FlozSegment& s, geom::Point x, double radius) const {
     return floz_bounds(s, x, radius, model.options().form);
   }
-  /// As floz(): f the line's value, u = f^2 / L, over = sqrt(u^2 + t^2) - t without cancellation, and
-  /// grad over = 2 (over d + u f n) / (L root), because t / root - 1 = -over / root.
-  template <bool kNormalised>
-  static void least(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
-    const LeastOf least_of{block, number};
-    const float per_length = 1 / s.length;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float x = block.x[i] - s.x, y = block.y[i] - s.y;
-      const float f = s.along_x * y - s.along_y * x;
-      const float t = s.length * 0.25F - (x * x + y * y) * per_length;
-      const float u = f * f * per_length;
-      const float root = std::sqrt(u * u + t * t) + kLeast;
-      const float sum = root + std::abs(t);
-      const float small = u * u / sum;
-      const float over = t > 0 ? small : sum;
-      const float scale = 2 * per_length / root;
-      const float over_x = scale * (over * x - u * f * s.along_y),
-                  over_y = scale * (over * y + u * f * s.along_x);
-      if constexpr (kNormalised) {
-        const float g = 0.5F * over, value = std::sqrt(f * f + g * g), by = 1 / (value + kLeast);
-        least_of(i, value, by * (0.5F * g * over_x - f * s.along_y),
-                 by * (0.5F * g * over_y + f * s.along_x));
-      } else {
-        const float du = 2 * f * per_length;
-        least_of(i, u + over, over_x - du * s.along_y, over_y + du * s.along_x);
-      }
-    }
+  [[nodiscard]] bool normalised() const { return model.options().form == FlozForm::normalised; }
+  void least(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number, float radius) const {
+    if (!normalised()) return least_algebraic(s, block, n, number);
+    const bool beyond = std::sqrt(s.x * s.x + s.y * s.y) > 1.001F * (radius + 0.5F * s.length);
+    (beyond ? least_normalised_beyond : least_normalised)(s, block, n, number);
   }
-  void least_of(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) const {
-    if (model.options().form == FlozForm::normalised)
-      least<true>(s, block, n, number);
-    else
-      least<false>(s, block, n, number);
+  void jets(Block& block, std::size_t n) const {
+    (normalised() ? jets_normalised : jets_algebraic)(block, n);
   }
   [[nodiscard]] Jet jet(const FlozSegment& s, geom::Point x) const {
     return floz(s, x, model.options().form);
@@ -95,17 +165,11 @@ struct Distance {
     const double d = jet(s, x).value;
     return {std::max(0.0, d - radius), d + radius};
   }
-  static void least_of(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
-    const LeastOf least_of{block, number};
-    const float half = s.length * 0.5F;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float x = block.x[i] - s.x, y = block.y[i] - s.y;
-      const float f = s.along_x * y - s.along_y * x, along = s.along_x * x + s.along_y * y;
-      const float past = along - std::min(std::max(along, -half), half);
-      const float value = std::sqrt(f * f + past * past), by = 1 / (value + kLeast);
-      least_of(i, value, by * (past * s.along_x - f * s.along_y), by * (past * s.along_y + f * s.along_x));
-    }
+  static void least(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number,
+                    float /*radius*/) {
+    least_distance(s, block, n, number);
   }
+  static void jets(Block& block, std::size_t n) { jets_distance(block, n); }
   static Jet jet(const FlozSegment& s, geom::Point x) {
     const double along = std::clamp(dot(s.along, x - s.middle), -s.length / 2, s.length / 2);
     const geom::Point off = x - (s.middle + along * s.along);
@@ -184,7 +248,6 @@ class Sampler {
     std::vector<double> lows;
     std::vector<NearSegment> near;
     Block block;
-    std::array<float, kBlock> sign;
   };
 
   void divide(const Tile& tile, const Numbers& numbers, std::size_t depth, Workspace& space) const {
@@ -240,11 +303,20 @@ class Sampler {
           block.x[r * tile.columns + i] = static_cast<float>(begin.x + frame.pitch * static_cast<double>(i));
           block.y[r * tile.columns + i] = static_cast<float>(begin.y);
         }
-        signs_.fill(frame, tile.column, tile.row + j + r, tile.columns, &space.sign[r * tile.columns]);
+        signs_.fill(frame, tile.column, tile.row + j + r, tile.columns, &block.sign[r * tile.columns]);
       }
-      std::fill_n(block.value.begin(), n, std::numeric_limits<float>::infinity());
-      for (std::size_t k = 0; k < space.near.size(); ++k)
-        kind_.least_of(space.near[k], block, n, static_cast<std::uint32_t>(k));
+      std::fill_n(block.which.begin(), n, 0U);
+      if (space.near.size() > 1) {
+        std::fill_n(block.least.begin(), n, std::numeric_limits<float>::infinity());
+        for (std::size_t k = 0; k < space.near.size(); ++k)
+          kind_.least(space.near[k], block, n, static_cast<std::uint32_t>(k), static_cast<float>(off));
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        const NearSegment& s = space.near[block.which[i]];
+        block.from_x[i] = block.x[i] - s.x, block.from_y[i] = block.y[i] - s.y;
+        block.along_x[i] = s.along_x, block.along_y[i] = s.along_y, block.length[i] = s.length;
+      }
+      kind_.jets(block, n);
       for (std::size_t i = 0; i < n; ++i) {
         if (!(block.value[i] < close)) continue;
         const geom::Point node = frame.node(tile.column + i % tile.columns, tile.row + j + i / tile.columns);
@@ -255,9 +327,9 @@ class Sampler {
       for (std::size_t r = 0; r < rows; ++r) {
         const std::size_t to = (tile.row + j + r) * frame.columns + tile.column, from = r * tile.columns;
         for (std::size_t i = 0; i < tile.columns; ++i) {
-          grid_.value[to + i] = space.sign[from + i] * block.value[from + i];
-          grid_.dx[to + i] = space.sign[from + i] * block.dx[from + i];
-          grid_.dy[to + i] = space.sign[from + i] * block.dy[from + i];
+          grid_.value[to + i] = block.sign[from + i] * block.value[from + i];
+          grid_.dx[to + i] = block.sign[from + i] * block.dx[from + i];
+          grid_.dy[to + i] = block.sign[from + i] * block.dy[from + i];
         }
       }
     }
