@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "arc_fit.hpp"
+#include "floz_level.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
+#include "lekalo/mill/fragments.hpp"
 #include "level_path.hpp"
 
 namespace lekalo::mill {
@@ -33,6 +35,8 @@ Result<void> check(const PocketOptions& o) {
     return wrong("diameter of the tool before", o.rest_of, "larger than that of this tool");
   if (outside(o.safe_height, 1e-3, 1e4)) return wrong("safe height", o.safe_height, "0.001 to 10000 mm");
   if (outside(o.ramp_angle, 1e-3, 0.8)) return wrong("ramp angle", o.ramp_angle, "0.001 to 0.8 rad");
+  if (outside(o.sampling, 1e-3, 1e4)) return wrong("sampling step", o.sampling, "0.001 to 10000 mm");
+  if (outside(o.trace_step, 0, 1e4)) return wrong("step of the trace", o.trace_step, "0 to 10000 mm");
   if (outside(o.fit_tolerance, 1e-5, 1)) return wrong("fit tolerance", o.fit_tolerance, "0.00001 to 1 mm");
   return {};
 }
@@ -101,9 +105,22 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
   const double levels = o.step_down > 0 ? std::ceil(depth / o.step_down * (1 - 1e-12)) : 1;
   PocketOptions one = o;
   one.depth = depth / levels;
+  std::vector<Region> pieces = allowed->regions;
+  const bool source = o.method != Method::fronts;
+  if (source && !o.whole) {
+    const auto fragments = convex_fragments(pockets);
+    if (!fragments) return tl::unexpected(fragments.error());
+    pieces.clear();
+    for (const Region& fragment : *fragments) {
+      const auto part =
+          geom::combine(allowed->regions, {fragment}, geom::BooleanOperation::intersect, allowed->edge_error);
+      if (!part) return tl::unexpected(part.error());
+      pieces.insert(pieces.end(), part->regions.begin(), part->regions.end());
+    }
+  }
   PocketPath whole;
-  for (const Region& region : allowed->regions) {
-    const auto level = level_path(region, one, cut);
+  for (const Region& region : pieces) {
+    const auto level = source ? floz_level(region, one) : level_path(region, one, cut);
     if (!level) return tl::unexpected(level.error());
     if (level->moves.empty()) continue;  // nothing is left to cut here
     const geom::RegionIndex index({region});

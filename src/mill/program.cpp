@@ -47,14 +47,17 @@ class Writer {
     for (int i = 0; i < decimals_; ++i) step_ /= 10;
   }
 
-  std::string write(const PocketPath& path) {
+  std::string write(const PocketPath& path, std::vector<std::size_t>* move_of_line) {
+    move_of_line_ = move_of_line;
     begin();
     for (const PathMove& move : path.moves) {
+      move_ = static_cast<std::size_t>(&move - path.moves.data());
       if (!at_)
         first(move);
       else
         follow(move);
     }
+    move_ = kNoMove;
     end();
     return std::move(text_);
   }
@@ -63,6 +66,7 @@ class Writer {
   void line(const std::string& words) {
     text_ += words;
     text_ += '\n';
+    if (move_of_line_ != nullptr) move_of_line_->push_back(move_);
   }
   void comment(const std::string& words) {
     const std::string text = plain(words);
@@ -242,12 +246,15 @@ class Writer {
   Point exact_;
   std::int64_t z_ = 0;
   std::string text_;
+  std::size_t move_ = kNoMove;
+  std::vector<std::size_t>* move_of_line_ = nullptr;
 };
 
 }  // namespace
 
-std::string program_of(const PocketPath& path, const ProgramOptions& options) {
-  return Writer(options).write(path);
+std::string program_of(const PocketPath& path, const ProgramOptions& options,
+                       std::vector<std::size_t>* move_of_line) {
+  return Writer(options).write(path, move_of_line);
 }
 
 }  // namespace lekalo::mill

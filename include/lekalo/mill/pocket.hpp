@@ -12,6 +12,9 @@ namespace lekalo::mill {
 /// Which way round a cut goes; with a spindle that turns clockwise, climb has the material on the right.
 enum class Direction { any, climb, conventional };
 
+/// `fronts` is the product's; the others are the source's spirals on FLOZ models, for comparison.
+enum class Method { fronts, floz_linear, floz_quadratic };
+
 struct PocketOptions {
   double tool_diameter = 6;   ///< mm
   double step_over = 0.4;     ///< part of the diameter, in (0, 0.5]
@@ -24,6 +27,11 @@ struct PocketOptions {
   double safe_height = 5;       ///< mm above the stock
   double ramp_angle = 0.05;     ///< rad, of the helix
   double fit_tolerance = 2e-3;  ///< mm, of lines and arcs in place of the path's points
+  Method method = Method::fronts;
+  // Of the source's methods alone:
+  bool whole = false;     ///< one model of each pocket, not one of each convex fragment
+  double sampling = 3;    ///< mm: longest segment of the model
+  double trace_step = 0;  ///< mm; 0: the one that leaves the step-over between turns
 };
 
 /// A path that clears what the tool can reach of the pockets, by fronts: the places the tool's middle may be

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,11 @@ struct ProgramOptions {
 /// nearest to the arc through the rounded ends. No point of the written path is further than kWritingError
 /// from the path. The tool's radius is in the path: no G41 or G42. \pre options in range, the path of
 /// arcs up to 1 m radius (fitted).
-[[nodiscard]] std::string program_of(const PocketPath& path, const ProgramOptions& options);
+/// \param move_of_line  if given, gets the number of the move that each line is of, kNoMove for others
+[[nodiscard]] std::string program_of(const PocketPath& path, const ProgramOptions& options,
+                                     std::vector<std::size_t>* move_of_line = nullptr);
+
+inline constexpr std::size_t kNoMove = static_cast<std::size_t>(-1);
 
 inline constexpr double kWritingError = 1e-3;  ///< mm; held by tests/property/mill_program_test.cpp
 
