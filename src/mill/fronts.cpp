@@ -1,0 +1,308 @@
+#include "fronts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arrival.hpp"
+#include "edge_path.hpp"
+#include "lekalo/geom/offset.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "load.hpp"
+
+namespace lekalo::mill {
+namespace {
+
+using geom::Contour;
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+using geom::RegionIndex;
+
+constexpr double kSpacing = 0.3;    // mm between places at which a boundary is compared with the one before
+constexpr double kOnIt = 2e-4;      // mm: a place nearer to what is cut than this is cut
+constexpr double kLeastGap = 4e-3;  // mm: a stretch that is nowhere farther from it than this is no front
+constexpr double kOnWall = 1e-6;    // mm
+constexpr std::size_t kMostLayers = 20000;
+constexpr double kPitch = 0.07;  // of the tool's radius
+constexpr double kMostNodes = 4e6;
+constexpr double kNarrowStep = 0.13;  // of the tool's radius
+constexpr double kLeastShare = 0.3;
+
+// What a layer is to hold, degrees; the share of its length that may pass it, and how far.
+constexpr double kHeldDegrees = 80, kPeakDegrees = 95;
+constexpr double kBeyond = 0.05;
+constexpr double kLookEvery = 0.2;  // of the tool's radius
+constexpr int kMostTrials = 6;
+
+bool is_fresh(Point p, const RegionIndex& before) {
+  return before.nearest(p).distance > kOnIt && !before.contains(p);
+}
+
+/// Shares of an edge between which it is not cut yet.
+std::vector<std::pair<double, double>> fresh_parts(const Edge& edge, const RegionIndex& before) {
+  std::vector<std::pair<double, double>> parts;
+  const double pieces = std::max(1.0, std::ceil(length_of(edge) / kSpacing));
+  const auto change = [&](double low, double high, bool fresh_low) {
+    for (int i = 0; i < 12; ++i) {
+      const double middle = 0.5 * (low + high);
+      (is_fresh(place_at(edge, middle), before) == fresh_low ? low : high) = middle;
+    }
+    return fresh_low ? low : high;
+  };
+  // An edge of one piece still shows what its middle is.
+  const double count = std::max(2.0, pieces);
+  bool last = is_fresh(edge.from, before);
+  double begin = 0;
+  for (double i = 1; i <= count; ++i) {
+    const bool now = is_fresh(place_at(edge, i / count), before);
+    if (now != last) {
+      const double at = change((i - 1) / count, i / count, last);
+      if (now)
+        begin = at;
+      else if (at > begin)
+        parts.emplace_back(begin, at);
+    }
+    last = now;
+  }
+  if (last && begin < 1) parts.emplace_back(begin, 1.0);
+  return parts;
+}
+
+void add_fronts(const Contour& contour, const RegionIndex& before, std::vector<Front>& fronts) {
+  std::vector<Front> found;
+  bool joins = false;  // the last ends where an edge ends
+  for (const Edge& edge : contour) {
+    const auto parts = fresh_parts(edge, before);
+    if (parts.empty()) joins = false;
+    for (const auto& [from, to] : parts) {
+      if (!(joins && from == 0)) found.emplace_back();
+      found.back().edges.push_back(from == 0 && to == 1 ? edge : part_of(edge, from, to));
+      joins = to == 1;
+    }
+  }
+  if (joins && !found.empty() && found.front().edges.front().from == contour.front().from) {
+    if (found.size() == 1) {
+      found[0].closed = true;
+    } else {
+      Front& last = found.back();
+      last.edges.insert(last.edges.end(), found.front().edges.begin(), found.front().edges.end());
+      found.erase(found.begin());
+    }
+  }
+  for (Front& front : found) {
+    double gap = 0;
+    for (const Point p : places_on(front.edges, kSpacing)) gap = std::max(gap, before.nearest(p).distance);
+    if (gap < kLeastGap) continue;
+    fronts.push_back(std::move(front));
+  }
+}
+
+class Grower {
+ public:
+  Grower(const std::vector<Region>& fields, const std::vector<Region>& narrow, const GrowthLaw& law)
+      : fields_(fields), narrow_(narrow), walls_(fields), law_(law), r_(law.tool_radius), step_(law.step) {}
+
+  Result<Growth> run(const std::vector<Region>& start) {
+    growth_.cut.push_back(start);
+    for (;;) {
+      auto grown = grow_fields();
+      if (!grown) return tl::unexpected(grown.error());
+      auto filled = fill();
+      if (!filled) return tl::unexpected(filled.error());
+      if (narrow_.empty() || (!*grown && !*filled)) break;
+    }
+    return std::move(growth_);
+  }
+
+ private:
+  /// In the wide, by level lines of the arrival time. Whether there were fronts.
+  Result<bool> grow_fields() {
+    if (fields_.empty()) return false;
+    const std::size_t first = growth_.fronts.size();
+    const geom::Box box = walls_.bounds();
+    const double area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+    const double pitch = std::max(kPitch * r_, std::sqrt(area / kMostNodes));
+    const ArrivalField field(walls_, growth_.cut.back(), pitch,
+                             {.tool_radius = r_, .step = step_, .beyond = law_.wall_strip});
+    double time = 0, share = 1;
+    for (std::size_t layer = 0; layer < kMostLayers && time <= field.last(); ++layer) {
+      const RegionIndex before(growth_.cut.back());
+      std::vector<Region> cut;
+      std::vector<Front> fronts;
+      share = std::min(1.0, 1.1 * share);
+      for (int trial = 0;; ++trial) {
+        auto tried = reached_by(field, time + share);
+        if (!tried) return tl::unexpected(tried.error());
+        cut = std::move(*tried);
+        fronts = fresh_stretches(cut, before);
+        const double less = relief(fronts, before);
+        if (less >= 1 || trial == kMostTrials || share <= kLeastShare) break;
+        share = std::max(kLeastShare, share * less);
+      }
+      time += share;
+      if (fronts.empty()) continue;
+      add(std::move(fronts), before);
+      growth_.cut.push_back(std::move(cut));
+    }
+    return growth_.fronts.size() > first;
+  }
+
+  /// Corridors hardly wider than the tool, by short steps. Whether there were fronts.
+  Result<bool> fill() {
+    if (narrow_.empty()) return false;
+    const std::size_t first = growth_.fronts.size();
+    for (std::size_t layer = 0; layer < kMostLayers; ++layer) {
+      const std::vector<Region>& last = growth_.cut.back();
+      auto wider = geom::offset(last, kNarrowStep * r_);
+      if (!wider) return tl::unexpected(wider.error());
+      auto next =
+          geom::combine(wider->regions, narrow_, geom::BooleanOperation::intersect, wider->edge_error);
+      if (!next) return tl::unexpected(next.error());
+      auto all = geom::combine(next->regions, last, geom::BooleanOperation::unite);
+      if (!all) return tl::unexpected(all.error());
+      if (!add_fronts(all->regions)) break;
+      growth_.cut.push_back(std::move(all->regions));
+    }
+    return growth_.fronts.size() > first;
+  }
+
+  Result<std::vector<Region>> reached_by(const ArrivalField& field, double time) const {
+    std::vector<Region> cut = fields_;
+    if (time <= field.last() || !field.reaches_all()) {
+      auto early = field.before(time);
+      if (!early) return tl::unexpected(early.error());
+      auto inside = geom::combine(*early, fields_, geom::BooleanOperation::intersect);
+      if (!inside) return tl::unexpected(inside.error());
+      cut = std::move(inside->regions);
+    }
+    if (narrow_.empty()) return cut;
+    auto all = geom::combine(cut, growth_.cut.back(), geom::BooleanOperation::unite);
+    if (!all) return tl::unexpected(all.error());
+    return std::move(all->regions);
+  }
+
+  /// The share of the step that would hold the angle; 1 where it is held, cut in either direction.
+  [[nodiscard]] double relief(const std::vector<Front>& fronts, const RegionIndex& before) const {
+    double length = 0, beyond = 0, largest = 0;
+    for (const Front& front : fronts)
+      for (const bool back : {false, true}) {
+        const Load load =
+            load_of(pass_along(front, back, walls_, step_), back, before, r_, kHeldDegrees, kLookEvery * r_);
+        length += load.length, beyond += load.beyond;
+        largest = std::max(largest, load.largest);
+      }
+    if (beyond <= kBeyond * length && largest <= kPeakDegrees) return 1;
+    return largest > kPeakDegrees + 8 ? 0.85 : 0.93;
+  }
+
+  bool add_fronts(const std::vector<Region>& cut) {
+    const RegionIndex before(growth_.cut.back());
+    std::vector<Front> fronts = fresh_stretches(cut, before);
+    const bool some = !fronts.empty();
+    add(std::move(fronts), before);
+    return some;
+  }
+  void add(std::vector<Front> fronts, const RegionIndex& before) {
+    const std::size_t first = growth_.fronts.size();
+    for (Front& front : fronts) {
+      front.layer = growth_.cut.size();
+      growth_.fronts.push_back(std::move(front));
+    }
+    for (std::size_t i = first; i < growth_.fronts.size(); ++i) find_parents(i, first, before);
+  }
+
+  void find_parents(std::size_t number, std::size_t first, const RegionIndex& before) {
+    while (places_.size() < growth_.fronts.size()) {
+      places_.push_back(places_on(growth_.fronts[places_.size()].edges, 0.5 * kSpacing));
+      Box box{places_.back()[0], places_.back()[0]};
+      for (const Point p : places_.back()) box.add(p);
+      boxes_.push_back(box);
+    }
+    Front& front = growth_.fronts[number];
+    const std::vector<Point>& at = places_[number];
+    constexpr double kReach = 0.25 * kSpacing + 1e-3;
+    for (std::size_t i = 0; i < at.size(); i += 2) {
+      const Point p = before.nearest(at[i]).point;
+      for (std::size_t parent = first; parent-- > 0;) {
+        if (!boxes_[parent].holds(p, kReach)) continue;
+        bool near = false;
+        for (std::size_t k = 0; k < places_[parent].size() && !near; ++k)
+          near = norm(places_[parent][k] - p) < kReach;
+        if (!near) continue;
+        if (std::find(front.parents.begin(), front.parents.end(), parent) == front.parents.end())
+          front.parents.push_back(parent);
+        break;
+      }
+    }
+  }
+
+  struct Box {
+    Point low, high;
+    void add(Point p) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    [[nodiscard]] bool holds(Point p, double reach) const {
+      return p.x >= low.x - reach && p.x <= high.x + reach && p.y >= low.y - reach && p.y <= high.y + reach;
+    }
+  };
+
+  const std::vector<Region>&fields_, &narrow_;
+  const RegionIndex walls_;  ///< of the fields
+  GrowthLaw law_;
+  double r_, step_;
+  Growth growth_;
+  std::vector<std::vector<Point>> places_;  ///< of each front
+  std::vector<Box> boxes_;
+};
+
+}  // namespace
+
+std::vector<Front> fresh_stretches(const std::vector<Region>& cut, const RegionIndex& before) {
+  std::vector<Front> fronts;
+  for (const Region& region : cut) {
+    add_fronts(region.outer, before, fronts);
+    for (const Contour& hole : region.holes) add_fronts(hole, before, fronts);
+  }
+  return fronts;
+}
+
+std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& fields, double step) {
+  std::vector<Edge> edges = back ? turned_back(front.edges) : front.edges;
+  if (front.closed) return edges;
+  const auto on_wall = [&](const Edge& edge) {
+    return fields.nearest(place_at(edge, 0.5)).distance < kOnWall &&
+           fields.nearest(edge.from).distance < kOnWall && fields.nearest(edge.to).distance < kOnWall;
+  };
+  std::size_t begin = 0, end = edges.size();
+  double run = 0;
+  while (end > 1 && on_wall(edges[end - 1])) run += length_of(edges[--end]);
+  if (run < 2 * step) edges.resize(end);
+  run = 0;
+  while (begin < edges.size() && on_wall(edges[begin])) run += length_of(edges[begin++]);
+  if (begin == 0 || begin == edges.size() || run > 2 * step) return edges;
+  // Off the wall on an arc that meets the front as far from the corner as it begins.
+  const Point from = edges.front().from;
+  const Point way = heading_at(edges.front(), from);
+  double left = run;
+  std::size_t k = begin;
+  while (k + 1 < edges.size() && length_of(edges[k]) < left) left -= length_of(edges[k++]);
+  const double length = length_of(edges[k]);
+  if (!(left < 0.98 * length)) return edges;
+  const Edge rest = part_of(edges[k], left / length, 1);
+  const Point chord = rest.from - from;
+  const double off = cross(way, chord);
+  if (!(dot(way, chord) > 0) || std::abs(off) < 1e-3 * norm(chord)) return edges;
+  const Point centre = from + (dot(chord, chord) / (2 * off)) * perpendicular(way);
+  std::vector<Edge> smooth{{off > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from, rest.from, centre}, rest};
+  smooth.insert(smooth.end(), edges.begin() + static_cast<std::ptrdiff_t>(k) + 1, edges.end());
+  return smooth;
+}
+
+Result<Growth> grow(const std::vector<Region>& fields, const std::vector<Region>& narrow,
+                    const std::vector<Region>& start, const GrowthLaw& law) {
+  return Grower(fields, narrow, law).run(start);
+}
+
+}  // namespace lekalo::mill

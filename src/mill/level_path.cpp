@@ -1,0 +1,403 @@
+#include "level_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "cleared_grid.hpp"
+#include "edge_path.hpp"
+#include "fronts.hpp"
+#include "lekalo/geom/offset.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "lekalo/geom/trig.hpp"
+#include "step_law.hpp"
+
+namespace lekalo::mill {
+namespace {
+
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+
+constexpr double kStrip = 0.12;            // of the tool's radius, left to the pass along the walls
+constexpr double kFieldFillet = 0.55;      // of the tool's radius: corners of the fields
+constexpr double kPeels[] = {0.43, 0.23};  // of the tool's radius: corners of the walls, one after the other
+constexpr double kSubtree = 0.05;          // mm of way for a mm of fronts that wait for one
+
+/// Opened by a disc, but for the pieces this takes away that are larger than `area`: corners are rounded,
+/// corridors stay.
+Result<std::vector<Region>> rounded(const std::vector<Region>& regions, double shrink, double fillet,
+                                    double area) {
+  auto small = geom::offset(regions, -shrink);
+  if (!small) return tl::unexpected(small.error());
+  auto least = geom::offset(small->regions, -fillet);
+  if (!least) return tl::unexpected(least.error());
+  auto opened = geom::offset(least->regions, fillet);
+  if (!opened) return tl::unexpected(opened.error());
+  auto lost =
+      geom::combine(small->regions, opened->regions, geom::BooleanOperation::subtract, opened->edge_error);
+  if (!lost) return tl::unexpected(lost.error());
+  std::erase_if(lost->regions, [&](const Region& region) { return geom::area(region) < area; });
+  if (lost->regions.empty()) return std::move(opened->regions);
+  auto all = geom::combine(opened->regions, lost->regions, geom::BooleanOperation::unite, lost->edge_error);
+  if (!all) return tl::unexpected(all.error());
+  return std::move(all->regions);
+}
+
+class Clearing {
+ public:
+  Clearing(const Region& allowed, const PocketOptions& o)
+      : o_(o),
+        radius_(o.tool_diameter / 2),
+        step_(o.step_over * o.tool_diameter),
+        allowed_{allowed},
+        limit_(allowed_) {}
+
+  Result<PocketPath> run() {
+    if (auto split = find_fields(); !split) return tl::unexpected(split.error());
+    choose_entry();
+    auto start = start_region();
+    if (!start) return tl::unexpected(start.error());
+    auto growth = grow(fields_, narrow_, *start, {radius_, step_, strip_});
+    if (!growth) return tl::unexpected(growth.error());
+    growth_ = std::move(*growth);
+    grid_.emplace(growth_, radius_);
+    path_.fronts = growth_.fronts.size();
+    enter();
+    cut_fronts();
+    if (auto walls = cut_walls(); !walls) return tl::unexpected(walls.error());
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    return std::move(path_);
+  }
+
+ private:
+  /// Fields keep a strip off the walls and are rounded in corners; what is too narrow for them is a corridor.
+  Result<void> find_fields() {
+    strip_ = kStrip * radius_;
+    const double fillet = kFieldFillet * radius_;
+    auto fields = rounded(allowed_, strip_, fillet, 3 * fillet * fillet);
+    if (!fields) return tl::unexpected(fields.error());
+    fields_ = std::move(*fields);
+    field_limit_.emplace(fields_);
+    auto reached = geom::offset(fields_, strip_ + kFieldFillet * fillet);
+    if (!reached) return tl::unexpected(reached.error());
+    auto lost =
+        geom::combine(allowed_, reached->regions, geom::BooleanOperation::subtract, reached->edge_error);
+    if (!lost) return tl::unexpected(lost.error());
+    std::erase_if(lost->regions,
+                  [&](const Region& region) { return geom::area(region) < 3 * fillet * fillet; });
+    if (lost->regions.empty()) return {};
+    auto wider = geom::offset(lost->regions, 2 * strip_ + fillet);
+    if (!wider) return tl::unexpected(wider.error());
+    auto narrow =
+        geom::combine(wider->regions, allowed_, geom::BooleanOperation::intersect, wider->edge_error);
+    if (!narrow) return tl::unexpected(narrow.error());
+    narrow_ = std::move(narrow->regions);
+    return {};
+  }
+
+  // ---- entry: the widest disc of places
+  void choose_entry() {
+    const geom::RegionIndex& limit = fields_.empty() ? limit_ : *field_limit_;
+    const geom::Box box = limit.bounds();
+    const auto depth_at = [&](Point p) {
+      const double d = limit.nearest(p).distance;
+      return limit.contains(p) ? d : -d;
+    };
+    entry_ = limit.curves()[0].edge.from;
+    disc_ = 0;
+    constexpr int kPlaces = 64;
+    const Point size = box.high - box.low;
+    for (int y = 0; y <= kPlaces; ++y)
+      for (int x = 0; x <= kPlaces; ++x) {
+        const Point p = box.low + Point{size.x * x / kPlaces, size.y * y / kPlaces};
+        const double depth = depth_at(p);
+        if (depth > disc_) disc_ = depth, entry_ = p;
+      }
+    for (double step = std::max(size.x, size.y) / kPlaces; step > 1e-7; step /= 2)
+      for (const Point d : {Point{step, 0}, Point{-step, 0}, Point{0, step}, Point{0, -step},
+                            Point{step, step}, Point{step, -step}, Point{-step, step}, Point{-step, -step}}) {
+        const double depth = depth_at(entry_ + d);
+        if (depth > disc_ + 1e-9) disc_ = depth, entry_ = entry_ + d;
+      }
+    disc_ = std::max(0.0, disc_ - 1e-6);
+    helix_ = std::min(0.8 * radius_, disc_);
+  }
+
+  Result<std::vector<Region>> start_region() {
+    const double r = std::max(disc_, 0.01);
+    auto disc = geom::make_region({{EdgeKind::arc_ccw, entry_ + Point{r, 0}, entry_ + Point{r, 0}, entry_}});
+    if (!disc) return tl::unexpected(disc.error());
+    if (disc_ >= 0.01) return std::vector<Region>{*disc};
+    auto clipped = geom::combine({*disc}, allowed_, geom::BooleanOperation::intersect);
+    if (!clipped) return tl::unexpected(clipped.error());
+    return clipped->regions;
+  }
+
+  // ---- motion
+  void go(const PathMove& move) {
+    if (move.shape == EdgeKind::line && !path_.moves.empty() && path_.moves.back().to == move.to &&
+        path_.moves.back().z == move.z)
+      return;
+    at_ = move.to;
+    path_.moves.push_back(move);
+  }
+  void go(PathMove::Kind kind, Point to) { go({.kind = kind, .to = to, .z = -o_.depth}); }
+  /// Both ends at the same distance from the centre, whatever rounding or a way along a wall made of them.
+  void go(PathMove::Kind kind, const Edge& edge) {
+    const Point chord = edge.to - at_;
+    const double square = dot(chord, chord);
+    Point centre = edge.centre;
+    if (edge.kind != EdgeKind::line && square > 0)
+      centre = centre - (dot(centre - 0.5 * (at_ + edge.to), chord) / square) * chord;
+    go({.kind = kind, .to = edge.to, .z = -o_.depth, .shape = edge.kind, .centre = centre});
+  }
+
+  /// A helix, its level turn, and a spiral out to the widest disc.
+  void enter() {
+    using Kind = PathMove::Kind;
+    Point start = entry_ + Point{helix_, 0};
+    go({.kind = Kind::rapid, .to = start, .z = o_.safe_height});
+    go({.kind = Kind::plunge, .to = start, .z = 0});
+    if (!(helix_ > 1e-3)) return go({.kind = Kind::plunge, .to = start, .z = -o_.depth});
+    const double turn_drop = 6.283185307179586 * helix_ * o_.ramp_angle;
+    const double turns = std::ceil(o_.depth / turn_drop);
+    const auto quarter = [](Point out, double quarters) -> Point {
+      const int q = static_cast<int>(quarters) % 4;
+      return q == 0 ? out : q == 1 ? perpendicular(out) : q == 2 ? -out : -perpendicular(out);
+    };
+    for (double i = 1; i <= 4 * turns; ++i)
+      go({.kind = Kind::helix,
+          .to = entry_ + quarter({helix_, 0}, i),
+          .z = -o_.depth * i / (4 * turns),
+          .shape = EdgeKind::arc_ccw,
+          .centre = entry_});
+    turn_about(helix_, Kind::helix);
+    if (!(disc_ > helix_)) return;
+    std::vector<double> steps;
+    double reach = helix_;
+    while (reach < disc_) {
+      // The second turn meets the step of the first: what a turn may add depends on where it begins.
+      steps.push_back(std::min(step_, step_for(reach, radius_, 0.182)));
+      reach += steps.back();
+    }
+    const double scale = (disc_ - helix_) / (reach - helix_);
+    double r = helix_;
+    for (const double step : steps) {
+      // Four quarters about the corners of a small square: tangent to each other, and back on the axis.
+      const double more = scale * step / 4;
+      Point out{1, 0}, centre = entry_;
+      for (int q = 0; q < 4; ++q) {
+        centre = centre - more * out;
+        r += more;
+        out = perpendicular(out);
+        go(Kind::cut, Edge{EdgeKind::arc_ccw, at_, centre + r * out, centre});
+      }
+    }
+    turn_about(r, Kind::cut);
+  }
+  void turn_about(double r, PathMove::Kind kind) {
+    for (const Point out : {Point{0, r}, Point{-r, 0}, Point{0, -r}, Point{r, 0}})
+      go({.kind = kind, .to = entry_ + out, .z = -o_.depth, .shape = EdgeKind::arc_ccw, .centre = entry_});
+  }
+
+  // ---- fronts
+  /// The next: near, and of two near ones the one that less waits for, so that what is small is not left
+  /// behind.
+  void cut_fronts() {
+    const std::vector<Front>& fronts = growth_.fronts;
+    std::vector<double> waiting(fronts.size(), 0.0);
+    for (std::size_t i = fronts.size(); i-- > 0;) {
+      waiting[i] += length_of(fronts[i].edges);
+      if (!fronts[i].parents.empty()) waiting[fronts[i].parents.front()] += waiting[i];
+    }
+    for (;;) {
+      std::size_t best = fronts.size();
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < fronts.size(); ++i) {
+        const Front& f = fronts[i];
+        if (grid_->is_done(i) || !std::all_of(f.parents.begin(), f.parents.end(),
+                                              [&](std::size_t p) { return grid_->is_done(p); }))
+          continue;
+        const double d =
+            std::min(norm(f.edges.front().from - at_), norm(f.edges.back().to - at_)) + kSubtree * waiting[i];
+        if (d < least) least = d, best = i;
+      }
+      if (best == fronts.size()) return;
+      cut(fronts[best]);
+      grid_->set_done(best);
+    }
+  }
+
+  void cut(const Front& front) {
+    const bool back = norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_);
+    const std::vector<Edge> edges = pass_along(front, back, *field_limit_, step_);
+    link(edges.front().from, &growth_.cut[front.layer - 1]);
+    for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
+  }
+
+  // ---- walls
+  /// Once along each wall; corners in thinner peels, to and fro.
+  Result<void> cut_walls() {
+    std::vector<std::vector<Region>> rounds;
+    for (const double peel : kPeels) {
+      const double fillet = peel * radius_;
+      auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
+      if (!round) return tl::unexpected(round.error());
+      rounds.push_back(std::move(*round));
+    }
+    rounds.push_back(allowed_);
+    std::vector<std::vector<Front>> peels;
+    for (std::size_t i = 1; i < rounds.size(); ++i)
+      peels.push_back(fresh_stretches(rounds[i], geom::RegionIndex(rounds[i - 1])));
+    const geom::RegionIndex walls(rounds[0]);
+    // Where along the walls each corner is left.
+    std::vector<std::vector<std::pair<double, std::size_t>>> stops(walls.curves().size());
+    for (std::size_t i = 0; i < peels[0].size(); ++i) {
+      const Point end = peels[0][i].edges.back().to;
+      const auto near = walls.nearest(end);
+      const Edge& edge = walls.curves()[near.edge].edge;
+      stops[near.edge].emplace_back(length_of(Edge{edge.kind, edge.from, end, edge.centre}), i);
+    }
+    for (auto& list : stops) std::sort(list.begin(), list.end());
+    std::vector<std::size_t> left;
+    for (std::size_t c = 0; c + 1 < walls.contour_starts().size(); ++c) left.push_back(c);
+    while (!left.empty()) {
+      std::size_t next = 0;
+      std::uint32_t start = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < left.size(); ++i)
+        for (std::uint32_t e = walls.contour_starts()[left[i]]; e < walls.contour_starts()[left[i] + 1];
+             ++e) {
+          const double d = norm(walls.curves()[e].edge.from - at_);
+          if (d < least) least = d, next = i, start = e;
+        }
+      const std::uint32_t first = walls.contour_starts()[left[next]],
+                          count = walls.contour_starts()[left[next] + 1] - first;
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+      link(walls.curves()[start].edge.from, nullptr);
+      for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t e = first + (start - first + k) % count;
+        Edge edge = walls.curves()[e].edge;
+        for (const auto& [length, corner] : stops[e]) {
+          const Point stop = peels[0][corner].edges.back().to;
+          if (!(norm(stop - edge.from) < 1e-6) && !(norm(stop - edge.to) < 1e-6)) {
+            go(PathMove::Kind::cut, Edge{edge.kind, edge.from, stop, edge.centre});
+            edge.from = stop;
+          } else if (norm(stop - edge.to) < 1e-6) {
+            go(PathMove::Kind::cut, edge);
+            edge.from = edge.to;
+          }
+          cut_corner(peels, corner);
+          link(stop, nullptr);
+        }
+        if (!(edge.from == edge.to) || count == 1) go(PathMove::Kind::cut, edge);
+      }
+    }
+    return {};
+  }
+
+  void cut_corner(const std::vector<std::vector<Front>>& peels, std::size_t corner) {
+    const Front* peel = &peels[0][corner];
+    for (std::size_t i = 0; peel != nullptr; ++i) {
+      const std::vector<Edge> edges = i % 2 == 0 ? turned_back(peel->edges) : peel->edges;
+      link(edges.front().from, nullptr);
+      for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
+      const Front* inner = nullptr;
+      if (i + 1 < peels.size())
+        for (const Front& next : peels[i + 1])
+          if (norm(next.edges.front().from - peel->edges.front().from) < 2 * radius_ &&
+              norm(next.edges.back().to - peel->edges.back().to) < 2 * radius_)
+            inner = &next;
+      peel = inner;
+    }
+  }
+
+  // ---- links at depth through what is cut
+  void link(Point to, const std::vector<Region>* cut) {
+    if (norm(to - at_) < 1e-6) return;
+    if (norm(to - at_) < 3 * step_) {
+      if (along_wall(to, cut != nullptr ? *field_limit_ : limit_)) return;
+      if (cut != nullptr && is_within(at_, to, geom::RegionIndex(*cut))) return go(PathMove::Kind::link, to);
+    }
+    const std::vector<Point> corners = grid_->way(at_, to);
+    if (corners.empty()) return go(PathMove::Kind::cut, to);
+    for (const Point corner : corners) go(PathMove::Kind::link, corner);
+  }
+
+  static bool is_within(Point a, Point b, const geom::RegionIndex& cut) {
+    const double pieces = std::ceil(norm(b - a) / 0.1);
+    for (double i = 1; i < pieces; ++i) {
+      const Point p = a + (i / pieces) * (b - a);
+      if (!cut.contains(p) && cut.nearest(p).distance > 1e-3) return false;
+    }
+    return true;
+  }
+
+  /// Along the wall, where both ends are on it and not far from each other.
+  bool along_wall(Point to, const geom::RegionIndex& limit) {
+    const auto from = limit.nearest(at_), goal = limit.nearest(to);
+    if (from.distance > 1e-4 || goal.distance > 1e-4) return false;
+    const auto& starts = limit.contour_starts();
+    const auto contour =
+        static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), from.edge) - starts.begin());
+    if (goal.edge >= starts[contour] || goal.edge < starts[contour - 1]) return false;
+    const std::uint32_t first = starts[contour - 1], count = starts[contour] - first;
+    for (const bool back : {false, true}) {
+      std::vector<Edge> edges;
+      double length = 0;
+      std::uint32_t e = from.edge;
+      Point at = at_;
+      while (length < 3 * step_ && edges.size() < 100) {
+        Edge edge = limit.curves()[e].edge;
+        if (back) edge = turned_back(edge);
+        Edge rest{edge.kind, at, edge.to, edge.centre};
+        if (e == goal.edge) {
+          const Edge last{edge.kind, at, to, edge.centre};
+          const bool ahead = edge.kind == EdgeKind::line
+                                 ? dot(to - at, edge.to - edge.from) > 0
+                                 : !(rest.from == rest.to) && arc_sweep(last) < arc_sweep(rest) + 1e-9;
+          if (ahead) {
+            if (length + length_of(last) > 3 * step_) break;
+            edges.push_back(last);
+            for (const Edge& part : edges) go(PathMove::Kind::link, part);
+            return true;
+          }
+        }
+        if (!(rest.from == rest.to)) {
+          length += length_of(rest);
+          edges.push_back(rest);
+        }
+        at = edge.to;
+        e = first + (back ? (e - first + count - 1) % count : (e - first + 1) % count);
+      }
+    }
+    return false;
+  }
+
+  PocketOptions o_;
+  double radius_, step_;
+  std::vector<Region> allowed_;
+  geom::RegionIndex limit_;
+  std::vector<Region> fields_, narrow_;
+  std::optional<geom::RegionIndex> field_limit_;
+  double strip_ = 0;  ///< mm between fields and walls
+  Growth growth_;
+  std::optional<ClearedGrid> grid_;
+  Point entry_, at_;
+  double disc_ = 0;   ///< radius of the widest disc of places, about entry_
+  double helix_ = 0;  ///< radius of the helix
+  PocketPath path_;
+};
+
+}  // namespace
+
+Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
+                              const std::vector<Region>& cut_already) {
+  static_cast<void>(cut_already);
+  return Clearing(allowed, options).run();
+}
+
+}  // namespace lekalo::mill
