@@ -34,6 +34,8 @@ constexpr double kHeldDegrees = 80, kPeakDegrees = 95;
 constexpr double kBeyond = 0.05;
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
+/// Of the step: how far from where a pass would leave a wall its arc begins and ends, at most.
+constexpr double kCorner = 1.2;
 
 bool is_fresh(Point p, const RegionIndex& before) {
   return before.nearest(p).distance > kOnIt && !before.contains(p);
@@ -281,22 +283,27 @@ std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& f
   if (run < 2 * step) edges.resize(end);
   run = 0;
   while (begin < edges.size() && on_wall(edges[begin])) run += length_of(edges[begin++]);
-  if (begin == 0 || begin == edges.size() || run > 2 * step) return edges;
+  if (begin == 0 || begin == edges.size()) return edges;
   // Off the wall on an arc that meets the front as far from the corner as it begins.
-  const Point from = edges.front().from;
-  const Point way = heading_at(edges.front(), from);
-  double left = run;
-  std::size_t k = begin;
-  while (k + 1 < edges.size() && length_of(edges[k]) < left) left -= length_of(edges[k++]);
-  const double length = length_of(edges[k]);
-  if (!(left < 0.98 * length)) return edges;
-  const Edge rest = part_of(edges[k], left / length, 1);
+  double before = std::min(run, kCorner * step), after = before;
+  std::size_t leave = begin - 1, meet = begin;
+  while (leave > 0 && length_of(edges[leave]) <= before) before -= length_of(edges[leave--]);
+  while (meet + 1 < edges.size() && length_of(edges[meet]) <= after) after -= length_of(edges[meet++]);
+  const double first = length_of(edges[leave]), last = length_of(edges[meet]);
+  if (!(after < 0.98 * last)) return edges;
+  const double at = std::max(0.0, 1 - before / first);
+  const Point from = place_at(edges[leave], at);
+  const Point way = heading_at(edges[leave], from);
+  const Edge rest = part_of(edges[meet], after / last, 1);
   const Point chord = rest.from - from;
   const double off = cross(way, chord);
   if (!(dot(way, chord) > 0) || std::abs(off) < 1e-3 * norm(chord)) return edges;
   const Point centre = from + (dot(chord, chord) / (2 * off)) * perpendicular(way);
-  std::vector<Edge> smooth{{off > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from, rest.from, centre}, rest};
-  smooth.insert(smooth.end(), edges.begin() + static_cast<std::ptrdiff_t>(k) + 1, edges.end());
+  std::vector<Edge> smooth(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(leave));
+  if (at > 1e-9) smooth.push_back(part_of(edges[leave], 0, at));
+  smooth.push_back({off > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from, rest.from, centre});
+  smooth.push_back(rest);
+  smooth.insert(smooth.end(), edges.begin() + static_cast<std::ptrdiff_t>(meet) + 1, edges.end());
   return smooth;
 }
 

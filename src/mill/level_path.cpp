@@ -233,9 +233,27 @@ class Clearing {
 
   void cut(const Front& front) {
     const bool back = norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_);
-    const std::vector<Edge> edges = pass_along(front, back, *field_limit_, step_);
+    Front given = front;
+    const Point begin = back ? front.edges.back().to : front.edges.front().from;
+    if (norm(begin - at_) > 1e-3)
+      // The pass before may have left the wall before it came here: begun where that one began.
+      for (const Cut& before : cuts_)
+        if (norm(before.corner - begin) < 1e-2)
+          if (const auto wall = along_wall(before.from, begin, *field_limit_)) {
+            const std::vector<Edge> more = back ? turned_back(*wall) : *wall;
+            given.edges.insert(back ? given.edges.end() : given.edges.begin(), more.begin(), more.end());
+            break;
+          }
+    const std::vector<Edge> edges = pass_along(given, back, *field_limit_, step_);
     link(edges.front().from, &growth_.cut[front.layer - 1]);
     for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
+    // Where its front meets the wall.
+    Point corner = begin;
+    for (const Edge& edge : back ? turned_back(given.edges) : given.edges) {
+      if (field_limit_->nearest(place_at(edge, 0.5)).distance > 1e-6) break;
+      corner = edge.to;
+    }
+    cuts_.push_back({edges.front().from, corner, at_});
   }
 
   // ---- walls
@@ -265,38 +283,90 @@ class Clearing {
     std::vector<std::size_t> left;
     for (std::size_t c = 0; c + 1 < walls.contour_starts().size(); ++c) left.push_back(c);
     while (!left.empty()) {
-      std::size_t next = 0;
-      std::uint32_t start = 0;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < left.size(); ++i)
-        for (std::uint32_t e = walls.contour_starts()[left[i]]; e < walls.contour_starts()[left[i] + 1];
-             ++e) {
-          const double d = norm(walls.curves()[e].edge.from - at_);
-          if (d < least) least = d, next = i, start = e;
-        }
-      const std::uint32_t first = walls.contour_starts()[left[next]],
-                          count = walls.contour_starts()[left[next] + 1] - first;
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
-      link(walls.curves()[start].edge.from, nullptr);
-      for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint32_t e = first + (start - first + k) % count;
+      const WallStart start = wall_start(walls, left, stops);
+      const std::uint32_t first = walls.contour_starts()[left[start.contour]],
+                          count = walls.contour_starts()[left[start.contour] + 1] - first;
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(start.contour));
+      const Edge begun = walls.curves()[start.edge].edge;
+      if (start.from) link(*start.from, nullptr);
+      const Point on = start.share < 1 ? place_at(begun, start.share) : begun.to;
+      if (start.from)
+        go(PathMove::Kind::cut, on);
+      else
+        link(on, nullptr);
+      for (std::uint32_t k = 0; k <= count; ++k) {
+        const std::uint32_t e = first + (start.edge - first + k) % count;
         Edge edge = walls.curves()[e].edge;
-        for (const auto& [length, corner] : stops[e]) {
+        if (k == 0) {
+          if (!(start.share < 1)) continue;
+          edge.from = on;
+        } else if (k == count) {
+          if (!(start.share > 0)) continue;
+          edge.to = on;
+        }
+        const double skipped = k == 0 ? start.share * length_of(begun) : 0;
+        const double length = skipped + length_of(edge);
+        for (const auto& [along, corner] : stops[e]) {
+          if (along < skipped - 1e-6 || (k == count && along > length - 1e-6)) continue;
           const Point stop = peels[0][corner].edges.back().to;
-          if (!(norm(stop - edge.from) < 1e-6) && !(norm(stop - edge.to) < 1e-6)) {
-            go(PathMove::Kind::cut, Edge{edge.kind, edge.from, stop, edge.centre});
-            edge.from = stop;
-          } else if (norm(stop - edge.to) < 1e-6) {
-            go(PathMove::Kind::cut, edge);
-            edge.from = edge.to;
+          if (norm(stop - edge.from) > 1e-6) {
+            const bool ends = norm(stop - edge.to) < 1e-6;
+            go(PathMove::Kind::cut, ends ? edge : Edge{edge.kind, edge.from, stop, edge.centre});
+            edge.from = ends ? edge.to : stop;
           }
           cut_corner(peels, corner);
           link(stop, nullptr);
         }
-        if (!(edge.from == edge.to) || count == 1) go(PathMove::Kind::cut, edge);
+        if (!(edge.from == edge.to)) go(PathMove::Kind::cut, edge);
       }
     }
     return {};
+  }
+
+  /// Where the pass along a wall begins: ahead of where a pass came near it, at a small angle to it.
+  struct WallStart {
+    std::size_t contour = 0;  ///< of those left
+    std::uint32_t edge = 0;
+    double share = 0;           ///< of the edge
+    std::optional<Point> from;  ///< near the wall, cut
+  };
+  [[nodiscard]] WallStart wall_start(
+      const geom::RegionIndex& walls, const std::vector<std::size_t>& left,
+      const std::vector<std::vector<std::pair<double, std::size_t>>>& stops) const {
+    WallStart best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Cut& pass : cuts_) {
+      const auto near = walls.nearest(pass.to);
+      if (near.distance > 1.5 * strip_) continue;
+      const auto& starts = walls.contour_starts();
+      const auto contour = static_cast<std::size_t>(
+                               std::upper_bound(starts.begin(), starts.end(), near.edge) - starts.begin()) -
+                           1;
+      const auto listed = std::find(left.begin(), left.end(), contour);
+      if (listed == left.end()) continue;
+      const Edge& edge = walls.curves()[near.edge].edge;
+      if (edge.from == edge.to) continue;
+      const double length = length_of(edge);
+      double along = norm(near.point - edge.from) < 1e-9
+                         ? 0
+                         : length_of(Edge{edge.kind, edge.from, near.point, edge.centre});
+      along = std::min(length, along + 4 * strip_);
+      bool corner = false;
+      for (const auto& [at, number] : stops[near.edge]) corner = corner || std::abs(at - along) < radius_;
+      const double d = norm(pass.to - at_) + (corner ? 3 * radius_ : 0) +
+                       (norm(place_at(edge, along / length) - pass.to) < 2 * strip_ ? 3 * radius_ : 0);
+      if (d < least) {
+        least = d;
+        best = {static_cast<std::size_t>(listed - left.begin()), near.edge, along / length, pass.to};
+      }
+    }
+    if (best.from) return best;
+    for (std::size_t i = 0; i < left.size(); ++i)
+      for (std::uint32_t e = walls.contour_starts()[left[i]]; e < walls.contour_starts()[left[i] + 1]; ++e) {
+        const double d = norm(walls.curves()[e].edge.from - at_);
+        if (d < least) least = d, best = {i, e, 0, std::nullopt};
+      }
+    return best;
   }
 
   void cut_corner(const std::vector<std::vector<Front>>& peels, std::size_t corner) {
@@ -319,7 +389,10 @@ class Clearing {
   void link(Point to, const std::vector<Region>* cut) {
     if (norm(to - at_) < 1e-6) return;
     if (norm(to - at_) < 3 * step_) {
-      if (along_wall(to, cut != nullptr ? *field_limit_ : limit_)) return;
+      if (const auto wall = along_wall(at_, to, cut != nullptr ? *field_limit_ : limit_)) {
+        for (const Edge& edge : *wall) go(PathMove::Kind::link, edge);
+        return;
+      }
       if (cut != nullptr && is_within(at_, to, geom::RegionIndex(*cut))) return go(PathMove::Kind::link, to);
     }
     const std::vector<Point> corners = grid_->way(at_, to);
@@ -337,19 +410,20 @@ class Clearing {
   }
 
   /// Along the wall, where both ends are on it and not far from each other.
-  bool along_wall(Point to, const geom::RegionIndex& limit) {
-    const auto from = limit.nearest(at_), goal = limit.nearest(to);
-    if (from.distance > 1e-4 || goal.distance > 1e-4) return false;
+  [[nodiscard]] std::optional<std::vector<Edge>> along_wall(Point begin, Point to,
+                                                            const geom::RegionIndex& limit) const {
+    const auto from = limit.nearest(begin), goal = limit.nearest(to);
+    if (from.distance > 1e-4 || goal.distance > 1e-4) return std::nullopt;
     const auto& starts = limit.contour_starts();
     const auto contour =
         static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), from.edge) - starts.begin());
-    if (goal.edge >= starts[contour] || goal.edge < starts[contour - 1]) return false;
+    if (goal.edge >= starts[contour] || goal.edge < starts[contour - 1]) return std::nullopt;
     const std::uint32_t first = starts[contour - 1], count = starts[contour] - first;
     for (const bool back : {false, true}) {
       std::vector<Edge> edges;
       double length = 0;
       std::uint32_t e = from.edge;
-      Point at = at_;
+      Point at = begin;
       while (length < 3 * step_ && edges.size() < 100) {
         Edge edge = limit.curves()[e].edge;
         if (back) edge = turned_back(edge);
@@ -362,8 +436,7 @@ class Clearing {
           if (ahead) {
             if (length + length_of(last) > 3 * step_) break;
             edges.push_back(last);
-            for (const Edge& part : edges) go(PathMove::Kind::link, part);
-            return true;
+            return edges;
           }
         }
         if (!(rest.from == rest.to)) {
@@ -374,8 +447,12 @@ class Clearing {
         e = first + (back ? (e - first + count - 1) % count : (e - first + 1) % count);
       }
     }
-    return false;
+    return std::nullopt;
   }
+
+  struct Cut {
+    Point from, corner, to;  ///< corner: where its front would have met the wall it began at
+  };
 
   PocketOptions o_;
   double radius_, step_;
@@ -386,6 +463,7 @@ class Clearing {
   double strip_ = 0;  ///< mm between fields and walls
   Growth growth_;
   std::optional<ClearedGrid> grid_;
+  std::vector<Cut> cuts_;  ///< of fronts, in order
   Point entry_, at_;
   double disc_ = 0;   ///< radius of the widest disc of places, about entry_
   double helix_ = 0;  ///< radius of the helix
