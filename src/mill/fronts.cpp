@@ -30,12 +30,16 @@ constexpr double kNarrowStep = 0.13;  // of the tool's radius
 constexpr double kLeastShare = 0.3;
 
 // What a layer is to hold, degrees; the share of its length that may pass it, and how far.
-constexpr double kHeldDegrees = 80, kPeakDegrees = 95;
+constexpr double kHeldDegrees = 80, kPeakDegrees = 93;
 constexpr double kBeyond = 0.05;
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
 /// Of the step: how far from where a pass would leave a wall its arc begins and ends, at most.
 constexpr double kCorner = 1.2;
+constexpr double kShortRun = 2;          // of the step: a way along a wall that two passes may share
+constexpr double kLeft = 0.55;           // of the step: what a pass may leave at a wall
+constexpr double kTouching = 0.05;       // of the tool's radius
+constexpr double kNearlyTangent = 0.94;  // cosine of 20 degrees
 
 bool is_fresh(Point p, const RegionIndex& before) {
   return before.nearest(p).distance > kOnIt && !before.contains(p);
@@ -137,7 +141,7 @@ class Grower {
         auto tried = reached_by(field, time + share);
         if (!tried) return tl::unexpected(tried.error());
         cut = std::move(*tried);
-        fronts = fresh_stretches(cut, before);
+        fronts = split_at_walls(fresh_stretches(cut, before), before);
         const double less = relief(fronts, before);
         if (less >= 1 || trial == kMostTrials || share <= kLeastShare) break;
         share = std::max(kLeastShare, share * less);
@@ -169,6 +173,53 @@ class Grower {
     return growth_.fronts.size() > first;
   }
 
+  /// Passes that meet a wall on their way end and begin there; rings that touch what is cut begin there.
+  std::vector<Front> split_at_walls(std::vector<Front> given, const RegionIndex& before) const {
+    std::vector<Front> fronts;
+    for (Front& front : given) {
+      std::vector<char> wall;
+      for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, walls_) ? 1 : 0);
+      const std::size_t n = wall.size();
+      if (front.closed) {
+        std::size_t begin = n;
+        for (std::size_t i = 0; i < n && begin == n; ++i)
+          if (wall[i] != 0 && wall[(i + n - 1) % n] == 0) begin = i;
+        if (begin == n) {
+          double gap = kTouching * r_;
+          for (std::size_t i = 0; i < n; ++i)
+            if (const double d = before.nearest(front.edges[i].from).distance; d < gap) gap = d, begin = i;
+        }
+        if (begin == n) {
+          fronts.push_back(std::move(front));
+          continue;
+        }
+        std::rotate(wall.begin(), wall.begin() + static_cast<std::ptrdiff_t>(begin), wall.end());
+        std::rotate(front.edges.begin(), front.edges.begin() + static_cast<std::ptrdiff_t>(begin),
+                    front.edges.end());
+        front.closed = false;
+      }
+      Front part;
+      for (std::size_t i = 0; i < n;) {
+        std::size_t k = i;
+        double run = 0;
+        while (k < n && wall[k] != 0) run += length_of(front.edges[k++]);
+        const bool between = i > 0 && k > i && k < n;
+        part.edges.insert(part.edges.end(), front.edges.begin() + static_cast<std::ptrdiff_t>(i),
+                          front.edges.begin() + static_cast<std::ptrdiff_t>(k));
+        if (between && run < kShortRun * step_) {
+          fronts.push_back(std::move(part));
+          part = {};
+          part.edges.assign(front.edges.begin() + static_cast<std::ptrdiff_t>(i),
+                            front.edges.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+        i = k;
+        while (i < n && wall[i] == 0) part.edges.push_back(front.edges[i++]);
+      }
+      fronts.push_back(std::move(part));
+    }
+    return fronts;
+  }
+
   Result<std::vector<Region>> reached_by(const ArrivalField& field, double time) const {
     std::vector<Region> cut = fields_;
     if (time <= field.last() || !field.reaches_all()) {
@@ -189,8 +240,8 @@ class Grower {
     double length = 0, beyond = 0, largest = 0;
     for (const Front& front : fronts)
       for (const bool back : {false, true}) {
-        const Load load =
-            load_of(pass_along(front, back, walls_, step_), back, before, r_, kHeldDegrees, kLookEvery * r_);
+        const Load load = load_of(pass_along(front, back, walls_, before, step_), back, before, r_,
+                                  kHeldDegrees, kLookEvery * r_);
         length += load.length, beyond += load.beyond;
         largest = std::max(largest, load.largest);
       }
@@ -270,41 +321,58 @@ std::vector<Front> fresh_stretches(const std::vector<Region>& cut, const RegionI
   return fronts;
 }
 
-std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& fields, double step) {
-  std::vector<Edge> edges = back ? turned_back(front.edges) : front.edges;
-  if (front.closed) return edges;
-  const auto on_wall = [&](const Edge& edge) {
-    return fields.nearest(place_at(edge, 0.5)).distance < kOnWall &&
-           fields.nearest(edge.from).distance < kOnWall && fields.nearest(edge.to).distance < kOnWall;
-  };
-  std::size_t begin = 0, end = edges.size();
-  double run = 0;
-  while (end > 1 && on_wall(edges[end - 1])) run += length_of(edges[--end]);
-  if (run < 2 * step) edges.resize(end);
-  run = 0;
-  while (begin < edges.size() && on_wall(edges[begin])) run += length_of(edges[begin++]);
-  if (begin == 0 || begin == edges.size()) return edges;
-  // Off the wall on an arc that meets the front as far from the corner as it begins.
-  double before = std::min(run, kCorner * step), after = before;
-  std::size_t leave = begin - 1, meet = begin;
+bool on_wall(const Edge& edge, const RegionIndex& fields) {
+  return fields.nearest(place_at(edge, 0.5)).distance < kOnWall &&
+         fields.nearest(edge.from).distance < kOnWall && fields.nearest(edge.to).distance < kOnWall;
+}
+
+/// Instead of the corner before edges[corner] an arc that begins and ends at the same way from it, tangent
+/// where it begins; nothing where it would not be nearly so at its end.
+std::vector<Edge> around_corner(const std::vector<Edge>& edges, std::size_t corner, double reach) {
+  double before = reach, after = reach;
+  std::size_t leave = corner - 1, meet = corner;
   while (leave > 0 && length_of(edges[leave]) <= before) before -= length_of(edges[leave--]);
   while (meet + 1 < edges.size() && length_of(edges[meet]) <= after) after -= length_of(edges[meet++]);
   const double first = length_of(edges[leave]), last = length_of(edges[meet]);
-  if (!(after < 0.98 * last)) return edges;
+  if (!(after < 0.98 * last)) return {};
   const double at = std::max(0.0, 1 - before / first);
   const Point from = place_at(edges[leave], at);
   const Point way = heading_at(edges[leave], from);
   const Edge rest = part_of(edges[meet], after / last, 1);
   const Point chord = rest.from - from;
   const double off = cross(way, chord);
-  if (!(dot(way, chord) > 0) || std::abs(off) < 1e-3 * norm(chord)) return edges;
+  if (!(dot(way, chord) > 0) || std::abs(off) < 1e-3 * norm(chord)) return {};
   const Point centre = from + (dot(chord, chord) / (2 * off)) * perpendicular(way);
+  const Edge arc{off > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from, rest.from, centre};
+  if (dot(heading_at(arc, rest.from), heading_at(rest, rest.from)) < kNearlyTangent) return {};
   std::vector<Edge> smooth(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(leave));
   if (at > 1e-9) smooth.push_back(part_of(edges[leave], 0, at));
-  smooth.push_back({off > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from, rest.from, centre});
+  smooth.push_back(arc);
   smooth.push_back(rest);
   smooth.insert(smooth.end(), edges.begin() + static_cast<std::ptrdiff_t>(meet) + 1, edges.end());
   return smooth;
+}
+
+std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& fields,
+                             const RegionIndex& before, double step) {
+  std::vector<Edge> edges = back ? turned_back(front.edges) : front.edges;
+  if (front.closed) return edges;
+  std::size_t begin = 0, end = edges.size();
+  double run = 0, gap = 0;
+  while (end > 1 && on_wall(edges[end - 1], fields)) {
+    --end;
+    run += length_of(edges[end]);
+    for (const double share : {0.0, 0.5})
+      gap = std::max(gap, before.nearest(place_at(edges[end], share)).distance);
+  }
+  if (run < kShortRun * step && gap < kLeft * step) edges.resize(end);
+  run = 0;
+  while (begin < edges.size() && on_wall(edges[begin], fields)) run += length_of(edges[begin++]);
+  if (begin == 0 || begin == edges.size()) return edges;
+  double reach = std::min(run, kCorner * step);
+  for (int trial = 0; trial < 3; ++trial, reach /= 2)
+    if (auto smooth = around_corner(edges, begin, reach); !smooth.empty()) return smooth;
+  return edges;
 }
 
 Result<Growth> grow(const std::vector<Region>& fields, const std::vector<Region>& narrow,

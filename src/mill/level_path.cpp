@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "cleared_grid.hpp"
@@ -21,10 +22,13 @@ using geom::EdgeKind;
 using geom::Point;
 using geom::Region;
 
-constexpr double kStrip = 0.12;            // of the tool's radius, left to the pass along the walls
-constexpr double kFieldFillet = 0.55;      // of the tool's radius: corners of the fields
-constexpr double kPeels[] = {0.43, 0.23};  // of the tool's radius: corners of the walls, one after the other
-constexpr double kSubtree = 0.05;          // mm of way for a mm of fronts that wait for one
+constexpr double kStrip = 0.12;        // of the tool's radius, left to the pass along the walls
+constexpr double kFieldFillet = 0.55;  // of the tool's radius: corners of the fields
+// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls; and how
+// much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
+constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08};
+constexpr double kSharpPeel = 0.12, kPeel = 0.22;
+constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
 /// Opened by a disc, but for the pieces this takes away that are larger than `area`: corners are rounded,
 /// corridors stay.
@@ -231,7 +235,39 @@ class Clearing {
     }
   }
 
+  /// Round, begun where it leaves what is cut before least; where that is nowhere near it, over a ramp, and
+  /// over the ramp's stretch again.
+  void cut_ring(const Front& front) {
+    const geom::RegionIndex before(growth_.cut[front.layer - 1]);
+    const std::vector<Point> at = places_on(front.edges, 0.1 * radius_);
+    std::size_t start = 0;
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const auto near = before.nearest(at[i]);
+      const double here = near.distance + 0.01 * norm(near.point - at_);
+      if (here < gap) gap = here, start = i;
+    }
+    const std::size_t n = at.size() - 1;
+    const double ramp = before.nearest(at[start]).distance < 0.05 * radius_ ? 0 : 3 * step_;
+    link(before.nearest(at[start]).point, &growth_.cut[front.layer - 1]);
+    double along = 0;
+    for (std::size_t k = 1; along < ramp || k <= n; ++k) {
+      const Point q = at[(start + k) % n];
+      along += norm(q - at[(start + k - 1) % n]);
+      const double share = along < ramp ? along / ramp : 1;
+      const Point p = share < 1 ? before.nearest(q).point : q;
+      go(PathMove::Kind::cut, p + share * (q - p));
+    }
+    for (std::size_t k = 1; along > 0 && k <= n && ramp > 0; ++k) {
+      const Point q = at[(start + k) % n];
+      go(PathMove::Kind::cut, q);
+      if (norm(q - at[start]) > ramp) break;
+    }
+    cuts_.push_back({at_, at_, at_});
+  }
+
   void cut(const Front& front) {
+    if (front.closed) return cut_ring(front);
     const bool back = norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_);
     Front given = front;
     const Point begin = back ? front.edges.back().to : front.edges.front().from;
@@ -244,7 +280,8 @@ class Clearing {
             given.edges.insert(back ? given.edges.end() : given.edges.begin(), more.begin(), more.end());
             break;
           }
-    const std::vector<Edge> edges = pass_along(given, back, *field_limit_, step_);
+    const std::vector<Edge> edges =
+        pass_along(given, back, *field_limit_, geom::RegionIndex(growth_.cut[front.layer - 1]), step_);
     link(edges.front().from, &growth_.cut[front.layer - 1]);
     for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
     // Where its front meets the wall.
@@ -259,22 +296,20 @@ class Clearing {
   // ---- walls
   /// Once along each wall; corners in thinner peels, to and fro.
   Result<void> cut_walls() {
-    std::vector<std::vector<Region>> rounds;
+    Peels peels;
     for (const double peel : kPeels) {
       const double fillet = peel * radius_;
       auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
       if (!round) return tl::unexpected(round.error());
-      rounds.push_back(std::move(*round));
+      peels.rounds.push_back(std::move(*round));
     }
-    rounds.push_back(allowed_);
-    std::vector<std::vector<Front>> peels;
-    for (std::size_t i = 1; i < rounds.size(); ++i)
-      peels.push_back(fresh_stretches(rounds[i], geom::RegionIndex(rounds[i - 1])));
-    const geom::RegionIndex walls(rounds[0]);
+    peels.rounds.push_back(allowed_);
+    const std::vector<Front>& corners = peels.between(0, peels.rounds.size() - 1);
+    const geom::RegionIndex walls(peels.rounds[0]);
     // Where along the walls each corner is left.
     std::vector<std::vector<std::pair<double, std::size_t>>> stops(walls.curves().size());
-    for (std::size_t i = 0; i < peels[0].size(); ++i) {
-      const Point end = peels[0][i].edges.back().to;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Point end = corners[i].edges.back().to;
       const auto near = walls.nearest(end);
       const Edge& edge = walls.curves()[near.edge].edge;
       stops[near.edge].emplace_back(length_of(Edge{edge.kind, edge.from, end, edge.centre}), i);
@@ -308,13 +343,13 @@ class Clearing {
         const double length = skipped + length_of(edge);
         for (const auto& [along, corner] : stops[e]) {
           if (along < skipped - 1e-6 || (k == count && along > length - 1e-6)) continue;
-          const Point stop = peels[0][corner].edges.back().to;
+          const Point stop = corners[corner].edges.back().to;
           if (norm(stop - edge.from) > 1e-6) {
             const bool ends = norm(stop - edge.to) < 1e-6;
             go(PathMove::Kind::cut, ends ? edge : Edge{edge.kind, edge.from, stop, edge.centre});
             edge.from = ends ? edge.to : stop;
           }
-          cut_corner(peels, corner);
+          cut_corner(peels, corners[corner]);
           link(stop, nullptr);
         }
         if (!(edge.from == edge.to)) go(PathMove::Kind::cut, edge);
@@ -369,19 +404,43 @@ class Clearing {
     return best;
   }
 
-  void cut_corner(const std::vector<std::vector<Front>>& peels, std::size_t corner) {
-    const Front* peel = &peels[0][corner];
-    for (std::size_t i = 0; peel != nullptr; ++i) {
-      const std::vector<Edge> edges = i % 2 == 0 ? turned_back(peel->edges) : peel->edges;
+  /// Places of the tool with corners rounded less and less, and what lies between two of them.
+  struct Peels {
+    std::vector<std::vector<Region>> rounds;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Front>> made;
+    const std::vector<Front>& between(std::size_t outer, std::size_t inner) {
+      const auto [place, fresh] = made.try_emplace({outer, inner});
+      if (fresh) place->second = fresh_stretches(rounds[inner], geom::RegionIndex(rounds[outer]));
+      return place->second;
+    }
+  };
+
+  /// To and fro, each peel as deep as it may be.
+  void cut_corner(Peels& peels, const Front& corner) {
+    const Point middle = 0.5 * (corner.edges.front().from + corner.edges.back().to);
+    const double reach = norm(corner.edges.front().from - middle) + 1e-3;
+    const std::size_t last = peels.rounds.size() - 1;
+    bool back = true;
+    for (std::size_t outer = 0; outer < last;) {
+      const Front* peel = nullptr;
+      std::size_t inner = last;
+      for (; inner > outer; --inner) {
+        peel = nullptr;
+        for (const Front& front : peels.between(outer, inner))
+          if (norm(0.5 * (front.edges.front().from + front.edges.back().to) - middle) < reach) peel = &front;
+        if (peel == nullptr || inner == outer + 1) break;
+        const geom::RegionIndex before(peels.rounds[outer]);
+        double depth = 0;
+        for (const Point p : places_on(peel->edges, 0.1 * radius_))
+          depth = std::max(depth, before.nearest(p).distance);
+        if (depth < (inner == last ? kSharpPeel : kPeel) * radius_) break;
+      }
+      outer = inner;
+      if (peel == nullptr) continue;
+      const std::vector<Edge> edges = back ? turned_back(peel->edges) : peel->edges;
       link(edges.front().from, nullptr);
       for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
-      const Front* inner = nullptr;
-      if (i + 1 < peels.size())
-        for (const Front& next : peels[i + 1])
-          if (norm(next.edges.front().from - peel->edges.front().from) < 2 * radius_ &&
-              norm(next.edges.back().to - peel->edges.back().to) < 2 * radius_)
-            inner = &next;
-      peel = inner;
+      back = !back;
     }
   }
 
