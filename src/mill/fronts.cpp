@@ -37,9 +37,14 @@ constexpr int kMostTrials = 6;
 /// Of the step: how far from where a pass would leave a wall its arc begins and ends, at most.
 constexpr double kCorner = 1.2;
 constexpr double kShortRun = 2;          // of the step: a way along a wall that two passes may share
-constexpr double kLeft = 0.55;           // of the step: what a pass may leave at a wall
+constexpr double kLeft = 0.75;           // of the step: what a pass may leave at a wall
 constexpr double kTouching = 0.05;       // of the tool's radius
 constexpr double kNearlyTangent = 0.94;  // cosine of 20 degrees
+
+bool on_wall(const Edge& edge, const RegionIndex& fields) {
+  return fields.nearest(place_at(edge, 0.5)).distance < kOnWall &&
+         fields.nearest(edge.from).distance < kOnWall && fields.nearest(edge.to).distance < kOnWall;
+}
 
 bool is_fresh(Point p, const RegionIndex& before) {
   return before.nearest(p).distance > kOnIt && !before.contains(p);
@@ -173,31 +178,44 @@ class Grower {
     return growth_.fronts.size() > first;
   }
 
+  /// A ring from its place nearest to what is cut; false where that is nowhere near it.
+  bool begin_where_it_touches(Front& front, const RegionIndex& before) const {
+    double gap = kTouching * r_;
+    std::size_t begin = front.edges.size();
+    double share = 0;
+    for (std::size_t i = 0; i < front.edges.size(); ++i) {
+      const double pieces = std::max(1.0, std::ceil(length_of(front.edges[i]) / kSpacing));
+      for (double k = 0; k < pieces; ++k)
+        if (const double d = before.nearest(place_at(front.edges[i], k / pieces)).distance; d < gap)
+          gap = d, begin = i, share = k / pieces;
+    }
+    if (begin == front.edges.size()) return false;
+    std::rotate(front.edges.begin(), front.edges.begin() + static_cast<std::ptrdiff_t>(begin),
+                front.edges.end());
+    if (share > 0) {
+      const Edge first = front.edges.front();
+      front.edges.front() = part_of(first, share, 1);
+      front.edges.push_back(part_of(first, 0, share));
+    }
+    return true;
+  }
+
   /// Passes that meet a wall on their way end and begin there; rings that touch what is cut begin there.
   std::vector<Front> split_at_walls(std::vector<Front> given, const RegionIndex& before) const {
     std::vector<Front> fronts;
     for (Front& front : given) {
       std::vector<char> wall;
       for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, walls_) ? 1 : 0);
-      const std::size_t n = wall.size();
       if (front.closed) {
-        std::size_t begin = n;
-        for (std::size_t i = 0; i < n && begin == n; ++i)
-          if (wall[i] != 0 && wall[(i + n - 1) % n] == 0) begin = i;
-        if (begin == n) {
-          double gap = kTouching * r_;
-          for (std::size_t i = 0; i < n; ++i)
-            if (const double d = before.nearest(front.edges[i].from).distance; d < gap) gap = d, begin = i;
-        }
-        if (begin == n) {
+        if (!begin_where_it_touches(front, before)) {
           fronts.push_back(std::move(front));
           continue;
         }
-        std::rotate(wall.begin(), wall.begin() + static_cast<std::ptrdiff_t>(begin), wall.end());
-        std::rotate(front.edges.begin(), front.edges.begin() + static_cast<std::ptrdiff_t>(begin),
-                    front.edges.end());
+        wall.clear();
+        for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, walls_) ? 1 : 0);
         front.closed = false;
       }
+      const std::size_t n = wall.size();
       Front part;
       for (std::size_t i = 0; i < n;) {
         std::size_t k = i;
@@ -319,11 +337,6 @@ std::vector<Front> fresh_stretches(const std::vector<Region>& cut, const RegionI
     for (const Contour& hole : region.holes) add_fronts(hole, before, fronts);
   }
   return fronts;
-}
-
-bool on_wall(const Edge& edge, const RegionIndex& fields) {
-  return fields.nearest(place_at(edge, 0.5)).distance < kOnWall &&
-         fields.nearest(edge.from).distance < kOnWall && fields.nearest(edge.to).distance < kOnWall;
 }
 
 /// Instead of the corner before edges[corner] an arc that begins and ends at the same way from it, tangent

@@ -39,7 +39,8 @@ struct GrowthLaw {
 /// The pass that cuts a front, in its direction or back: from the wall on an arc, and without the way along
 /// the wall at its end, which is left to the pass along all walls.
 [[nodiscard]] std::vector<geom::Edge> pass_along(const Front& front, bool back,
-                                                 const geom::RegionIndex& fields, double step);
+                                                 const geom::RegionIndex& fields,
+                                                 const geom::RegionIndex& before, double step);
 
 /// Stretches of the boundary of `cut` that are not nearly in `before`, as fronts without parents.
 [[nodiscard]] std::vector<Front> fresh_stretches(const std::vector<geom::Region>& cut,
