@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "arc_through.hpp"
 #include "lekalo/geom/boolean.hpp"
@@ -18,16 +18,15 @@ using geom::RegionIndex;
 
 namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kFit = 0.004;      // mm
-constexpr double kCosine = 0.182;   // of 79.5 degrees
-constexpr std::size_t kMargin = 4;  // nodes beyond the box
+constexpr double kFit = 0.004;       // mm
+constexpr double kCosine = 0.182;    // of 79.5 degrees
+constexpr std::size_t kSquare = 16;  // nodes
+constexpr std::size_t kMargin = 4;   // nodes beyond the box
 }  // namespace
 
 ArrivalField::ArrivalField(const RegionIndex& allowed, const std::vector<Region>& start, double pitch,
                            const Law& law)
     : law_(law), pitch_(pitch) {
-  if (getenv("BEND")) law_.bend = atof(getenv("BEND"));
-  if (getenv("LEAST")) law_.least = atof(getenv("LEAST"));
   const geom::Box box = allowed.bounds();
   const double margin = static_cast<double>(kMargin) * pitch_;
   // Half a pitch off, so that walls of round numbers do not run through nodes.
@@ -37,6 +36,7 @@ ArrivalField::ArrivalField(const RegionIndex& allowed, const std::vector<Region>
   measure(allowed);
   march(start);
   extend();
+  find_squares();
 }
 
 double ArrivalField::speed(double distance) const {
@@ -155,55 +155,64 @@ void ArrivalField::extend() {
   }
 }
 
+void ArrivalField::find_squares() {
+  squares_across_ = columns_ / kSquare + 1;
+  squares_.assign(squares_across_ * (rows_ / kSquare + 1), {kNever, -kNever});
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
+    const std::size_t x = s % squares_across_ * kSquare, y = s / squares_across_ * kSquare;
+    for (std::size_t j = y; j <= y + kSquare && j < rows_; ++j)
+      for (std::size_t i = x; i <= x + kSquare && i < columns_; ++i) {
+        squares_[s].first = std::min(squares_[s].first, arrival_[j * columns_ + i]);
+        squares_[s].last = std::max(squares_[s].last, arrival_[j * columns_ + i]);
+      }
+  }
+}
+
 /// Closed lines with the earlier on their left, by cells.
 std::vector<std::vector<ArrivalField::Place>> ArrivalField::level_lines(double time) const {
   // A crossing between node n and the next to the right is 2 n, to the next above 2 n + 1.
-  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> next(2 * arrival_.size(), kNone);
-  std::vector<std::size_t> used;
+  std::map<std::size_t, std::size_t> next;
   const auto early = [&](std::size_t n) { return arrival_[n] < time; };
-  for (std::size_t n = 0; n + columns_ + 1 < arrival_.size(); ++n) {
-    if (n % columns_ + 1 == columns_) continue;
+  const auto cell = [&](std::size_t n) {
     const std::size_t corner[4] = {n, n + 1, n + 1 + columns_, n + columns_};
     const bool in[4] = {early(corner[0]), early(corner[1]), early(corner[2]), early(corner[3])};
     const int count = in[0] + in[1] + in[2] + in[3];
-    if (count == 0 || count == 4) continue;
-    // Sides counter-clockwise: below, right, above, left. The line comes in where the side goes from late to
-    // early counter-clockwise... and leaves where it goes from early to late.
+    if (count == 0 || count == 4) return;
+    // Sides counter-clockwise: below, right, above, left. With the early on its left a line enters where they
+    // go from early to late.
     const std::size_t side[4] = {2 * n, 2 * (n + 1) + 1, 2 * (n + columns_), 2 * n + 1};
-    std::size_t enters[2], leaves[2];
+    std::size_t enters[2] = {}, leaves[2] = {};
     int e = 0, l = 0;
-    for (int k = 0; k < 4; ++k) {
-      if (in[k] && !in[(k + 1) % 4]) enters[e++] = static_cast<std::size_t>(k);
-      if (!in[k] && in[(k + 1) % 4]) leaves[l++] = static_cast<std::size_t>(k);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (in[k] && !in[(k + 1) % 4]) enters[e++] = k;
+      if (!in[k] && in[(k + 1) % 4]) leaves[l++] = k;
     }
     if (e == 1) {
       next[side[enters[0]]] = side[leaves[0]];
-      used.push_back(side[enters[0]]);
-      continue;
+      return;
     }
     double sum = 0;
     for (const std::size_t c : corner) sum += arrival_[c];
     const bool joined = sum < 4 * time;  // the two early corners are one
-    for (int k = 0; k < 2; ++k) {
-      const std::size_t from = enters[k];
-      const std::size_t ahead = (from + 1) % 4, behind = (from + 3) % 4;
-      next[side[from]] = side[joined ? ahead : behind];
-      used.push_back(side[from]);
-    }
+    for (const std::size_t from : enters) next[side[from]] = side[(from + (joined ? 1 : 3)) % 4];
+  };
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
+    if (!(squares_[s].first < time && time <= squares_[s].last)) continue;
+    const std::size_t x = s % squares_across_ * kSquare, y = s / squares_across_ * kSquare;
+    for (std::size_t j = y; j < y + kSquare && j + 1 < rows_; ++j)
+      for (std::size_t i = x; i < x + kSquare && i + 1 < columns_; ++i) cell(j * columns_ + i);
   }
   std::vector<std::vector<Place>> lines;
-  for (const std::size_t first : used) {
-    if (next[first] == kNone) continue;
+  while (!next.empty()) {
     std::vector<Place> line;
-    for (std::size_t at = first; next[at] != kNone;) {
+    for (auto step = next.begin(); step != next.end();) {
+      const auto [at, following] = *step;
       const std::size_t n = at / 2, m = at % 2 == 0 ? n + 1 : n + columns_;
       const bool known = arrival_[n] != kNever && arrival_[m] != kNever;
       const double share = known ? (time - arrival_[n]) / (arrival_[m] - arrival_[n]) : 0.5;
       line.push_back({node(n) + std::clamp(share, 1e-3, 1 - 1e-3) * (node(m) - node(n)), known});
-      const std::size_t following = next[at];
-      next[at] = kNone;
-      at = following;
+      next.erase(step);
+      step = next.find(following);
     }
     if (line.size() > 2) lines.push_back(std::move(line));
   }

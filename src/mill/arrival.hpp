@@ -57,6 +57,13 @@ class ArrivalField {
   std::vector<double> depth_;    ///< distance from the boundary, negative outside
   std::vector<double> arrival_;  ///< infinite where nothing arrives
   std::vector<char> accepted_;
+  /// Least and largest arrival in and around squares of nodes, where all are known.
+  struct Square {
+    double first, last;
+  };
+  void find_squares();
+  std::vector<Square> squares_;
+  std::size_t squares_across_ = 0;
   double last_ = 0;
   bool reaches_all_ = true;
 };

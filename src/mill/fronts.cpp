@@ -137,11 +137,13 @@ class Grower {
     const ArrivalField field(walls_, growth_.cut.back(), pitch,
                              {.tool_radius = r_, .step = step_, .beyond = law_.wall_strip});
     double time = 0, share = 1;
+    bool held = true;
     for (std::size_t layer = 0; layer < kMostLayers && time <= field.last(); ++layer) {
       const RegionIndex before(growth_.cut.back());
       std::vector<Region> cut;
       std::vector<Front> fronts;
-      share = std::min(1.0, 1.1 * share);
+      if (held) share = std::min(1.0, 1.06 * share);
+      held = true;
       for (int trial = 0;; ++trial) {
         auto tried = reached_by(field, time + share);
         if (!tried) return tl::unexpected(tried.error());
@@ -150,6 +152,7 @@ class Grower {
         const double less = relief(fronts, before);
         if (less >= 1 || trial == kMostTrials || share <= kLeastShare) break;
         share = std::max(kLeastShare, share * less);
+        held = false;
       }
       time += share;
       if (fronts.empty()) continue;
@@ -200,6 +203,26 @@ class Grower {
     return true;
   }
 
+  /// Cuts a way along a wall off where it touches what is cut; what is behind, or nothing where it does not.
+  std::vector<Edge> behind_touch(std::vector<Edge>& along, const RegionIndex& before) const {
+    double gap = kTouching * r_;
+    std::size_t at = along.size();
+    double share = 0;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      const double pieces = std::max(1.0, std::ceil(length_of(along[i]) / kSpacing));
+      for (double k = 0; k < pieces; ++k)
+        if (const double d = before.nearest(place_at(along[i], k / pieces)).distance; d < gap)
+          gap = d, at = i, share = k / pieces;
+    }
+    if (at == along.size()) return {};
+    std::vector<Edge> behind{share > 0 ? part_of(along[at], share, 1) : along[at]};
+    behind.insert(behind.end(), along.begin() + static_cast<std::ptrdiff_t>(at) + 1, along.end());
+    const Edge cut = along[at];
+    along.resize(at);
+    if (share > 0) along.push_back(part_of(cut, 0, share));
+    return behind;
+  }
+
   /// Passes that meet a wall on their way end and begin there; rings that touch what is cut begin there.
   std::vector<Front> split_at_walls(std::vector<Front> given, const RegionIndex& before) const {
     std::vector<Front> fronts;
@@ -221,14 +244,18 @@ class Grower {
         std::size_t k = i;
         double run = 0;
         while (k < n && wall[k] != 0) run += length_of(front.edges[k++]);
-        const bool between = i > 0 && k > i && k < n;
-        part.edges.insert(part.edges.end(), front.edges.begin() + static_cast<std::ptrdiff_t>(i),
-                          front.edges.begin() + static_cast<std::ptrdiff_t>(k));
-        if (between && run < kShortRun * step_) {
+        std::vector<Edge> along(front.edges.begin() + static_cast<std::ptrdiff_t>(i),
+                                front.edges.begin() + static_cast<std::ptrdiff_t>(k));
+        std::vector<Edge> next = along;
+        if (const bool between = i > 0 && k > i && k < n; between && run >= kShortRun * step_)
+          next = behind_touch(along, before);
+        else if (!between)
+          next.clear();
+        part.edges.insert(part.edges.end(), along.begin(), along.end());
+        if (!next.empty()) {
           fronts.push_back(std::move(part));
           part = {};
-          part.edges.assign(front.edges.begin() + static_cast<std::ptrdiff_t>(i),
-                            front.edges.begin() + static_cast<std::ptrdiff_t>(k));
+          part.edges = std::move(next);
         }
         i = k;
         while (i < n && wall[i] == 0) part.edges.push_back(front.edges[i++]);

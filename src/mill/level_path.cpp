@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "arc_through.hpp"
 #include "cleared_grid.hpp"
 #include "edge_path.hpp"
 #include "fronts.hpp"
@@ -28,7 +29,9 @@ constexpr double kFieldFillet = 0.55;  // of the tool's radius: corners of the f
 // much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
 constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08};
 constexpr double kSharpPeel = 0.12, kPeel = 0.22;
-constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
+constexpr std::size_t kManyEdges = 40;
+constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
+constexpr double kSubtree = 0.05;                        // mm of way for a mm of fronts that wait for one
 
 /// Opened by a disc, but for the pieces this takes away that are larger than `area`: corners are rounded,
 /// corridors stay.
@@ -50,6 +53,26 @@ Result<std::vector<Region>> rounded(const std::vector<Region>& regions, double s
   return std::move(all->regions);
 }
 
+/// Long contours of short edges as lines and arcs near them: the fields need not be exact.
+std::vector<Region> with_fewer_edges(std::vector<Region> regions) {
+  std::vector<geom::Contour> contours;
+  bool fewer = false;
+  const auto look = [&](const geom::Contour& contour) {
+    contours.push_back(contour);
+    if (contour.size() < kManyEdges) return;
+    contours.back().clear();
+    fit_arcs(places_on(contour, kFieldSpacing), kFieldFit, contours.back());
+    fewer = true;
+  };
+  for (const Region& region : regions) {
+    look(region.outer);
+    for (const geom::Contour& hole : region.holes) look(hole);
+  }
+  if (!fewer) return regions;
+  auto made = geom::nest_contours(std::move(contours));
+  return made ? std::move(*made) : regions;
+}
+
 class Clearing {
  public:
   Clearing(const Region& allowed, const PocketOptions& o)
@@ -68,6 +91,11 @@ class Clearing {
     if (!growth) return tl::unexpected(growth.error());
     growth_ = std::move(*growth);
     grid_.emplace(growth_, radius_);
+    waiting_.assign(growth_.fronts.size(), 0.0);
+    for (std::size_t i = growth_.fronts.size(); i-- > 0;) {
+      waiting_[i] += length_of(growth_.fronts[i].edges);
+      if (!growth_.fronts[i].parents.empty()) waiting_[growth_.fronts[i].parents.front()] += waiting_[i];
+    }
     path_.fronts = growth_.fronts.size();
     enter();
     cut_fronts();
@@ -83,7 +111,7 @@ class Clearing {
     const double fillet = kFieldFillet * radius_;
     auto fields = rounded(allowed_, strip_, fillet, 3 * fillet * fillet);
     if (!fields) return tl::unexpected(fields.error());
-    fields_ = std::move(*fields);
+    fields_ = with_fewer_edges(std::move(*fields));
     field_limit_.emplace(fields_);
     auto reached = geom::offset(fields_, strip_ + kFieldFillet * fillet);
     if (!reached) return tl::unexpected(reached.error());
@@ -162,7 +190,8 @@ class Clearing {
   /// A helix, its level turn, and a spiral out to the widest disc.
   void enter() {
     using Kind = PathMove::Kind;
-    Point start = entry_ + Point{helix_, 0};
+    const Point ahead = spiral_end();
+    const Point start = entry_ + helix_ * ahead;
     go({.kind = Kind::rapid, .to = start, .z = o_.safe_height});
     go({.kind = Kind::plunge, .to = start, .z = 0});
     if (!(helix_ > 1e-3)) return go({.kind = Kind::plunge, .to = start, .z = -o_.depth});
@@ -174,11 +203,11 @@ class Clearing {
     };
     for (double i = 1; i <= 4 * turns; ++i)
       go({.kind = Kind::helix,
-          .to = entry_ + quarter({helix_, 0}, i),
+          .to = entry_ + quarter(helix_ * ahead, i),
           .z = -o_.depth * i / (4 * turns),
           .shape = EdgeKind::arc_ccw,
           .centre = entry_});
-    turn_about(helix_, Kind::helix);
+    turn_about(helix_ * ahead, Kind::helix);
     if (!(disc_ > helix_)) return;
     std::vector<double> steps;
     double reach = helix_;
@@ -192,7 +221,7 @@ class Clearing {
     for (const double step : steps) {
       // Four quarters about the corners of a small square: tangent to each other, and back on the axis.
       const double more = scale * step / 4;
-      Point out{1, 0}, centre = entry_;
+      Point out = ahead, centre = entry_;
       for (int q = 0; q < 4; ++q) {
         centre = centre - more * out;
         r += more;
@@ -200,11 +229,24 @@ class Clearing {
         go(Kind::cut, Edge{EdgeKind::arc_ccw, at_, centre + r * out, centre});
       }
     }
-    turn_about(r, Kind::cut);
+    turn_about(r * ahead, Kind::cut);
   }
-  void turn_about(double r, PathMove::Kind kind) {
-    for (const Point out : {Point{0, r}, Point{-r, 0}, Point{0, -r}, Point{r, 0}})
+  void turn_about(Point out, PathMove::Kind kind) {
+    for (int q = 0; q < 4; ++q) {
+      out = perpendicular(out);
       go({.kind = kind, .to = entry_ + out, .z = -o_.depth, .shape = EdgeKind::arc_ccw, .centre = entry_});
+    }
+  }
+  /// Direction from the entry to where the first front begins.
+  [[nodiscard]] Point spiral_end() const {
+    double least = std::numeric_limits<double>::infinity();
+    Point best{1, 0};
+    for (std::size_t i = 0; i < growth_.fronts.size() && growth_.fronts[i].layer == 1; ++i)
+      for (const Point p : {growth_.fronts[i].edges.front().from, growth_.fronts[i].edges.back().to}) {
+        const double off = std::abs(norm(p - entry_) - disc_) + kSubtree * waiting_[i];
+        if (off < least && norm(p - entry_) > 0) least = off, best = (1 / norm(p - entry_)) * (p - entry_);
+      }
+    return best;
   }
 
   // ---- fronts
@@ -212,11 +254,6 @@ class Clearing {
   /// behind.
   void cut_fronts() {
     const std::vector<Front>& fronts = growth_.fronts;
-    std::vector<double> waiting(fronts.size(), 0.0);
-    for (std::size_t i = fronts.size(); i-- > 0;) {
-      waiting[i] += length_of(fronts[i].edges);
-      if (!fronts[i].parents.empty()) waiting[fronts[i].parents.front()] += waiting[i];
-    }
     for (;;) {
       std::size_t best = fronts.size();
       double least = std::numeric_limits<double>::infinity();
@@ -225,8 +262,8 @@ class Clearing {
         if (grid_->is_done(i) || !std::all_of(f.parents.begin(), f.parents.end(),
                                               [&](std::size_t p) { return grid_->is_done(p); }))
           continue;
-        const double d =
-            std::min(norm(f.edges.front().from - at_), norm(f.edges.back().to - at_)) + kSubtree * waiting[i];
+        const double d = std::min(norm(f.edges.front().from - at_), norm(f.edges.back().to - at_)) +
+                         kSubtree * waiting_[i];
         if (d < least) least = d, best = i;
       }
       if (best == fronts.size()) return;
@@ -522,7 +559,8 @@ class Clearing {
   double strip_ = 0;  ///< mm between fields and walls
   Growth growth_;
   std::optional<ClearedGrid> grid_;
-  std::vector<Cut> cuts_;  ///< of fronts, in order
+  std::vector<double> waiting_;  ///< mm of each front and of all that wait for it
+  std::vector<Cut> cuts_;        ///< of fronts, in order
   Point entry_, at_;
   double disc_ = 0;   ///< radius of the widest disc of places, about entry_
   double helix_ = 0;  ///< radius of the helix
