@@ -31,10 +31,25 @@ constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08}
 constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr std::size_t kManyEdges = 40;
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
-constexpr double kSubtree = 0.05;                        // mm of way for a mm of fronts that wait for one
+constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
+constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
-/// Opened by a disc, but for the pieces this takes away that are larger than `area`: corners are rounded,
-/// corridors stay.
+/// Leaves pieces that are large or lead from one of `wide` to another.
+void keep_corridors(std::vector<Region>& pieces, const std::vector<Region>& wide, double area) {
+  std::vector<geom::RegionIndex> indices;
+  for (const Region& region : wide) indices.emplace_back(std::vector<Region>{region});
+  std::erase_if(pieces, [&](const Region& piece) {
+    if (geom::area(piece) >= area) return false;
+    const auto touches = [&](const geom::RegionIndex& index) {
+      return std::any_of(piece.outer.begin(), piece.outer.end(),
+                         [&](const Edge& edge) { return index.nearest(edge.from).distance < 1e-3; });
+    };
+    return std::count_if(indices.begin(), indices.end(), touches) < 2;
+  });
+}
+
+/// Opened by a disc, but for the pieces this takes away that are larger than `area` or lead from
+/// one piece to another: corners are rounded, corridors stay.
 Result<std::vector<Region>> rounded(const std::vector<Region>& regions, double shrink, double fillet,
                                     double area) {
   auto small = geom::offset(regions, -shrink);
@@ -46,7 +61,7 @@ Result<std::vector<Region>> rounded(const std::vector<Region>& regions, double s
   auto lost =
       geom::combine(small->regions, opened->regions, geom::BooleanOperation::subtract, opened->edge_error);
   if (!lost) return tl::unexpected(lost.error());
-  std::erase_if(lost->regions, [&](const Region& region) { return geom::area(region) < area; });
+  keep_corridors(lost->regions, opened->regions, area);
   if (lost->regions.empty()) return std::move(opened->regions);
   auto all = geom::combine(opened->regions, lost->regions, geom::BooleanOperation::unite, lost->edge_error);
   if (!all) return tl::unexpected(all.error());
@@ -84,21 +99,33 @@ class Clearing {
 
   Result<PocketPath> run() {
     if (auto split = find_fields(); !split) return tl::unexpected(split.error());
-    choose_entry();
-    auto start = start_region();
-    if (!start) return tl::unexpected(start.error());
-    auto growth = grow(fields_, narrow_, *start, {radius_, step_, strip_});
-    if (!growth) return tl::unexpected(growth.error());
-    growth_ = std::move(*growth);
-    grid_.emplace(growth_, radius_);
-    waiting_.assign(growth_.fronts.size(), 0.0);
-    for (std::size_t i = growth_.fronts.size(); i-- > 0;) {
-      waiting_[i] += length_of(growth_.fronts[i].edges);
-      if (!growth_.fronts[i].parents.empty()) waiting_[growth_.fronts[i].parents.front()] += waiting_[i];
+    std::vector<Region> left = fields_.empty() ? allowed_ : fields_;
+    while (!left.empty()) {
+      choose_entry(left);
+      auto start = start_region();
+      if (!start) return tl::unexpected(start.error());
+      auto growth = grow(fields_, narrow_, *start, {radius_, step_, strip_});
+      if (!growth) return tl::unexpected(growth.error());
+      growth_ = std::move(*growth);
+      grid_.emplace(growth_, radius_);
+      waiting_.assign(growth_.fronts.size(), 0.0);
+      for (std::size_t i = growth_.fronts.size(); i-- > 0;) {
+        waiting_[i] += length_of(growth_.fronts[i].edges);
+        if (!growth_.fronts[i].parents.empty()) waiting_[growth_.fronts[i].parents.front()] += waiting_[i];
+      }
+      path_.fronts += growth_.fronts.size();
+      enter();
+      cut_fronts();
+      // Pieces the tool cannot come to from there are entered anew.
+      const geom::RegionIndex cut(growth_.cut.back());
+      const std::size_t before = left.size();
+      std::erase_if(left, [&](const Region& piece) {
+        return cut.contains(piece.outer.front().from) ||
+               cut.nearest(piece.outer.front().from).distance < 1e-2 ||
+               cut.contains(entry_) == geom::RegionIndex({piece}).contains(entry_);
+      });
+      if (left.size() == before) break;
     }
-    path_.fronts = growth_.fronts.size();
-    enter();
-    cut_fronts();
     if (auto walls = cut_walls(); !walls) return tl::unexpected(walls.error());
     go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
     return std::move(path_);
@@ -113,13 +140,12 @@ class Clearing {
     if (!fields) return tl::unexpected(fields.error());
     fields_ = with_fewer_edges(std::move(*fields));
     field_limit_.emplace(fields_);
-    auto reached = geom::offset(fields_, strip_ + kFieldFillet * fillet);
+    auto reached = geom::offset(fields_, 1.01 * strip_);
     if (!reached) return tl::unexpected(reached.error());
     auto lost =
         geom::combine(allowed_, reached->regions, geom::BooleanOperation::subtract, reached->edge_error);
     if (!lost) return tl::unexpected(lost.error());
-    std::erase_if(lost->regions,
-                  [&](const Region& region) { return geom::area(region) < 3 * fillet * fillet; });
+    keep_corridors(lost->regions, reached->regions, 4 * fillet * fillet);
     if (lost->regions.empty()) return {};
     auto wider = geom::offset(lost->regions, 2 * strip_ + fillet);
     if (!wider) return tl::unexpected(wider.error());
@@ -131,8 +157,8 @@ class Clearing {
   }
 
   // ---- entry: the widest disc of places
-  void choose_entry() {
-    const geom::RegionIndex& limit = fields_.empty() ? limit_ : *field_limit_;
+  void choose_entry(const std::vector<Region>& places) {
+    const geom::RegionIndex limit(places);
     const geom::Box box = limit.bounds();
     const auto depth_at = [&](Point p) {
       const double d = limit.nearest(p).distance;
@@ -192,6 +218,7 @@ class Clearing {
     using Kind = PathMove::Kind;
     const Point ahead = spiral_end();
     const Point start = entry_ + helix_ * ahead;
+    if (!path_.moves.empty()) go({.kind = Kind::rapid, .to = at_, .z = o_.safe_height});
     go({.kind = Kind::rapid, .to = start, .z = o_.safe_height});
     go({.kind = Kind::plunge, .to = start, .z = 0});
     if (!(helix_ > 1e-3)) return go({.kind = Kind::plunge, .to = start, .z = -o_.depth});
@@ -386,7 +413,8 @@ class Clearing {
             go(PathMove::Kind::cut, ends ? edge : Edge{edge.kind, edge.from, stop, edge.centre});
             edge.from = ends ? edge.to : stop;
           }
-          cut_corner(peels, corners[corner]);
+          bool back = true;
+          cut_corner(peels, 0, corners[corner], back);
           link(stop, nullptr);
         }
         if (!(edge.from == edge.to)) go(PathMove::Kind::cut, edge);
@@ -452,39 +480,46 @@ class Clearing {
     }
   };
 
-  /// To and fro, each peel as deep as it may be.
-  void cut_corner(Peels& peels, const Front& corner) {
-    const Point middle = 0.5 * (corner.edges.front().from + corner.edges.back().to);
-    const double reach = norm(corner.edges.front().from - middle) + 1e-3;
+  static bool lies_on(Point p, const Front& zone) {
+    return std::any_of(zone.edges.begin(), zone.edges.end(), [&](const Edge& edge) {
+      return norm(geom::nearest_on(geom::make_curve(edge), p) - p) < 1e-3;
+    });
+  }
+
+  /// What the zone of a corner holds beyond a round: to and fro, each peel as deep as it may be.
+  void cut_corner(Peels& peels, std::size_t outer, const Front& zone, bool& back) {
     const std::size_t last = peels.rounds.size() - 1;
-    bool back = true;
-    for (std::size_t outer = 0; outer < last;) {
-      const Front* peel = nullptr;
-      std::size_t inner = last;
-      for (; inner > outer; --inner) {
-        peel = nullptr;
-        for (const Front& front : peels.between(outer, inner))
-          if (norm(0.5 * (front.edges.front().from + front.edges.back().to) - middle) < reach) peel = &front;
-        if (peel == nullptr || inner == outer + 1) break;
-        const geom::RegionIndex before(peels.rounds[outer]);
-        double depth = 0;
-        for (const Point p : places_on(peel->edges, 0.1 * radius_))
+    if (outer == last) return;
+    const geom::RegionIndex before(peels.rounds[outer]);
+    std::vector<Front> chosen;
+    std::size_t inner = last;
+    for (; inner > outer; --inner) {
+      chosen.clear();
+      double depth = 0;
+      for (const Front& front : peels.between(outer, inner)) {
+        if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
+        chosen.push_back(front);
+        for (const Point p : places_on(front.edges, 0.1 * radius_))
           depth = std::max(depth, before.nearest(p).distance);
-        if (depth < (inner == last ? kSharpPeel : kPeel) * radius_) break;
       }
-      outer = inner;
-      if (peel == nullptr) continue;
-      const std::vector<Edge> edges = back ? turned_back(peel->edges) : peel->edges;
+      if (inner == outer + 1 || depth < (inner == last ? kSharpPeel : kPeel) * radius_) break;
+    }
+    if (chosen.empty()) return cut_corner(peels, inner, zone, back);
+    if (back) std::reverse(chosen.begin(), chosen.end());
+    for (const Front& peel : chosen) {
+      const std::vector<Edge> edges = back ? turned_back(peel.edges) : peel.edges;
       link(edges.front().from, nullptr);
       for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
-      back = !back;
+      bool next = !back;
+      cut_corner(peels, inner, peel, next);
     }
+    back = !back;
   }
 
   // ---- links at depth through what is cut
   void link(Point to, const std::vector<Region>* cut) {
     if (norm(to - at_) < 1e-6) return;
-    if (norm(to - at_) < 3 * step_) {
+    if (norm(to - at_) < (cut != nullptr ? 3 : kWallWay) * step_) {
       if (const auto wall = along_wall(at_, to, cut != nullptr ? *field_limit_ : limit_)) {
         for (const Edge& edge : *wall) go(PathMove::Kind::link, edge);
         return;
@@ -492,8 +527,31 @@ class Clearing {
       if (cut != nullptr && is_within(at_, to, geom::RegionIndex(*cut))) return go(PathMove::Kind::link, to);
     }
     const std::vector<Point> corners = grid_->way(at_, to);
-    if (corners.empty()) return go(PathMove::Kind::cut, to);
+    Point last = at_;
+    bool inside = !corners.empty();
+    for (const Point corner : corners) {
+      inside = inside && is_inside(last, corner);
+      last = corner;
+    }
+    if (!inside) return hop(to);
     for (const Point corner : corners) go(PathMove::Kind::link, corner);
+  }
+
+  /// Over the stock, where there is no way at depth.
+  void hop(Point to) {
+    if (norm(to - at_) < 0.5 * radius_ && is_inside(at_, to)) return go(PathMove::Kind::cut, to);
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    go({.kind = PathMove::Kind::rapid, .to = to, .z = o_.safe_height});
+    go(PathMove::Kind::plunge, to);
+  }
+
+  [[nodiscard]] bool is_inside(Point a, Point b) const {
+    const double pieces = std::max(1.0, std::ceil(norm(b - a) / (0.05 * radius_)));
+    for (double i = 0; i <= pieces; ++i) {
+      const Point p = a + (i / pieces) * (b - a);
+      if (!limit_.contains(p) && limit_.nearest(p).distance > 1e-4) return false;
+    }
+    return true;
   }
 
   static bool is_within(Point a, Point b, const geom::RegionIndex& cut) {
@@ -520,7 +578,7 @@ class Clearing {
       double length = 0;
       std::uint32_t e = from.edge;
       Point at = begin;
-      while (length < 3 * step_ && edges.size() < 100) {
+      while (length < kWallWay * step_ && edges.size() < 200) {
         Edge edge = limit.curves()[e].edge;
         if (back) edge = turned_back(edge);
         Edge rest{edge.kind, at, edge.to, edge.centre};
@@ -530,7 +588,7 @@ class Clearing {
                                  ? dot(to - at, edge.to - edge.from) > 0
                                  : !(rest.from == rest.to) && arc_sweep(last) < arc_sweep(rest) + 1e-9;
           if (ahead) {
-            if (length + length_of(last) > 3 * step_) break;
+            if (length + length_of(last) > kWallWay * step_) break;
             edges.push_back(last);
             return edges;
           }
