@@ -344,8 +344,10 @@ class Clearing {
             given.edges.insert(back ? given.edges.end() : given.edges.begin(), more.begin(), more.end());
             break;
           }
-    const std::vector<Edge> edges =
+    std::vector<Edge> edges =
         pass_along(given, back, *field_limit_, geom::RegionIndex(growth_.cut[front.layer - 1]), step_);
+    if (!std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return is_inside(edge); }))
+      edges = back ? turned_back(given.edges) : given.edges;
     link(edges.front().from, &growth_.cut[front.layer - 1]);
     for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
     // Where its front meets the wall.
@@ -365,7 +367,7 @@ class Clearing {
       const double fillet = peel * radius_;
       auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
       if (!round) return tl::unexpected(round.error());
-      peels.rounds.push_back(std::move(*round));
+      if (!round->empty()) peels.rounds.push_back(std::move(*round));
     }
     peels.rounds.push_back(allowed_);
     const std::vector<Front>& corners = peels.between(0, peels.rounds.size() - 1);
@@ -389,7 +391,7 @@ class Clearing {
       const Edge begun = walls.curves()[start.edge].edge;
       if (start.from) link(*start.from, nullptr);
       const Point on = start.share < 1 ? place_at(begun, start.share) : begun.to;
-      if (start.from)
+      if (start.from && is_inside(at_, on))
         go(PathMove::Kind::cut, on);
       else
         link(on, nullptr);
@@ -545,10 +547,10 @@ class Clearing {
     go(PathMove::Kind::plunge, to);
   }
 
-  [[nodiscard]] bool is_inside(Point a, Point b) const {
-    const double pieces = std::max(1.0, std::ceil(norm(b - a) / (0.05 * radius_)));
-    for (double i = 0; i <= pieces; ++i) {
-      const Point p = a + (i / pieces) * (b - a);
+  [[nodiscard]] bool is_inside(Point a, Point b) const { return is_inside(Edge{EdgeKind::line, a, b, {}}); }
+  [[nodiscard]] bool is_inside(const Edge& edge) const {
+    const std::vector<Point> places = places_on({edge}, 0.05 * radius_);
+    for (const Point p : places) {
       if (!limit_.contains(p) && limit_.nearest(p).distance > 1e-4) return false;
     }
     return true;
