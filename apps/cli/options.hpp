@@ -97,6 +97,7 @@ struct SimulateOptions {
 struct PocketOptions {
   std::string pocket, output;      ///< output may be empty: stdout
   std::string picture, animation;  ///< may be empty
+  std::string images;              ///< prefix of the M-images of the source's methods; may be empty
   bool json = false;
   ShapeOptions shape;
   std::vector<std::string> island_layers, open_layers;

@@ -9,7 +9,10 @@
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/result_json.hpp"
+#include "lekalo/io/voxel_pictures.hpp"
 #include "lekalo/mill/feeds.hpp"
+#include "lekalo/mill/floz_field.hpp"
+#include "lekalo/mill/fragments.hpp"
 #include "lekalo/verify/simulate.hpp"
 #include "outputs.hpp"
 #include "pocket_input.hpp"
@@ -84,6 +87,26 @@ std::vector<std::string> comments_of(const PocketOptions& o) {
                       o.path.stock_to_leave)};
 }
 
+/// The source's model in pictures.
+Result<void> add_images(const PocketOptions& o, const PocketInput& input, io::AtomicFiles& files,
+                        std::vector<std::string>& written) {
+  constexpr std::size_t kNodes = 500;
+  const Result<field::FieldGrid> grid = mill::floz_field(input.extended, o.path, kNodes);
+  if (!grid) return tl::unexpected(grid.error());
+  const auto pictures = io::voxel_pngs(field::voxel_images(*grid));
+  if (!pictures) return tl::unexpected(pictures.error());
+  const Result<std::string> value = io::value_png(*grid);
+  if (!value) return tl::unexpected(value.error());
+  const auto add = [&](const char* ending, const std::string& bytes) {
+    written.push_back(o.images + ending);
+    return files.add(written.back(), bytes);
+  };
+  const std::array<const char*, 4> endings{"-A.png", "-B.png", "-C.png", "-D.png"};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (Result<void> done = add(endings[k], (*pictures)[k]); !done) return done;
+  return add("-value.png", *value);
+}
+
 }  // namespace
 
 Result<int> run_pocket(PocketOptions o) {
@@ -108,10 +131,19 @@ Result<int> run_pocket(PocketOptions o) {
     if (!judged) return tl::unexpected(judged.error());
   }
   io::AtomicFiles files;
-  if (Result<void> done = add_cut_pictures({o.picture, o.animation}, o.pocket, input->pockets,
-                                           o.path.tool_diameter, o.path.stock_to_leave, *judged, files);
+  std::vector<std::string> written{o.output, o.picture, o.animation};
+  CutPictures pictures{o.picture, o.animation, {}};
+  if (o.path.method != mill::Method::fronts && !o.path.whole) {
+    Result<std::vector<geom::Region>> fragments = mill::convex_fragments(input->extended);
+    if (!fragments) return tl::unexpected(fragments.error());
+    pictures.fragments = std::move(*fragments);
+  }
+  if (Result<void> done = add_cut_pictures(pictures, o.pocket, input->pockets, o.path.tool_diameter,
+                                           o.path.stock_to_leave, *judged, files);
       !done)
     return tl::unexpected(done.error());
+  if (!o.images.empty())
+    if (Result<void> done = add_images(o, *input, files, written); !done) return tl::unexpected(done.error());
   if (!o.output.empty())
     if (Result<void> done = files.add(o.output, program); !done) return tl::unexpected(done.error());
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
@@ -122,8 +154,8 @@ Result<int> run_pocket(PocketOptions o) {
   std::string text;
   for (const std::string& notice : input->notices) text += notice + "\n";
   text += report_rows(*judged);
-  for (const std::string& written : {o.output, o.picture, o.animation})
-    if (!written.empty()) text += fmt::format("Written: {}\n", written);
+  for (const std::string& name : written)
+    if (!name.empty()) text += fmt::format("Written: {}\n", name);
   tell(text);
   return 0;
 }

@@ -18,6 +18,9 @@ constexpr std::array kCoolants{Word<mill::Coolant>{"off", mill::Coolant::off},
 constexpr std::array kDirections{Word<mill::Direction>{"any", mill::Direction::any},
                                  Word<mill::Direction>{"climb", mill::Direction::climb},
                                  Word<mill::Direction>{"conventional", mill::Direction::conventional}};
+constexpr std::array kMethods{Word<mill::Method>{"fronts", mill::Method::fronts},
+                              Word<mill::Method>{"floz-linear", mill::Method::floz_linear},
+                              Word<mill::Method>{"floz-quadratic", mill::Method::floz_quadratic}};
 constexpr std::array kWorkOffsets{Word<int>{"G54", 1}, Word<int>{"G55", 2}, Word<int>{"G56", 3},
                                   Word<int>{"G57", 4}, Word<int>{"G58", 5}, Word<int>{"G59", 6}};
 
@@ -28,9 +31,10 @@ struct PocketWords {
   std::string feed, feed_per_tooth, teeth, most_feed, plunge_feed, link_feed, spindle;
   std::string post, output_units, work_offset, tool_number, coolant;
   std::string units, join;
+  std::string method, sampling, trace_step, images;
   std::vector<std::string> layers, island_layers, open_layers;
   std::string output, picture, animation;
-  bool json = false;
+  bool json = false, whole = false;
 };
 
 /// `--feed`, or what feed per tooth, teeth and spindle make.
@@ -69,6 +73,14 @@ Result<Command> to_pocket(const PocketWords& w) {
   double degrees = o.path.ramp_angle / kDegree;
   read.number("--ramp-angle", w.ramp_angle, 0.1, 45.0, "an angle from 0.1 to 45 degrees", degrees);
   if (!w.ramp_angle.empty()) o.path.ramp_angle = degrees * kDegree;
+  read.choice("--method", w.method, kMethods, o.path.method);
+  read.number("--sampling", w.sampling, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.sampling);
+  read.number("--trace-step", w.trace_step, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.trace_step);
+  o.path.whole = w.whole, o.images = w.images;
+  read.require(o.path.method != mill::Method::fronts ||
+                   (w.sampling.empty() && w.trace_step.empty() && w.images.empty() && !w.whole),
+               "--sampling, --trace-step, --images and --whole have a meaning with --method floz-linear and "
+               "floz-quadratic alone");
   read.number("--safe-height", w.safe_height, 1e-3, 1e4, "a height above 0, mm", o.path.safe_height);
   read.number("--tolerance", w.tolerance, 1e-5, 1.0, "a length from 0.00001 to 1 mm", o.path.fit_tolerance);
   read.number("--spindle", w.spindle, 1.0, 1e6, "a speed from 1 to 1,000,000 rev/min", o.program.spindle);
@@ -161,6 +173,14 @@ Typed add_pocket_form(CLI::App& app) {
   app.add_option("--open-layer", w.open_layers, "Edges on this layer are no walls: beyond is air")
       ->type_name("NAME")
       ->group("Reading");
+  const WordAdder source(app, "The source's method, for comparison");
+  source("--method", w.method, "WORD", "fronts, floz-linear or floz-quadratic [fronts]");
+  source("--sampling", w.sampling, "MM", "Longest segment of its model of the outline [3]");
+  source("--trace-step", w.trace_step, "MM",
+         "Step of its spiral; a turn ends pi steps farther out [by --stepover]");
+  source("--images", w.images, "PREFIX", "Write the model as PREFIX-A.png to -D.png and PREFIX-value.png");
+  app.add_flag("--whole", w.whole, "One model and one spiral, not one for each convex fragment")
+      ->group("The source's method, for comparison");
   app.footer(
       "Where the tool does not fit is said and drawn; the rest is cut.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 a file cannot be read or the tool fits nowhere,\n"

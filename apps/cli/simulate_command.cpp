@@ -63,8 +63,8 @@ Result<int> run_simulate(const SimulateOptions& o) {
     const Result<io::RegionFile> regions = io::parse_regions(*pocket, o.pocket);
     if (!regions) return tl::unexpected(regions.error());
     if (Result<void> done =
-            add_cut_pictures({o.picture, o.animation}, o.pocket, regions->regions, o.machining.tool_diameter,
-                             o.machining.stock_to_leave, *report, files);
+            add_cut_pictures({o.picture, o.animation, {}}, o.pocket, regions->regions,
+                             o.machining.tool_diameter, o.machining.stock_to_leave, *report, files);
         !done)
       return tl::unexpected(done.error());
   }

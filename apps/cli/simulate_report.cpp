@@ -117,7 +117,8 @@ Result<void> add_cut_pictures(const CutPictures& names, const std::string& title
                               double stock_to_leave, const verify::SimulateReport& report,
                               io::AtomicFiles& files) {
   if (names.picture.empty() && names.animation.empty()) return {};
-  const io::PocketPicture picture = picture_of(title, pockets, tool_diameter, stock_to_leave, report);
+  io::PocketPicture picture = picture_of(title, pockets, tool_diameter, stock_to_leave, report);
+  picture.fragments = names.fragments;
   if (!names.picture.empty()) {
     const Result<std::string> bytes = names.picture.ends_with(".png")
                                           ? io::pocket_png(picture)

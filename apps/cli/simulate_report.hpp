@@ -19,6 +19,7 @@ namespace lekalo::cli {
 /// Pictures of what a program cuts; an empty name: not asked for.
 struct CutPictures {
   std::string picture, animation;
+  std::vector<geom::Region> fragments;  ///< drawn as outlines
 };
 /// Adds them to `files`.
 [[nodiscard]] Result<void> add_cut_pictures(const CutPictures& names, const std::string& title,

@@ -64,6 +64,11 @@ class Composer {
     Paint material = fill_of(kBlankFill, 1);
     material.stroke = kBlankLine, material.width = 0.35;
     add(PathItem{paper_rings(picture_.pockets), true, material, {"pocket", "the pocket"}});
+    if (!picture_.fragments.empty()) {
+      Paint dashed = line_of(kGrey, 0.3);
+      dashed.dash = 1.2;
+      add(PathItem{paper_rings(picture_.fragments), true, dashed, {"fragments", "convex fragments"}});
+    }
     draw_path();
     draw_unreachable();
     for (const Point p : picture_.uncut)

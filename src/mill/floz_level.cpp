@@ -4,6 +4,7 @@
 
 #include "lekalo/field/contour_model.hpp"
 #include "lekalo/field/trace.hpp"
+#include "lekalo/geom/region_index.hpp"
 
 namespace lekalo::mill {
 namespace {
@@ -28,6 +29,20 @@ Point peak(const field::ContourModel& model, const field::Function& f, const geo
   return field::peak_of(f, best, std::max(size.x, size.y) / kNodes, 1e-4);
 }
 
+/// How many places, with the lines to them, are in the fragment: the model's chords may lie outside its arcs.
+std::size_t inside(const std::vector<Point>& path, const geom::Region& fragment) {
+  constexpr double kSlack = 1e-4;  // mm
+  constexpr int kPieces = 6;
+  const geom::RegionIndex index({fragment});
+  for (std::size_t i = 0; i < path.size(); ++i)
+    for (int k = 1; k <= kPieces; ++k) {
+      const Point before = path[i == 0 ? 0 : i - 1];
+      const Point p = before + (static_cast<double>(k) / kPieces) * (path[i] - before);
+      if (!index.contains(p) && index.nearest(p).distance > kSlack) return i;
+    }
+  return path.size();
+}
+
 }  // namespace
 
 Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions& o) {
@@ -38,7 +53,8 @@ Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions&
   if (!model) return tl::unexpected(model.error());
   const field::Function f = [&](Point p) { return (*model)(p); };
   const Point top = peak(*model, f, geom::bounds(fragment.outer));
-  const std::vector<Point> spiral = field::gradient_spiral(f, top + Point{0.25 * step, 0}, step);
+  std::vector<Point> spiral = field::gradient_spiral(f, top + Point{0.25 * step, 0}, step);
+  spiral.resize(inside(spiral, fragment));
   PocketPath path;
   path.fronts = 1;
   const auto go = [&](Kind kind, Point to, double z) { path.moves.push_back({kind, to, z}); };

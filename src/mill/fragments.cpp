@@ -94,6 +94,7 @@ std::optional<Chord> shortest_cut(const Region& region) {
   for (const geom::Contour& hole : region.holes) add_notches(hole, size, notches);
   const geom::RegionIndex index({region});
   Chord best;
+  double least = std::numeric_limits<double>::infinity();
   for (const Notch& n : notches) {
     const Point across = geom::perpendicular(n.before + n.after);
     std::vector<Point> ways{n.before, -n.after};
@@ -107,7 +108,12 @@ std::optional<Chord> shortest_cut(const Region& region) {
       if (norm(n.before - n.after) < 1e-9 && dot(way, across) < 0.9 * norm(across)) continue;
       const double length = reach(index.curves(), n.at, way, kOnward * size);
       if (!(length < 2 * size) || !index.contains(n.at + (0.5 * length) * way)) continue;
-      if (length < best.length * (1 - 1e-9)) best = {n.at, way, length};
+      // A cut that ends in another such place does away with both.
+      const bool both = std::any_of(notches.begin(), notches.end(), [&](const Notch& other) {
+        return norm(n.at + length * way - other.at) < kOnward * size;
+      });
+      const double cost = both ? 0.5 * length : length;
+      if (cost < least * (1 - 1e-9)) least = cost, best = {n.at, way, length};
     }
   }
   if (!(best.length < std::numeric_limits<double>::infinity())) return std::nullopt;

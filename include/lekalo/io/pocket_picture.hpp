@@ -19,9 +19,9 @@ struct PocketStretch {
 
 /// What a program cuts of a pocket, for a picture or an animation.
 struct PocketPicture {
-  std::string name;  ///< UTF-8
-  std::vector<geom::Region> pockets, unreachable;
-  double tool_diameter = 0;  ///< mm
+  std::string name;                                           ///< UTF-8
+  std::vector<geom::Region> pockets, unreachable, fragments;  ///< fragments: drawn dashed; may be empty
+  double tool_diameter = 0;                                   ///< mm
   std::vector<PocketStretch> path;
   std::vector<geom::Point> uncut;                            ///< places that could be cut and are not
   std::vector<std::pair<std::string, std::string>> figures;  ///< name and value, printed beside
