@@ -53,7 +53,10 @@ Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions&
   if (!model) return tl::unexpected(model.error());
   const field::Function f = [&](Point p) { return (*model)(p); };
   const Point top = peak(*model, f, geom::bounds(fragment.outer));
-  std::vector<Point> spiral = field::gradient_spiral(f, top + Point{0.25 * step, 0}, step);
+  // A spiral that goes round in one place ends after three times the length that would fill the fragment.
+  const double most = 3 * geom::area(fragment) / (kPi * step * step) + 1000;
+  std::vector<Point> spiral = field::gradient_spiral(f, top + Point{0.25 * step, 0}, step,
+                                                     static_cast<std::size_t>(std::min(most, 1e6)));
   spiral.resize(inside(spiral, fragment));
   PocketPath path;
   path.fronts = 1;
