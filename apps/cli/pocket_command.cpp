@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "lekalo/base/version.hpp"
+#include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/files.hpp"
+#include "lekalo/io/region_json.hpp"
 #include "lekalo/io/result_json.hpp"
 #include "lekalo/io/voxel_pictures.hpp"
 #include "lekalo/mill/feeds.hpp"
@@ -25,6 +27,15 @@ namespace {
 /// What a machine's axes and a few decimals may take of a wall, mm.
 constexpr double kMostGouge = 0.005;
 
+/// What is to be cut after a larger tool, as a pocket of its own.
+Result<std::string> rest_document(const PocketInput& input, const PocketOptions& o) {
+  const auto places = mill::places_to_cut(input.extended, o.path);
+  if (!places) return tl::unexpected(places.error());
+  const auto pocket = geom::offset(*places, o.path.tool_diameter / 2 + o.path.stock_to_leave);
+  if (!pocket) return tl::unexpected(pocket.error());
+  return io::regions_json(pocket->regions);
+}
+
 /// The written program, as who does not know how it was made finds it; ErrorCode::refuted where it leaves the
 /// pocket or crosses material in rapid motion.
 Result<verify::SimulateReport> judgement_of(const std::string& program, const PocketInput& input,
@@ -35,6 +46,14 @@ Result<verify::SimulateReport> judgement_of(const std::string& program, const Po
   machining.step_over = o.path.step_over;
   Result<verify::SimulateReport> report =
       verify::simulate({"the program", program}, {"pocket.json", input.document}, machining);
+  if (report && o.path.rest_of > 0) {
+    // Walls are judged by the pocket, the rest by what the larger tool left, as if it stood in full material.
+    const double gouge = report->gouge_mm;
+    const Result<std::string> rest = rest_document(input, o);
+    if (!rest) return tl::unexpected(rest.error());
+    report = verify::simulate({"the program", program}, {"rest.json", *rest}, machining);
+    if (report) report->gouge_mm = gouge, report->unreachable.clear();
+  }
   if (!report)
     return failure(ErrorCode::refuted,
                    "the independent checker cannot read this program; please report the pocket: " +

@@ -16,6 +16,7 @@ namespace {
 using geom::Point;
 using geom::Region;
 using Kind = PathMove::Kind;
+constexpr double kOperandError = 1e-9;  // mm, of offsets that are combined again
 
 Result<void> check(const PocketOptions& o) {
   const auto outside = [](double v, double low, double high) { return !(v >= low && v <= high); };
@@ -82,57 +83,69 @@ void add_level(const PocketPath& level, double top, const geom::RegionIndex& all
 
 }  // namespace
 
-Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o) {
+Result<std::vector<Region>> places_to_cut(const std::vector<Region>& pockets, const PocketOptions& o) {
   if (auto good = check(o); !good) return tl::unexpected(good.error());
   const double radius = o.tool_diameter / 2;
-  const auto allowed = geom::offset(pockets, -(radius + o.stock_to_leave));
+  auto allowed = geom::offset(pockets, -(radius + o.stock_to_leave));
   if (!allowed) return tl::unexpected(allowed.error());
   if (allowed->regions.empty())
     return failure(
         ErrorCode::bad_input,
         fmt::format("a tool of {:g} mm that leaves {:g} mm on the walls fits nowhere in this pocket",
                     o.tool_diameter, o.stock_to_leave));
-  std::vector<Region> cut;
-  if (o.rest_of > 0) {
-    // Where the larger tool's middle may be, and as far about it as this tool's disc stays in that one's.
-    const auto larger = geom::offset(pockets, -(o.rest_of / 2 + o.stock_to_leave));
-    if (!larger) return tl::unexpected(larger.error());
-    const auto grown = geom::offset(larger->regions, o.rest_of / 2 - radius);
-    if (!grown) return tl::unexpected(grown.error());
-    cut = grown->regions;
-  }
+  if (!(o.rest_of > 0)) return std::move(allowed->regions);
+  // Cut already: where the larger tool's middle may be, and as far about it as this tool's disc stays in that
+  // one's. Along walls the two end alike; what is thinner than kThin there is rounding.
+  constexpr double kThin = 2e-3;  // mm
+  const auto larger = geom::offset(pockets, -(o.rest_of / 2 + o.stock_to_leave));
+  if (!larger) return tl::unexpected(larger.error());
+  const auto cut = geom::offset(larger->regions, o.rest_of / 2 - radius + kThin);
+  if (!cut) return tl::unexpected(cut.error());
+  const auto left = geom::combine(allowed->regions, cut->regions, geom::BooleanOperation::subtract,
+                                  allowed->edge_error + cut->edge_error);
+  if (!left) return tl::unexpected(left.error());
+  // Some of what is cut beside it, so that the tool comes from there.
+  const auto grown = geom::offset(left->regions, 0.25 * radius);
+  if (!grown) return tl::unexpected(grown.error());
+  auto places = geom::combine(grown->regions, allowed->regions, geom::BooleanOperation::intersect,
+                              allowed->edge_error + grown->edge_error);
+  if (!places) return tl::unexpected(places.error());
+  if (places->regions.empty())
+    return failure(ErrorCode::bad_input,
+                   fmt::format("the tool of {:g} mm before has left nothing for one of {:g} mm", o.rest_of,
+                               o.tool_diameter));
+  return std::move(places->regions);
+}
+
+Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o) {
+  auto allowed = places_to_cut(pockets, o);
+  if (!allowed) return tl::unexpected(allowed.error());
   const double depth = o.depth - o.floor_stock;
   const double levels = o.step_down > 0 ? std::ceil(depth / o.step_down * (1 - 1e-12)) : 1;
   PocketOptions one = o;
   one.depth = depth / levels;
-  std::vector<Region> pieces = allowed->regions;
+  std::vector<Region> pieces = *allowed;
   const bool source = o.method != Method::fronts;
   if (source && !o.whole) {
     const auto fragments = convex_fragments(pockets);
     if (!fragments) return tl::unexpected(fragments.error());
     pieces.clear();
     for (const Region& fragment : *fragments) {
-      const auto part =
-          geom::combine(allowed->regions, {fragment}, geom::BooleanOperation::intersect, allowed->edge_error);
+      const auto part = geom::combine(*allowed, {fragment}, geom::BooleanOperation::intersect, kOperandError);
       if (!part) return tl::unexpected(part.error());
       pieces.insert(pieces.end(), part->regions.begin(), part->regions.end());
     }
   }
   PocketPath whole;
   for (const Region& region : pieces) {
-    const auto level = source ? floz_level(region, one) : level_path(region, one, cut);
+    const auto level = source ? floz_level(region, one) : level_path(region, one, {});
     if (!level) return tl::unexpected(level.error());
-    if (level->moves.empty()) continue;  // nothing is left to cut here
     const geom::RegionIndex index({region});
     PocketPath path;
     for (double k = 0; k < levels; ++k) add_level(*level, -k * one.depth, index, o.safe_height, path);
     whole.fronts += level->fronts;
     whole.moves.insert(whole.moves.end(), path.moves.begin(), path.moves.end());
   }
-  if (whole.moves.empty())
-    return failure(ErrorCode::bad_input,
-                   fmt::format("the tool of {:g} mm before has left nothing for one of {:g} mm", o.rest_of,
-                               o.tool_diameter));
   return fitted(whole, o.fit_tolerance);
 }
 

@@ -131,8 +131,8 @@ TEST(CliPocket, a_located_part_has_its_pocket_cut_where_it_lies) {
   const Ran made = run(folder.path(), {"pocket", "plate.json", "--tool", "6", "--depth", "2", "--tool-number",
                                        "1", "--spindle", "9000", "-o", "p.ngc", "--json"});
   ASSERT_EQ(made.status, 0) << made.err;
-  const Ran located = run(folder.path(), {"locate", "part.csv", "blank.csv", "--nc", "p.ngc", "--nc-out",
-                                          "q.ngc", "--json", "-o", "r.json"});
+  const Ran located = run(folder.path(), {"locate", "--part", "part.csv", "--blank", "blank.csv", "--nc",
+                                          "p.ngc", "--nc-out", "q.ngc", "--json", "-o", "r.json"});
   ASSERT_EQ(located.status, 0) << located.err;
   const Json result = located.json();
   const double x = result["x"], y = result["y"], theta = result["theta"];
@@ -160,7 +160,7 @@ TEST(CliPocket, bad_input_is_one_sentence) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   write_bytes(folder / "open.dxf", dxf(dxf_line("0", 0, 0, 30, 0) + dxf_line("0", 30, 0, 30, 20)));
-  write_bytes(folder / "bow.dxf", dxf(dxf_line("0", 0, 0, 30, 20) + dxf_line("0", 30, 20, 30, 0) +
+  write_bytes(folder / "bow.dxf", dxf(dxf_line("0", 0, 0, 30, 25) + dxf_line("0", 30, 25, 30, 0) +
                                       dxf_line("0", 30, 0, 0, 20) + dxf_line("0", 0, 20, 0, 0)));
   write_bytes(folder / "out.dxf", dxf(dxf_rectangle("P", 0, 0, 30, 20) + dxf_rectangle("I", 40, 0, 5, 5)));
   std::string outside = kPlate;

@@ -43,4 +43,9 @@ struct PocketOptions {
 [[nodiscard]] Result<PocketPath> pocket_path(const std::vector<geom::Region>& pockets,
                                              const PocketOptions& options);
 
+/// Where the tool's middle goes: all places that keep its radius and the stock to leave from the walls, or,
+/// after a larger tool, what that one left and a quarter of the radius around. Errors as pocket_path.
+[[nodiscard]] Result<std::vector<geom::Region>> places_to_cut(const std::vector<geom::Region>& pockets,
+                                                              const PocketOptions& options);
+
 }  // namespace lekalo::mill
