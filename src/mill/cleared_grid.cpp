@@ -108,9 +108,10 @@ bool ClearedGrid::is_clear(Point a, Point b) const {
   const double steps = std::max(1.0, std::ceil(norm(b - a) / (0.5 * pitch_)));
   for (double i = 0; i <= steps; ++i) {
     const Point p = a + (i / steps) * (b - a);
-    const auto x = static_cast<std::size_t>((p.x - low_.x) / pitch_ + 0.5),
-               y = static_cast<std::size_t>((p.y - low_.y) / pitch_ + 0.5);
-    if (!is_open(y * columns_ + x)) return false;
+    const double x = (p.x - low_.x) / pitch_ + 0.5, y = (p.y - low_.y) / pitch_ + 0.5;
+    if (!(x >= 0 && x < static_cast<double>(columns_) && y >= 0 && y < static_cast<double>(rows_)))
+      return false;
+    if (!is_open(static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x))) return false;
   }
   return true;
 }
