@@ -73,10 +73,10 @@ Result<verify::SimulateReport> judgement_of(const std::string& program, const Po
 }
 
 /// What the checker found along each move.
-std::vector<std::vector<mill::Load>> loads_of(const verify::SimulateReport& report,
-                                              const std::vector<std::size_t>& move_of_line,
-                                              std::size_t moves) {
-  std::vector<std::vector<mill::Load>> loads(moves);
+std::vector<std::vector<mill::MoveLoad>> loads_of(const verify::SimulateReport& report,
+                                                  const std::vector<std::size_t>& move_of_line,
+                                                  std::size_t moves) {
+  std::vector<std::vector<mill::MoveLoad>> loads(moves);
   for (const verify::EngagementSample& sample : report.samples)
     if (const std::size_t move = move_of_line[sample.line - 1]; move != mill::kNoMove)
       loads[move].push_back({sample.length, sample.engagement});

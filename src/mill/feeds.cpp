@@ -86,7 +86,7 @@ PathMove part_of(const PathMove& move, Point from, double from_z, double share) 
 
 }  // namespace
 
-PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<Load>>& loads,
+PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
                       const FeedOptions& o) {
   const std::array<double, 6> steps = steps_of(o);
   std::vector<Piece> pieces;
@@ -94,9 +94,9 @@ PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<Load
     const PathMove::Kind kind = path.moves[i].kind;
     if (kind != PathMove::Kind::cut && kind != PathMove::Kind::lead) continue;
     double whole = 0, so_far = 0;
-    for (const Load& load : loads[i]) whole += load.length;
+    for (const MoveLoad& load : loads[i]) whole += load.length;
     if (!(whole > 0)) continue;
-    for (const Load& load : loads[i]) {
+    for (const MoveLoad& load : loads[i]) {
       Piece piece;
       piece.move = i;
       piece.begin = so_far / whole;

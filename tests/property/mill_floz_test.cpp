@@ -180,7 +180,7 @@ TEST(MillFeeds, FollowTheLoadInStepsThatHold) {
                 {PathMove::Kind::cut, {20, 0}, -1},
                 {PathMove::Kind::cut, {20, 20}, -1, EdgeKind::arc_ccw, {20, 10}},
                 {PathMove::Kind::link, {0, 20}, -1}};
-  std::vector<std::vector<Load>> loads(5);
+  std::vector<std::vector<MoveLoad>> loads(5);
   for (int i = 0; i < 100; ++i) loads[2].push_back({0.2, i < 50 ? 20.0 : 78.0});
   for (int i = 0; i < 100; ++i) loads[3].push_back({0.31415926, i < 50 ? 78.0 : 160.0});
   loads[4].push_back({20, 0});

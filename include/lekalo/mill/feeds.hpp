@@ -7,7 +7,7 @@
 namespace lekalo::mill {
 
 /// What the tool's rim meets over a piece of a move.
-struct Load {
+struct MoveLoad {
   double length = 0;          ///< mm
   double engagement_deg = 0;  ///< of the rim
 };
@@ -23,7 +23,7 @@ struct FeedOptions {
 /// 1.25 a the feed falls as the engagement grows. A step holds for 2 mm of path at least, and the slower feed
 /// begins 1 mm before the load. Moves are divided where the feed changes; helices, plunges, links and rapids
 /// keep theirs. \param loads  of each move, along it; a move without any keeps its feed
-[[nodiscard]] PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<Load>>& loads,
+[[nodiscard]] PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
                                     const FeedOptions& options);
 
 }  // namespace lekalo::mill
