@@ -32,6 +32,7 @@ constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr std::size_t kManyEdges = 40;
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
 constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
+constexpr double kMissed = 5e-3;   // mm
 constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
 /// Leaves pieces that are large or lead from one of `wide` to another.
@@ -127,6 +128,7 @@ class Clearing {
       if (left.size() == before) break;
     }
     if (auto walls = cut_walls(); !walls) return tl::unexpected(walls.error());
+    cut_missed_walls();
     go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
     return std::move(path_);
   }
@@ -469,6 +471,42 @@ class Clearing {
         if (d < least) least = d, best = {i, e, 0, std::nullopt};
       }
     return best;
+  }
+
+  /// Stretches of the walls no pass came along, if peels of odd corners have left any.
+  void cut_missed_walls() {
+    std::vector<geom::Curve> passes;
+    std::vector<geom::Box> boxes;
+    Point from;
+    for (const PathMove& move : path_.moves) {
+      if (move.kind == PathMove::Kind::cut && !(move.to == from)) {
+        passes.push_back(geom::make_curve({move.shape, from, move.to, move.centre}));
+        boxes.push_back(geom::curve_box(passes.back()));
+      }
+      from = move.to;
+    }
+    const auto is_missed = [&](Point p) {
+      for (std::size_t i = 0; i < passes.size(); ++i)
+        if (p.x > boxes[i].low.x - kMissed && p.x < boxes[i].high.x + kMissed &&
+            p.y > boxes[i].low.y - kMissed && p.y < boxes[i].high.y + kMissed &&
+            norm(geom::nearest_on(passes[i], p) - p) < kMissed)
+          return false;
+      return true;
+    };
+    std::vector<std::vector<Edge>> missed;
+    for (const geom::Curve& wall : limit_.curves()) {
+      const double pieces = std::max(1.0, std::ceil(length_of(wall.edge) / (0.1 * radius_)));
+      for (double i = 0; i < pieces; ++i) {
+        if (!is_missed(place_at(wall.edge, (i + 0.5) / pieces))) continue;
+        const Edge piece = part_of(wall.edge, i / pieces, (i + 1) / pieces);
+        if (missed.empty() || !(missed.back().back().to == piece.from)) missed.emplace_back();
+        missed.back().push_back(piece);
+      }
+    }
+    for (const std::vector<Edge>& stretch : missed) {
+      link(stretch.front().from, nullptr);
+      for (const Edge& edge : stretch) go(PathMove::Kind::cut, edge);
+    }
   }
 
   /// Places of the tool with corners rounded less and less, and what lies between two of them.
