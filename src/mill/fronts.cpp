@@ -31,7 +31,7 @@ constexpr double kLeastShare = 0.3;
 
 // What a layer is to hold, degrees; the share of its length that may pass it, and how far.
 constexpr double kHeldDegrees = 80, kPeakDegrees = 93;
-constexpr double kBeyond = 0.05;
+constexpr double kBeyond = 0.07;
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
 /// Of the step: how far from where a pass would leave a wall its arc begins and ends, at most.

@@ -32,6 +32,7 @@ constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr std::size_t kManyEdges = 40;
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
 constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
+constexpr double kNothing = 1e-3;  // of the tool's radius squared: what is left of a larger tool
 constexpr double kMissed = 5e-3;   // mm
 constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
@@ -89,17 +90,52 @@ std::vector<Region> with_fewer_edges(std::vector<Region> regions) {
   return made ? std::move(*made) : regions;
 }
 
+EdgeKind mirrored(EdgeKind kind) {
+  return kind == EdgeKind::line ? kind : kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+}
+
+/// With x for -x.
+Result<std::vector<Region>> mirrored(const std::vector<Region>& regions) {
+  const auto turn = [](const geom::Contour& contour) {
+    geom::Contour made;
+    for (const Edge& e : contour)
+      made.push_back({mirrored(e.kind), {-e.from.x, e.from.y}, {-e.to.x, e.to.y}, {-e.centre.x, e.centre.y}});
+    return made;
+  };
+  std::vector<Region> made;
+  for (const Region& region : regions) {
+    std::vector<geom::Contour> holes;
+    for (const geom::Contour& hole : region.holes) holes.push_back(turn(hole));
+    auto other = geom::make_region(turn(region.outer), std::move(holes));
+    if (!other) return tl::unexpected(other.error());
+    made.push_back(std::move(*other));
+  }
+  return made;
+}
+
 class Clearing {
  public:
-  Clearing(const Region& allowed, const PocketOptions& o)
+  Clearing(const Region& allowed, const PocketOptions& o, const std::vector<Region>& cut_already)
       : o_(o),
+        cut_already_(cut_already),
         radius_(o.tool_diameter / 2),
         step_(o.step_over * o.tool_diameter),
         allowed_{allowed},
         limit_(allowed_) {}
 
   Result<PocketPath> run() {
+    if (!cut_already_.empty()) {
+      auto rest = geom::combine(allowed_, cut_already_, geom::BooleanOperation::subtract);
+      if (!rest) return tl::unexpected(rest.error());
+      double area = 0;
+      for (const Region& region : rest->regions) area += geom::area(region);
+      if (area < kNothing * radius_ * radius_) return PocketPath{};
+    }
     if (auto split = find_fields(); !split) return tl::unexpected(split.error());
+    if (!cut_already_.empty()) {
+      if (auto rest = run_rest(); !rest) return tl::unexpected(rest.error());
+      return std::move(path_);
+    }
     std::vector<Region> left = fields_.empty() ? allowed_ : fields_;
     while (!left.empty()) {
       choose_entry(left);
@@ -134,6 +170,64 @@ class Clearing {
   }
 
  private:
+  /// From what a larger tool has cut: no helix, no spiral, and of the walls only what that tool did not come
+  /// to.
+  Result<void> run_rest() {
+    auto start = geom::combine(cut_already_, allowed_, geom::BooleanOperation::intersect);
+    if (!start) return tl::unexpected(start.error());
+    if (start->regions.empty()) {
+      cut_already_.clear();
+      auto path = run();
+      if (!path) return tl::unexpected(path.error());
+      path_ = std::move(*path);
+      return {};
+    }
+    auto fields = geom::combine(fields_, start->regions, geom::BooleanOperation::unite);
+    if (!fields) return tl::unexpected(fields.error());
+    fields_ = std::move(fields->regions);
+    field_limit_.emplace(fields_);
+    auto growth = grow(fields_, narrow_, start->regions, {radius_, step_, strip_});
+    if (!growth) return tl::unexpected(growth.error());
+    growth_ = std::move(*growth);
+    grid_.emplace(growth_, radius_);
+    waiting_.assign(growth_.fronts.size(), 0.0);
+    path_.fronts = growth_.fronts.size();
+    std::vector<std::vector<Front>> walls;
+    std::vector<Region> before = growth_.cut.back();
+    for (const double peel : {kPeels[0], 0.23, 0.0}) {
+      auto round = peel > 0 ? rounded(allowed_, 0, peel * radius_, 3 * peel * peel * radius_ * radius_)
+                            : Result<std::vector<Region>>(allowed_);
+      if (!round) return tl::unexpected(round.error());
+      auto all = geom::combine(*round, before, geom::BooleanOperation::unite);
+      if (!all) return tl::unexpected(all.error());
+      walls.push_back(fresh_stretches(all->regions, geom::RegionIndex(before)));
+      before = std::move(all->regions);
+    }
+    Point first = start->regions.front().outer.front().from;
+    if (!growth_.fronts.empty())
+      first = growth_.fronts.front().edges.front().from;
+    else
+      for (const auto& round : walls)
+        if (!round.empty()) {
+          first = round.front().edges.front().from;
+          break;
+        }
+    go({.kind = PathMove::Kind::rapid, .to = first, .z = o_.safe_height});
+    go(PathMove::Kind::plunge, first);
+    cut_fronts();
+    for (std::vector<Front>& round : walls)
+      while (!round.empty()) {
+        const auto next = std::min_element(round.begin(), round.end(), [&](const Front& a, const Front& b) {
+          return norm(a.edges.front().from - at_) < norm(b.edges.front().from - at_);
+        });
+        link(next->edges.front().from, nullptr);
+        for (const Edge& edge : next->edges) go(PathMove::Kind::cut, edge);
+        round.erase(next);
+      }
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    return {};
+  }
+
   /// Fields keep a strip off the walls and are rounded in corners; what is too narrow for them is a corridor.
   Result<void> find_fields() {
     strip_ = kStrip * radius_;
@@ -314,7 +408,10 @@ class Clearing {
       if (here < gap) gap = here, start = i;
     }
     const std::size_t n = at.size() - 1;
-    const double ramp = before.nearest(at[start]).distance < 0.05 * radius_ ? 0 : 3 * step_;
+    // What a short ring goes round is nearly all cut from outside of it.
+    const bool ramped =
+        before.nearest(at[start]).distance >= 0.05 * radius_ && length_of(front.edges) > 6 * step_;
+    const double ramp = ramped ? 3 * step_ : 0;
     link(before.nearest(at[start]).point, &growth_.cut[front.layer - 1]);
     double along = 0;
     for (std::size_t k = 1; along < ramp || k <= n; ++k) {
@@ -324,7 +421,7 @@ class Clearing {
       const Point p = share < 1 ? before.nearest(q).point : q;
       go(PathMove::Kind::cut, p + share * (q - p));
     }
-    for (std::size_t k = 1; along > 0 && k <= n && ramp > 0; ++k) {
+    for (std::size_t k = 1; k <= n && ramped; ++k) {
       const Point q = at[(start + k) % n];
       go(PathMove::Kind::cut, q);
       if (norm(q - at[start]) > ramp) break;
@@ -334,7 +431,9 @@ class Clearing {
 
   void cut(const Front& front) {
     if (front.closed) return cut_ring(front);
-    const bool back = norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_);
+    const bool back = o_.direction == Direction::any
+                          ? norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_)
+                          : false;
     Front given = front;
     const Point begin = back ? front.edges.back().to : front.edges.front().from;
     if (norm(begin - at_) > 1e-3)
@@ -547,7 +646,8 @@ class Clearing {
     if (chosen.empty()) return cut_corner(peels, inner, zone, back);
     if (back) std::reverse(chosen.begin(), chosen.end());
     for (const Front& peel : chosen) {
-      const std::vector<Edge> edges = back ? turned_back(peel.edges) : peel.edges;
+      const bool turned = back && o_.direction == Direction::any;
+      const std::vector<Edge> edges = turned ? turned_back(peel.edges) : peel.edges;
       link(edges.front().from, nullptr);
       for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
       bool next = !back;
@@ -649,6 +749,7 @@ class Clearing {
   };
 
   PocketOptions o_;
+  std::vector<Region> cut_already_;  ///< by a larger tool
   double radius_, step_;
   std::vector<Region> allowed_;
   geom::RegionIndex limit_;
@@ -669,8 +770,21 @@ class Clearing {
 
 Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
                               const std::vector<Region>& cut_already) {
-  static_cast<void>(cut_already);
-  return Clearing(allowed, options).run();
+  if (options.direction != Direction::conventional) return Clearing(allowed, options, cut_already).run();
+  // What is climb on one side of a mirror is conventional on the other.
+  PocketOptions turned = options;
+  turned.direction = Direction::climb;
+  const auto other = mirrored({allowed});
+  if (!other) return tl::unexpected(other.error());
+  const auto cut = mirrored(cut_already);
+  if (!cut) return tl::unexpected(cut.error());
+  auto path = Clearing(other->front(), turned, *cut).run();
+  if (!path) return path;
+  for (PathMove& move : path->moves) {
+    move.to.x = -move.to.x, move.centre.x = -move.centre.x;
+    move.shape = mirrored(move.shape);
+  }
+  return path;
 }
 
 }  // namespace lekalo::mill
