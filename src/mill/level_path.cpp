@@ -215,15 +215,25 @@ class Clearing {
     go({.kind = PathMove::Kind::rapid, .to = first, .z = o_.safe_height});
     go(PathMove::Kind::plunge, first);
     cut_fronts();
-    for (std::vector<Front>& round : walls)
-      while (!round.empty()) {
-        const auto next = std::min_element(round.begin(), round.end(), [&](const Front& a, const Front& b) {
-          return norm(a.edges.front().from - at_) < norm(b.edges.front().from - at_);
+    // Corner by corner: of those near each other, the outer before the inner.
+    std::vector<std::pair<std::size_t, Front>> left;
+    for (std::size_t round = 0; round < walls.size(); ++round)
+      for (Front& front : walls[round]) left.emplace_back(round, std::move(front));
+    while (!left.empty()) {
+      std::size_t next = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        const Point begin = left[i].second.edges.front().from;
+        const bool waits = std::any_of(left.begin(), left.end(), [&](const auto& other) {
+          return other.first < left[i].first && norm(other.second.edges.front().from - begin) < 2 * radius_;
         });
-        link(next->edges.front().from, nullptr);
-        for (const Edge& edge : next->edges) go(PathMove::Kind::cut, edge);
-        round.erase(next);
+        const double d = norm(begin - at_);
+        if (!waits && d < least) least = d, next = i;
       }
+      link(left[next].second.edges.front().from, nullptr);
+      for (const Edge& edge : left[next].second.edges) go(PathMove::Kind::cut, edge);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+    }
     go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
     return {};
   }
