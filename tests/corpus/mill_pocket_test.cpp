@@ -51,8 +51,8 @@ INSTANTIATE_TEST_SUITE_P(All, PocketOfTheData,
                          ::testing::Values(Case{"rectangle", 137}, Case{"keyhole", 111}, Case{"L", 163},
                                            Case{"islands", 161}, Case{"star", 88}, Case{"slot", 109},
                                            Case{"paper-pocket", 100}),
-                         [](const auto& info) {
-                           std::string name = info.param.name;
+                         [](const auto& one) {
+                           std::string name = one.param.name;
                            for (char& c : name)
                              if (c == '-') c = '_';
                            return name;
