@@ -55,7 +55,7 @@ show "$lekalo" show demo-out/shoes.json --picture demo-out/shoes.pdf
 show "$lekalo" nest $layouts/shoes.json --work 4000000 --seed 1 -o demo-out/shoes-nested.json --picture demo-out/shoes-nested.svg
 
 # A pocket with an island: its program, and what that cuts.
-show "$lekalo" pocket examples/pockets/cover.json --tool 6 --depth 4 -o demo-out/cover.ngc
+show "$lekalo" pocket examples/pockets/cover.json --tool 6 --depth 4 --stepdown 2 --spindle 12000 -o demo-out/cover.ngc --picture demo-out/cover.png --animation demo-out/cover.html
 show "$lekalo" simulate demo-out/cover.ngc --pocket examples/pockets/cover.json --tool 6
 
 # The editor, seen by a browser (tests drive it further: ctest -L browser).
@@ -73,7 +73,7 @@ say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of pri
 say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
 say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
-say "  cover.ngc                          a pocket with an island: the program that clears it"
+say "  cover.ngc, cover.png, cover.html   a pocket with an island: the program that clears it, its path by engagement, played"
 say "  editor.png                         the same in the editor, a part in hand over another. To use it:"
 say ""
 say "    $lekalo serve $layouts/shoes.json"

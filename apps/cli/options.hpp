@@ -16,6 +16,7 @@
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/mill/pocket.hpp"
+#include "lekalo/mill/program.hpp"
 #include "lekalo/nc/rewrite.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -89,13 +90,20 @@ struct LayoutSource {
 struct SimulateOptions {
   std::string program, pocket;
   verify::SimulateOptions machining;
-  std::string samples;  ///< file; may be empty
+  std::string samples, picture, animation;  ///< files; may be empty
   bool json = false;
 };
 
 struct PocketOptions {
-  std::string pocket, output;  ///< output may be empty: stdout
+  std::string pocket, output;      ///< output may be empty: stdout
+  std::string picture, animation;  ///< may be empty
+  std::string images;              ///< prefix of the M-images of the source's methods; may be empty
+  bool json = false;
+  ShapeOptions shape;
+  std::vector<std::string> island_layers, open_layers;
   mill::PocketOptions path;
+  mill::ProgramOptions program;
+  std::optional<double> most_feed;  ///< mm/min: feeds follow the engagement
 };
 
 struct CheckOptions {

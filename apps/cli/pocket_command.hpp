@@ -5,8 +5,8 @@
 
 namespace lekalo::cli {
 
-/// Runs `lekalo pocket`: the path that clears the pockets of a region file, as an NC program. Returns the
+/// Runs `lekalo pocket`: the path that clears pockets, as an NC program. Returns the
 /// exit status.
-[[nodiscard]] Result<int> run_pocket(const PocketOptions& options);
+[[nodiscard]] Result<int> run_pocket(PocketOptions options);
 
 }  // namespace lekalo::cli

@@ -1,33 +1,123 @@
+#include <cmath>
 #include <memory>
 
 #include "option_forms.hpp"
 #include "option_words.hpp"
+#include "step_over_word.hpp"
 
 namespace lekalo::cli {
 namespace {
 
+constexpr double kDegree = 0.017453292519943295;
+
+constexpr std::array kPosts{Word<nc::Post>{"linuxcnc", nc::Post::linuxcnc},
+                            Word<nc::Post>{"fanuc", nc::Post::fanuc}, Word<nc::Post>{"grbl", nc::Post::grbl}};
+constexpr std::array kCoolants{Word<mill::Coolant>{"off", mill::Coolant::off},
+                               Word<mill::Coolant>{"mist", mill::Coolant::mist},
+                               Word<mill::Coolant>{"flood", mill::Coolant::flood}};
+constexpr std::array kDirections{Word<mill::Direction>{"any", mill::Direction::any},
+                                 Word<mill::Direction>{"climb", mill::Direction::climb},
+                                 Word<mill::Direction>{"conventional", mill::Direction::conventional}};
+constexpr std::array kMethods{Word<mill::Method>{"fronts", mill::Method::fronts},
+                              Word<mill::Method>{"floz-linear", mill::Method::floz_linear},
+                              Word<mill::Method>{"floz-quadratic", mill::Method::floz_quadratic}};
+constexpr std::array kWorkOffsets{Word<int>{"G54", 1}, Word<int>{"G55", 2}, Word<int>{"G56", 3},
+                                  Word<int>{"G57", 4}, Word<int>{"G58", 5}, Word<int>{"G59", 6}};
+
 /// As typed.
 struct PocketWords {
-  std::string pocket, tool, step_over, stock_to_leave, depth, feed, plunge_feed, link_feed, safe_height,
-      output;
+  std::string pocket, tool, step_over, stock_to_leave, floor_stock, depth, step_down, rest, direction,
+      ramp_angle, safe_height, tolerance;
+  std::string feed, feed_per_tooth, teeth, most_feed, plunge_feed, link_feed, spindle;
+  std::string post, output_units, work_offset, tool_number, coolant;
+  std::string units, join;
+  std::string method, sampling, trace_step, images;
+  std::vector<std::string> layers, island_layers, open_layers;
+  std::string output, picture, animation;
+  bool json = false, whole = false;
 };
 
-Result<Command> to_pocket(PocketWords w) {
-  WordReader read;
-  PocketOptions o{w.pocket, w.output, {}};
+/// `--feed`, or what feed per tooth, teeth and spindle make.
+void read_feed(WordReader& read, const PocketWords& w, mill::ProgramOptions& program) {
   const char* const feed = "a feed above 0, mm/min";
-  double percent = 40;
-  if (!w.step_over.empty() && w.step_over.back() == '%') w.step_over.pop_back();
-  read.number("--stepover", w.step_over, 1.0, 50.0, "a share of the diameter from 1% to 50%", percent);
-  o.path.step_over = percent / 100;
+  read.number("--feed", w.feed, 1e-3, 1e6, feed, program.feed_mm_per_min);
+  if (w.feed_per_tooth.empty()) {
+    read.require(w.teeth.empty(), "--teeth: has no meaning without --feed-per-tooth");
+    return;
+  }
+  double per_tooth = 0;
+  unsigned teeth = 0;
+  read.number("--feed-per-tooth", w.feed_per_tooth, 1e-6, 100.0, "a feed from 0.000001 to 100 mm", per_tooth);
+  read.number("--teeth", w.teeth, 1u, 100u, "a whole number from 1 to 100", teeth);
+  read.require(w.feed.empty(), "--feed and --feed-per-tooth say the same thing twice");
+  read.require(teeth > 0 && program.spindle > 0,
+               "--feed-per-tooth: needs --teeth and --spindle, which make the feed");
+  program.feed_mm_per_min = per_tooth * teeth * program.spindle;
+  read.require(program.feed_mm_per_min >= 1e-3 && program.feed_mm_per_min <= 1e6,
+               "--feed-per-tooth: the feed it makes is not from 0.001 to 1,000,000 mm/min");
+}
+
+Result<Command> to_pocket(const PocketWords& w) {
+  WordReader read;
+  PocketOptions o;
+  o.pocket = w.pocket, o.output = w.output, o.picture = w.picture, o.animation = w.animation, o.json = w.json;
+  read_step_over(read, w.step_over, 50, o.path.step_over);
   read.number("--tool", w.tool, 0.01, 1e4, "a diameter from 0.01 to 10000 mm", o.path.tool_diameter);
   read.number("--depth", w.depth, 1e-3, 1e4, "a depth from 0.001 to 10000 mm", o.path.depth);
+  read.number("--stepdown", w.step_down, 1e-3, 1e4, "a depth from 0.001 to 10000 mm", o.path.step_down);
   read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
               o.path.stock_to_leave);
-  read.number("--feed", w.feed, 1e-3, 1e6, feed, o.path.feed);
-  read.number("--plunge-feed", w.plunge_feed, 1e-3, 1e6, feed, o.path.plunge_feed);
-  read.number("--link-feed", w.link_feed, 1e-3, 1e6, feed, o.path.link_feed);
+  read.number("--floor-stock", w.floor_stock, 0.0, 1e4, "a length from 0 to 10000 mm", o.path.floor_stock);
+  read.number("--rest", w.rest, 0.01, 1e4, "a diameter from 0.01 to 10000 mm", o.path.rest_of);
+  read.choice("--cut", w.direction, kDirections, o.path.direction);
+  double degrees = o.path.ramp_angle / kDegree;
+  read.number("--ramp-angle", w.ramp_angle, 0.1, 45.0, "an angle from 0.1 to 45 degrees", degrees);
+  if (!w.ramp_angle.empty()) o.path.ramp_angle = degrees * kDegree;
+  read.choice("--method", w.method, kMethods, o.path.method);
+  read.number("--sampling", w.sampling, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.sampling);
+  read.number("--trace-step", w.trace_step, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.trace_step);
+  o.path.whole = w.whole, o.images = w.images;
+  read.require(o.path.method != mill::Method::fronts ||
+                   (w.sampling.empty() && w.trace_step.empty() && w.images.empty() && !w.whole),
+               "--sampling, --trace-step, --images and --whole have a meaning with --method floz-linear and "
+               "floz-quadratic alone");
   read.number("--safe-height", w.safe_height, 1e-3, 1e4, "a height above 0, mm", o.path.safe_height);
+  read.number("--tolerance", w.tolerance, 1e-5, 1.0, "a length from 0.00001 to 1 mm", o.path.fit_tolerance);
+  read.number("--spindle", w.spindle, 1.0, 1e6, "a speed from 1 to 1,000,000 rev/min", o.program.spindle);
+  read_feed(read, w, o.program);
+  const char* const feed = "a feed above 0, mm/min";
+  read.number("--plunge-feed", w.plunge_feed, 1e-3, 1e6, feed, o.program.plunge_feed_mm_per_min);
+  read.number("--link-feed", w.link_feed, 1e-3, 1e6, feed, o.program.link_feed_mm_per_min);
+  if (!w.most_feed.empty()) {
+    double most = 0;
+    read.number("--feed-max", w.most_feed, 1e-3, 4e6, feed, most);
+    read.require(most >= o.program.feed_mm_per_min && most <= 4 * o.program.feed_mm_per_min,
+                 fmt::format("--feed-max {}: is to be from the feed, {:g}, to four times it", w.most_feed,
+                             o.program.feed_mm_per_min));
+    o.most_feed = most;
+  }
+  read.choice("--post", w.post, kPosts, o.program.post);
+  read.choice("--output-units", w.output_units, kUnits, o.program.unit);
+  read.choice("--work-offset", w.work_offset, kWorkOffsets, o.program.work_offset);
+  read.choice("--coolant", w.coolant, kCoolants, o.program.coolant);
+  read.number("--tool-number", w.tool_number, 1, 9999, "a whole number from 1 to 9999",
+              o.program.tool_number);
+  if (!w.units.empty()) {
+    LengthUnit unit{};
+    read.choice("--units", w.units, kUnits, unit);
+    o.shape.units = unit;
+  }
+  if (!w.join.empty()) {
+    double join = 0;
+    read.number("--join", w.join, 0.0, kLargestLength, "a length from 0 mm on", join);
+    o.shape.join = join;
+  }
+  o.shape.layers = w.layers;
+  o.island_layers = w.island_layers, o.open_layers = w.open_layers;
+  read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
+               "--picture " + w.picture + ": the name has to end in .svg or .png");
+  read.require(!w.json || !w.output.empty(),
+               "--json: the report goes to stdout, so the program needs -o FILE");
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
   return Command(std::move(o));
 }
@@ -37,20 +127,62 @@ Result<Command> to_pocket(PocketWords w) {
 Typed add_pocket_form(CLI::App& app) {
   auto words = std::make_shared<PocketWords>();
   PocketWords& w = *words;
-  app.add_option("pocket", w.pocket, "The pocket's outline, JSON regions with lines, arcs and islands")
+  app.add_option("pocket", w.pocket,
+                 "The pockets' outlines: JSON regions, DXF or SVG, a tree of primitives, points")
       ->required()
       ->type_name("FILE");
   const WordAdder add(app);
   add("--tool", w.tool, "MM", "Diameter of the tool")->required();
-  add("--depth", w.depth, "MM", "Below Z 0, cut in one level")->required();
+  add("--depth", w.depth, "MM", "Of the pocket, below Z 0")->required();
+  add("--stepdown", w.step_down, "MM", "Depth of one level at most; levels are equally deep [one level]");
   add("--stepover", w.step_over, "PERCENT", "Of the tool's diameter, from 1% to 50% [40%]");
   add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
-  add("--feed", w.feed, "MM/MIN", "In the cut [1500]");
-  add("--plunge-feed", w.plunge_feed, "MM/MIN", "Straight down [300]");
-  add("--link-feed", w.link_feed, "MM/MIN", "At depth through what is cut already [5000]");
+  add("--floor-stock", w.floor_stock, "MM", "What stays on the floor [0]");
+  add("--rest", w.rest, "MM", "Diameter of a larger tool that was here: only what it left is cut");
+  add("--cut", w.direction, "WORD", "climb, conventional or any [any]");
+  add("--ramp-angle", w.ramp_angle, "DEGREES", "Of the helix into the material [2.9]");
   add("--safe-height", w.safe_height, "MM", "Above Z 0 [5]");
   add("-o,--output", w.output, "FILE", "Write the program to this file [stdout]");
+  add("--picture", w.picture, "FILE", "Draw the path coloured by engagement (.svg or .png)");
+  add("--animation", w.animation, "FILE", "Write a page that plays the cut (.html)");
+  app.add_flag("--json", w.json, "Print the report as JSON on stdout");
+  const WordAdder feeds(app, "Feeds");
+  feeds("--feed", w.feed, "MM/MIN", "In the cut [1500]");
+  feeds("--feed-per-tooth", w.feed_per_tooth, "MM", "Instead of --feed, with --teeth and --spindle");
+  feeds("--teeth", w.teeth, "N", "Of the tool");
+  feeds("--feed-max", w.most_feed, "MM/MIN", "Up to this where less is cut: feeds follow the engagement");
+  feeds("--plunge-feed", w.plunge_feed, "MM/MIN", "Straight down [300]");
+  feeds("--link-feed", w.link_feed, "MM/MIN", "At depth through what is cut already [5000]");
+  const WordAdder program(app, "Program");
+  program("--post", w.post, "WORD", "linuxcnc, fanuc or grbl [linuxcnc]");
+  program("--output-units", w.output_units, "WORD", "Of the program: mm or inch [mm]");
+  program("--work-offset", w.work_offset, "WORD", "G54 to G59 [G54]");
+  program("--tool-number", w.tool_number, "N", "Change to this tool first, with its length");
+  program("--spindle", w.spindle, "REV/MIN", "Start the spindle, clockwise [left alone]");
+  program("--coolant", w.coolant, "WORD", "off, mist or flood [off]");
+  program("--tolerance", w.tolerance, "MM", "Of lines and arcs instead of the path's points [0.002]");
+  const WordAdder reading(app, "Reading");
+  reading("--units", w.units, "WORD", "Of a file that does not say: mm or inch [mm]");
+  reading("--join", w.join, "MM", "Ends of a drawing's curves this near are joined [0.01]");
+  app.add_option("--layer", w.layers, "Outlines on this layer of a drawing; again for more [all shown]")
+      ->type_name("NAME")
+      ->group("Reading");
+  app.add_option("--island-layer", w.island_layers, "What this layer encloses stays")
+      ->type_name("NAME")
+      ->group("Reading");
+  app.add_option("--open-layer", w.open_layers, "Edges on this layer are no walls: beyond is air")
+      ->type_name("NAME")
+      ->group("Reading");
+  const WordAdder source(app, "The source's method, for comparison");
+  source("--method", w.method, "WORD", "fronts, floz-linear or floz-quadratic [fronts]");
+  source("--sampling", w.sampling, "MM", "Longest segment of its model of the outline [3]");
+  source("--trace-step", w.trace_step, "MM",
+         "Step of its spiral; a turn ends pi steps farther out [by --stepover]");
+  source("--images", w.images, "PREFIX", "Write the model as PREFIX-A.png to -D.png and PREFIX-value.png");
+  app.add_flag("--whole", w.whole, "One model and one spiral, not one for each convex fragment")
+      ->group("The source's method, for comparison");
   app.footer(
+      "Where the tool does not fit is said and drawn; the rest is cut.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 a file cannot be read or the tool fits nowhere,\n"
       "4 the program found failed its check, 5 disk or memory. lekalo simulate judges any program.");
   return [words] { return to_pocket(*words); };

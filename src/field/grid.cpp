@@ -11,7 +11,9 @@ namespace lekalo::field {
 namespace {
 
 constexpr std::size_t kTop = 256, kSmall = 8;  // nodes along a tile
-constexpr std::size_t kFew = 3;                // segments that need no further division
+constexpr std::size_t kFew = 2;                // segments that need no further division
+constexpr std::size_t kBlock = 256;            // nodes looked at together
+constexpr float kLeast = std::numeric_limits<float>::min();
 using Numbers = std::vector<std::uint32_t>;
 
 struct Tile {
@@ -23,43 +25,135 @@ struct NearSegment {
   float x, y, along_x, along_y, length;
 };
 
-/// What a kind of function is: bounds over a disc, the square at a node in single precision, the jet.
+/// Some nodes of a tile, what is least there and of which of the tile's segments.
+struct Block {
+  std::array<float, kBlock> x, y, least;
+  std::array<std::uint32_t, kBlock> which;
+  std::array<float, kBlock> from_x, from_y, along_x, along_y, length;  ///< node from segment; the segment
+  std::array<float, kBlock> value, dx, dy, sign;
+};
+
+// The loops below become vector instructions: no branch, no call, no order of sums that matters. Wider ones
+// are taken where the processor has them; they round the same.
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define LEKALO_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define LEKALO_WIDE
+#endif
+
+/// f is the line's value, u = f^2 / L, and over = sqrt(u^2 + t^2) - t without cancellation, as in floz().
+struct Terms {
+  float f, u, over, root;
+};
+inline Terms terms(float x, float y, float along_x, float along_y, float length, float per_length) {
+  const float f = along_x * y - along_y * x;
+  const float t = length * 0.25F - (x * x + y * y) * per_length;
+  const float u = f * f * per_length;
+  const float root = std::sqrt(u * u + t * t) + kLeast;
+  const float sum = root + std::abs(t);
+  const float small = u * u / sum;
+  return {f, u, t > 0 ? small : sum, root};
+}
+
+inline void keep_least(Block& block, std::size_t i, float value, std::uint32_t number) {
+  const bool less = value < block.least[i];
+  block.least[i] = less ? value : block.least[i];
+  block.which[i] = less ? number : block.which[i];
+}
+
+LEKALO_WIDE void least_normalised(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
+  const float per_length = 1 / s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Terms at = terms(block.x[i] - s.x, block.y[i] - s.y, s.along_x, s.along_y, s.length, per_length);
+    keep_least(block, i, at.f * at.f + 0.25F * at.over * at.over, number);  // the square
+  }
+}
+
+/// The same where t < 0: no node lies in the disc that has the segment as diameter.
+LEKALO_WIDE void least_normalised_beyond(const NearSegment& s, Block& block, std::size_t n,
+                                         std::uint32_t number) {
+  const float per_length = 1 / s.length, quarter = 0.25F * s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.x[i] - s.x, y = block.y[i] - s.y;
+    const float f = s.along_x * y - s.along_y * x, square = f * f;
+    const float past = (x * x + y * y) * per_length - quarter, u = square * per_length;
+    const float over = past + std::sqrt(u * u + past * past);
+    keep_least(block, i, square + 0.25F * over * over, number);
+  }
+}
+
+LEKALO_WIDE void least_algebraic(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
+  const float per_length = 1 / s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Terms at = terms(block.x[i] - s.x, block.y[i] - s.y, s.along_x, s.along_y, s.length, per_length);
+    keep_least(block, i, at.u + at.over, number);
+  }
+}
+
+LEKALO_WIDE void least_distance(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number) {
+  const float half = s.length * 0.5F;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.x[i] - s.x, y = block.y[i] - s.y;
+    const float f = s.along_x * y - s.along_y * x, along = s.along_x * x + s.along_y * y;
+    const float past = std::max(0.0F, std::abs(along) - half);
+    keep_least(block, i, f * f + past * past, number);  // the square
+  }
+}
+
+/// grad over = 2 (over d + u f n) / (L root), because t / root - 1 = -over / root.
+LEKALO_WIDE void jets_normalised(Block& block, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.from_x[i], y = block.from_y[i], ax = block.along_x[i], ay = block.along_y[i];
+    const float per_length = 1 / block.length[i];
+    const Terms at = terms(x, y, ax, ay, block.length[i], per_length);
+    const float g = 0.5F * at.over, value = std::sqrt(at.f * at.f + g * g), by = 1 / (value + kLeast);
+    const float scale = g * per_length / at.root, turn = scale * at.u * at.f + at.f;
+    block.value[i] = value;
+    block.dx[i] = by * (scale * at.over * x - turn * ay);
+    block.dy[i] = by * (scale * at.over * y + turn * ax);
+  }
+}
+
+LEKALO_WIDE void jets_algebraic(Block& block, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.from_x[i], y = block.from_y[i], ax = block.along_x[i], ay = block.along_y[i];
+    const float per_length = 1 / block.length[i];
+    const Terms at = terms(x, y, ax, ay, block.length[i], per_length);
+    const float scale = 2 * per_length / at.root, turn = scale * at.u * at.f + 2 * at.f * per_length;
+    block.value[i] = at.u + at.over;
+    block.dx[i] = scale * at.over * x - turn * ay;
+    block.dy[i] = scale * at.over * y + turn * ax;
+  }
+}
+
+LEKALO_WIDE void jets_distance(Block& block, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = block.from_x[i], y = block.from_y[i], ax = block.along_x[i], ay = block.along_y[i];
+    const float half = 0.5F * block.length[i];
+    const float f = ax * y - ay * x, along = ax * x + ay * y;
+    const float past = along - std::min(std::max(along, -half), half);
+    const float value = std::sqrt(f * f + past * past), by = 1 / (value + kLeast);
+    block.value[i] = value;
+    block.dx[i] = by * (past * ax - f * ay), block.dy[i] = by * (past * ay + f * ax);
+  }
+}
+
+/// What a kind of function is: bounds over a disc, what is least at nodes and jets of it in single precision,
+/// a jet in double.
 struct LinearFloz {
   const ContourModel& model;
   [[nodiscard]] FlozBounds bounds(const FlozSegment& s, geom::Point x, double radius) const {
     return floz_bounds(s, x, radius, model.options().form);
   }
-  /// What both forms are made of: the line's value f, f^2 / L, and root - t without cancellation, where root
-  /// is that of (f^2 / L)^2 + t^2.
-  struct Terms {
-    float f, u, root_less_t;
-  };
-  static Terms terms(const NearSegment& s, float px, float py) {
-    const float dx = px - s.x, dy = py - s.y;
-    const float f = s.along_x * dy - s.along_y * dx;
-    const float t = s.length * 0.25F - (dx * dx + dy * dy) / s.length;
-    const float u = f * f / s.length;
-    const float root = std::sqrt(u * u + t * t);
-    const float sum = root + std::abs(t);
-    const float small = u * u / std::max(sum, std::numeric_limits<float>::min());
-    return {f, u, t > 0 ? small : sum};
+  [[nodiscard]] bool normalised() const { return model.options().form == FlozForm::normalised; }
+  void least(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number, float radius) const {
+    if (!normalised()) return least_algebraic(s, block, n, number);
+    const bool beyond = std::sqrt(s.x * s.x + s.y * s.y) > 1.001F * (radius + 0.5F * s.length);
+    (beyond ? least_normalised_beyond : least_normalised)(s, block, n, number);
   }
-  static float normalised_square(const NearSegment& s, float px, float py) {
-    const Terms at = terms(s, px, py);
-    const float g = 0.5F * at.root_less_t;
-    return at.f * at.f + g * g;
-  }
-  static float algebraic(const NearSegment& s, float px, float py) {
-    const Terms at = terms(s, px, py);
-    return at.u + at.root_less_t;
-  }
-  /// Grows with the value; the value is its square root where rooted().
-  [[nodiscard]] bool rooted() const { return model.options().form == FlozForm::normalised; }
-  void measure(const NearSegment& s, const float* px, float py, std::size_t n, float* out) const {
-    if (rooted())
-      for (std::size_t i = 0; i < n; ++i) out[i] = normalised_square(s, px[i], py);
-    else
-      for (std::size_t i = 0; i < n; ++i) out[i] = algebraic(s, px[i], py);
+  void jets(Block& block, std::size_t n) const {
+    (normalised() ? jets_normalised : jets_algebraic)(block, n);
   }
   [[nodiscard]] Jet jet(const FlozSegment& s, geom::Point x) const {
     return floz(s, x, model.options().form);
@@ -71,105 +165,17 @@ struct Distance {
     const double d = jet(s, x).value;
     return {std::max(0.0, d - radius), d + radius};
   }
-  [[nodiscard]] static bool rooted() { return true; }
-  static void measure(const NearSegment& s, const float* px, float py, std::size_t n, float* out) {
-    const float half = s.length * 0.5F;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float dx = px[i] - s.x, dy = py - s.y;
-      const float f = s.along_x * dy - s.along_y * dx;
-      const float past = std::max(0.0F, std::abs(s.along_x * dx + s.along_y * dy) - half);
-      out[i] = f * f + past * past;
-    }
+  static void least(const NearSegment& s, Block& block, std::size_t n, std::uint32_t number,
+                    float /*radius*/) {
+    least_distance(s, block, n, number);
   }
+  static void jets(Block& block, std::size_t n) { jets_distance(block, n); }
   static Jet jet(const FlozSegment& s, geom::Point x) {
     const double along = std::clamp(dot(s.along, x - s.middle), -s.length / 2, s.length / 2);
     const geom::Point off = x - (s.middle + along * s.along);
     const double d = norm(off);
     return {d, d > 0 ? (1 / d) * off : geom::Point{}};
   }
-};
-
-template <class Kind>
-class Sampler {
- public:
-  Sampler(const Kind& kind, const ContourModel& model, FieldGrid& grid)
-      : kind_(kind), model_(model), grid_(grid) {
-    all_.resize(model.segments().size());
-    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = static_cast<std::uint32_t>(i);
-  }
-
-  void top_tile(const Tile& tile) const { divide(tile, all_); }
-
- private:
-  void divide(const Tile& tile, const Numbers& numbers) const {
-    const GridFrame& frame = grid_.frame;
-    const geom::Point low = frame.node(tile.column, tile.row);
-    const geom::Point high = frame.node(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
-    const geom::Point middle = 0.5 * (low + high);
-    const double radius = norm(high - low) / 2;
-    double least_high = std::numeric_limits<double>::infinity();
-    std::vector<double> lows(numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const FlozBounds bounds = kind_.bounds(model_.segments()[numbers[i]], middle, radius);
-      lows[i] = bounds.low;
-      least_high = std::min(least_high, bounds.high);
-    }
-    const double limit = least_high * (1 + 4 * kFieldGridError);
-    Numbers kept;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (lows[i] <= limit) kept.push_back(numbers[i]);
-    if (kept.size() <= kFew || (tile.columns <= kSmall && tile.rows <= kSmall))
-      return fill(tile, middle, kept);
-    const std::size_t left = (tile.columns + 1) / 2, below = (tile.rows + 1) / 2;
-    for (const Tile& part :
-         {Tile{tile.column, tile.row, left, below},
-          Tile{tile.column + left, tile.row, tile.columns - left, below},
-          Tile{tile.column, tile.row + below, left, tile.rows - below},
-          Tile{tile.column + left, tile.row + below, tile.columns - left, tile.rows - below}})
-      if (part.columns > 0 && part.rows > 0) divide(part, kept);
-  }
-
-  void fill(const Tile& tile, geom::Point middle, const Numbers& numbers) const {
-    std::vector<NearSegment> near;
-    for (const std::uint32_t i : numbers) {
-      const FlozSegment& s = model_.segments()[i];
-      const geom::Point at = s.middle - middle;
-      near.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(s.along.x),
-                      static_cast<float>(s.along.y), static_cast<float>(s.length)});
-    }
-    const GridFrame& frame = grid_.frame;
-    std::array<float, kTop> px, least, found;
-    std::array<std::uint32_t, kTop> which;
-    for (std::size_t i = 0; i < tile.columns; ++i)
-      px[i] = static_cast<float>(frame.node(tile.column + i, tile.row).x - middle.x);
-    for (std::size_t j = 0; j < tile.rows; ++j) {
-      const float py = static_cast<float>(frame.node(tile.column, tile.row + j).y - middle.y);
-      kind_.measure(near[0], px.data(), py, tile.columns, least.data());
-      for (std::size_t i = 0; i < tile.columns; ++i) which[i] = 0;
-      for (std::size_t k = 1; k < near.size(); ++k) {
-        kind_.measure(near[k], px.data(), py, tile.columns, found.data());
-        const auto number = static_cast<std::uint32_t>(k);
-        for (std::size_t i = 0; i < tile.columns; ++i) {
-          const bool better = found[i] < least[i];
-          least[i] = better ? found[i] : least[i];
-          which[i] = better ? number : which[i];
-        }
-      }
-      const std::size_t begin = (tile.row + j) * frame.columns + tile.column;
-      for (std::size_t i = 0; i < tile.columns; ++i) {
-        const Jet jet =
-            kind_.jet(model_.segments()[numbers[which[i]]], frame.node(tile.column + i, tile.row + j));
-        grid_.value[begin + i] = static_cast<float>(jet.value);
-        grid_.dx[begin + i] = static_cast<float>(jet.gradient.x);
-        grid_.dy[begin + i] = static_cast<float>(jet.gradient.y);
-      }
-    }
-  }
-
-  const Kind& kind_;
-  const ContourModel& model_;
-  FieldGrid& grid_;
-  Numbers all_;
 };
 
 /// Calls act(number) for 0 .. count - 1, each once, on `threads` threads. Which does which changes nothing.
@@ -185,37 +191,156 @@ void share_out(std::size_t count, unsigned threads, const Act& act) {
   for (std::thread& other : others) other.join();
 }
 
-/// Negative outside: along a row the sign changes where it crosses a chord.
-void set_signs(const ContourModel& model, FieldGrid& grid, unsigned threads) {
-  const GridFrame& frame = grid.frame;
-  std::vector<Numbers> rows(frame.rows);
-  const auto& chords = model.chords();
-  for (std::size_t c = 0; c < chords.size(); ++c) {
-    const double low = std::min(chords[c].a.y, chords[c].b.y), high = std::max(chords[c].a.y, chords[c].b.y);
+/// Where the chords cross each row of nodes, ascending: inside is to the right of an odd number.
+class Signs {
+ public:
+  Signs(const ContourModel& model, const GridFrame& frame) : crossings_(frame.rows) {
     const double last = static_cast<double>(frame.rows) - 1;
-    const double begin = std::clamp(std::floor((low - frame.origin.y) / frame.pitch), 0.0, last);
-    const double end = std::clamp(std::ceil((high - frame.origin.y) / frame.pitch), 0.0, last);
-    for (auto j = static_cast<std::size_t>(begin); j <= static_cast<std::size_t>(end); ++j)
-      rows[j].push_back(static_cast<std::uint32_t>(c));
+    for (const ContourModel::Chord& chord : model.chords()) {
+      const geom::Point a = chord.a, b = chord.b;
+      const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
+      const double begin = std::clamp(std::floor((low - frame.origin.y) / frame.pitch), 0.0, last);
+      const double end = std::clamp(std::ceil((high - frame.origin.y) / frame.pitch), 0.0, last);
+      for (auto j = static_cast<std::size_t>(begin); j <= static_cast<std::size_t>(end); ++j) {
+        const double y = frame.node(0, j).y;
+        if ((a.y <= y) != (b.y <= y)) crossings_[j].push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+      }
+    }
+    for (std::vector<double>& row : crossings_) std::sort(row.begin(), row.end());
   }
-  share_out(frame.rows, threads, [&](std::size_t j) {
-    const double y = frame.node(0, j).y;
-    std::vector<double> crossings;
-    for (const std::uint32_t c : rows[j]) {
-      const geom::Point a = chords[c].a, b = chords[c].b;
-      if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+  /// 1 inside, -1 outside, for nodes of one row.
+  void fill(const GridFrame& frame, std::size_t column, std::size_t row, std::size_t n, float* sign) const {
+    const std::vector<double>& crossings = crossings_[row];
+    const auto passed = [&](std::size_t i) {
+      return std::upper_bound(crossings.begin(), crossings.end(), frame.node(column + i, row).x) -
+             crossings.begin();
+    };
+    auto at = passed(0);
+    if (const auto end = passed(n - 1); at == end) {
+      std::fill(sign, sign + n, at % 2 == 1 ? 1.0F : -1.0F);
+      return;
     }
-    std::sort(crossings.begin(), crossings.end());
-    std::size_t passed = 0;
-    for (std::size_t i = 0; i < frame.columns; ++i) {
-      const double x = frame.node(i, j).x;
-      while (passed < crossings.size() && crossings[passed] <= x) ++passed;
-      if (passed % 2 == 1) continue;
-      const std::size_t n = j * frame.columns + i;
-      grid.value[n] = -grid.value[n], grid.dx[n] = -grid.dx[n], grid.dy[n] = -grid.dy[n];
+    for (std::size_t i = 0; i < n; ++i) sign[i] = passed(i) % 2 == 1 ? 1.0F : -1.0F;
+  }
+
+ private:
+  std::vector<std::vector<double>> crossings_;
+};
+
+template <class Kind>
+class Sampler {
+ public:
+  Sampler(const Kind& kind, const ContourModel& model, FieldGrid& grid)
+      : kind_(kind), model_(model), grid_(grid), signs_(model, grid.frame) {
+    all_.resize(model.segments().size());
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  void top_tile(const Tile& tile) const {
+    Workspace space;
+    space.kept.resize(12);
+    divide(tile, all_, 0, space);
+  }
+
+ private:
+  struct Workspace {
+    std::vector<Numbers> kept;  ///< one a depth of division
+    std::vector<double> lows;
+    std::vector<NearSegment> near;
+    Block block;
+  };
+
+  void divide(const Tile& tile, const Numbers& numbers, std::size_t depth, Workspace& space) const {
+    const GridFrame& frame = grid_.frame;
+    const geom::Point low = frame.node(tile.column, tile.row);
+    const geom::Point high = frame.node(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+    const geom::Point middle = 0.5 * (low + high);
+    const double radius = norm(high - low) / 2;
+    double least_high = std::numeric_limits<double>::infinity();
+    space.lows.clear();
+    for (const std::uint32_t number : numbers) {
+      const FlozBounds bounds = kind_.bounds(model_.segments()[number], middle, radius);
+      space.lows.push_back(bounds.low);
+      least_high = std::min(least_high, bounds.high);
     }
-  });
-}
+    const double limit = least_high * (1 + 4 * kFieldGridError);
+    Numbers& kept = space.kept[depth];
+    kept.clear();
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (space.lows[i] <= limit) kept.push_back(numbers[i]);
+    if (kept.size() <= kFew || (tile.columns <= kSmall && tile.rows <= kSmall))
+      return fill(tile, middle, kept, space);
+    const std::size_t left = (tile.columns + 1) / 2, below = (tile.rows + 1) / 2;
+    for (const Tile& part :
+         {Tile{tile.column, tile.row, left, below},
+          Tile{tile.column + left, tile.row, tile.columns - left, below},
+          Tile{tile.column, tile.row + below, left, tile.rows - below},
+          Tile{tile.column + left, tile.row + below, tile.columns - left, tile.rows - below}})
+      if (part.columns > 0 && part.rows > 0) divide(part, kept, depth + 1, space);
+  }
+
+  void fill(const Tile& tile, geom::Point middle, const Numbers& numbers, Workspace& space) const {
+    space.near.clear();
+    double longest = 0;
+    for (const std::uint32_t i : numbers) {
+      const FlozSegment& s = model_.segments()[i];
+      const geom::Point at = s.middle - middle;
+      space.near.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(s.along.x),
+                            static_cast<float>(s.along.y), static_cast<float>(s.length)});
+      longest = std::max(longest, s.length);
+    }
+    const GridFrame& frame = grid_.frame;
+    const double off = norm(frame.node(tile.column, tile.row) - middle);
+    // Nearer to a segment than this, single precision would not tell the side.
+    const auto close = static_cast<float>(2e-3 * off + 1e-4 * std::min(longest, off));
+    Block& block = space.block;
+    const std::size_t rows_at_once = std::max<std::size_t>(1, kBlock / tile.columns);
+    for (std::size_t j = 0; j < tile.rows; j += rows_at_once) {
+      const std::size_t rows = std::min(rows_at_once, tile.rows - j), n = rows * tile.columns;
+      for (std::size_t r = 0; r < rows; ++r) {
+        const geom::Point begin = frame.node(tile.column, tile.row + j + r) - middle;
+        for (std::size_t i = 0; i < tile.columns; ++i) {
+          block.x[r * tile.columns + i] = static_cast<float>(begin.x + frame.pitch * static_cast<double>(i));
+          block.y[r * tile.columns + i] = static_cast<float>(begin.y);
+        }
+        signs_.fill(frame, tile.column, tile.row + j + r, tile.columns, &block.sign[r * tile.columns]);
+      }
+      std::fill_n(block.which.begin(), n, 0U);
+      if (space.near.size() > 1) {
+        std::fill_n(block.least.begin(), n, std::numeric_limits<float>::infinity());
+        for (std::size_t k = 0; k < space.near.size(); ++k)
+          kind_.least(space.near[k], block, n, static_cast<std::uint32_t>(k), static_cast<float>(off));
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        const NearSegment& s = space.near[block.which[i]];
+        block.from_x[i] = block.x[i] - s.x, block.from_y[i] = block.y[i] - s.y;
+        block.along_x[i] = s.along_x, block.along_y[i] = s.along_y, block.length[i] = s.length;
+      }
+      kind_.jets(block, n);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!(block.value[i] < close)) continue;
+        const geom::Point node = frame.node(tile.column + i % tile.columns, tile.row + j + i / tile.columns);
+        const Jet jet = kind_.jet(model_.segments()[numbers[block.which[i]]], node);
+        block.value[i] = static_cast<float>(jet.value);
+        block.dx[i] = static_cast<float>(jet.gradient.x), block.dy[i] = static_cast<float>(jet.gradient.y);
+      }
+      for (std::size_t r = 0; r < rows; ++r) {
+        const std::size_t to = (tile.row + j + r) * frame.columns + tile.column, from = r * tile.columns;
+        for (std::size_t i = 0; i < tile.columns; ++i) {
+          grid_.value[to + i] = block.sign[from + i] * block.value[from + i];
+          grid_.dx[to + i] = block.sign[from + i] * block.dx[from + i];
+          grid_.dy[to + i] = block.sign[from + i] * block.dy[from + i];
+        }
+      }
+    }
+  }
+
+  const Kind& kind_;
+  const ContourModel& model_;
+  FieldGrid& grid_;
+  Signs signs_;
+  Numbers all_;
+};
 
 template <class Kind>
 void sample_tiles(const Kind& kind, const ContourModel& model, FieldGrid& grid, unsigned threads) {
@@ -229,8 +354,7 @@ void sample_tiles(const Kind& kind, const ContourModel& model, FieldGrid& grid, 
 }
 
 FieldGrid empty_grid(const GridFrame& frame) {
-  return {frame, std::vector<float>(frame.size()), std::vector<float>(frame.size()),
-          std::vector<float>(frame.size())};
+  return {frame, Samples(frame.size()), Samples(frame.size()), Samples(frame.size())};
 }
 
 }  // namespace
@@ -240,23 +364,25 @@ FieldGrid sample(const ContourModel& model, const GridFrame& frame, unsigned thr
   if (model.options().logic == Logic::linear) {
     sample_tiles(LinearFloz{model}, model, grid, threads);
   } else {
+    const Signs signs(model, frame);
     share_out(frame.rows, threads, [&](std::size_t j) {
+      std::vector<float> sign(frame.columns);
+      signs.fill(frame, 0, j, frame.columns, sign.data());
       for (std::size_t i = 0; i < frame.columns; ++i) {
         const Jet jet = model.unsigned_at(frame.node(i, j));
         const std::size_t n = j * frame.columns + i;
-        grid.value[n] = static_cast<float>(jet.value);
-        grid.dx[n] = static_cast<float>(jet.gradient.x), grid.dy[n] = static_cast<float>(jet.gradient.y);
+        grid.value[n] = sign[i] * static_cast<float>(jet.value);
+        grid.dx[n] = sign[i] * static_cast<float>(jet.gradient.x);
+        grid.dy[n] = sign[i] * static_cast<float>(jet.gradient.y);
       }
     });
   }
-  set_signs(model, grid, threads);
   return grid;
 }
 
 FieldGrid sample_distance(const ContourModel& model, const GridFrame& frame, unsigned threads) {
   FieldGrid grid = empty_grid(frame);
   sample_tiles(Distance{}, model, grid, threads);
-  set_signs(model, grid, threads);
   return grid;
 }
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kLeaf = 0.004;  // mm, side of the smallest squares
 constexpr double kSameLevel = 1e-6;
+constexpr double kTold = 0.02;  // mm, width of an uncut spot that is told of
 
 using Numbers = std::vector<std::uint32_t>;
 
@@ -33,8 +34,11 @@ class Coverage {
         const double reach = radius_ + 2.2 * side;
         index_.near(middle, reach, cuts);
         pocket_.limit_index().near(middle, reach, limits);
+        spot_ = {};
         look(middle, side, cuts, limits, false, cuts.empty() ? index_.nearest(middle, floor_) : kFar);
+        if (spot_.width_mm > kTold) spots_.push_back(spot_);
       }
+    tell_spots();
     report_.coverage_percent = 100 * (1 - report_.uncut_mm2 / report_.reachable_mm2);
     report_.coverage_low_percent = std::max(0.0, 100 * (1 - undecided_ / report_.reachable_mm2));
   }
@@ -84,7 +88,7 @@ class Coverage {
       }
     }
     if (swept > radius_ + half && all_reachable) return add_uncut(middle, side);
-    if (side <= kLeaf) return add_leaf(side, off, swept);
+    if (side <= kLeaf) return add_leaf(middle, side, off, swept);
     for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
       look(middle + side / 4 * corner, side / 2, near_cuts, near_limits, all_reachable, swept + half);
   }
@@ -103,22 +107,41 @@ class Coverage {
   void widen(Place middle, double side) {
     const double half = side * 0.7071067811865476, deep = index_.nearest(middle, floor_) - radius_;
     const double most = std::min(2 * (deep + half), length(pocket_.high() - pocket_.low()));
+    spot(middle, 2 * deep);
     if (most <= report_.uncut_width_mm) return;
     if (side <= kLeaf || half <= 0.01 * deep) return widest(most);
     for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
       widen(middle + side / 4 * corner, side / 2);
   }
 
-  void add_leaf(double side, double off, double swept) {
+  void add_leaf(Place middle, double side, double off, double swept) {
     const double half = side * 0.7071067811865476;
     const double reachable = share(radius_ - off, side), left = share(swept - radius_, side);
     report_.reachable_mm2 += side * side * reachable;
     report_.uncut_mm2 += side * side * std::max(0.0, reachable + left - 1);
     undecided_ += side * side;
-    widest(std::min(2 * (swept + half - radius_), (swept - radius_) + (radius_ - off) + 2 * half));
+    const double width =
+        std::min(2 * (swept + half - radius_), (swept - radius_) + (radius_ - off) + 2 * half);
+    widest(width);
+    spot(middle, width);
   }
 
   void widest(double width) { report_.uncut_width_mm = std::max(report_.uncut_width_mm, width); }
+  void spot(Place at, double width) {
+    if (width > spot_.width_mm) spot_ = {at.x, at.y, width};
+  }
+
+  void tell_spots() {
+    constexpr std::size_t kMost = 1000;
+    std::stable_sort(spots_.begin(), spots_.end(),
+                     [](const UncutSpot& a, const UncutSpot& b) { return a.width_mm > b.width_mm; });
+    for (const UncutSpot& s : spots_) {
+      const bool apart = std::all_of(report_.uncut.begin(), report_.uncut.end(), [&](const UncutSpot& t) {
+        return length(Place{s.x - t.x, s.y - t.y}) >= radius_;
+      });
+      if (apart && report_.uncut.size() < kMost) report_.uncut.push_back(s);
+    }
+  }
 
   const PocketReach& pocket_;
   double radius_;
@@ -126,6 +149,8 @@ class Coverage {
   std::vector<Stroke> floor_;
   StrokeIndex index_;
   double undecided_ = 0;
+  UncutSpot spot_;  ///< the widest of the square that is looked at
+  std::vector<UncutSpot> spots_;
 };
 
 /// The least signed distance of a stroke's places from the outline, from below: exact to rounding where the

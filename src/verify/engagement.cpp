@@ -37,7 +37,7 @@ class Engagement {
     const Cut& cut = path_.cuts[number];
     const double whole = length(cut.stroke);
     if (!(whole > 0)) return;
-    index_.near(at_share(cut.stroke, 0.5), 2 * radius_ + whole, near_);
+    gather(number, at_share(cut.stroke, 0.5), whole);
     const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(whole / spacing_)));
     double done = 0;
     for (std::size_t k = 1; k <= pieces; ++k) {
@@ -46,38 +46,64 @@ class Engagement {
       EngagementSample sample;
       sample.x = at.x, sample.y = at.y;
       sample.z = cut.from_z + share * (cut.to_z - cut.from_z);
-      const double upto = length(until(cut.stroke, at));
+      const Stroke so_far = until(cut.stroke, at);
+      const double upto = length(so_far);
       sample.length = upto - done;
       done = upto;
       sample.line = cut.line;
-      // Material is there at the tip's depth until the tip was as deep; what a ramp of the same entry left as
-      // its floor is entry, too.
-      const double strict = open_degrees(cut, at, sample.z, false);
-      sample.engagement = strict;
-      if (strict >= kAirDegrees) {
-        if (cut.to_z < cut.from_z) {
-          sample.entry = true;
-        } else {
-          const double beside = open_degrees(cut, at, sample.z, true);
-          sample.entry = beside < strict - 1e-6;
-        }
+      if (sample.length > 0) {
+        rim_.begin(at, radius_, so_far);
+        engage(cut, sample);
       }
-      if (cut.rapid && strict >= kAirDegrees) report_.rapid_cut_mm += sample.length;
+      if (cut.rapid && sample.engagement >= kAirDegrees) report_.rapid_cut_mm += sample.length;
       report_.samples.push_back(sample);
     }
   }
 
-  double open_degrees(const Cut& cut, Place at, double z, bool ramps_count) {
-    rim_.begin(at, radius_);
-    rim_.add_own(until(cut.stroke, at));
+  /// Earlier strokes that may reach the tool's rim from anywhere on this one. What was found for a place
+  /// nearby serves, with what came since.
+  void gather(std::size_t number, Place middle, double whole) {
+    const double slack = radius_;
+    if (gathered_ && length(middle - gathered_at_) + whole / 2 <= slack) {
+      for (; gathered_upto_ < number; ++gathered_upto_)
+        near_.push_back(static_cast<std::uint32_t>(gathered_upto_));
+      return;
+    }
+    gathered_ = true;
+    gathered_at_ = middle, gathered_upto_ = number;
+    const double reach = 2 * radius_ + slack;
+    index_.near(middle, reach, near_);
+    std::erase_if(near_, [&](std::uint32_t i) { return distance(middle, path_.strokes[i]) > reach; });
+    useful_.clear();
+  }
+
+  /// Material is there at the tip's depth until the tip was as deep; what a ramp of the same entry left as
+  /// its floor is entry, too.
+  void engage(const Cut& cut, EngagementSample& sample) {
+    const double z = sample.z;
+    const auto as_deep = [&](const Cut& earlier) {
+      return std::max(earlier.from_z, earlier.to_z) <= z + kSameLevel;
+    };
+    // What covered much a moment ago comes first, then what is newest.
+    found_.clear();
+    for (const std::uint32_t i : useful_)
+      if (as_deep(path_.cuts[i]) && rim_.add(path_.strokes[i])) found_.push_back(i);
+    for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();)
+      if (as_deep(path_.cuts[near_[k]]) && rim_.add(path_.strokes[near_[k]])) found_.push_back(near_[k]);
+    useful_.swap(found_);
+    sample.engagement = rim_.open_angle() * kDegrees;
+    if (sample.engagement < kAirDegrees) return;
+    if (cut.to_z < cut.from_z) {
+      sample.entry = true;
+      return;
+    }
     for (const std::uint32_t i : near_) {
       const Cut& earlier = path_.cuts[i];
-      const bool as_deep = std::max(earlier.from_z, earlier.to_z) <= z + kSameLevel;
-      const bool ramp = ramps_count && !earlier.level() && earlier.entry == cut.entry &&
-                        std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel;
-      if (as_deep || ramp) rim_.add(earlier.stroke);
+      if (!earlier.level() && earlier.entry == cut.entry &&
+          std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
+        rim_.add(earlier.stroke);
     }
-    return rim_.open_angle() * kDegrees;
+    sample.entry = rim_.open_angle() * kDegrees < sample.engagement - 1e-6;
   }
 
   void sum_up() {
@@ -128,7 +154,11 @@ class Engagement {
   SimulateReport& report_;
   StrokeIndex index_;
   RimCover rim_;
-  std::vector<std::uint32_t> near_;
+  std::vector<std::uint32_t> near_;            ///< earlier strokes about gathered_at_
+  std::vector<std::uint32_t> useful_, found_;  ///< of them, what covered some of the rim
+  bool gathered_ = false;
+  Place gathered_at_;
+  std::size_t gathered_upto_ = 0;
 };
 
 }  // namespace

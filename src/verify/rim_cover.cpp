@@ -9,27 +9,37 @@ namespace {
 /// back to the very place it was at, rounding would decide. Of the stroke the tool is on it is the other way
 /// round.
 constexpr double kMargin = 1e-9;
-
-/// Grows with the angle, without an arctangent: 0, 1, 2, 3 at the four axes.
-double diamond(Place u) {
-  const double sum = std::abs(u.x) + std::abs(u.y);
-  const double share = u.y / sum;
-  if (u.x >= 0) return u.y >= 0 ? share : 4 + share;
-  return 2 - share;
-}
-
-Place of_diamond(double d) {
-  if (d < 1) return unit({1 - d, d});
-  if (d < 2) return unit({1 - d, 2 - d});
-  if (d < 3) return unit({d - 3, 2 - d});
-  return unit({d - 3, d - 4});
-}
+/// A stroke this much farther than the radius from everything open covers nothing of it, mm.
+constexpr double kSurely = 1e-6;
 
 }  // namespace
 
-void RimCover::begin(Place at, double radius) {
-  at_ = at, radius_ = radius;
-  covered_.clear();
+/// Diamond angles grow with the angle, without an arctangent: 0 to the right of the heading, 1 ahead, 2 to
+/// the left.
+Place RimCover::direction_of(double d) const {
+  const double ahead = d < 1 ? d : 2 - d, aside = 1 - d;
+  return unit(ahead * heading_ - aside * left_of(heading_));
+}
+
+void RimCover::add_cut(Place direction) {
+  const double ahead = dot(direction, heading_), right = cross(direction, heading_);
+  if (!(ahead > 0)) return;
+  const double share = ahead / (ahead + std::abs(right));
+  cuts_.push_back(right >= 0 ? share : 2 - share);
+}
+
+void RimCover::begin(Place at, double radius, const Stroke& s) {
+  at_ = at, radius_ = radius, heading_ = heading(s, s.to);
+  open_.assign(1, {0, 2});
+  cuts_.clear();
+  add_circle_cuts(s.from, radius_);
+  if (s.arc) {
+    add_circle_cuts(s.centre, s.radius + radius_);
+    add_circle_cuts(s.centre, std::abs(s.radius - radius_));
+    add_line_cuts(s.centre, unit(s.from - s.centre), 0);
+  }
+  cover(s, radius_ - kMargin);
+  bound();
 }
 
 void RimCover::add_circle_cuts(Place centre, double circle_radius) {
@@ -41,8 +51,8 @@ void RimCover::add_circle_cuts(Place centre, double circle_radius) {
   if (!(std::abs(cosine) < 1)) return;
   const double sine = std::sqrt(1 - cosine * cosine);
   const Place along = (1 / apart) * way;
-  cuts_.push_back(diamond(cosine * along + sine * left_of(along)));
-  cuts_.push_back(diamond(cosine * along - sine * left_of(along)));
+  add_cut(cosine * along + sine * left_of(along));
+  add_cut(cosine * along - sine * left_of(along));
 }
 
 /// Where the rim meets the line parallel to `direction` (a unit vector), `offset` to its left.
@@ -50,24 +60,48 @@ void RimCover::add_line_cuts(Place through, Place direction, double offset) {
   const double sine = (offset - cross(direction, at_ - through)) / radius_;
   if (!(std::abs(sine) < 1)) return;
   const double cosine = std::sqrt(1 - sine * sine);
-  cuts_.push_back(diamond(sine * left_of(direction) + cosine * direction));
-  cuts_.push_back(diamond(sine * left_of(direction) - cosine * direction));
+  add_cut(sine * left_of(direction) + cosine * direction);
+  add_cut(sine * left_of(direction) - cosine * direction);
 }
 
-void RimCover::cover_between_cuts(const Stroke& stroke, const Place* trailing_heading) {
-  cuts_.push_back(0), cuts_.push_back(4);
+/// Between two cuts the rim is covered as a whole or not at all.
+bool RimCover::cover(const Stroke& stroke, double limit) {
   std::sort(cuts_.begin(), cuts_.end());
-  for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
-    if (!(cuts_[i + 1] > cuts_[i])) continue;
-    const Place u = of_diamond(0.5 * (cuts_[i] + cuts_[i + 1]));
-    const bool trails = trailing_heading != nullptr && dot(u, *trailing_heading) < 0;
-    const double limit = radius_ + (trailing_heading != nullptr ? -kMargin : kMargin);
-    if (trails || distance(at_ + radius_ * u, stroke) <= limit) covered_.push_back({cuts_[i], cuts_[i + 1]});
+  left_.clear();
+  bool changed = false;
+  std::size_t next = 0;
+  for (const Stretch& open : open_) {
+    while (next < cuts_.size() && cuts_[next] <= open.begin) ++next;
+    for (double from = open.begin; from < open.end;) {
+      double to = open.end;
+      if (next < cuts_.size() && cuts_[next] < to) to = cuts_[next++];
+      if (!(to > from)) continue;
+      if (distance(at_ + radius_ * direction_of(0.5 * (from + to)), stroke) <= limit)
+        changed = true;
+      else if (!left_.empty() && left_.back().end == from)
+        left_.back().end = to;
+      else
+        left_.push_back({from, to});
+      from = to;
+    }
   }
+  if (changed) open_.swap(left_);
+  return changed;
 }
 
-void RimCover::add(const Stroke& s) {
-  if (distance(at_, s) >= 2 * radius_) return;
+/// An arc of at most half a turn lies in the disc that has its chord as diameter.
+void RimCover::bound() {
+  if (open_.empty()) return;
+  const Place from = direction_of(open_.front().begin), to = direction_of(open_.back().end);
+  bound_middle_ = at_ + (0.5 * radius_) * (from + to);
+  bound_radius_ = 0.5 * radius_ * length(to - from);
+}
+
+bool RimCover::add(const Stroke& s) {
+  if (open_.empty()) return false;
+  const double reach = bound_radius_ + radius_ + kSurely;
+  const Place off = bound_middle_ - nearest_on(s, bound_middle_);
+  if (!(dot(off, off) < reach * reach)) return false;
   cuts_.clear();
   add_circle_cuts(s.from, radius_);
   add_circle_cuts(s.to, radius_);
@@ -81,40 +115,20 @@ void RimCover::add(const Stroke& s) {
     add_line_cuts(s.from, way, radius_);
     add_line_cuts(s.from, way, -radius_);
   }
-  cover_between_cuts(s, nullptr);
+  if (!cover(s, radius_ + kMargin)) return false;
+  bound();
+  return true;
 }
 
-void RimCover::add_own(const Stroke& s) {
-  if (!(length(s.to - s.from) > 0)) return;
-  const Place way = heading(s, s.to);
-  cuts_.clear();
-  add_circle_cuts(s.from, radius_);
-  add_line_cuts(at_, left_of(way), 0);  // between leading and trailing half
-  if (s.arc) {
-    add_circle_cuts(s.centre, s.radius + radius_);
-    add_circle_cuts(s.centre, std::abs(s.radius - radius_));
-    add_line_cuts(s.centre, unit(s.from - s.centre), 0);
-  }
-  cover_between_cuts(s, &way);
-}
-
-double RimCover::open_angle() {
-  std::sort(covered_.begin(), covered_.end(), [](Stretch a, Stretch b) { return a.begin < b.begin; });
-  double open = 0, at = 0;
-  const auto add_gap = [&](double begin, double end) {
-    if (!(end > begin)) return;
-    // At most a quarter turn at a time, so that the angle between directions is the angle meant.
-    for (double from = begin; from < end;) {
-      const double to = std::min(end, std::floor(from) + 1);
-      open += std::abs(angle_between(of_diamond(from), of_diamond(to >= 4 ? 0 : to)));
+double RimCover::open_angle() const {
+  double open = 0;
+  // At most a quarter turn at a time, so that the angle between directions is the angle meant.
+  for (const Stretch& stretch : open_)
+    for (double from = stretch.begin; from < stretch.end;) {
+      const double to = std::min(stretch.end, std::floor(from) + 1);
+      open += std::abs(angle_between(direction_of(from), direction_of(to)));
       from = to;
     }
-  };
-  for (const Stretch& stretch : covered_) {
-    add_gap(at, stretch.begin);
-    at = std::max(at, stretch.end);
-  }
-  add_gap(at, 4);
   return open;
 }
 

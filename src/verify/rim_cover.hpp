@@ -6,31 +6,37 @@
 
 namespace lekalo::verify {
 
-/// Which part of the tool's rim lies where the tool has already been: angle intervals of a circle.
+/// Which part of the leading half of the tool's rim still meets material. What is left shrinks with every
+/// stroke, and only what is left is looked at, so that strokes that cover much should come first.
 class RimCover {
  public:
   /// \param at  middle of the tool, \param radius  its radius, mm
-  void begin(Place at, double radius);
-  /// What the tool swept along a stroke is gone.
-  void add(const Stroke& stroke);
-  /// The tool came here along this stroke, which ends here: the trailing half is gone, and what else it
-  /// swept.
-  void add_own(const Stroke& stroke);
+  /// \param came_along  the stroke that ends there; what the tool swept along it is gone
+  /// \pre the stroke is of positive length
+  void begin(Place at, double radius, const Stroke& came_along);
+  /// What the tool swept along a stroke is gone. Returns whether that made a difference.
+  bool add(const Stroke& stroke);
+  [[nodiscard]] bool nothing_left() const { return open_.empty(); }
   /// Angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
-  [[nodiscard]] double open_angle();
+  [[nodiscard]] double open_angle() const;
 
  private:
   void add_circle_cuts(Place centre, double circle_radius);
   void add_line_cuts(Place through, Place direction, double offset);
-  void cover_between_cuts(const Stroke& stroke, const Place* trailing_heading);
+  void add_cut(Place direction);
+  bool cover(const Stroke& stroke, double limit);
+  void bound();
+  [[nodiscard]] Place direction_of(double d) const;
 
   struct Stretch {
-    double begin, end;  // diamond angles, 0 to 4
+    double begin, end;  ///< diamond angles from the heading's right, 0 to 2
   };
-  Place at_;
+  Place at_, heading_;
   double radius_ = 0;
   std::vector<double> cuts_;
-  std::vector<Stretch> covered_;
+  std::vector<Stretch> open_, left_;
+  Place bound_middle_;  ///< of a disc that holds all of what is open
+  double bound_radius_ = 0;
 };
 
 }  // namespace lekalo::verify

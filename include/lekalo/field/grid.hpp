@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "lekalo/field/contour_model.hpp"
@@ -19,17 +21,36 @@ struct GridFrame {
   }
 };
 
+/// Numbers that are not set to 0 first: at 4096 x 4096 nodes that would take as long as filling them.
+template <class T>
+struct NotSet : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = NotSet<U>;
+  };
+  template <class U, class... Args>
+  void construct(U* at, Args&&... args) {
+    if constexpr (sizeof...(Args) == 0)
+      ::new (static_cast<void*>(at)) U;
+    else
+      ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+  }
+};
+using Samples = std::vector<float, NotSet<float>>;
+
 /// Value and gradient at the nodes, single precision.
 struct FieldGrid {
   GridFrame frame;
-  std::vector<float> value, dx, dy;
+  Samples value, dx, dy;
 };
 
 /// What a sampled value may be off, relative to the largest of itself, the grid's pitch and the longest
 /// segment, for a linear conjunction and for distances; a quadratic one is rounded from doubles. Held by
-/// tests/property/field_grid_test.cpp. Gradients are exact to kFieldGridError where one segment is nearest by
-/// more than that; elsewhere they belong to one of those that are.
+/// tests/property/field_test.cpp. Gradients are within kFieldGridGradientError, relative to their length or
+/// 1, where one segment has the least function by more than that; elsewhere they belong to one of those that
+/// do.
 inline constexpr double kFieldGridError = 1e-5;
+inline constexpr double kFieldGridGradientError = 1e-4;
 
 /// The signed model at every node: positive inside. The same bytes for any number of threads.
 /// Cost of a linear conjunction: tiles are divided by four, and keep the segments whose lower bound

@@ -1,48 +1,51 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/region.hpp"
+#include "lekalo/mill/path.hpp"
 
 namespace lekalo::mill {
+
+/// Which way round a cut goes; with a spindle that turns clockwise, climb has the material on the right.
+enum class Direction { any, climb, conventional };
+
+/// `fronts` is the product's; the others are the source's spirals on FLOZ models, for comparison.
+enum class Method { fronts, floz_linear, floz_quadratic };
 
 struct PocketOptions {
   double tool_diameter = 6;   ///< mm
   double step_over = 0.4;     ///< part of the diameter, in (0, 0.5]
-  double stock_to_leave = 0;  ///< mm
-  double depth = 1;           ///< mm, above 0; one level
-  double feed = 1500;         ///< mm/min, in the cut
-  double link_feed = 5000;    ///< mm/min, at depth through what is cut already
-  double plunge_feed = 300;   ///< mm/min
-  double safe_height = 5;     ///< mm above the stock
-  double ramp_angle = 0.05;   ///< rad, of the helix
-};
-
-/// One straight motion of the tool's middle to a place.
-struct PathMove {
-  enum class Kind { rapid, plunge, helix, cut, link };
-  Kind kind = Kind::cut;
-  geom::Point to;
-  double z = 0;
-};
-
-struct PocketPath {
-  std::vector<PathMove> moves;
-  std::size_t fronts = 0;  ///< curves of equal arrival that were cut
+  double stock_to_leave = 0;  ///< mm, on walls
+  double floor_stock = 0;     ///< mm, on the floor; less than the depth
+  double depth = 1;           ///< mm, above 0, of the pocket
+  double step_down = 0;       ///< mm, of one level at most; 0: one level
+  double rest_of = 0;         ///< mm, diameter of a larger tool that has cleared what it reaches; 0: none
+  Direction direction = Direction::any;
+  double safe_height = 5;       ///< mm above the stock
+  double ramp_angle = 0.05;     ///< rad, of the helix
+  double fit_tolerance = 2e-3;  ///< mm, of lines and arcs in place of the path's points
+  Method method = Method::fronts;
+  // Of the source's methods alone:
+  bool whole = false;     ///< one model of each pocket, not one of each convex fragment
+  double sampling = 3;    ///< mm: longest segment of the model
+  double trace_step = 0;  ///< mm; 0: the one that leaves the step-over between turns
 };
 
 /// A path that clears what the tool can reach of the pockets, by fronts: the places the tool's middle may be
-/// are reached from an entry in steps that hold the engagement, and each step's boundary is cut, one way then
-/// the other. docs/design/pocket.md says how and what it does not do yet.
+/// are reached from an entry in steps that hold the engagement, and each step's boundary is cut.
+/// docs/design/pocket.md says how and what it does not do yet. Levels are equally deep and each pocket is
+/// finished before the next. A pocket the tool does not fit into is left out.
 ///
-/// bad_input for options out of range and where the tool fits nowhere.
+/// bad_input for options out of range, where the tool fits nowhere, and where a larger tool has left nothing.
 [[nodiscard]] Result<PocketPath> pocket_path(const std::vector<geom::Region>& pockets,
                                              const PocketOptions& options);
 
-/// The path as an RS-274 program: metric, absolute, XY plane, feeds on change.
-[[nodiscard]] std::string program_of(const PocketPath& path, const PocketOptions& options);
+/// Where the tool's middle goes: all places that keep its radius and the stock to leave from the walls, or,
+/// after a larger tool, what that one left and a quarter of the radius around. Errors as pocket_path.
+[[nodiscard]] Result<std::vector<geom::Region>> places_to_cut(const std::vector<geom::Region>& pockets,
+                                                              const PocketOptions& options);
 
 }  // namespace lekalo::mill

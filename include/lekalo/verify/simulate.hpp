@@ -39,6 +39,12 @@ struct UnreachableSpot {
   double area_mm2 = 0;     ///< about
 };
 
+/// A place that could be cut and is not, wider than 0.02 mm.
+struct UncutSpot {
+  double x = 0, y = 0;
+  double width_mm = 0;  ///< about
+};
+
 struct SimulateReport {
   /// Swept at the deepest level of the program, of what is reachable there. Reachable: the pocket less the
   /// stock to leave, opened by the tool's disc.
@@ -58,6 +64,7 @@ struct SimulateReport {
   double seconds = 0, lower_bound_seconds = 0;
   double reachable_mm2 = 0, uncut_mm2 = 0;
   std::vector<UnreachableSpot> unreachable;
+  std::vector<UncutSpot> uncut;  ///< widest first, no two nearer than the tool's radius, at most 1000
   std::vector<EngagementSample> samples;  ///< in the order of cutting
 };
 

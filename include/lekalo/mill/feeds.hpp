@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/mill/path.hpp"
+
+namespace lekalo::mill {
+
+/// What the tool's rim meets over a piece of a move.
+struct MoveLoad {
+  double length = 0;          ///< mm
+  double engagement_deg = 0;  ///< of the rim
+};
+
+struct FeedOptions {
+  double feed_mm_per_min = 1500;  ///< at the engagement of a straight pass
+  double most_mm_per_min = 1500;  ///< at least feed_mm_per_min, at most four times it
+  double step_over = 0.4;         ///< part of the diameter, in (0, 0.5]
+};
+
+/// The path with feeds that follow the load, in at most six steps from half the feed to the most. Below the
+/// engagement a of a straight pass the thickest chip stays as thick, feed sin(a) / sin(engagement); above
+/// 1.25 a the feed falls as the engagement grows. A step holds for 2 mm of path at least, and the slower feed
+/// begins 1 mm before the load. Moves are divided where the feed changes; helices, plunges, links and rapids
+/// keep theirs. \param loads  of each move, along it; a move without any keeps its feed
+[[nodiscard]] PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
+                                    const FeedOptions& options);
+
+}  // namespace lekalo::mill

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/geom/region.hpp"
+
+namespace lekalo::mill {
+
+/// One motion of the tool's tip, from where the one before ended.
+struct PathMove {
+  enum class Kind : std::uint8_t {
+    rapid,   ///< above the stock
+    plunge,  ///< straight down
+    helix,   ///< down into material, and the level turn that takes the ramp's floor away
+    cut,
+    link,  ///< at depth, through what is cut already
+    lead   ///< on to a wall or off it
+  };
+  Kind kind = Kind::cut;
+  geom::Point to;
+  double z = 0;  ///< at its end; an arc that changes it is a piece of a helix
+  geom::EdgeKind shape = geom::EdgeKind::line;
+  /// Of arcs, which are at most one full turn; one that ends where it begins is a full turn. Its distances
+  /// from both ends agree within 1e-6 mm.
+  geom::Point centre = {};
+  double feed = 0;  ///< mm/min; 0: the one of its kind
+};
+
+/// The first motion is a rapid one: it begins anywhere.
+struct PocketPath {
+  std::vector<PathMove> moves;
+  std::size_t fronts = 0;  ///< curves of equal arrival that were cut
+};
+
+/// The arc of a move that begins at `from`; \pre its shape is no line
+[[nodiscard]] inline geom::Edge arc_of(const PathMove& move, geom::Point from) {
+  return {move.shape, from, move.to, move.centre};
+}
+
+}  // namespace lekalo::mill

@@ -1,0 +1,174 @@
+#include "lekalo/mill/fragments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/region_index.hpp"
+
+namespace lekalo::mill {
+namespace {
+
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+
+constexpr std::size_t kMostFragments = 200;
+constexpr double kTurn = 0.1;     // rad
+constexpr double kBend = 0.03;    // of the region's size
+constexpr double kOnward = 1e-6;  // of the region's size: nearer than this is the place itself
+
+/// A place where the boundary turns away from the material, which lies on the left.
+struct Notch {
+  Point at;
+  Point before, after;  ///< unit directions along the boundary
+};
+
+Point tangent(const Edge& edge, Point at) {
+  if (edge.kind == EdgeKind::line) return (1 / norm(edge.to - edge.from)) * (edge.to - edge.from);
+  const Point out = (1 / norm(at - edge.centre)) * (at - edge.centre);
+  return edge.kind == EdgeKind::arc_ccw ? geom::perpendicular(out) : -geom::perpendicular(out);
+}
+
+Point middle_of(const Edge& arc) {
+  const double radius = arc_radius(arc);
+  Point towards = geom::perpendicular(arc.to - arc.from);
+  if (arc.from == arc.to)
+    towards = arc.centre - arc.from;
+  else if (arc.kind == EdgeKind::arc_ccw)
+    towards = -towards;
+  return arc.centre + (radius / norm(towards)) * towards;
+}
+
+void add_notches(const geom::Contour& contour, double size, std::vector<Notch>& notches) {
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Edge &edge = contour[i], &next = contour[(i + 1) % contour.size()];
+    const Point a = tangent(edge, edge.to), b = tangent(next, next.from);
+    if (cross(a, b) < -kTurn || (dot(a, b) < 0 && cross(a, b) < 0)) notches.push_back({edge.to, a, b});
+    if (edge.kind != EdgeKind::arc_cw) continue;
+    const Point middle = middle_of(edge), along = tangent(edge, middle);
+    if (norm(middle - 0.5 * (edge.from + edge.to)) > kBend * size) notches.push_back({middle, along, along});
+  }
+}
+
+/// How far from p along a unit direction the boundary is, farther than `least`.
+double reach(const std::vector<geom::Curve>& curves, Point p, Point d, double least) {
+  double best = std::numeric_limits<double>::infinity();
+  const auto take = [&](double t) {
+    if (t > least) best = std::min(best, t);
+  };
+  for (const geom::Curve& curve : curves) {
+    const Edge& e = curve.edge;
+    if (e.kind == EdgeKind::line) {
+      const Point way = e.to - e.from;
+      const double turn = cross(d, way);
+      if (!(std::abs(turn) > 1e-12 * norm(way))) continue;
+      const double s = cross(e.from - p, d) / turn;
+      if (s >= -1e-9 && s <= 1 + 1e-9) take(cross(e.from - p, way) / turn);
+      continue;
+    }
+    const Point to_centre = e.centre - p;
+    const double along = dot(to_centre, d), off = cross(d, to_centre);
+    const double square = curve.radius * curve.radius - off * off;
+    if (!(square >= 0)) continue;
+    for (const double t : {along - std::sqrt(square), along + std::sqrt(square)})
+      if (geom::faces(curve, p + t * d - e.centre)) take(t);
+  }
+  return best;
+}
+
+struct Chord {
+  Point at, direction;
+  double length = std::numeric_limits<double>::infinity();
+};
+
+/// The shortest cut from any notch.
+std::optional<Chord> shortest_cut(const Region& region) {
+  const geom::Box box = geom::bounds(region.outer);
+  const double size = norm(box.high - box.low);
+  std::vector<Notch> notches;
+  add_notches(region.outer, size, notches);
+  for (const geom::Contour& hole : region.holes) add_notches(hole, size, notches);
+  const geom::RegionIndex index({region});
+  Chord best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Notch& n : notches) {
+    const Point across = geom::perpendicular(n.before + n.after);
+    std::vector<Point> ways{n.before, -n.after};
+    if (norm(across) > 1e-9) ways.push_back((1 / norm(across)) * across);
+    for (const Notch& other : notches)
+      if (const double far = norm(other.at - n.at); far > kOnward * size)
+        ways.push_back((1 / far) * (other.at - n.at));
+    for (const Point way : ways) {
+      // Between the two edges' own lines, or the corner would stay one.
+      if (cross(n.before, way) < -1e-9 || cross(n.after, way) < -1e-9) continue;
+      if (norm(n.before - n.after) < 1e-9 && dot(way, across) < 0.9 * norm(across)) continue;
+      const double length = reach(index.curves(), n.at, way, kOnward * size);
+      if (!(length < 2 * size) || !index.contains(n.at + (0.5 * length) * way)) continue;
+      // A cut that ends in another such place does away with both.
+      const bool both = std::any_of(notches.begin(), notches.end(), [&](const Notch& other) {
+        return norm(n.at + length * way - other.at) < kOnward * size;
+      });
+      const double cost = both ? 0.5 * length : length;
+      if (cost < least * (1 - 1e-9)) least = cost, best = {n.at, way, length};
+    }
+  }
+  if (!(best.length < std::numeric_limits<double>::infinity())) return std::nullopt;
+  return best;
+}
+
+/// What lies to the left of the chord next to it, and the rest.
+Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
+  const geom::Box box = geom::bounds(region.outer);
+  const double size = 2 * norm(box.high - box.low) + 1;
+  const Point a = chord.at - size * chord.direction, b = chord.at + size * chord.direction;
+  const Point left = size * geom::perpendicular(chord.direction);
+  auto half = geom::make_region({{EdgeKind::line, a, b, {}},
+                                 {EdgeKind::line, b, b + left, {}},
+                                 {EdgeKind::line, b + left, a + left, {}},
+                                 {EdgeKind::line, a + left, a, {}}});
+  if (!half) return tl::unexpected(half.error());
+  const auto pieces = geom::combine({region}, {*half}, geom::BooleanOperation::intersect);
+  if (!pieces) return tl::unexpected(pieces.error());
+  const Point beside = chord.at + (0.5 * chord.length) * chord.direction +
+                       (1e-6 * chord.length) * geom::perpendicular(chord.direction);
+  for (const Region& piece : pieces->regions) {
+    if (!geom::RegionIndex({piece}).contains(beside)) continue;
+    auto rest = geom::combine({region}, {piece}, geom::BooleanOperation::subtract, pieces->edge_error);
+    if (!rest) return tl::unexpected(rest.error());
+    std::vector<Region> both{piece};
+    const double speck = 1e-9 * geom::area(region);
+    for (Region& r : rest->regions)
+      if (geom::area(r) > speck) both.push_back(std::move(r));
+    return both;
+  }
+  return std::vector<Region>{region};
+}
+
+}  // namespace
+
+Result<std::vector<Region>> convex_fragments(const std::vector<Region>& regions) {
+  std::vector<Region> open(regions.rbegin(), regions.rend()), done;
+  while (!open.empty()) {
+    const Region region = std::move(open.back());
+    open.pop_back();
+    const auto cut = done.size() + open.size() < kMostFragments ? shortest_cut(region) : std::nullopt;
+    if (!cut) {
+      done.push_back(region);
+      continue;
+    }
+    auto parts = divided(region, *cut);
+    if (!parts) return tl::unexpected(parts.error());
+    if (parts->size() < 2) {
+      done.push_back(region);
+      continue;
+    }
+    open.insert(open.end(), parts->rbegin(), parts->rend());
+  }
+  return done;
+}
+
+}  // namespace lekalo::mill

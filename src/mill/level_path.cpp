@@ -1,0 +1,800 @@
+#include "level_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "arc_through.hpp"
+#include "cleared_grid.hpp"
+#include "edge_path.hpp"
+#include "fronts.hpp"
+#include "lekalo/geom/offset.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "lekalo/geom/trig.hpp"
+#include "step_law.hpp"
+
+namespace lekalo::mill {
+namespace {
+
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+
+constexpr double kStrip = 0.12;        // of the tool's radius, left to the pass along the walls
+constexpr double kFieldFillet = 0.55;  // of the tool's radius: corners of the fields
+// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls; and how
+// much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
+constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08};
+constexpr double kSharpPeel = 0.12, kPeel = 0.22;
+constexpr std::size_t kManyEdges = 40;
+constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
+constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
+constexpr double kNothing = 1e-3;  // of the tool's radius squared: what is left of a larger tool
+constexpr double kMissed = 5e-3;   // mm
+constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
+
+/// Leaves pieces that are large or lead from one of `wide` to another.
+void keep_corridors(std::vector<Region>& pieces, const std::vector<Region>& wide, double area) {
+  std::vector<geom::RegionIndex> indices;
+  for (const Region& region : wide) indices.emplace_back(std::vector<Region>{region});
+  std::erase_if(pieces, [&](const Region& piece) {
+    if (geom::area(piece) >= area) return false;
+    const auto touches = [&](const geom::RegionIndex& index) {
+      return std::any_of(piece.outer.begin(), piece.outer.end(),
+                         [&](const Edge& edge) { return index.nearest(edge.from).distance < 1e-3; });
+    };
+    return std::count_if(indices.begin(), indices.end(), touches) < 2;
+  });
+}
+
+/// Opened by a disc, but for the pieces this takes away that are larger than `area` or lead from
+/// one piece to another: corners are rounded, corridors stay.
+Result<std::vector<Region>> rounded(const std::vector<Region>& regions, double shrink, double fillet,
+                                    double area) {
+  auto small = geom::offset(regions, -shrink);
+  if (!small) return tl::unexpected(small.error());
+  auto least = geom::offset(small->regions, -fillet);
+  if (!least) return tl::unexpected(least.error());
+  auto opened = geom::offset(least->regions, fillet);
+  if (!opened) return tl::unexpected(opened.error());
+  auto lost =
+      geom::combine(small->regions, opened->regions, geom::BooleanOperation::subtract, opened->edge_error);
+  if (!lost) return tl::unexpected(lost.error());
+  keep_corridors(lost->regions, opened->regions, area);
+  if (lost->regions.empty()) return std::move(opened->regions);
+  auto all = geom::combine(opened->regions, lost->regions, geom::BooleanOperation::unite, lost->edge_error);
+  if (!all) return tl::unexpected(all.error());
+  return std::move(all->regions);
+}
+
+/// Long contours of short edges as lines and arcs near them: the fields need not be exact.
+std::vector<Region> with_fewer_edges(std::vector<Region> regions) {
+  std::vector<geom::Contour> contours;
+  bool fewer = false;
+  const auto look = [&](const geom::Contour& contour) {
+    contours.push_back(contour);
+    if (contour.size() < kManyEdges) return;
+    contours.back().clear();
+    fit_arcs(places_on(contour, kFieldSpacing), kFieldFit, contours.back());
+    fewer = true;
+  };
+  for (const Region& region : regions) {
+    look(region.outer);
+    for (const geom::Contour& hole : region.holes) look(hole);
+  }
+  if (!fewer) return regions;
+  auto made = geom::nest_contours(std::move(contours));
+  return made ? std::move(*made) : regions;
+}
+
+EdgeKind mirrored(EdgeKind kind) {
+  return kind == EdgeKind::line ? kind : kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+}
+
+/// With x for -x.
+Result<std::vector<Region>> mirrored(const std::vector<Region>& regions) {
+  const auto turn = [](const geom::Contour& contour) {
+    geom::Contour made;
+    for (const Edge& e : contour)
+      made.push_back({mirrored(e.kind), {-e.from.x, e.from.y}, {-e.to.x, e.to.y}, {-e.centre.x, e.centre.y}});
+    return made;
+  };
+  std::vector<Region> made;
+  for (const Region& region : regions) {
+    std::vector<geom::Contour> holes;
+    for (const geom::Contour& hole : region.holes) holes.push_back(turn(hole));
+    auto other = geom::make_region(turn(region.outer), std::move(holes));
+    if (!other) return tl::unexpected(other.error());
+    made.push_back(std::move(*other));
+  }
+  return made;
+}
+
+class Clearing {
+ public:
+  Clearing(const Region& allowed, const PocketOptions& o, const std::vector<Region>& cut_already)
+      : o_(o),
+        cut_already_(cut_already),
+        radius_(o.tool_diameter / 2),
+        step_(o.step_over * o.tool_diameter),
+        allowed_{allowed},
+        limit_(allowed_) {}
+
+  Result<PocketPath> run() {
+    if (!cut_already_.empty()) {
+      auto rest = geom::combine(allowed_, cut_already_, geom::BooleanOperation::subtract);
+      if (!rest) return tl::unexpected(rest.error());
+      double area = 0;
+      for (const Region& region : rest->regions) area += geom::area(region);
+      if (area < kNothing * radius_ * radius_) return PocketPath{};
+    }
+    if (auto split = find_fields(); !split) return tl::unexpected(split.error());
+    if (!cut_already_.empty()) {
+      if (auto rest = run_rest(); !rest) return tl::unexpected(rest.error());
+      return std::move(path_);
+    }
+    std::vector<Region> left = fields_.empty() ? allowed_ : fields_;
+    while (!left.empty()) {
+      choose_entry(left);
+      auto start = start_region();
+      if (!start) return tl::unexpected(start.error());
+      auto growth = grow(fields_, narrow_, *start, {radius_, step_, strip_});
+      if (!growth) return tl::unexpected(growth.error());
+      growth_ = std::move(*growth);
+      grid_.emplace(growth_, radius_);
+      waiting_.assign(growth_.fronts.size(), 0.0);
+      for (std::size_t i = growth_.fronts.size(); i-- > 0;) {
+        waiting_[i] += length_of(growth_.fronts[i].edges);
+        if (!growth_.fronts[i].parents.empty()) waiting_[growth_.fronts[i].parents.front()] += waiting_[i];
+      }
+      path_.fronts += growth_.fronts.size();
+      enter();
+      cut_fronts();
+      // Pieces the tool cannot come to from there are entered anew.
+      const geom::RegionIndex cut(growth_.cut.back());
+      const std::size_t before = left.size();
+      std::erase_if(left, [&](const Region& piece) {
+        return cut.contains(piece.outer.front().from) ||
+               cut.nearest(piece.outer.front().from).distance < 1e-2 ||
+               cut.contains(entry_) == geom::RegionIndex({piece}).contains(entry_);
+      });
+      if (left.size() == before) break;
+    }
+    if (auto walls = cut_walls(); !walls) return tl::unexpected(walls.error());
+    cut_missed_walls();
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    return std::move(path_);
+  }
+
+ private:
+  /// From what a larger tool has cut: no helix, no spiral, and of the walls only what that tool did not come
+  /// to.
+  Result<void> run_rest() {
+    auto start = geom::combine(cut_already_, allowed_, geom::BooleanOperation::intersect);
+    if (!start) return tl::unexpected(start.error());
+    if (start->regions.empty()) {
+      cut_already_.clear();
+      auto path = run();
+      if (!path) return tl::unexpected(path.error());
+      path_ = std::move(*path);
+      return {};
+    }
+    auto fields = geom::combine(fields_, start->regions, geom::BooleanOperation::unite);
+    if (!fields) return tl::unexpected(fields.error());
+    fields_ = std::move(fields->regions);
+    field_limit_.emplace(fields_);
+    auto growth = grow(fields_, narrow_, start->regions, {radius_, step_, strip_});
+    if (!growth) return tl::unexpected(growth.error());
+    growth_ = std::move(*growth);
+    grid_.emplace(growth_, radius_);
+    waiting_.assign(growth_.fronts.size(), 0.0);
+    path_.fronts = growth_.fronts.size();
+    std::vector<std::vector<Front>> walls;
+    std::vector<Region> before = growth_.cut.back();
+    for (const double peel : {kPeels[0], 0.23, 0.0}) {
+      auto round = peel > 0 ? rounded(allowed_, 0, peel * radius_, 3 * peel * peel * radius_ * radius_)
+                            : Result<std::vector<Region>>(allowed_);
+      if (!round) return tl::unexpected(round.error());
+      auto all = geom::combine(*round, before, geom::BooleanOperation::unite);
+      if (!all) return tl::unexpected(all.error());
+      walls.push_back(fresh_stretches(all->regions, geom::RegionIndex(before)));
+      before = std::move(all->regions);
+    }
+    Point first = start->regions.front().outer.front().from;
+    if (!growth_.fronts.empty())
+      first = growth_.fronts.front().edges.front().from;
+    else
+      for (const auto& round : walls)
+        if (!round.empty()) {
+          first = round.front().edges.front().from;
+          break;
+        }
+    go({.kind = PathMove::Kind::rapid, .to = first, .z = o_.safe_height});
+    go(PathMove::Kind::plunge, first);
+    cut_fronts();
+    // Corner by corner: of those near each other, the outer before the inner.
+    std::vector<std::pair<std::size_t, Front>> left;
+    for (std::size_t round = 0; round < walls.size(); ++round)
+      for (Front& front : walls[round]) left.emplace_back(round, std::move(front));
+    while (!left.empty()) {
+      std::size_t next = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        const Point begin = left[i].second.edges.front().from;
+        const bool waits = std::any_of(left.begin(), left.end(), [&](const auto& other) {
+          return other.first < left[i].first && norm(other.second.edges.front().from - begin) < 2 * radius_;
+        });
+        const double d = norm(begin - at_);
+        if (!waits && d < least) least = d, next = i;
+      }
+      link(left[next].second.edges.front().from, nullptr);
+      for (const Edge& edge : left[next].second.edges) go(PathMove::Kind::cut, edge);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+    }
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    return {};
+  }
+
+  /// Fields keep a strip off the walls and are rounded in corners; what is too narrow for them is a corridor.
+  Result<void> find_fields() {
+    strip_ = kStrip * radius_;
+    const double fillet = kFieldFillet * radius_;
+    auto fields = rounded(allowed_, strip_, fillet, 3 * fillet * fillet);
+    if (!fields) return tl::unexpected(fields.error());
+    fields_ = with_fewer_edges(std::move(*fields));
+    field_limit_.emplace(fields_);
+    auto reached = geom::offset(fields_, 1.01 * strip_);
+    if (!reached) return tl::unexpected(reached.error());
+    auto lost =
+        geom::combine(allowed_, reached->regions, geom::BooleanOperation::subtract, reached->edge_error);
+    if (!lost) return tl::unexpected(lost.error());
+    keep_corridors(lost->regions, reached->regions, 4 * fillet * fillet);
+    if (lost->regions.empty()) return {};
+    auto wider = geom::offset(lost->regions, 2 * strip_ + fillet);
+    if (!wider) return tl::unexpected(wider.error());
+    auto narrow =
+        geom::combine(wider->regions, allowed_, geom::BooleanOperation::intersect, wider->edge_error);
+    if (!narrow) return tl::unexpected(narrow.error());
+    narrow_ = std::move(narrow->regions);
+    return {};
+  }
+
+  // ---- entry: the widest disc of places
+  void choose_entry(const std::vector<Region>& places) {
+    const geom::RegionIndex limit(places);
+    const geom::Box box = limit.bounds();
+    const auto depth_at = [&](Point p) {
+      const double d = limit.nearest(p).distance;
+      return limit.contains(p) ? d : -d;
+    };
+    entry_ = limit.curves()[0].edge.from;
+    disc_ = 0;
+    constexpr int kPlaces = 64;
+    const Point size = box.high - box.low;
+    for (int y = 0; y <= kPlaces; ++y)
+      for (int x = 0; x <= kPlaces; ++x) {
+        const Point p = box.low + Point{size.x * x / kPlaces, size.y * y / kPlaces};
+        const double depth = depth_at(p);
+        if (depth > disc_) disc_ = depth, entry_ = p;
+      }
+    for (double step = std::max(size.x, size.y) / kPlaces; step > 1e-7; step /= 2)
+      for (const Point d : {Point{step, 0}, Point{-step, 0}, Point{0, step}, Point{0, -step},
+                            Point{step, step}, Point{step, -step}, Point{-step, step}, Point{-step, -step}}) {
+        const double depth = depth_at(entry_ + d);
+        if (depth > disc_ + 1e-9) disc_ = depth, entry_ = entry_ + d;
+      }
+    disc_ = std::max(0.0, disc_ - 1e-6);
+    helix_ = std::min(0.8 * radius_, disc_);
+  }
+
+  Result<std::vector<Region>> start_region() {
+    const double r = std::max(disc_, 0.01);
+    auto disc = geom::make_region({{EdgeKind::arc_ccw, entry_ + Point{r, 0}, entry_ + Point{r, 0}, entry_}});
+    if (!disc) return tl::unexpected(disc.error());
+    if (disc_ >= 0.01) return std::vector<Region>{*disc};
+    auto clipped = geom::combine({*disc}, allowed_, geom::BooleanOperation::intersect);
+    if (!clipped) return tl::unexpected(clipped.error());
+    return clipped->regions;
+  }
+
+  // ---- motion
+  void go(const PathMove& move) {
+    if (move.shape == EdgeKind::line && !path_.moves.empty() && path_.moves.back().to == move.to &&
+        path_.moves.back().z == move.z)
+      return;
+    at_ = move.to;
+    path_.moves.push_back(move);
+  }
+  void go(PathMove::Kind kind, Point to) { go({.kind = kind, .to = to, .z = -o_.depth}); }
+  /// Both ends at the same distance from the centre, whatever rounding or a way along a wall made of them.
+  void go(PathMove::Kind kind, const Edge& edge) {
+    const Point chord = edge.to - at_;
+    const double square = dot(chord, chord);
+    Point centre = edge.centre;
+    if (edge.kind != EdgeKind::line && square > 0)
+      centre = centre - (dot(centre - 0.5 * (at_ + edge.to), chord) / square) * chord;
+    go({.kind = kind, .to = edge.to, .z = -o_.depth, .shape = edge.kind, .centre = centre});
+  }
+
+  /// A helix, its level turn, and a spiral out to the widest disc.
+  void enter() {
+    using Kind = PathMove::Kind;
+    const Point ahead = spiral_end();
+    const Point start = entry_ + helix_ * ahead;
+    if (!path_.moves.empty()) go({.kind = Kind::rapid, .to = at_, .z = o_.safe_height});
+    go({.kind = Kind::rapid, .to = start, .z = o_.safe_height});
+    go({.kind = Kind::plunge, .to = start, .z = 0});
+    if (!(helix_ > 1e-3)) return go({.kind = Kind::plunge, .to = start, .z = -o_.depth});
+    const double turn_drop = 6.283185307179586 * helix_ * o_.ramp_angle;
+    const double turns = std::ceil(o_.depth / turn_drop);
+    const auto quarter = [](Point out, double quarters) -> Point {
+      const int q = static_cast<int>(quarters) % 4;
+      return q == 0 ? out : q == 1 ? perpendicular(out) : q == 2 ? -out : -perpendicular(out);
+    };
+    for (double i = 1; i <= 4 * turns; ++i)
+      go({.kind = Kind::helix,
+          .to = entry_ + quarter(helix_ * ahead, i),
+          .z = -o_.depth * i / (4 * turns),
+          .shape = EdgeKind::arc_ccw,
+          .centre = entry_});
+    turn_about(helix_ * ahead, Kind::helix);
+    if (!(disc_ > helix_)) return;
+    std::vector<double> steps;
+    double reach = helix_;
+    while (reach < disc_) {
+      // The second turn meets the step of the first: what a turn may add depends on where it begins.
+      steps.push_back(std::min(step_, step_for(reach, radius_, 0.182)));
+      reach += steps.back();
+    }
+    const double scale = (disc_ - helix_) / (reach - helix_);
+    double r = helix_;
+    for (const double step : steps) {
+      // Four quarters about the corners of a small square: tangent to each other, and back on the axis.
+      const double more = scale * step / 4;
+      Point out = ahead, centre = entry_;
+      for (int q = 0; q < 4; ++q) {
+        centre = centre - more * out;
+        r += more;
+        out = perpendicular(out);
+        go(Kind::cut, Edge{EdgeKind::arc_ccw, at_, centre + r * out, centre});
+      }
+    }
+    turn_about(r * ahead, Kind::cut);
+  }
+  void turn_about(Point out, PathMove::Kind kind) {
+    for (int q = 0; q < 4; ++q) {
+      out = perpendicular(out);
+      go({.kind = kind, .to = entry_ + out, .z = -o_.depth, .shape = EdgeKind::arc_ccw, .centre = entry_});
+    }
+  }
+  /// Direction from the entry to where the first front begins.
+  [[nodiscard]] Point spiral_end() const {
+    double least = std::numeric_limits<double>::infinity();
+    Point best{1, 0};
+    for (std::size_t i = 0; i < growth_.fronts.size() && growth_.fronts[i].layer == 1; ++i)
+      for (const Point p : {growth_.fronts[i].edges.front().from, growth_.fronts[i].edges.back().to}) {
+        const double off = std::abs(norm(p - entry_) - disc_) + kSubtree * waiting_[i];
+        if (off < least && norm(p - entry_) > 0) least = off, best = (1 / norm(p - entry_)) * (p - entry_);
+      }
+    return best;
+  }
+
+  // ---- fronts
+  /// The next: near, and of two near ones the one that less waits for, so that what is small is not left
+  /// behind.
+  void cut_fronts() {
+    const std::vector<Front>& fronts = growth_.fronts;
+    for (;;) {
+      std::size_t best = fronts.size();
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < fronts.size(); ++i) {
+        const Front& f = fronts[i];
+        if (grid_->is_done(i) || !std::all_of(f.parents.begin(), f.parents.end(),
+                                              [&](std::size_t p) { return grid_->is_done(p); }))
+          continue;
+        const double d = std::min(norm(f.edges.front().from - at_), norm(f.edges.back().to - at_)) +
+                         kSubtree * waiting_[i];
+        if (d < least) least = d, best = i;
+      }
+      if (best == fronts.size()) return;
+      cut(fronts[best]);
+      grid_->set_done(best);
+    }
+  }
+
+  /// Round, begun where it leaves what is cut before least; where that is nowhere near it, over a ramp, and
+  /// over the ramp's stretch again.
+  void cut_ring(const Front& front) {
+    const geom::RegionIndex before(growth_.cut[front.layer - 1]);
+    const std::vector<Point> at = places_on(front.edges, 0.1 * radius_);
+    std::size_t start = 0;
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const auto near = before.nearest(at[i]);
+      const double here = near.distance + 0.01 * norm(near.point - at_);
+      if (here < gap) gap = here, start = i;
+    }
+    const std::size_t n = at.size() - 1;
+    // What a short ring goes round is nearly all cut from outside of it.
+    const bool ramped =
+        before.nearest(at[start]).distance >= 0.05 * radius_ && length_of(front.edges) > 6 * step_;
+    const double ramp = ramped ? 3 * step_ : 0;
+    link(before.nearest(at[start]).point, &growth_.cut[front.layer - 1]);
+    double along = 0;
+    for (std::size_t k = 1; along < ramp || k <= n; ++k) {
+      const Point q = at[(start + k) % n];
+      along += norm(q - at[(start + k - 1) % n]);
+      const double share = along < ramp ? along / ramp : 1;
+      const Point p = share < 1 ? before.nearest(q).point : q;
+      go(PathMove::Kind::cut, p + share * (q - p));
+    }
+    for (std::size_t k = 1; k <= n && ramped; ++k) {
+      const Point q = at[(start + k) % n];
+      go(PathMove::Kind::cut, q);
+      if (norm(q - at[start]) > ramp) break;
+    }
+    cuts_.push_back({at_, at_, at_});
+  }
+
+  void cut(const Front& front) {
+    if (front.closed) return cut_ring(front);
+    const bool back = o_.direction == Direction::any
+                          ? norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_)
+                          : false;
+    Front given = front;
+    const Point begin = back ? front.edges.back().to : front.edges.front().from;
+    if (norm(begin - at_) > 1e-3)
+      // The pass before may have left the wall before it came here: begun where that one began.
+      for (const Cut& before : cuts_)
+        if (norm(before.corner - begin) < 1e-2)
+          if (const auto wall = along_wall(before.from, begin, *field_limit_)) {
+            const std::vector<Edge> more = back ? turned_back(*wall) : *wall;
+            given.edges.insert(back ? given.edges.end() : given.edges.begin(), more.begin(), more.end());
+            break;
+          }
+    std::vector<Edge> edges =
+        pass_along(given, back, *field_limit_, geom::RegionIndex(growth_.cut[front.layer - 1]), step_);
+    if (!std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return is_inside(edge); }))
+      edges = back ? turned_back(given.edges) : given.edges;
+    link(edges.front().from, &growth_.cut[front.layer - 1]);
+    for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
+    // Where its front meets the wall.
+    Point corner = begin;
+    for (const Edge& edge : back ? turned_back(given.edges) : given.edges) {
+      if (field_limit_->nearest(place_at(edge, 0.5)).distance > 1e-6) break;
+      corner = edge.to;
+    }
+    cuts_.push_back({edges.front().from, corner, at_});
+  }
+
+  // ---- walls
+  /// Once along each wall; corners in thinner peels, to and fro.
+  Result<void> cut_walls() {
+    Peels peels;
+    for (const double peel : kPeels) {
+      const double fillet = peel * radius_;
+      auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
+      if (!round) return tl::unexpected(round.error());
+      if (!round->empty()) peels.rounds.push_back(std::move(*round));
+    }
+    peels.rounds.push_back(allowed_);
+    const std::vector<Front>& corners = peels.between(0, peels.rounds.size() - 1);
+    const geom::RegionIndex walls(peels.rounds[0]);
+    // Where along the walls each corner is left.
+    std::vector<std::vector<std::pair<double, std::size_t>>> stops(walls.curves().size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Point end = corners[i].edges.back().to;
+      const auto near = walls.nearest(end);
+      const Edge& edge = walls.curves()[near.edge].edge;
+      stops[near.edge].emplace_back(length_of(Edge{edge.kind, edge.from, end, edge.centre}), i);
+    }
+    for (auto& list : stops) std::sort(list.begin(), list.end());
+    std::vector<std::size_t> left;
+    for (std::size_t c = 0; c + 1 < walls.contour_starts().size(); ++c) left.push_back(c);
+    while (!left.empty()) {
+      const WallStart start = wall_start(walls, left, stops);
+      const std::uint32_t first = walls.contour_starts()[left[start.contour]],
+                          count = walls.contour_starts()[left[start.contour] + 1] - first;
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(start.contour));
+      const Edge begun = walls.curves()[start.edge].edge;
+      if (start.from) link(*start.from, nullptr);
+      const Point on = start.share < 1 ? place_at(begun, start.share) : begun.to;
+      if (start.from && is_inside(at_, on))
+        go(PathMove::Kind::cut, on);
+      else
+        link(on, nullptr);
+      for (std::uint32_t k = 0; k <= count; ++k) {
+        const std::uint32_t e = first + (start.edge - first + k) % count;
+        Edge edge = walls.curves()[e].edge;
+        if (k == 0) {
+          if (!(start.share < 1)) continue;
+          edge.from = on;
+        } else if (k == count) {
+          if (!(start.share > 0)) continue;
+          edge.to = on;
+        }
+        const double skipped = k == 0 ? start.share * length_of(begun) : 0;
+        const double length = skipped + length_of(edge);
+        for (const auto& [along, corner] : stops[e]) {
+          if (along < skipped - 1e-6 || (k == count && along > length - 1e-6)) continue;
+          const Point stop = corners[corner].edges.back().to;
+          if (norm(stop - edge.from) > 1e-6) {
+            const bool ends = norm(stop - edge.to) < 1e-6;
+            go(PathMove::Kind::cut, ends ? edge : Edge{edge.kind, edge.from, stop, edge.centre});
+            edge.from = ends ? edge.to : stop;
+          }
+          bool back = true;
+          cut_corner(peels, 0, corners[corner], back);
+          link(stop, nullptr);
+        }
+        if (!(edge.from == edge.to)) go(PathMove::Kind::cut, edge);
+      }
+    }
+    return {};
+  }
+
+  /// Where the pass along a wall begins: ahead of where a pass came near it, at a small angle to it.
+  struct WallStart {
+    std::size_t contour = 0;  ///< of those left
+    std::uint32_t edge = 0;
+    double share = 0;           ///< of the edge
+    std::optional<Point> from;  ///< near the wall, cut
+  };
+  [[nodiscard]] WallStart wall_start(
+      const geom::RegionIndex& walls, const std::vector<std::size_t>& left,
+      const std::vector<std::vector<std::pair<double, std::size_t>>>& stops) const {
+    WallStart best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Cut& pass : cuts_) {
+      const auto near = walls.nearest(pass.to);
+      if (near.distance > 1.5 * strip_) continue;
+      const auto& starts = walls.contour_starts();
+      const auto contour = static_cast<std::size_t>(
+                               std::upper_bound(starts.begin(), starts.end(), near.edge) - starts.begin()) -
+                           1;
+      const auto listed = std::find(left.begin(), left.end(), contour);
+      if (listed == left.end()) continue;
+      const Edge& edge = walls.curves()[near.edge].edge;
+      if (edge.from == edge.to) continue;
+      const double length = length_of(edge);
+      double along = norm(near.point - edge.from) < 1e-9
+                         ? 0
+                         : length_of(Edge{edge.kind, edge.from, near.point, edge.centre});
+      along = std::min(length, along + 4 * strip_);
+      bool corner = false;
+      for (const auto& [at, number] : stops[near.edge]) corner = corner || std::abs(at - along) < radius_;
+      const double d = norm(pass.to - at_) + (corner ? 3 * radius_ : 0) +
+                       (norm(place_at(edge, along / length) - pass.to) < 2 * strip_ ? 3 * radius_ : 0);
+      if (d < least) {
+        least = d;
+        best = {static_cast<std::size_t>(listed - left.begin()), near.edge, along / length, pass.to};
+      }
+    }
+    if (best.from) return best;
+    for (std::size_t i = 0; i < left.size(); ++i)
+      for (std::uint32_t e = walls.contour_starts()[left[i]]; e < walls.contour_starts()[left[i] + 1]; ++e) {
+        const double d = norm(walls.curves()[e].edge.from - at_);
+        if (d < least) least = d, best = {i, e, 0, std::nullopt};
+      }
+    return best;
+  }
+
+  /// Stretches of the walls no pass came along, if peels of odd corners have left any.
+  void cut_missed_walls() {
+    std::vector<geom::Curve> passes;
+    std::vector<geom::Box> boxes;
+    Point from;
+    for (const PathMove& move : path_.moves) {
+      if (move.kind == PathMove::Kind::cut && !(move.to == from)) {
+        passes.push_back(geom::make_curve({move.shape, from, move.to, move.centre}));
+        boxes.push_back(geom::curve_box(passes.back()));
+      }
+      from = move.to;
+    }
+    const auto is_missed = [&](Point p) {
+      for (std::size_t i = 0; i < passes.size(); ++i)
+        if (p.x > boxes[i].low.x - kMissed && p.x < boxes[i].high.x + kMissed &&
+            p.y > boxes[i].low.y - kMissed && p.y < boxes[i].high.y + kMissed &&
+            norm(geom::nearest_on(passes[i], p) - p) < kMissed)
+          return false;
+      return true;
+    };
+    std::vector<std::vector<Edge>> missed;
+    for (const geom::Curve& wall : limit_.curves()) {
+      const double pieces = std::max(1.0, std::ceil(length_of(wall.edge) / (0.1 * radius_)));
+      for (double i = 0; i < pieces; ++i) {
+        if (!is_missed(place_at(wall.edge, (i + 0.5) / pieces))) continue;
+        const Edge piece = part_of(wall.edge, i / pieces, (i + 1) / pieces);
+        if (missed.empty() || !(missed.back().back().to == piece.from)) missed.emplace_back();
+        missed.back().push_back(piece);
+      }
+    }
+    for (const std::vector<Edge>& stretch : missed) {
+      link(stretch.front().from, nullptr);
+      for (const Edge& edge : stretch) go(PathMove::Kind::cut, edge);
+    }
+  }
+
+  /// Places of the tool with corners rounded less and less, and what lies between two of them.
+  struct Peels {
+    std::vector<std::vector<Region>> rounds;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Front>> made;
+    const std::vector<Front>& between(std::size_t outer, std::size_t inner) {
+      const auto [place, fresh] = made.try_emplace({outer, inner});
+      if (fresh) place->second = fresh_stretches(rounds[inner], geom::RegionIndex(rounds[outer]));
+      return place->second;
+    }
+  };
+
+  static bool lies_on(Point p, const Front& zone) {
+    return std::any_of(zone.edges.begin(), zone.edges.end(), [&](const Edge& edge) {
+      return norm(geom::nearest_on(geom::make_curve(edge), p) - p) < 1e-3;
+    });
+  }
+
+  /// What the zone of a corner holds beyond a round: to and fro, each peel as deep as it may be.
+  void cut_corner(Peels& peels, std::size_t outer, const Front& zone, bool& back) {
+    const std::size_t last = peels.rounds.size() - 1;
+    if (outer == last) return;
+    const geom::RegionIndex before(peels.rounds[outer]);
+    std::vector<Front> chosen;
+    std::size_t inner = last;
+    for (; inner > outer; --inner) {
+      chosen.clear();
+      double depth = 0;
+      for (const Front& front : peels.between(outer, inner)) {
+        if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
+        chosen.push_back(front);
+        for (const Point p : places_on(front.edges, 0.1 * radius_))
+          depth = std::max(depth, before.nearest(p).distance);
+      }
+      if (inner == outer + 1 || depth < (inner == last ? kSharpPeel : kPeel) * radius_) break;
+    }
+    if (chosen.empty()) return cut_corner(peels, inner, zone, back);
+    if (back) std::reverse(chosen.begin(), chosen.end());
+    for (const Front& peel : chosen) {
+      const bool turned = back && o_.direction == Direction::any;
+      const std::vector<Edge> edges = turned ? turned_back(peel.edges) : peel.edges;
+      link(edges.front().from, nullptr);
+      for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
+      bool next = !back;
+      cut_corner(peels, inner, peel, next);
+    }
+    back = !back;
+  }
+
+  // ---- links at depth through what is cut
+  void link(Point to, const std::vector<Region>* cut) {
+    if (norm(to - at_) < 1e-6) return;
+    if (norm(to - at_) < (cut != nullptr ? 3 : kWallWay) * step_) {
+      if (const auto wall = along_wall(at_, to, cut != nullptr ? *field_limit_ : limit_)) {
+        for (const Edge& edge : *wall) go(PathMove::Kind::link, edge);
+        return;
+      }
+      if (cut != nullptr && is_within(at_, to, geom::RegionIndex(*cut))) return go(PathMove::Kind::link, to);
+    }
+    const std::vector<Point> corners = grid_->way(at_, to);
+    Point last = at_;
+    bool inside = !corners.empty();
+    for (const Point corner : corners) {
+      inside = inside && is_inside(last, corner);
+      last = corner;
+    }
+    if (!inside) return hop(to);
+    for (const Point corner : corners) go(PathMove::Kind::link, corner);
+  }
+
+  /// Over the stock, where there is no way at depth.
+  void hop(Point to) {
+    if (norm(to - at_) < 0.5 * radius_ && is_inside(at_, to)) return go(PathMove::Kind::cut, to);
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    go({.kind = PathMove::Kind::rapid, .to = to, .z = o_.safe_height});
+    go(PathMove::Kind::plunge, to);
+  }
+
+  [[nodiscard]] bool is_inside(Point a, Point b) const { return is_inside(Edge{EdgeKind::line, a, b, {}}); }
+  [[nodiscard]] bool is_inside(const Edge& edge) const {
+    const std::vector<Point> places = places_on({edge}, 0.05 * radius_);
+    for (const Point p : places) {
+      if (!limit_.contains(p) && limit_.nearest(p).distance > 1e-4) return false;
+    }
+    return true;
+  }
+
+  static bool is_within(Point a, Point b, const geom::RegionIndex& cut) {
+    const double pieces = std::ceil(norm(b - a) / 0.1);
+    for (double i = 1; i < pieces; ++i) {
+      const Point p = a + (i / pieces) * (b - a);
+      if (!cut.contains(p) && cut.nearest(p).distance > 1e-3) return false;
+    }
+    return true;
+  }
+
+  /// Along the wall, where both ends are on it and not far from each other.
+  [[nodiscard]] std::optional<std::vector<Edge>> along_wall(Point begin, Point to,
+                                                            const geom::RegionIndex& limit) const {
+    const auto from = limit.nearest(begin), goal = limit.nearest(to);
+    if (from.distance > 1e-4 || goal.distance > 1e-4) return std::nullopt;
+    const auto& starts = limit.contour_starts();
+    const auto contour =
+        static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), from.edge) - starts.begin());
+    if (goal.edge >= starts[contour] || goal.edge < starts[contour - 1]) return std::nullopt;
+    const std::uint32_t first = starts[contour - 1], count = starts[contour] - first;
+    for (const bool back : {false, true}) {
+      std::vector<Edge> edges;
+      double length = 0;
+      std::uint32_t e = from.edge;
+      Point at = begin;
+      while (length < kWallWay * step_ && edges.size() < 200) {
+        Edge edge = limit.curves()[e].edge;
+        if (back) edge = turned_back(edge);
+        Edge rest{edge.kind, at, edge.to, edge.centre};
+        if (e == goal.edge) {
+          const Edge last{edge.kind, at, to, edge.centre};
+          const bool ahead = edge.kind == EdgeKind::line
+                                 ? dot(to - at, edge.to - edge.from) > 0
+                                 : !(rest.from == rest.to) && arc_sweep(last) < arc_sweep(rest) + 1e-9;
+          if (ahead) {
+            if (length + length_of(last) > kWallWay * step_) break;
+            edges.push_back(last);
+            return edges;
+          }
+        }
+        if (!(rest.from == rest.to)) {
+          length += length_of(rest);
+          edges.push_back(rest);
+        }
+        at = edge.to;
+        e = first + (back ? (e - first + count - 1) % count : (e - first + 1) % count);
+      }
+    }
+    return std::nullopt;
+  }
+
+  struct Cut {
+    Point from, corner, to;  ///< corner: where its front would have met the wall it began at
+  };
+
+  PocketOptions o_;
+  std::vector<Region> cut_already_;  ///< by a larger tool
+  double radius_, step_;
+  std::vector<Region> allowed_;
+  geom::RegionIndex limit_;
+  std::vector<Region> fields_, narrow_;
+  std::optional<geom::RegionIndex> field_limit_;
+  double strip_ = 0;  ///< mm between fields and walls
+  Growth growth_;
+  std::optional<ClearedGrid> grid_;
+  std::vector<double> waiting_;  ///< mm of each front and of all that wait for it
+  std::vector<Cut> cuts_;        ///< of fronts, in order
+  Point entry_, at_;
+  double disc_ = 0;   ///< radius of the widest disc of places, about entry_
+  double helix_ = 0;  ///< radius of the helix
+  PocketPath path_;
+};
+
+}  // namespace
+
+Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
+                              const std::vector<Region>& cut_already) {
+  if (options.direction != Direction::conventional) return Clearing(allowed, options, cut_already).run();
+  // What is climb on one side of a mirror is conventional on the other.
+  PocketOptions turned = options;
+  turned.direction = Direction::climb;
+  const auto other = mirrored({allowed});
+  if (!other) return tl::unexpected(other.error());
+  const auto cut = mirrored(cut_already);
+  if (!cut) return tl::unexpected(cut.error());
+  auto path = Clearing(other->front(), turned, *cut).run();
+  if (!path) return path;
+  for (PathMove& move : path->moves) {
+    move.to.x = -move.to.x, move.centre.x = -move.centre.x;
+    move.shape = mirrored(move.shape);
+  }
+  return path;
+}
+
+}  // namespace lekalo::mill

@@ -1,0 +1,98 @@
+// LinuxCNC's own interpreter runs pocket programs: it accepts them, and the checker finds in its canonical
+// motions what it finds in the program.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lekalo/io/region_json.hpp"
+#include "lekalo/mill/pocket.hpp"
+#include "lekalo/mill/program.hpp"
+#include "lekalo/verify/simulate.hpp"
+#include "support/cases.hpp"
+#include "support/places.hpp"
+#include "support/rs274.hpp"
+
+namespace lekalo::mill {
+namespace {
+
+const std::string kPocket =
+    R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[34,0]}},{"line":{"from":[34,0],"to":[34,24]}},)"
+    R"({"line":{"from":[34,24],"to":[0,24]}},{"line":{"from":[0,24],"to":[0,0]}}],)"
+    R"("islands":[[{"arc":{"from":[24,12],"to":[24,12],"centre":[20,12],"ccw":true}}]]})";
+
+/// The interpreter's motions as the plainest of programs, mm.
+std::string program_of_calls(const std::vector<rs274::Call>& calls) {
+  std::string text = "G21 G90 G17\n";
+  double feed = 0, x = 0, y = 0;
+  for (const rs274::Call& call : calls) {
+    if (call.name == "SET_FEED_RATE" && !call.numbers.empty()) feed = call.numbers[0] * call.unit;
+    if (call.straight()) {
+      text +=
+          fmt::format("{} X{:.9f} Y{:.9f} Z{:.9f}", call.name == "STRAIGHT_FEED" ? "G1" : "G0",
+                      call.numbers[0] * call.unit, call.numbers[1] * call.unit, call.numbers[2] * call.unit);
+      x = call.numbers[0] * call.unit, y = call.numbers[1] * call.unit;
+    } else if (call.arc()) {
+      const double cx = call.numbers[2] * call.unit, cy = call.numbers[3] * call.unit;
+      text += fmt::format("{} X{:.9f} Y{:.9f} Z{:.9f} I{:.9f} J{:.9f}", call.numbers[4] > 0 ? "G3" : "G2",
+                          call.numbers[0] * call.unit, call.numbers[1] * call.unit,
+                          call.numbers[5] * call.unit, cx - x, cy - y);
+      x = call.numbers[0] * call.unit, y = call.numbers[1] * call.unit;
+    } else {
+      continue;
+    }
+    text += fmt::format(" F{:.6f}\n", feed > 0 ? feed : 1);
+  }
+  return text + "M2\n";
+}
+
+TEST(MillProgramRs274, TheInterpreterCutsWhatTheProgramSays) {
+  const rs274::Oracle oracle(cases::source_dir() + "/tests/support/rs274.sh");
+  const auto regions = io::parse_regions(kPocket, "pocket.json");
+  ASSERT_TRUE(regions);
+  PocketOptions options;
+  options.tool_diameter = 6, options.depth = 5, options.step_down = 3;
+  const auto path = pocket_path(regions->regions, options);
+  ASSERT_TRUE(path) << path.error().message;
+  verify::SimulateOptions machining;
+  machining.tool_diameter = 6;
+  for (const LengthUnit unit : {LengthUnit::millimetre, LengthUnit::inch}) {
+    ProgramOptions how;
+    how.unit = unit, how.tool_number = 3, how.spindle = 12000, how.coolant = Coolant::flood;
+    how.comments = {"a pocket (with brackets; and more)"};
+    const std::string program = program_of(*path, how);
+    const rs274::Run run = oracle.run(program);
+    ASSERT_TRUE(run.accepted) << run.errors;
+    std::size_t starts = 0, stops = 0, changes = 0, arcs = 0;
+    for (const rs274::Call& call : run.calls) {
+      starts += call.name == "START_SPINDLE_CLOCKWISE" ? 1 : 0;
+      stops += call.name == "STOP_SPINDLE_TURNING" ? 1 : 0;
+      changes += call.name == "CHANGE_TOOL" ? 1 : 0;
+      arcs += call.arc() ? 1 : 0;
+    }
+    EXPECT_EQ(starts, 1U);
+    EXPECT_GE(stops, 1U);
+    EXPECT_EQ(changes, 1U);
+    EXPECT_GT(arcs, 20U);
+    const auto ours = verify::simulate({"ours.ngc", program}, {"pocket.json", kPocket}, machining);
+    const auto theirs =
+        verify::simulate({"canon.ngc", program_of_calls(run.calls)}, {"pocket.json", kPocket}, machining);
+    ASSERT_TRUE(ours) << ours.error().message;
+    ASSERT_TRUE(theirs) << theirs.error().message;
+    // It prints four decimals of the program's unit.
+    const double grain = unit == LengthUnit::inch ? 2.6e-3 : 1.1e-4;
+    EXPECT_NEAR(ours->length_mm, theirs->length_mm, 1e-3 * ours->length_mm);
+    EXPECT_NEAR(ours->gouge_mm, theirs->gouge_mm, grain);
+    EXPECT_NEAR(ours->coverage_percent, theirs->coverage_percent, 100 * grain);
+    EXPECT_NEAR(ours->uncut_width_mm, theirs->uncut_width_mm, 2 * grain + 1e-3);
+    EXPECT_NEAR(ours->engagement_p95_deg, theirs->engagement_p95_deg, 1);
+    EXPECT_NEAR(ours->engagement_max_deg, theirs->engagement_max_deg, 4);
+    EXPECT_NEAR(ours->air_percent, theirs->air_percent, 1);
+    EXPECT_NEAR(ours->seconds, theirs->seconds, 0.01 * ours->seconds);
+    EXPECT_EQ(ours->retracts, theirs->retracts);
+  }
+}
+
+}  // namespace
+}  // namespace lekalo::mill

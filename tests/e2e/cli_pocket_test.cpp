@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "e2e/cli_run.hpp"
+#include "support/places.hpp"
+
+/// `lekalo pocket` and `lekalo simulate` as a person runs them. How good a path is: tests/property/mill_*.
+namespace lekalo::test {
+namespace {
+
+const std::string kPlate =
+    R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[30,0]}},{"line":{"from":[30,0],"to":[30,20]}},)"
+    R"({"line":{"from":[30,20],"to":[0,20]}},{"line":{"from":[0,20],"to":[0,0]}}]})";
+
+std::string dxf_line(const std::string& layer, double x0, double y0, double x1, double y1) {
+  return fmt::format("0\nLINE\n8\n{}\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n", layer, x0, y0, x1, y1);
+}
+std::string dxf_rectangle(const std::string& layer, double x, double y, double w, double h) {
+  return dxf_line(layer, x, y, x + w, y) + dxf_line(layer, x + w, y, x + w, y + h) +
+         dxf_line(layer, x + w, y + h, x, y + h) + dxf_line(layer, x, y + h, x, y);
+}
+std::string dxf(const std::string& entities) {
+  return "0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+}
+
+TEST(CliPocket, a_program_for_every_post_is_judged_alike) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  Json first;
+  for (const std::string post : {"linuxcnc", "fanuc", "grbl"}) {
+    const Ran made =
+        run(folder.path(),
+            {"pocket",     "plate.json", "--tool", "6",     "--stepover", "40%",   "--depth",       "4",
+             "--stepdown", "2",          "--post", post,    "--spindle",  "12000", "--tool-number", "2",
+             "--coolant",  "flood",      "-o",     "p.ngc", "--json"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const Json report = made.json();
+    EXPECT_GE(report["coverage_percent"].get<double>(), 99.99);
+    EXPECT_LE(report["gouge_mm"].get<double>(), 0.005);
+    EXPECT_EQ(report["retracts"].get<int>(), 0);
+    const std::string program = read_bytes(folder / "p.ngc");
+    EXPECT_EQ(program.find("%") == 0, post == "fanuc");
+    EXPECT_EQ(program.find("M6") != std::string::npos, post != "grbl");
+    EXPECT_NE(program.find("S12000 M3"), std::string::npos);
+    EXPECT_NE(program.find("M8"), std::string::npos);
+    EXPECT_NE(program.find("M30"), std::string::npos);
+    EXPECT_NE(program.find("Z-4."), std::string::npos);
+    const Ran judged = run(folder.path(), {"simulate", "p.ngc", "--pocket", "plate.json", "--tool", "6",
+                                           "--stepover", "40%", "--json"});
+    ASSERT_EQ(judged.status, 0) << judged.err;
+    for (const char* figure :
+         {"coverage_percent", "gouge_mm", "engagement_max_deg", "seconds", "air_percent"})
+      EXPECT_EQ(judged.json()[figure], report[figure]) << figure;
+    if (first.is_null()) first = report;
+    EXPECT_NEAR(report["length_mm"].get<double>(), first["length_mm"].get<double>(), 0.5);
+    EXPECT_NEAR(report["seconds"].get<double>(), first["seconds"].get<double>(), 1);
+  }
+}
+
+TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
+  const TemporaryFolder folder;
+  const std::string entities = dxf_rectangle("POCKET", 0, 0, 30, 20) + dxf_rectangle("ISLAND", 12, 8, 5, 4) +
+                               dxf_line("POCKET", 40, 0, 60, 0) + dxf_line("OPEN", 60, 0, 60, 20) +
+                               dxf_line("POCKET", 60, 20, 40, 20) + dxf_line("POCKET", 40, 20, 40, 0);
+  write_bytes(folder / "part.dxf", dxf(entities));
+  const Words words{"pocket", "part.dxf", "--tool",    "4",     "--depth",     "2",     "-o",
+                    "p.ngc",  "--json",   "--picture", "p.svg", "--animation", "p.html"};
+  const Ran closed = run(folder.path(), words);
+  ASSERT_EQ(closed.status, 0) << closed.err;
+  const Ran open = run(folder.path(), words + Words{"--island-layer", "ISLAND", "--open-layer", "OPEN"});
+  ASSERT_EQ(open.status, 0) << open.err;
+  EXPECT_EQ(closed.json()["unreachable"].size(), 8U);
+  // At the open side there are no corners, and the tool goes out to its middle: 2 mm more are swept.
+  EXPECT_EQ(open.json()["unreachable"].size(), 6U);
+  EXPECT_NEAR(open.json()["reachable_mm2"].get<double>() - closed.json()["reachable_mm2"].get<double>(), 40,
+              1);
+  EXPECT_LE(open.json()["gouge_mm"].get<double>(), 0.005);
+  EXPECT_NE(read_bytes(folder / "p.svg").find("the tool does not fit in here"), std::string::npos);
+  EXPECT_NE(read_bytes(folder / "p.html").find("<canvas"), std::string::npos);
+}
+
+TEST(CliPocket, what_a_larger_tool_left_alone_is_cut) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  const Ran whole =
+      run(folder.path(), {"pocket", "plate.json", "--tool", "3", "--depth", "2", "-o", "a.ngc", "--json"});
+  const Ran rest = run(folder.path(), {"pocket", "plate.json", "--tool", "3", "--depth", "2", "--rest", "10",
+                                       "-o", "b.ngc", "--json"});
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  EXPECT_LT(2 * rest.json()["length_mm"].get<double>(), whole.json()["length_mm"].get<double>());
+  EXPECT_GE(rest.json()["coverage_percent"].get<double>(), 99.99);
+}
+
+TEST(CliPocket, feeds_follow_the_engagement_in_few_steps) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  const Words words{"pocket", "plate.json", "--tool", "6", "--depth", "2", "-o", "p.ngc", "--json"};
+  const Ran plain = run(folder.path(), words + Words{"--feed", "1200"});
+  const Ran quick = run(folder.path(), words + Words{"--feed-per-tooth", "0.05", "--teeth", "2", "--spindle",
+                                                     "12000", "--feed-max", "3600"});
+  ASSERT_EQ(quick.status, 0) << quick.err;
+  EXPECT_LT(quick.json()["seconds"].get<double>(), plain.json()["seconds"].get<double>());
+  EXPECT_NEAR(quick.json()["length_mm"].get<double>(), plain.json()["length_mm"].get<double>(), 0.1);
+  const std::string program = read_bytes(folder / "p.ngc");
+  std::map<std::string, int> feeds;
+  for (std::size_t at = program.find(" F"); at != std::string::npos; at = program.find(" F", at + 1))
+    ++feeds[program.substr(at, program.find('\n', at) - at)];
+  EXPECT_LE(feeds.size(), 9U);  // six steps, plunge, link, helix
+  EXPECT_TRUE(feeds.count(" F1200.0")) << program.substr(0, 400);
+}
+
+TEST(CliPocket, the_sources_spirals_can_be_compared) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  for (const std::string method : {"floz-linear", "floz-quadratic"}) {
+    const Ran ran = run(folder.path(), {"pocket", "plate.json", "--tool", "6", "--depth", "2", "--method",
+                                        method, "-o", "p.ngc", "--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_LT(ran.json()["coverage_percent"].get<double>(), 99.9);
+    EXPECT_GT(ran.json()["coverage_percent"].get<double>(), 50);
+  }
+}
+
+TEST(CliPocket, a_located_part_has_its_pocket_cut_where_it_lies) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  write_bytes(folder / "part.csv", "-10 -10\n40 -10\n40 30\n-10 30\n");
+  write_bytes(folder / "blank.csv", "100.3 100\n153 104.5\n148.2 150\n97 146.2\n");
+  const Ran made = run(folder.path(), {"pocket", "plate.json", "--tool", "6", "--depth", "2", "--tool-number",
+                                       "1", "--spindle", "9000", "-o", "p.ngc", "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Ran located = run(folder.path(), {"locate", "--part", "part.csv", "--blank", "blank.csv", "--nc",
+                                          "p.ngc", "--nc-out", "q.ngc", "--json", "-o", "r.json"});
+  ASSERT_EQ(located.status, 0) << located.err;
+  const Json result = located.json();
+  const double x = result["x"], y = result["y"], theta = result["theta"];
+  EXPECT_GT(std::abs(theta), 0.01);
+  Json corners = Json::array();
+  for (const auto& [px, py] : {std::pair(0, 0), std::pair(30, 0), std::pair(30, 20), std::pair(0, 20)})
+    corners.push_back(
+        {std::cos(theta) * px - std::sin(theta) * py + x, std::sin(theta) * px + std::cos(theta) * py + y});
+  Json outer = Json::array();
+  for (std::size_t k = 0; k < 4; ++k)
+    outer.push_back({{"line", {{"from", corners[k]}, {"to", corners[(k + 1) % 4]}}}});
+  write_bytes(folder / "there.json", Json{{"units", "mm"}, {"outer", outer}}.dump());
+  const Ran there =
+      run(folder.path(), {"simulate", "q.ngc", "--pocket", "there.json", "--tool", "6", "--json"});
+  ASSERT_EQ(there.status, 0) << there.err;
+  const Json before = made.json(), after = there.json();
+  EXPECT_NEAR(after["coverage_percent"].get<double>(), before["coverage_percent"].get<double>(), 1e-3);
+  EXPECT_NEAR(after["gouge_mm"].get<double>(), before["gouge_mm"].get<double>(), 1e-4);
+  EXPECT_NEAR(after["length_mm"].get<double>(), before["length_mm"].get<double>(), 0.01);
+  EXPECT_NEAR(after["engagement_max_deg"].get<double>(), before["engagement_max_deg"].get<double>(), 1);
+  EXPECT_EQ(after["retracts"], before["retracts"]);
+}
+
+TEST(CliPocket, bad_input_is_one_sentence) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  write_bytes(folder / "open.dxf", dxf(dxf_line("0", 0, 0, 30, 0) + dxf_line("0", 30, 0, 30, 20)));
+  write_bytes(folder / "bow.dxf", dxf(dxf_line("0", 0, 0, 30, 25) + dxf_line("0", 30, 25, 30, 0) +
+                                      dxf_line("0", 30, 0, 0, 20) + dxf_line("0", 0, 20, 0, 0)));
+  write_bytes(folder / "out.dxf", dxf(dxf_rectangle("P", 0, 0, 30, 20) + dxf_rectangle("I", 40, 0, 5, 5)));
+  std::string outside = kPlate;
+  outside.pop_back();
+  write_bytes(folder / "outside.json",
+              outside + R"(,"islands":[[{"arc":{"from":[50,5],"to":[50,5],"centre":[45,5],"ccw":true}}]]})");
+  const auto says = [&](const Words& words, int status, const std::string& what) {
+    const Ran ran = run(folder.path(), Words{"pocket"} + words);
+    EXPECT_EQ(ran.status, status) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find(what), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  };
+  const Words tool{"--tool", "6", "--depth", "2"};
+  says(Words{"open.dxf"} + tool, 3, "close");
+  says(Words{"bow.dxf"} + tool, 3, "cross");
+  says(Words{"plate.json", "--tool", "21", "--depth", "2"}, 3, "fits nowhere");
+  says(Words{"outside.json"} + tool, 3, "outside");
+  says(Words{"out.dxf", "--island-layer", "I"} + tool, 3, "lies in no pocket");
+  says(Words{"out.dxf", "--open-layer", "X"} + tool, 3, "no outline has an edge on the layer");
+  says(Words{"none.json"} + tool, 3, "none.json");
+  says(Words{"plate.json", "--stepover", "0"} + tool, 2, "--stepover");
+  says(Words{"plate.json", "--stepover", "%"} + tool, 2, "--stepover");
+  says(Words{"plate.json", "--post", "siemens"} + tool, 2, "--post");
+  says(Words{"plate.json", "--feed-per-tooth", "0.1"} + tool, 2, "--teeth");
+  says(Words{"plate.json", "--feed-max", "10"} + tool, 2, "--feed-max");
+  says(Words{"plate.json", "--picture", "p.gif"} + tool, 2, ".svg");
+  says(Words{"plate.json", "--json"} + tool, 2, "-o");
+  says(Words{"plate.json", "--rest", "4"} + tool, 3, "larger");
+}
+
+}  // namespace
+}  // namespace lekalo::test

@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/field/trace.hpp"
+#include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "lekalo/geom/trig.hpp"
+#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/voxel_pictures.hpp"
+#include "lekalo/mill/feeds.hpp"
+#include "lekalo/mill/floz_field.hpp"
+#include "lekalo/mill/fragments.hpp"
+#include "lekalo/mill/pocket.hpp"
+#include "support/cases.hpp"
+
+// The source's method and its parts: fragments, tracing, pictures of the model.
+
+namespace lekalo::mill {
+namespace {
+
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+
+/// The source's pocket, seven arcs and seven lines; two corners on each side turn away from the material.
+const std::string kPaperPocket =
+    R"({"units":"mm","outer":[{"arc":{"from":[-22,0],"to":[22,0],"centre":[0,0],"ccw":true}},)"
+    R"({"arc":{"from":[22,0],"to":[30,8],"centre":[22,8],"ccw":true}},{"line":{"from":[30,8],"to":[30,32]}},)"
+    R"({"arc":{"from":[30,32],"to":[22,40],"centre":[22,32],"ccw":true}},{"line":{"from":[22,40],"to":[15,40]}},)"
+    R"({"line":{"from":[15,40],"to":[15,64]}},{"arc":{"from":[15,64],"to":[9,70],"centre":[9,64],"ccw":true}},)"
+    R"({"line":{"from":[9,70],"to":[-9,70]}},{"arc":{"from":[-9,70],"to":[-15,64],"centre":[-9,64],"ccw":true}},)"
+    R"({"line":{"from":[-15,64],"to":[-15,40]}},{"line":{"from":[-15,40],"to":[-22,40]}},)"
+    R"({"arc":{"from":[-22,40],"to":[-30,32],"centre":[-22,32],"ccw":true}},{"line":{"from":[-30,32],"to":[-30,8]}},)"
+    R"({"arc":{"from":[-30,8],"to":[-22,0],"centre":[-22,8],"ccw":true}}]})";
+
+std::vector<Region> paper_pocket() { return io::parse_regions(kPaperPocket, "paper.json").value().regions; }
+
+/// A polygon with corners at random radii, often with deep notches.
+Region random_star(Random& random, std::size_t corners) {
+  geom::Contour contour;
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const auto turn = geom::sincos(6.283185307179586 * static_cast<double>(i) / static_cast<double>(corners));
+    points.push_back(random.uniform(12, 40) * Point{turn.cosine, turn.sine});
+  }
+  for (std::size_t i = 0; i < corners; ++i)
+    contour.push_back({EdgeKind::line, points[i], points[(i + 1) % corners], {}});
+  return geom::make_region(std::move(contour)).value();
+}
+
+double area_of(const std::vector<Region>& regions) {
+  double sum = 0;
+  for (const Region& region : regions) sum += geom::area(region);
+  return sum;
+}
+
+TEST(MillFragments, TheSourcesPocketFallsIntoThree) {
+  const auto fragments = convex_fragments(paper_pocket());
+  ASSERT_TRUE(fragments) << fragments.error().message;
+  EXPECT_EQ(fragments->size(), 3U);
+  EXPECT_NEAR(area_of(*fragments), area_of(paper_pocket()), 1e-6);
+}
+
+TEST(MillFragments, CoverTheRegionsWithoutOverlapAndAreConvex) {
+  for (std::size_t index = 0; index < cases::case_count(8); ++index) {
+    SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
+    Random random(cases::seed(), 93000 + index);
+    const Region star = random_star(random, 5 + index % 9);
+    const auto fragments = convex_fragments({star});
+    ASSERT_TRUE(fragments) << fragments.error().message;
+    EXPECT_NEAR(area_of(*fragments), geom::area(star), 1e-6);
+    const auto back = geom::united(*fragments, 1e-9);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(area_of(back->regions), geom::area(star), 1e-6);
+    for (const Region& fragment : *fragments)
+      for (std::size_t i = 0; i < fragment.outer.size(); ++i) {
+        const geom::Edge &a = fragment.outer[i], &b = fragment.outer[(i + 1) % fragment.outer.size()];
+        const Point u = a.to - a.from, v = b.to - b.from;
+        EXPECT_GE(cross(u, v), -0.11 * norm(u) * norm(v)) << a.to.x << " " << a.to.y;
+      }
+  }
+}
+
+TEST(FieldTrace, ALevelLineStaysOnItsLevelAndCloses) {
+  // An ellipse: f = 1 - (x/5)^2 - (y/3)^2.
+  const field::Function f = [](Point p) {
+    return field::Jet{1 - p.x * p.x / 25 - p.y * p.y / 9, {-2 * p.x / 25, -2 * p.y / 9}};
+  };
+  for (const double tolerance : {1e-2, 1e-4}) {
+    const auto line = field::level_line(f, {4, 0}, 1.0, tolerance);
+    ASSERT_GT(line.size(), 8U);
+    EXPECT_EQ(line.front(), line.back());
+    double area = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const field::Jet jet = f(line[i]);
+      EXPECT_LE(std::abs(jet.value - f({4, 0}).value) / norm(jet.gradient), tolerance);
+      EXPECT_LE(norm(line[i + 1] - line[i]), 1.0 + 2 * tolerance);
+      area += 0.5 * cross(line[i], line[i + 1]);
+    }
+    EXPECT_GT(area, 0);  // counter-clockwise about the peak
+    EXPECT_NEAR(area, 3.141592653589793 * 4 * 2.4, 3);
+  }
+}
+
+TEST(FieldTrace, TheStepSetsTheSpacingOfTheSpiral) {
+  // On a cone every level line is a circle: a turn ends pi steps farther out.
+  const field::Function f = [](Point p) {
+    const double r = norm(p);
+    return field::Jet{50 - r, r > 0 ? (-1 / r) * p : Point{}};
+  };
+  for (const double step : {0.3, 0.8}) {
+    const auto spiral = field::gradient_spiral(f, {5, 0}, step);
+    std::vector<double> radii;
+    for (std::size_t i = 0; i + 1 < spiral.size(); ++i)
+      if (spiral[i].y < 0 && spiral[i + 1].y >= 0) radii.push_back(norm(spiral[i]));
+    ASSERT_GT(radii.size(), 5U);
+    for (std::size_t i = 3; i + 1 < radii.size(); ++i)
+      EXPECT_NEAR(radii[i + 1] - radii[i], 3.141592653589793 * step, 0.05 * step);
+    EXPECT_LT(norm(spiral.back()), 50);
+    EXPECT_GT(norm(spiral.back()), 49);
+  }
+}
+
+TEST(MillFloz, TheSpiralsStayWhereTheToolMayBe) {
+  for (const Method method : {Method::floz_linear, Method::floz_quadratic})
+    for (const bool whole : {false, true}) {
+      PocketOptions options;
+      options.method = method, options.whole = whole;
+      const auto path = pocket_path(paper_pocket(), options);
+      ASSERT_TRUE(path) << path.error().message;
+      EXPECT_EQ(path->fronts, whole ? 1U : 3U);
+      const geom::RegionIndex pocket(paper_pocket());
+      for (const PathMove& move : path->moves)
+        if (move.z < 0) {
+          EXPECT_TRUE(pocket.contains(move.to));
+          EXPECT_GE(pocket.nearest(move.to).distance, 3 - 0.01);
+        }
+    }
+}
+
+TEST(IoVoxelPictures, ValueAndGradientAreReadBackFromThePicturesAlone) {
+  PocketOptions options;
+  options.method = Method::floz_quadratic;
+  const auto grid = floz_field(paper_pocket(), options, 60);
+  ASSERT_TRUE(grid);
+  for (const std::uint16_t palette : {std::uint16_t{255}, std::uint16_t{65535}}) {
+    const field::VoxelImages images = field::voxel_images(*grid, palette);
+    const auto bytes = io::voxel_pngs(images);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    const std::array<std::string, 4> names{"a.png", "b.png", "c.png", "d.png"};
+    const auto read = io::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], (*bytes)[2], (*bytes)[3]}, names);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->images, images.images);
+    EXPECT_EQ(read->palette, palette);
+    EXPECT_EQ(read->frame.pitch, grid->frame.pitch);
+    for (std::size_t n = 0; n < grid->frame.size(); n += 7) {
+      const std::size_t i = n % grid->frame.columns, j = n / grid->frame.columns;
+      const field::Jet node{static_cast<double>(grid->value[n]),
+                            {static_cast<double>(grid->dx[n]), static_cast<double>(grid->dy[n])}};
+      const field::ReadingError error = field::reading_error(*read, i, j, node);
+      EXPECT_LE(std::abs(field::read_node(*read, i, j).value - node.value), error.value);
+    }
+    const auto swapped = io::parse_voxel_pngs({(*bytes)[1], (*bytes)[0], (*bytes)[2], (*bytes)[3]}, names);
+    ASSERT_FALSE(swapped);
+    EXPECT_NE(swapped.error().message.find("a.png"), std::string::npos);
+    std::string damaged = (*bytes)[2];
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+    EXPECT_FALSE(io::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], damaged, (*bytes)[3]}, names));
+    EXPECT_FALSE(io::parse_voxel_pngs({(*bytes)[0], "", (*bytes)[2], (*bytes)[3]}, names));
+  }
+}
+
+TEST(MillFeeds, FollowTheLoadInStepsThatHold) {
+  PocketPath path;
+  path.moves = {{PathMove::Kind::rapid, {0, 0}, 5},
+                {PathMove::Kind::plunge, {0, 0}, -1},
+                {PathMove::Kind::cut, {20, 0}, -1},
+                {PathMove::Kind::cut, {20, 20}, -1, EdgeKind::arc_ccw, {20, 10}},
+                {PathMove::Kind::link, {0, 20}, -1}};
+  std::vector<std::vector<MoveLoad>> loads(5);
+  for (int i = 0; i < 100; ++i) loads[2].push_back({0.2, i < 50 ? 20.0 : 78.0});
+  for (int i = 0; i < 100; ++i) loads[3].push_back({0.31415926, i < 50 ? 78.0 : 160.0});
+  loads[4].push_back({20, 0});
+  const FeedOptions options{1000, 3000, 0.4};
+  const PocketPath result = with_feeds(path, loads, options);
+  ASSERT_EQ(result.moves.size(), 7U);
+  EXPECT_NEAR(result.moves[2].feed, 1000 * std::cbrt(9), 1e-6);  // sin 78.5 / sin 20 is 2.87: the step below
+  EXPECT_NEAR(result.moves[2].to.x, 9, 0.21);                    // slower 1 mm before the load
+  EXPECT_EQ(result.moves[3].feed, 1000);
+  EXPECT_EQ(result.moves[4].feed, 1000);
+  EXPECT_EQ(result.moves[5].feed, 500);
+  EXPECT_EQ(result.moves[5].to, path.moves[3].to);
+  EXPECT_NEAR(norm(result.moves[4].to - Point{20, 10}), 10, 1e-9);
+  EXPECT_EQ(result.moves[6].feed, 0);
+}
+
+}  // namespace
+}  // namespace lekalo::mill
