@@ -54,10 +54,18 @@ class Lane {
   void attempt_insert();
   void attempt_shrink(bool random_split);
   void attempt_disrupted();
+  void squeeze(double length, double shorter, double share);
+  void limit(double length);
+  void compact();
+  bool fits_wider();
+  bool relax_here();
+  void enter_lattice();
+  void leave_lattice();
   void begin_separation();
   void step();
   void on_valid();
   void on_stuck();
+  void on_failure();
 
   const Problem& problem_;
   const Items& items_;
@@ -74,6 +82,10 @@ class Lane {
   std::vector<Failed> pool_;
   State least_;
   double least_overlap_ = 0, strike_overlap_ = 0;
+  int passes_ = 0, relax_after_ = 0;
+  double lattice_unit_ = 0;  ///< 0: this strand does not look there
+  bool on_lattice_ = false;
+  std::uint64_t lattice_until_ = 0;
   int without_gain_ = 0, strikes_ = 0;
 };
 
