@@ -6,7 +6,6 @@
 namespace lekalo::nest {
 namespace {
 
-constexpr std::uint32_t kBlock = 8;  ///< floats added at a time; rows end in as many that do not count
 constexpr double kMostNodes = 16e6;  ///< of all rasters
 
 }  // namespace

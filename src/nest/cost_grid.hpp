@@ -13,6 +13,7 @@ namespace lekalo::nest {
 /// exact to half a pitch, and exactly where everything lies on multiples of the pitch. docs/design/nest.md
 class CostGrid {
  public:
+  static constexpr std::uint32_t kBlock = 8;  ///< floats added at a time
   /// Of a place, less than which nothing is: depth > 0.
   using PairCost = std::function<float(const Form& fixed, const Form& moved, double dx, double dy)>;
 
@@ -33,6 +34,7 @@ class CostGrid {
   std::uint32_t rows() const noexcept { return rows_; }
   double x0() const noexcept { return x0_; }
   double y0() const noexcept { return y0_; }
+  /// Readable up to the next multiple of kBlock beyond columns().
   const float* row(std::uint32_t r) const noexcept { return &sums_[std::size_t{r} * stride_]; }
 
  private:

@@ -24,6 +24,7 @@ constexpr double kRelaxBelow = 1.5;
 constexpr double kCompactFrom = 0.004, kCompactTo = 1e-5;
 /// Shorter than the best, as a share: what counts as that.
 constexpr double kGain = 1e-6;
+constexpr int kLatticeUnits = 3;                   ///< whole, half, quarter: one after the other
 constexpr std::uint64_t kLatticeWork = 3'000'000;  ///< without a gain, until it is left
 
 double about_normal(Random& random) {
@@ -182,14 +183,35 @@ void Lane::build() {
 }
 
 void Lane::start(const State& state) {
+  if (best_.spots.empty() || done_)
+    go_on_from(state);
+  else
+    offered_ = state;
+}
+
+void Lane::go_on_from(const State& state) {
   best_ = state;
   open_up(best_);
   failures_ = 0;
   pool_.clear();
   done_ = false;
+  offered_.reset();
+  const double ratio = ratio_;
   choose_goal();
+  // What was too much to ask for before is so now.
+  if (phase_ == Phase::explore && ratio > 0 && ratio_ < 1)
+    ratio_ = std::min(ratio_, std::max(ratio, kExploreShrink));
   merit_ = merit_of(best_);
   if (!done_) next_attempt();
+}
+
+bool Lane::take_offered() {
+  if (!offered_) return false;
+  const State state = std::move(*offered_);
+  offered_.reset();
+  if (!(merit_of(state) < merit_)) return false;
+  go_on_from(state);
+  return true;
 }
 
 double Lane::first_ratio() const {
@@ -280,7 +302,7 @@ void Lane::attempt_shrink(bool random_split) {
   const double length = reach[axis_];
   double shorter = std::max(length * (1 - ratio_), least_of(axis_));
   if (on_lattice_) {
-    const double unit = lattice_unit_;
+    const double unit = lattice_;
     const double whole = std::ceil(length / unit - 1e-6) - std::max(1.0, std::round(ratio_ * length / unit));
     shorter = std::max(whole, std::ceil(least_of(axis_) / unit - 1e-6)) * unit;
     if (shorter >= length * (1 - 1e-12)) {
@@ -421,6 +443,7 @@ void Lane::on_stuck() {
 }
 
 void Lane::on_failure() {
+  if (take_offered()) return;
   ++failures_;
   if (phase_ == Phase::insert) {
     // Not the goal any more after many tries: then the least material for what is there.
@@ -474,7 +497,10 @@ bool Lane::fits_wider() {
 }
 
 void Lane::enter_lattice() {
-  if (lattice_unit_ <= 0 || !separator_.use_lattice(lattice_unit_)) return;
+  if (lattice_unit_ <= 0) return;
+  lattice_ = lattice_unit_ / (1 << lattice_halvings_);
+  lattice_halvings_ = (lattice_halvings_ + 1) % kLatticeUnits;
+  if (!separator_.use_lattice(lattice_)) return;
   on_lattice_ = true;
   lattice_until_ = separator_.work() + kLatticeWork;
 }

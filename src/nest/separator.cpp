@@ -336,16 +336,21 @@ void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice)
       const float* at = grid_->row(row);
       const float* below = row > 0 ? grid_->row(row - 1) : at;
       const float* above = row + 1 < rows ? grid_->row(row + 1) : at;
-      double worst = rough.worst();
-      for (std::uint32_t c = 0; c < columns; ++c) {
-        const float v = at[c];
-        if (static_cast<double>(v) >= worst) continue;
-        if (v > below[c] || v > above[c] || (c > 0 && v > at[c - 1]) || (c + 1 < columns && v > at[c + 1]))
-          continue;
-        const Spot spot = {std::min(r.x1, grid_->x0() + c * pitch), std::min(r.y1, grid_->y0() + row * pitch),
-                           form, bin};
-        rough.offer({spot, static_cast<double>(v)});
-        worst = rough.worst();
+      float worst = static_cast<float>(rough.worst());
+      for (std::uint32_t block = 0; block < columns; block += CostGrid::kBlock) {
+        unsigned lower = 0;
+        for (std::uint32_t c = block; c < block + CostGrid::kBlock; ++c) lower |= at[c] < worst ? 1u : 0u;
+        if (lower == 0) continue;
+        for (std::uint32_t c = block; c < std::min(columns, block + CostGrid::kBlock); ++c) {
+          const float v = at[c];
+          if (v >= worst || v > below[c] || v > above[c] || (c > 0 && v > at[c - 1]) ||
+              (c + 1 < columns && v > at[c + 1]))
+            continue;
+          const Spot spot = {std::min(r.x1, grid_->x0() + c * pitch),
+                             std::min(r.y1, grid_->y0() + row * pitch), form, bin};
+          rough.offer({spot, static_cast<double>(v)});
+          worst = static_cast<float>(rough.worst());
+        }
       }
     }
   }
