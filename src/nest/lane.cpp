@@ -196,11 +196,7 @@ void Lane::go_on_from(const State& state) {
   pool_.clear();
   done_ = false;
   offered_.reset();
-  const double ratio = ratio_;
-  choose_goal();
-  // What was too much to ask for before is so now.
-  if (phase_ == Phase::explore && ratio > 0 && ratio_ < 1)
-    ratio_ = std::min(ratio_, std::max(ratio, kExploreShrink));
+  choose_goal_again();
   merit_ = merit_of(best_);
   if (!done_) next_attempt();
 }
@@ -242,6 +238,14 @@ void Lane::choose_goal() {
   }
   if (phase_ == Phase::explore && used_area(best_, target_) == 0) done_ = true;
   ratio_ = first_ratio();
+}
+
+/// What was too much to ask for before is so now.
+void Lane::choose_goal_again() {
+  const double ratio = ratio_;
+  choose_goal();
+  if (phase_ == Phase::explore && ratio > 0 && ratio_ < 1)
+    ratio_ = std::min(ratio_, std::max(ratio, kExploreShrink));
 }
 
 void Lane::begin_separation() {
@@ -457,7 +461,7 @@ void Lane::on_failure() {
     if (ratio_ < kCompressTo) {
       phase_ = Phase::explore;
       ratio_ = problem_.bins()[target_].open ? kExploreShrink : first_ratio();
-      enter_lattice();
+      if (!on_lattice_) enter_lattice();
       if (!problem_.bins()[target_].open) axis_ = 1 - axis_;
       pool_.clear();
       failures_ = 0;
@@ -473,7 +477,9 @@ void Lane::on_failure() {
     return next_attempt();
   }
   pool_.push_back({least_, least_overlap_});
-  if (failures_ >= kFailuresToCompress) {
+  if (on_lattice_) {  // left by its own clock
+    if (pool_.size() > std::size_t{kFailuresToCompress}) pool_.erase(pool_.begin());
+  } else if (failures_ >= kFailuresToCompress) {
     phase_ = Phase::compress;
     ratio_ = kCompressFrom;
     failures_ = 0;
@@ -510,7 +516,7 @@ void Lane::leave_lattice() {
   separator_.use_lattice(0);
   failures_ = 0;
   pool_.clear();
-  choose_goal();
+  choose_goal_again();
 }
 
 void Lane::step() {

@@ -51,6 +51,7 @@ class Lane {
   double first_ratio() const;
   Merit merit_of(const State& state) const;
   void choose_goal();
+  void choose_goal_again();
   void next_attempt();
   void attempt_insert();
   void attempt_shrink(bool random_split);
@@ -59,7 +60,6 @@ class Lane {
   void limit(double length);
   void compact();
   bool fits_wider();
-  bool relax_here();
   void enter_lattice();
   void leave_lattice();
   void begin_separation();

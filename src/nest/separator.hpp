@@ -68,7 +68,7 @@ class Separator {
   bool snap(double unit);
   /// The largest depth that the last overlap() found, mm.
   double deepest() const noexcept { return deepest_; }
-  /// Candidate places looked at.
+  /// Candidate places looked at; grids of them and relaxing count as many as would take that long.
   std::uint64_t work() const noexcept { return work_; }
   /// Moves item i to the free place on a bin found furthest left; false if none.
   bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
