@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "lattice.hpp"
+
 namespace lekalo::nest {
 namespace {
 
@@ -15,6 +17,15 @@ struct Patience {
 };
 constexpr Patience kExplore = {200, 3}, kCompress = {100, 5}, kHasty = {50, 1}, kInsert = {100, 2};
 constexpr int kFailuresToCompress = 12;
+/// Relaxing: rounds; tried at a new least overlap, and up to so many times that after so many passes.
+constexpr int kRelaxRounds = 100, kRelaxEvery = 10;
+constexpr double kRelaxBelow = 1.5;
+/// Of a valid state pushed together: the first share of the length, halved where it fails down to the last.
+constexpr double kCompactFrom = 0.004, kCompactTo = 1e-5;
+/// Shorter than the best, as a share: what counts as that.
+constexpr double kGain = 1e-6;
+constexpr int kLatticeUnits = 3;                   ///< whole, half, quarter: one after the other
+constexpr std::uint64_t kLatticeWork = 3'000'000;  ///< without a gain, until it is left
 
 double about_normal(Random& random) {
   double sum = 0;
@@ -34,6 +45,7 @@ Lane::Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::
     if (parts[p].priority != parts[q].priority) return parts[p].priority > parts[q].priority;
     return problem.hull_area_of(p) > problem.hull_area_of(q);
   });
+  if (stream == 1) lattice_unit_ = lattice_unit(problem, items);
   // Those that make up three quarters of all hulls.
   std::vector<std::uint32_t> order = by_size_;
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -166,18 +178,36 @@ void Lane::build() {
     }
     if (!placed) hopeless.push_back(items_.forms[i]);
   }
+  enter_lattice();
   start(separator_.state());
 }
 
 void Lane::start(const State& state) {
+  if (best_.spots.empty() || done_)
+    go_on_from(state);
+  else
+    offered_ = state;
+}
+
+void Lane::go_on_from(const State& state) {
   best_ = state;
   open_up(best_);
   failures_ = 0;
   pool_.clear();
   done_ = false;
-  choose_goal();
+  offered_.reset();
+  choose_goal_again();
   merit_ = merit_of(best_);
   if (!done_) next_attempt();
+}
+
+bool Lane::take_offered() {
+  if (!offered_) return false;
+  const State state = std::move(*offered_);
+  offered_.reset();
+  if (!(merit_of(state) < merit_)) return false;
+  go_on_from(state);
+  return true;
 }
 
 double Lane::first_ratio() const {
@@ -210,11 +240,21 @@ void Lane::choose_goal() {
   ratio_ = first_ratio();
 }
 
+/// What was too much to ask for before is so now.
+void Lane::choose_goal_again() {
+  const double ratio = ratio_;
+  choose_goal();
+  if (phase_ == Phase::explore && ratio > 0 && ratio_ < 1)
+    ratio_ = std::min(ratio_, std::max(ratio, kExploreShrink));
+}
+
 void Lane::begin_separation() {
+  if (on_lattice_) separator_.to_lattice();
   separator_.forget_weights();
   least_overlap_ = strike_overlap_ = separator_.overlap();
   least_ = separator_.state();
   without_gain_ = strikes_ = 0;
+  passes_ = relax_after_ = 0;
 }
 
 void Lane::next_attempt() {
@@ -264,9 +304,25 @@ void Lane::attempt_shrink(bool random_split) {
     }
   }
   const double length = reach[axis_];
-  const double shorter = std::max(length * (1 - ratio_), least_of(axis_));
+  double shorter = std::max(length * (1 - ratio_), least_of(axis_));
+  if (on_lattice_) {
+    const double unit = lattice_;
+    const double whole = std::ceil(length / unit - 1e-6) - std::max(1.0, std::round(ratio_ * length / unit));
+    shorter = std::max(whole, std::ceil(least_of(axis_) / unit - 1e-6)) * unit;
+    if (shorter >= length * (1 - 1e-12)) {
+      leave_lattice();
+      return attempt_shrink(random_split);
+    }
+  }
+  squeeze(length, shorter, random_split ? random.uniform() : 0.5);
+  begin_separation();
+}
+
+/// Makes the bin shorter; what lies beyond a share of its length moves along.
+void Lane::squeeze(double length, double shorter, double share) {
+  const Bin& bin = problem_.bins()[target_];
   const double low = axis_ == 0 ? bin.box.x0 : bin.box.y0;
-  const double split = low + (random_split ? random.uniform() : 0.5) * length;
+  const double split = low + share * length;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
     Spot spot = separator_.state().spots[i];
     if (spot.bin != target_) continue;
@@ -276,13 +332,34 @@ void Lane::attempt_shrink(bool random_split) {
     (axis_ == 0 ? spot.x : spot.y) -= length - shorter;
     separator_.set_spot(i, spot);
   }
-  if (strip)
-    separator_.set_limits(target_, low + shorter, bin.box.y1);
+  limit(shorter);
+}
+
+/// The length up to which there may be something on the target.
+void Lane::limit(double length) {
+  const Bin& bin = problem_.bins()[target_];
+  if (bin.open)
+    separator_.set_limits(target_, bin.box.x0 + length, bin.box.y1);
   else if (axis_ == 0)
-    separator_.set_limits(target_, low + shorter, bin.box.y0 + reach[1]);
+    separator_.set_limits(target_, bin.box.x0 + length, bin.box.y0 + reach_of(best_, target_, 1));
   else
-    separator_.set_limits(target_, bin.box.x0 + reach[0], low + shorter);
-  begin_separation();
+    separator_.set_limits(target_, bin.box.x0 + reach_of(best_, target_, 0), bin.box.y0 + length);
+}
+
+/// Pushes the best together as far as that goes without another arrangement.
+void Lane::compact() {
+  for (double ratio = kCompactFrom; ratio > kCompactTo;) {
+    const double length = reach_of(best_, target_, axis_);
+    separator_.load(best_);
+    squeeze(length, length * (1 - ratio), separator_.random().uniform());
+    if (separator_.relax(kRelaxRounds) && merit_of(separator_.state()) < merit_) {
+      best_ = separator_.state();
+      open_up(best_);
+      merit_ = merit_of(best_);
+    } else {
+      ratio *= 0.5;
+    }
+  }
 }
 
 void Lane::attempt_disrupted() {
@@ -341,7 +418,7 @@ void Lane::attempt_disrupted() {
 void Lane::on_valid() {
   if (problem_.unit() > 0) separator_.snap(problem_.unit());
   // What does not fit between the limits at all was left beyond them.
-  if (phase_ != Phase::insert && !(merit_of(separator_.state()) < merit_)) return on_stuck();
+  if (phase_ != Phase::insert && !(merit_of(separator_.state()) < merit_)) return on_failure();
   const Phase before = phase_;
   const double ratio = ratio_;
   const std::uint32_t target = target_;
@@ -356,10 +433,21 @@ void Lane::on_valid() {
   }
   if (before == Phase::insert && phase_ != Phase::insert) pool_.clear();
   merit_ = merit_of(best_);
+  if (on_lattice_)
+    lattice_until_ = separator_.work() + kLatticeWork;
+  else if (!done_ && phase_ != Phase::insert)
+    compact();
   if (!done_) next_attempt();
 }
 
 void Lane::on_stuck() {
+  separator_.load(least_);
+  if (fits_wider()) return on_valid();
+  on_failure();
+}
+
+void Lane::on_failure() {
+  if (take_offered()) return;
   ++failures_;
   if (phase_ == Phase::insert) {
     // Not the goal any more after many tries: then the least material for what is there.
@@ -373,6 +461,7 @@ void Lane::on_stuck() {
     if (ratio_ < kCompressTo) {
       phase_ = Phase::explore;
       ratio_ = problem_.bins()[target_].open ? kExploreShrink : first_ratio();
+      if (!on_lattice_) enter_lattice();
       if (!problem_.bins()[target_].open) axis_ = 1 - axis_;
       pool_.clear();
       failures_ = 0;
@@ -388,7 +477,9 @@ void Lane::on_stuck() {
     return next_attempt();
   }
   pool_.push_back({least_, least_overlap_});
-  if (failures_ >= kFailuresToCompress) {
+  if (on_lattice_) {  // left by its own clock
+    if (pool_.size() > std::size_t{kFailuresToCompress}) pool_.erase(pool_.begin());
+  } else if (failures_ >= kFailuresToCompress) {
     phase_ = Phase::compress;
     ratio_ = kCompressFrom;
     failures_ = 0;
@@ -398,8 +489,48 @@ void Lane::on_stuck() {
   attempt_disrupted();
 }
 
+/// What all but fits, and may fit in a little more length that is still a gain.
+bool Lane::fits_wider() {
+  if (on_lattice_) return false;
+  if (phase_ == Phase::insert || ratio_ >= 1) return separator_.relax(kRelaxRounds);
+  const double end = axis_ == 0 ? separator_.state().ends[target_] : separator_.state().tops[target_];
+  const Box& box = problem_.bins()[target_].box;
+  limit(reach_of(best_, target_, axis_) * (1 - kGain));
+  if (separator_.relax(kRelaxRounds)) return true;
+  limit(end - (axis_ == 0 ? box.x0 : box.y0));
+  separator_.overlap();
+  return false;
+}
+
+void Lane::enter_lattice() {
+  if (lattice_unit_ <= 0) return;
+  lattice_ = lattice_unit_ / (1 << lattice_halvings_);
+  lattice_halvings_ = (lattice_halvings_ + 1) % kLatticeUnits;
+  if (!separator_.use_lattice(lattice_)) return;
+  on_lattice_ = true;
+  lattice_until_ = separator_.work() + kLatticeWork;
+}
+
+void Lane::leave_lattice() {
+  on_lattice_ = false;
+  separator_.use_lattice(0);
+  failures_ = 0;
+  pool_.clear();
+  choose_goal_again();
+}
+
 void Lane::step() {
+  if (on_lattice_ && separator_.work() > lattice_until_) {
+    leave_lattice();
+    return next_attempt();
+  }
+  if (passes_++ == 0 && !on_lattice_ && separator_.relax(2 * kRelaxRounds)) return on_valid();
   const double overlap = separator_.pass();
+  if (overlap > 0 &&
+      (overlap < least_overlap_ || (passes_ >= relax_after_ && overlap < kRelaxBelow * least_overlap_))) {
+    relax_after_ = passes_ + kRelaxEvery;
+    if (fits_wider()) return on_valid();
+  }
   if (overlap <= 0 || (separator_.deepest() < problem_.unit() && separator_.snap(problem_.unit())))
     return on_valid();
   const Patience patience = phase_ == Phase::insert     ? kInsert

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "separator.hpp"
@@ -25,7 +26,7 @@ class Lane {
   /// A first valid state: one piece after the other, large ones first. Pieces for which no place is found lie
   /// nowhere.
   void build();
-  /// Goes on from a valid state.
+  /// Goes on from a valid state; where an attempt is under way, from its end, and only if that is better.
   void start(const State& state);
   /// Until about so much more work is done; less where nothing is left to be gained.
   void run(std::uint64_t work);
@@ -50,20 +51,31 @@ class Lane {
   double first_ratio() const;
   Merit merit_of(const State& state) const;
   void choose_goal();
+  void choose_goal_again();
   void next_attempt();
   void attempt_insert();
   void attempt_shrink(bool random_split);
   void attempt_disrupted();
+  void squeeze(double length, double shorter, double share);
+  void limit(double length);
+  void compact();
+  bool fits_wider();
+  void enter_lattice();
+  void leave_lattice();
   void begin_separation();
   void step();
   void on_valid();
   void on_stuck();
+  void on_failure();
+  void go_on_from(const State& state);
+  bool take_offered();
 
   const Problem& problem_;
   const Items& items_;
   Separator separator_;
   std::vector<std::uint32_t> by_size_, large_;
   State best_;
+  std::optional<State> offered_;
   Merit merit_;
   bool done_ = false;
   Phase phase_ = Phase::explore;
@@ -74,6 +86,12 @@ class Lane {
   std::vector<Failed> pool_;
   State least_;
   double least_overlap_ = 0, strike_overlap_ = 0;
+  int passes_ = 0, relax_after_ = 0;
+  double lattice_unit_ = 0;  ///< 0: this strand does not look there
+  double lattice_ = 0;       ///< that or a half or quarter of it
+  bool on_lattice_ = false;
+  int lattice_halvings_ = 0;
+  std::uint64_t lattice_until_ = 0;
   int without_gain_ = 0, strikes_ = 0;
 };
 

@@ -7,14 +7,17 @@ namespace lekalo::nest {
 
 namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// Depths up to this are rounding, mm: what is left of them is set right on the grid.
-constexpr double kTolerance = 3e-6;
 /// What an overlap costs at least, as a share of the middling part's size: many small ones are then not
 /// cheaper than one.
 constexpr double kLeastValue = 0.003;
 /// The depth of a long thin overlap says little: the root of its area counts beside it.
 constexpr double kAreaShare = 0.3;
 constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
+/// Of the grid that replaces those anywhere: its pitch as a share of the middling part's size, the largest
+/// window, and forms looked at in a move.
+constexpr double kPitch = 1.0 / 16;
+constexpr std::uint32_t kMostRows = 256, kMostNodes = 20'000, kFormsOnGrid = 4;
+constexpr std::uint64_t kNodesAsPlace = 1000;  ///< nodes added up in the time of one place
 /// Steps as shares of the item's narrow side.
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
@@ -33,6 +36,66 @@ Separator::Separator(const Problem& problem, const Items& items, Random random)
     min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
   }
   size_.resize(total_, 1);
+  make_grid(kPitch * unit_);
+}
+
+bool Separator::make_grid(double pitch) {
+  grid_.reset();
+  if (!CostGrid::pays(problem_, pitch)) return false;
+  grid_.emplace(problem_, pitch, [this](const Form& a, const Form& b, double dx, double dy) {
+    const double depth = problem_.depth(a, b, dx, dy);
+    if (depth <= kTolerance) return 0.0f;
+    return static_cast<float>(cost_of(depth, problem_.common_area(a, b, dx, dy)));
+  });
+  return true;
+}
+
+bool Separator::use_lattice(double unit) {
+  lattice_ = 0;
+  if (unit > 0 && make_grid(unit)) {
+    lattice_ = unit;
+    return true;
+  }
+  make_grid(kPitch * unit_);
+  return unit == 0;
+}
+
+void Separator::to_lattice() {
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    Spot spot = state_.spots[i];
+    if (spot.bin == kNowhere) continue;
+    const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
+    spot.x = r.x0 + std::round((spot.x - r.x0) / lattice_) * lattice_;
+    spot.y = r.y0 + std::round((spot.y - r.y0) / lattice_) * lattice_;
+    while (spot.x > r.x1 + 1e-6 && spot.x > r.x0) spot.x -= lattice_;
+    while (spot.y > r.y1 + 1e-6 && spot.y > r.y0) spot.y -= lattice_;
+    set_spot(i, spot);
+  }
+}
+
+/// What item i would cost in a form everywhere in the range, or in a window of it where that is large.
+void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range) {
+  const double pitch = grid_->pitch();
+  const auto nodes = [&](double length) { return static_cast<std::uint32_t>(length / pitch + 1e-6) + 1; };
+  double x0 = range.x0, y0 = range.y0;
+  std::uint32_t columns = nodes(range.x1 - range.x0), rows = nodes(range.y1 - range.y0);
+  const auto cut = [&](double& from, std::uint32_t& count, std::uint32_t most) {
+    if (count <= most) return;
+    from += static_cast<double>(random_.below(count - most + 1)) * pitch;
+    count = most;
+  };
+  cut(y0, rows, kMostRows);
+  cut(x0, columns, kMostNodes / rows);
+  grid_->begin(x0, y0, columns, rows);
+  const std::uint64_t before = grid_->added();
+  const Form& f = problem_.forms()[form];
+  gather({x0 + f.box.x0, y0 + f.box.y0, x0 + columns * pitch + f.box.x1, y0 + rows * pitch + f.box.y1}, bin,
+         i);
+  const float* weights = &weights_[i * total_];
+  for (const std::uint32_t j : near_)
+    grid_->add(state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y,
+               weights[j] * static_cast<float>(std::sqrt(size_[i] * size_[j])));
+  work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / kNodesAsPlace;
 }
 
 void Separator::load(const State& state) {
@@ -70,7 +133,11 @@ void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
 }
 
 double Separator::value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept {
-  return ((depth + kAreaShare * std::sqrt(area)) / unit_ + kLeastValue) * std::sqrt(size_[i] * size_[j]);
+  return cost_of(depth, area) * std::sqrt(size_[i] * size_[j]);
+}
+
+double Separator::cost_of(double depth, double area) const noexcept {
+  return (depth + kAreaShare * std::sqrt(area)) / unit_ + kLeastValue;
 }
 
 double Separator::area_of(const Spot& a, const Spot& b) const {
@@ -213,28 +280,103 @@ void Separator::push_out(std::size_t i, Candidate& best) {
   }
 }
 
+void Separator::move_on_lattice(std::size_t i) {
+  const Forms& forms = items_.forms[i];
+  const std::uint32_t bin = any_bin();
+  const double pitch = grid_->pitch();
+  Spot best = state_.spots[i];
+  float least = std::numeric_limits<float>::infinity();
+  std::uint64_t ties = 0;
+  for (std::uint32_t form = forms.first; form < forms.last; ++form) {
+    const Range r = range_of(form, bin, items_.parts[i]);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    fill_grid(i, form, bin, r);
+    for (std::uint32_t row = 0; row < grid_->rows(); ++row) {
+      const float* values = grid_->row(row);
+      for (std::uint32_t c = 0; c < grid_->columns(); ++c) {
+        if (values[c] > least) continue;
+        if (values[c] < least) {
+          least = values[c];
+          ties = 0;
+        }
+        if (random_.below(++ties) == 0)
+          best = {grid_->x0() + c * pitch, grid_->y0() + row * pitch, form, bin};
+      }
+    }
+  }
+  if (ties > 0) set_spot(i, best);
+}
+
+void Separator::Choice::offer(const Candidate& candidate) {
+  if (candidate.loss >= worst()) return;
+  std::size_t at = count < kMost ? count++ : kMost - 1;
+  for (; at > 0 && candidate.loss < places[at - 1].loss; --at) places[at] = places[at - 1];
+  places[at] = candidate;
+}
+
+std::uint32_t Separator::any_bin() {
+  return state_.open_bins.size() == 1 ? state_.open_bins[0]
+                                      : state_.open_bins[random_.below(state_.open_bins.size())];
+}
+
+/// The deepest of the hollows of the cost over a bin, in all forms or some of many.
+void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice) {
+  const Forms& forms = items_.forms[i];
+  const std::uint32_t count = forms.last - forms.first, tried = std::min(count, kFormsOnGrid);
+  const double pitch = grid_->pitch();
+  Choice rough;
+  for (std::uint32_t k = 0; k < tried; ++k) {
+    const std::uint32_t form =
+        forms.first + (tried == count ? k : static_cast<std::uint32_t>(random_.below(count)));
+    const Range r = range_of(form, bin, items_.parts[i]);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    fill_grid(i, form, bin, r);
+    const std::uint32_t columns = grid_->columns(), rows = grid_->rows();
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      const float* at = grid_->row(row);
+      const float* below = row > 0 ? grid_->row(row - 1) : at;
+      const float* above = row + 1 < rows ? grid_->row(row + 1) : at;
+      float worst = static_cast<float>(rough.worst());
+      for (std::uint32_t block = 0; block < columns; block += CostGrid::kBlock) {
+        unsigned lower = 0;
+        for (std::uint32_t c = block; c < block + CostGrid::kBlock; ++c) lower |= at[c] < worst ? 1u : 0u;
+        if (lower == 0) continue;
+        for (std::uint32_t c = block; c < std::min(columns, block + CostGrid::kBlock); ++c) {
+          const float v = at[c];
+          if (v >= worst || v > below[c] || v > above[c] || (c > 0 && v > at[c - 1]) ||
+              (c + 1 < columns && v > at[c + 1]))
+            continue;
+          const Spot spot = {std::min(r.x1, grid_->x0() + c * pitch),
+                             std::min(r.y1, grid_->y0() + row * pitch), form, bin};
+          rough.offer({spot, static_cast<double>(v)});
+          worst = static_cast<float>(rough.worst());
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < rough.count; ++k)
+    choice.offer({rough.places[k].spot, evaluate_all(i, rough.places[k].spot, kFar)});
+}
+
 void Separator::move(std::size_t i) {
+  if (lattice_ > 0) return move_on_lattice(i);
   const std::uint32_t part = items_.parts[i];
   const Forms& forms = items_.forms[i];
   const Spot now = state_.spots[i];
-  Candidate current{now, evaluate_all(i, now, kFar)};
+  const Candidate current{now, evaluate_all(i, now, kFar)};
   if (current.loss <= 0) return;
   Candidate best = current;
   const auto offer = [&](const Candidate& c) {
     if (c.loss < best.loss) best = c;
   };
-  const auto form_any = [&] {
+  const auto any_form = [&] {
     return forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
-  };
-  const auto bin_any = [&] {
-    return state_.open_bins.size() == 1 ? state_.open_bins[0]
-                                        : state_.open_bins[random_.below(state_.open_bins.size())];
   };
   const Box& size = problem_.forms()[now.form].box;
   const double w = size.x1 - size.x0, h = size.y1 - size.y0;
   for (int k = 0; k < kFocused; ++k) {
     Spot spot = now;
-    spot.form = form_any();
+    spot.form = any_form();
     const Range r = range_of(spot.form, spot.bin, part);
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;
     const Box& b = problem_.forms()[spot.form].box;
@@ -246,18 +388,28 @@ void Separator::move(std::size_t i) {
     spot.y = std::max(r.y0, std::min(r.y1, spot.y));
     offer({spot, evaluate_all(i, spot, best.loss)});
   }
-  for (int k = 0; k < kAnywhere; ++k) {
-    Spot spot;
-    spot.form = form_any();
-    spot.bin = bin_any();
-    const Range r = range_of(spot.form, spot.bin, part);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
-    spot.x = random_.uniform(r.x0, r.x1);
-    spot.y = random_.uniform(r.y0, r.y1);
-    offer({spot, evaluate_all(i, spot, best.loss)});
-  }
   const double scale = min_dim_[i];
-  descend(i, best, kFirstStep * scale, kCoarse * scale);
+  if (grid_) {
+    Choice choice;
+    choose_on_grid(i, any_bin(), choice);
+    choice.offer(best);
+    for (std::size_t k = 0; k < choice.count; ++k) {
+      descend(i, choice.places[k], kFirstStep * scale, kCoarse * scale);
+      offer(choice.places[k]);
+    }
+  } else {
+    for (int k = 0; k < kAnywhere; ++k) {
+      Spot spot;
+      spot.form = any_form();
+      spot.bin = any_bin();
+      const Range r = range_of(spot.form, spot.bin, part);
+      if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+      spot.x = random_.uniform(r.x0, r.x1);
+      spot.y = random_.uniform(r.y0, r.y1);
+      offer({spot, evaluate_all(i, spot, best.loss)});
+    }
+    descend(i, best, kFirstStep * scale, kCoarse * scale);
+  }
   descend(i, best, 0.5 * kCoarse * scale, kFine * scale);
   push_out(i, best);
   if (best.loss < current.loss) set_spot(i, best.spot);

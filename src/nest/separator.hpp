@@ -1,8 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "cost_grid.hpp"
 #include "lekalo/base/random.hpp"
 #include "problem.hpp"
 
@@ -32,6 +37,8 @@ struct Items {
   std::size_t total() const noexcept { return parts.size() + fixed.size(); }
 };
 inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+/// Depths up to this are rounding, mm: what is left of them is set right on the grid.
+inline constexpr double kTolerance = 3e-6;
 
 /// Overlap minimisation with guided local search. docs/design/nest.md
 class Separator {
@@ -49,11 +56,19 @@ class Separator {
   /// Moves every item in conflict once, in random order, then raises the weights of what is still in
   /// conflict. Returns overlap().
   double pass();
+  /// Shifts all pairs that overlap apart by what each lacks, over and over, at most so many rounds. Whether
+  /// nothing overlaps any more; else everything is back where it was.
+  bool relax(int rounds);
+  /// From now on every item lies at multiples of `unit` from the first corner of its bin, and moves to one of
+  /// the cheapest of them all; 0: anywhere again. False where the tables of that would be too large.
+  bool use_lattice(double unit);
+  /// Puts every item on the lattice in use, valid or not.
+  void to_lattice();
   /// Puts every item on the multiples of `unit` nearest to it; takes it back where that is not valid.
   bool snap(double unit);
   /// The largest depth that the last overlap() found, mm.
   double deepest() const noexcept { return deepest_; }
-  /// Candidate places looked at.
+  /// Candidate places looked at; grids of them and relaxing count as many as would take that long.
   std::uint64_t work() const noexcept { return work_; }
   /// Moves item i to the free place on a bin found furthest left; false if none.
   bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
@@ -80,6 +95,16 @@ class Separator {
     Spot spot;
     double loss;
   };
+  /// The cheapest places of a move, best first.
+  struct Choice {
+    static constexpr std::size_t kMost = 3;
+    std::array<Candidate, kMost> places;
+    std::size_t count = 0;
+    double worst() const noexcept {
+      return count < kMost ? std::numeric_limits<double>::infinity() : places[kMost - 1].loss;
+    }
+    void offer(const Candidate& candidate);
+  };
   Range range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const;
   void gather(const Box& box, std::uint32_t bin, std::size_t but);
   double evaluate(std::size_t i, const Spot& spot, double limit);
@@ -87,8 +112,15 @@ class Separator {
   void descend(std::size_t i, Candidate& from, double step, double until);
   void push_out(std::size_t i, Candidate& from);
   void move(std::size_t i);
+  bool make_grid(double pitch);
+  void move_on_lattice(std::size_t i);
+  void choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice);
+  void fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> close_pairs(double margin) const;
   /// What an overlap costs before its weight.
   double value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept;
+  double cost_of(double depth, double area) const noexcept;
+  std::uint32_t any_bin();
   double area_of(const Spot& a, const Spot& b) const;
   float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
 
@@ -100,9 +132,6 @@ class Separator {
   std::vector<Box> boxes_;
   std::vector<float> weights_;
   std::vector<std::uint32_t> near_;
-  Box near_box_;
-  std::uint32_t near_bin_ = 0;
-  bool near_valid_ = false;
   std::vector<std::uint32_t> order_;
   struct Conflict {
     std::uint32_t a, b;
@@ -113,6 +142,8 @@ class Separator {
   std::vector<double> min_dim_;
   double deepest_ = 0;
   std::uint64_t work_ = 0;
+  std::optional<CostGrid> grid_;
+  double lattice_ = 0;        ///< 0: anywhere
   double unit_ = 0;           ///< mm: the middling part's size
   std::vector<double> size_;  ///< in units; 1 for what stays
 };

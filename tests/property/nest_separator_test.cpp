@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include "lekalo/layout/check.hpp"
+#include "lekalo/layout/completeness.hpp"
+#include "lekalo/nest/nest.hpp"
+#include "nest/cost_grid.hpp"
+#include "nest/lattice.hpp"
+#include "nest/separator.hpp"
+#include "support/cases.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+/// Parts of whole millimetres at quarter turns on a strip.
+layout::Document whole_millimetres(std::vector<std::vector<geom::GridPoint>> loops, double height) {
+  layout::Document document = cases::two_squares();
+  const layout::Part part = document.parts[0];
+  document.placements.clear();
+  document.parts.clear();
+  for (auto& loop : loops) {
+    document.parts.push_back(part);
+    document.parts.back().id = "p" + std::to_string(document.parts.size());
+    document.parts.back().outline = cases::outline_of({std::move(loop)});
+    document.parts.back().rotations = {{0, 0}, {90, 90}, {180, 180}, {270, 270}};
+    document.parts.back().demand = 1;
+  }
+  document.stocks[0].kind = layout::StockKind::strip;
+  document.stocks[0].outline =
+      cases::outline_of({cases::box_loop(0, 0, geom::mm_from_grid(layout::kLongestStrip), height)});
+  return document;
+}
+
+std::vector<geom::GridPoint> l_shape(double size) {
+  return {cases::grid_point(0, 0), cases::grid_point(size, 0),     cases::grid_point(size, 2),
+          cases::grid_point(2, 2), cases::grid_point(2, size - 1), cases::grid_point(0, size - 1)};
+}
+
+Items items_of(const Problem& problem) {
+  Items items;
+  for (std::uint32_t p = 0; p < problem.document().parts.size(); ++p) {
+    items.parts.push_back(p);
+    items.forms.push_back(problem.forms_of(p));
+  }
+  return items;
+}
+
+TEST(CostGrid, IsTheSumOfTheCostsAtEveryNode) {
+  const layout::Document document =
+      whole_millimetres({l_shape(5), l_shape(7), cases::box_loop(0, 0, 4, 3)}, 20);
+  const Problem problem(document, {});
+  const auto cost = [&](const Form& a, const Form& b, double dx, double dy) {
+    const double depth = problem.depth(a, b, dx, dy);
+    return static_cast<float>(depth > 1e-6 ? depth : 0);
+  };
+  CostGrid grid(problem, 1, cost);
+  Random random(cases::seed(), 7);
+  std::size_t free = 0;
+  for (std::size_t i = 0; i < cases::case_count(50); ++i) {
+    const auto any_form = [&] { return static_cast<std::uint32_t>(random.below(problem.forms().size())); };
+    const auto moved = any_form();
+    const double x0 = -3.0 + static_cast<double>(random.below(6)), y0 = 2;
+    grid.begin(x0, y0, 21, 13);
+    struct Item {
+      std::uint32_t form;
+      double x, y;
+      float weight;
+    };
+    std::vector<Item> items;
+    for (int k = 0; k < 4; ++k) {
+      items.push_back({any_form(), static_cast<double>(random.below(22)),
+                       static_cast<double>(random.below(18)), static_cast<float>(1 + random.below(3))});
+      grid.add(items.back().form, moved, items.back().x, items.back().y, items.back().weight);
+    }
+    for (std::uint32_t r = 0; r < grid.rows(); ++r)
+      for (std::uint32_t c = 0; c < grid.columns(); ++c) {
+        float sum = 0;
+        for (const Item& item : items)
+          sum += item.weight *
+                 cost(problem.forms()[item.form], problem.forms()[moved], x0 + c - item.x, y0 + r - item.y);
+        EXPECT_FLOAT_EQ(grid.row(r)[c], sum) << "case " << i << " of seed " << cases::seed();
+        free += sum == 0 ? 1 : 0;
+      }
+  }
+  EXPECT_GT(free, 0u);
+}
+
+class RelaxedSquares : public testing::Test {
+ protected:
+  /// Three squares of 4 mm, nearly one upon the other, on so much of a strip of height 4.
+  bool relaxed(double length) {
+    const layout::Document document = whole_millimetres(
+        {cases::box_loop(0, 0, 4, 4), cases::box_loop(0, 0, 4, 4), cases::box_loop(0, 0, 4, 4)}, 4);
+    const Problem problem(document, {});
+    const Items items = items_of(problem);
+    Separator separator(problem, items, Random(1));
+    State state;
+    for (int k = 0; k < 3; ++k) state.spots.push_back({2.0 + 1.5 * k, 0, items.forms[0].first, 0});
+    state.ends = {length};
+    state.tops = {4};
+    state.open_bins = {0};
+    separator.load(state);
+    const bool done = separator.relax(200);
+    EXPECT_EQ(separator.overlap() <= 0, done);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!done) {
+        EXPECT_EQ(separator.state().spots[k].x, state.spots[k].x);
+      }
+      EXPECT_GE(separator.state().spots[k].x, 0);
+      EXPECT_LE(separator.state().spots[k].x, length - 4);
+    }
+    return done;
+  }
+};
+
+TEST_F(RelaxedSquares, LieBesideOneAnotherWhereThereIsRoom) {
+  EXPECT_TRUE(relaxed(20));
+  EXPECT_TRUE(relaxed(12.01));
+}
+
+TEST_F(RelaxedSquares, AreBackWhereTheyWereWithoutRoom) { EXPECT_FALSE(relaxed(11)); }
+
+TEST(LatticeUnit, IsWhatAllCornersShare) {
+  layout::Document document = whole_millimetres({l_shape(20), cases::box_loop(0, 0, 10, 16)}, 20);
+  const auto unit_of = [](const layout::Document& d) {
+    const Problem problem(d, {});
+    return lattice_unit(problem, items_of(problem));
+  };
+  EXPECT_EQ(unit_of(document), 1);
+  document.rules.gap = geom::grid_from_mm(0.5);
+  EXPECT_EQ(unit_of(document), 0.5);
+  document.rules.gap = geom::grid_from_mm(0.01);
+  EXPECT_EQ(unit_of(document), 0);  // too many places
+  document.rules.gap = 0;
+  document.parts[0].rotations = {{10, 10}};
+  EXPECT_EQ(unit_of(document), 0);
+  document.parts.erase(document.parts.begin());
+  EXPECT_EQ(unit_of(document), 0);  // 2 mm: too few places to speak of
+}
+
+/// A rectangle of 10 x 6 sawn to pieces closes without a gap.
+TEST(Nest, PuzzlesClose) {
+  const auto corner = cases::grid_point;
+  const layout::Document document =
+      whole_millimetres({{corner(0, 0), corner(5, 0), corner(5, 2), corner(2, 2), corner(2, 6), corner(0, 6)},
+                         cases::box_loop(0, 0, 3, 4),
+                         {corner(0, 0), corner(5, 0), corner(5, 3), corner(2, 3), corner(2, 6), corner(0, 6)},
+                         cases::box_loop(0, 0, 3, 3)},
+                        6);
+  Options options;
+  options.seed = 3;
+  RunControl control;
+  control.work_limit = 1'000'000;
+  const auto found = nest(document, options, control);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(layout::check(found->document).empty());
+  EXPECT_TRUE(found->unplaced.empty());
+  const layout::Completeness done = layout::completeness(layout::Workspace(found->document));
+  EXPECT_EQ(done.sheets[0].used_length_mm, 10);
+}
+
+}  // namespace
+}  // namespace lekalo::nest
