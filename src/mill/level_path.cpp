@@ -33,6 +33,7 @@ constexpr std::size_t kManyEdges = 40;
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
 constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
 constexpr double kNothing = 1e-3;  // of the tool's radius squared: what is left of a larger tool
+constexpr double kApproach = 1;    // mm above the stock: from there on at the plunge feed
 constexpr double kMissed = 5e-3;   // mm
 constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
@@ -326,6 +327,7 @@ class Clearing {
     const Point start = entry_ + helix_ * ahead;
     if (!path_.moves.empty()) go({.kind = Kind::rapid, .to = at_, .z = o_.safe_height});
     go({.kind = Kind::rapid, .to = start, .z = o_.safe_height});
+    go({.kind = Kind::rapid, .to = start, .z = std::min(o_.safe_height, kApproach)});
     go({.kind = Kind::plunge, .to = start, .z = 0});
     if (!(helix_ > 1e-3)) return go({.kind = Kind::plunge, .to = start, .z = -o_.depth});
     const double turn_drop = 6.283185307179586 * helix_ * o_.ramp_angle;
@@ -692,6 +694,7 @@ class Clearing {
     if (norm(to - at_) < 0.5 * radius_ && is_inside(at_, to)) return go(PathMove::Kind::cut, to);
     go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
     go({.kind = PathMove::Kind::rapid, .to = to, .z = o_.safe_height});
+    go({.kind = PathMove::Kind::rapid, .to = to, .z = std::min(o_.safe_height, kApproach)});
     go(PathMove::Kind::plunge, to);
   }
 
