@@ -30,9 +30,11 @@ const char* sentence_of(nest::Reason reason) {
     case nest::Reason::no_angle:
       return "no angle is allowed for it on this stock";
     case nest::Reason::too_large:
-      return "larger than the stock at every angle it may have";
-    case nest::Reason::no_room:
-      return "no place was found on the stock that is there";
+      return "too large for the stock at every angle tried";
+    case nest::Reason::no_zone:
+      return "nowhere on the stock are zones and defects good enough for it";
+    case nest::Reason::no_stock:
+      return "no stock is left with room for it";
   }
   return "";
 }

@@ -20,6 +20,8 @@ using geom::Point;
 /// the end are the outlines themselves.
 constexpr double kSimplify = 0.0005;
 constexpr std::size_t kEnoughCorners = 48;
+/// Angles of given placements beside the usual ones: every pair of angles may need a table.
+constexpr int kMostGivenAngles = 64;
 
 Shape shape_of(const GridRegion& region) {
   Shape shape;
@@ -167,6 +169,7 @@ Problem::Problem(const layout::Document& document, const SearchOptions& options)
 
 void Problem::add_parts() {
   const layout::Document& document = *document_;
+  int given_left = kMostGivenAngles;
   std::vector<int> qualities;
   for (const layout::Stock& stock : document.stocks)
     for (const layout::QualityZone& zone : stock.zones) qualities.push_back(zone.quality);
@@ -217,9 +220,16 @@ void Problem::add_parts() {
         shape.demanding.emplace_back(quality, demanding_more(part, quality, mirrored == 1));
       shapes_.push_back(std::move(shape));
       const auto index = static_cast<std::uint32_t>(shapes_.size() - 1);
-      std::vector<geom::GridRotation> seen;
-      for (const double degrees : angles) {
-        const geom::GridRotation rotation = geom::rotation_from_degrees(degrees);
+      std::vector<geom::GridRotation> rotations, seen;
+      for (const double degrees : angles) rotations.push_back(geom::rotation_from_degrees(degrees));
+      if (options_.given_angles)
+        for (const layout::Placement& p_given : document.placements)
+          if (!p_given.locked && p_given.part == p && p_given.mirrored == (mirrored == 1) && given_left > 0 &&
+              std::find(rotations.begin(), rotations.end(), p_given.rotation) == rotations.end()) {
+            rotations.push_back(p_given.rotation);
+            --given_left;
+          }
+      for (const geom::GridRotation rotation : rotations) {
         if (!layout::rotation_allowed(part, rotation)) continue;
         if (std::none_of(document.stocks.begin(), document.stocks.end(), [&](const layout::Stock& stock) {
               return layout::grain_allowed(part, stock, rotation, mirrored == 1);
@@ -291,8 +301,11 @@ void Problem::add_bins() {
 
 void Problem::add_locked() {
   const layout::Document& document = *document_;
+  locked_pieces_.resize(document.parts.size());
   for (const layout::Placement& placement : document.placements) {
     if (!placement.locked) continue;
+    layout::PieceCount& count = locked_pieces_[placement.part];
+    ++(placement.mirrored ? count.mirrored : count.upright);
     for (Bin& bin : bins_) {
       if (bin.stock != placement.stock || bin.copy != placement.copy) continue;
       std::uint32_t form = form_of(placement.part, placement.rotation, placement.mirrored);
@@ -308,6 +321,8 @@ void Problem::add_locked() {
       bin.holds_locked = true;
       bin.locked_reach = std::max(bin.locked_reach, geom::mm_from_grid(placement.at.x) + forms_[form].box.x1 +
                                                         border_gaps_[placement.part]);
+      bin.locked_top = std::max(bin.locked_top, geom::mm_from_grid(placement.at.y) + forms_[form].box.y1 +
+                                                    border_gaps_[placement.part]);
     }
   }
 }
@@ -334,9 +349,9 @@ void Problem::add_relative_angles() {
       relative_[i * angles_.size() + j] = static_cast<std::uint32_t>(k);
     }
   relative_count_ = relative_pairs_.size();
-  const std::size_t count = shapes_.size() * shapes_.size() * relative_count_;
-  tables_ = std::make_unique<std::atomic<const NoFit*>[]>(count);
-  for (std::size_t k = 0; k < count; ++k) tables_[k].store(nullptr, std::memory_order_relaxed);
+  const std::size_t count = shapes_.size() * shapes_.size();
+  rows_ = std::make_unique<std::atomic<Row*>[]>(count);
+  for (std::size_t k = 0; k < count; ++k) rows_[k].store(nullptr, std::memory_order_relaxed);
 }
 
 std::uint32_t Problem::angle_index(geom::GridRotation rotation) {
@@ -416,10 +431,10 @@ NoFit::Way Problem::way_out(const Form& a, const Form& b, double dx, double dy) 
   return way;
 }
 
-const NoFit& Problem::make_table(std::size_t at, const Form& a, const Form& b) const {
+const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const Form& a, const Form& b) const {
   const SearchShape& p = shapes_[a.shape];
   const SearchShape& q = shapes_[b.shape];
-  const auto [c, s] = relative_pairs_[at % relative_count_];
+  const auto [c, s] = relative_pairs_[relative];
   double gap = 0;
   const Shape* of_p = &p.whole;
   const Shape* of_q = &q.whole;
@@ -468,8 +483,15 @@ const NoFit& Problem::make_table(std::size_t at, const Form& a, const Form& b) c
   auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, options_.cells, is_free, window,
                                       p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part);
   const std::lock_guard lock(making_);
-  if (const NoFit* other = tables_[at].load(std::memory_order_acquire)) return *other;
-  tables_[at].store(made.get(), std::memory_order_release);
+  Row* row = rows_[pair].load(std::memory_order_acquire);
+  if (row == nullptr) {
+    owned_rows_.push_back(std::make_unique<Row>(relative_count_));
+    row = owned_rows_.back().get();
+    rows_[pair].store(row, std::memory_order_release);
+  }
+  std::atomic<const NoFit*>& entry = (*row)[relative];
+  if (const NoFit* other = entry.load(std::memory_order_acquire)) return *other;
+  entry.store(made.get(), std::memory_order_release);
   made_.fetch_add(1);
   owned_.push_back(std::move(made));
   return *owned_.back();

@@ -118,7 +118,7 @@ TEST(Nest, SaysWhyAPieceIsNotPlaced) {
   document.parts.insert(document.parts.end(), {large, many, askew});
   const Nested found = nested(document, 1, 100'000);
   const std::vector<Unplaced> expected = {
-      {1, 1, Reason::too_large}, {2, 1, Reason::no_room}, {3, 1, Reason::no_angle}};
+      {1, 1, Reason::too_large}, {2, 1, Reason::no_stock}, {3, 1, Reason::no_angle}};
   EXPECT_EQ(found.unplaced, expected);
 }
 
