@@ -6,8 +6,8 @@
 namespace lekalo::nest {
 namespace {
 
-/// Places tried on stock in use, and on the first of a new one.
-constexpr std::size_t kTries = 200, kTriesOfMany = 400, kFirstTries = 2000;
+/// Places tried of one piece on one stock: so many of all pieces together, within limits.
+constexpr std::size_t kTries = 2'000'000, kLeastTries = 200, kMostTries = 10'000;
 
 /// Cheap stock first, large of equals.
 std::vector<std::uint32_t> cheapest_first(const Problem& problem) {
@@ -58,6 +58,8 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
   for (const Forms& forms : items.forms)
     for (std::uint32_t f = forms.first; f < forms.last; ++f)
       widest = std::max(widest, problem.forms()[f].box.x1 - problem.forms()[f].box.x0);
+  const std::size_t tries =
+      std::clamp(kTries / std::max<std::size_t>(1, items.movable()), kLeastTries, kMostTries);
   State state = from;
   if (strip) {
     double end = std::max(bins[0].locked_reach, bins[0].box.x0), area = 0;
@@ -86,9 +88,8 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
     bool placed = false;
     const auto try_open = [&] {
       const std::vector<std::uint32_t> in_use = separator.state().open_bins;
-      return std::any_of(in_use.begin(), in_use.end(), [&](std::uint32_t bin) {
-        return separator.place_low(i, bin, bins.size() == 1 ? kTries : kTriesOfMany);
-      });
+      return std::any_of(in_use.begin(), in_use.end(),
+                         [&](std::uint32_t bin) { return separator.place_low(i, bin, tries); });
     };
     while (!(placed = try_open()) && strip && (!open(0) || separator.state().ends[0] < bins[0].box.x1)) {
       if (!open(0))
@@ -104,7 +105,7 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
       tried.push_back(bins[bin].stock);
       if (!separator.can_hold(bin, i)) continue;
       separator.open_bin(bin);
-      placed = separator.place_low(i, bin, kFirstTries);
+      placed = separator.place_low(i, bin, kMostTries);
       if (!placed) separator.close_bin(bin);
     }
     if (!placed) hopeless.push_back(items.forms[i]);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <thread>
@@ -263,6 +264,7 @@ class Run {
   /// not count: so the same work ends it there again.
   void begin() {
     const std::vector<std::uint32_t> order = by_size(problem_, wanted_.items);
+    std::atomic<bool> first_ended{false};
     each_lane([&](Strand& lane, std::size_t k) {
       Begun& begun = begun_[k];
       Separator separator(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));

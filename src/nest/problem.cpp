@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numeric>
 
 #include "lekalo/geom/boolean.hpp"
@@ -22,6 +23,8 @@ constexpr double kSimplify = 0.0005;
 constexpr std::size_t kEnoughCorners = 48;
 /// Angles of given placements beside the usual ones: every pair of angles may need a table.
 constexpr int kMostGivenAngles = 64;
+constexpr double kManyTables = 4000;
+constexpr std::size_t kStockCells = 4;  ///< so many times those of a pair of parts
 
 Shape shape_of(const GridRegion& region) {
   Shape shape;
@@ -165,6 +168,10 @@ Problem::Problem(const layout::Document& document, const SearchOptions& options)
   add_locked();
   add_relative_angles();
   find_unit();
+  // Where every table serves few looks, coarse ones: what decides validity is exact in any.
+  const double parts = static_cast<double>(by_part_.size());
+  const double tables = 0.5 * parts * parts * static_cast<double>(relative_count_);
+  cells_ = tables > kManyTables ? options_.cells / 4 : options_.cells;
 }
 
 void Problem::add_parts() {
@@ -255,27 +262,33 @@ std::uint32_t Problem::obstacle_form(SearchShape::Kind kind, int level, Shape sh
   return static_cast<std::uint32_t>(forms_.size() - 1);
 }
 
+/// One obstacle of a kind and level each, so that a part needs few tables for all of a stock.
 void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   using Kind = SearchShape::Kind;
   const layout::Stock& stock = document_->stocks[s];
   const auto outer = loop_of(stock.outline.polygon, 0);
+  Shape border;
   if (!is_rectangle(outer)) {
     const double size = std::max(bin.box.x1 - bin.box.x0, bin.box.y1 - bin.box.y0);
-    const std::uint32_t form = obstacle_form(Kind::border, 0, frame_around(outer, geom::grid_from_mm(size)));
-    shapes_.back().window = bin.box;
-    bin.obstacles.push_back({form, 0, 0});
+    border = frame_around(outer, geom::grid_from_mm(size));
   }
   for (std::size_t l = 1; l < stock.outline.polygon.loops(); ++l) {
     auto hole = loop_of(stock.outline.polygon, l);
     std::reverse(hole.begin(), hole.end());
-    bin.obstacles.push_back({obstacle_form(Kind::border, 0, shape_of(region_of(std::move(hole)))), 0, 0});
+    add(border, shape_of(region_of(std::move(hole))));
   }
+  std::map<int, Shape> defects, zones;
   for (const layout::Defect& defect : stock.defects)
-    bin.obstacles.push_back({obstacle_form(Kind::defect, defect.severity,
-                                           shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners))),
-                             0, 0});
+    add(defects[defect.severity], shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners)));
   for (const layout::QualityZone& zone : stock.zones)
-    bin.obstacles.push_back({obstacle_form(Kind::zone, zone.quality, shape_of(zone.outline.polygon)), 0, 0});
+    add(zones[zone.quality], shape_of(zone.outline.polygon));
+  const auto put = [&](Kind kind, int level, Shape shape) {
+    bin.obstacles.push_back({obstacle_form(kind, level, std::move(shape)), 0, 0});
+    shapes_.back().window = bin.box;
+  };
+  if (!border.loops.empty()) put(Kind::border, 0, std::move(border));
+  for (auto& [severity, shape] : defects) put(Kind::defect, severity, std::move(shape));
+  for (auto& [quality, shape] : zones) put(Kind::zone, quality, std::move(shape));
 }
 
 void Problem::add_bins() {
@@ -371,11 +384,12 @@ void Problem::add_form(std::uint32_t shape, geom::GridRotation rotation, bool mi
   form.mirrored = mirrored;
   const double far = std::numeric_limits<double>::infinity();
   form.box = {far, far, -far, -far};
-  for (const Point p : shapes_[shape].whole.loops[0]) {
-    const double x = form.c * p.x - form.s * p.y, y = form.s * p.x + form.c * p.y;
-    form.box = {std::min(form.box.x0, x), std::min(form.box.y0, y), std::max(form.box.x1, x),
-                std::max(form.box.y1, y)};
-  }
+  for (const auto& loop : shapes_[shape].whole.loops)
+    for (const Point p : loop) {
+      const double x = form.c * p.x - form.s * p.y, y = form.s * p.x + form.c * p.y;
+      form.box = {std::min(form.box.x0, x), std::min(form.box.y0, y), std::max(form.box.x1, x),
+                  std::max(form.box.y1, y)};
+    }
   forms_.push_back(form);
 }
 
@@ -468,20 +482,22 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
   GridRegion region_p, region_q;
   NoFit::IsFree is_free;
   if (p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part) {
-    const auto relative = [&](double v) { return static_cast<std::int64_t>(std::llround(v * 0x1p52)); };
+    const auto in_steps = [](double v) { return static_cast<std::int64_t>(std::llround(v * 0x1p52)); };
     region_p = geom::turned(document_->parts[p.part].outline.polygon, geom::GridRotation{}, a.mirrored);
     region_q =
         geom::turned(geom::turned(document_->parts[q.part].outline.polygon, geom::GridRotation{}, b.mirrored),
-                     {relative(c), relative(s)}, false);
+                     {in_steps(c), in_steps(s)}, false);
     is_free = [&](geom::Point shift) {
       return !phi::interiors_meet(region_p, region_q,
                                   {geom::grid_from_mm(shift.x), geom::grid_from_mm(shift.y)});
     };
   }
   const Shape turned_q = turned(*of_q, c, s);
-  const Box window = p.kind == SearchShape::Kind::border ? p.window : Box{};
-  auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, options_.cells, is_free, window,
-                                      p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part);
+  const bool of_parts = p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part;
+  // What belongs to the stock is as large as the stock.
+  const Box window = p.kind == SearchShape::Kind::part ? Box{} : p.window;
+  const std::size_t cells = of_parts ? cells_ : kStockCells * cells_;
+  auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, cells, is_free, window, of_parts);
   const std::lock_guard lock(making_);
   Row* row = rows_[pair].load(std::memory_order_acquire);
   if (row == nullptr) {

@@ -25,7 +25,7 @@ struct SearchShape {
   int level = 0;           ///< severity of a defect, quality of a zone
   /// Of parts: what needs more than a zone of a quality has, by quality.
   std::vector<std::pair<int, Shape>> demanding;
-  Box window;  ///< of borders: where parts can be at all
+  Box window;  ///< of what belongs to the stock: where parts can be at all
 };
 
 /// A shape at an angle.
@@ -144,7 +144,7 @@ class Problem {
   std::vector<geom::GridRotation> angles_;
   std::vector<std::uint32_t> relative_;
   std::vector<std::pair<double, double>> relative_pairs_;
-  std::size_t relative_count_ = 1;
+  std::size_t relative_count_ = 1, cells_ = 0;
   mutable std::unique_ptr<std::atomic<Row*>[]> rows_;
   mutable std::vector<std::unique_ptr<Row>> owned_rows_;
   mutable std::vector<std::unique_ptr<NoFit>> owned_;

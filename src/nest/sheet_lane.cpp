@@ -20,6 +20,8 @@ struct Patience {
   int passes, strikes;
 };
 constexpr Patience kFill = {60, 2}, kBox = {40, 2}, kFine = {80, 2};
+/// Of the pieces that lie nowhere: the share that is thrown in first.
+constexpr std::size_t kFirstBatch = 8;
 constexpr int kFailuresToFill = 24, kFailuresToReduce = 30, kFailuresToBox = 3;
 /// Materials fuller than this are not tried.
 constexpr double kFullest = 0.97;
@@ -220,7 +222,7 @@ void SheetLane::choose_goal() {
   const std::size_t missing = nowhere(best_.state).size();
   if (missing > 0) {
     goal_ = Goal::fill;
-    batch_ = missing;
+    batch_ = 1 + missing / kFirstBatch;
     for (std::uint32_t b = 0; b < problem_.bins().size(); ++b) {
       auto& open = current_.state.open_bins;
       if (std::find(open.begin(), open.end(), b) == open.end()) open.push_back(b);
@@ -274,7 +276,7 @@ bool SheetLane::begin_reduction() {
     if (std::find(chosen.begin(), chosen.end(), spot.bin) == chosen.end()) spot.bin = kNowhere;
   }
   current_.merit = merit_of(current_.state);
-  batch_ = std::max<std::size_t>(1, nowhere(current_.state).size());
+  batch_ = 1 + nowhere(current_.state).size() / kFirstBatch;
   return true;
 }
 
