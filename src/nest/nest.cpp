@@ -197,7 +197,7 @@ Result<void> check_document(const layout::Document& document, bool from_given) {
   const auto violations = layout::check(locked);
   if (!violations.empty())
     return failure(ErrorCode::bad_input,
-                   fmt::format("the locked placement {} breaks a rule ({}); unlock or move it first",
+                   fmt::format("placement {}, which is to stay, breaks a rule ({}); move or unlock it first",
                                violations[0].a, layout::name_of(violations[0].kind)));
   return {};
 }

@@ -131,7 +131,7 @@ TEST(Nest, RefusesWhatCannotBeNested) {
   document.placements[0].locked = document.placements[1].locked = true;
   const auto overlapping = nest(document, {}, control);
   ASSERT_FALSE(overlapping);
-  EXPECT_NE(overlapping.error().message.find("locked placement 1"), std::string::npos);
+  EXPECT_NE(overlapping.error().message.find("placement 1, which is to stay"), std::string::npos);
   document.placements.clear();
   document.stocks.clear();
   EXPECT_FALSE(nest(document, {}, control));
