@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace lekalo::nest {
 namespace {
@@ -80,6 +81,8 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
     return std::find(all.begin(), all.end(), bin) != all.end();
   };
   const std::vector<std::uint32_t> stock_order = cheapest_first(problem);
+  // Stock on which a piece of these forms found no place.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> full;
   std::vector<Forms> hopeless;  // pieces like these found no place on any
   for (const std::uint32_t i : order) {
     if (separator.state().spots[i].bin != kNowhere) continue;
@@ -88,8 +91,12 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
     bool placed = false;
     const auto try_open = [&] {
       const std::vector<std::uint32_t> in_use = separator.state().open_bins;
-      return std::any_of(in_use.begin(), in_use.end(),
-                         [&](std::uint32_t bin) { return separator.place_low(i, bin, tries); });
+      return std::any_of(in_use.begin(), in_use.end(), [&](std::uint32_t bin) {
+        if (full.contains({bin, items.forms[i].first})) return false;
+        const bool found = separator.place_low(i, bin, tries);
+        if (!found && !strip) full.insert({bin, items.forms[i].first});
+        return found;
+      });
     };
     while (!(placed = try_open()) && strip && (!open(0) || separator.state().ends[0] < bins[0].box.x1)) {
       if (!open(0))

@@ -25,6 +25,7 @@ class Lane {
 
   const State& best() const noexcept { return best_; }
   const Merit& merit() const noexcept { return merit_; }
+  Separator& separator() noexcept { return separator_; }
   std::uint64_t work() const noexcept { return separator_.work(); }
   /// Nothing is left to be gained.
   bool is_done() const noexcept { return done_; }

@@ -226,8 +226,10 @@ class Run {
  public:
   Run(const Problem& problem, const Wanted& wanted, const Options& options, const RunControl& control)
       : problem_(problem), wanted_(wanted), options_(options), control_(control) {
-    for (std::size_t k = 0; k < kLanes; ++k)
+    for (std::size_t k = 0; k < kLanes; ++k) {
       lanes_.push_back(std::make_unique<Strand>(problem, wanted.items, options.seed, k));
+      lanes_.back()->separator().watch(control.stop);
+    }
     begun_.resize(kLanes);
   }
 
@@ -242,6 +244,8 @@ class Run {
     while (!control_.stop_requested() && best_.work < control_.work_limit &&
            std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return !lane->is_done(); })) {
       each_lane([](Strand& lane, std::size_t) { lane.run(kSegment); });
+      // What was ended in the middle does not count: the last merge is what the same work gives again.
+      if (control_.stop_requested()) break;
       merge();
     }
     return best_;

@@ -16,6 +16,7 @@ constexpr double kLeastValue = 0.003;
 constexpr double kAreaShare = 0.3;
 constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
 /// Steps as shares of the item's narrow side.
+constexpr std::size_t kManyItems = 256;  ///< from which on neighbours are looked up in cells
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
 }  // namespace
@@ -33,6 +34,11 @@ Separator::Separator(const Problem& problem, const Items& items, Random random)
     min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
   }
   size_.resize(total_, 1);
+  if (total_ > kManyItems) {
+    std::vector<Box> bins;
+    for (const Bin& bin : problem_.bins()) bins.push_back(bin.box);
+    cells_.emplace(total_, std::move(bins), unit_);
+  }
 }
 
 void Separator::load(const State& state) {
@@ -44,6 +50,7 @@ void Separator::set_spot(std::size_t i, const Spot& spot) {
   state_.spots[i] = spot;
   const Box& b = problem_.forms()[spot.form].box;
   boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
+  if (cells_) cells_->set(static_cast<std::uint32_t>(i), spot.bin, boxes_[i]);
 }
 
 void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
@@ -77,7 +84,10 @@ double Separator::area_of(const Spot& a, const Spot& b) const {
   return problem_.common_area(problem_.forms()[a.form], problem_.forms()[b.form], b.x - a.x, b.y - a.y);
 }
 
-void Separator::forget_weights() { std::fill(weights_.begin(), weights_.end(), 1.0f); }
+void Separator::forget_weights() {
+  for (const std::size_t k : raised_) weights_[k] = 1.0f;
+  raised_.clear();
+}
 
 Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const {
   const Box& b = problem_.forms()[form].box;
@@ -92,10 +102,20 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
 }
 
 void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
-  near_.resize(total_);
-  std::size_t count = 0;
   const double gap = problem_.widest_gap();
   const double x0 = box.x0 - gap, x1 = box.x1 + gap, y0 = box.y0 - gap, y1 = box.y1 + gap;
+  std::size_t count = 0;
+  if (cells_) {
+    cells_->find(bin, {x0, y0, x1, y1}, near_);
+    for (const std::uint32_t j : near_) {
+      near_[count] = j;
+      const Box& b = boxes_[j];
+      count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) & (j != but));
+    }
+    near_.resize(count);
+    return;
+  }
+  near_.resize(total_);
   for (std::size_t j = 0; j < total_; ++j) {
     near_[count] = static_cast<std::uint32_t>(j);
     const Box& b = boxes_[j];
@@ -315,19 +335,30 @@ double Separator::pass() {
   for (std::uint32_t i = 0; i < items_.movable(); ++i)
     if (in_conflict_[i]) order_.push_back(i);
   for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[random_.below(k)]);
-  for (const std::uint32_t i : order_) move(i);
+  for (const std::uint32_t i : order_) {
+    if (is_stopped()) break;
+    move(i);
+  }
   const double sum = overlap();
   double most = 0;
   for (Conflict& c : conflicts_) {
     c.depth = value_of(c.a, c.b, c.depth, area_of(state_.spots[c.a], state_.spots[c.b]));
     most = std::max(most, c.depth);
   }
-  for (float& w : weights_) w = std::max(1.0f, static_cast<float>(kDecay) * w);
+  std::erase_if(raised_, [&](std::size_t k) {
+    weights_[k] = std::max(1.0f, static_cast<float>(kDecay) * weights_[k]);
+    return weights_[k] == 1.0f;
+  });
   for (const Conflict& c : conflicts_) {
     const float factor =
         static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
-    weight(c.a, c.b) = std::min(1e12f, weight(c.a, c.b) * factor);
-    if (c.b < items_.movable()) weight(c.b, c.a) = weight(c.a, c.b);
+    const auto raise = [&](std::size_t i, std::size_t j) {
+      float& w = weight(i, j);
+      if (w == 1.0f) raised_.push_back(i * total_ + j);
+      w = std::min(1e12f, w * factor);
+    };
+    raise(c.a, c.b);
+    if (c.b < items_.movable()) raise(c.b, c.a);
   }
   return sum;
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lekalo/base/random.hpp"
+#include "neighbour_grid.hpp"
 #include "problem.hpp"
 
 namespace lekalo::nest {
@@ -41,6 +44,9 @@ class Separator {
   void load(const State& state);
   const State& state() const noexcept { return state_; }
   Random& random() noexcept { return random_; }
+  /// pass() ends in the middle, worth nothing, where this flag is set.
+  void watch(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
+  bool is_stopped() const noexcept { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
   /// Weights as at the beginning.
   void forget_weights();
@@ -99,6 +105,9 @@ class Separator {
   std::size_t total_ = 0;
   std::vector<Box> boxes_;
   std::vector<float> weights_;
+  std::vector<std::size_t> raised_;     ///< indices of weights above 1
+  std::optional<NeighbourGrid> cells_;  ///< where there are many items
+  const std::atomic<bool>* stop_ = nullptr;
   std::vector<std::uint32_t> near_;
   Box near_box_;
   std::uint32_t near_bin_ = 0;

@@ -526,7 +526,7 @@ void SheetLane::step() {
 
 void SheetLane::run(std::uint64_t work) {
   const std::uint64_t until = separator_.work() + work;
-  while (goal_ != Goal::none && separator_.work() < until) step();
+  while (goal_ != Goal::none && separator_.work() < until && !separator_.is_stopped()) step();
 }
 
 }  // namespace lekalo::nest
