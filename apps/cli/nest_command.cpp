@@ -163,6 +163,7 @@ Result<int> run_nest(const NestOptions& o) {
   options.threads = o.threads;
   options.angles = o.angles;
   options.from_given = !o.from_scratch;
+  options.pair_distance = o.pair_distance;
   RunControl control;
   control.work_limit = o.work;
   Stream stream(o.stream);

@@ -10,7 +10,7 @@ namespace {
 /// As typed.
 struct NestWords {
   LayoutWords layout;
-  std::string output, stream, time, work, seed, threads, angles;
+  std::string output, stream, time, work, seed, threads, angles, pairs;
   bool from_scratch = false;
 };
 
@@ -32,6 +32,8 @@ Result<Command> to_nest(const NestWords& w) {
   read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.threads);
   read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360",
               o.angles);
+  if (!w.pairs.empty())
+    read.number("--pairs", w.pairs, 0.001, 1e6, "a distance from 0.001 to 1,000,000 mm", o.pair_distance);
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
@@ -56,6 +58,7 @@ Typed add_nest_form(CLI::App& app) {
   add("--threads", w.threads, "N", "Changes the speed, not the result [2]");
   add("--seed", w.seed, "S", "Seed of all random choices [0]");
   add("--angles", w.angles, "N", "Angles to try of parts that may be turned anyhow [24]");
+  add("--pairs", w.pairs, "MM", "Left and right pieces of a kit lie so near one another, middle to middle");
   app.add_flag("--from-scratch", w.from_scratch,
                "Drop what lies there and is not locked, instead of improving it")
       ->group("Search");

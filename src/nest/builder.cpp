@@ -81,6 +81,8 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
     return std::find(all.begin(), all.end(), bin) != all.end();
   };
   const std::vector<std::uint32_t> stock_order = cheapest_first(problem);
+  // Pieces with partners are not alike: each has to lie near its own.
+  const bool alike = items.partners.empty();
   // Stock on which a piece of these forms found no place.
   std::set<std::pair<std::uint32_t, std::uint32_t>> full;
   std::vector<Forms> hopeless;  // pieces like these found no place on any
@@ -94,7 +96,7 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
       return std::any_of(in_use.begin(), in_use.end(), [&](std::uint32_t bin) {
         if (full.contains({bin, items.forms[i].first})) return false;
         const bool found = separator.place_low(i, bin, tries);
-        if (!found && !strip) full.insert({bin, items.forms[i].first});
+        if (!found && !strip && alike) full.insert({bin, items.forms[i].first});
         return found;
       });
     };
@@ -115,7 +117,7 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
       placed = separator.place_low(i, bin, kMostTries);
       if (!placed) separator.close_bin(bin);
     }
-    if (!placed) hopeless.push_back(items.forms[i]);
+    if (!placed && alike) hopeless.push_back(items.forms[i]);
   }
   return separator.state();
 }

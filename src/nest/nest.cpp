@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <map>
 #include <memory>
@@ -105,6 +106,56 @@ std::vector<layout::Placement> sound_placements(const layout::Document& document
   for (const layout::Placement& p : document.placements)
     if (broken.contains(p.id)) sound.push_back(p);
   return sound;
+}
+
+/// Two and two of a kit's pieces of one part: left and right ones first.
+void add_partners(const Problem& problem, double reach, Items& items) {
+  const layout::Document& document = problem.document();
+  if (!(reach > 0) || document.kits.empty()) return;
+  items.pair_reach = reach;
+  items.partners.assign(items.movable(), kNowhere);
+  using Pool = std::vector<std::uint32_t>;
+  struct Pools {
+    Pool either, upright, mirrored;
+  };
+  std::vector<Pools> pools(document.parts.size());
+  for (auto i = static_cast<std::uint32_t>(items.movable()); i-- > 0;) {  // the first ones are taken last
+    const std::uint32_t p = items.parts[i];
+    (items.forms[i] == problem.forms_of(p)          ? pools[p].either
+     : items.forms[i] == problem.forms_of(p, false) ? pools[p].upright
+                                                    : pools[p].mirrored)
+        .push_back(i);
+  }
+  const auto take = [](Pool& from, Pool& or_from, std::int64_t count) {
+    Pool taken;
+    for (; count > 0 && !(from.empty() && or_from.empty()); --count) {
+      Pool& pool = from.empty() ? or_from : from;
+      taken.push_back(pool.back());
+      pool.pop_back();
+    }
+    return taken;
+  };
+  const auto pair = [&](std::uint32_t a, std::uint32_t b) {
+    items.partners[a] = b;
+    items.partners[b] = a;
+  };
+  for (const layout::Kit& kit : document.kits)
+    for (std::int64_t copy = 0; copy < kit.demand; ++copy) {
+      std::map<std::uint32_t, std::array<std::int64_t, 3>> counts;  // by part: either, upright, mirrored
+      for (const layout::KitPiece& piece : kit.pieces)
+        counts[piece.part][piece.mirrored ? (*piece.mirrored ? 2 : 1) : 0] += piece.count;
+      for (const auto& [part, count] : counts) {
+        Pools& of = pools[part];
+        const Pool upright = take(of.upright, of.either, count[1]),
+                   mirrored = take(of.mirrored, of.either, count[2]);
+        Pool rest = take(of.either, of.either, count[0]);
+        const std::size_t both = std::min(upright.size(), mirrored.size());
+        for (std::size_t k = 0; k < both; ++k) pair(upright[k], mirrored[k]);
+        rest.insert(rest.end(), upright.begin() + static_cast<std::ptrdiff_t>(both), upright.end());
+        rest.insert(rest.end(), mirrored.begin() + static_cast<std::ptrdiff_t>(both), mirrored.end());
+        for (std::size_t k = 0; k + 1 < rest.size(); k += 2) pair(rest[k], rest[k + 1]);
+      }
+    }
 }
 
 Wanted wanted_items(const Problem& problem, bool from_given) {
@@ -392,7 +443,8 @@ Result<Nested> nest(const layout::Document& document, const Options& options, co
   search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
   search.given_angles = options.from_given;
   const Problem problem(document, search);
-  const Wanted wanted = wanted_items(problem, options.from_given);
+  Wanted wanted = wanted_items(problem, options.from_given);
+  add_partners(problem, options.pair_distance, wanted.items);
   const bool strip = problem.bins().size() == 1 && problem.bins()[0].open;
   return strip ? Run<Lane>(problem, wanted, options, control).go()
                : Run<SheetLane>(problem, wanted, options, control).go();

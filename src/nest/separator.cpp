@@ -84,6 +84,19 @@ double Separator::area_of(const Spot& a, const Spot& b) const {
   return problem_.common_area(problem_.forms()[a.form], problem_.forms()[b.form], b.x - a.x, b.y - a.y);
 }
 
+double Separator::distance_too_far(std::size_t i, const Spot& spot) const {
+  if (items_.partners.empty() || items_.partners[i] == kNowhere) return 0;
+  const Spot& other = state_.spots[items_.partners[i]];
+  if (other.bin == kNowhere) return 0;
+  const Box &a = problem_.forms()[spot.form].box, &b = problem_.forms()[other.form].box;
+  const double dx = spot.x - other.x + 0.5 * (a.x0 + a.x1 - b.x0 - b.x1),
+               dy = spot.y - other.y + 0.5 * (a.y0 + a.y1 - b.y0 - b.y1);
+  // On another sheet it is further away than anywhere on this one.
+  const Box& sheet = problem_.bins()[other.bin].box;
+  if (spot.bin != other.bin) return std::hypot(sheet.x1 - sheet.x0, sheet.y1 - sheet.y0);
+  return std::max(0.0, std::hypot(dx, dy) - items_.pair_reach);
+}
+
 void Separator::forget_weights() {
   for (const std::size_t k : raised_) weights_[k] = 1.0f;
   raised_.clear();
@@ -135,6 +148,11 @@ double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
                y1 = spot.y + b.y1 + gap;
   double sum = 0;
   const float* weights = &weights_[i * total_];
+  if (const double far = distance_too_far(i, spot); far > 0) {
+    const std::uint32_t partner = items_.partners[i];
+    sum = static_cast<double>(weights[partner]) * value_of(i, partner, far, 0);
+    if (sum >= limit) return sum;
+  }
   for (const std::uint32_t j : near_) {
     const Box& o = boxes_[j];
     if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) continue;
@@ -292,6 +310,12 @@ double Separator::overlap() {
     if (state_.spots[i].bin == kNowhere) continue;
     gather(boxes_[i], state_.spots[i].bin, i);
     const Spot& spot = state_.spots[i];
+    if (const double far = distance_too_far(i, spot); far > kTolerance && items_.partners[i] > i) {
+      conflicts_.push_back({static_cast<std::uint32_t>(i), items_.partners[i], far});
+      in_conflict_[i] = in_conflict_[items_.partners[i]] = 1;
+      sum += far;
+      deepest_ = std::max(deepest_, far);
+    }
     for (const std::uint32_t j : near_) {
       if (j < i) continue;
       const Spot& other = state_.spots[j];

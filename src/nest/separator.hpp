@@ -26,15 +26,20 @@ struct State {
   std::vector<std::uint32_t> open_bins;  ///< those that may be used
 };
 
+inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+
 /// What is moved, and after that what stays.
 struct Items {
   std::vector<std::uint32_t> parts;  ///< by item that is moved
   std::vector<Forms> forms;          ///< likewise: those it may have
   std::vector<Spot> fixed;           ///< obstacles of all bins
+  /// By item: the one that it has to lie near, kNowhere for most; empty where there are none. The middles of
+  /// their boxes are no further apart than that, mm, on one bin.
+  std::vector<std::uint32_t> partners;
+  double pair_reach = 0;
   std::size_t movable() const noexcept { return parts.size(); }
   std::size_t total() const noexcept { return parts.size() + fixed.size(); }
 };
-inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
 /// Overlap minimisation with guided local search. docs/design/nest.md
 class Separator {
@@ -96,6 +101,8 @@ class Separator {
   /// What an overlap costs before its weight.
   double value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept;
   double area_of(const Spot& a, const Spot& b) const;
+  /// How much too far from its partner item i would lie there, mm.
+  double distance_too_far(std::size_t i, const Spot& spot) const;
   float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
 
   const Problem& problem_;

@@ -22,11 +22,13 @@ struct Patience {
 constexpr Patience kFill = {60, 2}, kBox = {40, 2}, kFine = {80, 2};
 /// Of the pieces that lie nowhere: the share that is thrown in first.
 constexpr std::size_t kFirstBatch = 8;
-constexpr int kFailuresToFill = 24, kFailuresToReduce = 30, kFailuresToBox = 3;
+constexpr int kFailuresToFill = 100, kFailuresToReduce = 30, kFailuresToBox = 3;
 /// Materials fuller than this are not tried.
 constexpr double kFullest = 0.97;
 /// Goals in a row that left nothing to be tried.
 constexpr int kVainAttempts = 1000;
+/// Sums of areas in another order.
+constexpr double kRounding = 1e-12;
 
 }  // namespace
 
@@ -426,13 +428,17 @@ void SheetLane::keep_if_best() {
 bool SheetLane::take(State state) {
   tidy(state);
   Merit merit = merit_of(state);
-  if (!is_kick_ && !(merit < current_.merit)) return false;
+  const bool better = is_kick_ || merit < current_.merit;
+  // As many pieces as before, lying otherwise: from there the next attempt is another one.
+  const bool level = goal_ != Goal::box && merit.missing <= current_.merit.missing &&
+                     merit.unplaced <= current_.merit.unplaced * (1 + kRounding);
+  if (!better && !level) return false;
   const std::vector<std::uint32_t> open = current_.state.open_bins;
   current_ = {std::move(state), merit};
   keep_if_best();
   // What is filled keeps its stock open.
   if (goal_ != Goal::box) current_.state.open_bins = open;
-  return true;
+  return better;
 }
 
 void SheetLane::on_valid() {

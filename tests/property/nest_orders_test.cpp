@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -200,6 +202,54 @@ TEST(NestOrders, TheSameBytesOnSheetsWhateverTheThreads) {
     texts.push_back(io::write_layout(found->document));
   }
   EXPECT_EQ(texts[0], texts[1]);
+}
+
+TEST(NestOrders, PairsLieNearOneAnotherWhenAsked) {
+  Document document = order("brackets");
+  Options options;
+  options.pair_distance = 150;
+  RunControl control;
+  control.work_limit = 1'000'000;
+  const auto found = nest(document, options, control);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(layout::check(found->document).empty());
+  // As many pairs of brackets within the distance as kits that are complete: each piece in one pair.
+  const layout::Completeness done = layout::completeness(layout::Workspace(found->document));
+  for (std::size_t k = 0; k < document.kits.size(); ++k) {
+    const std::uint32_t part = document.kits[k].pieces[0].part;
+    std::vector<const layout::Placement*> left, right;
+    for (const layout::Placement& p : found->document.placements)
+      if (p.part == part) (p.mirrored ? right : left).push_back(&p);
+    const auto near = [&](const layout::Placement& a, const layout::Placement& b) {
+      if (a.stock != b.stock || a.copy != b.copy) return false;
+      const geom::GridBox p = geom::bounds(placed_outline(document.parts[a.part], a)),
+                          q = geom::bounds(placed_outline(document.parts[b.part], b));
+      const double dx = 0.5 * geom::mm_from_grid(p.low.x + p.high.x - q.low.x - q.high.x),
+                   dy = 0.5 * geom::mm_from_grid(p.low.y + p.high.y - q.low.y - q.high.y);
+      return std::hypot(dx, dy) <= 150.01;
+    };
+    // A matching by augmenting paths.
+    std::vector<std::size_t> of(right.size(), left.size());
+    const std::function<bool(std::size_t, std::vector<char>&)> augment = [&](std::size_t l,
+                                                                             std::vector<char>& seen) {
+      for (std::size_t r = 0; r < right.size(); ++r) {
+        if (seen[r] || !near(*left[l], *right[r])) continue;
+        seen[r] = 1;
+        if (of[r] == left.size() || augment(of[r], seen)) {
+          of[r] = l;
+          return true;
+        }
+      }
+      return false;
+    };
+    std::int64_t pairs = 0;
+    for (std::size_t l = 0; l < left.size(); ++l) {
+      std::vector<char> seen(right.size(), 0);
+      pairs += augment(l, seen);
+    }
+    EXPECT_GT(pairs, 0);
+    EXPECT_GE(pairs, done.kits[k].complete) << document.kits[k].id;
+  }
 }
 
 TEST(NestOrders, NoZoneGoodEnoughIsSaid) {

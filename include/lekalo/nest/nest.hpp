@@ -47,6 +47,9 @@ struct Options {
   /// so only better layouts take the place of a given one. Those that break a rule are placed anew. Otherwise
   /// they are dropped.
   bool from_given = true;
+  /// Where positive: the left and the right piece of a part in one kit, or else two of its pieces, lie on one
+  /// sheet with the middles of their boxes at most so far apart, mm (pieces that are both placed anew).
+  double pair_distance = 0;
   /// Called at a merge with every better layout, from the calling thread; may be empty.
   std::function<void(const Nested&)> improved;
 };
