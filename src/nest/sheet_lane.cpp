@@ -27,6 +27,8 @@ constexpr int kFailuresToFill = 100, kFailuresToReduce = 30, kFailuresToBox = 3;
 constexpr double kFullest = 0.97;
 /// Goals in a row that left nothing to be tried.
 constexpr int kVainAttempts = 1000;
+/// Fillings in vain after which the others get their turns too.
+constexpr int kVainFills = 3;
 /// Sums of areas in another order.
 constexpr double kRounding = 1e-12;
 
@@ -209,7 +211,7 @@ void SheetLane::start(const State& state) {
   best_.state = state;
   tidy(best_.state);
   best_.merit = merit_of(best_.state);
-  rounds_ = reductions_ = 0;
+  rounds_ = reductions_ = vain_fills_ = 0;
   choose_goal();
   attempt();
 }
@@ -222,7 +224,10 @@ void SheetLane::choose_goal() {
   goal_ = Goal::none;
   ++rounds_;
   const std::size_t missing = nowhere(best_.state).size();
-  if (missing > 0) {
+  // What finds no place again and again does not keep the rest from getting better.
+  if (missing > 0 &&
+      (vain_fills_ < kVainFills || rounds_ % kVainFills == 0 || best_.state.open_bins.empty())) {
+    ++vain_fills_;
     goal_ = Goal::fill;
     batch_ = 1 + missing / kFirstBatch;
     for (std::uint32_t b = 0; b < problem_.bins().size(); ++b) {
@@ -255,7 +260,8 @@ bool SheetLane::begin_reduction() {
   for (std::uint32_t b = 0; b < bins.size(); ++b)
     if (bins[b].holds_locked) choose(b);
   double needed = 0;
-  for (const std::uint32_t part : items_.parts) needed += problem_.area_of(part);
+  for (std::size_t i = 0; i < items_.movable(); ++i)
+    if (best_.state.spots[i].bin != kNowhere) needed += problem_.area_of(items_.parts[i]);
   std::vector<std::uint32_t> order(bins.size());
   std::iota(order.begin(), order.end(), 0u);
   Random& random = separator_.random();
@@ -421,6 +427,8 @@ bool SheetLane::attempt_box() {
 void SheetLane::keep_if_best() {
   if (!(current_.merit < best_.merit)) return;
   if (current_.merit.cost < best_.merit.cost) reductions_ = 0;
+  if (current_.merit.unplaced < best_.merit.unplaced || current_.merit.missing < best_.merit.missing)
+    vain_fills_ = 0;
   best_ = current_;
 }
 

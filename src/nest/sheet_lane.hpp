@@ -82,6 +82,7 @@ class SheetLane {
   int failures_ = 0;
   int rounds_ = 0;            ///< goals chosen
   int reductions_ = 0;        ///< goals `reduce` since the best has as many sheets as now
+  int vain_fills_ = 0;         ///< goals `fill` since one gained something
   std::uint32_t focus_ = 0;   ///< the kit that is completed
   std::size_t batch_ = 1;     ///< pieces thrown in at once
   std::uint32_t target_ = 0;  ///< the bin whose box gets smaller
