@@ -241,7 +241,8 @@ void SheetLane::choose_goal() {
     ++reductions_;
     if (begin_reduction()) return;
   }
-  begin_box();
+  if (begin_box() || missing > 0 || best_.state.open_bins.size() > 1) return;
+  goal_ = Goal::none;
 }
 
 /// Does with stock that costs less: the most spacious, or all but one at random.
@@ -288,7 +289,8 @@ bool SheetLane::begin_reduction() {
   return true;
 }
 
-void SheetLane::begin_box() {
+/// \return whether the box can be smaller at all
+bool SheetLane::begin_box() {
   goal_ = Goal::box;
   target_ = emptiest(best_.state);
   ratio_ = kFirstShrink;
@@ -296,9 +298,12 @@ void SheetLane::begin_box() {
   failures_ = 0;
   // The first round from what is there, then with other proportions.
   is_kick_ = rounds_ > 1 && !problem_.bins()[target_].open;
+  const double width = reach_of(best_.state, target_, 0), height = reach_of(best_.state, target_, 1);
+  return width * height * (1 - kLastShrink) > used_area(best_.state, target_) / kFullest;
 }
 
 void SheetLane::begin_separation() {
+  ++attempts_;
   separator_.forget_weights();
   least_overlap_ = strike_overlap_ = separator_.overlap();
   least_ = separator_.state();
@@ -539,8 +544,8 @@ void SheetLane::step() {
 }
 
 void SheetLane::run(std::uint64_t work) {
-  const std::uint64_t until = separator_.work() + work;
-  while (goal_ != Goal::none && separator_.work() < until && !separator_.is_stopped()) step();
+  const std::uint64_t until = this->work() + work;
+  while (goal_ != Goal::none && this->work() < until && !separator_.is_stopped()) step();
 }
 
 }  // namespace lekalo::nest

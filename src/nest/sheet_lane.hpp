@@ -23,7 +23,7 @@ class SheetLane {
 
   const State& best() const noexcept { return best_.state; }
   const Merit& merit() const noexcept { return best_.merit; }
-  std::uint64_t work() const noexcept { return separator_.work(); }
+  std::uint64_t work() const noexcept { return separator_.work() + attempts_ * items_.movable(); }
   /// Nothing is left to be gained.
   bool is_done() const noexcept { return goal_ == Goal::none; }
   Separator& separator() noexcept { return separator_; }
@@ -50,7 +50,7 @@ class SheetLane {
   // What is asked for next.
   void choose_goal();
   bool begin_reduction();
-  void begin_box();
+  bool begin_box();
   /// Until one has begun: there is something to be separated.
   void attempt();
   bool attempt_fill();
@@ -80,12 +80,13 @@ class SheetLane {
   Valid best_, current_;
   Goal goal_ = Goal::none;
   int failures_ = 0;
-  int rounds_ = 0;            ///< goals chosen
-  int reductions_ = 0;        ///< goals `reduce` since the best has as many sheets as now
-  int vain_fills_ = 0;         ///< goals `fill` since one gained something
-  std::uint32_t focus_ = 0;   ///< the kit that is completed
-  std::size_t batch_ = 1;     ///< pieces thrown in at once
-  std::uint32_t target_ = 0;  ///< the bin whose box gets smaller
+  std::uint64_t attempts_ = 0;  ///< each looks at every piece
+  int rounds_ = 0;              ///< goals chosen
+  int reductions_ = 0;          ///< goals `reduce` since the best has as many sheets as now
+  int vain_fills_ = 0;          ///< goals `fill` since one gained something
+  std::uint32_t focus_ = 0;     ///< the kit that is completed
+  std::size_t batch_ = 1;       ///< pieces thrown in at once
+  std::uint32_t target_ = 0;    ///< the bin whose box gets smaller
   double ratio_ = 0, skew_ = 0;
   bool is_kick_ = false;  ///< the box under way is a new proportion, larger than it should be
   State least_;

@@ -115,13 +115,15 @@ TEST(NestOrders, NeverMoreSheetsThanABottomLeftFill) {
   for (std::size_t i = 0; i < cases::case_count(2) && i < kOrders.size(); ++i) {
     const Document document = order(kOrders[i]);
     const Filled rival = bottom_left_fill(document);
-    const Nested found = nested(document, 2'000'000);
+    const Nested found = nested(document, 600'000);
     std::int64_t missing = 0;
     for (const Unplaced& u : found.unplaced) missing += u.count;
     const Filled mine = counted(found.document, static_cast<std::size_t>(missing));
     EXPECT_TRUE(layout::check(found.document).empty()) << kOrders[i];
     EXPECT_LE(mine.unplaced, rival.unplaced) << kOrders[i];
-    if (mine.unplaced == rival.unplaced) EXPECT_LE(mine.cost, rival.cost) << kOrders[i];
+    if (mine.unplaced == rival.unplaced) {
+      EXPECT_LE(mine.cost, rival.cost) << kOrders[i];
+    }
     RecordProperty(kOrders[i], "sheets " + std::to_string(mine.sheets) + ", bottom-left fill " +
                                    std::to_string(rival.sheets) + "; unplaced " +
                                    std::to_string(mine.unplaced) + ", " + std::to_string(rival.unplaced));
@@ -184,7 +186,9 @@ TEST(NestOrders, ImprovingIsNeverWorseAndKeepsIdsAndLockedParts) {
                                    [&](const layout::Placement& q) { return q.id == p.id; });
     ASSERT_NE(same, second.document.placements.end()) << p.id;
     EXPECT_EQ(same->part, p.part);
-    if (p.locked) EXPECT_EQ(*same, p);
+    if (p.locked) {
+      EXPECT_EQ(*same, p);
+    }
   }
   EXPECT_LE(counted(second.document, 0).cost, counted(first.document, 0).cost);
 }

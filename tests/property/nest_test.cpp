@@ -92,7 +92,7 @@ TEST(Nest, SquaresFillASheetToTheLast) {
   document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 30, 20)});
   document.parts[0].demand = 6;
   document.parts[0].rotations = {{0, 0}};
-  const Nested found = nested(document, 1, 2'000'000);
+  const Nested found = nested(document, 1, 400'000);
   EXPECT_TRUE(found.unplaced.empty());
   EXPECT_TRUE(layout::check(found.document).empty());
 }
