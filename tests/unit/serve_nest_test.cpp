@@ -71,9 +71,9 @@ TEST(NestJob, OfTheWholeLayoutAddsWhatIsWantedAndTellsOfIt) {
 
 TEST(NestJob, OfASelectionMovesNothingElseAndAddsNothing) {
   layout::Document document = wanted_squares();
-  document.placements.push_back(document.placements[1]);
+  document.placements.push_back(document.placements[0]);
   document.placements[2].id = document.next_id++;
-  document.placements[2].at.y += geom::grid_from_mm(30);
+  document.placements[2].at.y -= geom::grid_from_mm(30);
   const auto change = job_of(NestRequest{{2}, 0.3, 0})(document, {});
   ASSERT_TRUE(change) << change.error().message;
   ASSERT_EQ(change->placements.size(), 1u);
