@@ -125,7 +125,9 @@ TEST(Nest, SaysWhyAPieceIsNotPlaced) {
 TEST(Nest, RefusesWhatCannotBeNested) {
   layout::Document document = cases::two_squares();
   const RunControl control;
-  EXPECT_FALSE(nest(document, {}, control));  // nothing wanted
+  Options from_scratch;
+  from_scratch.from_given = false;
+  EXPECT_FALSE(nest(document, from_scratch, control));  // nothing wanted
   document.parts[0].demand = 1;
   document.placements[1].at = document.placements[0].at;
   document.placements[0].locked = document.placements[1].locked = true;

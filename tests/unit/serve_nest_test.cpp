@@ -74,7 +74,11 @@ TEST(NestJob, OfASelectionMovesNothingElseAndAddsNothing) {
   document.placements.push_back(document.placements[0]);
   document.placements[2].id = document.next_id++;
   document.placements[2].at.y -= geom::grid_from_mm(30);
-  const auto change = job_of(NestRequest{{2}, 0.3, 0})(document, {});
+  std::atomic<bool> stop{false};
+  JobContext context;
+  context.run.stop = &stop;
+  context.improved = [&](const layout::Change& better) { stop = stop || !better.is_nothing(); };
+  const auto change = job_of(NestRequest{{2}, 600, 0})(document, context);
   ASSERT_TRUE(change) << change.error().message;
   ASSERT_EQ(change->placements.size(), 1u);
   EXPECT_EQ(change->placements[0].before, document.placements[1]);
