@@ -26,6 +26,8 @@ constexpr std::uint64_t kSegment = 200'000;
 constexpr int kMergesAlone = 20;
 /// Streams of chance of what makes the first states; those of the strands come before.
 constexpr std::uint64_t kBuilderStreams = 1000;
+/// Of a first layout: it is not left unfinished before, whoever wants to stop.
+constexpr std::uint64_t kFirstWork = 1'000'000;
 constexpr std::int64_t kMostPieces = 100'000;
 
 struct Wanted {
@@ -324,7 +326,11 @@ class Run {
       Begun& begun = begun_[k];
       Separator separator(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));
       begun.state = built(problem_, wanted_.items, separator, wanted_.start, order, [&] {
-        begun.ended_early = control_.stop_requested() || (k == 0 && separator.work() >= control_.work_limit);
+        begun.ended_early =
+            first_ended ||
+            (separator.work() >= kFirstWork &&
+             (control_.stop_requested() || (k == 0 && separator.work() >= control_.work_limit)));
+        if (k == 0 && begun.ended_early) first_ended = true;
         return begun.ended_early;
       });
       begun.work = separator.work();
