@@ -168,6 +168,7 @@ Problem::Problem(const layout::Document& document, const SearchOptions& options)
   add_locked();
   add_relative_angles();
   find_unit();
+  find_grain();
   // Where every table serves few looks, coarse ones: what decides validity is exact in any.
   const double parts = static_cast<double>(by_part_.size());
   const double tables = 0.5 * parts * parts * static_cast<double>(relative_count_);
@@ -393,6 +394,22 @@ void Problem::add_form(std::uint32_t shape, geom::GridRotation rotation, bool mi
   forms_.push_back(form);
 }
 
+void Problem::find_grain() {
+  const layout::Document& document = *document_;
+  bool all = true;
+  std::vector<char> follows;
+  for (const Form& form : forms_)
+    for (const layout::Stock& stock : document.stocks) {
+      const SearchShape& shape = shapes_[form.shape];
+      const bool fine =
+          shape.kind != SearchShape::Kind::part ||
+          layout::grain_allowed(document.parts[shape.part], stock, form.rotation, form.mirrored);
+      follows.push_back(fine ? 1 : 0);
+      all = all && fine;
+    }
+  if (!all) follows_grain_ = std::move(follows);
+}
+
 void Problem::find_unit() {
   std::int64_t common = 0;
   for (const Form& form : forms_)
@@ -420,8 +437,10 @@ Forms Problem::forms_of(std::uint32_t part, std::optional<bool> mirrored) const 
 
 bool Problem::fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept {
   const double gap = 2 * border_gaps_[part];
-  for (const Bin& bin : bins_)
+  for (std::uint32_t k = 0; k < bins_.size(); ++k)
     for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+      const Bin& bin = bins_[k];
+      if (!follows_grain(f, k)) continue;
       const Box& b = forms_[f].box;
       if (b.x1 - b.x0 + gap <= bin.box.x1 - bin.box.x0 + 1e-9 &&
           b.y1 - b.y0 + gap <= bin.box.y1 - bin.box.y0 + 1e-9)

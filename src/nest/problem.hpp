@@ -90,6 +90,10 @@ class Problem {
   /// Every corner of parts, at every angle they may have, and of the stock lies on multiples of this, mm; 0
   /// where there is no such length worth speaking of.
   double unit() const noexcept { return unit_; }
+  /// Whether the grain of a part's form follows that of a bin's stock.
+  bool follows_grain(std::uint32_t form, std::uint32_t bin) const noexcept {
+    return follows_grain_.empty() || follows_grain_[form * document_->stocks.size() + bins_[bin].stock] != 0;
+  }
   /// Whether the part's box fits on some stock in one of these forms.
   bool fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept;
   /// Locked ones, by part.
@@ -126,6 +130,7 @@ class Problem {
   void add_bins();
   void add_locked();
   void find_unit();
+  void find_grain();
   void add_stock_obstacles(std::uint32_t stock, Bin& bin);
   void add_relative_angles();
   std::uint32_t obstacle_form(SearchShape::Kind kind, int level, Shape shape);
@@ -141,6 +146,7 @@ class Problem {
   std::vector<double> areas_, hull_areas_, border_gaps_;
   std::vector<layout::PieceCount> locked_pieces_;
   double widest_gap_ = 0, unit_ = 0;
+  std::vector<char> follows_grain_;  ///< by form and stock; empty where every form does on every stock
   std::vector<geom::GridRotation> angles_;
   std::vector<std::uint32_t> relative_;
   std::vector<std::pair<double, double>> relative_pairs_;

@@ -103,6 +103,7 @@ void Separator::forget_weights() {
 }
 
 Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const {
+  if (!problem_.follows_grain(form, bin)) return {1, 0, 1, 0};
   const Box& b = problem_.forms()[form].box;
   const Box& in = problem_.bins()[bin].box;
   const double gap = problem_.border_gap_of(part);

@@ -353,6 +353,7 @@ void SheetLane::exchange() {
   const auto a = static_cast<std::size_t>(random.below(n)), b = static_cast<std::size_t>(random.below(n));
   const Spot s = separator_.state().spots[a], t = separator_.state().spots[b];
   if (s.bin == kNowhere || t.bin == kNowhere || items_.parts[a] == items_.parts[b]) return;
+  if (!problem_.follows_grain(s.form, t.bin) || !problem_.follows_grain(t.form, s.bin)) return;
   const auto middle = [&](const Spot& spot) {
     const Box& box = problem_.forms()[spot.form].box;
     return geom::Point{spot.x + 0.5 * (box.x0 + box.x1), spot.y + 0.5 * (box.y0 + box.y1)};
