@@ -67,13 +67,13 @@ ProgressLine::~ProgressLine() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
 }
 
-void ProgressLine::show(const Progress& progress) {
+void ProgressLine::show(const Progress& progress, const std::string& says) {
   if (!terminal_) return;
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
   next_ = now + kBetweenLines;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  std::string line = fmt::format("\r\x1b[K{}: {:.0f} %", what_, 100 * progress.fraction);
+  std::string line = fmt::format("\r\x1b[K{}: {:.0f} %", what_, 100 * progress.fraction) + says;
   if (progress.fraction > 0.01) {
     line += fmt::format(", about {:.0f} s left", seconds * (1 - progress.fraction) / progress.fraction);
   }

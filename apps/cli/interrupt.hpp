@@ -28,7 +28,8 @@ class ProgressLine {
   ~ProgressLine();  ///< wipes the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
-  void show(const Progress& progress);
+  /// \param says  goes between the share done and the time left; may be empty
+  void show(const Progress& progress, const std::string& says = {});
 
  private:
   std::string what_;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <ctime>
+#include <map>
 
 #include "interrupt.hpp"
 #include "layout_input.hpp"
@@ -30,9 +32,11 @@ const char* sentence_of(nest::Reason reason) {
     case nest::Reason::no_angle:
       return "no angle is allowed for it on this stock";
     case nest::Reason::too_large:
-      return "larger than the stock at every angle it may have";
-    case nest::Reason::no_room:
-      return "no place was found on the stock that is there";
+      return "too large for the stock at every angle tried";
+    case nest::Reason::no_zone:
+      return "nowhere on the stock are zones and defects good enough for it";
+    case nest::Reason::no_stock:
+      return "no stock is left with room for it";
   }
   return "";
 }
@@ -54,12 +58,17 @@ Result<void> recheck(const layout::Document& document, const std::string& text) 
   return {};
 }
 
+Json remnant_of(const layout::SheetUse& use) {
+  if (!(use.remnant.low.x < use.remnant.high.x)) return nullptr;
+  return {geom::mm_from_grid(use.remnant.low.x), geom::mm_from_grid(use.remnant.low.y),
+          geom::mm_from_grid(use.remnant.high.x), geom::mm_from_grid(use.remnant.high.y)};
+}
+
 Json report_of(const LayoutInput& input, const NestOptions& o, const nest::Nested& found,
                const layout::Completeness& c, double seconds) {
   Json json = begin_layout_json("lekalo-nest", found.unplaced.empty() ? "complete" : "incomplete", input);
   json["seed"] = o.seed;
   json["work"] = found.work;
-  json["cpu_seconds"] = seconds;
   json["merges"] = found.merges;
   json["density"] = c.density;
   json["cost"] = c.cost;
@@ -70,7 +79,8 @@ Json report_of(const LayoutInput& input, const NestOptions& o, const nest::Neste
                       {"copy", use.sheet.copy},
                       {"parts", use.parts},
                       {"density", use.density()},
-                      {"length", use.used_length_mm}});
+                      {"length", use.used_length_mm},
+                      {"remnant", remnant_of(use)}});
   }
   if (c.sheets.size() == 1) json["length"] = c.sheets[0].used_length_mm;
   json["stocks"] = std::move(stocks);
@@ -78,38 +88,107 @@ Json report_of(const LayoutInput& input, const NestOptions& o, const nest::Neste
   for (std::size_t i = 0; i < found.document.kits.size(); ++i)
     kits.push_back({{"kit", found.document.kits[i].id},
                     {"complete", c.kits[i].complete},
-                    {"wanted", found.document.kits[i].demand}});
+                    {"wanted", found.document.kits[i].demand},
+                    {"value", found.document.kits[i].value}});
   json["kits"] = std::move(kits);
   Json unplaced = Json::array();
   for (const nest::Unplaced& u : found.unplaced)
     unplaced.push_back(
         {{"part", found.document.parts[u.part].id}, {"count", u.count}, {"reason", nest::name_of(u.reason)}});
   json["unplaced"] = std::move(unplaced);
+  json["run"] = {{"cpu_seconds", seconds}, {"threads", o.threads}};
   return json;
 }
+
+/// What the progress line says of the best layout so far.
+std::string standing_of(const nest::Nested& found) {
+  const layout::Document& document = found.document;
+  std::map<layout::Sheet, double> reach;
+  double parts = 0;
+  for (const layout::Placement& p : document.placements) {
+    const geom::GridRegion outline = placed_outline(document.parts[p.part], p);
+    parts += geom::area_mm2(outline);
+    double& far = reach[{p.stock, p.copy}];
+    far = std::max(far, geom::mm_from_grid(geom::bounds(outline).high.x));
+  }
+  double material = 0, length = 0;
+  for (const auto& [sheet, far] : reach) {
+    const geom::GridRegion& outline = document.stocks[sheet.stock].outline.polygon;
+    const geom::GridBox box = geom::bounds(outline);
+    length = far;
+    material += document.stocks[sheet.stock].kind == layout::StockKind::strip
+                    ? far * geom::mm_from_grid(box.high.y - box.low.y)
+                    : geom::area_mm2(outline);
+  }
+  std::string text = material > 0 ? fmt::format(", density {:.2f} %", 100 * parts / material) : "";
+  text +=
+      reach.size() == 1 ? fmt::format(", length {:.1f}", length) : fmt::format(", {} sheets", reach.size());
+  if (!document.kits.empty()) {
+    std::vector<layout::PieceCount> placed(document.parts.size());
+    for (const layout::Placement& p : document.placements)
+      ++(p.mirrored ? placed[p.part].mirrored : placed[p.part].upright);
+    std::int64_t complete = 0, wanted = 0;
+    for (const std::int64_t kits : layout::kits_made(document, std::move(placed)).complete) complete += kits;
+    for (const layout::Kit& kit : document.kits) wanted += kit.demand;
+    text += fmt::format(", {} of {} kits", complete, wanted);
+  }
+  return text;
+}
+
+/// Every better layout as a file, after both checks like the last one.
+class Stream {
+ public:
+  explicit Stream(std::string path) : path_(std::move(path)) {}
+  void take(const layout::Document& document) {
+    if (path_.empty() || !trouble_) return;
+    const std::string text = io::write_layout(document);
+    trouble_ = recheck(document, text).and_then([&] { return deliver(path_, text); });
+  }
+  /// What went wrong; later ones are not written then.
+  const Result<void>& trouble() const noexcept { return trouble_; }
+
+ private:
+  std::string path_;
+  Result<void> trouble_;
+};
 
 }  // namespace
 
 Result<int> run_nest(const NestOptions& o) {
   const Result<LayoutInput> input =
-      read_layout_input(o.source, {{"--output", o.output}, {"--picture", o.picture}});
+      read_layout_input(o.source, {{"--output", o.output}, {"--picture", o.picture}, {"--stream", o.stream}});
   if (!input) return tl::unexpected(input.error());
   nest::Options options;
   options.seed = o.seed;
   options.threads = o.threads;
   options.angles = o.angles;
+  options.from_given = !o.from_scratch;
+  options.pair_distance = o.pair_distance;
   RunControl control;
   control.work_limit = o.work;
+  Stream stream(o.stream);
+  std::string standing;
+  options.improved = [&](const nest::Nested& better) {
+    stream.take(better.document);
+    standing = standing_of(better);
+  };
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
   const double start = processor_seconds();
   Result<nest::Nested> found = failure(ErrorCode::usage, "");
   {
     const StopRequests stop(o.seconds);
     ProgressLine line("nesting");
     control.stop = stop.flag();
-    control.progress = [&](const Progress& progress) { line.show(progress); };
+    control.progress = [&](const Progress& progress) {
+      const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
+      const double share = o.seconds ? std::min(1.0, passed / *o.seconds) : 0;
+      line.show({progress.work, std::max(progress.fraction, share)}, standing);
+    };
     found = nest::nest(input->document, options, control);
   }
   if (!found) return tl::unexpected(found.error());
+  if (!stream.trouble()) return tl::unexpected(stream.trouble().error());
   const double seconds = processor_seconds() - start;
   const std::string text = io::write_layout(found->document);
   if (Result<void> fine = recheck(found->document, text); !fine) return tl::unexpected(fine.error());

@@ -10,7 +10,8 @@ namespace {
 /// As typed.
 struct NestWords {
   LayoutWords layout;
-  std::string output, time, work, seed, threads, angles;
+  std::string output, stream, time, work, seed, threads, angles, pairs;
+  bool from_scratch = false;
 };
 
 Result<Command> to_nest(const NestWords& w) {
@@ -20,6 +21,8 @@ Result<Command> to_nest(const NestWords& w) {
   NestOptions o;
   o.source = std::move(*source);
   o.output = w.output;
+  o.stream = w.stream;
+  o.from_scratch = w.from_scratch;
   o.picture = w.layout.picture;
   o.json = w.layout.json;
   WordReader read;
@@ -29,6 +32,8 @@ Result<Command> to_nest(const NestWords& w) {
   read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.threads);
   read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360",
               o.angles);
+  if (!w.pairs.empty())
+    read.number("--pairs", w.pairs, 0.001, 1e6, "a distance from 0.001 to 1,000,000 mm", o.pair_distance);
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
@@ -45,15 +50,22 @@ Typed add_nest_form(CLI::App& app) {
   NestWords& w = *words;
   add_layout_source(app, w.layout);
   app.add_option("-o,--output", w.output, "Write the layout to this file [stdout]")->type_name("FILE");
+  app.add_option("--stream", w.stream, "Replace this file with every better layout as it is found")
+      ->type_name("FILE");
   const WordAdder add(app, "Search");
   add("--time", w.time, "SECONDS", "Stop after this time; the report's work repeats it [60 without --work]");
   add("--work", w.work, "N", "Stop after about N candidate places: same bytes on every machine");
   add("--threads", w.threads, "N", "Changes the speed, not the result [2]");
   add("--seed", w.seed, "S", "Seed of all random choices [0]");
   add("--angles", w.angles, "N", "Angles to try of parts that may be turned anyhow [24]");
+  add("--pairs", w.pairs, "MM", "Left and right pieces of a kit lie so near one another, middle to middle");
+  app.add_flag("--from-scratch", w.from_scratch,
+               "Drop what lies there and is not locked, instead of improving it")
+      ->group("Search");
   app.footer(
-      "Locked placements stay, others are made anew. Ctrl-C keeps the best so far. What is written passes\n"
-      "lekalo check.\n"
+      "Locked placements stay. Others are where the search begins, and the result is no worse; what is "
+      "wanted\n"
+      "and not there is added. Ctrl-C keeps the best so far. What is written passes lekalo check.\n"
       "Exit codes: 0 everything is placed, 1 some pieces are not, 2 wrong command line, 3 a file cannot be\n"
       "read or nested, 4 the layout found did not pass the check (please report), 5 disk or memory.");
   add_layout_outputs(app, w.layout);

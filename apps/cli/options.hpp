@@ -136,6 +136,9 @@ struct EditOptions {
 struct NestOptions {
   LayoutSource source;
   std::string output, picture;  ///< may be empty; output: stdout, unless the report goes there
+  std::string stream;           ///< every better layout; may be empty
+  double pair_distance = 0;     ///< mm; 0: pairs lie anywhere
+  bool from_scratch = false;    ///< what lies there and is not locked is dropped, not improved
   std::optional<double> seconds;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t seed = 0;

@@ -13,13 +13,10 @@ using layout::Placement;
 using layout::Sheet;
 using layout::Workspace;
 
-/// What leads from one list of placements to another one with the same ids.
-layout::Change difference(const layout::Document& from, const Workspace& to) {
+layout::Change change_to(const layout::Document& from, const Workspace& to) {
   layout::Change change;
   change.next_id_before = change.next_id_after = from.next_id;
-  for (const Placement& before : from.placements)
-    if (const Placement* after = to.find(before.id); *after != before)
-      change.placements.push_back({before, *after});
+  change.placements = difference(from.placements, to.document().placements);
   return change;
 }
 
@@ -46,12 +43,29 @@ Result<layout::Change> compact_all(const layout::Document& document, const JobCo
     carry_out(work, *change);
     done += count;
     if (context.run.stop_requested()) break;
-    if (context.improved && !change->is_nothing()) context.improved(difference(document, work));
+    if (context.improved && !change->is_nothing()) context.improved(change_to(document, work));
   }
-  return difference(document, work);
+  return change_to(document, work);
 }
 
 }  // namespace
+
+std::vector<layout::PlacementChange> difference(const std::vector<Placement>& from,
+                                                const std::vector<Placement>& to) {
+  std::vector<layout::PlacementChange> changes;
+  std::size_t i = 0, k = 0;
+  while (i < from.size() || k < to.size()) {
+    if (k == to.size() || (i < from.size() && from[i].id < to[k].id)) {
+      changes.push_back({from[i++], std::nullopt});
+    } else if (i == from.size() || to[k].id < from[i].id) {
+      changes.push_back({std::nullopt, to[k++]});
+    } else {
+      if (from[i] != to[k]) changes.push_back({from[i], to[k]});
+      ++i, ++k;
+    }
+  }
+  return changes;
+}
 
 std::optional<Job> job_of(const layout::Command& command, layout::Mode mode) {
   if (const auto* compact = std::get_if<layout::CompactCommand>(&command); compact && !compact->sheet)

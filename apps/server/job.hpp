@@ -29,6 +29,10 @@ using Job = std::function<Result<layout::Change>(const layout::Document&, const 
 /// The job that a command is; none for commands that take a moment.
 [[nodiscard]] std::optional<Job> job_of(const layout::Command& command, layout::Mode mode);
 
+/// From one list of placements to another, both ascending by id.
+[[nodiscard]] std::vector<layout::PlacementChange> difference(const std::vector<layout::Placement>& from,
+                                                              const std::vector<layout::Placement>& to);
+
 using JobNumber = std::uint64_t;
 
 /// A job that is to be run, and whatever it needs for that.

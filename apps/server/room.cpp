@@ -9,6 +9,7 @@
 
 #include "lekalo/io/layout_json.hpp"
 #include "lekalo/io/layout_messages.hpp"
+#include "nest_job.hpp"
 
 namespace lekalo::server {
 namespace {
@@ -98,23 +99,6 @@ layout::Change reversed(const layout::Change& change, std::uint64_t next_id) {
   return back;
 }
 
-/// From one list of placements to another, both ascending by id.
-layout::Change difference(const std::vector<Placement>& from, const std::vector<Placement>& to) {
-  layout::Change change;
-  std::size_t i = 0, k = 0;
-  while (i < from.size() || k < to.size()) {
-    if (k == to.size() || (i < from.size() && from[i].id < to[k].id)) {
-      change.placements.push_back({from[i++], std::nullopt});
-    } else if (i == from.size() || to[k].id < from[i].id) {
-      change.placements.push_back({std::nullopt, to[k++]});
-    } else {
-      if (from[i] != to[k]) change.placements.push_back({from[i], to[k]});
-      ++i, ++k;
-    }
-  }
-  return change;
-}
-
 /// What is refused in strict mode, to be shown: the violations that the command would make.
 std::string violations_of_refused(const layout::Workspace& workspace, const layout::Command& command) {
   if (job_of(command, layout::Mode::free)) return "[]";  // takes too long to be tried again for this
@@ -196,24 +180,31 @@ Outbound Room::resend(ClientNumber client) const {
 
 Outbound Room::command(ClientNumber client, const CommandMessage& said) {
   Outbound out;
+  if (const auto nest = nest_request(said.text, document())) {
+    if (*nest)
+      start({client, said, to_text(**nest), std::nullopt, job_of(**nest), nullptr, 0});
+    else
+      out.push_back(message(client, refused(said.seq, nest->error().message)));
+    return out;
+  }
   const Result<layout::Command> command = layout::command_from_text(said.text, document());
   if (!command) {
     out.push_back(message(client, refused(said.seq, command.error().message)));
     return out;
   }
   if (std::optional<Job> job = job_of(*command, said.mode)) {
-    start({client, said, *command, std::move(*job), nullptr, 0});
+    start({client, said, to_text(*command, document()), *command, std::move(*job), nullptr, 0});
     return out;
   }
   Result<layout::Change> change = layout::plan(workspace_, *command, said.mode);
-  if (change) return carry_out(client, said, *command, std::move(*change));
+  if (change) return carry_out(client, said, to_text(*command, document()), std::move(*change));
   const std::string violations =
       change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
   out.push_back(message(client, refused(said.seq, change.error().message, violations)));
   return out;
 }
 
-Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const layout::Command& command,
+Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
                          layout::Change change, bool stopped) {
   Outbound out;
   std::string more = stopped ? ", \"stopped\": true" : "";
@@ -227,7 +218,7 @@ Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const 
   }
   StoredChange stored;
   stored.mode = said.mode;
-  stored.text = layout::to_text(command, document()) + (stopped ? " # stopped early" : "");
+  stored.text = text + (stopped ? " # stopped early" : "");
   stored.change = change;
   if (Result<void> kept = commit(client, std::move(stored), out); !kept) {
     out.push_back(message(client, refused(said.seq, kept.error().message)));
@@ -315,11 +306,11 @@ Outbound Room::job_ended(JobNumber job, const Result<layout::Change>& found) {
     return out;
   };
   if (!found)
-    return refuse(found.error().message, found.error().code == ErrorCode::refuted
-                                             ? violations_of_refused(workspace_, running.command)
+    return refuse(found.error().message, found.error().code == ErrorCode::refuted && running.command
+                                             ? violations_of_refused(workspace_, *running.command)
                                              : "[]");
   if (auto change = rebased(*found, running.said.mode))
-    return carry_out(running.client, running.said, running.command, std::move(*change), *running.stop);
+    return carry_out(running.client, running.said, running.text, std::move(*change), *running.stop);
   constexpr int kMostAttempts = 3;
   if (*running.stop || running.attempts == kMostAttempts)
     return refuse(
@@ -503,7 +494,7 @@ Result<Outbound> Room::restore(Revision revision) {
   change.mode = layout::Mode::free;
   change.target = revision;
   change.text = fmt::format("restore {}", revision);
-  change.change = difference(document().placements, state->placements);
+  change.change.placements = difference(document().placements, state->placements);
   change.change.next_id_before = change.change.next_id_after = document().next_id;
   change.change.features = layout::feature_difference(document(), *state);
   if (change.change.is_nothing()) return out;

@@ -88,7 +88,8 @@ class Room {
   struct Running {
     ClientNumber client = 0;
     CommandMessage said;
-    layout::Command command;
+    std::string text;                        ///< for the history
+    std::optional<layout::Command> command;  ///< none for one that is no command of a layout
     Job job;
     std::shared_ptr<std::atomic<bool>> stop;
     int attempts = 0;
@@ -101,9 +102,8 @@ class Room {
 
   [[nodiscard]] Outbound command(ClientNumber client, const CommandMessage& message);
   /// Answers a command that is planned: shown, or carried out.
-  [[nodiscard]] Outbound carry_out(ClientNumber client, const CommandMessage& said,
-                                   const layout::Command& command, layout::Change change,
-                                   bool stopped = false);
+  [[nodiscard]] Outbound carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
+                                   layout::Change change, bool stopped = false);
   void start(Running running);
   void stop(ClientNumber client, const StopMessage& message);
   /// A change that was planned on an earlier state, in this one; none where that is not possible any more.

@@ -127,6 +127,22 @@ SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const
 
 }  // namespace
 
+KitsMade kits_made(const Document& document, std::vector<PieceCount> placed) {
+  KitsMade made{{}, std::move(placed)};
+  for (const Kit& kit : document.kits) {
+    const auto shares = shares_of(kit);
+    std::int64_t complete = kit.demand;
+    for (const auto& [part, share] : shares) complete = std::min(complete, kits_of(made.left[part], share));
+    for (const auto& [part, share] : shares) {
+      made.left[part].upright -= complete * share.upright;
+      made.left[part].mirrored -= complete * share.mirrored;
+      take_either(made.left[part], complete * share.either);
+    }
+    made.complete.push_back(complete);
+  }
+  return made;
+}
+
 Completeness completeness(const Workspace& workspace) {
   const Document& document = workspace.document();
   Completeness result;
@@ -138,22 +154,10 @@ Completeness completeness(const Workspace& workspace) {
     sheets[{placement.stock, placement.copy}].push_back(&placement);
   }
 
-  std::vector<PieceCount> left = result.placed;
+  auto [complete, left] = kits_made(document, result.placed);
   result.missing.resize(document.parts.size());
   result.surplus.resize(document.parts.size());
-  for (const Kit& kit : document.kits) {
-    const auto shares = shares_of(kit);
-    KitCount count;
-    count.complete = kit.demand;
-    for (const auto& [part, share] : shares)
-      count.complete = std::min(count.complete, kits_of(left[part], share));
-    for (const auto& [part, share] : shares) {
-      left[part].upright -= count.complete * share.upright;
-      left[part].mirrored -= count.complete * share.mirrored;
-      take_either(left[part], count.complete * share.either);
-    }
-    result.kits.push_back(std::move(count));
-  }
+  for (const std::int64_t kits : complete) result.kits.push_back({kits, {}});
   // What is left serves the kits begun, in the same order.
   for (std::size_t kit = 0; kit < document.kits.size(); ++kit) {
     KitCount& count = result.kits[kit];

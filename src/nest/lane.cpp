@@ -558,7 +558,7 @@ void Lane::step() {
 
 void Lane::run(std::uint64_t work) {
   const std::uint64_t until = separator_.work() + work;
-  while (!done_ && separator_.work() < until) step();
+  while (!done_ && separator_.work() < until && !separator_.is_stopped()) step();
 }
 
 }  // namespace lekalo::nest

@@ -4,17 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "merit.hpp"
 #include "separator.hpp"
 
 namespace lekalo::nest {
-
-/// How good a valid state is; less is better.
-struct Merit {
-  double unplaced = 0;  ///< mm^2, weighed by priority
-  double cost = 0;      ///< of the stock in use
-  double reach = 0;     ///< of a strip, mm; else the box from the corner that holds what is on the last, mm^2
-  friend auto operator<=>(const Merit&, const Merit&) = default;
-};
 
 /// One strand of the search; strands run on their own between merges. It takes pieces that lie nowhere in,
 /// empties sheets and shortens the last one, each by asking for a little more than there is and ending the
@@ -33,6 +26,7 @@ class Lane {
 
   const State& best() const noexcept { return best_; }
   const Merit& merit() const noexcept { return merit_; }
+  Separator& separator() noexcept { return separator_; }
   std::uint64_t work() const noexcept { return separator_.work(); }
   /// Nothing is left to be gained.
   bool is_done() const noexcept { return done_; }

@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <map>
 #include <memory>
 #include <thread>
 
+#include "builder.hpp"
 #include "lane.hpp"
 #include "lekalo/layout/check.hpp"
+#include "reason.hpp"
 #include "settle.hpp"
+#include "sheet_lane.hpp"
 
 namespace lekalo::nest {
 namespace {
@@ -18,11 +24,19 @@ constexpr std::size_t kLanes = 2;
 constexpr std::uint64_t kSegment = 200'000;
 /// Merges without a gain of its own after which a strand goes on from the best.
 constexpr int kMergesAlone = 20;
+/// Streams of chance of what makes the first states; those of the strands come before.
+constexpr std::uint64_t kBuilderStreams = 1000;
+/// Of a first layout: it is not left unfinished before, whoever wants to stop.
+constexpr std::uint64_t kFirstWork = 1'000'000;
 constexpr std::int64_t kMostPieces = 100'000;
 
 struct Wanted {
   Items items;
   std::vector<Unplaced> unplaced;
+  /// By item: the placement it is in the given layout, 0 for a new one, and where that lies.
+  std::vector<std::uint64_t> ids;
+  State start;
+  bool starts_somewhere = false;
 };
 
 /// Pieces of one part: of either hand, upright, mirrored.
@@ -51,7 +65,102 @@ std::vector<Hands> hands_wanted(const layout::Document& document) {
   return wanted;
 }
 
-Wanted wanted_items(const Problem& problem) {
+bool has(const Forms& forms, std::uint32_t form) noexcept { return form >= forms.first && form < forms.last; }
+
+/// The form of a part at a rotation, or the one that is turned least from it.
+std::uint32_t nearest_form(const Problem& problem, const layout::Placement& p) {
+  const std::uint32_t same = problem.form_of(p.part, p.rotation, p.mirrored);
+  if (same < problem.forms().size()) return same;
+  const Forms forms = problem.forms_of(p.part, p.mirrored);
+  std::uint32_t best = forms.first;
+  double most = -2;
+  for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+    const double cosine = problem.forms()[f].c * static_cast<double>(p.rotation.c) * 0x1p-52 +
+                          problem.forms()[f].s * static_cast<double>(p.rotation.s) * 0x1p-52;
+    if (cosine <= most) continue;
+    most = cosine;
+    best = f;
+  }
+  return best;
+}
+
+/// Placements that are not locked and break no rule among themselves or against what is locked: those that
+/// break most are left out first.
+std::vector<layout::Placement> sound_placements(const layout::Document& document) {
+  std::vector<layout::Violation> violations =
+      layout::check_some(document, document.placements, {}, layout::Depths::left_out);
+  std::vector<layout::Placement> sound;
+  std::map<std::uint64_t, std::size_t> broken;  // rules, by id
+  for (const layout::Placement& p : document.placements)
+    if (!p.locked) broken[p.id] = 0;
+  while (true) {
+    for (auto& [id, count] : broken) count = 0;
+    for (const layout::Violation& v : violations)
+      for (const std::uint64_t id : {v.a, v.b})
+        if (const auto at = broken.find(id); at != broken.end()) ++at->second;
+    const auto worst = std::max_element(broken.begin(), broken.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (worst == broken.end() || worst->second == 0) break;
+    std::erase_if(violations,
+                  [&](const layout::Violation& v) { return v.a == worst->first || v.b == worst->first; });
+    broken.erase(worst);
+  }
+  for (const layout::Placement& p : document.placements)
+    if (broken.contains(p.id)) sound.push_back(p);
+  return sound;
+}
+
+/// Two and two of a kit's pieces of one part: left and right ones first.
+void add_partners(const Problem& problem, double reach, Items& items) {
+  const layout::Document& document = problem.document();
+  if (!(reach > 0) || document.kits.empty()) return;
+  items.pair_reach = reach;
+  items.partners.assign(items.movable(), kNowhere);
+  using Pool = std::vector<std::uint32_t>;
+  struct Pools {
+    Pool either, upright, mirrored;
+  };
+  std::vector<Pools> pools(document.parts.size());
+  for (auto i = static_cast<std::uint32_t>(items.movable()); i-- > 0;) {  // the first ones are taken last
+    const std::uint32_t p = items.parts[i];
+    (items.forms[i] == problem.forms_of(p)          ? pools[p].either
+     : items.forms[i] == problem.forms_of(p, false) ? pools[p].upright
+                                                    : pools[p].mirrored)
+        .push_back(i);
+  }
+  const auto take = [](Pool& from, Pool& or_from, std::int64_t count) {
+    Pool taken;
+    for (; count > 0 && !(from.empty() && or_from.empty()); --count) {
+      Pool& pool = from.empty() ? or_from : from;
+      taken.push_back(pool.back());
+      pool.pop_back();
+    }
+    return taken;
+  };
+  const auto pair = [&](std::uint32_t a, std::uint32_t b) {
+    items.partners[a] = b;
+    items.partners[b] = a;
+  };
+  for (const layout::Kit& kit : document.kits)
+    for (std::int64_t copy = 0; copy < kit.demand; ++copy) {
+      std::map<std::uint32_t, std::array<std::int64_t, 3>> counts;  // by part: either, upright, mirrored
+      for (const layout::KitPiece& piece : kit.pieces)
+        counts[piece.part][piece.mirrored ? (*piece.mirrored ? 2 : 1) : 0] += piece.count;
+      for (const auto& [part, count] : counts) {
+        Pools& of = pools[part];
+        const Pool upright = take(of.upright, of.either, count[1]),
+                   mirrored = take(of.mirrored, of.either, count[2]);
+        Pool rest = take(of.either, of.either, count[0]);
+        const std::size_t both = std::min(upright.size(), mirrored.size());
+        for (std::size_t k = 0; k < both; ++k) pair(upright[k], mirrored[k]);
+        rest.insert(rest.end(), upright.begin() + static_cast<std::ptrdiff_t>(both), upright.end());
+        rest.insert(rest.end(), mirrored.begin() + static_cast<std::ptrdiff_t>(both), mirrored.end());
+        for (std::size_t k = 0; k + 1 < rest.size(); k += 2) pair(rest[k], rest[k + 1]);
+      }
+    }
+}
+
+Wanted wanted_items(const Problem& problem, bool from_given) {
   const layout::Document& document = problem.document();
   Wanted wanted;
   const auto add = [&](std::uint32_t p, std::int64_t count, std::optional<bool> mirrored) {
@@ -66,7 +175,21 @@ Wanted wanted_items(const Problem& problem) {
       wanted.items.forms.insert(wanted.items.forms.end(), static_cast<std::size_t>(count), forms);
     }
   };
-  const std::vector<Hands> hands = hands_wanted(document);
+  std::vector<Hands> hands = hands_wanted(document);
+  if (from_given) {  // what lies there is wanted, whatever the demand
+    std::vector<Hands> left = hands;
+    for (const layout::Placement& p : document.placements) {
+      if (p.locked) continue;
+      std::int64_t& own = p.mirrored ? left[p.part].mirrored : left[p.part].upright;
+      std::int64_t& either = left[p.part].either;
+      if (own > 0)
+        --own;
+      else if (either > 0)
+        --either;
+      else
+        ++(p.mirrored ? hands[p.part].mirrored : hands[p.part].upright);
+    }
+  }
   for (std::uint32_t p = 0; p < hands.size(); ++p) {
     add(p, hands[p].either, std::nullopt);
     add(p, hands[p].upright, false);
@@ -74,10 +197,40 @@ Wanted wanted_items(const Problem& problem) {
   }
   for (std::uint32_t b = 0; b < problem.bins().size(); ++b)
     for (const Obstacle& o : problem.bins()[b].obstacles) wanted.items.fixed.push_back({o.x, o.y, o.form, b});
+  wanted.ids.assign(wanted.items.movable(), 0);
+  wanted.start = empty_state(problem, wanted.items);
+  if (!from_given) return wanted;
+  const std::vector<layout::Placement> sound = sound_placements(document);
+  for (const layout::Placement& p : document.placements) {
+    if (p.locked) continue;
+    const Forms same_hand = problem.forms_of(p.part, p.mirrored);
+    if (same_hand.first == same_hand.last) continue;
+    const std::uint32_t form = nearest_form(problem, p);
+    // One that has to be of this hand rather than one that may be of either.
+    std::size_t item = wanted.items.movable();
+    for (std::size_t i = 0; i < wanted.items.movable(); ++i) {
+      if (wanted.ids[i] != 0 || wanted.items.parts[i] != p.part || !has(wanted.items.forms[i], form))
+        continue;
+      if (item == wanted.items.movable() || wanted.items.forms[i] == same_hand) item = i;
+    }
+    if (item == wanted.items.movable()) continue;
+    wanted.ids[item] = p.id;
+    if (problem.forms()[form].rotation != p.rotation ||
+        std::find(sound.begin(), sound.end(), p) == sound.end())
+      continue;
+    const auto& bins = problem.bins();
+    for (std::uint32_t b = 0; b < bins.size(); ++b) {
+      if (bins[b].stock != p.stock || bins[b].copy != p.copy) continue;
+      wanted.start.spots[item] = {geom::mm_from_grid(p.at.x), geom::mm_from_grid(p.at.y), form, b};
+      wanted.starts_somewhere = true;
+      auto& open = wanted.start.open_bins;
+      if (std::find(open.begin(), open.end(), b) == open.end()) open.push_back(b);
+    }
+  }
   return wanted;
 }
 
-Result<void> check_document(const layout::Document& document) {
+Result<void> check_document(const layout::Document& document, bool from_given) {
   if (document.stocks.empty())
     return failure(ErrorCode::bad_input, "the layout has no stock to nest on: add a strip, sheets or hides");
   std::int64_t pieces = 0;
@@ -88,14 +241,16 @@ Result<void> check_document(const layout::Document& document) {
           ErrorCode::bad_input,
           fmt::format("more than {} pieces are wanted; nest them in several layouts", kMostPieces));
   }
-  if (pieces == 0)
+  const bool has_given = from_given && std::any_of(document.placements.begin(), document.placements.end(),
+                                                   [](const layout::Placement& p) { return !p.locked; });
+  if (pieces == 0 && !has_given)
     return failure(ErrorCode::bad_input, "nothing to nest: no part has a demand and no kit is wanted");
   layout::Document locked = document;
   std::erase_if(locked.placements, [](const layout::Placement& p) { return !p.locked; });
   const auto violations = layout::check(locked);
   if (!violations.empty())
     return failure(ErrorCode::bad_input,
-                   fmt::format("the locked placement {} breaks a rule ({}); unlock or move it first",
+                   fmt::format("placement {}, which is to stay, breaks a rule ({}); move or unlock it first",
                                violations[0].a, layout::name_of(violations[0].kind)));
   return {};
 }
@@ -112,27 +267,39 @@ std::optional<layout::Document> settled_somehow(const Problem& problem, const It
   }
 }
 
+/// What a strand is begun with: its own choices, and how much work they took.
+struct Begun {
+  State state;
+  std::uint64_t work = 0;
+  bool ended_early = false;
+};
+
+template <class Strand>
 class Run {
  public:
   Run(const Problem& problem, const Wanted& wanted, const Options& options, const RunControl& control)
       : problem_(problem), wanted_(wanted), options_(options), control_(control) {
-    for (std::size_t k = 0; k < kLanes; ++k)
-      lanes_.push_back(std::make_unique<Lane>(problem, wanted.items, options.seed, k));
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      lanes_.push_back(std::make_unique<Strand>(problem, wanted.items, options.seed, k));
+      lanes_.back()->separator().watch(control.stop);
+    }
+    begun_.resize(kLanes);
   }
 
   Nested go() {
-    if (wanted_.items.movable() > 0) {
-      each_lane([](Lane& lane) { lane.build(); });
+    best_.document = problem_.document();
+    std::erase_if(best_.document.placements, [](const layout::Placement& p) { return !p.locked; });
+    best_.unplaced = wanted_.unplaced;
+    if (wanted_.items.movable() == 0) return best_;
+    begin();
+    if (begun_[0].work >= control_.work_limit) lanes_.resize(1);
+    merge();
+    while (!control_.stop_requested() && best_.work < control_.work_limit &&
+           std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return !lane->is_done(); })) {
+      each_lane([](Strand& lane, std::size_t) { lane.run(kSegment); });
+      // What was ended in the middle does not count: the last merge is what the same work gives again.
+      if (control_.stop_requested()) break;
       merge();
-      while (!control_.stop_requested() && best_.work < control_.work_limit &&
-             std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return !lane->is_done(); })) {
-        each_lane([](Lane& lane) { lane.run(kSegment); });
-        merge();
-      }
-    } else {
-      best_.document = problem_.document();
-      std::erase_if(best_.document.placements, [](const layout::Placement& p) { return !p.locked; });
-      best_.unplaced = wanted_.unplaced;
     }
     return best_;
   }
@@ -140,32 +307,59 @@ class Run {
  private:
   template <class Task>
   void each_lane(Task task) {
-    if (options_.threads < 2) {
-      for (const auto& lane : lanes_) task(*lane);
+    if (options_.threads < 2 || lanes_.size() < 2) {
+      for (std::size_t k = 0; k < lanes_.size(); ++k) task(*lanes_[k], k);
       return;
     }
     std::vector<std::thread> threads;
-    for (std::size_t k = 1; k < lanes_.size(); ++k) threads.emplace_back([&, k] { task(*lanes_[k]); });
-    task(*lanes_[0]);
+    for (std::size_t k = 1; k < lanes_.size(); ++k) threads.emplace_back([&, k] { task(*lanes_[k], k); });
+    task(*lanes_[0], 0);
     for (std::thread& thread : threads) thread.join();
   }
+
+  /// First valid states. A run that ends here ends between two pieces of the first strand, and the others do
+  /// not count: so the same work ends it there again.
+  void begin() {
+    const std::vector<std::uint32_t> order = by_size(problem_, wanted_.items);
+    std::atomic<bool> first_ended{false};
+    each_lane([&](Strand& lane, std::size_t k) {
+      Begun& begun = begun_[k];
+      Separator separator(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));
+      begun.state = built(problem_, wanted_.items, separator, wanted_.start, order, [&] {
+        begun.ended_early =
+            first_ended ||
+            (separator.work() >= kFirstWork &&
+             (control_.stop_requested() || (k == 0 && separator.work() >= control_.work_limit)));
+        if (k == 0 && begun.ended_early) first_ended = true;
+        return begun.ended_early;
+      });
+      begun.work = separator.work();
+      if (!begun.ended_early) lane.start(begun.state);
+    });
+    if (std::any_of(begun_.begin(), begun_.end(), [](const Begun& b) { return b.ended_early; })) {
+      lanes_.resize(1);
+      lanes_[0]->start(begun_[0].state);
+    }
+  }
+
+  std::uint64_t work_of(std::size_t k) const { return begun_[k].work + lanes_[k]->work(); }
 
   void merge() {
     ++best_.merges;
     best_.work = 0;
     std::size_t first = 0;
     for (std::size_t k = 0; k < lanes_.size(); ++k) {
-      best_.work += lanes_[k]->work();
+      best_.work += work_of(k);
       if (lanes_[k]->merit() < lanes_[first]->merit()) first = k;
     }
-    const Lane& leader = *lanes_[first];
+    const Strand& leader = *lanes_[first];
     if (!has_any_ || leader.merit() < merit_) {
       auto document = has_any_ ? settled(problem_, wanted_.items, leader.best())
                                : settled_somehow(problem_, wanted_.items, leader.best());
       if (document) {
         has_any_ = true;
         merit_ = leader.merit();
-        best_.document = std::move(*document);
+        best_.document = numbered(std::move(*document));
         count_unplaced();
         if (options_.improved) options_.improved(best_);
       }
@@ -187,6 +381,20 @@ class Run {
     }
   }
 
+  /// Given pieces keep their ids, new ones get the next.
+  layout::Document numbered(layout::Document document) const {
+    const std::uint64_t first = problem_.document().next_id;
+    document.next_id = first;
+    for (layout::Placement& p : document.placements)
+      if (!p.locked) {
+        const std::uint64_t given = wanted_.ids[p.id - first];
+        p.id = given != 0 ? given : document.next_id++;
+      }
+    std::sort(document.placements.begin(), document.placements.end(),
+              [](const layout::Placement& a, const layout::Placement& b) { return a.id < b.id; });
+    return document;
+  }
+
   void count_unplaced() {
     best_.unplaced = wanted_.unplaced;
     std::vector<std::int64_t> missing(problem_.document().parts.size(), 0);
@@ -194,20 +402,28 @@ class Run {
     for (const layout::Placement& p : best_.document.placements)
       if (!p.locked) --missing[p.part];
     for (std::uint32_t p = 0; p < missing.size(); ++p)
-      if (missing[p] > 0) best_.unplaced.push_back({p, missing[p], Reason::no_room});
-    std::sort(best_.unplaced.begin(), best_.unplaced.end(),
-              [](const Unplaced& a, const Unplaced& b) { return a.part < b.part; });
+      if (missing[p] > 0) best_.unplaced.push_back({p, missing[p], reason_of(p)});
+    std::stable_sort(best_.unplaced.begin(), best_.unplaced.end(),
+                     [](const Unplaced& a, const Unplaced& b) { return a.part < b.part; });
+  }
+
+  Reason reason_of(std::uint32_t part) {
+    const auto known = reasons_.find(part);
+    if (known != reasons_.end()) return known->second;
+    return reasons_[part] = reason_alone(problem_, part);
   }
 
   const Problem& problem_;
   const Wanted& wanted_;
   const Options& options_;
   const RunControl& control_;
-  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::vector<std::unique_ptr<Strand>> lanes_;
+  std::vector<Begun> begun_;
   std::vector<int> alone_;
   Merit merit_;
   bool has_any_ = false;
   Nested best_;
+  std::map<std::uint32_t, Reason> reasons_;
 };
 
 }  // namespace
@@ -218,19 +434,26 @@ std::string_view name_of(Reason reason) noexcept {
       return "no-angle";
     case Reason::too_large:
       return "too-large";
-    case Reason::no_room:
-      return "no-room";
+    case Reason::no_zone:
+      return "no-zone";
+    case Reason::no_stock:
+      return "no-stock";
   }
   return "";
 }
 
 Result<Nested> nest(const layout::Document& document, const Options& options, const RunControl& control) {
-  if (Result<void> fine = check_document(document); !fine) return tl::unexpected(fine.error());
+  if (Result<void> fine = check_document(document, options.from_given); !fine)
+    return tl::unexpected(fine.error());
   SearchOptions search;
   search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
+  search.given_angles = options.from_given;
   const Problem problem(document, search);
-  const Wanted wanted = wanted_items(problem);
-  return Run(problem, wanted, options, control).go();
+  Wanted wanted = wanted_items(problem, options.from_given);
+  add_partners(problem, options.pair_distance, wanted.items);
+  const bool strip = problem.bins().size() == 1 && problem.bins()[0].open;
+  return strip ? Run<Lane>(problem, wanted, options, control).go()
+               : Run<SheetLane>(problem, wanted, options, control).go();
 }
 
 }  // namespace lekalo::nest

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numeric>
 
 #include "lekalo/geom/boolean.hpp"
@@ -20,6 +21,10 @@ using geom::Point;
 /// the end are the outlines themselves.
 constexpr double kSimplify = 0.0005;
 constexpr std::size_t kEnoughCorners = 48;
+/// Angles of given placements beside the usual ones: every pair of angles may need a table.
+constexpr int kMostGivenAngles = 64;
+constexpr double kManyTables = 4000;
+constexpr std::size_t kStockCells = 4;  ///< so many times those of a pair of parts
 
 Shape shape_of(const GridRegion& region) {
   Shape shape;
@@ -163,10 +168,16 @@ Problem::Problem(const layout::Document& document, const SearchOptions& options)
   add_locked();
   add_relative_angles();
   find_unit();
+  find_grain();
+  // Where every table serves few looks, coarse ones: what decides validity is exact in any.
+  const double parts = static_cast<double>(by_part_.size());
+  const double tables = 0.5 * parts * parts * static_cast<double>(relative_count_);
+  cells_ = tables > kManyTables ? options_.cells / 4 : options_.cells;
 }
 
 void Problem::add_parts() {
   const layout::Document& document = *document_;
+  int given_left = kMostGivenAngles;
   std::vector<int> qualities;
   for (const layout::Stock& stock : document.stocks)
     for (const layout::QualityZone& zone : stock.zones) qualities.push_back(zone.quality);
@@ -217,9 +228,16 @@ void Problem::add_parts() {
         shape.demanding.emplace_back(quality, demanding_more(part, quality, mirrored == 1));
       shapes_.push_back(std::move(shape));
       const auto index = static_cast<std::uint32_t>(shapes_.size() - 1);
-      std::vector<geom::GridRotation> seen;
-      for (const double degrees : angles) {
-        const geom::GridRotation rotation = geom::rotation_from_degrees(degrees);
+      std::vector<geom::GridRotation> rotations, seen;
+      for (const double degrees : angles) rotations.push_back(geom::rotation_from_degrees(degrees));
+      if (options_.given_angles)
+        for (const layout::Placement& p_given : document.placements)
+          if (!p_given.locked && p_given.part == p && p_given.mirrored == (mirrored == 1) && given_left > 0 &&
+              std::find(rotations.begin(), rotations.end(), p_given.rotation) == rotations.end()) {
+            rotations.push_back(p_given.rotation);
+            --given_left;
+          }
+      for (const geom::GridRotation rotation : rotations) {
         if (!layout::rotation_allowed(part, rotation)) continue;
         if (std::none_of(document.stocks.begin(), document.stocks.end(), [&](const layout::Stock& stock) {
               return layout::grain_allowed(part, stock, rotation, mirrored == 1);
@@ -245,27 +263,33 @@ std::uint32_t Problem::obstacle_form(SearchShape::Kind kind, int level, Shape sh
   return static_cast<std::uint32_t>(forms_.size() - 1);
 }
 
+/// One obstacle of a kind and level each, so that a part needs few tables for all of a stock.
 void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   using Kind = SearchShape::Kind;
   const layout::Stock& stock = document_->stocks[s];
   const auto outer = loop_of(stock.outline.polygon, 0);
+  Shape border;
   if (!is_rectangle(outer)) {
     const double size = std::max(bin.box.x1 - bin.box.x0, bin.box.y1 - bin.box.y0);
-    const std::uint32_t form = obstacle_form(Kind::border, 0, frame_around(outer, geom::grid_from_mm(size)));
-    shapes_.back().window = bin.box;
-    bin.obstacles.push_back({form, 0, 0});
+    border = frame_around(outer, geom::grid_from_mm(size));
   }
   for (std::size_t l = 1; l < stock.outline.polygon.loops(); ++l) {
     auto hole = loop_of(stock.outline.polygon, l);
     std::reverse(hole.begin(), hole.end());
-    bin.obstacles.push_back({obstacle_form(Kind::border, 0, shape_of(region_of(std::move(hole)))), 0, 0});
+    add(border, shape_of(region_of(std::move(hole))));
   }
+  std::map<int, Shape> defects, zones;
   for (const layout::Defect& defect : stock.defects)
-    bin.obstacles.push_back({obstacle_form(Kind::defect, defect.severity,
-                                           shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners))),
-                             0, 0});
+    add(defects[defect.severity], shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners)));
   for (const layout::QualityZone& zone : stock.zones)
-    bin.obstacles.push_back({obstacle_form(Kind::zone, zone.quality, shape_of(zone.outline.polygon)), 0, 0});
+    add(zones[zone.quality], shape_of(zone.outline.polygon));
+  const auto put = [&](Kind kind, int level, Shape shape) {
+    bin.obstacles.push_back({obstacle_form(kind, level, std::move(shape)), 0, 0});
+    shapes_.back().window = bin.box;
+  };
+  if (!border.loops.empty()) put(Kind::border, 0, std::move(border));
+  for (auto& [severity, shape] : defects) put(Kind::defect, severity, std::move(shape));
+  for (auto& [quality, shape] : zones) put(Kind::zone, quality, std::move(shape));
 }
 
 void Problem::add_bins() {
@@ -291,8 +315,11 @@ void Problem::add_bins() {
 
 void Problem::add_locked() {
   const layout::Document& document = *document_;
+  locked_pieces_.resize(document.parts.size());
   for (const layout::Placement& placement : document.placements) {
     if (!placement.locked) continue;
+    layout::PieceCount& count = locked_pieces_[placement.part];
+    ++(placement.mirrored ? count.mirrored : count.upright);
     for (Bin& bin : bins_) {
       if (bin.stock != placement.stock || bin.copy != placement.copy) continue;
       std::uint32_t form = form_of(placement.part, placement.rotation, placement.mirrored);
@@ -308,6 +335,8 @@ void Problem::add_locked() {
       bin.holds_locked = true;
       bin.locked_reach = std::max(bin.locked_reach, geom::mm_from_grid(placement.at.x) + forms_[form].box.x1 +
                                                         border_gaps_[placement.part]);
+      bin.locked_top = std::max(bin.locked_top, geom::mm_from_grid(placement.at.y) + forms_[form].box.y1 +
+                                                    border_gaps_[placement.part]);
     }
   }
 }
@@ -334,9 +363,9 @@ void Problem::add_relative_angles() {
       relative_[i * angles_.size() + j] = static_cast<std::uint32_t>(k);
     }
   relative_count_ = relative_pairs_.size();
-  const std::size_t count = shapes_.size() * shapes_.size() * relative_count_;
-  tables_ = std::make_unique<std::atomic<const NoFit*>[]>(count);
-  for (std::size_t k = 0; k < count; ++k) tables_[k].store(nullptr, std::memory_order_relaxed);
+  const std::size_t count = shapes_.size() * shapes_.size();
+  rows_ = std::make_unique<std::atomic<Row*>[]>(count);
+  for (std::size_t k = 0; k < count; ++k) rows_[k].store(nullptr, std::memory_order_relaxed);
 }
 
 std::uint32_t Problem::angle_index(geom::GridRotation rotation) {
@@ -356,12 +385,29 @@ void Problem::add_form(std::uint32_t shape, geom::GridRotation rotation, bool mi
   form.mirrored = mirrored;
   const double far = std::numeric_limits<double>::infinity();
   form.box = {far, far, -far, -far};
-  for (const Point p : shapes_[shape].whole.loops[0]) {
-    const double x = form.c * p.x - form.s * p.y, y = form.s * p.x + form.c * p.y;
-    form.box = {std::min(form.box.x0, x), std::min(form.box.y0, y), std::max(form.box.x1, x),
-                std::max(form.box.y1, y)};
-  }
+  for (const auto& loop : shapes_[shape].whole.loops)
+    for (const Point p : loop) {
+      const double x = form.c * p.x - form.s * p.y, y = form.s * p.x + form.c * p.y;
+      form.box = {std::min(form.box.x0, x), std::min(form.box.y0, y), std::max(form.box.x1, x),
+                  std::max(form.box.y1, y)};
+    }
   forms_.push_back(form);
+}
+
+void Problem::find_grain() {
+  const layout::Document& document = *document_;
+  bool all = true;
+  std::vector<char> follows;
+  for (const Form& form : forms_)
+    for (const layout::Stock& stock : document.stocks) {
+      const SearchShape& shape = shapes_[form.shape];
+      const bool fine =
+          shape.kind != SearchShape::Kind::part ||
+          layout::grain_allowed(document.parts[shape.part], stock, form.rotation, form.mirrored);
+      follows.push_back(fine ? 1 : 0);
+      all = all && fine;
+    }
+  if (!all) follows_grain_ = std::move(follows);
 }
 
 void Problem::find_unit() {
@@ -391,8 +437,10 @@ Forms Problem::forms_of(std::uint32_t part, std::optional<bool> mirrored) const 
 
 bool Problem::fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept {
   const double gap = 2 * border_gaps_[part];
-  for (const Bin& bin : bins_)
+  for (std::uint32_t k = 0; k < bins_.size(); ++k)
     for (std::uint32_t f = forms.first; f < forms.last; ++f) {
+      const Bin& bin = bins_[k];
+      if (!follows_grain(f, k)) continue;
       const Box& b = forms_[f].box;
       if (b.x1 - b.x0 + gap <= bin.box.x1 - bin.box.x0 + 1e-9 &&
           b.y1 - b.y0 + gap <= bin.box.y1 - bin.box.y0 + 1e-9)
@@ -416,10 +464,10 @@ NoFit::Way Problem::way_out(const Form& a, const Form& b, double dx, double dy) 
   return way;
 }
 
-const NoFit& Problem::make_table(std::size_t at, const Form& a, const Form& b) const {
+const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const Form& a, const Form& b) const {
   const SearchShape& p = shapes_[a.shape];
   const SearchShape& q = shapes_[b.shape];
-  const auto [c, s] = relative_pairs_[at % relative_count_];
+  const auto [c, s] = relative_pairs_[relative];
   double gap = 0;
   const Shape* of_p = &p.whole;
   const Shape* of_q = &q.whole;
@@ -453,23 +501,32 @@ const NoFit& Problem::make_table(std::size_t at, const Form& a, const Form& b) c
   GridRegion region_p, region_q;
   NoFit::IsFree is_free;
   if (p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part) {
-    const auto relative = [&](double v) { return static_cast<std::int64_t>(std::llround(v * 0x1p52)); };
+    const auto in_steps = [](double v) { return static_cast<std::int64_t>(std::llround(v * 0x1p52)); };
     region_p = geom::turned(document_->parts[p.part].outline.polygon, geom::GridRotation{}, a.mirrored);
     region_q =
         geom::turned(geom::turned(document_->parts[q.part].outline.polygon, geom::GridRotation{}, b.mirrored),
-                     {relative(c), relative(s)}, false);
+                     {in_steps(c), in_steps(s)}, false);
     is_free = [&](geom::Point shift) {
       return !phi::interiors_meet(region_p, region_q,
                                   {geom::grid_from_mm(shift.x), geom::grid_from_mm(shift.y)});
     };
   }
   const Shape turned_q = turned(*of_q, c, s);
-  const Box window = p.kind == SearchShape::Kind::border ? p.window : Box{};
-  auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, options_.cells, is_free, window,
-                                      p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part);
+  const bool of_parts = p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part;
+  // What belongs to the stock is as large as the stock.
+  const Box window = p.kind == SearchShape::Kind::part ? Box{} : p.window;
+  const std::size_t cells = of_parts ? cells_ : kStockCells * cells_;
+  auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, cells, is_free, window, of_parts);
   const std::lock_guard lock(making_);
-  if (const NoFit* other = tables_[at].load(std::memory_order_acquire)) return *other;
-  tables_[at].store(made.get(), std::memory_order_release);
+  Row* row = rows_[pair].load(std::memory_order_acquire);
+  if (row == nullptr) {
+    owned_rows_.push_back(std::make_unique<Row>(relative_count_));
+    row = owned_rows_.back().get();
+    rows_[pair].store(row, std::memory_order_release);
+  }
+  std::atomic<const NoFit*>& entry = (*row)[relative];
+  if (const NoFit* other = entry.load(std::memory_order_acquire)) return *other;
+  entry.store(made.get(), std::memory_order_release);
   made_.fetch_add(1);
   owned_.push_back(std::move(made));
   return *owned_.back();

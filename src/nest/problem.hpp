@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
 #include "nofit.hpp"
 
@@ -24,7 +25,7 @@ struct SearchShape {
   int level = 0;           ///< severity of a defect, quality of a zone
   /// Of parts: what needs more than a zone of a quality has, by quality.
   std::vector<std::pair<int, Shape>> demanding;
-  Box window;  ///< of borders: where parts can be at all
+  Box window;  ///< of what belongs to the stock: where parts can be at all
 };
 
 /// A shape at an angle.
@@ -57,13 +58,17 @@ struct Bin {
   bool open = false;  ///< a strip: x1 is what is sought
   double area = 0;    ///< material, mm^2
   bool holds_locked = false;
-  double locked_reach = -std::numeric_limits<double>::infinity();  ///< x up to which locked parts reach
+  /// x and y up to which locked parts reach.
+  double locked_reach = -std::numeric_limits<double>::infinity();
+  double locked_top = -std::numeric_limits<double>::infinity();
   std::vector<Obstacle> obstacles;
 };
 
 struct SearchOptions {
   std::size_t angles_of_any = 24;  ///< of a part that may be turned anyhow
-  std::size_t cells = 2048;        ///< of a raster
+  /// Also the angles at which unlocked placements lie, as far as their parts may have them.
+  bool given_angles = false;
+  std::size_t cells = 2048;  ///< of a raster
 };
 
 class Problem {
@@ -77,6 +82,7 @@ class Problem {
   std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
   /// Those of one hand, or all.
   Forms forms_of(std::uint32_t part, std::optional<bool> mirrored = std::nullopt) const noexcept;
+  SearchShape::Kind kind_of(const Form& form) const noexcept { return shapes_[form.shape].kind; }
   const std::vector<Bin>& bins() const noexcept { return bins_; }
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
   double hull_area_of(std::uint32_t part) const noexcept { return hull_areas_[part]; }
@@ -84,8 +90,14 @@ class Problem {
   /// Every corner of parts, at every angle they may have, and of the stock lies on multiples of this, mm; 0
   /// where there is no such length worth speaking of.
   double unit() const noexcept { return unit_; }
+  /// Whether the grain of a part's form follows that of a bin's stock.
+  bool follows_grain(std::uint32_t form, std::uint32_t bin) const noexcept {
+    return follows_grain_.empty() || follows_grain_[form * document_->stocks.size() + bins_[bin].stock] != 0;
+  }
   /// Whether the part's box fits on some stock in one of these forms.
   bool fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept;
+  /// Locked ones, by part.
+  const std::vector<layout::PieceCount>& locked_pieces() const noexcept { return locked_pieces_; }
   /// The widest gap that may count between any two.
   double widest_gap() const noexcept { return widest_gap_; }
 
@@ -104,17 +116,21 @@ class Problem {
   std::size_t tables() const noexcept { return made_.load(); }
 
  private:
+  /// Tables of a pair of shapes, by difference of angles; only of pairs that meet.
+  using Row = std::vector<std::atomic<const NoFit*>>;
   const NoFit& table(const Form& a, const Form& b) const {
-    const std::size_t at = (std::size_t{a.shape} * shapes_.size() + b.shape) * relative_count_ +
-                           relative_[a.angle * angles_.size() + b.angle];
-    const NoFit* found = tables_[at].load(std::memory_order_acquire);
-    return found != nullptr ? *found : make_table(at, a, b);
+    const std::size_t pair = std::size_t{a.shape} * shapes_.size() + b.shape;
+    const std::size_t relative = relative_[a.angle * angles_.size() + b.angle];
+    if (const Row* row = rows_[pair].load(std::memory_order_acquire))
+      if (const NoFit* found = (*row)[relative].load(std::memory_order_acquire)) return *found;
+    return make_table(pair, relative, a, b);
   }
-  const NoFit& make_table(std::size_t at, const Form& a, const Form& b) const;
+  const NoFit& make_table(std::size_t pair, std::size_t relative, const Form& a, const Form& b) const;
   void add_parts();
   void add_bins();
   void add_locked();
   void find_unit();
+  void find_grain();
   void add_stock_obstacles(std::uint32_t stock, Bin& bin);
   void add_relative_angles();
   std::uint32_t obstacle_form(SearchShape::Kind kind, int level, Shape shape);
@@ -128,12 +144,15 @@ class Problem {
   std::vector<Forms> by_part_;
   std::vector<Bin> bins_;
   std::vector<double> areas_, hull_areas_, border_gaps_;
+  std::vector<layout::PieceCount> locked_pieces_;
   double widest_gap_ = 0, unit_ = 0;
+  std::vector<char> follows_grain_;  ///< by form and stock; empty where every form does on every stock
   std::vector<geom::GridRotation> angles_;
   std::vector<std::uint32_t> relative_;
   std::vector<std::pair<double, double>> relative_pairs_;
-  std::size_t relative_count_ = 1;
-  mutable std::unique_ptr<std::atomic<const NoFit*>[]> tables_;
+  std::size_t relative_count_ = 1, cells_ = 0;
+  mutable std::unique_ptr<std::atomic<Row*>[]> rows_;
+  mutable std::vector<std::unique_ptr<Row>> owned_rows_;
   mutable std::vector<std::unique_ptr<NoFit>> owned_;
   mutable std::mutex making_;
   mutable std::atomic<std::size_t> made_{0};

@@ -19,6 +19,7 @@ constexpr double kPitch = 1.0 / 16;
 constexpr std::uint32_t kMostRows = 256, kMostNodes = 20'000, kFormsOnGrid = 4;
 constexpr std::uint64_t kNodesAsPlace = 1000;  ///< nodes added up in the time of one place
 /// Steps as shares of the item's narrow side.
+constexpr std::size_t kManyItems = 256;  ///< from which on neighbours are looked up in cells
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
 }  // namespace
@@ -36,6 +37,11 @@ Separator::Separator(const Problem& problem, const Items& items, Random random)
     min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
   }
   size_.resize(total_, 1);
+  if (total_ > kManyItems) {
+    std::vector<Box> bins;
+    for (const Bin& bin : problem_.bins()) bins.push_back(bin.box);
+    cells_.emplace(total_, std::move(bins), unit_);
+  }
   make_grid(kPitch * unit_);
 }
 
@@ -107,6 +113,7 @@ void Separator::set_spot(std::size_t i, const Spot& spot) {
   state_.spots[i] = spot;
   const Box& b = problem_.forms()[spot.form].box;
   boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
+  if (cells_) cells_->set(static_cast<std::uint32_t>(i), spot.bin, boxes_[i]);
 }
 
 void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
@@ -144,9 +151,26 @@ double Separator::area_of(const Spot& a, const Spot& b) const {
   return problem_.common_area(problem_.forms()[a.form], problem_.forms()[b.form], b.x - a.x, b.y - a.y);
 }
 
-void Separator::forget_weights() { std::fill(weights_.begin(), weights_.end(), 1.0f); }
+double Separator::distance_too_far(std::size_t i, const Spot& spot) const {
+  if (items_.partners.empty() || items_.partners[i] == kNowhere) return 0;
+  const Spot& other = state_.spots[items_.partners[i]];
+  if (other.bin == kNowhere) return 0;
+  const Box &a = problem_.forms()[spot.form].box, &b = problem_.forms()[other.form].box;
+  const double dx = spot.x - other.x + 0.5 * (a.x0 + a.x1 - b.x0 - b.x1),
+               dy = spot.y - other.y + 0.5 * (a.y0 + a.y1 - b.y0 - b.y1);
+  // On another sheet it is further away than anywhere on this one.
+  const Box& sheet = problem_.bins()[other.bin].box;
+  if (spot.bin != other.bin) return std::hypot(sheet.x1 - sheet.x0, sheet.y1 - sheet.y0);
+  return std::max(0.0, std::hypot(dx, dy) - items_.pair_reach);
+}
+
+void Separator::forget_weights() {
+  for (const std::size_t k : raised_) weights_[k] = 1.0f;
+  raised_.clear();
+}
 
 Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const {
+  if (!problem_.follows_grain(form, bin)) return {1, 0, 1, 0};
   const Box& b = problem_.forms()[form].box;
   const Box& in = problem_.bins()[bin].box;
   const double gap = problem_.border_gap_of(part);
@@ -159,10 +183,20 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
 }
 
 void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
-  near_.resize(total_);
-  std::size_t count = 0;
   const double gap = problem_.widest_gap();
   const double x0 = box.x0 - gap, x1 = box.x1 + gap, y0 = box.y0 - gap, y1 = box.y1 + gap;
+  std::size_t count = 0;
+  if (cells_) {
+    cells_->find(bin, {x0, y0, x1, y1}, near_);
+    for (const std::uint32_t j : near_) {
+      near_[count] = j;
+      const Box& b = boxes_[j];
+      count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) & (j != but));
+    }
+    near_.resize(count);
+    return;
+  }
+  near_.resize(total_);
   for (std::size_t j = 0; j < total_; ++j) {
     near_[count] = static_cast<std::uint32_t>(j);
     const Box& b = boxes_[j];
@@ -182,6 +216,11 @@ double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
                y1 = spot.y + b.y1 + gap;
   double sum = 0;
   const float* weights = &weights_[i * total_];
+  if (const double far = distance_too_far(i, spot); far > 0) {
+    const std::uint32_t partner = items_.partners[i];
+    sum = static_cast<double>(weights[partner]) * value_of(i, partner, far, 0);
+    if (sum >= limit) return sum;
+  }
   for (const std::uint32_t j : near_) {
     const Box& o = boxes_[j];
     if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) continue;
@@ -424,6 +463,12 @@ double Separator::overlap() {
     if (state_.spots[i].bin == kNowhere) continue;
     gather(boxes_[i], state_.spots[i].bin, i);
     const Spot& spot = state_.spots[i];
+    if (const double far = distance_too_far(i, spot); far > kTolerance && items_.partners[i] > i) {
+      conflicts_.push_back({static_cast<std::uint32_t>(i), items_.partners[i], far});
+      in_conflict_[i] = in_conflict_[items_.partners[i]] = 1;
+      sum += far;
+      deepest_ = std::max(deepest_, far);
+    }
     for (const std::uint32_t j : near_) {
       if (j < i) continue;
       const Spot& other = state_.spots[j];
@@ -467,19 +512,30 @@ double Separator::pass() {
   for (std::uint32_t i = 0; i < items_.movable(); ++i)
     if (in_conflict_[i]) order_.push_back(i);
   for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[random_.below(k)]);
-  for (const std::uint32_t i : order_) move(i);
+  for (const std::uint32_t i : order_) {
+    if (is_stopped()) break;
+    move(i);
+  }
   const double sum = overlap();
   double most = 0;
   for (Conflict& c : conflicts_) {
     c.depth = value_of(c.a, c.b, c.depth, area_of(state_.spots[c.a], state_.spots[c.b]));
     most = std::max(most, c.depth);
   }
-  for (float& w : weights_) w = std::max(1.0f, static_cast<float>(kDecay) * w);
+  std::erase_if(raised_, [&](std::size_t k) {
+    weights_[k] = std::max(1.0f, static_cast<float>(kDecay) * weights_[k]);
+    return weights_[k] == 1.0f;
+  });
   for (const Conflict& c : conflicts_) {
     const float factor =
         static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
-    weight(c.a, c.b) = std::min(1e12f, weight(c.a, c.b) * factor);
-    if (c.b < items_.movable()) weight(c.b, c.a) = weight(c.a, c.b);
+    const auto raise = [&](std::size_t i, std::size_t j) {
+      float& w = weight(i, j);
+      if (w == 1.0f) raised_.push_back(i * total_ + j);
+      w = std::min(1e12f, w * factor);
+    };
+    raise(c.a, c.b);
+    if (c.b < items_.movable()) raise(c.b, c.a);
   }
   return sum;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "cost_grid.hpp"
 #include "lekalo/base/random.hpp"
+#include "neighbour_grid.hpp"
 #include "problem.hpp"
 
 namespace lekalo::nest {
@@ -28,15 +30,20 @@ struct State {
   std::vector<std::uint32_t> open_bins;  ///< those that may be used
 };
 
+inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+
 /// What is moved, and after that what stays.
 struct Items {
   std::vector<std::uint32_t> parts;  ///< by item that is moved
   std::vector<Forms> forms;          ///< likewise: those it may have
   std::vector<Spot> fixed;           ///< obstacles of all bins
+  /// By item: the one that it has to lie near, kNowhere for most; empty where there are none. The middles of
+  /// their boxes are no further apart than that, mm, on one bin.
+  std::vector<std::uint32_t> partners;
+  double pair_reach = 0;
   std::size_t movable() const noexcept { return parts.size(); }
   std::size_t total() const noexcept { return parts.size() + fixed.size(); }
 };
-inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 /// Depths up to this are rounding, mm: what is left of them is set right on the grid.
 inline constexpr double kTolerance = 3e-6;
 
@@ -48,6 +55,9 @@ class Separator {
   void load(const State& state);
   const State& state() const noexcept { return state_; }
   Random& random() noexcept { return random_; }
+  /// pass() ends in the middle, worth nothing, where this flag is set.
+  void watch(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
+  bool is_stopped() const noexcept { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
   /// Weights as at the beginning.
   void forget_weights();
@@ -122,6 +132,8 @@ class Separator {
   double cost_of(double depth, double area) const noexcept;
   std::uint32_t any_bin();
   double area_of(const Spot& a, const Spot& b) const;
+  /// How much too far from its partner item i would lie there, mm.
+  double distance_too_far(std::size_t i, const Spot& spot) const;
   float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
 
   const Problem& problem_;
@@ -131,6 +143,9 @@ class Separator {
   std::size_t total_ = 0;
   std::vector<Box> boxes_;
   std::vector<float> weights_;
+  std::vector<std::size_t> raised_;     ///< indices of weights above 1
+  std::optional<NeighbourGrid> cells_;  ///< where there are many items
+  const std::atomic<bool>* stop_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> order_;
   struct Conflict {

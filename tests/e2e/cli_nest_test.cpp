@@ -66,6 +66,47 @@ TEST(CliNest, SaysWhatIsNotPlacedAndWhy) {
   EXPECT_EQ(unplaced[0]["reason"], "too-large");
 }
 
+TEST(CliNest, ImprovesWhatLiesThereAndKeepsItsIds) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "order.json", order().dump());
+  ASSERT_EQ(run(folder.path(), {"nest", "order.json", "-o", "whole.json", "--work", "1"}).status, 0);
+  Json first = Json::parse(read_bytes(folder / "whole.json"));
+  ASSERT_EQ(first["placements"].size(), 8u);
+  for (int k = 0; k < 3; ++k) first["placements"].erase(first["placements"].size() - 1);
+  write_bytes(folder / "first.json", first.dump());
+  ASSERT_EQ(run(folder.path(),
+                {"nest", "first.json", "-o", "second.json", "--work", "200000", "--stream", "now.json"})
+                .status,
+            0);
+  const Json second = Json::parse(read_bytes(folder / "second.json"));
+  ASSERT_EQ(second["placements"].size(), 8u);
+  for (std::size_t i = 0; i < first["placements"].size(); ++i) {
+    EXPECT_EQ(first["placements"][i]["id"], second["placements"][i]["id"]);
+    EXPECT_EQ(first["placements"][i]["part"], second["placements"][i]["part"]);
+  }
+  EXPECT_EQ(read_bytes(folder / "now.json"), read_bytes(folder / "second.json")) << "the last one streamed";
+  ASSERT_EQ(run(folder.path(), {"nest", "second.json", "-o", "third.json", "--work", "1"}).status, 0);
+  EXPECT_EQ(read_bytes(folder / "third.json"), read_bytes(folder / "second.json")) << "not worse";
+  ASSERT_EQ(run(folder.path(), {"nest", "second.json", "--from-scratch", "-o", "fourth.json", "--work", "1"})
+                .status,
+            0);
+  const Json fourth = Json::parse(read_bytes(folder / "fourth.json"));
+  EXPECT_GT(fourth["placements"][0]["id"].get<int>(), second["placements"].back()["id"].get<int>())
+      << "all are new";
+}
+
+TEST(CliNest, TheWorkOfAStoppedRunRepeatsIt) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "order.json", order().dump());
+  const Ran ran = run(folder.path(), {"nest", "order.json", "-o", "a.json", "--time", "0.3", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  ASSERT_EQ(run(folder.path(), {"nest", "order.json", "-o", "b.json", "--threads", "1", "--work",
+                                std::to_string(ran.json()["work"].get<std::uint64_t>())})
+                .status,
+            0);
+  EXPECT_EQ(read_bytes(folder / "a.json"), read_bytes(folder / "b.json"));
+}
+
 TEST(CliNest, WrongWordsAreRefused) {
   const TemporaryFolder folder;
   write_bytes(folder / "order.json", order().dump());
@@ -75,6 +116,7 @@ TEST(CliNest, WrongWordsAreRefused) {
                              {"--threads", "0"},
                              {"--angles", "361"},
                              {"--seed", "x"},
+                             {"--stream", "order.json"},
                              {"-o", "order.json"}})
     EXPECT_EQ(run(folder.path(), Words{"nest", "order.json"} + words).status, 2) << words[1];
   write_bytes(folder / "empty.json", cases::empty_layout().dump());

@@ -92,7 +92,7 @@ TEST(Nest, SquaresFillASheetToTheLast) {
   document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 30, 20)});
   document.parts[0].demand = 6;
   document.parts[0].rotations = {{0, 0}};
-  const Nested found = nested(document, 1, 2'000'000);
+  const Nested found = nested(document, 1, 400'000);
   EXPECT_TRUE(found.unplaced.empty());
   EXPECT_TRUE(layout::check(found.document).empty());
 }
@@ -118,20 +118,22 @@ TEST(Nest, SaysWhyAPieceIsNotPlaced) {
   document.parts.insert(document.parts.end(), {large, many, askew});
   const Nested found = nested(document, 1, 100'000);
   const std::vector<Unplaced> expected = {
-      {1, 1, Reason::too_large}, {2, 1, Reason::no_room}, {3, 1, Reason::no_angle}};
+      {1, 1, Reason::too_large}, {2, 1, Reason::no_stock}, {3, 1, Reason::no_angle}};
   EXPECT_EQ(found.unplaced, expected);
 }
 
 TEST(Nest, RefusesWhatCannotBeNested) {
   layout::Document document = cases::two_squares();
   const RunControl control;
-  EXPECT_FALSE(nest(document, {}, control));  // nothing wanted
+  Options from_scratch;
+  from_scratch.from_given = false;
+  EXPECT_FALSE(nest(document, from_scratch, control));  // nothing wanted
   document.parts[0].demand = 1;
   document.placements[1].at = document.placements[0].at;
   document.placements[0].locked = document.placements[1].locked = true;
   const auto overlapping = nest(document, {}, control);
   ASSERT_FALSE(overlapping);
-  EXPECT_NE(overlapping.error().message.find("locked placement 1"), std::string::npos);
+  EXPECT_NE(overlapping.error().message.find("placement 1, which is to stay"), std::string::npos);
   document.placements.clear();
   document.stocks.clear();
   EXPECT_FALSE(nest(document, {}, control));

@@ -65,7 +65,7 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, la
       h('button', { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) }, t(m)))),
     space(), action('undo'), action('redo'),
     space(), action('rotate.left'), step, action('rotate.right'), action('flip'),
-    space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'),
+    space(), action('slide.left'), action('slide.right'), action('slide.up'), action('slide.down'), action('settle'), action('snap'), action('compact'), action('nest'),
     space(), action('lock'), action('swap'), action('copy'), action('remove')),
     h('span', { class: 'push' }), h('span', { class: 'ends' }, button('fit', events.fit),
     menu('view', t('view'), ...shown, picked, item('photo', t('photo'), () => picked.click()), item('theme', t('theme'), events.theme)),

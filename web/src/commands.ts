@@ -36,5 +36,7 @@ export const addFeature = (f: Named, grade: number, outline: readonly (readonly 
 export const moveFeature = (f: Named, x: number, y: number): string => `${named('move', f)} by ${pair(x, y)}`;
 export const gradeFeature = (f: Named, grade: number): string => `${named('grade', f)} ${grade}`;
 export const removeFeature = (f: Named): string => named('remove', f);
+/// Without ids: the whole layout. The server's own command (docs/protocol.md).
+export const nest = (list: readonly number[], seconds: number, seed: number): string => `nest ${list.length > 0 ? `${ids(list)} ` : ''}for ${seconds} seed ${seed}`;
 /// Without a sheet: all in use.
 export const compact = (x: number, y: number, sheet?: Sheet): string => `compact ${sheet ? `${quoted(sheet.stock.id)} ${sheet.copy} ` : ''}towards ${x} ${y}`;

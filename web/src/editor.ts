@@ -30,7 +30,7 @@ export interface Queued { placements: Placement[] }
 /// A line for the server, or how to make one of the layout as it is when its turn comes; null: it means nothing any more.
 export type Line = string | (() => string | null);
 
-const LONG_VERBS = ['compact', 'fit'] as const;
+const LONG_VERBS = ['compact', 'fit', 'nest'] as const;
 export type LongVerb = (typeof LONG_VERBS)[number];
 const longVerb = (text: string): LongVerb | undefined => LONG_VERBS.find((verb) => text.startsWith(`${verb} `));
 

@@ -55,6 +55,15 @@ struct Completeness {
   double cost = 0;                    ///< of the copies in use
 };
 
+/// Kits that pieces make, and what is left of the pieces then.
+struct KitsMade {
+  std::vector<std::int64_t> complete;  ///< by kit, at most the kits wanted
+  std::vector<PieceCount> left;        ///< by part
+};
+/// Kits get their pieces in the document's order, each as far as whole kits go. Cost: O(pieces of all kits).
+/// \param placed  by part
+[[nodiscard]] KitsMade kits_made(const Document& document, std::vector<PieceCount> placed);
+
 /// Pieces serve the kits in the document's order, each as far as whole kits go, then the parts' own demand.
 /// Cost: O(n log n), and for every sheet a raster of at most 192 by 192 cells for its remnant.
 [[nodiscard]] Completeness completeness(const Workspace& workspace);

@@ -16,10 +16,11 @@ namespace lekalo::nest {
 
 enum class Reason : std::uint8_t {
   no_angle,   ///< no angle is allowed for it, or its grain fits no stock
-  too_large,  ///< its box fits on none of the stock at any angle it may have
-  no_room     ///< no place was found; not a proof that there is none
+  too_large,  ///< it fits on none of the stock at any angle tried, even if that were whole and good
+  no_zone,    ///< it would, but wherever it was tried zones or defects are too bad for it
+  no_stock    ///< no stock is left with room for it: no place was found; not a proof that there is none
 };
-/// "no-angle", "too-large", "no-room".
+/// "no-angle", "too-large", "no-zone", "no-stock".
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;
 
 struct Unplaced {
@@ -30,7 +31,7 @@ struct Unplaced {
 };
 
 struct Nested {
-  /// The given one with other placements: those that were locked as they were, then new ones. Passes
+  /// The given one with other placements, ascending by id; those that were locked are as they were. Passes
   /// layout::check().
   layout::Document document;
   std::vector<Unplaced> unplaced;  ///< by part
@@ -42,11 +43,18 @@ struct Options {
   std::uint64_t seed = 0;
   unsigned threads = 1;     ///< 1 or more; changes the speed and nothing else
   std::size_t angles = 24;  ///< that a part may have that may be turned anyhow; in [1, 360]
+  /// Begins with the placements that are not locked: they keep their ids and are wanted, whatever the demand,
+  /// so only better layouts take the place of a given one. Those that break a rule are placed anew. Otherwise
+  /// they are dropped.
+  bool from_given = true;
+  /// Where positive: the left and the right piece of a part in one kit, or else two of its pieces, lie on one
+  /// sheet with the middles of their boxes at most so far apart, mm (pieces that are both placed anew).
+  double pair_distance = 0;
   /// Called at a merge with every better layout, from the calling thread; may be empty.
   std::function<void(const Nested&)> improved;
 };
 
-/// Places everything the document wants (layout::wanted) beside its locked placements; others are dropped.
+/// Places everything the document wants (layout::wanted) beside its locked placements.
 ///
 /// Deterministic: the same document, options and control.work_limit give the same layout whatever the
 /// threads and the stop flag's clock, as long as the run ends at the same merge; `work` of a run that was

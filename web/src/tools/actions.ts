@@ -3,9 +3,15 @@
 import * as line from '../commands';
 import type { Editor } from '../editor';
 import { movedBy } from '../editor';
+import { t } from '../i18n';
+
+/// How long the nester looks where nobody stops it.
+const NEST_SECONDS = 60;
+/// Each run tries other things than the one before.
+let nestings = 0;
 
 export type Action =
-  | 'rotate.left' | 'rotate.right' | 'flip' | 'settle' | 'snap' | 'lock' | 'swap' | 'remove' | 'copy' | 'compact'
+  | 'rotate.left' | 'rotate.right' | 'flip' | 'settle' | 'snap' | 'lock' | 'swap' | 'remove' | 'copy' | 'compact' | 'nest'
   | 'slide.left' | 'slide.right' | 'slide.up' | 'slide.down' | 'undo' | 'redo';
 
 export async function act(editor: Editor, action: Action): Promise<void> {
@@ -17,6 +23,12 @@ export async function act(editor: Editor, action: Action): Promise<void> {
   if (action === 'compact') {
     const sheet = first && editor.model.sheet(first.stock, first.copy);
     await editor.command(line.compact(-1, 0, sheet));
+    return;
+  }
+  if (action === 'nest') {
+    const loose = chosen.filter((p) => !p.locked);
+    if (first && loose.length === 0) return editor.say(t('nest.locked'));
+    await editor.command(line.nest(loose.map((p) => p.id), NEST_SECONDS, nestings++));
     return;
   }
   if (!first) return;

@@ -6,12 +6,12 @@ import { act, type Action } from './actions';
 
 export const SHORTCUTS: [string, string][] = [
   ['Tab / Shift+Tab', 'key.next'], ['← ↑ → ↓', 'key.move'], ['Ctrl + ← ↑ → ↓', 'key.slide'], ['[ ]', 'key.turn'], ['M', 'flip'], ['G', 'settle'],
-  ['S', 'snap'], ['L', 'lock'], ['X', 'swap'], ['Del', 'remove'], ['Ctrl+D', 'copy'], ['C', 'compact'], ['Ctrl+Z', 'undo'], ['Ctrl+Y', 'redo'],
+  ['S', 'snap'], ['L', 'lock'], ['X', 'swap'], ['Del', 'remove'], ['Ctrl+D', 'copy'], ['C', 'compact'], ['N', 'nest'], ['Ctrl+Z', 'undo'], ['Ctrl+Y', 'redo'],
   ['Ctrl+A', 'key.all'], ['Esc', 'key.cancel'], ['+ −', 'key.zoom'], ['Space', 'key.pan'], ['F', 'fit'], ['1', 'tool.select'], ['2', 'tool.slide'],
   ['3', 'tool.push'], ['4', 'tool.nearest'], ['5', 'tool.measure'], ['/', 'find'], ['?', 'help'],
 ];
 const PLAIN: Record<string, Action> = {
-  '[': 'rotate.left', ']': 'rotate.right', KeyM: 'flip', KeyG: 'settle', KeyS: 'snap', KeyL: 'lock', KeyX: 'swap', Delete: 'remove', Backspace: 'remove', KeyC: 'compact',
+  '[': 'rotate.left', ']': 'rotate.right', KeyM: 'flip', KeyG: 'settle', KeyS: 'snap', KeyL: 'lock', KeyX: 'swap', Delete: 'remove', Backspace: 'remove', KeyC: 'compact', KeyN: 'nest',
 };
 const ARROWS: Record<string, [number, number, Action]> = {
   ArrowLeft: [-1, 0, 'slide.left'], ArrowRight: [1, 0, 'slide.right'], ArrowUp: [0, 1, 'slide.up'], ArrowDown: [0, -1, 'slide.down'],

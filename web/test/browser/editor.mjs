@@ -7,6 +7,7 @@ import { open, ready, run, tabOf } from './harness.mjs';
 import { heapLayout } from './heap_layout.mjs';
 import { longLayout } from './long_layout.mjs';
 import { assertPictureDiffers, comparePicture } from './pictures.mjs';
+import { nestLayout } from './nest_layout.mjs';
 import { smallLayout } from './small_layout.mjs';
 import { at, broken, checked, command, drop, export_, hold, inEditor, keys, live, message, picture, placed, placementOf, press, scaleOf, settled } from './steps.mjs';
 
@@ -498,6 +499,61 @@ inEditor('shows a long command on its way, takes what is dropped meanwhile, and 
   assert.equal(await bar.isVisible(), false);
   assert.equal((await checked(server)).exit, 0);
 }, { layout: longLayout });
+
+inEditor('nests from a button: watched, stopped, undone as one step, corrected, and improved again around two locked parts', async (page, server) => {
+  const stateOf = async () => JSON.parse(await export_(server)).placements;
+  const says = (pattern) => page.waitForFunction((p) => !!document.querySelector('.long:not([hidden])') && new RegExp(p).test(document.querySelector('.long .says').textContent), pattern, { polling: 20 });
+  const before = await stateOf();
+  assert.equal(before.length, 2);
+  // Started on the whole layout and watched: what is wanted appears before it is carried out.
+  await command(page, 'nest');
+  await says('parts better placed');
+  assert.deepEqual(await stateOf(), before);
+  await command(page, 'nest.stop');
+  await settled(page);
+  assert.match(await message(page), /best so far is kept/);
+  const nested = await stateOf();
+  assert.equal(nested.length, 12);
+  assert.equal(await placed(page), 12);
+  assert.equal((await checked(server)).exit, 0);
+  // The run is one step.
+  await command(page, 'undo');
+  await settled(page);
+  assert.deepEqual(await stateOf(), before);
+  await command(page, 'redo');
+  await settled(page);
+  assert.deepEqual(await stateOf(), nested);
+  // Corrected by hand: one is moved to the far end of the sheet; two are locked.
+  const [moved, first, second] = nested.map((p) => p.id);
+  await page.mouse.click(...(await at(page, moved)).slice(0, 2));
+  await settled(page);
+  await keys(page, 'Control+ArrowRight');
+  await page.mouse.click(...(await at(page, first)).slice(0, 2));
+  await page.keyboard.down('Shift');
+  await page.mouse.click(...(await at(page, second)).slice(0, 2));
+  await page.keyboard.up('Shift');
+  await settled(page);
+  await command(page, 'lock');
+  await settled(page);
+  const corrected = await stateOf();
+  assert.deepEqual(corrected.filter((p) => p.locked).map((p) => p.id), [first, second]);
+  assert.notDeepEqual(corrected.find((p) => p.id === moved), nested.find((p) => p.id === moved));
+  // Improved again: the locked ones stay, the others keep their ids.
+  await keys(page, 'Escape');
+  await command(page, 'nest');
+  await says('parts? better placed');
+  await command(page, 'nest.stop');
+  await settled(page);
+  const improved = await stateOf();
+  assert.deepEqual(improved.map((p) => p.id), corrected.map((p) => p.id));
+  for (const id of [first, second]) assert.deepEqual(improved.find((p) => p.id === id), corrected.find((p) => p.id === id));
+  assert.notDeepEqual(improved, corrected);
+  assert.equal((await checked(server)).exit, 0);
+  // On a selection that is all locked there is nothing to do.
+  await page.mouse.click(...(await at(page, first)).slice(0, 2));
+  await command(page, 'nest');
+  assert.match(await message(page), /locked/);
+}, { layout: nestLayout });
 
 inEditor('asks what an export needs, shows what the server says against it, and saves G-code and DXF', async (page, server) => {
   const field = (name) => page.locator(`dialog [data-field="${name}"]`);

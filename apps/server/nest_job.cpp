@@ -1,0 +1,192 @@
+#include "nest_job.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "lekalo/io/layout_json.hpp"
+#include "lekalo/nest/nest.hpp"
+#include "lekalo/verify/layout.hpp"
+
+namespace lekalo::server {
+namespace {
+
+using layout::Document;
+using layout::Placement;
+
+constexpr double kLeastSeconds = 0.1, kMostSeconds = 3600;
+constexpr unsigned kThreads = 2;
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t begin = line.find_first_not_of(' ', at);
+    if (begin == std::string_view::npos) break;
+    at = std::min(line.find(' ', begin), line.size());
+    words.push_back(line.substr(begin, at - begin));
+  }
+  return words;
+}
+
+template <class Number>
+bool read(std::string_view word, Number& number) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+Result<NestRequest> read_request(const std::vector<std::string_view>& words, const Document& document) {
+  NestRequest request;
+  const auto bad = [](const std::string& why) { return failure(ErrorCode::bad_input, "nest: " + why); };
+  std::size_t at = 1;
+  if (at < words.size() && words[at] != "for") {
+    std::string_view rest = words[at++];
+    while (true) {
+      const std::size_t comma = rest.find(',');
+      std::uint64_t id = 0;
+      if (!read(rest.substr(0, comma), id))
+        return bad(fmt::format("'{}' is not the number of a placement", rest.substr(0, comma)));
+      request.ids.push_back(id);
+      if (comma == std::string_view::npos) break;
+      rest.remove_prefix(comma + 1);
+    }
+    std::sort(request.ids.begin(), request.ids.end());
+    request.ids.erase(std::unique(request.ids.begin(), request.ids.end()), request.ids.end());
+  }
+  if (at + 1 >= words.size() || words[at] != "for" || !read(words[at + 1], request.seconds) ||
+      !(request.seconds >= kLeastSeconds && request.seconds <= kMostSeconds))
+    return bad("it needs a time, 'for SECONDS', from 0.1 to 3600");
+  at += 2;
+  if (at < words.size()) {
+    if (words.size() != at + 2 || words[at] != "seed" || !read(words[at + 1], request.seed))
+      return bad(
+          fmt::format("'{}' is one word too many; after the time only 'seed NUMBER' may stand", words[at]));
+  }
+  for (const std::uint64_t id : request.ids) {
+    const auto found = std::find_if(document.placements.begin(), document.placements.end(),
+                                    [&](const Placement& p) { return p.id == id; });
+    if (found == document.placements.end())
+      return failure(ErrorCode::usage, fmt::format("there is no placement {}", id));
+    if (found->locked) return failure(ErrorCode::usage, fmt::format("placement {} is locked", id));
+  }
+  return request;
+}
+
+/// Sets a flag when the time is up or another flag is set.
+class Deadline {
+ public:
+  Deadline(double seconds, const RunControl& run)
+      : end_(std::chrono::steady_clock::now() +
+             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                 std::chrono::duration<double>(seconds))),
+        thread_([this, &run] { watch(run); }) {}
+  ~Deadline() {
+    {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+  }
+  Deadline(const Deadline&) = delete;
+  Deadline& operator=(const Deadline&) = delete;
+  const std::atomic<bool>* flag() const noexcept { return &flag_; }
+
+ private:
+  void watch(const RunControl& run) {
+    std::unique_lock lock(mutex_);
+    while (!over_ && !flag_) {
+      if (run.stop_requested() || std::chrono::steady_clock::now() >= end_) flag_ = true;
+      changed_.wait_for(lock, std::chrono::milliseconds(50));
+    }
+  }
+  std::chrono::steady_clock::time_point end_;
+  std::atomic<bool> flag_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool over_ = false;
+  std::thread thread_;  // the last one: it uses the others
+};
+
+/// What the nester is given: with a selection, everything else stays and nothing is added.
+Document asked_for(Document document, const NestRequest& request) {
+  if (request.ids.empty()) return document;
+  for (Placement& p : document.placements)
+    p.locked = !std::binary_search(request.ids.begin(), request.ids.end(), p.id);
+  for (layout::Part& part : document.parts) part.demand = 0;
+  for (layout::Kit& kit : document.kits) kit.demand = 0;
+  return document;
+}
+
+/// From the document to what was found: what had to stay is as it was.
+layout::Change change_to(const Document& document, const Document& found) {
+  std::vector<Placement> placements = found.placements;
+  for (Placement& p : placements) {
+    const auto before = std::lower_bound(document.placements.begin(), document.placements.end(), p.id,
+                                         [](const Placement& a, std::uint64_t id) { return a.id < id; });
+    if (before != document.placements.end() && before->id == p.id) p.locked = before->locked;
+  }
+  layout::Change change;
+  change.placements = difference(document.placements, placements);
+  change.next_id_before = document.next_id;
+  change.next_id_after = found.next_id;
+  return change;
+}
+
+Result<layout::Change> run(const Document& document, const NestRequest& request, const JobContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Deadline deadline(request.seconds, context.run);
+  nest::Options options;
+  options.seed = request.seed;
+  options.threads = kThreads;
+  if (context.improved)
+    options.improved = [&](const nest::Nested& better) {
+      context.improved(change_to(document, better.document));
+    };
+  RunControl control;
+  control.stop = deadline.flag();
+  control.progress = [&](const Progress& progress) {
+    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (context.run.progress) context.run.progress({progress.work, std::min(1.0, passed / request.seconds)});
+  };
+  const Result<nest::Nested> found = nest::nest(asked_for(document, request), options, control);
+  if (!found) return tl::unexpected(found.error());
+  const auto verdict = verify::verify_layout({"the layout found", io::write_layout(found->document)});
+  if (!verdict) return failure(ErrorCode::refuted, verdict.error().message);
+  if (!verdict->violations.empty())
+    return failure(ErrorCode::refuted,
+                   fmt::format("the independent checker finds a broken rule ({}) in the layout "
+                               "found, so nothing was done; please report it",
+                               verify::name_of(verdict->violations[0].kind)));
+  return change_to(document, found->document);
+}
+
+}  // namespace
+
+std::optional<Result<NestRequest>> nest_request(std::string_view line, const Document& document) {
+  const std::vector<std::string_view> words = words_of(line);
+  if (words.empty() || words[0] != "nest") return std::nullopt;
+  return read_request(words, document);
+}
+
+std::string to_text(const NestRequest& request) {
+  std::string text = "nest ";
+  if (!request.ids.empty()) text += fmt::format("{} ", fmt::join(request.ids, ","));
+  text += fmt::format("for {}", request.seconds);
+  if (request.seed != 0) text += fmt::format(" seed {}", request.seed);
+  return text;
+}
+
+Job job_of(const NestRequest& request) {
+  return [request](const Document& document, const JobContext& context) {
+    return run(document, request, context);
+  };
+}
+
+}  // namespace lekalo::server

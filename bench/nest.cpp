@@ -1,0 +1,215 @@
+// Layouts of instance files within a budget, every one checked again by the independent checker: a table in
+// markdown, a line for a file and a seed, and means where there are several seeds.
+//
+//   bench_nest [--cpu SECONDS | --work N] [--seeds 1,2,3] [--threads N] [--angles N] [--save FOLDER] FILE...
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lekalo/geom/grid.hpp"
+#include "lekalo/io/open_layout.hpp"
+#include "lekalo/layout/completeness.hpp"
+#include "lekalo/layout/workspace.hpp"
+#include "lekalo/nest/nest.hpp"
+#include "lekalo/verify/layout.hpp"
+
+namespace {
+
+using namespace lekalo;
+
+struct Words {
+  double cpu_seconds = 60;
+  std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
+  std::vector<std::uint64_t> seeds = {1};
+  unsigned threads = 2;
+  std::size_t angles = 24;
+  std::string save;
+  std::vector<std::string> files;
+};
+
+[[noreturn]] void refuse(const std::string& sentence) {
+  fmt::print(stderr, "bench_nest: {}\n", sentence);
+  std::exit(2);
+}
+
+Words words_of(int argc, char** argv) {
+  Words words;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (!word.starts_with("--")) {
+      words.files.push_back(word);
+      continue;
+    }
+    if (++k == argc) refuse(word + " needs a value");
+    const std::string value = argv[k];
+    if (word == "--cpu") {
+      words.cpu_seconds = std::strtod(value.c_str(), nullptr);
+    } else if (word == "--work") {
+      words.work = std::strtoull(value.c_str(), nullptr, 10);
+      words.cpu_seconds = std::numeric_limits<double>::infinity();
+    } else if (word == "--threads") {
+      words.threads = static_cast<unsigned>(std::strtoul(value.c_str(), nullptr, 10));
+    } else if (word == "--angles") {
+      words.angles = std::strtoul(value.c_str(), nullptr, 10);
+    } else if (word == "--save") {
+      words.save = value;
+    } else if (word == "--seeds") {
+      words.seeds.clear();
+      for (std::size_t at = 0; at < value.size(); at = value.find_first_of("0123456789", at)) {
+        std::size_t used = 0;
+        words.seeds.push_back(std::stoull(value.substr(at), &used));
+        at += used;
+      }
+    } else {
+      refuse("unknown option " + word);
+    }
+  }
+  if (words.files.empty()) refuse("no files");
+  if (!(words.cpu_seconds > 0) || words.work == 0 || words.threads == 0 || words.seeds.empty())
+    refuse("budgets, threads and seeds are positive numbers");
+  return words;
+}
+
+double processor_seconds() {
+  timespec at{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &at);
+  return static_cast<double>(at.tv_sec) + 1e-9 * static_cast<double>(at.tv_nsec);
+}
+
+/// What is counted of one run.
+struct Figures {
+  double density =
+      0;  ///< per cent of the material of the stock in use, less holes; strips: up to their length
+  double length = 0;  ///< of a strip, mm
+  double sheets = 0;  ///< in use
+  double leftover =
+      0;  ///< of the sheet with the smallest box from the corner around its parts: the rest, mm^2
+  double placed = 0, wanted = 0;
+  double kits = 0;
+  double first = 0;  ///< processor seconds to the first valid layout
+  double seconds = 0;
+  double work = 0;
+  bool fine = true;
+};
+
+double leftover_of(const layout::Document& document) {
+  std::map<layout::Sheet, geom::GridPoint> reach;
+  for (const layout::Placement& p : document.placements) {
+    const geom::GridBox box = geom::bounds(placed_outline(document.parts[p.part], p));
+    geom::GridPoint& far = reach[{p.stock, p.copy}];
+    far = {std::max(far.x, box.high.x), std::max(far.y, box.high.y)};
+  }
+  double most = 0;
+  for (const auto& [sheet, far] : reach) {
+    const geom::GridBox box = geom::bounds(document.stocks[sheet.stock].outline.polygon);
+    const auto area = [&](geom::GridPoint high) {
+      return geom::mm_from_grid(high.x - box.low.x) * geom::mm_from_grid(high.y - box.low.y);
+    };
+    most = std::max(most, area(box.high) - area(far));
+  }
+  return most;
+}
+
+Figures run(const layout::Document& document, const Words& words, std::uint64_t seed,
+            const std::string& name) {
+  Figures figures;
+  const double start = processor_seconds();
+  std::atomic<bool> stop{false};
+  nest::Options options;
+  options.seed = seed;
+  options.threads = words.threads;
+  options.angles = words.angles;
+  options.improved = [&](const nest::Nested&) {
+    if (figures.first == 0) figures.first = processor_seconds() - start;
+  };
+  RunControl control;
+  control.stop = &stop;
+  control.work_limit = words.work;
+  control.progress = [&](const Progress&) {
+    if (processor_seconds() - start >= words.cpu_seconds) stop = true;
+  };
+  const Result<nest::Nested> found = nest::nest(document, options, control);
+  figures.seconds = processor_seconds() - start;
+  if (!found) refuse(name + ": " + found.error().message);
+  const std::string text = io::write_layout(found->document);
+  const auto verdict = verify::verify_layout({name, text});
+  figures.fine = verdict && verdict->violations.empty();
+  if (!words.save.empty()) {
+    std::ofstream file(std::filesystem::path(words.save) / fmt::format("{}-{}.json", name, seed));
+    file << text;
+  }
+  const layout::Completeness done = layout::completeness(layout::Workspace(found->document));
+  double parts = 0, material = 0;
+  for (const layout::SheetUse& use : done.sheets) {
+    parts += use.parts_area;
+    material += use.material_area;
+    figures.length = std::max(figures.length, use.used_length_mm);
+  }
+  figures.density = material > 0 ? 100 * parts / material : 0;
+  figures.sheets = static_cast<double>(done.sheets.size());
+  figures.leftover = leftover_of(found->document);
+  figures.placed = static_cast<double>(found->document.placements.size());
+  figures.wanted = figures.placed;
+  for (const nest::Unplaced& u : found->unplaced) figures.wanted += static_cast<double>(u.count);
+  for (const layout::KitCount& kit : done.kits) figures.kits += static_cast<double>(kit.complete);
+  figures.work = static_cast<double>(found->work);
+  return figures;
+}
+
+void print(const std::string& name, const std::string& seed, const Figures& f) {
+  fmt::print(
+      "| {} | {} | {:.3f} | {:.3f} | {:.4g} | {:.6g} | {:.6g} of {:.6g} | {:.4g} | {:.2f} | {:.1f} | {:.4g} "
+      "| {} |\n",
+      name, seed, f.density, f.length, f.sheets, f.leftover, f.placed, f.wanted, f.kits, f.first, f.seconds,
+      f.work, f.fine ? "passed" : "FAILED");
+  std::fflush(stdout);
+}
+
+Figures mean_of(const std::vector<Figures>& all) {
+  Figures mean;
+  const double share = 1.0 / static_cast<double>(all.size());
+  for (const Figures& f : all) {
+    for (const auto member :
+         {&Figures::density, &Figures::length, &Figures::sheets, &Figures::leftover, &Figures::placed,
+          &Figures::wanted, &Figures::kits, &Figures::first, &Figures::seconds, &Figures::work})
+      mean.*member += share * f.*member;
+    mean.fine = mean.fine && f.fine;
+  }
+  return mean;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Words words = words_of(argc, argv);
+  fmt::print(
+      "| file | seed | density % | length | sheets | leftover | placed | kits | first s | CPU s | work | "
+      "check |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  bool fine = true;
+  for (const std::string& path : words.files) {
+    const auto file = io::open_layout(path);
+    if (!file) refuse(file.error().message);
+    const std::filesystem::path where(path);
+    const std::string name = where.stem().string();
+    std::vector<Figures> all;
+    for (const std::uint64_t seed : words.seeds) {
+      all.push_back(run(file->document, words, seed, name));
+      print(name, std::to_string(seed), all.back());
+      fine = fine && all.back().fine;
+    }
+    if (all.size() > 1) print(name, "mean", mean_of(all));
+  }
+  return fine ? 0 : 1;
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nofit.hpp"
+
+namespace lekalo::nest {
+
+/// Boxes in square cells, so that those near a place are found without a look at all others. Items lie on
+/// bins; what lies on another one is never near.
+class NeighbourGrid {
+ public:
+  /// \param cell  side of a cell, mm
+  NeighbourGrid(std::size_t items, std::vector<Box> bins, double cell);
+
+  /// Puts an item there, or nowhere (a bin that is none), in place of where it was.
+  void set(std::uint32_t item, std::uint32_t bin, const Box& box);
+  /// Items whose cells the box meets, ascending, each once.
+  void find(std::uint32_t bin, const Box& box, std::vector<std::uint32_t>& into) const;
+
+ private:
+  struct Cells {
+    std::uint32_t x0 = 1, y0 = 1, x1 = 0, y1 = 0;  ///< last ones included; none: x1 < x0
+    friend bool operator==(const Cells&, const Cells&) = default;
+  };
+  struct Bin {
+    Box box;
+    std::uint32_t columns = 0, rows = 0;
+    std::vector<std::vector<std::uint32_t>> cells;
+  };
+  struct Item {
+    std::uint32_t bin = 0;
+    Cells cells;
+  };
+  Cells cells_of(const Bin& bin, const Box& box) const noexcept;
+
+  double cell_;
+  std::vector<Bin> bins_;
+  std::vector<Item> items_;
+};
+
+}  // namespace lekalo::nest
