@@ -9,6 +9,7 @@
 namespace lekalo::nest {
 namespace {
 
+constexpr std::uint32_t kStrip = 0;  ///< the only bin there is
 constexpr double kExploreShrink = 0.001, kFirstShrink = 0.02;
 constexpr double kCompressFrom = 0.0005, kCompressTo = 0.00001;
 /// Passes without 2 % less overlap that end an attempt, and attempts from the best so far.
@@ -36,7 +37,10 @@ double about_normal(Random& random) {
 }  // namespace
 
 Lane::Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::uint64_t stream)
-    : problem_(problem), items_(items), separator_(problem, items, Random(seed, stream + 1)) {
+    : problem_(problem),
+      items_(items),
+      strip_(problem.bins()[kStrip]),
+      separator_(problem, items, Random(seed, stream + 1)) {
   by_size_.resize(items.movable());
   std::iota(by_size_.begin(), by_size_.end(), 0u);
   const auto& parts = problem.document().parts;
@@ -60,32 +64,21 @@ Lane::Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::
   }
 }
 
-double Lane::reach_of(const State& state, std::uint32_t b, int axis) const {
-  const Bin& bin = problem_.bins()[b];
-  double reach = axis == 0 ? std::max(0.0, bin.locked_reach - bin.box.x0) : 0;
-  if (axis == 1 && bin.holds_locked) return bin.box.y1 - bin.box.y0;
+double Lane::reach_of(const State& state) const {
+  double reach = std::max(0.0, strip_.locked_reach - strip_.box.x0);
   for (std::size_t i = 0; i < items_.movable(); ++i) {
     const Spot& spot = state.spots[i];
-    if (spot.bin != b) continue;
-    const Box& box = problem_.forms()[spot.form].box;
-    const double gap = problem_.border_gap_of(items_.parts[i]);
-    reach = std::max(reach, gap + (axis == 0 ? spot.x + box.x1 - bin.box.x0 : spot.y + box.y1 - bin.box.y0));
+    if (spot.bin == kNowhere) continue;
+    reach = std::max(reach, problem_.border_gap_of(items_.parts[i]) + spot.x +
+                                problem_.forms()[spot.form].box.x1 - strip_.box.x0);
   }
   return reach;
 }
 
-void Lane::open_up(State& state) const {
-  for (std::uint32_t b = 0; b < state.ends.size(); ++b) {
-    const Bin& bin = problem_.bins()[b];
-    if (!bin.open) state.ends[b] = bin.box.x1;
-    state.tops[b] = bin.box.y1;
-  }
-}
-
-double Lane::used_area(const State& state, std::uint32_t bin) const {
+double Lane::used_area(const State& state) const {
   double area = 0;
   for (std::size_t i = 0; i < items_.movable(); ++i)
-    if (state.spots[i].bin == bin) area += problem_.area_of(items_.parts[i]);
+    if (state.spots[i].bin != kNowhere) area += problem_.area_of(items_.parts[i]);
   return area;
 }
 
@@ -98,91 +91,12 @@ Merit Lane::merit_of(const State& state) const {
     }
   for (const std::uint32_t bin : state.open_bins)
     merit.cost += problem_.document().stocks[problem_.bins()[bin].stock].cost;
-  merit.reach = reach_of(state, target_, 0);
-  if (!problem_.bins()[target_].open) merit.reach *= reach_of(state, target_, 1);
+  merit.reach = reach_of(state);
   return merit;
 }
 
-void Lane::build() {
-  const auto& bins = problem_.bins();
-  State state;
-  double area = 0, widest = 0;
-  for (std::size_t i = 0; i < items_.movable(); ++i) {
-    const Forms& forms = items_.forms[i];
-    state.spots.push_back({0, 0, forms.first, kNowhere});
-    area += problem_.area_of(items_.parts[i]);
-    for (std::uint32_t f = forms.first; f < forms.last; ++f)
-      widest = std::max(widest, problem_.forms()[f].box.x1 - problem_.forms()[f].box.x0);
-  }
-  state.spots.insert(state.spots.end(), items_.fixed.begin(), items_.fixed.end());
-  for (std::uint32_t b = 0; b < bins.size(); ++b) {
-    state.ends.push_back(bins[b].box.x1);
-    state.tops.push_back(bins[b].box.y1);
-    if (bins[b].holds_locked) state.open_bins.push_back(b);
-  }
-  const bool strip = bins.size() == 1 && bins[0].open;
-  if (strip)
-    state.ends[0] = std::min(bins[0].box.x1, bins[0].box.x0 + std::max(bins[0].locked_reach, 0.0) + widest +
-                                                 0.5 * area / (bins[0].box.y1 - bins[0].box.y0));
-  separator_.load(state);
-  // Cheap stock first, large of equals.
-  std::vector<std::uint32_t> order(bins.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const double ca = problem_.document().stocks[bins[a].stock].cost / bins[a].area,
-                 cb = problem_.document().stocks[bins[b].stock].cost / bins[b].area;
-    return ca != cb ? ca < cb : bins[a].area > bins[b].area;
-  });
-  std::vector<Forms> hopeless;  // pieces like these found no place on any
-  for (const std::uint32_t i : by_size_) {
-    if (std::find(hopeless.begin(), hopeless.end(), items_.forms[i]) != hopeless.end()) continue;
-    bool placed = false;
-    while (!placed) {
-      for (const std::uint32_t bin : separator_.state().open_bins) {
-        placed = separator_.place_low(i, bin, bins.size() == 1 ? 200 : 400);
-        if (placed) break;
-      }
-      if (placed) break;
-      if (strip && separator_.state().ends[0] < bins[0].box.x1) {
-        if (separator_.state().open_bins.empty())
-          separator_.open_bin(0);
-        else
-          separator_.set_limits(0, std::min(bins[0].box.x1, separator_.state().ends[0] + widest),
-                                bins[0].box.y1);
-        continue;
-      }
-      std::uint32_t next = kNowhere;
-      for (const std::uint32_t bin : order) {
-        const auto& open = separator_.state().open_bins;
-        if (std::find(open.begin(), open.end(), bin) != open.end()) continue;
-        if (!separator_.can_hold(bin, i)) continue;
-        next = bin;
-        break;
-      }
-      if (next == kNowhere) break;
-      separator_.open_bin(next);
-      placed = separator_.place_low(i, next, 2000);
-      if (!placed) {  // this part will not fit there
-        separator_.close_bin(next);
-        for (const std::uint32_t bin : order) {
-          const auto& open = separator_.state().open_bins;
-          if (bin == next || std::find(open.begin(), open.end(), bin) != open.end()) continue;
-          if (bins[bin].stock == bins[next].stock || !separator_.can_hold(bin, i)) continue;
-          separator_.open_bin(bin);
-          placed = separator_.place_low(i, bin, 2000);
-          if (placed) break;
-          separator_.close_bin(bin);
-        }
-        break;
-      }
-    }
-    if (!placed) hopeless.push_back(items_.forms[i]);
-  }
-  enter_lattice();
-  start(separator_.state());
-}
-
 void Lane::start(const State& state) {
+  if (best_.spots.empty()) enter_lattice();
   if (best_.spots.empty() || done_)
     go_on_from(state);
   else
@@ -191,7 +105,6 @@ void Lane::start(const State& state) {
 
 void Lane::go_on_from(const State& state) {
   best_ = state;
-  open_up(best_);
   failures_ = 0;
   pool_.clear();
   done_ = false;
@@ -210,42 +123,19 @@ bool Lane::take_offered() {
   return true;
 }
 
-double Lane::first_ratio() const {
-  // Emptying a sheet is worth a try while another is there.
-  if (problem_.bins()[target_].open) return kFirstShrink;
-  return best_.open_bins.size() > 1 ? 1.0 : 0.5;
-}
-
 void Lane::choose_goal() {
   phase_ = Phase::explore;
   for (std::size_t i = 0; i < items_.movable(); ++i)
     if (best_.spots[i].bin == kNowhere) phase_ = Phase::insert;
-  if (best_.open_bins.empty()) {
-    done_ = true;
-    return;
-  }
-  // Sheets with nothing on them are given back.
-  std::erase_if(best_.open_bins, [&](std::uint32_t bin) {
-    return best_.open_bins.size() > 1 && !problem_.bins()[bin].holds_locked && used_area(best_, bin) == 0;
-  });
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t bin : best_.open_bins) {
-    const double area = used_area(best_, bin) + (problem_.bins()[bin].holds_locked ? 1e30 : 0);
-    if (area < least) {
-      least = area;
-      target_ = bin;
-    }
-  }
-  if (phase_ == Phase::explore && used_area(best_, target_) == 0) done_ = true;
-  ratio_ = first_ratio();
+  done_ = best_.open_bins.empty() || (phase_ == Phase::explore && used_area(best_) == 0);
+  ratio_ = kFirstShrink;
 }
 
 /// What was too much to ask for before is so now.
 void Lane::choose_goal_again() {
   const double ratio = ratio_;
   choose_goal();
-  if (phase_ == Phase::explore && ratio > 0 && ratio_ < 1)
-    ratio_ = std::min(ratio_, std::max(ratio, kExploreShrink));
+  if (phase_ == Phase::explore && ratio > 0) ratio_ = std::min(ratio_, std::max(ratio, kExploreShrink));
 }
 
 void Lane::begin_separation() {
@@ -276,85 +166,53 @@ void Lane::attempt_insert() {
 
 void Lane::attempt_shrink(bool random_split) {
   separator_.load(best_);
-  const Bin& bin = problem_.bins()[target_];
-  Random& random = separator_.random();
-  if (ratio_ >= 1) {
-    separator_.close_bin(target_);
-    for (std::uint32_t i = 0; i < items_.movable(); ++i)
-      if (best_.spots[i].bin == target_) separator_.put_anywhere(i);
-    return begin_separation();
-  }
-  const bool strip = bin.open;
-  const double reach[2] = {reach_of(best_, target_, 0), reach_of(best_, target_, 1)};
-  const double across = axis_ == 1 ? bin.box.x1 - bin.box.x0 : bin.box.y1 - bin.box.y0;
   // No shorter than what lies on it can be.
-  const auto least_of = [&](int axis) {
-    double least = std::max(separator_.least_side(target_, axis), used_area(best_, target_) / across);
-    if (axis == 0) least = std::max(least, bin.locked_reach - bin.box.x0);
-    return axis == 1 && bin.holds_locked ? reach[1] : least;
-  };
-  if (reach[axis_] <= least_of(axis_) * (1 + 1e-12)) {
-    if (!strip && reach[1 - axis_] > least_of(1 - axis_) * (1 + 1e-12)) {
-      axis_ = 1 - axis_;
-    } else {
-      done_ = best_.open_bins.size() == 1;
-      if (done_) return;
-      ratio_ = 1;
-      return attempt_shrink(false);
-    }
+  const double least = std::max({separator_.least_side(kStrip, 0), strip_.locked_reach - strip_.box.x0,
+                                 used_area(best_) / (strip_.box.y1 - strip_.box.y0)});
+  const double length = reach_of(best_);
+  if (length <= least * (1 + 1e-12)) {
+    done_ = true;
+    return;
   }
-  const double length = reach[axis_];
-  double shorter = std::max(length * (1 - ratio_), least_of(axis_));
+  double shorter = std::max(length * (1 - ratio_), least);
   if (on_lattice_) {
     const double unit = lattice_;
     const double whole = std::ceil(length / unit - 1e-6) - std::max(1.0, std::round(ratio_ * length / unit));
-    shorter = std::max(whole, std::ceil(least_of(axis_) / unit - 1e-6)) * unit;
+    shorter = std::max(whole, std::ceil(least / unit - 1e-6)) * unit;
     if (shorter >= length * (1 - 1e-12)) {
       leave_lattice();
       return attempt_shrink(random_split);
     }
   }
-  squeeze(length, shorter, random_split ? random.uniform() : 0.5);
+  squeeze(length, shorter, random_split ? separator_.random().uniform() : 0.5);
   begin_separation();
 }
 
-/// Makes the bin shorter; what lies beyond a share of its length moves along.
+/// Makes the strip shorter; what lies beyond a share of its length moves along.
 void Lane::squeeze(double length, double shorter, double share) {
-  const Bin& bin = problem_.bins()[target_];
-  const double low = axis_ == 0 ? bin.box.x0 : bin.box.y0;
-  const double split = low + share * length;
+  const double split = strip_.box.x0 + share * length;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
     Spot spot = separator_.state().spots[i];
-    if (spot.bin != target_) continue;
+    if (spot.bin == kNowhere) continue;
     const Box& b = problem_.forms()[spot.form].box;
-    const double middle = axis_ == 0 ? spot.x + 0.5 * (b.x0 + b.x1) : spot.y + 0.5 * (b.y0 + b.y1);
-    if (middle <= split) continue;
-    (axis_ == 0 ? spot.x : spot.y) -= length - shorter;
+    if (spot.x + 0.5 * (b.x0 + b.x1) <= split) continue;
+    spot.x -= length - shorter;
     separator_.set_spot(i, spot);
   }
   limit(shorter);
 }
 
-/// The length up to which there may be something on the target.
-void Lane::limit(double length) {
-  const Bin& bin = problem_.bins()[target_];
-  if (bin.open)
-    separator_.set_limits(target_, bin.box.x0 + length, bin.box.y1);
-  else if (axis_ == 0)
-    separator_.set_limits(target_, bin.box.x0 + length, bin.box.y0 + reach_of(best_, target_, 1));
-  else
-    separator_.set_limits(target_, bin.box.x0 + reach_of(best_, target_, 0), bin.box.y0 + length);
-}
+/// The length up to which there may be something.
+void Lane::limit(double length) { separator_.set_limits(kStrip, strip_.box.x0 + length, strip_.box.y1); }
 
 /// Pushes the best together as far as that goes without another arrangement.
 void Lane::compact() {
   for (double ratio = kCompactFrom; ratio > kCompactTo;) {
-    const double length = reach_of(best_, target_, axis_);
+    const double length = reach_of(best_);
     separator_.load(best_);
     squeeze(length, length * (1 - ratio), separator_.random().uniform());
     if (separator_.relax(kRelaxRounds) && merit_of(separator_.state()) < merit_) {
       best_ = separator_.state();
-      open_up(best_);
       merit_ = merit_of(best_);
     } else {
       ratio *= 0.5;
@@ -391,27 +249,24 @@ void Lane::attempt_disrupted() {
            m.y < s.y + box.y1 &&
            problem_.hull_area_of(items_.parts[i]) < 0.5 * problem_.hull_area_of(items_.parts[of]);
   };
-  struct Move {
-    std::uint32_t item, bin;
-    geom::Point by;
+  std::vector<std::pair<std::uint32_t, Spot>> moves;
+  const auto shift = [&](std::uint32_t i, geom::Point by) {
+    Spot s = state.spots[i];
+    s.x += by.x;
+    s.y += by.y;
+    moves.emplace_back(i, s);
   };
-  const std::uint32_t bin_a = state.spots[a].bin, bin_b = state.spots[b].bin;
-  std::vector<Move> moves = {{a, bin_b, way}, {b, bin_a, -way}};
+  shift(a, way);
+  shift(b, -way);
   for (std::uint32_t i = 0; i < items_.movable(); ++i) {
     if (i == a || i == b) continue;
     if (lies_in(i, a))
-      moves.push_back({i, bin_b, way});
+      shift(i, way);
     else if (lies_in(i, b))
-      moves.push_back({i, bin_a, -way});
+      shift(i, -way);
   }
-  for (const Move& move : moves) {
-    Spot s = state.spots[move.item];
-    s.x += move.by.x;
-    s.y += move.by.y;
-    s.bin = move.bin;
-    separator_.set_spot(move.item, s);
-  }
-  for (const std::uint32_t bin : {bin_a, bin_b}) separator_.set_limits(bin, state.ends[bin], state.tops[bin]);
+  for (const auto& [item, spot] : moves) separator_.set_spot(item, spot);
+  separator_.set_limits(kStrip, state.ends[kStrip], state.tops[kStrip]);
   begin_separation();
 }
 
@@ -421,13 +276,11 @@ void Lane::on_valid() {
   if (phase_ != Phase::insert && !(merit_of(separator_.state()) < merit_)) return on_failure();
   const Phase before = phase_;
   const double ratio = ratio_;
-  const std::uint32_t target = target_;
   best_ = separator_.state();
-  open_up(best_);
   failures_ = 0;
   pool_.clear();
   choose_goal();
-  if (!done_ && before != Phase::insert && target_ == target) {
+  if (!done_ && before != Phase::insert) {
     phase_ = before;
     ratio_ = ratio;
   }
@@ -460,20 +313,16 @@ void Lane::on_failure() {
     ratio_ *= 0.85;
     if (ratio_ < kCompressTo) {
       phase_ = Phase::explore;
-      ratio_ = problem_.bins()[target_].open ? kExploreShrink : first_ratio();
+      ratio_ = kExploreShrink;
       if (!on_lattice_) enter_lattice();
-      if (!problem_.bins()[target_].open) axis_ = 1 - axis_;
       pool_.clear();
       failures_ = 0;
     }
     return next_attempt();
   }
   if (ratio_ > kExploreShrink) {
-    // A sheet that might go is tried harder than a little length.
-    if (ratio_ < 1 || failures_ >= 4) {
-      ratio_ = std::max(kExploreShrink, 0.5 * ratio_);
-      failures_ = 0;
-    }
+    ratio_ = std::max(kExploreShrink, 0.5 * ratio_);
+    failures_ = 0;
     return next_attempt();
   }
   pool_.push_back({least_, least_overlap_});
@@ -492,12 +341,11 @@ void Lane::on_failure() {
 /// What all but fits, and may fit in a little more length that is still a gain.
 bool Lane::fits_wider() {
   if (on_lattice_) return false;
-  if (phase_ == Phase::insert || ratio_ >= 1) return separator_.relax(kRelaxRounds);
-  const double end = axis_ == 0 ? separator_.state().ends[target_] : separator_.state().tops[target_];
-  const Box& box = problem_.bins()[target_].box;
-  limit(reach_of(best_, target_, axis_) * (1 - kGain));
+  if (phase_ == Phase::insert) return separator_.relax(kRelaxRounds);
+  const double end = separator_.state().ends[kStrip];
+  limit(reach_of(best_) * (1 - kGain));
   if (separator_.relax(kRelaxRounds)) return true;
-  limit(end - (axis_ == 0 ? box.x0 : box.y0));
+  limit(end - strip_.box.x0);
   separator_.overlap();
   return false;
 }
@@ -535,7 +383,6 @@ void Lane::step() {
     return on_valid();
   const Patience patience = phase_ == Phase::insert     ? kInsert
                             : phase_ == Phase::compress ? kCompress
-                            : ratio_ >= 1               ? kInsert
                             : ratio_ > kExploreShrink   ? kHasty
                                                         : kExplore;
   if (overlap < 0.98 * strike_overlap_) {

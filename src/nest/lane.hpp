@@ -9,16 +9,12 @@
 
 namespace lekalo::nest {
 
-/// One strand of the search; strands run on their own between merges. It takes pieces that lie nowhere in,
-/// empties sheets and shortens the last one, each by asking for a little more than there is and ending the
-/// overlaps.
+/// One strand of the search on one strip; strands run on their own between merges. It takes pieces that lie
+/// nowhere in and shortens the strip, each by asking for a little more than there is and ending the overlaps.
 class Lane {
  public:
   Lane(const Problem& problem, const Items& items, std::uint64_t seed, std::uint64_t stream);
 
-  /// A first valid state: one piece after the other, large ones first. Pieces for which no place is found lie
-  /// nowhere.
-  void build();
   /// Goes on from a valid state; where an attempt is under way, from its end, and only if that is better.
   void start(const State& state);
   /// Until about so much more work is done; less where nothing is left to be gained.
@@ -37,12 +33,9 @@ class Lane {
     double overlap;
   };
   enum class Phase { insert, explore, compress };
-  /// How far along an axis what is on a bin reaches, border gaps included, mm from its corner.
-  double reach_of(const State& state, std::uint32_t bin, int axis) const;
-  /// Takes limits of sheets back.
-  void open_up(State& state) const;
-  double used_area(const State& state, std::uint32_t bin) const;
-  double first_ratio() const;
+  /// How far along the strip what lies there reaches, border gaps included, mm.
+  double reach_of(const State& state) const;
+  double used_area(const State& state) const;
   Merit merit_of(const State& state) const;
   void choose_goal();
   void choose_goal_again();
@@ -66,6 +59,7 @@ class Lane {
 
   const Problem& problem_;
   const Items& items_;
+  const Bin& strip_;
   Separator separator_;
   std::vector<std::uint32_t> by_size_, large_;
   State best_;
@@ -73,8 +67,6 @@ class Lane {
   Merit merit_;
   bool done_ = false;
   Phase phase_ = Phase::explore;
-  std::uint32_t target_ = 0;  ///< the bin that is shortened
-  int axis_ = 0;              ///< along x, or y of sheets
   double ratio_ = 0;
   int failures_ = 0;
   std::vector<Failed> pool_;
