@@ -731,15 +731,19 @@ class Clearing {
       double length = 0;
       std::uint32_t e = from.edge;
       Point at = begin;
-      while (length < kWallWay * step_ && edges.size() < 200) {
+      // Once round, and the edge where it began again: a wall that is one whole circle is walked from its
+      // seam on.
+      for (std::uint32_t walked = 0; walked <= count && length < kWallWay * step_; ++walked) {
         Edge edge = limit.curves()[e].edge;
         if (back) edge = turned_back(edge);
         Edge rest{edge.kind, at, edge.to, edge.centre};
         if (e == goal.edge) {
           const Edge last{edge.kind, at, to, edge.centre};
-          const bool ahead = edge.kind == EdgeKind::line
-                                 ? dot(to - at, edge.to - edge.from) > 0
-                                 : !(rest.from == rest.to) && arc_sweep(last) < arc_sweep(rest) + 1e-9;
+          const bool from_seam = walked > 0 && edge.from == edge.to;
+          const bool ahead =
+              edge.kind == EdgeKind::line
+                  ? dot(to - at, edge.to - edge.from) > 0
+                  : from_seam || (!(rest.from == rest.to) && arc_sweep(last) < arc_sweep(rest) + 1e-9);
           if (ahead) {
             if (length + length_of(last) > kWallWay * step_) break;
             edges.push_back(last);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "lekalo/mill/program.hpp"
 #include "lekalo/verify/simulate.hpp"
 #include "support/cases.hpp"
+#include "support/places.hpp"
 
 // The path, judged by the independent checker. Bounds stated here are those the path keeps today; what it is
 // to keep in the end stands in docs/design/pocket.md.
@@ -83,6 +86,15 @@ TEST(PocketPath, ARectangleIsCleared) {
 TEST(PocketPath, AnIslandIsLeftStanding) {
   expect_cleared(
       judge(kDisc + R"("islands":[[{"arc":{"from":[7,0],"to":[7,0],"centre":[4,0],"ccw":true}}]]})"));
+}
+
+/// A way along a wall that is one whole circle once never ended: past its seam there was no next edge.
+TEST(PocketPath, AWallThatIsOneCircleIsWalkedBeyondItsSeam) {
+  std::ifstream file(cases::source_dir() + "/examples/pockets/cover.json");
+  const std::string cover{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const Judged judged = judge(cover);
+  expect_cleared(judged);
+  EXPECT_LE(judged.report.engagement_max_deg, 98);
 }
 
 TEST(PocketPath, StockIsLeftOnTheWalls) {
