@@ -32,7 +32,6 @@ constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr std::size_t kManyEdges = 40;
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
 constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
-constexpr double kNothing = 1e-3;  // of the tool's radius squared: what is left of a larger tool
 constexpr double kApproach = 1;    // mm above the stock: from there on at the plunge feed
 constexpr double kMissed = 5e-3;   // mm
 constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
@@ -116,27 +115,15 @@ Result<std::vector<Region>> mirrored(const std::vector<Region>& regions) {
 
 class Clearing {
  public:
-  Clearing(const Region& allowed, const PocketOptions& o, const std::vector<Region>& cut_already)
+  Clearing(const Region& allowed, const PocketOptions& o)
       : o_(o),
-        cut_already_(cut_already),
         radius_(o.tool_diameter / 2),
         step_(o.step_over * o.tool_diameter),
         allowed_{allowed},
         limit_(allowed_) {}
 
   Result<PocketPath> run() {
-    if (!cut_already_.empty()) {
-      auto rest = geom::combine(allowed_, cut_already_, geom::BooleanOperation::subtract);
-      if (!rest) return tl::unexpected(rest.error());
-      double area = 0;
-      for (const Region& region : rest->regions) area += geom::area(region);
-      if (area < kNothing * radius_ * radius_) return PocketPath{};
-    }
     if (auto split = find_fields(); !split) return tl::unexpected(split.error());
-    if (!cut_already_.empty()) {
-      if (auto rest = run_rest(); !rest) return tl::unexpected(rest.error());
-      return std::move(path_);
-    }
     std::vector<Region> left = fields_.empty() ? allowed_ : fields_;
     while (!left.empty()) {
       choose_entry(left);
@@ -171,74 +158,6 @@ class Clearing {
   }
 
  private:
-  /// From what a larger tool has cut: no helix, no spiral, and of the walls only what that tool did not come
-  /// to.
-  Result<void> run_rest() {
-    auto start = geom::combine(cut_already_, allowed_, geom::BooleanOperation::intersect);
-    if (!start) return tl::unexpected(start.error());
-    if (start->regions.empty()) {
-      cut_already_.clear();
-      auto path = run();
-      if (!path) return tl::unexpected(path.error());
-      path_ = std::move(*path);
-      return {};
-    }
-    auto fields = geom::combine(fields_, start->regions, geom::BooleanOperation::unite);
-    if (!fields) return tl::unexpected(fields.error());
-    fields_ = std::move(fields->regions);
-    field_limit_.emplace(fields_);
-    auto growth = grow(fields_, narrow_, start->regions, {radius_, step_, strip_});
-    if (!growth) return tl::unexpected(growth.error());
-    growth_ = std::move(*growth);
-    grid_.emplace(growth_, radius_);
-    waiting_.assign(growth_.fronts.size(), 0.0);
-    path_.fronts = growth_.fronts.size();
-    std::vector<std::vector<Front>> walls;
-    std::vector<Region> before = growth_.cut.back();
-    for (const double peel : {kPeels[0], 0.23, 0.0}) {
-      auto round = peel > 0 ? rounded(allowed_, 0, peel * radius_, 3 * peel * peel * radius_ * radius_)
-                            : Result<std::vector<Region>>(allowed_);
-      if (!round) return tl::unexpected(round.error());
-      auto all = geom::combine(*round, before, geom::BooleanOperation::unite);
-      if (!all) return tl::unexpected(all.error());
-      walls.push_back(fresh_stretches(all->regions, geom::RegionIndex(before)));
-      before = std::move(all->regions);
-    }
-    Point first = start->regions.front().outer.front().from;
-    if (!growth_.fronts.empty())
-      first = growth_.fronts.front().edges.front().from;
-    else
-      for (const auto& round : walls)
-        if (!round.empty()) {
-          first = round.front().edges.front().from;
-          break;
-        }
-    go({.kind = PathMove::Kind::rapid, .to = first, .z = o_.safe_height});
-    go(PathMove::Kind::plunge, first);
-    cut_fronts();
-    // Corner by corner: of those near each other, the outer before the inner.
-    std::vector<std::pair<std::size_t, Front>> left;
-    for (std::size_t round = 0; round < walls.size(); ++round)
-      for (Front& front : walls[round]) left.emplace_back(round, std::move(front));
-    while (!left.empty()) {
-      std::size_t next = 0;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        const Point begin = left[i].second.edges.front().from;
-        const bool waits = std::any_of(left.begin(), left.end(), [&](const auto& other) {
-          return other.first < left[i].first && norm(other.second.edges.front().from - begin) < 2 * radius_;
-        });
-        const double d = norm(begin - at_);
-        if (!waits && d < least) least = d, next = i;
-      }
-      link(left[next].second.edges.front().from, nullptr);
-      for (const Edge& edge : left[next].second.edges) go(PathMove::Kind::cut, edge);
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
-    }
-    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
-    return {};
-  }
-
   /// Fields keep a strip off the walls and are rounded in corners; what is too narrow for them is a corridor.
   Result<void> find_fields() {
     strip_ = kStrip * radius_;
@@ -766,7 +685,6 @@ class Clearing {
   };
 
   PocketOptions o_;
-  std::vector<Region> cut_already_;  ///< by a larger tool
   double radius_, step_;
   std::vector<Region> allowed_;
   geom::RegionIndex limit_;
@@ -785,17 +703,14 @@ class Clearing {
 
 }  // namespace
 
-Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
-                              const std::vector<Region>& cut_already) {
-  if (options.direction != Direction::conventional) return Clearing(allowed, options, cut_already).run();
+Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options) {
+  if (options.direction != Direction::conventional) return Clearing(allowed, options).run();
   // What is climb on one side of a mirror is conventional on the other.
   PocketOptions turned = options;
   turned.direction = Direction::climb;
   const auto other = mirrored({allowed});
   if (!other) return tl::unexpected(other.error());
-  const auto cut = mirrored(cut_already);
-  if (!cut) return tl::unexpected(cut.error());
-  auto path = Clearing(other->front(), turned, *cut).run();
+  auto path = Clearing(other->front(), turned).run();
   if (!path) return path;
   for (PathMove& move : path->moves) {
     move.to.x = -move.to.x, move.centre.x = -move.centre.x;

@@ -138,7 +138,7 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
   }
   PocketPath whole;
   for (const Region& region : pieces) {
-    const auto level = source ? floz_level(region, one) : level_path(region, one, {});
+    const auto level = source ? floz_level(region, one) : level_path(region, one);
     if (!level) return tl::unexpected(level.error());
     const geom::RegionIndex index({region});
     PocketPath path;

@@ -12,10 +12,6 @@ namespace {
 constexpr std::uint32_t kStrip = 0;  ///< the only bin there is
 constexpr double kExploreShrink = 0.001, kFirstShrink = 0.02;
 constexpr double kCompressFrom = 0.0005, kCompressTo = 0.00001;
-/// Passes without 2 % less overlap that end an attempt, and attempts from the best so far.
-struct Patience {
-  int passes, strikes;
-};
 constexpr Patience kExplore = {200, 3}, kCompress = {100, 5}, kHasty = {50, 1}, kInsert = {100, 2};
 constexpr int kFailuresToCompress = 12;
 /// Relaxing: rounds; tried at a new least overlap, and up to so many times that after so many passes.
@@ -141,9 +137,8 @@ void Lane::choose_goal_again() {
 void Lane::begin_separation() {
   if (on_lattice_) separator_.to_lattice();
   separator_.forget_weights();
-  least_overlap_ = strike_overlap_ = separator_.overlap();
-  least_ = separator_.state();
-  without_gain_ = strikes_ = 0;
+  const double overlap = separator_.overlap();
+  attempt_.begin(overlap, separator_.state());
   passes_ = relax_after_ = 0;
 }
 
@@ -294,7 +289,7 @@ void Lane::on_valid() {
 }
 
 void Lane::on_stuck() {
-  separator_.load(least_);
+  separator_.load(attempt_.least());
   if (fits_wider()) return on_valid();
   on_failure();
 }
@@ -304,8 +299,8 @@ void Lane::on_failure() {
   ++failures_;
   if (phase_ == Phase::insert) {
     // Not the goal any more after many tries: then the least material for what is there.
-    if (failures_ % 2 == 0 || least_overlap_ <= 0) return attempt_insert();
-    pool_.push_back({least_, least_overlap_});
+    if (failures_ % 2 == 0 || attempt_.least_overlap() <= 0) return attempt_insert();
+    pool_.push_back({attempt_.least(), attempt_.least_overlap()});
     if (pool_.size() > 8) pool_.erase(pool_.begin());
     return attempt_disrupted();
   }
@@ -325,7 +320,7 @@ void Lane::on_failure() {
     failures_ = 0;
     return next_attempt();
   }
-  pool_.push_back({least_, least_overlap_});
+  pool_.push_back({attempt_.least(), attempt_.least_overlap()});
   if (on_lattice_) {  // left by its own clock
     if (pool_.size() > std::size_t{kFailuresToCompress}) pool_.erase(pool_.begin());
   } else if (failures_ >= kFailuresToCompress) {
@@ -374,8 +369,8 @@ void Lane::step() {
   }
   if (passes_++ == 0 && !on_lattice_ && separator_.relax(2 * kRelaxRounds)) return on_valid();
   const double overlap = separator_.pass();
-  if (overlap > 0 &&
-      (overlap < least_overlap_ || (passes_ >= relax_after_ && overlap < kRelaxBelow * least_overlap_))) {
+  if (overlap > 0 && (overlap < attempt_.least_overlap() ||
+                      (passes_ >= relax_after_ && overlap < kRelaxBelow * attempt_.least_overlap()))) {
     relax_after_ = passes_ + kRelaxEvery;
     if (fits_wider()) return on_valid();
   }
@@ -385,22 +380,15 @@ void Lane::step() {
                             : phase_ == Phase::compress ? kCompress
                             : ratio_ > kExploreShrink   ? kHasty
                                                         : kExplore;
-  if (overlap < 0.98 * strike_overlap_) {
-    strike_overlap_ = overlap;
-    without_gain_ = 0;
-  } else {
-    ++without_gain_;
+  switch (attempt_.after_pass(overlap, separator_.state(), patience)) {
+    case Attempt::Next::on:
+      return;
+    case Attempt::Next::stuck:
+      return on_stuck();
+    case Attempt::Next::from_least:
+      separator_.load(attempt_.least());
+      separator_.overlap();
   }
-  if (overlap < least_overlap_) {
-    least_overlap_ = overlap;
-    least_ = separator_.state();
-  }
-  if (without_gain_ < patience.passes) return;
-  without_gain_ = 0;
-  strike_overlap_ = least_overlap_;
-  if (++strikes_ >= patience.strikes) return on_stuck();
-  separator_.load(least_);
-  separator_.overlap();
 }
 
 void Lane::run(std::uint64_t work) {

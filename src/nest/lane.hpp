@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "attempt.hpp"
 #include "merit.hpp"
 #include "separator.hpp"
 
@@ -70,15 +71,13 @@ class Lane {
   double ratio_ = 0;
   int failures_ = 0;
   std::vector<Failed> pool_;
-  State least_;
-  double least_overlap_ = 0, strike_overlap_ = 0;
+  Attempt attempt_;
   int passes_ = 0, relax_after_ = 0;
   double lattice_unit_ = 0;  ///< 0: this strand does not look there
   double lattice_ = 0;       ///< that or a half or quarter of it
   bool on_lattice_ = false;
   int lattice_halvings_ = 0;
   std::uint64_t lattice_until_ = 0;
-  int without_gain_ = 0, strikes_ = 0;
 };
 
 }  // namespace lekalo::nest

@@ -15,10 +15,6 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kFirstShrink = 0.05, kLastShrink = 0.001, kMostShrink = 0.1;
 /// A new proportion begins with so much more than the best box, and is given up where it ends with so much.
 constexpr double kKickRoom = 0.12, kKickEnd = 0.04;
-/// Passes without 2 % less overlap that end an attempt, and attempts from the least so far.
-struct Patience {
-  int passes, strikes;
-};
 constexpr Patience kFill = {60, 2}, kBox = {40, 2}, kFine = {80, 2};
 /// Of the pieces that lie nowhere: the share that is thrown in first.
 constexpr std::size_t kFirstBatch = 8;
@@ -305,9 +301,8 @@ bool SheetLane::begin_box() {
 void SheetLane::begin_separation() {
   ++attempts_;
   separator_.forget_weights();
-  least_overlap_ = strike_overlap_ = separator_.overlap();
-  least_ = separator_.state();
-  without_gain_ = strikes_ = 0;
+  const double overlap = separator_.overlap();
+  attempt_.begin(overlap, separator_.state());
 }
 
 void SheetLane::attempt() {
@@ -508,7 +503,7 @@ void SheetLane::on_stuck() {
     if (ratio_ < kLastShrink || (ratio_ < 0.02 && behind > kKickEnd * box)) choose_goal();
     return;
   }
-  const State rest = without_conflicts(least_);
+  const State rest = without_conflicts(attempt_.least());
   if (take(rest)) failures_ = 0;
   const std::size_t missing = nowhere(current_.state).size();
   if (missing == 0) return choose_goal();
@@ -523,25 +518,16 @@ void SheetLane::step() {
     return attempt();
   }
   const Patience patience = goal_ != Goal::box ? kFill : ratio_ > 0.01 ? kBox : kFine;
-  if (overlap < 0.98 * strike_overlap_) {
-    strike_overlap_ = overlap;
-    without_gain_ = 0;
-  } else {
-    ++without_gain_;
+  switch (attempt_.after_pass(overlap, separator_.state(), patience)) {
+    case Attempt::Next::on:
+      return;
+    case Attempt::Next::stuck:
+      on_stuck();
+      return attempt();
+    case Attempt::Next::from_least:
+      separator_.load(attempt_.least());
+      separator_.overlap();
   }
-  if (overlap < least_overlap_) {
-    least_overlap_ = overlap;
-    least_ = separator_.state();
-  }
-  if (without_gain_ < patience.passes) return;
-  without_gain_ = 0;
-  strike_overlap_ = least_overlap_;
-  if (++strikes_ >= patience.strikes) {
-    on_stuck();
-    return attempt();
-  }
-  separator_.load(least_);
-  separator_.overlap();
 }
 
 void SheetLane::run(std::uint64_t work) {

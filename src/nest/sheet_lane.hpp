@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "attempt.hpp"
 #include "merit.hpp"
 #include "separator.hpp"
 
@@ -89,9 +90,7 @@ class SheetLane {
   std::uint32_t target_ = 0;    ///< the bin whose box gets smaller
   double ratio_ = 0, skew_ = 0;
   bool is_kick_ = false;  ///< the box under way is a new proportion, larger than it should be
-  State least_;
-  double least_overlap_ = 0, strike_overlap_ = 0;
-  int without_gain_ = 0, strikes_ = 0;
+  Attempt attempt_;
 };
 
 }  // namespace lekalo::nest

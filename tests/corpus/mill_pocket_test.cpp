@@ -7,7 +7,7 @@
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
 #include "lekalo/verify/simulate.hpp"
-#include "support/shared_data.hpp"
+#include "support/places.hpp"
 
 // The pockets whose figures docs/design/pocket.md gives, judged by the independent checker.
 
@@ -19,12 +19,10 @@ struct Case {
   double most_seconds;  ///< adaptive clearing needs; of paper-pocket nobody has measured it
 };
 
-class PocketOfTheData : public ::testing::TestWithParam<Case> {};
+class MeasuredPocket : public ::testing::TestWithParam<Case> {};
 
-TEST_P(PocketOfTheData, HoldsTheFigures) {
-  const std::string data = cases::shared_data();
-  if (data.empty()) GTEST_SKIP() << "no shared data";
-  const std::string file = data + "/pockets/" + GetParam().name + ".json";
+TEST_P(MeasuredPocket, HoldsTheFigures) {
+  const std::string file = cases::source_dir() + "/tests/corpus/pockets/" + GetParam().name + ".json";
   const auto text = io::read_file(file);
   ASSERT_TRUE(text) << text.error().message;
   const auto regions = io::parse_regions(*text, file);
@@ -47,7 +45,7 @@ TEST_P(PocketOfTheData, HoldsTheFigures) {
   EXPECT_LE(report->seconds, GetParam().most_seconds);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PocketOfTheData,
+INSTANTIATE_TEST_SUITE_P(All, MeasuredPocket,
                          ::testing::Values(Case{"rectangle", 137}, Case{"keyhole", 111}, Case{"L", 163},
                                            Case{"islands", 161}, Case{"star", 88}, Case{"slot", 109},
                                            Case{"paper-pocket", 100}),
