@@ -35,8 +35,9 @@ struct Nested {
   /// layout::check().
   layout::Document document;
   std::vector<Unplaced> unplaced;  ///< by part
-  std::uint64_t work = 0;          ///< candidate places looked at
-  std::uint64_t merges = 0;        ///< of the strands; only there a run ends
+  std::uint64_t work =
+      0;  ///< candidate places looked at; grids and relaxing count as the places that take as long
+  std::uint64_t merges = 0;  ///< of the strands; only there a run ends
 };
 
 struct Options {
