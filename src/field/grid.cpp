@@ -386,4 +386,19 @@ FieldGrid sample_distance(const ContourModel& model, const GridFrame& frame, uns
   return grid;
 }
 
+std::vector<double> signed_distances(const geom::RegionIndex& regions, const GridFrame& frame) {
+  std::vector<double> distance(frame.size());
+  std::uint32_t likely = 0;
+  for (std::size_t n = 0; n < distance.size(); ++n) {
+    const geom::Point p = frame.node(n % frame.columns, n / frame.columns);
+    const auto near = regions.nearest(p, likely);
+    likely = near.edge;
+    // The side changes only where the boundary passes between two nodes.
+    const bool same = n % frame.columns != 0 && std::abs(distance[n - 1]) > 1.01 * frame.pitch;
+    const bool inside = same ? distance[n - 1] > 0 : regions.contains(p);
+    distance[n] = inside ? near.distance : -near.distance;
+  }
+  return distance;
+}
+
 }  // namespace lekalo::field

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/field/contour_model.hpp"
+#include "lekalo/geom/region_index.hpp"
 
 namespace lekalo::field {
 
@@ -62,5 +63,10 @@ inline constexpr double kFieldGridGradientError = 1e-4;
 /// The signed distance from the model's segments at every node, positive inside, likewise.
 [[nodiscard]] FieldGrid sample_distance(const ContourModel& model, const GridFrame& frame,
                                         unsigned threads = 2);
+
+/// The distance of each node from the boundary of regions, of their lines and arcs themselves, in double
+/// precision; negative outside. Error: as geom::RegionIndex::nearest; within 1e-9 of the boundary either
+/// sign. Cost: O(nodes log edges). \pre frame.pitch > 0, regions that are not empty
+[[nodiscard]] std::vector<double> signed_distances(const geom::RegionIndex& regions, const GridFrame& frame);
 
 }  // namespace lekalo::field
