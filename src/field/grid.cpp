@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
+
+#include "grid_quadratic.hpp"
+#include "grid_tiles.hpp"
 
 namespace lekalo::field {
 namespace {
 
-constexpr std::size_t kTop = 256, kSmall = 8;  // nodes along a tile
-constexpr std::size_t kFew = 2;                // segments that need no further division
-constexpr std::size_t kBlock = 256;            // nodes looked at together
+constexpr std::size_t kSmall = 8;    // nodes along a tile
+constexpr std::size_t kFew = 2;      // segments that need no further division
+constexpr std::size_t kBlock = 256;  // nodes looked at together
 constexpr float kLeast = std::numeric_limits<float>::min();
 using Numbers = std::vector<std::uint32_t>;
-
-struct Tile {
-  std::size_t column, row, columns, rows;
-};
 
 /// A segment seen from a tile's middle, in single precision.
 struct NearSegment {
@@ -33,14 +30,7 @@ struct Block {
   std::array<float, kBlock> value, dx, dy, sign;
 };
 
-// The loops below become vector instructions: no branch, no call, no order of sums that matters. Wider ones
-// are taken where the processor has them; they round the same.
-#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-#define LEKALO_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define LEKALO_WIDE
-#endif
+// The loops below become vector instructions: no branch, no call, no order of sums that matters.
 
 /// f is the line's value, u = f^2 / L, and over = sqrt(u^2 + t^2) - t without cancellation, as in floz().
 struct Terms {
@@ -178,55 +168,6 @@ struct Distance {
   }
 };
 
-/// Calls act(number) for 0 .. count - 1, each once, on `threads` threads. Which does which changes nothing.
-template <class Act>
-void share_out(std::size_t count, unsigned threads, const Act& act) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) act(i);
-  };
-  std::vector<std::thread> others;
-  for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
-}
-
-/// Where the chords cross each row of nodes, ascending: inside is to the right of an odd number.
-class Signs {
- public:
-  Signs(const ContourModel& model, const GridFrame& frame) : crossings_(frame.rows) {
-    const double last = static_cast<double>(frame.rows) - 1;
-    for (const ContourModel::Chord& chord : model.chords()) {
-      const geom::Point a = chord.a, b = chord.b;
-      const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
-      const double begin = std::clamp(std::floor((low - frame.origin.y) / frame.pitch), 0.0, last);
-      const double end = std::clamp(std::ceil((high - frame.origin.y) / frame.pitch), 0.0, last);
-      for (auto j = static_cast<std::size_t>(begin); j <= static_cast<std::size_t>(end); ++j) {
-        const double y = frame.node(0, j).y;
-        if ((a.y <= y) != (b.y <= y)) crossings_[j].push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-      }
-    }
-    for (std::vector<double>& row : crossings_) std::sort(row.begin(), row.end());
-  }
-  /// 1 inside, -1 outside, for nodes of one row.
-  void fill(const GridFrame& frame, std::size_t column, std::size_t row, std::size_t n, float* sign) const {
-    const std::vector<double>& crossings = crossings_[row];
-    const auto passed = [&](std::size_t i) {
-      return std::upper_bound(crossings.begin(), crossings.end(), frame.node(column + i, row).x) -
-             crossings.begin();
-    };
-    auto at = passed(0);
-    if (const auto end = passed(n - 1); at == end) {
-      std::fill(sign, sign + n, at % 2 == 1 ? 1.0F : -1.0F);
-      return;
-    }
-    for (std::size_t i = 0; i < n; ++i) sign[i] = passed(i) % 2 == 1 ? 1.0F : -1.0F;
-  }
-
- private:
-  std::vector<std::vector<double>> crossings_;
-};
-
 template <class Kind>
 class Sampler {
  public:
@@ -345,12 +286,7 @@ class Sampler {
 template <class Kind>
 void sample_tiles(const Kind& kind, const ContourModel& model, FieldGrid& grid, unsigned threads) {
   const Sampler<Kind> sampler(kind, model, grid);
-  const GridFrame& frame = grid.frame;
-  const std::size_t across = (frame.columns + kTop - 1) / kTop, up = (frame.rows + kTop - 1) / kTop;
-  share_out(across * up, threads, [&](std::size_t n) {
-    const std::size_t column = n % across * kTop, row = n / across * kTop;
-    sampler.top_tile({column, row, std::min(kTop, frame.columns - column), std::min(kTop, frame.rows - row)});
-  });
+  each_top_tile(grid.frame, threads, [&](const Tile& tile) { sampler.top_tile(tile); });
 }
 
 FieldGrid empty_grid(const GridFrame& frame) {
@@ -364,18 +300,7 @@ FieldGrid sample(const ContourModel& model, const GridFrame& frame, unsigned thr
   if (model.options().logic == Logic::linear) {
     sample_tiles(LinearFloz{model}, model, grid, threads);
   } else {
-    const Signs signs(model, frame);
-    share_out(frame.rows, threads, [&](std::size_t j) {
-      std::vector<float> sign(frame.columns);
-      signs.fill(frame, 0, j, frame.columns, sign.data());
-      for (std::size_t i = 0; i < frame.columns; ++i) {
-        const Jet jet = model.unsigned_at(frame.node(i, j));
-        const std::size_t n = j * frame.columns + i;
-        grid.value[n] = sign[i] * static_cast<float>(jet.value);
-        grid.dx[n] = sign[i] * static_cast<float>(jet.gradient.x);
-        grid.dy[n] = sign[i] * static_cast<float>(jet.gradient.y);
-      }
-    });
+    sample_quadratic(model, threads, grid);
   }
   return grid;
 }

@@ -181,18 +181,6 @@ TEST(FieldGrid, TilesGiveWhatEveryNodeByItselfGives) {
   }
 }
 
-TEST(FieldGrid, AQuadraticConjunctionIsTheModelsOwn) {
-  Random random(cases::seed(), 5);
-  const ContourModel model = model_of(star(random, 8), Logic::quadratic, FlozForm::normalised);
-  const GridFrame frame{{-20, -20}, 1.7, 24, 24};
-  const FieldGrid grid = sample(model, frame, 2);
-  for (std::size_t n = 0; n < frame.size(); ++n) {
-    const Jet jet = model(frame.node(n % frame.columns, n / frame.columns));
-    EXPECT_EQ(grid.value[n], static_cast<float>(jet.value));
-    EXPECT_EQ(grid.dy[n], static_cast<float>(jet.gradient.y));
-  }
-}
-
 TEST(VoxelImages, ValueAndGradientAreReadBackWithinTheStatedError) {
   Random random(cases::seed(), 6);
   const ContourModel model = model_of(star(random, 8), Logic::quadratic, FlozForm::normalised);

@@ -46,18 +46,23 @@ struct FieldGrid {
 };
 
 /// What a sampled value may be off, relative to the largest of itself, the grid's pitch and the longest
-/// segment, for a linear conjunction and for distances; a quadratic one is rounded from doubles. Held by
-/// tests/property/field_test.cpp. Gradients are within kFieldGridGradientError, relative to their length or
-/// 1, where one segment has the least function by more than that; elsewhere they belong to one of those that
-/// do.
+/// segment, for a linear conjunction and for distances. Held by tests/property/field_test.cpp. Gradients are
+/// within kFieldGridGradientError, relative to their length or 1, where one segment has the least function by
+/// more than that; elsewhere they belong to one of those that do.
 inline constexpr double kFieldGridError = 1e-5;
 inline constexpr double kFieldGridGradientError = 1e-4;
+/// The same for a quadratic conjunction; its gradients are off by at most kQuadraticGridGradientError,
+/// relative to the largest of 1, their length and the value over the distance from the nearest segment. These
+/// are bounds; what is found is some 500 times less (tests/property/field_quadratic_test.cpp).
+inline constexpr double kQuadraticGridError = 2e-5;
+inline constexpr double kQuadraticGridGradientError = 2e-3;
 
 /// The signed model at every node: positive inside. The same bytes for any number of threads.
 /// Cost of a linear conjunction: tiles are divided by four, and keep the segments whose lower bound
 /// (floz_bounds) is below the least upper bound of all, so that a node looks at few; it is for FLOZ itself,
-/// not for distance: the nearest segment need not have the least FLOZ. A quadratic conjunction has no segment
-/// that does not matter: O(nodes * segments). \pre frame.pitch > 0, threads > 0
+/// not for distance: the nearest segment need not have the least FLOZ. In a quadratic conjunction every
+/// segment matters everywhere, but subtrees of its fold that are far from a tile are cubic polynomials there,
+/// which pays the more the finer the grid. \pre frame.pitch > 0, threads > 0
 [[nodiscard]] FieldGrid sample(const ContourModel& model, const GridFrame& frame, unsigned threads = 2);
 
 /// The signed distance from the model's segments at every node, positive inside, likewise.

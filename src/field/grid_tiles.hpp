@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+#include "lekalo/field/grid.hpp"
+
+/// What filling grids by tiles shares.
+namespace lekalo::field {
+
+// Loops over nodes become vector instructions: no branch, no call, no order of sums that matters. Wider ones
+// are taken where the processor has them; they round the same.
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define LEKALO_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define LEKALO_WIDE
+#endif
+
+inline constexpr std::size_t kTop = 256;  // nodes along a tile
+
+struct Tile {
+  std::size_t column, row, columns, rows;
+};
+
+/// Calls act(number) for 0 .. count - 1, each once, on `threads` threads. Which does which changes nothing.
+template <class Act>
+void share_out(std::size_t count, unsigned threads, const Act& act) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) act(i);
+  };
+  std::vector<std::thread> others;
+  for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+}
+
+/// Where the chords cross each row of nodes, ascending: inside is to the right of an odd number.
+class Signs {
+ public:
+  Signs(const ContourModel& model, const GridFrame& frame) : crossings_(frame.rows) {
+    const double last = static_cast<double>(frame.rows) - 1;
+    for (const ContourModel::Chord& chord : model.chords()) {
+      const geom::Point a = chord.a, b = chord.b;
+      const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
+      const double begin = std::clamp(std::floor((low - frame.origin.y) / frame.pitch), 0.0, last);
+      const double end = std::clamp(std::ceil((high - frame.origin.y) / frame.pitch), 0.0, last);
+      for (auto j = static_cast<std::size_t>(begin); j <= static_cast<std::size_t>(end); ++j) {
+        const double y = frame.node(0, j).y;
+        if ((a.y <= y) != (b.y <= y)) crossings_[j].push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+      }
+    }
+    for (std::vector<double>& row : crossings_) std::sort(row.begin(), row.end());
+  }
+  /// 1 inside, -1 outside, for nodes of one row.
+  void fill(const GridFrame& frame, std::size_t column, std::size_t row, std::size_t n, float* sign) const {
+    const std::vector<double>& crossings = crossings_[row];
+    const auto passed = [&](std::size_t i) {
+      return std::upper_bound(crossings.begin(), crossings.end(), frame.node(column + i, row).x) -
+             crossings.begin();
+    };
+    auto at = passed(0);
+    if (const auto end = passed(n - 1); at == end) {
+      std::fill(sign, sign + n, at % 2 == 1 ? 1.0F : -1.0F);
+      return;
+    }
+    for (std::size_t i = 0; i < n; ++i) sign[i] = passed(i) % 2 == 1 ? 1.0F : -1.0F;
+  }
+
+ private:
+  std::vector<std::vector<double>> crossings_;
+};
+
+/// Calls act(tile) for the tiles of kTop nodes along a side, each once.
+template <class Act>
+void each_top_tile(const GridFrame& frame, unsigned threads, const Act& act) {
+  const std::size_t across = (frame.columns + kTop - 1) / kTop, up = (frame.rows + kTop - 1) / kTop;
+  share_out(across * up, threads, [&](std::size_t n) {
+    const std::size_t column = n % across * kTop, row = n / across * kTop;
+    act(Tile{column, row, std::min(kTop, frame.columns - column), std::min(kTop, frame.rows - row)});
+  });
+}
+
+}  // namespace lekalo::field
