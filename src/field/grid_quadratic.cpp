@@ -139,6 +139,9 @@ void tighten(Bounds& bounds, double radius) {
     bounds.most[k] = std::min(bounds.most[k], middle[k] + radius * changes(bounds)[k]);
 }
 
+/// Not below exp(x). \pre x >= 0
+double growth(double x) { return x < 1 ? 1 / (1 - x) : std::numeric_limits<double>::infinity(); }
+
 double conjunction_of(double a, double b) {
   const double sum = a + b + std::sqrt(a * a + b * b);
   return sum > 0 ? 2 * a * b / sum : 0;
@@ -157,7 +160,7 @@ Shares shares_of(const Bounds& a, const Bounds& b, double radius, double& ratio_
   ratio_low = b.high > 0 ? a.low / b.high : 0;
   ratio_high = b.low > 0 ? a.high / b.low : std::numeric_limits<double>::infinity();
   if (a.smooth && b.smooth) {
-    const double middle = a.middle.d[0] / b.middle.d[0], wide = std::exp((a.most[0] + b.most[0]) * radius);
+    const double middle = a.middle.d[0] / b.middle.d[0], wide = growth((a.most[0] + b.most[0]) * radius);
     ratio_low = std::max(ratio_low, middle / wide), ratio_high = std::min(ratio_high, middle * wide);
   }
   return {1 - part_of_second(ratio_low), part_of_second(ratio_high)};
@@ -355,7 +358,7 @@ class Sampler {
     const Part& part = tree.parts[at];
     const Bounds& bounds = all[at];
     if (bounds.smooth && part.kind != Part::model) {
-      const double range = std::min(bounds.high / bounds.low, std::exp(2 * bounds.most[0] * radius));
+      const double range = std::min(bounds.high / bounds.low, growth(2 * bounds.most[0] * radius));
       const double gradient = bounds.most[3] * radius * radius * radius / 6 * range;
       const double value = gradient * radius / 4;
       if (kHalvings * value <= budget * kValueShare &&

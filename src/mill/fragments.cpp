@@ -17,9 +17,11 @@ using geom::Point;
 using geom::Region;
 
 constexpr std::size_t kMostFragments = 200;
-constexpr double kTurn = 0.1;     // rad
-constexpr double kBend = 0.03;    // of the region's size
-constexpr double kOnward = 1e-6;  // of the region's size: nearer than this is the place itself
+constexpr double kTurn = 0.1;       // rad
+constexpr double kBend = 0.03;      // of the region's size
+constexpr double kSoftTurn = 0.35;  // sine
+constexpr std::size_t kCurve = 4;   // places that make a curve
+constexpr double kOnward = 1e-6;    // of the region's size: nearer than this is the place itself
 
 /// A place where the boundary turns away from the material, which lies on the left.
 struct Notch {
@@ -43,14 +45,61 @@ Point middle_of(const Edge& arc) {
   return arc.centre + (radius / norm(towards)) * towards;
 }
 
+/// How a boundary turns from one edge to the next.
+struct Joint {
+  Notch notch;
+  double turn;  ///< sine; negative away from the material
+  bool soft;    ///< turns away a little, as places along a curve do
+};
+
+/// Of a curve given by many short edges, the place half way round, if the curve bends enough.
+void add_bend(const std::vector<Joint>& curve, double size, std::vector<Notch>& notches) {
+  const Point from = curve.front().notch.at, way = curve.back().notch.at - from;
+  const double length = norm(way);
+  double turn = 0, depth = 0;
+  for (const Joint& joint : curve) {
+    turn += joint.turn;
+    const Point off = joint.notch.at - from;
+    depth = std::max(depth, length > 0 ? std::abs(cross(way, off)) / length : norm(off));
+  }
+  if (!(depth > kBend * size)) return;
+  double half = 0;
+  for (const Joint& joint : curve) {
+    half += joint.turn;
+    if (half <= 0.5 * turn) return notches.push_back(joint.notch);
+  }
+}
+
 void add_notches(const geom::Contour& contour, double size, std::vector<Notch>& notches) {
+  std::vector<Joint> joints;
   for (std::size_t i = 0; i < contour.size(); ++i) {
     const Edge &edge = contour[i], &next = contour[(i + 1) % contour.size()];
     const Point a = tangent(edge, edge.to), b = tangent(next, next.from);
-    if (cross(a, b) < -kTurn || (dot(a, b) < 0 && cross(a, b) < 0)) notches.push_back({edge.to, a, b});
+    const double turn = cross(a, b);
+    const bool lines = edge.kind == EdgeKind::line && next.kind == EdgeKind::line;
+    joints.push_back({{edge.to, a, b}, turn, lines && dot(a, b) > 0 && turn < 0 && turn > -kSoftTurn});
     if (edge.kind != EdgeKind::arc_cw) continue;
     const Point middle = middle_of(edge), along = tangent(edge, middle);
     if (norm(middle - 0.5 * (edge.from + edge.to)) > kBend * size) notches.push_back({middle, along, along});
+  }
+  // Begun after a place that is no curve's, if there is one.
+  const auto first = std::find_if(joints.begin(), joints.end(), [](const Joint& j) { return !j.soft; });
+  if (first != joints.end()) std::rotate(joints.begin(), first + 1, joints.end());
+  for (std::size_t i = 0; i < joints.size();) {
+    std::size_t end = i;
+    while (end < joints.size() && joints[end].soft) ++end;
+    if (end - i >= kCurve) {
+      add_bend({joints.begin() + static_cast<std::ptrdiff_t>(i),
+                joints.begin() + static_cast<std::ptrdiff_t>(end)},
+               size, notches);
+      i = end;
+      continue;
+    }
+    for (end = std::max(end, i + 1); i < end; ++i) {
+      const Joint& j = joints[i];
+      if (j.turn < -kTurn || (dot(j.notch.before, j.notch.after) < 0 && j.turn < 0))
+        notches.push_back(j.notch);
+    }
   }
 }
 
