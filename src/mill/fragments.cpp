@@ -20,7 +20,6 @@ constexpr std::size_t kMostFragments = 200;
 constexpr double kTurn = 0.1;       // rad
 constexpr double kBend = 0.03;      // of the region's size
 constexpr double kSoftTurn = 0.35;  // sine
-constexpr std::size_t kCurve = 4;   // places that make a curve
 constexpr double kOnward = 1e-6;    // of the region's size: nearer than this is the place itself
 
 /// A place where the boundary turns away from the material, which lies on the left.
@@ -76,8 +75,10 @@ void add_notches(const geom::Contour& contour, double size, std::vector<Notch>& 
     const Edge &edge = contour[i], &next = contour[(i + 1) % contour.size()];
     const Point a = tangent(edge, edge.to), b = tangent(next, next.from);
     const double turn = cross(a, b);
-    const bool lines = edge.kind == EdgeKind::line && next.kind == EdgeKind::line;
-    joints.push_back({{edge.to, a, b}, turn, lines && dot(a, b) > 0 && turn < 0 && turn > -kSoftTurn});
+    const Point across = next.to - edge.from;
+    const bool shallow = edge.kind == EdgeKind::line && next.kind == EdgeKind::line &&
+                         std::abs(cross(edge.to - edge.from, across)) <= kBend * size * norm(across);
+    joints.push_back({{edge.to, a, b}, turn, shallow && dot(a, b) > 0 && turn < 0 && turn > -kSoftTurn});
     if (edge.kind != EdgeKind::arc_cw) continue;
     const Point middle = middle_of(edge), along = tangent(edge, middle);
     if (norm(middle - 0.5 * (edge.from + edge.to)) > kBend * size) notches.push_back({middle, along, along});
@@ -86,20 +87,12 @@ void add_notches(const geom::Contour& contour, double size, std::vector<Notch>& 
   const auto first = std::find_if(joints.begin(), joints.end(), [](const Joint& j) { return !j.soft; });
   if (first != joints.end()) std::rotate(joints.begin(), first + 1, joints.end());
   for (std::size_t i = 0; i < joints.size();) {
-    std::size_t end = i;
-    while (end < joints.size() && joints[end].soft) ++end;
-    if (end - i >= kCurve) {
-      add_bend({joints.begin() + static_cast<std::ptrdiff_t>(i),
-                joints.begin() + static_cast<std::ptrdiff_t>(end)},
-               size, notches);
-      i = end;
-      continue;
-    }
-    for (end = std::max(end, i + 1); i < end; ++i) {
-      const Joint& j = joints[i];
-      if (j.turn < -kTurn || (dot(j.notch.before, j.notch.after) < 0 && j.turn < 0))
-        notches.push_back(j.notch);
-    }
+    std::vector<Joint> curve;
+    while (i < joints.size() && joints[i].soft) curve.push_back(joints[i++]);
+    if (!curve.empty()) add_bend(curve, size, notches);
+    if (i == joints.size()) break;
+    const Joint& j = joints[i++];
+    if (j.turn < -kTurn || (dot(j.notch.before, j.notch.after) < 0 && j.turn < 0)) notches.push_back(j.notch);
   }
 }
 
@@ -169,12 +162,13 @@ std::optional<Chord> shortest_cut(const Region& region) {
   return best;
 }
 
-/// What lies to the left of the chord next to it, and the rest.
-Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
+/// What lies on one side of the chord next to it, as far as its line goes, and the rest.
+Result<std::vector<Region>> divided(const Region& region, const Chord& chord, double side) {
   const geom::Box box = geom::bounds(region.outer);
   const double size = 2 * norm(box.high - box.low) + 1;
-  const Point a = chord.at - size * chord.direction, b = chord.at + size * chord.direction;
-  const Point left = size * geom::perpendicular(chord.direction);
+  const Point along = side * chord.direction;
+  const Point a = chord.at - size * along, b = chord.at + size * along;
+  const Point left = size * geom::perpendicular(along);
   auto half = geom::make_region({{EdgeKind::line, a, b, {}},
                                  {EdgeKind::line, b, b + left, {}},
                                  {EdgeKind::line, b + left, a + left, {}},
@@ -182,8 +176,8 @@ Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
   if (!half) return tl::unexpected(half.error());
   const auto pieces = geom::combine({region}, {*half}, geom::BooleanOperation::intersect);
   if (!pieces) return tl::unexpected(pieces.error());
-  const Point beside = chord.at + (0.5 * chord.length) * chord.direction +
-                       (1e-6 * chord.length) * geom::perpendicular(chord.direction);
+  const Point beside =
+      chord.at + (0.5 * chord.length) * chord.direction + (1e-6 * chord.length) * geom::perpendicular(along);
   for (const Region& piece : pieces->regions) {
     if (!geom::RegionIndex({piece}).contains(beside)) continue;
     auto rest = geom::combine({region}, {piece}, geom::BooleanOperation::subtract, pieces->edge_error);
@@ -195,6 +189,15 @@ Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
     return both;
   }
   return std::vector<Region>{region};
+}
+
+/// Divided by the chord: from the side whose line cuts less of the rest off.
+Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
+  auto left = divided(region, chord, 1);
+  if (!left || left->size() == 2) return left;
+  auto right = divided(region, chord, -1);
+  const bool better = right && right->size() > 1 && (left->size() < 2 || right->size() < left->size());
+  return better ? right : left;
 }
 
 }  // namespace
