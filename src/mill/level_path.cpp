@@ -129,16 +129,7 @@ class Clearing {
       choose_entry(left);
       auto start = start_region();
       if (!start) return tl::unexpected(start.error());
-      auto growth = grow(fields_, narrow_, *start, {radius_, step_, strip_});
-      if (!growth) return tl::unexpected(growth.error());
-      growth_ = std::move(*growth);
-      grid_.emplace(growth_, radius_);
-      waiting_.assign(growth_.fronts.size(), 0.0);
-      for (std::size_t i = growth_.fronts.size(); i-- > 0;) {
-        waiting_[i] += length_of(growth_.fronts[i].edges);
-        if (!growth_.fronts[i].parents.empty()) waiting_[growth_.fronts[i].parents.front()] += waiting_[i];
-      }
-      path_.fronts += growth_.fronts.size();
+      if (auto grown = grow_from(*start); !grown) return tl::unexpected(grown.error());
       enter();
       cut_fronts();
       // Pieces the tool cannot come to from there are entered anew.
@@ -152,12 +143,127 @@ class Clearing {
       if (left.size() == before) break;
     }
     if (auto walls = cut_walls(); !walls) return tl::unexpected(walls.error());
-    cut_missed_walls();
+    cut_missed_walls({});
+    go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
+    return std::move(path_);
+  }
+
+  /// What other tools have left, place by place: fronts that grow from where they have been, then the walls
+  /// they did not come to.
+  Result<PocketPath> run_from(const std::vector<Region>& cleared, const std::vector<Region>& left) {
+    if (auto split = find_fields(); !split) return tl::unexpected(split.error());
+    auto fields = geom::combine(fields_, cleared, geom::BooleanOperation::unite);
+    if (!fields) return tl::unexpected(fields.error());
+    fields_ = std::move(fields->regions);
+    field_limit_.emplace(fields_);
+    if (auto grown = grow_from(cleared); !grown) return tl::unexpected(grown.error());
+    auto peels = peels_beyond(cleared);
+    if (!peels) return tl::unexpected(peels.error());
+    const geom::RegionIndex grown(growth_.cut.back());
+    const std::vector<Front> walls = fresh_stretches(peels->rounds.front(), grown),
+                             corners = peels->between(0, peels->rounds.size() - 1);
+    std::vector<geom::RegionIndex> places;
+    for (const Region& piece : left) places.emplace_back(std::vector<Region>{piece});
+    std::vector<std::vector<std::size_t>> fronts_of(left.size()), walls_of(left.size()),
+        corners_of(left.size());
+    for (std::size_t i = 0; i < growth_.fronts.size(); ++i)
+      fronts_of[place_of(growth_.fronts[i], places)].push_back(i);
+    for (std::size_t i = 0; i < walls.size(); ++i) walls_of[place_of(walls[i], places)].push_back(i);
+    for (std::size_t i = 0; i < corners.size(); ++i) corners_of[place_of(corners[i], places)].push_back(i);
+    std::vector<std::size_t> waiting;
+    for (std::size_t i = 0; i < left.size(); ++i)
+      if (!fronts_of[i].empty() || !walls_of[i].empty() || !corners_of[i].empty()) waiting.push_back(i);
+    const geom::RegionIndex start(cleared);
+    while (!waiting.empty()) {
+      const auto nearest = std::min_element(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
+        return !path_.moves.empty() && places[a].nearest(at_).distance < places[b].nearest(at_).distance;
+      });
+      const std::size_t place = *nearest;
+      waiting.erase(nearest);
+      if (path_.moves.empty()) {
+        const Front& first = !fronts_of[place].empty()  ? growth_.fronts[fronts_of[place].front()]
+                             : !walls_of[place].empty() ? walls[walls_of[place].front()]
+                                                        : corners[corners_of[place].front()];
+        come_down(roomy_place(first.edges.front().from, start));
+      }
+      cut_fronts(&fronts_of[place]);
+      cut_all(walls, walls_of[place]);
+      for (std::vector<std::size_t>& open = corners_of[place]; !open.empty();) {
+        const auto next = std::min_element(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+          return norm(corners[a].edges.back().to - at_) < norm(corners[b].edges.back().to - at_);
+        });
+        bool back = true;
+        cut_corner(*peels, 0, corners[*next], back);
+        open.erase(next);
+      }
+    }
+    // What the fronts do not come to from there stays for a helix.
+    cut_missed_walls(cleared);
     go({.kind = PathMove::Kind::rapid, .to = at_, .z = o_.safe_height});
     return std::move(path_);
   }
 
  private:
+  Result<void> grow_from(const std::vector<Region>& start) {
+    auto growth = grow(fields_, narrow_, start, {radius_, step_, strip_});
+    if (!growth) return tl::unexpected(growth.error());
+    growth_ = std::move(*growth);
+    grid_.emplace(growth_, radius_);
+    waiting_.assign(growth_.fronts.size(), 0.0);
+    for (std::size_t i = growth_.fronts.size(); i-- > 0;) {
+      waiting_[i] += length_of(growth_.fronts[i].edges);
+      if (!growth_.fronts[i].parents.empty()) waiting_[growth_.fronts[i].parents.front()] += waiting_[i];
+    }
+    path_.fronts += growth_.fronts.size();
+    return {};
+  }
+
+  /// Which of the places a front lies in or is nearest to.
+  static std::size_t place_of(const Front& front, const std::vector<geom::RegionIndex>& places) {
+    const Point p = place_at(front.edges[front.edges.size() / 2], 0.5);
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double d = places[i].contains(p) ? 0 : places[i].nearest(p).distance;
+      if (d < least) least = d, best = i;
+    }
+    return best;
+  }
+
+  /// Near p, with some room about it.
+  [[nodiscard]] Point roomy_place(Point p, const geom::RegionIndex& cleared) const {
+    Point best = cleared.nearest(p).point;
+    double most = -1;
+    for (double reach = 0.5; reach <= 4; reach += 0.5)
+      for (int k = 0; k < 16; ++k) {
+        const auto [sine, cosine] = geom::sincos(0.39269908169872414 * k);
+        const Point q = p + (reach * radius_) * Point{cosine, sine};
+        if (!cleared.contains(q)) continue;
+        const double room = std::min(0.5 * radius_, cleared.nearest(q).distance) - 0.1 * reach * radius_;
+        if (room > most) most = room, best = q;
+      }
+    return best;
+  }
+
+  /// Where nothing stands.
+  void come_down(Point p) {
+    go({.kind = PathMove::Kind::rapid, .to = p, .z = o_.safe_height});
+    go({.kind = PathMove::Kind::rapid, .to = p, .z = std::min(o_.safe_height, kApproach)});
+    go(PathMove::Kind::plunge, p);
+  }
+
+  /// The nearest first.
+  void cut_all(const std::vector<Front>& walls, std::vector<std::size_t> open) {
+    while (!open.empty()) {
+      const auto next = std::min_element(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+        return norm(walls[a].edges.front().from - at_) < norm(walls[b].edges.front().from - at_);
+      });
+      link(walls[*next].edges.front().from, nullptr);
+      for (const Edge& edge : walls[*next].edges) go(PathMove::Kind::cut, edge);
+      open.erase(next);
+    }
+  }
+
   /// Fields keep a strip off the walls and are rounded in corners; what is too narrow for them is a corridor.
   Result<void> find_fields() {
     strip_ = kStrip * radius_;
@@ -306,12 +412,15 @@ class Clearing {
   // ---- fronts
   /// The next: near, and of two near ones the one that less waits for, so that what is small is not left
   /// behind.
-  void cut_fronts() {
+  /// \param among  if given, of these
+  void cut_fronts(const std::vector<std::size_t>* among = nullptr) {
     const std::vector<Front>& fronts = growth_.fronts;
+    const std::size_t count = among != nullptr ? among->size() : fronts.size();
     for (;;) {
       std::size_t best = fronts.size();
       double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < fronts.size(); ++i) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = among != nullptr ? (*among)[k] : k;
         const Front& f = fronts[i];
         if (grid_->is_done(i) || !std::all_of(f.parents.begin(), f.parents.end(),
                                               [&](std::size_t p) { return grid_->is_done(p); }))
@@ -394,14 +503,9 @@ class Clearing {
   // ---- walls
   /// Once along each wall; corners in thinner peels, to and fro.
   Result<void> cut_walls() {
-    Peels peels;
-    for (const double peel : kPeels) {
-      const double fillet = peel * radius_;
-      auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
-      if (!round) return tl::unexpected(round.error());
-      if (!round->empty()) peels.rounds.push_back(std::move(*round));
-    }
-    peels.rounds.push_back(allowed_);
+    auto made = peels_beyond({});
+    if (!made) return tl::unexpected(made.error());
+    Peels& peels = *made;
     const std::vector<Front>& corners = peels.between(0, peels.rounds.size() - 1);
     const geom::RegionIndex walls(peels.rounds[0]);
     // Where along the walls each corner is left.
@@ -504,7 +608,9 @@ class Clearing {
   }
 
   /// Stretches of the walls no pass came along, if peels of odd corners have left any.
-  void cut_missed_walls() {
+  /// \param cleared  where other tools have been
+  void cut_missed_walls(const std::vector<Region>& cleared) {
+    const geom::RegionIndex before(cleared);
     std::vector<geom::Curve> passes;
     std::vector<geom::Box> boxes;
     Point from;
@@ -527,7 +633,9 @@ class Clearing {
     for (const geom::Curve& wall : limit_.curves()) {
       const double pieces = std::max(1.0, std::ceil(length_of(wall.edge) / (0.1 * radius_)));
       for (double i = 0; i < pieces; ++i) {
-        if (!is_missed(place_at(wall.edge, (i + 0.5) / pieces))) continue;
+        const Point middle = place_at(wall.edge, (i + 0.5) / pieces);
+        if (!is_missed(middle)) continue;
+        if (!cleared.empty() && (before.contains(middle) || before.nearest(middle).distance < kMissed)) continue;
         const Edge piece = part_of(wall.edge, i / pieces, (i + 1) / pieces);
         if (missed.empty() || !(missed.back().back().to == piece.from)) missed.emplace_back();
         missed.back().push_back(piece);
@@ -549,6 +657,24 @@ class Clearing {
       return place->second;
     }
   };
+
+  /// \param cleared  where other tools have been
+  [[nodiscard]] Result<Peels> peels_beyond(const std::vector<Region>& cleared) const {
+    Peels peels;
+    for (const double peel : kPeels) {
+      const double fillet = peel * radius_;
+      auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
+      if (!round) return tl::unexpected(round.error());
+      if (!cleared.empty()) {
+        auto all = geom::combine(*round, cleared, geom::BooleanOperation::unite);
+        if (!all) return tl::unexpected(all.error());
+        *round = std::move(all->regions);
+      }
+      if (!round->empty()) peels.rounds.push_back(std::move(*round));
+    }
+    peels.rounds.push_back(allowed_);
+    return peels;
+  }
 
   static bool lies_on(Point p, const Front& zone) {
     return std::any_of(zone.edges.begin(), zone.edges.end(), [&](const Edge& edge) {
@@ -703,14 +829,19 @@ class Clearing {
 
 }  // namespace
 
-Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options) {
-  if (options.direction != Direction::conventional) return Clearing(allowed, options).run();
+Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
+                              const std::vector<Region>& cleared, const std::vector<Region>& left) {
+  if (options.direction != Direction::conventional)
+    return cleared.empty() ? Clearing(allowed, options).run()
+                           : Clearing(allowed, options).run_from(cleared, left);
   // What is climb on one side of a mirror is conventional on the other.
   PocketOptions turned = options;
   turned.direction = Direction::climb;
-  const auto other = mirrored({allowed});
-  if (!other) return tl::unexpected(other.error());
-  auto path = Clearing(other->front(), turned).run();
+  const auto other = mirrored({allowed}), start = mirrored(cleared), rest = mirrored(left);
+  for (const auto* made : {&other, &start, &rest})
+    if (!*made) return tl::unexpected(made->error());
+  auto path = cleared.empty() ? Clearing(other->front(), turned).run()
+                              : Clearing(other->front(), turned).run_from(*start, *rest);
   if (!path) return path;
   for (PathMove& move : path->moves) {
     move.to.x = -move.to.x, move.centre.x = -move.centre.x;

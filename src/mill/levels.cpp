@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "arc_fit.hpp"
+#include "cleared.hpp"
+#include "cleared_grid.hpp"
+#include "edge_path.hpp"
 #include "floz_level.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -32,8 +36,6 @@ Result<void> check(const PocketOptions& o) {
   if (outside(o.step_down, 0, 1e4)) return wrong("step down", o.step_down, "0 to 10000 mm");
   if (o.step_down > 0 && o.depth / o.step_down > 1000)
     return wrong("step down", o.step_down, "a thousandth of the depth at least");
-  if (outside(o.rest_of, 0, 1e4) || (o.rest_of > 0 && !(o.rest_of > o.tool_diameter)))
-    return wrong("diameter of the tool before", o.rest_of, "larger than that of this tool");
   if (outside(o.safe_height, 1e-3, 1e4)) return wrong("safe height", o.safe_height, "0.001 to 10000 mm");
   if (outside(o.ramp_angle, 1e-3, 0.8)) return wrong("ramp angle", o.ramp_angle, "0.001 to 0.8 rad");
   if (outside(o.sampling, 1e-3, 1e4)) return wrong("sampling step", o.sampling, "0.001 to 10000 mm");
@@ -54,71 +56,102 @@ bool line_inside(const geom::RegionIndex& allowed, Point a, Point b) {
   return true;
 }
 
-/// The level's path again, deeper; from its end to its beginning through what is cut where the way is
-/// straight.
-void add_level(const PocketPath& level, double top, const geom::RegionIndex& allowed, double safe_height,
-               PocketPath& path) {
-  const auto first_down = static_cast<std::size_t>(
-      std::find_if(level.moves.begin(), level.moves.end(), [](const PathMove& m) { return m.z <= 0; }) -
-      level.moves.begin());
-  std::size_t begin = 0;
-  if (top < 0 && !path.moves.empty()) {
-    while (!path.moves.empty() && path.moves.back().z > 0) path.moves.pop_back();
-    const Point start = level.moves[first_down].to, at = path.moves.back().to;
-    if (line_inside(allowed, at, start)) {
-      path.moves.push_back({Kind::link, start, path.moves.back().z});
-    } else {
-      path.moves.push_back({Kind::rapid, at, safe_height});
-      path.moves.push_back({Kind::rapid, start, safe_height});
-      path.moves.push_back({Kind::plunge, start, top});
-    }
-    begin = first_down + 1;
-  }
-  for (std::size_t i = begin; i < level.moves.size(); ++i) {
-    PathMove move = level.moves[i];
-    if (move.z <= 0) move.z += top;
-    path.moves.push_back(move);
-  }
-}
-
-}  // namespace
-
-Result<std::vector<Region>> places_to_cut(const std::vector<Region>& pockets, const PocketOptions& o) {
+/// The places the tool's middle may be.
+Result<std::vector<Region>> allowed_places(const std::vector<Region>& pockets, const PocketOptions& o) {
   if (auto good = check(o); !good) return tl::unexpected(good.error());
-  const double radius = o.tool_diameter / 2;
-  auto allowed = geom::offset(pockets, -(radius + o.stock_to_leave));
+  auto allowed = geom::offset(pockets, -(o.tool_diameter / 2 + o.stock_to_leave));
   if (!allowed) return tl::unexpected(allowed.error());
   if (allowed->regions.empty())
     return failure(
         ErrorCode::bad_input,
         fmt::format("a tool of {:g} mm that leaves {:g} mm on the walls fits nowhere in this pocket",
                     o.tool_diameter, o.stock_to_leave));
-  if (!(o.rest_of > 0)) return std::move(allowed->regions);
-  // Cut already: where the larger tool's middle may be, and as far about it as this tool's disc stays in that
-  // one's. Along walls the two end alike; what is thinner than kThin there is rounding.
-  constexpr double kThin = 2e-3;  // mm
-  const auto larger = geom::offset(pockets, -(o.rest_of / 2 + o.stock_to_leave));
-  if (!larger) return tl::unexpected(larger.error());
-  const auto cut = geom::offset(larger->regions, o.rest_of / 2 - radius + kThin);
-  if (!cut) return tl::unexpected(cut.error());
-  const auto left = geom::combine(allowed->regions, cut->regions, geom::BooleanOperation::subtract,
-                                  allowed->edge_error + cut->edge_error);
-  if (!left) return tl::unexpected(left.error());
-  // Some of what is cut beside it, so that the tool comes from there.
-  const auto grown = geom::offset(left->regions, 0.25 * radius);
-  if (!grown) return tl::unexpected(grown.error());
-  auto places = geom::combine(grown->regions, allowed->regions, geom::BooleanOperation::intersect,
-                              allowed->edge_error + grown->edge_error);
-  if (!places) return tl::unexpected(places.error());
-  if (places->regions.empty())
-    return failure(ErrorCode::bad_input,
-                   fmt::format("the tool of {:g} mm before has left nothing for one of {:g} mm", o.rest_of,
-                               o.tool_diameter));
-  return std::move(places->regions);
+  return std::move(allowed->regions);
 }
 
-Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o) {
-  auto allowed = places_to_cut(pockets, o);
+/// One piece of places, level by level.
+class Levels {
+ public:
+  Levels(const Region& places, double safe_height, double tool_radius)
+      : places_{places}, limit_(places_), safe_height_(safe_height), tool_radius_(tool_radius) {}
+
+  /// The plan of a level, made for one at the stock's face, `top` below it. From the end of the level above
+  /// to its beginning the tool goes through what that level has cut.
+  void add(const PocketPath& plan, double top) {
+    const auto first_down = static_cast<std::size_t>(
+        std::find_if(plan.moves.begin(), plan.moves.end(), [](const PathMove& m) { return m.z <= 0; }) -
+        plan.moves.begin());
+    std::size_t begin = 0;
+    if (!path_.moves.empty()) {
+      while (path_.moves.back().z > 0) path_.moves.pop_back();
+      const Point start = plan.moves[first_down].to, at = path_.moves.back().to;
+      const double z = path_.moves.back().z;
+      const std::vector<Point> corners = way(at, start);
+      for (const Point corner : corners) path_.moves.push_back({Kind::link, corner, z});
+      if (corners.empty()) {
+        path_.moves.push_back({Kind::rapid, at, safe_height_});
+        path_.moves.push_back({Kind::rapid, start, safe_height_});
+        path_.moves.push_back({Kind::plunge, start, top});
+      }
+      begin = first_down;
+    }
+    for (std::size_t i = begin; i < plan.moves.size(); ++i) {
+      PathMove move = plan.moves[i];
+      if (move.z <= 0) move.z += top;
+      const bool stays = !path_.moves.empty() && move.shape == geom::EdgeKind::line &&
+                         path_.moves.back().to == move.to && path_.moves.back().z == move.z;
+      if (!stays) path_.moves.push_back(move);
+    }
+  }
+
+  [[nodiscard]] const std::vector<PathMove>& moves() const { return path_.moves; }
+
+ private:
+  /// Corners of a way among the places, all of which are cut on the level above; none where there is none.
+  std::vector<Point> way(Point from, Point to) {
+    if (line_inside(limit_, from, to)) return {to};
+    if (!grid_) grid_.emplace(Growth{{}, {places_}}, tool_radius_);
+    std::vector<Point> corners = grid_->way(from, to);
+    Point last = from;
+    for (const Point corner : corners) {
+      if (!line_inside(limit_, last, corner)) return {};
+      last = corner;
+    }
+    return corners;
+  }
+
+  std::vector<Region> places_;
+  geom::RegionIndex limit_;
+  double safe_height_, tool_radius_;
+  std::optional<ClearedGrid> grid_;
+  PocketPath path_;
+};
+
+}  // namespace
+
+std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter) {
+  std::vector<EarlierCut> cuts;
+  Point at;
+  double z = 1;
+  for (const PathMove& move : path.moves) {
+    const double high = std::max(z, move.z);
+    geom::Edge edge{geom::EdgeKind::line, at, move.to, {}};
+    if (move.shape != geom::EdgeKind::line) edge = arc_of(move, at);
+    if (high <= 0) {
+      const double pieces = edge.kind == geom::EdgeKind::line ? 1 : 4;
+      for (double i = 0; i < pieces; ++i)
+        cuts.push_back({pieces > 1 ? part_of(edge, i / pieces, (i + 1) / pieces) : edge, -high, tool_diameter});
+    } else if (move.z <= 0 && at == move.to) {
+      cuts.push_back({{geom::EdgeKind::line, at, at, {}}, -move.z, tool_diameter});
+    }
+    at = move.to, z = move.z;
+  }
+  return cuts;
+}
+
+Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o,
+                               const std::vector<EarlierCut>& before) {
+  auto allowed = allowed_places(pockets, o);
   if (!allowed) return tl::unexpected(allowed.error());
   const double depth = o.depth - o.floor_stock;
   const double levels = o.step_down > 0 ? std::ceil(depth / o.step_down * (1 - 1e-12)) : 1;
@@ -126,6 +159,8 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
   one.depth = depth / levels;
   std::vector<Region> pieces = *allowed;
   const bool source = o.method != Method::fronts;
+  if (source && !before.empty())
+    return failure(ErrorCode::bad_input, "the source's method knows no tool that was here before");
   if (source && !o.whole) {
     const auto fragments = convex_fragments(pockets);
     if (!fragments) return tl::unexpected(fragments.error());
@@ -136,16 +171,34 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
       pieces.insert(pieces.end(), part->regions.begin(), part->regions.end());
     }
   }
+  // Of each level; levels that begin alike share a plan.
+  std::vector<std::vector<Region>> cleared;
+  for (double k = 1; k <= levels; ++k) {
+    auto places = cleared_places(before, k * one.depth, o.tool_diameter / 2);
+    if (!places) return tl::unexpected(places.error());
+    cleared.push_back(std::move(*places));
+  }
   PocketPath whole;
   for (const Region& region : pieces) {
-    const auto level = source ? floz_level(region, one) : level_path(region, one);
-    if (!level) return tl::unexpected(level.error());
-    const geom::RegionIndex index({region});
-    PocketPath path;
-    for (double k = 0; k < levels; ++k) add_level(*level, -k * one.depth, index, o.safe_height, path);
-    whole.fronts += level->fronts;
-    whole.moves.insert(whole.moves.end(), path.moves.begin(), path.moves.end());
+    Levels path(region, o.safe_height, o.tool_diameter / 2);
+    Result<PocketPath> plan;
+    for (std::size_t k = 0; k < cleared.size(); ++k) {
+      if (k == 0 || cleared[k] != cleared[k - 1]) {
+        const auto parts = divided(region, cleared[k]);
+        if (!parts) return tl::unexpected(parts.error());
+        plan = parts->left.empty() ? Result<PocketPath>(PocketPath{})
+               : source            ? floz_level(region, one)
+                                   : level_path(region, one, parts->cleared, parts->left);
+        if (!plan) return tl::unexpected(plan.error());
+        whole.fronts += plan->fronts;
+      }
+      if (!plan->moves.empty()) path.add(*plan, -static_cast<double>(k) * one.depth);
+    }
+    whole.moves.insert(whole.moves.end(), path.moves().begin(), path.moves().end());
   }
+  if (whole.moves.empty())
+    return failure(ErrorCode::bad_input,
+                   fmt::format("the tools before have left nothing for one of {:g} mm", o.tool_diameter));
   return fitted(whole, o.fit_tolerance);
 }
 

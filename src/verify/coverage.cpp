@@ -17,8 +17,13 @@ class Coverage {
  public:
   Coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report)
       : pocket_(pocket), radius_(radius), report_(report) {
-    for (const Cut& cut : path.cuts)
-      if (std::max(cut.from_z, cut.to_z) <= path.deepest + kSameLevel) floor_.push_back(cut.stroke);
+    for (const std::vector<Cut>* cuts : {&path.before, &path.cuts})
+      for (const Cut& cut : *cuts)
+        if (std::max(cut.from_z, cut.to_z) <= path.deepest + kSameLevel) {
+          floor_.push_back(cut.stroke);
+          wider_.push_back(cut.radius - radius);
+          widest_ = std::max(widest_, wider_.back());
+        }
     const Place pad{radius, radius};
     index_ = StrokeIndex(pocket.low() - pad, pocket.high() + pad, radius);
     for (std::size_t i = 0; i < floor_.size(); ++i) index_.add(static_cast<std::uint32_t>(i), floor_[i]);
@@ -32,10 +37,10 @@ class Coverage {
       for (double x = low.x; x < high.x; x += side) {
         const Place middle{x + side / 2, y + side / 2};
         const double reach = radius_ + 2.2 * side;
-        index_.near(middle, reach, cuts);
+        index_.near(middle, reach + widest_, cuts);
         pocket_.limit_index().near(middle, reach, limits);
         spot_ = {};
-        look(middle, side, cuts, limits, false, cuts.empty() ? index_.nearest(middle, floor_) : kFar);
+        look(middle, side, cuts, limits, false, cuts.empty() ? swept_at(middle) : kFar);
         if (spot_.width_mm > kTold) spots_.push_back(spot_);
       }
     tell_spots();
@@ -46,12 +51,16 @@ class Coverage {
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
+  /// Distance from what is cut, as if this tool had cut all of it along paths: of what a wider one cut that
+  /// path is as much nearer. Cut is what is nearer than this tool's radius.
+  [[nodiscard]] double swept_at(Place p) const { return index_.nearest(p, floor_, wider_, widest_); }
+
   /// Distance from `middle` to the nearest; keeps those that may matter to the square.
-  static double nearest(Place middle, double reach, const std::vector<Stroke>& strokes, const Numbers& from,
-                        Numbers& kept) {
+  template <class Distance>
+  static double nearest(double reach, const Numbers& from, Numbers& kept, Distance&& distance_of) {
     double least = kFar;
     for (const std::uint32_t i : from) {
-      const double d = distance(middle, strokes[i]);
+      const double d = distance_of(i);
       least = std::min(least, d);
       if (d <= reach) kept.push_back(i);
     }
@@ -65,7 +74,8 @@ class Coverage {
     Numbers near_cuts, near_limits;
     double off = 0;  // from the places where the tool's middle may be
     if (!all_reachable) {
-      off = nearest(middle, radius_ + half, pocket_.limit(), limits, near_limits);
+      off = nearest(radius_ + half, limits, near_limits,
+                    [&](std::uint32_t i) { return distance(middle, pocket_.limit()[i]); });
       if (near_limits.empty()) {  // all of the square is among these places, or none of it can be cut
         if (!pocket_.allowed(middle)) return;
         off = 0;
@@ -76,7 +86,10 @@ class Coverage {
       all_reachable = off + half <= radius_;
     }
     // Those a little too far are kept: they tell how wide a strip is that stays.
-    const double swept = std::min(farthest, nearest(middle, radius_ + 3 * half, floor_, cuts, near_cuts));
+    const double swept =
+        std::min(farthest, nearest(radius_ + 3 * half, cuts, near_cuts, [&](std::uint32_t i) {
+                   return distance(middle, floor_[i]) - wider_[i];
+                 }));
     if (swept + half <= radius_) {
       if (all_reachable) {
         report_.reachable_mm2 += side * side;
@@ -105,7 +118,7 @@ class Coverage {
 
   /// The widest uncut place of a square, where it may be wider than what is known.
   void widen(Place middle, double side) {
-    const double half = side * 0.7071067811865476, deep = index_.nearest(middle, floor_) - radius_;
+    const double half = side * 0.7071067811865476, deep = swept_at(middle) - radius_;
     const double most = std::min(2 * (deep + half), length(pocket_.high() - pocket_.low()));
     spot(middle, 2 * deep);
     if (most <= report_.uncut_width_mm) return;
@@ -147,6 +160,8 @@ class Coverage {
   double radius_;
   SimulateReport& report_;
   std::vector<Stroke> floor_;
+  std::vector<double> wider_;  ///< of each: its tool's radius less this one's
+  double widest_ = 0;
   StrokeIndex index_;
   double undecided_ = 0;
   UncutSpot spot_;  ///< the widest of the square that is looked at

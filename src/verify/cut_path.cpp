@@ -37,7 +37,7 @@ void add_part(const Stroke& stroke, double begin, double end, Cut cut, CutPath& 
 
 }  // namespace
 
-Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double longest,
+Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius, double longest,
                          const std::string& name) {
   CutPath path;
   path.deepest = top;
@@ -67,7 +67,7 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double long
       };
       Cut cut;
       cut.from_z = z_at(begin), cut.to_z = &s == &strokes.back() ? move.to_z : z_at(end);
-      cut.line = move.line, cut.rapid = move.rapid;
+      cut.line = move.line, cut.rapid = move.rapid, cut.radius = tool_radius;
       const double drop = cut.to_z - cut.from_z;
       if (!(cut.from_z < top) && !(cut.to_z < top)) {
         down = false;

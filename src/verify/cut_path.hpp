@@ -14,24 +14,33 @@ struct Cut {
   Stroke stroke;  ///< of no length for a plunge
   double from_z = 0, to_z = 0;
   std::size_t line = 0;
-  std::size_t entry = 0;  ///< how many times the tool came down into the stock before
+  std::size_t entry = 0;  ///< which time the tool is down in the stock, from 1; 0: an earlier program's
   bool rapid = false;
+  double radius = 0;  ///< of the tool, mm
   [[nodiscard]] bool level() const { return from_z == to_z; }
 };
 
 struct CutPath {
   std::vector<Cut> cuts;
   std::vector<Stroke> strokes;  ///< of the cuts, in their order
+  std::vector<Cut> before;      ///< of earlier programs, in their order
   std::size_t retracts = 0;
   double deepest = 0;
 };
 
 /// Pieces no longer than `longest`; bad_input where they would be more than ten million.
-[[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double longest,
-                                       const std::string& name);
+[[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
+                                       double longest, const std::string& name);
 
-/// Engagement along the path: fills samples and all figures of `report` that come from them.
-void measure_engagement(const CutPath& path, double radius, double spacing, SimulateReport& report);
+/// What the path takes off at one depth, on the level.
+struct Removed {
+  double z = 0, mm2 = 0;
+};
+
+/// Engagement along the path: fills samples and all figures of `report` that come from them. Returns what is
+/// taken off at each depth.
+std::vector<Removed> measure_engagement(const CutPath& path, double radius, double spacing,
+                                        SimulateReport& report);
 
 /// Coverage, uncut spots, gouge and unreachable spots.
 void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <limits>
+#include <map>
 
 #include "cut_path.hpp"
 #include "rim_cover.hpp"
@@ -9,34 +11,44 @@ namespace {
 constexpr double kAirDegrees = 3, kLasting = 0.2;
 constexpr double kDegrees = 180 / kPi;
 constexpr double kSameLevel = 1e-6;  // mm of Z that no machine tells
+constexpr double kSpeck = 0.02;      // mm of material under a plunging tool that are not looked for
+
+/// All of it is at least as deep.
+double highest(const Cut& cut) { return std::max(cut.from_z, cut.to_z); }
 
 class Engagement {
  public:
   Engagement(const CutPath& path, double radius, double spacing, SimulateReport& report)
-      : path_(path), radius_(radius), spacing_(spacing), report_(report) {
+      : cuts_(path.before), radius_(radius), widest_(radius), spacing_(spacing), report_(report) {
+    first_ = cuts_.size();
+    cuts_.insert(cuts_.end(), path.cuts.begin(), path.cuts.end());
     Place low{1e300, 1e300}, high{-1e300, -1e300};
-    for (const Stroke& s : path.strokes) {
+    for (const Cut& cut : cuts_) {
       Place a, b;
-      box_of(s, a, b);
+      box_of(cut.stroke, a, b);
       low = {std::min(low.x, a.x), std::min(low.y, a.y)},
       high = {std::max(high.x, b.x), std::max(high.y, b.y)};
+      widest_ = std::max(widest_, cut.radius);
     }
-    if (!path.strokes.empty()) index_ = StrokeIndex(low, high, radius);
+    if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
   }
 
-  void run() {
-    for (std::size_t i = 0; i < path_.cuts.size(); ++i) {
-      measure(i);
-      index_.add(static_cast<std::uint32_t>(i), path_.strokes[i]);
+  std::vector<Removed> run() {
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+      if (i >= first_) measure(i);
+      index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
     }
     sum_up();
+    std::vector<Removed> removed;
+    for (const auto& [z, mm2] : removed_) removed.push_back({z, mm2});
+    return removed;
   }
 
  private:
   void measure(std::size_t number) {
-    const Cut& cut = path_.cuts[number];
+    const Cut& cut = cuts_[number];
     const double whole = length(cut.stroke);
-    if (!(whole > 0)) return;
+    if (!(whole > 0)) return plunge(number);
     gather(number, at_share(cut.stroke, 0.5), whole);
     const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(whole / spacing_)));
     double done = 0;
@@ -54,6 +66,8 @@ class Engagement {
       if (sample.length > 0) {
         rim_.begin(at, radius_, so_far);
         engage(cut, sample);
+        if (cut.level() && sample.engagement >= kAirDegrees)
+          removed_[std::round(sample.z / kSameLevel) * kSameLevel] += width_ * sample.length;
       }
       if (cut.rapid && sample.engagement >= kAirDegrees) report_.rapid_cut_mm += sample.length;
       report_.samples.push_back(sample);
@@ -71,37 +85,90 @@ class Engagement {
     }
     gathered_ = true;
     gathered_at_ = middle, gathered_upto_ = number;
-    const double reach = 2 * radius_ + slack;
-    index_.near(middle, reach, near_);
-    std::erase_if(near_, [&](std::uint32_t i) { return distance(middle, path_.strokes[i]) > reach; });
+    const double reach = radius_ + slack;
+    index_.near(middle, reach + widest_, near_);
+    std::erase_if(near_, [&](std::uint32_t i) {
+      return distance(middle, cuts_[i].stroke) > reach + cuts_[i].radius;
+    });
     useful_.clear();
+  }
+
+  /// Straight down. The way that counts is from the lowest depth on to which all of the tool's disc is cut.
+  void plunge(std::size_t number) {
+    const Cut& cut = cuts_[number];
+    if (!(cut.to_z < cut.from_z)) return;
+    const Place at = cut.stroke.from;
+    index_.near(at, radius_ + widest_, near_);
+    gathered_ = false;
+    std::vector<double> depths{cut.to_z, cut.from_z};
+    for (const std::uint32_t i : near_) {
+      const double z = highest(cuts_[i]);
+      if (z > cut.to_z + kSameLevel && z < cut.from_z) depths.push_back(z);
+    }
+    std::sort(depths.begin(), depths.end());
+    std::size_t low = 0, high = depths.size() - 1;  // what is cut down to a depth is cut down to all above
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (is_cut({at, radius_ - kSpeck}, at, 2 * radius_, near_, depths[middle]))
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    const double drop = depths[low] - cut.to_z;
+    report_.entry_mm += drop;
+    if (cut.rapid) report_.rapid_cut_mm += drop;
+  }
+
+  struct Disc {
+    Place middle;
+    double radius;
+  };
+  /// Whether of the squares of kSpeck mm this one is made of none with its middle in the disc has it in
+  /// material at depth z.
+  bool is_cut(const Disc& disc, Place middle, double side, const std::vector<std::uint32_t>& near,
+              double z) const {
+    const double half = side * 0.7071067811865476, off = length(middle - disc.middle) - disc.radius;
+    if (off > half || (side <= kSpeck && off > 0)) return true;
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> kept;
+    for (const std::uint32_t i : near) {
+      if (highest(cuts_[i]) > z + kSameLevel) continue;
+      const double beyond = distance(middle, cuts_[i].stroke) - cuts_[i].radius;
+      least = std::min(least, beyond);
+      if (beyond <= half) kept.push_back(i);
+    }
+    if (least + half <= 0) return true;
+    if (side <= kSpeck) return least <= 0;
+    for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
+      if (!is_cut(disc, middle + side / 4 * corner, side / 2, kept, z)) return false;
+    return true;
   }
 
   /// Material is there at the tip's depth until the tip was as deep; what a ramp of the same entry left as
   /// its floor is entry, too.
   void engage(const Cut& cut, EngagementSample& sample) {
     const double z = sample.z;
-    const auto as_deep = [&](const Cut& earlier) {
-      return std::max(earlier.from_z, earlier.to_z) <= z + kSameLevel;
-    };
+    const auto as_deep = [&](std::uint32_t i) { return highest(cuts_[i]) <= z + kSameLevel; };
+    const auto add = [&](std::uint32_t i) { return rim_.add(cuts_[i].stroke, cuts_[i].radius); };
     // What covered much a moment ago comes first, then what is newest.
     found_.clear();
     for (const std::uint32_t i : useful_)
-      if (as_deep(path_.cuts[i]) && rim_.add(path_.strokes[i])) found_.push_back(i);
+      if (as_deep(i) && add(i)) found_.push_back(i);
     for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();)
-      if (as_deep(path_.cuts[near_[k]]) && rim_.add(path_.strokes[near_[k]])) found_.push_back(near_[k]);
+      if (as_deep(near_[k]) && add(near_[k])) found_.push_back(near_[k]);
     useful_.swap(found_);
     sample.engagement = rim_.open_angle() * kDegrees;
+    width_ = rim_.open_width();
     if (sample.engagement < kAirDegrees) return;
     if (cut.to_z < cut.from_z) {
       sample.entry = true;
       return;
     }
     for (const std::uint32_t i : near_) {
-      const Cut& earlier = path_.cuts[i];
+      const Cut& earlier = cuts_[i];
       if (!earlier.level() && earlier.entry == cut.entry &&
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
-        rim_.add(earlier.stroke);
+        add(i);
     }
     sample.entry = rim_.open_angle() * kDegrees < sample.engagement - 1e-6;
   }
@@ -149,11 +216,14 @@ class Engagement {
     }
   }
 
-  const CutPath& path_;
-  double radius_, spacing_;
+  std::vector<Cut> cuts_;  ///< of earlier programs, and from first_ on of this one
+  std::size_t first_ = 0;
+  double radius_, widest_, spacing_;  ///< of this tool, of the widest of all
   SimulateReport& report_;
   StrokeIndex index_;
   RimCover rim_;
+  double width_ = 0;                   ///< across the heading, of what was in material last
+  std::map<double, double> removed_;   ///< on the level, mm2 by depth
   std::vector<std::uint32_t> near_;            ///< earlier strokes about gathered_at_
   std::vector<std::uint32_t> useful_, found_;  ///< of them, what covered some of the rim
   bool gathered_ = false;
@@ -163,8 +233,9 @@ class Engagement {
 
 }  // namespace
 
-void measure_engagement(const CutPath& path, double radius, double spacing, SimulateReport& report) {
-  Engagement(path, radius, spacing, report).run();
+std::vector<Removed> measure_engagement(const CutPath& path, double radius, double spacing,
+                                        SimulateReport& report) {
+  return Engagement(path, radius, spacing, report).run();
 }
 
 }  // namespace lekalo::verify

@@ -97,27 +97,35 @@ void RimCover::bound() {
   bound_radius_ = 0.5 * radius_ * length(to - from);
 }
 
-bool RimCover::add(const Stroke& s) {
+bool RimCover::add(const Stroke& s, double swept_radius) {
   if (open_.empty()) return false;
-  const double reach = bound_radius_ + radius_ + kSurely;
+  const double reach = bound_radius_ + swept_radius + kSurely;
   const Place off = bound_middle_ - nearest_on(s, bound_middle_);
   if (!(dot(off, off) < reach * reach)) return false;
   cuts_.clear();
-  add_circle_cuts(s.from, radius_);
-  add_circle_cuts(s.to, radius_);
+  add_circle_cuts(s.from, swept_radius);
+  add_circle_cuts(s.to, swept_radius);
   if (s.arc) {
-    add_circle_cuts(s.centre, s.radius + radius_);
-    add_circle_cuts(s.centre, std::abs(s.radius - radius_));
+    add_circle_cuts(s.centre, s.radius + swept_radius);
+    add_circle_cuts(s.centre, std::abs(s.radius - swept_radius));
     add_line_cuts(s.centre, unit(s.from - s.centre), 0);
     add_line_cuts(s.centre, unit(s.to - s.centre), 0);
   } else if (length(s.to - s.from) > 0) {
     const Place way = unit(s.to - s.from);
-    add_line_cuts(s.from, way, radius_);
-    add_line_cuts(s.from, way, -radius_);
+    add_line_cuts(s.from, way, swept_radius);
+    add_line_cuts(s.from, way, -swept_radius);
   }
-  if (!cover(s, radius_ + kMargin)) return false;
+  if (!cover(s, swept_radius + kMargin)) return false;
   bound();
   return true;
+}
+
+double RimCover::open_width() const {
+  double width = 0;
+  const Place right = -1.0 * left_of(heading_);
+  for (const Stretch& stretch : open_)
+    width += radius_ * dot(direction_of(stretch.begin) - direction_of(stretch.end), right);
+  return width;
 }
 
 double RimCover::open_angle() const {

@@ -14,11 +14,13 @@ class RimCover {
   /// \param came_along  the stroke that ends there; what the tool swept along it is gone
   /// \pre the stroke is of positive length
   void begin(Place at, double radius, const Stroke& came_along);
-  /// What the tool swept along a stroke is gone. Returns whether that made a difference.
-  bool add(const Stroke& stroke);
+  /// What a tool of this radius, mm, swept along a stroke is gone. Returns whether that made a difference.
+  bool add(const Stroke& stroke, double swept_radius);
   [[nodiscard]] bool nothing_left() const { return open_.empty(); }
   /// Angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
   [[nodiscard]] double open_angle() const;
+  /// How wide it is across the heading, mm: a mm of path removes so many square mm.
+  [[nodiscard]] double open_width() const;
 
  private:
   void add_circle_cuts(Place centre, double circle_radius);

@@ -9,7 +9,7 @@
 namespace lekalo::verify {
 namespace {
 
-Result<void> check(const SimulateOptions& o) {
+Result<void> check(const SimulateOptions& o, const std::vector<EarlierProgram>& earlier) {
   const auto outside = [](double value, double low, double high) { return !(value >= low && value <= high); };
   const auto wrong = [](const char* what, double value, const char* wanted) {
     return failure(ErrorCode::usage, fmt::format("{} of {:g}: it is to be {}", what, value, wanted));
@@ -22,6 +22,9 @@ Result<void> check(const SimulateOptions& o) {
   if (outside(o.acceleration, 1e-3, 1e9)) return wrong("an acceleration", o.acceleration, "above 0, mm/s2");
   if (outside(o.rapid_feed, 1e-3, 1e9)) return wrong("a rapid feed", o.rapid_feed, "above 0, mm/min");
   if (outside(o.spacing, 1e-4, 10)) return wrong("a spacing", o.spacing, "0.0001 to 10 mm");
+  for (const EarlierProgram& other : earlier)
+    if (outside(other.tool_diameter, 1e-3, 1e4))
+      return wrong("an earlier tool's diameter", other.tool_diameter, "0.001 to 10000 mm");
   return {};
 }
 
@@ -35,6 +38,27 @@ double turning_of(const CutPath& path) {
     before = &s;
   }
   return sum;
+}
+
+/// Of a program that goes below the top; its error says so otherwise.
+Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves, double diameter,
+                        double top) {
+  Result<CutPath> path = cut_path(moves, top, diameter / 2, diameter / 4, program.name);
+  if (path && path->cuts.empty())
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("{}: the tool never goes below Z {:g}, the top of the stock; give --top if it is "
+                    "elsewhere",
+                    program.name, top));
+  return path;
+}
+
+/// What can be reached and earlier programs have not cut as deep as this one goes.
+double left_before(CutPath path, const PocketReach& reach, double radius) {
+  path.cuts.clear();
+  SimulateReport report;
+  measure_coverage(path, reach, radius, report);
+  return report.uncut_mm2;
 }
 
 /// The fastest feed, but for a twentieth of what cuts: a link that grazes a wall does not make the bound.
@@ -59,34 +83,59 @@ double cutting_feed(const std::vector<Move>& moves, const std::vector<Engagement
 
 }  // namespace
 
-Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o) {
-  if (const Result<void> good = check(o); !good) return tl::unexpected(good.error());
+Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
+                                const std::vector<EarlierProgram>& earlier) {
+  if (const Result<void> good = check(o, earlier); !good) return tl::unexpected(good.error());
   const Result<std::vector<Move>> moves = read_moves(program);
   if (!moves) return tl::unexpected(moves.error());
   const double radius = o.tool_diameter / 2;
   const Result<PocketReach> reach = PocketReach::make(pocket, radius + o.stock_to_leave);
   if (!reach) return tl::unexpected(reach.error());
-  const Result<CutPath> path = cut_path(*moves, o.top, radius / 2, program.name);
+  Result<CutPath> path = cuts_of(program, *moves, o.tool_diameter, o.top);
   if (!path) return tl::unexpected(path.error());
-  if (path->cuts.empty())
-    return failure(
-        ErrorCode::bad_input,
-        fmt::format("{}: the tool never goes below Z {:g}, the top of the stock; give --top if it is "
-                    "elsewhere",
-                    program.name, o.top));
+  for (const EarlierProgram& other : earlier) {
+    const Result<std::vector<Move>> its_moves = read_moves(other.program);
+    if (!its_moves) return tl::unexpected(its_moves.error());
+    Result<CutPath> its_path = cuts_of(other.program, *its_moves, other.tool_diameter, o.top);
+    if (!its_path) return tl::unexpected(its_path.error());
+    for (Cut& cut : its_path->cuts) {
+      cut.entry = 0;
+      path->before.push_back(cut);
+    }
+  }
   SimulateReport report;
   report.retracts = path->retracts;
   report.turning_rad = turning_of(*path);
-  measure_engagement(*path, radius, o.spacing, report);
+  const std::vector<Removed> removed = measure_engagement(*path, radius, o.spacing, report);
   measure_coverage(*path, *reach, radius, report);
+  report.left_before_mm2 = report.reachable_mm2;
+  if (!path->before.empty()) report.left_before_mm2 = left_before(*path, *reach, radius);
   measure_gouge(*path, *reach, report);
   find_unreachable(*reach, radius, report);
   report.seconds = machine_seconds(*moves, o);
   const double feed = cutting_feed(*moves, report.samples);
-  if (feed > 0)
-    report.lower_bound_seconds = std::max(0.0, report.reachable_mm2 - kPi * radius * radius) /
-                                 (o.step_over * o.tool_diameter * feed / 60);
+  if (feed > 0) {
+    // No level is larger than what can be reached; measured sums may be, by their rounding.
+    double mm2 = 0;
+    for (const Removed& level : removed)
+      mm2 += std::min(level.mm2, std::max(0.0, report.reachable_mm2 - kPi * radius * radius));
+    report.lower_bound_seconds = mm2 / (o.step_over * o.tool_diameter * feed / 60);
+  }
   return report;
+}
+
+Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top) {
+  const Result<std::vector<Move>> moves = read_moves(program);
+  if (!moves) return tl::unexpected(moves.error());
+  const Result<CutPath> path = cut_path(*moves, top, 0, 1e30, program.name);
+  if (!path) return tl::unexpected(path.error());
+  std::vector<CutStretch> stretches;
+  for (const Cut& cut : path->cuts) {
+    const Stroke& s = cut.stroke;
+    stretches.push_back({s.arc, s.ccw, s.from.x, s.from.y, s.to.x, s.to.y, s.centre.x, s.centre.y,
+                         std::max(cut.from_z, cut.to_z)});
+  }
+  return stretches;
 }
 
 }  // namespace lekalo::verify

@@ -52,7 +52,9 @@ void StrokeIndex::near(Place p, double reach, std::vector<std::uint32_t>& number
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-double StrokeIndex::nearest(Place p, const std::vector<Stroke>& strokes) const {
+/// What is not looked at is farther than `reach`, so none of it is below reach - widest.
+template <class Distance>
+double StrokeIndex::least(Place p, double widest, Distance&& distance_of) const {
   double least = std::numeric_limits<double>::infinity();
   if (lists_.empty()) return least;
   const double whole =
@@ -62,9 +64,18 @@ double StrokeIndex::nearest(Place p, const std::vector<Stroke>& strokes) const {
     for (long y = c.low_y; y <= c.high_y; ++y)
       for (long x = c.low_x; x <= c.high_x; ++x)
         for (const std::uint32_t i : lists_[static_cast<std::size_t>(y * columns_ + x)])
-          least = std::min(least, distance(p, strokes[i]));
-    if (least <= reach || reach > 2 * whole) return least;
+          least = std::min(least, distance_of(i));
+    if (least <= reach - widest || reach > 2 * whole) return least;
   }
+}
+
+double StrokeIndex::nearest(Place p, const std::vector<Stroke>& strokes) const {
+  return least(p, 0, [&](std::uint32_t i) { return distance(p, strokes[i]); });
+}
+
+double StrokeIndex::nearest(Place p, const std::vector<Stroke>& strokes, const std::vector<double>& wider,
+                            double widest) const {
+  return least(p, widest, [&](std::uint32_t i) { return distance(p, strokes[i]) - wider[i]; });
 }
 
 }  // namespace lekalo::verify

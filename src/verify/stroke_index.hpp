@@ -19,12 +19,17 @@ class StrokeIndex {
   void near(Place p, double reach, std::vector<std::uint32_t>& numbers) const;
   /// Distance to the nearest of `strokes`; infinity when there is none.
   [[nodiscard]] double nearest(Place p, const std::vector<Stroke>& strokes) const;
+  /// The same, each distance less what `wider` says of the stroke; none of them more than `widest`.
+  [[nodiscard]] double nearest(Place p, const std::vector<Stroke>& strokes, const std::vector<double>& wider,
+                               double widest) const;
 
  private:
   struct Cells {
     long low_x, low_y, high_x, high_y;
   };
   [[nodiscard]] Cells cells(Place low, Place high) const;
+  template <class Distance>
+  [[nodiscard]] double least(Place p, double widest, Distance&& distance_of) const;
 
   Place low_;
   double cell_ = 1;

@@ -187,6 +187,145 @@ TEST(VerifySimulate, ARapidThroughMaterialIsFound) {
   EXPECT_NEAR(run(kBegin + "G0 X20\n", rectangle(70, 40)).rapid_cut_mm, 10, 1e-9);
 }
 
+// ---- after another tool
+
+/// A slot of a 10 mm tool along y = 20 from x = 10 to 60.
+std::string wide_slot(double z) {
+  return fmt::format("G21 G90 G17\nG0 X10 Y20 Z5\nG1 Z{} F300\nG1 X60 F1500\nG0 Z5\n", z);
+}
+
+SimulateReport run_after(const std::string& earlier, const std::string& program, const std::string& pocket,
+                         double earlier_diameter = 10) {
+  const auto report = simulate({"part.ngc", program}, {"pocket.json", pocket}, tool(6),
+                               {{{"first.ngc", earlier}, earlier_diameter}});
+  if (!report) {
+    ADD_FAILURE() << report.error().message;
+    return {};
+  }
+  return *report;
+}
+
+double engagement_near(const SimulateReport& report, std::size_t line, double x) {
+  for (const auto& sample : report.samples)
+    if (sample.line == line && std::abs(sample.x - x) < 0.026) return sample.engagement;
+  ADD_FAILURE() << "no sample on line " << line << " at x " << x;
+  return -1;
+}
+
+TEST(VerifySimulateAfter, BesideTheSlotOfAWiderToolTheArcIsThatOfTheStepOver) {
+  for (const double step : {0.5, 2.0, 4.0}) {
+    const auto report = run_after(
+        wide_slot(-1),
+        fmt::format("G21 G90\nG0 X20 Y{} Z5\nG1 Z-1 F300\nG1 X50 F1500\n", 20 + 5 - 3 + step),
+        rectangle(70, 40));
+    EXPECT_NEAR(engagement_near(report, 4, 35), std::acos(1 - step / 3) * 180 / kPi, 1e-4) << step;
+    EXPECT_NEAR(report.entry_mm, 1, 1e-6);  // straight down, half in material
+  }
+}
+
+TEST(VerifySimulateAfter, RoundACircleOfAnotherToolTheLawOfCosinesHolds) {
+  // (R0 + R)^2 = R1^2 + r^2 + 2 R1 r cos(alpha)
+  const std::string circle = "G21 G90\nG0 X{0} Y0 Z5\nG1 Z-1 F300\nG3 X{0} Y0 I-{0} J0 F1500\n";
+  for (const double other : {2.0, 5.0}) {
+    const auto report = run_after("G21 G90\nG0 X5 Y0 Z5\nG1 Z-1 F300\nG3 X5 Y0 I-5 J0 F1500\nG0 Z5\n",
+                                  "G21 G90\nG0 X8 Y0 Z5\nG1 Z-1 F300\nG3 X8 Y0 I-8 J0 F1500\n", disc(16),
+                                  2 * other);
+    const double cosine = ((5 + other) * (5 + other) - 64 - 9) / (2 * 8 * 3);
+    for (const auto& sample : report.samples)
+      if (sample.x < -7.999) {
+        EXPECT_NEAR(sample.engagement, std::acos(cosine) * 180 / kPi, 2e-3) << other;
+      }
+  }
+}
+
+TEST(VerifySimulateAfter, WithinTheSlotOfAWiderToolAllIsAir) {
+  const auto report =
+      run_after(wide_slot(-2), "G21 G90\nG0 X10 Y20 Z5\nG0 Z-2\nG1 X60 F1500\nG1 Y18\nG1 X10\nG0 Z5\n",
+                rectangle(70, 40));
+  EXPECT_NEAR(report.air_percent, 100, 1e-9);
+  EXPECT_EQ(report.engagement_peak_deg, 0);
+  EXPECT_EQ(report.entry_mm, 0);
+  EXPECT_EQ(report.rapid_cut_mm, 0);  // down in rapid motion, where nothing is left
+  EXPECT_EQ(report.lower_bound_seconds, 0);
+}
+
+TEST(VerifySimulateAfter, BelowTheDepthOfTheOtherToolNothingIsGone) {
+  const std::string program = "G21 G90\nG0 X10 Y20 Z5\nG1 Z-3 F300\nG1 X60 F1500\n";
+  const auto report = run_after(wide_slot(-1), program, rectangle(70, 40));
+  EXPECT_NEAR(engagement_near(report, 4, 35), 180, 1e-4);
+  EXPECT_NEAR(report.entry_mm, 2, 1e-6);  // from the floor of the slot on
+  EXPECT_NEAR(report.coverage_percent, run(program, rectangle(70, 40)).coverage_percent, 1e-9);
+  EXPECT_NEAR(report.left_before_mm2, report.reachable_mm2, 1e-6);
+  // As deep, but for a rounding no machine tells, is cut.
+  EXPECT_NEAR(run_after(wide_slot(-3 + 1e-7), program, rectangle(70, 40)).air_percent, 100, 1e-9);
+}
+
+TEST(VerifySimulateAfter, TheEndOfASlotIsRound) {
+  const auto report =
+      run_after(wide_slot(-1), "G21 G90\nG0 X50 Y20 Z5\nG1 Z-1 F300\nG1 X64 F1500\n", rectangle(70, 40));
+  EXPECT_EQ(engagement_near(report, 4, 61.9), 0);
+  for (const double past : {2.5, 3.0, 3.5})  // the rim at angle a from ahead: past^2 + 9 + 6 past cos a > 25
+    EXPECT_NEAR(engagement_near(report, 4, 60 + past),
+                2 * std::acos((16 - past * past) / (6 * past)) * 180 / kPi, 1e-3)
+        << past;
+}
+
+TEST(VerifySimulateAfter, CoverageIsOfWhatTheToolReachesCutByEither) {
+  const auto report =
+      run_after(wide_slot(-1), "G21 G90\nG0 X10 Y8 Z5\nG1 Z-1 F300\nG1 X60 F1500\n", rectangle(70, 40));
+  const double reachable = 2800 - (4 - kPi) * 9, first = 50 * 10 + kPi * 25, second = 50 * 6 + kPi * 9;
+  EXPECT_NEAR(report.reachable_mm2, reachable, 0.05);
+  EXPECT_NEAR(report.coverage_percent, 100 * (first + second) / reachable, 2e-3);
+  EXPECT_NEAR(report.left_before_mm2, reachable - first, 0.05);
+  // The strip between the slots: 15 - 11.
+  EXPECT_GE(report.uncut_width_mm, 4);
+}
+
+TEST(VerifySimulateAfter, AFaultOfAnEarlierProgramIsNamed) {
+  const auto report = simulate({"part.ngc", kBegin + "G1 X20 F100\n"}, {"pocket.json", rectangle(70, 40)},
+                               tool(6), {{{"first.ngc", "G41 D1\n"}, 10}});
+  ASSERT_FALSE(report);
+  EXPECT_NE(report.error().message.find("first.ngc:1: G41"), std::string::npos) << report.error().message;
+  const auto zero = simulate({"part.ngc", kBegin + "G1 X20 F100\n"}, {"pocket.json", rectangle(70, 40)},
+                             tool(6), {{{"first.ngc", wide_slot(-1)}, 0}});
+  ASSERT_FALSE(zero);
+  EXPECT_NE(zero.error().message.find("earlier tool's diameter"), std::string::npos);
+}
+
+/// Straight down there is no length along which engagement could be seen.
+TEST(VerifySimulate, ARapidStraightDownIntoMaterialIsFound) {
+  const std::string pocket = rectangle(70, 40);
+  EXPECT_NEAR(run("G21 G90\nG0 X10 Y10 Z5\nG0 Z-2\nG1 X20 F100\n", pocket).rapid_cut_mm, 2, 1e-9);
+  const auto plunge = run("G21 G90\nG0 X10 Y10 Z5\nG1 Z-2 F100\nG1 X20\n", pocket);
+  EXPECT_EQ(plunge.rapid_cut_mm, 0);
+  EXPECT_NEAR(plunge.entry_mm, 2, 1e-9);
+  // Into the slot cut before: all of the disc is air at X15, a tenth of a millimetre of it not at X20.1.
+  const std::string slot = kBegin + "G1 X20 F100\nG0 Z5\n";
+  EXPECT_EQ(run(slot + "G0 X15\nG0 Z-1\n", pocket).rapid_cut_mm, 0);
+  EXPECT_NEAR(run(slot + "G0 X20.1\nG0 Z-1\n", pocket).rapid_cut_mm, 1, 1e-9);
+}
+
+TEST(VerifySimulate, ThePostInARingIsMaterialUnderAPlungingTool) {
+  // A ring leaves a post of 0.5 mm in the middle; the rim of the tool over it meets nothing.
+  const auto report = run(
+      "G21 G90\nG0 X3.25 Y0 Z5\nG1 Z-1 F100\nG3 X3.25 Y0 I-3.25 J0 F1500\nG0 Z5\nG0 X0 Y0\nG0 Z-1\n",
+      disc(16));
+  EXPECT_NEAR(report.rapid_cut_mm, 1, 1e-9);
+}
+
+TEST(VerifySimulate, TheBoundOnTheTimeCountsEveryLevel) {
+  const std::string pass = "G1 X60 F1500\n";
+  const double one = 50 * 6 / (0.4 * 6 * 25);
+  EXPECT_NEAR(run(kBegin + pass, rectangle(70, 40)).lower_bound_seconds, one, 1e-6);
+  EXPECT_NEAR(run(kBegin + pass + "G0 Z5\nG0 X10\nG1 Z-2 F300\n" + pass, rectangle(70, 40)).lower_bound_seconds,
+              2 * one, 1e-6);
+  // What an earlier tool cut needs no time: 1 mm stays beside the slot.
+  EXPECT_NEAR(run_after(wide_slot(-1), "G21 G90\nG0 X20 Y23 Z5\nG1 Z-1 F300\nG1 X50 F1500\n",
+                        rectangle(70, 40))
+                  .lower_bound_seconds,
+              30 / (0.4 * 6 * 25), 1e-3);
+}
+
 TEST(VerifySimulate, WhatItCannotJudgeIsRefusedByName) {
   const std::string pocket = rectangle(70, 40);
   const auto says = [&](const std::string& program, const std::string& words) {

@@ -15,6 +15,13 @@ enum class Direction { any, climb, conventional };
 /// `fronts` is the product's; the others are the source's spirals on FLOZ models, for comparison.
 enum class Method { fronts, floz_linear, floz_quadratic };
 
+/// A stretch an earlier tool went along: what its disc swept there is gone.
+struct EarlierCut {
+  geom::Edge edge;           ///< an arc of at most half a turn; a line of no length where it went straight down
+  double depth = 0;          ///< mm below the stock's face; all of it is at least as deep
+  double tool_diameter = 0;  ///< mm
+};
+
 struct PocketOptions {
   double tool_diameter = 6;   ///< mm
   double step_over = 0.4;     ///< part of the diameter, in (0, 0.5]
@@ -22,7 +29,6 @@ struct PocketOptions {
   double floor_stock = 0;     ///< mm, on the floor; less than the depth
   double depth = 1;           ///< mm, above 0, of the pocket
   double step_down = 0;       ///< mm, of one level at most; 0: one level
-  double rest_of = 0;         ///< mm, diameter of a larger tool that has cleared what it reaches; 0: none
   Direction direction = Direction::any;
   double safe_height = 5;       ///< mm above the stock
   double ramp_angle = 0.05;     ///< rad, of the helix
@@ -39,13 +45,16 @@ struct PocketOptions {
 /// docs/design/pocket.md says how and what it does not do yet. Levels are equally deep and each pocket is
 /// finished before the next. A pocket the tool does not fit into is left out.
 ///
-/// bad_input for options out of range, where the tool fits nowhere, and where a larger tool has left nothing.
+/// After other tools (`before`) only what they left is cut, from where they have been: the tool comes down
+/// there, and goes from one place to the next through what is gone.
+///
+/// bad_input for options out of range, where the tool fits nowhere, and where the tools before have left
+/// nothing.
 [[nodiscard]] Result<PocketPath> pocket_path(const std::vector<geom::Region>& pockets,
-                                             const PocketOptions& options);
+                                             const PocketOptions& options,
+                                             const std::vector<EarlierCut>& before = {});
 
-/// Where the tool's middle goes: all places that keep its radius and the stock to leave from the walls, or,
-/// after a larger tool, what that one left and a quarter of the radius around. Errors as pocket_path.
-[[nodiscard]] Result<std::vector<geom::Region>> places_to_cut(const std::vector<geom::Region>& pockets,
-                                                              const PocketOptions& options);
+/// What a tool of this diameter cuts along the path.
+[[nodiscard]] std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter);
 
 }  // namespace lekalo::mill

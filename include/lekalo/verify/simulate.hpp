@@ -23,6 +23,12 @@ struct SimulateOptions {
   double spacing = 0.05;      ///< mm between the places where engagement is measured, at most
 };
 
+/// A program that ran before with a tool of its own: what it cut is gone, down to where it cut.
+struct EarlierProgram {
+  Document program;
+  double tool_diameter = 0;  ///< mm, above 0
+};
+
 /// A place of the path where engagement was measured.
 struct EngagementSample {
   double x = 0, y = 0, z = 0;
@@ -57,12 +63,14 @@ struct SimulateReport {
   double engagement_p95_deg = 0;    ///< by length, of what cuts, outside entries
   double air_percent = 0;           ///< of the path with the tool down: engagement below 3 degrees
   double entry_mm = 0;  ///< path that goes down into material, or cuts nothing but the floor of such a ramp
-  double rapid_cut_mm = 0;   ///< path of G0 with engagement of 3 degrees or more: a fault
+  double rapid_cut_mm = 0;   ///< path of G0 with engagement of 3 degrees or more, or down into material
   double length_mm = 0;      ///< of path with the tool down
   double turning_rad = 0;    ///< of its direction, all added
   std::size_t retracts = 0;  ///< lifts out of the stock that another entry follows
-  double seconds = 0, lower_bound_seconds = 0;
+  double seconds = 0;
+  double lower_bound_seconds = 0;  ///< of all levels: docs/design/simulate.md
   double reachable_mm2 = 0, uncut_mm2 = 0;
+  double left_before_mm2 = 0;  ///< of the reachable, at the deepest level, what earlier programs left
   std::vector<UnreachableSpot> unreachable;
   std::vector<UncutSpot> uncut;  ///< widest first, no two nearer than the tool's radius, at most 1000
   std::vector<EngagementSample> samples;  ///< in the order of cutting
@@ -73,7 +81,19 @@ struct SimulateReport {
 /// circle within 0.005 mm, a pocket that is open or meets itself, a tool that fits nowhere in the pocket;
 /// options out of range. Cost: about a microsecond for a sample and each stroke of the path near it; a pocket
 /// of 100 x 60 mm with 3 m of path takes about a second.
+/// \param earlier  programs that ran before on the same stock, with the same top
 [[nodiscard]] Result<SimulateReport> simulate(const Document& program, const Document& pocket,
-                                              const SimulateOptions& options);
+                                              const SimulateOptions& options,
+                                              const std::vector<EarlierProgram>& earlier = {});
+
+/// A stretch of a program's path below the stock's upper face: a line, or at most a quarter turn.
+struct CutStretch {
+  bool arc = false, ccw = true;
+  double from_x = 0, from_y = 0, to_x = 0, to_y = 0, centre_x = 0, centre_y = 0;
+  double high_z = 0;  ///< all of it is at least this deep
+};
+
+/// What a path maker may know of a program that ran before: as simulate reads it. Errors as there.
+[[nodiscard]] Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top);
 
 }  // namespace lekalo::verify

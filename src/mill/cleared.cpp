@@ -1,0 +1,142 @@
+#include "cleared.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "edge_path.hpp"
+#include "lekalo/geom/offset.hpp"
+#include "lekalo/geom/region_index.hpp"
+
+namespace lekalo::mill {
+namespace {
+
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+
+constexpr double kSameLevel = 1e-6;  // mm of depth
+constexpr double kGrain = 1e-6;      // mm: stretches that agree to it are one
+/// mm: holes in what is cut that are narrower than twice this are rounding, and so is what stands thinner than
+/// kThin where the tool came along.
+constexpr double kClosed = 4e-3, kThin = 4e-3;
+constexpr double kLeastDepth = 6e-3;  // mm: a piece nowhere farther from what is cut is left alone
+constexpr std::size_t kTogether = 24;
+
+Result<Region> disc(Point middle, double radius) {
+  const Point from = middle + Point{radius, 0};
+  return geom::make_region({{EdgeKind::arc_ccw, from, from, middle}});
+}
+
+/// What a disc sweeps along an edge, but for the discs at its ends. \pre an arc of at most half a turn
+Result<Region> body(const Edge& edge, double radius) {
+  if (edge.kind == EdgeKind::line) {
+    const Point way = edge.to - edge.from;
+    const Point side = (radius / norm(way)) * perpendicular(way);
+    return geom::make_region({{EdgeKind::line, edge.from - side, edge.to - side, {}},
+                              {EdgeKind::line, edge.to - side, edge.to + side, {}},
+                              {EdgeKind::line, edge.to + side, edge.from + side, {}},
+                              {EdgeKind::line, edge.from + side, edge.from - side, {}}});
+  }
+  const double r = arc_radius(edge);
+  const EdgeKind other = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+  const auto at = [&](Point p, double distance) {
+    return edge.centre + (distance / norm(p - edge.centre)) * (p - edge.centre);
+  };
+  const Point a = at(edge.from, r + radius), b = at(edge.to, r + radius);
+  if (!(r - radius > kClosed))
+    return geom::make_region({{edge.kind, a, b, edge.centre},
+                              {EdgeKind::line, b, edge.centre, {}},
+                              {EdgeKind::line, edge.centre, a, {}}});
+  const Point c = at(edge.to, r - radius), d = at(edge.from, r - radius);
+  return geom::make_region({{edge.kind, a, b, edge.centre},
+                            {EdgeKind::line, b, c, {}},
+                            {other, c, d, edge.centre},
+                            {EdgeKind::line, d, a, {}}});
+}
+
+/// Few at a time: what lies inside is gone before the next come.
+Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
+  std::vector<std::vector<Region>> groups;
+  for (std::size_t i = 0; i < pieces.size(); i += kTogether) {
+    const auto first = pieces.begin() + static_cast<std::ptrdiff_t>(i);
+    auto group = geom::united({first, first + static_cast<std::ptrdiff_t>(std::min(kTogether, pieces.size() - i))});
+    if (!group) return tl::unexpected(group.error());
+    groups.push_back(std::move(group->regions));
+  }
+  while (groups.size() > 1) {
+    std::vector<std::vector<Region>> larger;
+    for (std::size_t i = 0; i < groups.size(); i += 2) {
+      if (i + 1 == groups.size()) {
+        larger.push_back(std::move(groups[i]));
+        break;
+      }
+      auto both = geom::combine(groups[i], groups[i + 1], geom::BooleanOperation::unite);
+      if (!both) return tl::unexpected(both.error());
+      larger.push_back(std::move(both->regions));
+    }
+    groups = std::move(larger);
+  }
+  return groups.empty() ? std::vector<Region>{} : std::move(groups.front());
+}
+
+}  // namespace
+
+Result<std::vector<Region>> cleared_places(const std::vector<EarlierCut>& cuts, double depth,
+                                           double tool_radius) {
+  // Levels one below the other go the same ways.
+  using Key = std::array<long long, 8>;
+  std::set<Key> seen;
+  std::vector<Region> pieces;
+  const auto fresh = [&](const Edge& edge, double diameter) {
+    const auto grain = [](double v) { return std::llround(v / kGrain); };
+    const bool arc = edge.kind != EdgeKind::line;
+    return seen
+        .insert({static_cast<long long>(edge.kind), grain(edge.from.x), grain(edge.from.y), grain(edge.to.x),
+                 grain(edge.to.y), arc ? grain(edge.centre.x) : 0, arc ? grain(edge.centre.y) : 0,
+                 grain(diameter)})
+        .second;
+  };
+  const auto add = [&](Result<Region> piece) -> Result<void> {
+    if (!piece) return tl::unexpected(piece.error());
+    pieces.push_back(std::move(*piece));
+    return {};
+  };
+  for (const EarlierCut& cut : cuts) {
+    if (!(cut.depth >= depth - kSameLevel)) continue;
+    const double radius = cut.tool_diameter / 2;
+    if (norm(cut.edge.to - cut.edge.from) > kGrain && fresh(cut.edge, cut.tool_diameter))
+      if (Result<void> added = add(body(cut.edge, radius)); !added) return tl::unexpected(added.error());
+    for (const Point end : {cut.edge.from, cut.edge.to})
+      if (fresh({EdgeKind::line, end, end, {}}, cut.tool_diameter))
+        if (Result<void> added = add(disc(end, radius)); !added) return tl::unexpected(added.error());
+  }
+  auto swept = union_of(pieces);
+  if (!swept) return tl::unexpected(swept.error());
+  auto closed = geom::offset(*swept, kClosed);
+  if (!closed) return tl::unexpected(closed.error());
+  auto places = geom::offset(closed->regions, -(kClosed + tool_radius - kThin));
+  if (!places) return tl::unexpected(places.error());
+  return std::move(places->regions);
+}
+
+Result<Divided> divided(const Region& allowed, const std::vector<Region>& cleared) {
+  if (cleared.empty()) return Divided{{}, {allowed}};
+  auto left = geom::combine({allowed}, cleared, geom::BooleanOperation::subtract);
+  if (!left) return tl::unexpected(left.error());
+  const geom::RegionIndex index(cleared);
+  std::erase_if(left->regions, [&](const Region& piece) {
+    const std::vector<Point> places = places_on(piece.outer, 0.05);
+    return std::all_of(places.begin(), places.end(), [&](Point p) {
+      return index.nearest(p).distance < kLeastDepth || index.contains(p);
+    });
+  });
+  if (left->regions.empty()) return Divided{{allowed}, {}};
+  auto rest = geom::combine({allowed}, left->regions, geom::BooleanOperation::subtract);
+  if (!rest) return tl::unexpected(rest.error());
+  return Divided{std::move(rest->regions), std::move(left->regions)};
+}
+
+}  // namespace lekalo::mill

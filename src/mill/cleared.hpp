@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/mill/pocket.hpp"
+
+namespace lekalo::mill {
+
+/// Places where a tool of this radius meets nothing at this depth, because earlier tools have been there;
+/// what stands thinner than some thousandths of a millimetre counts as nothing.
+[[nodiscard]] Result<std::vector<geom::Region>> cleared_places(const std::vector<EarlierCut>& cuts,
+                                                               double depth, double tool_radius);
+
+/// Places a tool may be, divided.
+struct Divided {
+  std::vector<geom::Region> cleared, left;
+};
+/// \param allowed  one piece of places, \param cleared  as from cleared_places
+[[nodiscard]] Result<Divided> divided(const geom::Region& allowed, const std::vector<geom::Region>& cleared);
+
+}  // namespace lekalo::mill
