@@ -29,7 +29,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.step_over = 0.1 + 0.05 * (data[1] % 8);
   options.stock_to_leave = 0.25 * (data[1] / 64);
   options.step_down = data[2] % 3 == 0 ? 0.5 : 0;
-  options.rest_of = data[2] % 5 == 0 ? 1.5 * options.tool_diameter : 0;
   options.method = static_cast<mill::Method>(data[3] % 8 < 6 ? 0 : data[3] % 8 - 5);
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 4, size - 4);
   const auto file = io::parse_regions(bytes, "pocket.json");
@@ -40,7 +39,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     extent = std::max({extent, box.high.x - box.low.x, box.high.y - box.low.y});
   }
   if (!(extent < 4 * options.tool_diameter)) return 0;  // larger pockets take longer, which is no fault
-  const auto path = mill::pocket_path(file->regions, options);
+  std::vector<mill::EarlierCut> before;
+  if (data[2] % 5 == 0 && options.method == mill::Method::fronts) {
+    mill::PocketOptions first = options;
+    first.tool_diameter *= 1.5;
+    if (const auto path = mill::pocket_path(file->regions, first))
+      before = mill::cuts_of(*path, first.tool_diameter);
+  }
+  const auto path = mill::pocket_path(file->regions, options, before);
   if (!path) {
     require(!path.error().message.empty());
     return 0;

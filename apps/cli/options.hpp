@@ -87,8 +87,15 @@ struct LayoutSource {
   std::vector<std::string> layers;              ///< of drawings; empty: all that are shown
 };
 
+/// A program that ran before with a tool of its own.
+struct EarlierFile {
+  std::string path;
+  double tool_diameter = 0;  ///< mm
+};
+
 struct SimulateOptions {
   std::string program, pocket;
+  std::vector<EarlierFile> after;
   verify::SimulateOptions machining;
   std::string samples, picture, animation;  ///< files; may be empty
   bool json = false;
@@ -101,6 +108,8 @@ struct PocketOptions {
   bool json = false;
   ShapeOptions shape;
   std::vector<std::string> island_layers, open_layers;
+  std::vector<EarlierFile> after;
+  double rest_of = 0;  ///< mm: a tool of this diameter is taken to have cut all that this program cuts with it
   mill::PocketOptions path;
   mill::ProgramOptions program;
   std::optional<double> most_feed;  ///< mm/min: feeds follow the engagement

@@ -16,6 +16,7 @@
 #include "lekalo/mill/floz_field.hpp"
 #include "lekalo/mill/fragments.hpp"
 #include "lekalo/verify/simulate.hpp"
+#include "earlier_programs.hpp"
 #include "outputs.hpp"
 #include "pocket_input.hpp"
 #include "simulate_report.hpp"
@@ -27,33 +28,61 @@ namespace {
 /// What a machine's axes and a few decimals may take of a wall, mm.
 constexpr double kMostGouge = 0.005;
 
-/// What is to be cut after a larger tool, as a pocket of its own.
-Result<std::string> rest_document(const PocketInput& input, const PocketOptions& o) {
-  const auto places = mill::places_to_cut(input.extended, o.path);
-  if (!places) return tl::unexpected(places.error());
-  const auto pocket = geom::offset(*places, o.path.tool_diameter / 2 + o.path.stock_to_leave);
-  if (!pocket) return tl::unexpected(pocket.error());
-  return io::regions_json(pocket->regions);
+/// What was cut before, for the path and for the checker.
+struct Before {
+  EarlierPrograms programs;
+  std::vector<mill::EarlierCut> cuts;
+};
+
+/// The path begins where the checker finds that the programs cut.
+Result<Before> cut_before(const PocketOptions& o) {
+  Result<EarlierPrograms> programs = read_earlier(o.after);
+  if (!programs) return tl::unexpected(programs.error());
+  Before before{std::move(*programs), {}};
+  for (const verify::EarlierProgram& earlier : before.programs.programs()) {
+    const auto stretches = verify::cut_stretches(earlier.program, 0);
+    if (!stretches) return tl::unexpected(stretches.error());
+    for (const verify::CutStretch& s : *stretches) {
+      const geom::EdgeKind kind = !s.arc   ? geom::EdgeKind::line
+                                  : s.ccw ? geom::EdgeKind::arc_ccw
+                                          : geom::EdgeKind::arc_cw;
+      before.cuts.push_back({{kind, {s.from_x, s.from_y}, {s.to_x, s.to_y}, {s.centre_x, s.centre_y}},
+                             -s.high_z,
+                             earlier.tool_diameter});
+    }
+  }
+  return before;
+}
+
+/// A larger tool that has cut what this program cuts with it.
+Result<Before> supposed_before(const PocketOptions& o, const PocketInput& input) {
+  if (!(o.rest_of > o.path.tool_diameter))
+    return failure(ErrorCode::bad_input,
+                   fmt::format("--rest {:g}: the tool before is to be larger than this one, {:g} mm", o.rest_of,
+                               o.path.tool_diameter));
+  mill::PocketOptions first = o.path;
+  first.tool_diameter = o.rest_of;
+  const Result<mill::PocketPath> path = mill::pocket_path(input.extended, first);
+  if (!path)
+    return failure(path.error().code,
+                   fmt::format("{}: --rest {:g}: {}", o.pocket, o.rest_of, path.error().message));
+  Before before;
+  before.cuts = mill::cuts_of(*path, o.rest_of);
+  before.programs.files = {{"the program of the tool before", o.rest_of}};
+  before.programs.texts = {mill::program_of(*path, {})};
+  return before;
 }
 
 /// The written program, as who does not know how it was made finds it; ErrorCode::refuted where it leaves the
 /// pocket or crosses material in rapid motion.
 Result<verify::SimulateReport> judgement_of(const std::string& program, const PocketInput& input,
-                                            const PocketOptions& o) {
+                                            const Before& before, const PocketOptions& o) {
   verify::SimulateOptions machining;
   machining.tool_diameter = o.path.tool_diameter;
   machining.stock_to_leave = o.path.stock_to_leave;
   machining.step_over = o.path.step_over;
-  Result<verify::SimulateReport> report =
-      verify::simulate({"the program", program}, {"pocket.json", input.document}, machining);
-  if (report && o.path.rest_of > 0) {
-    // Walls are judged by the pocket, the rest by what the larger tool left, as if it stood in full material.
-    const double gouge = report->gouge_mm;
-    const Result<std::string> rest = rest_document(input, o);
-    if (!rest) return tl::unexpected(rest.error());
-    report = verify::simulate({"the program", program}, {"rest.json", *rest}, machining);
-    if (report) report->gouge_mm = gouge, report->unreachable.clear();
-  }
+  Result<verify::SimulateReport> report = verify::simulate(
+      {"the program", program}, {"pocket.json", input.document}, machining, before.programs.programs());
   if (!report)
     return failure(ErrorCode::refuted,
                    "the independent checker cannot read this program; please report the pocket: " +
@@ -83,17 +112,20 @@ std::vector<std::vector<mill::MoveLoad>> loads_of(const verify::SimulateReport& 
   return loads;
 }
 
-std::string report_json(const PocketOptions& o, const PocketInput& input, const std::string& program,
-                        const verify::SimulateReport& r) {
+std::string report_json(const PocketOptions& o, const PocketInput& input, const Before& before,
+                        const std::string& program, const verify::SimulateReport& r) {
   using Json = nlohmann::ordered_json;
+  Json inputs{{{"role", "pocket"}, {"path", o.pocket}, {"sha256", io::sha256(input.bytes)}}};
+  inputs.insert(inputs.end(), before.programs.inputs.begin(), before.programs.inputs.end());
   Json json{{"format", {{"name", "lekalo-pocket"}, {"version", 1}}},
             {"units", "mm"},
-            {"inputs", {{{"role", "pocket"}, {"path", o.pocket}, {"sha256", io::sha256(input.bytes)}}}},
+            {"inputs", std::move(inputs)},
             {"outputs", {{{"role", "program"}, {"path", o.output}, {"sha256", io::sha256(program)}}}},
             {"tool_mm", o.path.tool_diameter},
             {"step_over", o.path.step_over},
             {"depth_mm", o.path.depth},
             {"stock_to_leave_mm", o.path.stock_to_leave}};
+  if (o.rest_of > 0) json["rest_of_mm"] = o.rest_of;
   json.update(report_fields(r));
   json["version"] = kVersion;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -129,24 +161,28 @@ Result<void> add_images(const PocketOptions& o, const PocketInput& input, io::At
 }  // namespace
 
 Result<int> run_pocket(PocketOptions o) {
+  std::vector<NamedPath> inputs{{"pocket", o.pocket}};
+  for (const EarlierFile& file : o.after) inputs.push_back({"--after", file.path});
   if (Result<void> good = check_outputs(
-          {{"-o", o.output}, {"--picture", o.picture}, {"--animation", o.animation}}, {{"pocket", o.pocket}});
+          {{"-o", o.output}, {"--picture", o.picture}, {"--animation", o.animation}}, inputs);
       !good)
     return tl::unexpected(good.error());
   const Result<PocketInput> input = read_pocket_input(o);
   if (!input) return tl::unexpected(input.error());
-  Result<mill::PocketPath> path = mill::pocket_path(input->extended, o.path);
+  const Result<Before> before = o.rest_of > 0 ? supposed_before(o, *input) : cut_before(o);
+  if (!before) return tl::unexpected(before.error());
+  Result<mill::PocketPath> path = mill::pocket_path(input->extended, o.path, before->cuts);
   if (!path) return failure(path.error().code, fmt::format("{}: {}", o.pocket, path.error().message));
   o.program.comments = comments_of(o);
   std::vector<std::size_t> move_of_line;
   std::string program = mill::program_of(*path, o.program, &move_of_line);
-  Result<verify::SimulateReport> judged = judgement_of(program, *input, o);
+  Result<verify::SimulateReport> judged = judgement_of(program, *input, *before, o);
   if (!judged) return tl::unexpected(judged.error());
   if (o.most_feed) {
     path = mill::with_feeds(*path, loads_of(*judged, move_of_line, path->moves.size()),
                             {o.program.feed_mm_per_min, *o.most_feed, o.path.step_over});
     program = mill::program_of(*path, o.program);
-    judged = judgement_of(program, *input, o);
+    judged = judgement_of(program, *input, *before, o);
     if (!judged) return tl::unexpected(judged.error());
   }
   io::AtomicFiles files;
@@ -167,11 +203,15 @@ Result<int> run_pocket(PocketOptions o) {
     if (Result<void> done = files.add(o.output, program); !done) return tl::unexpected(done.error());
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   if (o.json || o.output.empty()) {
-    if (Result<void> done = print(o.json ? report_json(o, *input, program, *judged) : program); !done)
+    if (Result<void> done = print(o.json ? report_json(o, *input, *before, program, *judged) : program); !done)
       return tl::unexpected(done.error());
   }
   std::string text;
   for (const std::string& notice : input->notices) text += notice + "\n";
+  if (o.rest_of > 0)
+    text += fmt::format("Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
+                        "takes the program that ran)\n",
+                        o.rest_of, o.rest_of);
   text += report_rows(*judged);
   for (const std::string& name : written)
     if (!name.empty()) text += fmt::format("Written: {}\n", name);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <memory>
 
+#include "after_words.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
@@ -32,7 +33,7 @@ struct PocketWords {
   std::string post, output_units, work_offset, tool_number, coolant;
   std::string units, join;
   std::string method, sampling, trace_step, images;
-  std::vector<std::string> layers, island_layers, open_layers;
+  std::vector<std::string> layers, island_layers, open_layers, after;
   std::string output, picture, animation;
   bool json = false, whole = false;
 };
@@ -68,7 +69,10 @@ Result<Command> to_pocket(const PocketWords& w) {
   read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
               o.path.stock_to_leave);
   read.number("--floor-stock", w.floor_stock, 0.0, 1e4, "a length from 0 to 10000 mm", o.path.floor_stock);
-  read.number("--rest", w.rest, 0.01, 1e4, "a diameter from 0.01 to 10000 mm", o.path.rest_of);
+  read.number("--rest", w.rest, 0.01, 1e4, "a diameter from 0.01 to 10000 mm", o.rest_of);
+  read_after(read, w.after, o.after);
+  read.require(w.rest.empty() || w.after.empty(),
+               "--rest supposes a tool before, --after says what it cut; give one of them");
   read.choice("--cut", w.direction, kDirections, o.path.direction);
   double degrees = o.path.ramp_angle / kDegree;
   read.number("--ramp-angle", w.ramp_angle, 0.1, 45.0, "an angle from 0.1 to 45 degrees", degrees);
@@ -76,6 +80,8 @@ Result<Command> to_pocket(const PocketWords& w) {
   read.choice("--method", w.method, kMethods, o.path.method);
   read.number("--sampling", w.sampling, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.sampling);
   read.number("--trace-step", w.trace_step, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.trace_step);
+  read.require(o.path.method == mill::Method::fronts || (w.rest.empty() && w.after.empty()),
+               "--rest and --after have a meaning with --method fronts alone");
   o.path.whole = w.whole, o.images = w.images;
   read.require(o.path.method != mill::Method::fronts ||
                    (w.sampling.empty() && w.trace_step.empty() && w.images.empty() && !w.whole),
@@ -138,7 +144,8 @@ Typed add_pocket_form(CLI::App& app) {
   add("--stepover", w.step_over, "PERCENT", "Of the tool's diameter, from 1% to 50% [40%]");
   add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
   add("--floor-stock", w.floor_stock, "MM", "What stays on the floor [0]");
-  add("--rest", w.rest, "MM", "Diameter of a larger tool that was here: only what it left is cut");
+  add_after(app, w.after);
+  add("--rest", w.rest, "MM", "Instead: suppose a larger tool cut all it can, as lekalo pocket would");
   add("--cut", w.direction, "WORD", "climb, conventional or any [any]");
   add("--ramp-angle", w.ramp_angle, "DEGREES", "Of the helix into the material [2.9]");
   add("--safe-height", w.safe_height, "MM", "Above Z 0 [5]");

@@ -8,6 +8,7 @@
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/io/result_json.hpp"
+#include "earlier_programs.hpp"
 #include "outputs.hpp"
 #include "simulate_report.hpp"
 #include "summary.hpp"
@@ -18,12 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string report_json(const SimulateOptions& o, const std::string& program, const std::string& pocket,
-                        const verify::SimulateReport& r) {
+                        const EarlierPrograms& earlier, const verify::SimulateReport& r) {
+  Json inputs{{{"role", "program"}, {"path", o.program}, {"sha256", io::sha256(program)}},
+              {{"role", "pocket"}, {"path", o.pocket}, {"sha256", io::sha256(pocket)}}};
+  inputs.insert(inputs.end(), earlier.inputs.begin(), earlier.inputs.end());
   Json json{{"format", {{"name", "lekalo-simulate"}, {"version", 1}}},
             {"units", "mm"},
-            {"inputs",
-             {{{"role", "program"}, {"path", o.program}, {"sha256", io::sha256(program)}},
-              {{"role", "pocket"}, {"path", o.pocket}, {"sha256", io::sha256(pocket)}}}},
+            {"inputs", std::move(inputs)},
             {"tool_mm", o.machining.tool_diameter},
             {"stock_to_leave_mm", o.machining.stock_to_leave}};
   json.update(report_fields(r));
@@ -42,17 +44,20 @@ std::string samples_csv(const verify::SimulateReport& r) {
 }  // namespace
 
 Result<int> run_simulate(const SimulateOptions& o) {
-  if (Result<void> good =
-          check_outputs({{"--samples", o.samples}, {"--picture", o.picture}, {"--animation", o.animation}},
-                        {{"program", o.program}, {"--pocket", o.pocket}});
+  std::vector<NamedPath> inputs{{"program", o.program}, {"--pocket", o.pocket}};
+  for (const EarlierFile& file : o.after) inputs.push_back({"--after", file.path});
+  if (Result<void> good = check_outputs(
+          {{"--samples", o.samples}, {"--picture", o.picture}, {"--animation", o.animation}}, inputs);
       !good)
     return tl::unexpected(good.error());
   const Result<std::string> program = io::read_file(o.program);
   if (!program) return tl::unexpected(program.error());
   const Result<std::string> pocket = io::read_file(o.pocket);
   if (!pocket) return tl::unexpected(pocket.error());
+  const Result<EarlierPrograms> earlier = read_earlier(o.after);
+  if (!earlier) return tl::unexpected(earlier.error());
   const Result<verify::SimulateReport> report =
-      verify::simulate({o.program, *program}, {o.pocket, *pocket}, o.machining);
+      verify::simulate({o.program, *program}, {o.pocket, *pocket}, o.machining, earlier->programs());
   if (!report) return tl::unexpected(report.error());
   io::AtomicFiles files;
   if (!o.samples.empty()) {
@@ -70,7 +75,7 @@ Result<int> run_simulate(const SimulateOptions& o) {
   }
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   if (o.json) {
-    if (Result<void> done = print(report_json(o, *program, *pocket, *report)); !done)
+    if (Result<void> done = print(report_json(o, *program, *pocket, *earlier, *report)); !done)
       return tl::unexpected(done.error());
   }
   tell(report_rows(*report));

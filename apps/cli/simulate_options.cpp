@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "after_words.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
@@ -11,12 +12,14 @@ namespace {
 struct SimulateWords {
   std::string program, pocket, tool, stock_to_leave, step_over, top, acceleration, rapid, samples, picture,
       animation;
+  std::vector<std::string> after;
   bool json = false;
 };
 
 Result<Command> to_simulate(const SimulateWords& w) {
   WordReader read;
-  SimulateOptions o{w.program, w.pocket, {}, w.samples, w.picture, w.animation, w.json};
+  SimulateOptions o{w.program, w.pocket, {}, {}, w.samples, w.picture, w.animation, w.json};
+  read_after(read, w.after, o.after);
   read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
                "--picture " + w.picture + ": the name has to end in .svg or .png");
   const char* const above = "a number above 0";
@@ -43,6 +46,7 @@ Typed add_simulate_form(CLI::App& app) {
   add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
       ->required();
   add("--tool", w.tool, "MM", "Diameter of the tool")->required();
+  add_after(app, w.after);
   add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
   add("--stepover", w.step_over, "PERCENT", "Of the tool's diameter, for the bound on the time [40%]");
   add("--top", w.top, "MM", "Z of the stock's upper face [0]");

@@ -81,6 +81,7 @@ Json report_fields(const verify::SimulateReport& r) {
           {"lower_bound_seconds", r.lower_bound_seconds},
           {"reachable_mm2", r.reachable_mm2},
           {"uncut_mm2", r.uncut_mm2},
+          {"left_before_mm2", r.left_before_mm2},
           {"uncut", std::move(uncut)},
           {"unreachable", std::move(unreachable)}};
 }
@@ -92,6 +93,9 @@ std::string report_rows(const verify::SimulateReport& r) {
   };
   row("coverage", fmt::format("{:.4f} % of what the tool can reach (surely {:.4f} %)", r.coverage_percent,
                               r.coverage_low_percent));
+  if (r.left_before_mm2 != r.reachable_mm2)
+    row("left before", fmt::format("{:.2f} mm2, {:.1f} % of what the tool can reach", r.left_before_mm2,
+                                   100 * r.left_before_mm2 / r.reachable_mm2));
   row("largest uncut spot", fmt::format("at most {:.3f} mm wide", r.uncut_width_mm));
   for (std::size_t i = 0; i < std::min<std::size_t>(r.uncut.size(), 5); ++i)
     row("not cut",

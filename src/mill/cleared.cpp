@@ -5,9 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "edge_path.hpp"
 #include "lekalo/geom/offset.hpp"
-#include "lekalo/geom/region_index.hpp"
 
 namespace lekalo::mill {
 namespace {
@@ -22,7 +20,7 @@ constexpr double kGrain = 1e-6;      // mm: stretches that agree to it are one
 /// mm: holes in what is cut that are narrower than twice this are rounding, and so is what stands thinner than
 /// kThin where the tool came along.
 constexpr double kClosed = 4e-3, kThin = 4e-3;
-constexpr double kLeastDepth = 6e-3;  // mm: a piece nowhere farther from what is cut is left alone
+constexpr double kLeastDepth = 6e-3;  // mm: a piece that is nowhere thicker is left alone
 constexpr std::size_t kTogether = 24;
 
 Result<Region> disc(Point middle, double radius) {
@@ -126,13 +124,13 @@ Result<Divided> divided(const Region& allowed, const std::vector<Region>& cleare
   if (cleared.empty()) return Divided{{}, {allowed}};
   auto left = geom::combine({allowed}, cleared, geom::BooleanOperation::subtract);
   if (!left) return tl::unexpected(left.error());
-  const geom::RegionIndex index(cleared);
-  std::erase_if(left->regions, [&](const Region& piece) {
-    const std::vector<Point> places = places_on(piece.outer, 0.05);
-    return std::all_of(places.begin(), places.end(), [&](Point p) {
-      return index.nearest(p).distance < kLeastDepth || index.contains(p);
-    });
-  });
+  std::vector<Region> thick;
+  for (const Region& piece : left->regions) {
+    const auto inside = geom::offset({piece}, -kLeastDepth / 2);
+    if (!inside) return tl::unexpected(inside.error());
+    if (!inside->regions.empty()) thick.push_back(piece);
+  }
+  left->regions = std::move(thick);
   if (left->regions.empty()) return Divided{{allowed}, {}};
   auto rest = geom::combine({allowed}, left->regions, geom::BooleanOperation::subtract);
   if (!rest) return tl::unexpected(rest.error());

@@ -148,6 +148,130 @@ TEST(PocketPath, RandomPocketsAreClearedAndNothingElse) {
   }
 }
 
+// ---- after other tools
+
+struct Pair {
+  std::string first;  ///< empty: its tool fits nowhere
+  Judged rest;
+  bool nothing_left = false;
+};
+
+/// A larger tool, with stock of its own, and what this one does after it.
+Pair judge_pair(const std::string& pocket, double larger, double stock, const PocketOptions& options) {
+  Pair pair;
+  const auto regions = io::parse_regions(pocket, "pocket.json");
+  if (!regions) {
+    ADD_FAILURE() << regions.error().message;
+    return pair;
+  }
+  PocketOptions first = options;
+  first.tool_diameter = larger, first.stock_to_leave = stock;
+  const auto before = pocket_path(regions->regions, first);
+  if (!before) return pair;
+  pair.first = program_of(*before, {});
+  const auto path = pocket_path(regions->regions, options, cuts_of(*before, larger));
+  if (!path) {
+    pair.nothing_left = path.error().message.find("left nothing") != std::string::npos;
+    EXPECT_TRUE(pair.nothing_left) << path.error().message;
+    return pair;
+  }
+  pair.rest.program = program_of(*path, {});
+  verify::SimulateOptions simulation;
+  simulation.tool_diameter = options.tool_diameter;
+  simulation.stock_to_leave = options.stock_to_leave;
+  const auto report = verify::simulate({"rest.ngc", pair.rest.program}, {"pocket.json", pocket}, simulation,
+                                       {{{"first.ngc", pair.first}, larger}});
+  if (!report) ADD_FAILURE() << report.error().message;
+  if (report) pair.rest.report = *report;
+  return pair;
+}
+
+TEST(PocketPathAfter, TheCornersOfALargerToolAreCutFromWhereItWas) {
+  PocketOptions options;
+  options.tool_diameter = 3;
+  const Pair pair = judge_pair(kRectangle, 10, 0, options);
+  expect_cleared(pair.rest);
+  EXPECT_LE(pair.rest.report.engagement_max_deg, 98);
+  EXPECT_EQ(pair.rest.report.entry_mm, 0);  // down where nothing stands: no helix
+  // Four corners: the way about them is all but twice round.
+  EXPECT_LE(pair.rest.report.length_mm, 300);
+}
+
+/// Rings about islands that touch cleared places all along their outer side were taken for nothing.
+TEST(PocketPathAfter, StockLeftByTheFirstToolIsCutFromWallsAndIslands) {
+  const Pair pair = judge_pair(
+      kDisc + R"("islands":[[{"arc":{"from":[4,0],"to":[4,0],"centre":[2,0],"ccw":true}}]]})", 6, 0.3, {});
+  expect_cleared(pair.rest);
+  EXPECT_LE(pair.rest.report.engagement_max_deg, 98);
+  EXPECT_EQ(pair.rest.report.entry_mm, 0);
+}
+
+TEST(PocketPathAfter, LevelsTheFirstToolDidNotComeToAreClearedAsEver) {
+  const auto regions = io::parse_regions(kRectangle, "pocket.json");
+  ASSERT_TRUE(regions);
+  PocketOptions first;
+  first.tool_diameter = 10, first.depth = 2;
+  const auto before = pocket_path(regions->regions, first);
+  ASSERT_TRUE(before);
+  PocketOptions options;
+  options.tool_diameter = 5, options.depth = 4, options.step_down = 2;
+  const auto path = pocket_path(regions->regions, options, cuts_of(*before, 10));
+  ASSERT_TRUE(path) << path.error().message;
+  const std::string program = program_of(*path, {});
+  verify::SimulateOptions simulation;
+  simulation.tool_diameter = 5;
+  const auto report = verify::simulate({"rest.ngc", program}, {"pocket.json", kRectangle}, simulation,
+                                       {{{"first.ngc", program_of(*before, {})}, 10}});
+  ASSERT_TRUE(report);
+  EXPECT_GE(report->coverage_percent, 99.99);
+  EXPECT_LE(report->gouge_mm, 0.005);
+  EXPECT_LE(report->engagement_max_deg, 98);
+  EXPECT_EQ(report->retracts, 0U);
+  EXPECT_GT(report->entry_mm, 10);  // a helix at the second level
+}
+
+TEST(PocketPathAfter, WhereNothingIsLeftItIsSaid) {
+  PocketOptions options;
+  options.tool_diameter = 4;
+  EXPECT_TRUE(judge_pair(kDisc + R"("islands":[]})", 8, 0, options).nothing_left);
+}
+
+TEST(PocketPathAfter, RandomPairsClearWhatTheSmallerReaches) {
+  const std::size_t count = cases::case_count(12);
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(cases::seed(), 1700 + i);
+    const std::string pocket = random_pocket(random, 14 + 14 * random.uniform());
+    const double larger = 4 + 6 * random.uniform(), smaller = larger * (0.3 + 0.5 * random.uniform());
+    const double stock = i % 3 == 0 ? 0.4 * random.uniform() : 0;
+    SCOPED_TRACE(fmt::format("{} after {} with {} left, {}", smaller, larger, stock, pocket));
+    PocketOptions options;
+    options.tool_diameter = smaller;
+    options.direction = static_cast<Direction>(i % 3);
+    if (i % 4 == 0) options.depth = 2, options.step_down = 1;
+    const Pair pair = judge_pair(pocket, larger, stock, options);
+    if (pair.first.empty() || pair.nothing_left) continue;
+    const verify::SimulateReport& r = pair.rest.report;
+    EXPECT_GE(r.coverage_percent, 99.99);
+    EXPECT_LE(r.uncut_width_mm, 0.02);
+    EXPECT_LE(r.gouge_mm, 0.005);
+    EXPECT_EQ(r.rapid_cut_mm, 0);
+    EXPECT_LE(r.engagement_max_deg, 98);
+  }
+}
+
+TEST(PocketPath, LevelsOfABranchedPocketGoOnAtDepth) {
+  // From the end of a level to the next one's entry there is no straight way in an L.
+  PocketOptions options;
+  options.depth = 3, options.step_down = 1;
+  const Judged judged = judge(
+      R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[50,0]}},{"line":{"from":[50,0],"to":[50,14]}},)"
+      R"({"line":{"from":[50,14],"to":[14,14]}},{"line":{"from":[14,14],"to":[14,50]}},)"
+      R"({"line":{"from":[14,50],"to":[0,50]}},{"line":{"from":[0,50],"to":[0,0]}}]})",
+      options);
+  expect_cleared(judged);
+  EXPECT_LE(judged.report.engagement_max_deg, 98);
+}
+
 TEST(PocketPath, TwoRoomsAndANarrowDoorAreClearedWithoutALift) {
   // The door lets the tool through with half a millimetre to spare.
   const Judged judged = judge(
