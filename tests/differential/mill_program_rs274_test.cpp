@@ -94,5 +94,39 @@ TEST(MillProgramRs274, TheInterpreterCutsWhatTheProgramSays) {
   }
 }
 
+TEST(MillProgramRs274, TheRestOfALargerToolIsCutAsTheProgramSays) {
+  const rs274::Oracle oracle(cases::source_dir() + "/tests/support/rs274.sh");
+  const auto regions = io::parse_regions(kPocket, "pocket.json");
+  ASSERT_TRUE(regions);
+  PocketOptions options;
+  options.tool_diameter = 9, options.depth = 5, options.step_down = 3, options.stock_to_leave = 0.2;
+  const auto first = pocket_path(regions->regions, options);
+  ASSERT_TRUE(first) << first.error().message;
+  options.tool_diameter = 5, options.stock_to_leave = 0;
+  const auto rest = pocket_path(regions->regions, options, cuts_of(*first, 9));
+  ASSERT_TRUE(rest) << rest.error().message;
+  const std::string program = program_of(*rest, {}), earlier = program_of(*first, {});
+  const rs274::Run run = oracle.run(program);
+  ASSERT_TRUE(run.accepted) << run.errors;
+  verify::SimulateOptions machining;
+  machining.tool_diameter = 5;
+  const auto judged = [&](const std::string& text) {
+    return verify::simulate({"rest.ngc", text}, {"pocket.json", kPocket}, machining,
+                            {{{"first.ngc", earlier}, 9}});
+  };
+  const auto ours = judged(program), theirs = judged(program_of_calls(run.calls));
+  ASSERT_TRUE(ours) << ours.error().message;
+  ASSERT_TRUE(theirs) << theirs.error().message;
+  EXPECT_GE(ours->coverage_percent, 99.99);
+  EXPECT_EQ(ours->entry_mm, 0);
+  EXPECT_EQ(theirs->entry_mm, 0);
+  EXPECT_NEAR(ours->length_mm, theirs->length_mm, 1e-3 * ours->length_mm);
+  EXPECT_NEAR(ours->gouge_mm, theirs->gouge_mm, 2e-4);
+  EXPECT_NEAR(ours->coverage_percent, theirs->coverage_percent, 0.01);
+  EXPECT_NEAR(ours->engagement_max_deg, theirs->engagement_max_deg, 4);
+  EXPECT_NEAR(ours->seconds, theirs->seconds, 0.01 * ours->seconds);
+  EXPECT_EQ(ours->retracts, theirs->retracts);
+}
+
 }  // namespace
 }  // namespace lekalo::mill

@@ -81,16 +81,54 @@ TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
   EXPECT_NE(read_bytes(folder / "p.html").find("<canvas"), std::string::npos);
 }
 
-TEST(CliPocket, what_a_larger_tool_left_alone_is_cut) {
+/// The pair is proved: what the first program left is cut by the second, entered where nothing stands.
+TEST(CliPocket, what_a_program_before_left_is_cut_and_the_pair_is_judged) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
-  const Ran whole =
-      run(folder.path(), {"pocket", "plate.json", "--tool", "3", "--depth", "2", "-o", "a.ngc", "--json"});
+  const Words levels{"--depth", "4", "--stepdown", "2"};
+  const Ran first = run(folder.path(), Words{"pocket", "plate.json", "--tool", "10", "--stock-to-leave", "0.2",
+                                             "-o", "first.ngc"} +
+                                           levels);
+  ASSERT_EQ(first.status, 0) << first.err;
+  const Ran rest = run(folder.path(), Words{"pocket", "plate.json", "--tool", "4", "--after", "first.ngc:10",
+                                            "-o", "rest.ngc", "--json", "--picture", "rest.svg"} +
+                                          levels);
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  const Json made = rest.json();
+  EXPECT_GE(made["coverage_percent"].get<double>(), 99.99);
+  EXPECT_LE(made["gouge_mm"].get<double>(), 0.005);
+  EXPECT_LE(made["engagement_max_deg"].get<double>(), 98);
+  EXPECT_EQ(made["entry_mm"].get<double>(), 0);
+  EXPECT_EQ(made["rapid_cut_mm"].get<double>(), 0);
+  EXPECT_EQ(made["retracts"].get<int>(), 0);
+  EXPECT_LT(made["left_before_mm2"].get<double>(), 0.1 * made["reachable_mm2"].get<double>());
+  ASSERT_EQ(made["inputs"].size(), 2U);
+  EXPECT_EQ(made["inputs"][1]["role"], "after");
+  EXPECT_EQ(made["inputs"][1]["tool_mm"], 10);
+  const Ran pair = run(folder.path(), {"simulate", "rest.ngc", "--pocket", "plate.json", "--tool", "4",
+                                       "--after", "first.ngc:10", "--json"});
+  ASSERT_EQ(pair.status, 0) << pair.err;
+  for (const char* figure : {"coverage_percent", "gouge_mm", "engagement_max_deg", "entry_mm", "seconds",
+                             "air_percent", "left_before_mm2"})
+    EXPECT_EQ(pair.json()[figure], made[figure]) << figure;
+  // The same program in full material.
+  const Ran alone =
+      run(folder.path(), {"simulate", "rest.ngc", "--pocket", "plate.json", "--tool", "4", "--json"});
+  EXPECT_LT(alone.json()["coverage_percent"].get<double>(), 70);
+  EXPECT_NEAR(alone.json()["engagement_max_deg"].get<double>(), 180, 1);
+}
+
+TEST(CliPocket, a_larger_tool_before_may_be_supposed) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
   const Ran rest = run(folder.path(), {"pocket", "plate.json", "--tool", "3", "--depth", "2", "--rest", "10",
                                        "-o", "b.ngc", "--json"});
   ASSERT_EQ(rest.status, 0) << rest.err;
-  EXPECT_LT(2 * rest.json()["length_mm"].get<double>(), whole.json()["length_mm"].get<double>());
+  EXPECT_NE(rest.err.find("Supposed: a tool of 10 mm"), std::string::npos) << rest.err;
+  EXPECT_EQ(rest.json()["rest_of_mm"], 10);
   EXPECT_GE(rest.json()["coverage_percent"].get<double>(), 99.99);
+  EXPECT_EQ(rest.json()["entry_mm"].get<double>(), 0);
+  EXPECT_LT(rest.json()["length_mm"].get<double>(), 250);
 }
 
 TEST(CliPocket, feeds_follow_the_engagement_in_few_steps) {
@@ -190,6 +228,14 @@ TEST(CliPocket, bad_input_is_one_sentence) {
   says(Words{"plate.json", "--picture", "p.gif"} + tool, 2, ".svg");
   says(Words{"plate.json", "--json"} + tool, 2, "-o");
   says(Words{"plate.json", "--rest", "4"} + tool, 3, "larger");
+  says(Words{"plate.json", "--rest", "25"} + tool, 3, "fits nowhere");
+  says(Words{"plate.json", "--rest", "8", "--after", "a.ngc:8"} + tool, 2, "--after");
+  says(Words{"plate.json", "--after", "a.ngc"} + tool, 2, "rough.ngc:10");
+  says(Words{"plate.json", "--after", "a.ngc:x"} + tool, 2, "diameter");
+  says(Words{"plate.json", "--after", "none.ngc:8"} + tool, 3, "none.ngc");
+  write_bytes(folder / "a.ngc", "G21 G90\nG41 D1\n");
+  says(Words{"plate.json", "--after", "a.ngc:8"} + tool, 3, "a.ngc:2: G41");
+  says(Words{"plate.json", "--after", "a.ngc:8", "-o", "a.ngc"} + tool, 2, "--after");
 }
 
 }  // namespace
