@@ -20,7 +20,8 @@ inline void read_after(WordReader& read, const std::vector<std::string>& words,
     if (!whole) continue;
     after.push_back({word.substr(0, colon), 0});
     read.number("--after", word.substr(colon + 1), 1e-3, 1e4,
-                "a program with a diameter from 0.001 to 10000 mm behind a colon", after.back().tool_diameter);
+                "a program with a diameter from 0.001 to 10000 mm behind a colon",
+                after.back().tool_diameter);
   }
 }
 

@@ -109,7 +109,8 @@ struct PocketOptions {
   ShapeOptions shape;
   std::vector<std::string> island_layers, open_layers;
   std::vector<EarlierFile> after;
-  double rest_of = 0;  ///< mm: a tool of this diameter is taken to have cut all that this program cuts with it
+  double rest_of =
+      0;  ///< mm: a tool of this diameter is taken to have cut all that this program cuts with it
   mill::PocketOptions path;
   mill::ProgramOptions program;
   std::optional<double> most_feed;  ///< mm/min: feeds follow the engagement

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "earlier_programs.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -16,7 +17,6 @@
 #include "lekalo/mill/floz_field.hpp"
 #include "lekalo/mill/fragments.hpp"
 #include "lekalo/verify/simulate.hpp"
-#include "earlier_programs.hpp"
 #include "outputs.hpp"
 #include "pocket_input.hpp"
 #include "simulate_report.hpp"
@@ -43,7 +43,7 @@ Result<Before> cut_before(const PocketOptions& o) {
     const auto stretches = verify::cut_stretches(earlier.program, 0);
     if (!stretches) return tl::unexpected(stretches.error());
     for (const verify::CutStretch& s : *stretches) {
-      const geom::EdgeKind kind = !s.arc   ? geom::EdgeKind::line
+      const geom::EdgeKind kind = !s.arc  ? geom::EdgeKind::line
                                   : s.ccw ? geom::EdgeKind::arc_ccw
                                           : geom::EdgeKind::arc_cw;
       before.cuts.push_back({{kind, {s.from_x, s.from_y}, {s.to_x, s.to_y}, {s.centre_x, s.centre_y}},
@@ -58,8 +58,8 @@ Result<Before> cut_before(const PocketOptions& o) {
 Result<Before> supposed_before(const PocketOptions& o, const PocketInput& input) {
   if (!(o.rest_of > o.path.tool_diameter))
     return failure(ErrorCode::bad_input,
-                   fmt::format("--rest {:g}: the tool before is to be larger than this one, {:g} mm", o.rest_of,
-                               o.path.tool_diameter));
+                   fmt::format("--rest {:g}: the tool before is to be larger than this one, {:g} mm",
+                               o.rest_of, o.path.tool_diameter));
   mill::PocketOptions first = o.path;
   first.tool_diameter = o.rest_of;
   const Result<mill::PocketPath> path = mill::pocket_path(input.extended, first);
@@ -163,8 +163,8 @@ Result<void> add_images(const PocketOptions& o, const PocketInput& input, io::At
 Result<int> run_pocket(PocketOptions o) {
   std::vector<NamedPath> inputs{{"pocket", o.pocket}};
   for (const EarlierFile& file : o.after) inputs.push_back({"--after", file.path});
-  if (Result<void> good = check_outputs(
-          {{"-o", o.output}, {"--picture", o.picture}, {"--animation", o.animation}}, inputs);
+  if (Result<void> good =
+          check_outputs({{"-o", o.output}, {"--picture", o.picture}, {"--animation", o.animation}}, inputs);
       !good)
     return tl::unexpected(good.error());
   const Result<PocketInput> input = read_pocket_input(o);
@@ -203,15 +203,17 @@ Result<int> run_pocket(PocketOptions o) {
     if (Result<void> done = files.add(o.output, program); !done) return tl::unexpected(done.error());
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   if (o.json || o.output.empty()) {
-    if (Result<void> done = print(o.json ? report_json(o, *input, *before, program, *judged) : program); !done)
+    if (Result<void> done = print(o.json ? report_json(o, *input, *before, program, *judged) : program);
+        !done)
       return tl::unexpected(done.error());
   }
   std::string text;
   for (const std::string& notice : input->notices) text += notice + "\n";
   if (o.rest_of > 0)
-    text += fmt::format("Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
-                        "takes the program that ran)\n",
-                        o.rest_of, o.rest_of);
+    text += fmt::format(
+        "Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
+        "takes the program that ran)\n",
+        o.rest_of, o.rest_of);
   text += report_rows(*judged);
   for (const std::string& name : written)
     if (!name.empty()) text += fmt::format("Written: {}\n", name);

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "earlier_programs.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/io/result_json.hpp"
-#include "earlier_programs.hpp"
 #include "outputs.hpp"
 #include "simulate_report.hpp"
 #include "summary.hpp"

@@ -17,8 +17,8 @@ using geom::Region;
 
 constexpr double kSameLevel = 1e-6;  // mm of depth
 constexpr double kGrain = 1e-6;      // mm: stretches that agree to it are one
-/// mm: holes in what is cut that are narrower than twice this are rounding, and so is what stands thinner than
-/// kThin where the tool came along.
+/// mm: holes in what is cut that are narrower than twice this are rounding, and so is what stands thinner
+/// than kThin where the tool came along.
 constexpr double kClosed = 4e-3, kThin = 4e-3;
 constexpr double kLeastDepth = 6e-3;  // mm: a piece that is nowhere thicker is left alone
 constexpr std::size_t kTogether = 24;
@@ -60,7 +60,8 @@ Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
   std::vector<std::vector<Region>> groups;
   for (std::size_t i = 0; i < pieces.size(); i += kTogether) {
     const auto first = pieces.begin() + static_cast<std::ptrdiff_t>(i);
-    auto group = geom::united({first, first + static_cast<std::ptrdiff_t>(std::min(kTogether, pieces.size() - i))});
+    auto group =
+        geom::united({first, first + static_cast<std::ptrdiff_t>(std::min(kTogether, pieces.size() - i))});
     if (!group) return tl::unexpected(group.error());
     groups.push_back(std::move(group->regions));
   }

@@ -175,9 +175,10 @@ class Clearing {
       if (!fronts_of[i].empty() || !walls_of[i].empty() || !corners_of[i].empty()) waiting.push_back(i);
     const geom::RegionIndex start(cleared);
     while (!waiting.empty()) {
-      const auto nearest = std::min_element(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
-        return !path_.moves.empty() && places[a].nearest(at_).distance < places[b].nearest(at_).distance;
-      });
+      const auto nearest =
+          std::min_element(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
+            return !path_.moves.empty() && places[a].nearest(at_).distance < places[b].nearest(at_).distance;
+          });
       const std::size_t place = *nearest;
       waiting.erase(nearest);
       if (path_.moves.empty()) {
@@ -635,7 +636,8 @@ class Clearing {
       for (double i = 0; i < pieces; ++i) {
         const Point middle = place_at(wall.edge, (i + 0.5) / pieces);
         if (!is_missed(middle)) continue;
-        if (!cleared.empty() && (before.contains(middle) || before.nearest(middle).distance < kMissed)) continue;
+        if (!cleared.empty() && (before.contains(middle) || before.nearest(middle).distance < kMissed))
+          continue;
         const Edge piece = part_of(wall.edge, i / pieces, (i + 1) / pieces);
         if (missed.empty() || !(missed.back().back().to == piece.from)) missed.emplace_back();
         missed.back().push_back(piece);

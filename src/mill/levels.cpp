@@ -140,7 +140,8 @@ std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter) {
     if (high <= 0) {
       const double pieces = edge.kind == geom::EdgeKind::line ? 1 : 4;
       for (double i = 0; i < pieces; ++i)
-        cuts.push_back({pieces > 1 ? part_of(edge, i / pieces, (i + 1) / pieces) : edge, -high, tool_diameter});
+        cuts.push_back(
+            {pieces > 1 ? part_of(edge, i / pieces, (i + 1) / pieces) : edge, -high, tool_diameter});
     } else if (move.z <= 0 && at == move.to) {
       cuts.push_back({{geom::EdgeKind::line, at, at, {}}, -move.z, tool_diameter});
     }

@@ -87,9 +87,8 @@ class Coverage {
     }
     // Those a little too far are kept: they tell how wide a strip is that stays.
     const double swept =
-        std::min(farthest, nearest(radius_ + 3 * half, cuts, near_cuts, [&](std::uint32_t i) {
-                   return distance(middle, floor_[i]) - wider_[i];
-                 }));
+        std::min(farthest, nearest(radius_ + 3 * half, cuts, near_cuts,
+                                   [&](std::uint32_t i) { return distance(middle, floor_[i]) - wider_[i]; }));
     if (swept + half <= radius_) {
       if (all_reachable) {
         report_.reachable_mm2 += side * side;

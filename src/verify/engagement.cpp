@@ -87,9 +87,8 @@ class Engagement {
     gathered_at_ = middle, gathered_upto_ = number;
     const double reach = radius_ + slack;
     index_.near(middle, reach + widest_, near_);
-    std::erase_if(near_, [&](std::uint32_t i) {
-      return distance(middle, cuts_[i].stroke) > reach + cuts_[i].radius;
-    });
+    std::erase_if(
+        near_, [&](std::uint32_t i) { return distance(middle, cuts_[i].stroke) > reach + cuts_[i].radius; });
     useful_.clear();
   }
 
@@ -222,8 +221,8 @@ class Engagement {
   SimulateReport& report_;
   StrokeIndex index_;
   RimCover rim_;
-  double width_ = 0;                   ///< across the heading, of what was in material last
-  std::map<double, double> removed_;   ///< on the level, mm2 by depth
+  double width_ = 0;                           ///< across the heading, of what was in material last
+  std::map<double, double> removed_;           ///< on the level, mm2 by depth
   std::vector<std::uint32_t> near_;            ///< earlier strokes about gathered_at_
   std::vector<std::uint32_t> useful_, found_;  ///< of them, what covered some of the rim
   bool gathered_ = false;

@@ -86,9 +86,9 @@ TEST(CliPocket, what_a_program_before_left_is_cut_and_the_pair_is_judged) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   const Words levels{"--depth", "4", "--stepdown", "2"};
-  const Ran first = run(folder.path(), Words{"pocket", "plate.json", "--tool", "10", "--stock-to-leave", "0.2",
-                                             "-o", "first.ngc"} +
-                                           levels);
+  const Ran first = run(
+      folder.path(),
+      Words{"pocket", "plate.json", "--tool", "10", "--stock-to-leave", "0.2", "-o", "first.ngc"} + levels);
   ASSERT_EQ(first.status, 0) << first.err;
   const Ran rest = run(folder.path(), Words{"pocket", "plate.json", "--tool", "4", "--after", "first.ngc:10",
                                             "-o", "rest.ngc", "--json", "--picture", "rest.svg"} +

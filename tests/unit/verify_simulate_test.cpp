@@ -215,8 +215,7 @@ double engagement_near(const SimulateReport& report, std::size_t line, double x)
 TEST(VerifySimulateAfter, BesideTheSlotOfAWiderToolTheArcIsThatOfTheStepOver) {
   for (const double step : {0.5, 2.0, 4.0}) {
     const auto report = run_after(
-        wide_slot(-1),
-        fmt::format("G21 G90\nG0 X20 Y{} Z5\nG1 Z-1 F300\nG1 X50 F1500\n", 20 + 5 - 3 + step),
+        wide_slot(-1), fmt::format("G21 G90\nG0 X20 Y{} Z5\nG1 Z-1 F300\nG1 X50 F1500\n", 20 + 5 - 3 + step),
         rectangle(70, 40));
     EXPECT_NEAR(engagement_near(report, 4, 35), std::acos(1 - step / 3) * 180 / kPi, 1e-4) << step;
     EXPECT_NEAR(report.entry_mm, 1, 1e-6);  // straight down, half in material
@@ -227,9 +226,9 @@ TEST(VerifySimulateAfter, RoundACircleOfAnotherToolTheLawOfCosinesHolds) {
   // (R0 + R)^2 = R1^2 + r^2 + 2 R1 r cos(alpha)
   const std::string circle = "G21 G90\nG0 X{0} Y0 Z5\nG1 Z-1 F300\nG3 X{0} Y0 I-{0} J0 F1500\n";
   for (const double other : {2.0, 5.0}) {
-    const auto report = run_after("G21 G90\nG0 X5 Y0 Z5\nG1 Z-1 F300\nG3 X5 Y0 I-5 J0 F1500\nG0 Z5\n",
-                                  "G21 G90\nG0 X8 Y0 Z5\nG1 Z-1 F300\nG3 X8 Y0 I-8 J0 F1500\n", disc(16),
-                                  2 * other);
+    const auto report =
+        run_after("G21 G90\nG0 X5 Y0 Z5\nG1 Z-1 F300\nG3 X5 Y0 I-5 J0 F1500\nG0 Z5\n",
+                  "G21 G90\nG0 X8 Y0 Z5\nG1 Z-1 F300\nG3 X8 Y0 I-8 J0 F1500\n", disc(16), 2 * other);
     const double cosine = ((5 + other) * (5 + other) - 64 - 9) / (2 * 8 * 3);
     for (const auto& sample : report.samples)
       if (sample.x < -7.999) {
@@ -307,9 +306,9 @@ TEST(VerifySimulate, ARapidStraightDownIntoMaterialIsFound) {
 
 TEST(VerifySimulate, ThePostInARingIsMaterialUnderAPlungingTool) {
   // A ring leaves a post of 0.5 mm in the middle; the rim of the tool over it meets nothing.
-  const auto report = run(
-      "G21 G90\nG0 X3.25 Y0 Z5\nG1 Z-1 F100\nG3 X3.25 Y0 I-3.25 J0 F1500\nG0 Z5\nG0 X0 Y0\nG0 Z-1\n",
-      disc(16));
+  const auto report =
+      run("G21 G90\nG0 X3.25 Y0 Z5\nG1 Z-1 F100\nG3 X3.25 Y0 I-3.25 J0 F1500\nG0 Z5\nG0 X0 Y0\nG0 Z-1\n",
+          disc(16));
   EXPECT_NEAR(report.rapid_cut_mm, 1, 1e-9);
 }
 
@@ -317,13 +316,14 @@ TEST(VerifySimulate, TheBoundOnTheTimeCountsEveryLevel) {
   const std::string pass = "G1 X60 F1500\n";
   const double one = 50 * 6 / (0.4 * 6 * 25);
   EXPECT_NEAR(run(kBegin + pass, rectangle(70, 40)).lower_bound_seconds, one, 1e-6);
-  EXPECT_NEAR(run(kBegin + pass + "G0 Z5\nG0 X10\nG1 Z-2 F300\n" + pass, rectangle(70, 40)).lower_bound_seconds,
-              2 * one, 1e-6);
+  EXPECT_NEAR(
+      run(kBegin + pass + "G0 Z5\nG0 X10\nG1 Z-2 F300\n" + pass, rectangle(70, 40)).lower_bound_seconds,
+      2 * one, 1e-6);
   // What an earlier tool cut needs no time: 1 mm stays beside the slot.
-  EXPECT_NEAR(run_after(wide_slot(-1), "G21 G90\nG0 X20 Y23 Z5\nG1 Z-1 F300\nG1 X50 F1500\n",
-                        rectangle(70, 40))
-                  .lower_bound_seconds,
-              30 / (0.4 * 6 * 25), 1e-3);
+  EXPECT_NEAR(
+      run_after(wide_slot(-1), "G21 G90\nG0 X20 Y23 Z5\nG1 Z-1 F300\nG1 X50 F1500\n", rectangle(70, 40))
+          .lower_bound_seconds,
+      30 / (0.4 * 6 * 25), 1e-3);
 }
 
 TEST(VerifySimulate, WhatItCannotJudgeIsRefusedByName) {

@@ -17,8 +17,8 @@ enum class Method { fronts, floz_linear, floz_quadratic };
 
 /// A stretch an earlier tool went along: what its disc swept there is gone.
 struct EarlierCut {
-  geom::Edge edge;           ///< an arc of at most half a turn; a line of no length where it went straight down
-  double depth = 0;          ///< mm below the stock's face; all of it is at least as deep
+  geom::Edge edge;   ///< an arc of at most half a turn; a line of no length where it went straight down
+  double depth = 0;  ///< mm below the stock's face; all of it is at least as deep
   double tool_diameter = 0;  ///< mm
 };
 
