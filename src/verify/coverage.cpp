@@ -71,6 +71,8 @@ class Coverage {
   void look(Place middle, double side, const Numbers& cuts, const Numbers& limits, bool all_reachable,
             double farthest) {
     const double half = side * 0.7071067811865476;
+    const bool beside_air = !pocket_.air().empty() && pocket_.air().from_borders(middle) < half;
+    if ((!beside_air || side <= kLeaf) && pocket_.air().holds(middle)) return;
     Numbers near_cuts, near_limits;
     double off = 0;  // from the places where the tool's middle may be
     if (!all_reachable) {
@@ -89,7 +91,7 @@ class Coverage {
     const double swept =
         std::min(farthest, nearest(radius_ + 3 * half, cuts, near_cuts,
                                    [&](std::uint32_t i) { return distance(middle, floor_[i]) - wider_[i]; }));
-    if (swept + half <= radius_) {
+    if (swept + half <= radius_ && (!beside_air || side <= kLeaf)) {
       if (all_reachable) {
         report_.reachable_mm2 += side * side;
         return;
@@ -99,7 +101,7 @@ class Coverage {
         return;
       }
     }
-    if (swept > radius_ + half && all_reachable) return add_uncut(middle, side);
+    if (swept > radius_ + half && all_reachable && !beside_air) return add_uncut(middle, side);
     if (side <= kLeaf) return add_leaf(middle, side, off, swept);
     for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
       look(middle + side / 4 * corner, side / 2, near_cuts, near_limits, all_reachable, swept + half);
@@ -216,7 +218,7 @@ void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& 
   };
   for (std::size_t i = 0; i < off.size(); ++i) {
     const Place p = place(i);
-    if (pocket.inside(p)) off[i] = static_cast<float>(std::max(0.0, pocket.from_allowed(p) - radius));
+    if (pocket.in_drawing(p)) off[i] = static_cast<float>(std::max(0.0, pocket.from_allowed(p) - radius));
   }
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < off.size(); ++i) {

@@ -39,7 +39,7 @@ struct Removed {
 
 /// Engagement along the path: fills samples and all figures of `report` that come from them. Returns what is
 /// taken off at each depth.
-std::vector<Removed> measure_engagement(const CutPath& path, double radius, double spacing,
+std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
                                         SimulateReport& report);
 
 /// Coverage, uncut spots, gouge and unreachable spots.

@@ -18,8 +18,8 @@ double highest(const Cut& cut) { return std::max(cut.from_z, cut.to_z); }
 
 class Engagement {
  public:
-  Engagement(const CutPath& path, double radius, double spacing, SimulateReport& report)
-      : cuts_(path.before), radius_(radius), widest_(radius), spacing_(spacing), report_(report) {
+  Engagement(const CutPath& path, const Air& air, double radius, double spacing, SimulateReport& report)
+      : air_(air), cuts_(path.before), radius_(radius), widest_(radius), spacing_(spacing), report_(report) {
     first_ = cuts_.size();
     cuts_.insert(cuts_.end(), path.cuts.begin(), path.cuts.end());
     Place low{1e300, 1e300}, high{-1e300, -1e300};
@@ -137,7 +137,7 @@ class Engagement {
       if (beyond <= half) kept.push_back(i);
     }
     if (least + half <= 0) return true;
-    if (side <= kSpeck) return least <= 0;
+    if (side <= kSpeck) return least <= 0 || air_.holds(middle);
     for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
       if (!is_cut(disc, middle + side / 4 * corner, side / 2, kept, z)) return false;
     return true;
@@ -156,6 +156,7 @@ class Engagement {
     for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();)
       if (as_deep(near_[k]) && add(near_[k])) found_.push_back(near_[k]);
     useful_.swap(found_);
+    if (!air_.empty()) rim_.add_air(air_);
     sample.engagement = rim_.open_angle() * kDegrees;
     width_ = rim_.open_width();
     if (sample.engagement < kAirDegrees) return;
@@ -215,6 +216,7 @@ class Engagement {
     }
   }
 
+  const Air& air_;
   std::vector<Cut> cuts_;  ///< of earlier programs, and from first_ on of this one
   std::size_t first_ = 0;
   double radius_, widest_, spacing_;  ///< of this tool, of the widest of all
@@ -232,9 +234,9 @@ class Engagement {
 
 }  // namespace
 
-std::vector<Removed> measure_engagement(const CutPath& path, double radius, double spacing,
+std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
                                         SimulateReport& report) {
-  return Engagement(path, radius, spacing, report).run();
+  return Engagement(path, air, radius, spacing, report).run();
 }
 
 }  // namespace lekalo::verify

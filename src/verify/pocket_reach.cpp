@@ -75,9 +75,27 @@ bool shifted(const Stroke& s, double by, Stroke& result) {
   return true;
 }
 
+/// Its pieces between places on it.
+std::vector<Stroke> cut_at(const Stroke& s, std::vector<Place> cuts) {
+  const Place base = s.arc ? s.centre : s.from;
+  const auto along = [&](Place p) {
+    return s.arc ? std::abs(angle_between(s.from - base, p - base)) : dot(p - base, s.to - s.from);
+  };
+  std::sort(cuts.begin(), cuts.end(), [&](Place a, Place b) { return along(a) < along(b); });
+  cuts.push_back(s.to);
+  std::vector<Stroke> pieces;
+  Place at = s.from;
+  for (const Place cut : cuts) {
+    const Stroke piece = beginning(until(s, cut), at);
+    at = cut;
+    if (length(cut - piece.from) > 0) pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 }  // namespace
 
-Result<PocketReach> PocketReach::make(const Document& pocket, double clearance) {
+Result<PocketReach> PocketReach::make(const Document& pocket, double clearance, double air_width) {
   const Result<Json> json = parse_json(pocket.bytes, pocket.name);
   if (!json) return tl::unexpected(json.error());
   std::string complaint;
@@ -88,24 +106,32 @@ Result<PocketReach> PocketReach::make(const Document& pocket, double clearance) 
   PocketReach reach;
   reach.clearance_ = clearance;
   reach.low_ = {shape.low_x, shape.low_y}, reach.high_ = {shape.high_x, shape.high_y};
+  std::vector<char> open;
   for (std::size_t piece = 0; piece + 1 < shape.piece_starts.size(); ++piece) {
     for (std::size_t c = shape.piece_starts[piece]; c < shape.piece_starts[piece + 1]; ++c) {
       std::vector<Stroke> contour;
-      for (std::size_t s = shape.contour_starts[c]; s < shape.contour_starts[c + 1]; ++s)
+      std::vector<char> is_open;
+      for (std::size_t s = shape.contour_starts[c]; s < shape.contour_starts[c + 1]; ++s) {
         add_side(shape.sides[s], contour);
+        is_open.resize(contour.size(), shape.sides[s].open ? 1 : 0);
+      }
       const bool outer = c == shape.piece_starts[piece];
       if ((turning_area(contour) > 0) != outer) {
         std::reverse(contour.begin(), contour.end());
+        std::reverse(is_open.begin(), is_open.end());
         for (Stroke& s : contour) s = reversed(s);
       }
-      reach.outline_.insert(reach.outline_.end(), contour.begin(), contour.end());
+      reach.drawn_.insert(reach.drawn_.end(), contour.begin(), contour.end());
+      open.insert(open.end(), is_open.begin(), is_open.end());
     }
   }
+  reach.air_ = Air(reach.drawn_, open, air_width);
+  reach.sort_rows();
+  reach.find_outline();
   const double cell = std::max(clearance, 1e-3 * length(reach.high_ - reach.low_));
   reach.outline_index_ = StrokeIndex(reach.low_, reach.high_, cell);
   for (std::size_t i = 0; i < reach.outline_.size(); ++i)
     reach.outline_index_.add(static_cast<std::uint32_t>(i), reach.outline_[i]);
-  reach.sort_rows();
   reach.find_limit();
   if (reach.limit_.empty())
     return failure(ErrorCode::bad_input,
@@ -114,12 +140,42 @@ Result<PocketReach> PocketReach::make(const Document& pocket, double clearance) 
   return reach;
 }
 
+/// Walls and sides of strips, cut where they cross one another; what has pocket or air on its right is none.
+void PocketReach::find_outline() {
+  outline_ = drawn_;
+  if (air_.empty()) return;
+  outline_.clear();
+  std::vector<Stroke> all = drawn_;
+  all.insert(all.end(), air_.sides().begin(), air_.sides().end());
+  for (const Stroke& s : air_.sides()) {
+    Place low, high;
+    box_of(s, low, high);
+    low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y)};
+    high_ = {std::max(high_.x, high.x), std::max(high_.y, high.y)};
+  }
+  sort_rows();
+  std::vector<Place> cuts;
+  for (const Stroke& s : all) {
+    if (!(length(s) > 0)) continue;
+    cuts.clear();
+    for (const Stroke& other : all)
+      if (&other != &s) add_crossings(s, other, cuts);
+    for (const Stroke& piece : cut_at(s, cuts)) {
+      constexpr double kAside = 1e-6;  // mm
+      const Place middle = at_share(piece, 0.5);
+      if (length(piece) > kAside && !inside(middle - kAside * left_of(heading(piece, middle))))
+        outline_.push_back(piece);
+    }
+  }
+}
+
 void PocketReach::sort_rows() {
+  rows_.clear();
   rows_.resize(kRows);
   row_height_ = (high_.y - low_.y) / static_cast<double>(kRows);
-  for (std::size_t i = 0; i < outline_.size(); ++i) {
-    const double a = std::min(outline_[i].from.y, outline_[i].to.y),
-                 b = std::max(outline_[i].from.y, outline_[i].to.y);
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    const double a = std::min(drawn_[i].from.y, drawn_[i].to.y),
+                 b = std::max(drawn_[i].from.y, drawn_[i].to.y);
     const auto row = [&](double y) {
       return static_cast<std::size_t>(
           std::clamp((y - low_.y) / row_height_, 0.0, static_cast<double>(kRows - 1)));
@@ -129,25 +185,13 @@ void PocketReach::sort_rows() {
 }
 
 /// Parity of the crossings of a ray to the right; every stroke is monotone in y and half open.
-bool PocketReach::inside(Place p) const {
+bool PocketReach::in_drawing(Place p) const {
   if (!(p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y)) return false;
   const auto row =
       static_cast<std::size_t>(std::clamp((p.y - low_.y) / row_height_, 0.0, static_cast<double>(kRows - 1)));
   bool in = false;
-  for (const std::uint32_t i : rows_[row]) {
-    const Stroke& s = outline_[i];
-    if ((s.from.y <= p.y) == (s.to.y <= p.y)) continue;
-    double x = 0;
-    if (s.arc) {
-      const double up = p.y - s.centre.y;
-      const double half = std::sqrt(std::max(0.0, s.radius * s.radius - up * up));
-      const double side = 0.5 * (s.from.x + s.to.x) >= s.centre.x ? 1 : -1;
-      x = s.centre.x + side * half;
-    } else {
-      x = s.from.x + (p.y - s.from.y) / (s.to.y - s.from.y) * (s.to.x - s.from.x);
-    }
-    if (x > p.x) in = !in;
-  }
+  for (const std::uint32_t i : rows_[row])
+    if (crosses_ray_to_the_right(drawn_[i], p)) in = !in;
   return in;
 }
 
@@ -170,7 +214,7 @@ void PocketReach::find_limit() {
   for (std::size_t i = 0; i < outline_.size(); ++i) {
     const Place v = outline_[i].to;
     for (std::size_t k = 0; k < outline_.size(); ++k) {
-      if (!(outline_[k].from.x == v.x && outline_[k].from.y == v.y)) continue;
+      if (!(std::abs(outline_[k].from.x - v.x) < 1e-9 && std::abs(outline_[k].from.y - v.y) < 1e-9)) continue;
       const Place a = left_of(heading(outline_[i], v)), b = left_of(heading(outline_[k], v));
       if (!(cross(a, b) < -1e-12)) continue;  // the pocket does not bend round this corner
       add_arc(v + clearance_ * a, v + clearance_ * b, v, false, 1e30, carriers);
@@ -199,19 +243,8 @@ void PocketReach::find_limit() {
         continue;
       add_crossings(s, carriers[k], cuts);
     }
-    const Place base = s.arc ? s.centre : s.from;
-    const auto along = [&](Place p) {
-      return s.arc ? std::abs(angle_between(s.from - base, p - base)) : dot(p - base, s.to - s.from);
-    };
-    std::sort(cuts.begin(), cuts.end(), [&](Place a, Place b) { return along(a) < along(b); });
-    cuts.push_back(s.to);
-    Place at = s.from;
-    for (const Place cut : cuts) {
-      Stroke piece = beginning(until(s, cut), at);
-      at = cut;
-      if (!(length(cut - piece.from) > 0)) continue;
+    for (const Stroke& piece : cut_at(s, cuts))
       if (allowed(at_share(piece, 0.5))) limit_.push_back(piece);
-    }
   }
   limit_index_ = StrokeIndex(low_, high_, std::max(clearance_, 1e-3 * length(high_ - low_)));
   for (std::size_t i = 0; i < limit_.size(); ++i) limit_index_.add(static_cast<std::uint32_t>(i), limit_[i]);

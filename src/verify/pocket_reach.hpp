@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "air.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "stroke_index.hpp"
@@ -12,9 +13,13 @@ namespace lekalo::verify {
 class PocketReach {
  public:
   /// \param clearance  of the tool's middle from the outline: its radius and the stock to leave
-  static Result<PocketReach> make(const Document& pocket, double clearance);
+  /// \param air_width  how far straight out of open edges there is nothing
+  static Result<PocketReach> make(const Document& pocket, double clearance, double air_width);
 
-  [[nodiscard]] bool inside(Place p) const;
+  /// In the pocket as drawn, or in the air beyond its open edges.
+  [[nodiscard]] bool inside(Place p) const { return in_drawing(p) || air_.in_strips(p); }
+  [[nodiscard]] bool in_drawing(Place p) const;
+  [[nodiscard]] const Air& air() const { return air_; }
   /// Distance from the outline, positive in the pocket.
   [[nodiscard]] double depth(Place p) const;
   /// Whether the tool's middle may be here: depth(p) >= clearance, but for `slack`.
@@ -33,15 +38,17 @@ class PocketReach {
 
  private:
   void sort_rows();
+  void find_outline();
   void find_limit();
 
   double clearance_ = 0;
   Place low_, high_;
-  std::vector<Stroke> outline_;      ///< material on the left
-  std::vector<char> starts_corner_;  ///< of each stroke: its beginning is a vertex of the file
+  std::vector<Stroke> drawn_;    ///< the pocket on the left
+  std::vector<Stroke> outline_;  ///< of pocket and air; the same where no edge is open
+  Air air_;
   StrokeIndex outline_index_, limit_index_;
   std::vector<Stroke> limit_;
-  std::vector<std::vector<std::uint32_t>> rows_;  ///< strokes whose box meets a band of y
+  std::vector<std::vector<std::uint32_t>> rows_;  ///< strokes of the drawing whose box meets a band of y
   double row_height_ = 1;
 };
 

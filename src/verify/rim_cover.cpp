@@ -38,7 +38,7 @@ void RimCover::begin(Place at, double radius, const Stroke& s) {
     add_circle_cuts(s.centre, std::abs(s.radius - radius_));
     add_line_cuts(s.centre, unit(s.from - s.centre), 0);
   }
-  cover(s, radius_ - kMargin);
+  cover([&](Place rim) { return distance(rim, s) <= radius_ - kMargin; });
   bound();
 }
 
@@ -65,7 +65,8 @@ void RimCover::add_line_cuts(Place through, Place direction, double offset) {
 }
 
 /// Between two cuts the rim is covered as a whole or not at all.
-bool RimCover::cover(const Stroke& stroke, double limit) {
+template <class Gone>
+bool RimCover::cover(Gone&& is_gone) {
   std::sort(cuts_.begin(), cuts_.end());
   left_.clear();
   bool changed = false;
@@ -76,7 +77,7 @@ bool RimCover::cover(const Stroke& stroke, double limit) {
       double to = open.end;
       if (next < cuts_.size() && cuts_[next] < to) to = cuts_[next++];
       if (!(to > from)) continue;
-      if (distance(at_ + radius_ * direction_of(0.5 * (from + to)), stroke) <= limit)
+      if (is_gone(at_ + radius_ * direction_of(0.5 * (from + to))))
         changed = true;
       else if (!left_.empty() && left_.back().end == from)
         left_.back().end = to;
@@ -115,9 +116,21 @@ bool RimCover::add(const Stroke& s, double swept_radius) {
     add_line_cuts(s.from, way, swept_radius);
     add_line_cuts(s.from, way, -swept_radius);
   }
-  if (!cover(s, swept_radius + kMargin)) return false;
+  if (!cover([&](Place rim) { return distance(rim, s) <= swept_radius + kMargin; })) return false;
   bound();
   return true;
+}
+
+void RimCover::add_air(const Air& air) {
+  if (open_.empty()) return;
+  cuts_.clear();
+  for (const Stroke& s : air.borders_near(at_, radius_)) {
+    if (s.arc)
+      add_circle_cuts(s.centre, s.radius);
+    else if (length(s.to - s.from) > 0)
+      add_line_cuts(s.from, unit(s.to - s.from), 0);
+  }
+  if (cover([&](Place rim) { return air.holds(rim); })) bound();
 }
 
 double RimCover::open_width() const {

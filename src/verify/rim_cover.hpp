@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "air.hpp"
 #include "stroke.hpp"
 
 namespace lekalo::verify {
@@ -16,6 +17,8 @@ class RimCover {
   void begin(Place at, double radius, const Stroke& came_along);
   /// What a tool of this radius, mm, swept along a stroke is gone. Returns whether that made a difference.
   bool add(const Stroke& stroke, double swept_radius);
+  /// What lies beyond open edges is gone.
+  void add_air(const Air& air);
   [[nodiscard]] bool nothing_left() const { return open_.empty(); }
   /// Angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
   [[nodiscard]] double open_angle() const;
@@ -26,7 +29,8 @@ class RimCover {
   void add_circle_cuts(Place centre, double circle_radius);
   void add_line_cuts(Place through, Place direction, double offset);
   void add_cut(Place direction);
-  bool cover(const Stroke& stroke, double limit);
+  template <class Gone>
+  bool cover(Gone&& is_gone);
   void bound();
   [[nodiscard]] Place direction_of(double d) const;
 

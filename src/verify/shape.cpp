@@ -98,8 +98,12 @@ class ShapeReader {
       if (at && !(*at == from)) return complain(name + " does not begin where the edge before it ends");
       if (!begin) begin = from;
       at = to;
+      const Json open = edge.get("open");
+      if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");
       if (!complaint_.empty()) return;
+      const std::size_t first = shape_.sides.size();
       arc ? add_arc(inner, from, to, name) : add_line(from, to, name);
+      for (std::size_t s = first; s < shape_.sides.size(); ++s) shape_.sides[s].open = open.is_true();
       // Lines that join an arc to its ends have the arc's decimals.
       WrittenSide exact{arc, !arc || inner.get("ccw").is_true(), from.x, from.y, to.x, to.y, {}, {}};
       if (arc && complaint_.empty()) {

@@ -40,7 +40,8 @@ struct Side {
   double off = 0;
   Sweep sweep = Sweep::less;
   bool ccw = true;
-  Vec first, last;  ///< unit directions of an arc's ends, counter-clockwise from first to last
+  Vec first, last;    ///< unit directions of an arc's ends, counter-clockwise from first to last
+  bool open = false;  ///< no wall of a pocket
   /// The ends as they are written; of what joins an arc to them nothing is.
   bool written = true;
   Vec written_from, written_to;
@@ -66,7 +67,8 @@ inline constexpr double kLargestCoordinate = 1e9;
 
 /// Reads `{"units": "mm" / "inch", "outer": [edges], "holes": [[edges], ...]}` or `{"units", "pieces":
 /// [{"outer", "holes"}, ...]}`; without units they are mm, or inches if that is what `inch` says. Contours
-/// must be closed: each edge begins with the very decimals at which the one before ends.
+/// must be closed: each edge begins with the very decimals at which the one before ends. An edge with
+/// `"open": true` is open.
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint,
                                bool inch = false);
 

@@ -9,6 +9,10 @@
 namespace lekalo::verify {
 namespace {
 
+/// How far out of open edges nothing stands, of the tool's radius with the stock to leave: a tool may stand
+/// there and come in.
+constexpr double kAirWidth = 4;
+
 Result<void> check(const SimulateOptions& o, const std::vector<EarlierProgram>& earlier) {
   const auto outside = [](double value, double low, double high) { return !(value >= low && value <= high); };
   const auto wrong = [](const char* what, double value, const char* wanted) {
@@ -89,7 +93,8 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   const Result<std::vector<Move>> moves = read_moves(program);
   if (!moves) return tl::unexpected(moves.error());
   const double radius = o.tool_diameter / 2;
-  const Result<PocketReach> reach = PocketReach::make(pocket, radius + o.stock_to_leave);
+  const Result<PocketReach> reach =
+      PocketReach::make(pocket, radius + o.stock_to_leave, kAirWidth * (radius + o.stock_to_leave));
   if (!reach) return tl::unexpected(reach.error());
   Result<CutPath> path = cuts_of(program, *moves, o.tool_diameter, o.top);
   if (!path) return tl::unexpected(path.error());
@@ -106,7 +111,7 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   SimulateReport report;
   report.retracts = path->retracts;
   report.turning_rad = turning_of(*path);
-  const std::vector<Removed> removed = measure_engagement(*path, radius, o.spacing, report);
+  const std::vector<Removed> removed = measure_engagement(*path, reach->air(), radius, o.spacing, report);
   measure_coverage(*path, *reach, radius, report);
   report.left_before_mm2 = report.reachable_mm2;
   if (!path->before.empty()) report.left_before_mm2 = left_before(*path, *reach, radius);

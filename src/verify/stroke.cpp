@@ -137,6 +137,15 @@ void add_crossings(const Stroke& a, const Stroke& b, std::vector<Place>& places)
   keep_if_on(a, b, a.from + (cross(b.from - a.from, v) / turn) * u, places);
 }
 
+bool crosses_ray_to_the_right(const Stroke& s, Place p) {
+  if ((s.from.y <= p.y) == (s.to.y <= p.y)) return false;
+  if (!s.arc) return s.from.x + (p.y - s.from.y) / (s.to.y - s.from.y) * (s.to.x - s.from.x) > p.x;
+  const double up = p.y - s.centre.y;
+  const double half = std::sqrt(std::max(0.0, s.radius * s.radius - up * up));
+  const double side = 0.5 * (s.from.x + s.to.x) >= s.centre.x ? 1 : -1;
+  return s.centre.x + side * half > p.x;
+}
+
 Stroke until(const Stroke& stroke, Place at) {
   Stroke part = stroke;
   part.to = at;

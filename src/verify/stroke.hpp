@@ -42,6 +42,8 @@ struct Stroke {
 [[nodiscard]] double distance_apart(const Stroke& a, const Stroke& b);
 /// Where they cross, tangent points with rounding left out; none for strokes on one carrier.
 void add_crossings(const Stroke& a, const Stroke& b, std::vector<Place>& places);
+/// Whether a ray from p to the right meets it; half open in y. \pre monotone in y
+[[nodiscard]] bool crosses_ray_to_the_right(const Stroke& stroke, Place p);
 /// The part up to a place on it, and from it on.
 [[nodiscard]] Stroke until(const Stroke& stroke, Place at);
 [[nodiscard]] Stroke beginning(const Stroke& stroke, Place at);

@@ -326,6 +326,65 @@ TEST(VerifySimulate, TheBoundOnTheTimeCountsEveryLevel) {
       30 / (0.4 * 6 * 25), 1e-3);
 }
 
+// ---- open edges
+
+/// 70 x 40 without a wall at x = 70.
+const std::string kOpenSide =
+    R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[70,0]}},{"line":{"from":[70,0],"to":[70,40]},"open":true},)"
+    R"({"line":{"from":[70,40],"to":[0,40]}},{"line":{"from":[0,40],"to":[0,0]}}]})";
+
+TEST(VerifySimulateOpen, TheToolMayLeaveOverAnOpenEdgeAndMeetsNothingThere) {
+  const std::string program = "G0 X60 Y20 Z5\nG1 Z-1 F300\nG1 X79 F1500\n";
+  const auto open = run(program, kOpenSide);
+  EXPECT_NEAR(open.gouge_mm, 0, 1e-9);
+  EXPECT_NEAR(run(program, rectangle(70, 40)).gouge_mm, 12, 2e-3);
+  EXPECT_NEAR(engagement_near(open, 3, 65), 180, 1e-4);
+  // Of the rim what is short of x = 70: 3 cos(a) < 70 - x.
+  for (const double x : {67.5, 68.0, 69.0})
+    EXPECT_NEAR(engagement_near(open, 3, x), 180 - 2 * std::acos((70 - x) / 3) * 180 / kPi, 0.01) << x;
+  EXPECT_EQ(engagement_near(open, 3, 72), 0);
+}
+
+TEST(VerifySimulateOpen, BeyondTheEndsOfTheEdgeAndFarOutItIsAGouge) {
+  // The walls go on straight: 0.1 mm too near to the one at y = 0.
+  EXPECT_NEAR(run("G0 X60 Y2.9 Z5\nG1 Z-1 F300\nG1 X75 F1500\n", kOpenSide).gouge_mm, 0.1, 1e-9);
+  // Four radii are known to be air: to x = 82.
+  EXPECT_NEAR(run("G0 X60 Y20 Z5\nG1 Z-1 F300\nG1 X80 F1500\n", kOpenSide).gouge_mm, 1, 2e-3);
+  EXPECT_NEAR(run("G0 X10 Y2.9 Z5\nG1 Z-1 F300\nG1 X20 F1500\n", kOpenSide).gouge_mm, 0.1, 1e-9);
+}
+
+TEST(VerifySimulateOpen, CornersAtAnOpenEdgeCanBeReachedAndAirIsNotCounted) {
+  const auto report = run(kBegin + "G1 X76 F1500\n", kOpenSide);
+  const double reachable = 2800 - (2 - kPi / 2) * 9, swept = 60 * 6 + kPi * 4.5;
+  EXPECT_NEAR(report.reachable_mm2, reachable, 0.05);
+  EXPECT_NEAR(report.coverage_percent, 100 * swept / reachable, 1e-3);
+  EXPECT_EQ(report.unreachable.size(), 2U);
+}
+
+TEST(VerifySimulateOpen, AnOpenArcIsAsOpen) {
+  const std::string pocket =
+      R"({"outer":[{"arc":{"from":[16,0],"to":[-16,0],"centre":[0,0],"ccw":true},"open":true},)"
+      R"({"arc":{"from":[-16,0],"to":[16,0],"centre":[0,0],"ccw":true}}]})";
+  const auto report = run("G0 X0 Y0 Z5\nG1 Z-1 F300\nG1 Y24 F1500\n", pocket);
+  EXPECT_NEAR(report.gouge_mm, 0, 1e-9);
+  for (const auto& sample : report.samples) {
+    if (std::abs(sample.y - 14) < 0.026) {
+      const double cosine = (256 - sample.y * sample.y - 9) / (6 * sample.y);
+      EXPECT_NEAR(sample.engagement, 180 - 2 * std::acos(cosine) * 180 / kPi, 1e-3);
+    }
+  }
+  EXPECT_NEAR(run("G0 X0 Y0 Z5\nG1 Z-1 F300\nG1 Y-14 F1500\n", pocket).gouge_mm, 1, 2e-3);
+}
+
+TEST(VerifySimulateOpen, DownBesideAnOpenEdgeIsNoEntry) {
+  EXPECT_EQ(run("G0 X74 Y20 Z5\nG0 Z-1\nG1 X60 F1500\n", kOpenSide).rapid_cut_mm, 0);
+  EXPECT_NEAR(run("G0 X72 Y20 Z5\nG0 Z-1\nG1 X60 F1500\n", kOpenSide).rapid_cut_mm, 1, 1e-9);
+  std::string wrong = kOpenSide;
+  wrong.replace(wrong.find("true"), 4, "\"so\"");
+  EXPECT_NE(complaint_of(kBegin + "G1 X20 F100\n", wrong).find("open is neither true nor false"),
+            std::string::npos);
+}
+
 TEST(VerifySimulate, WhatItCannotJudgeIsRefusedByName) {
   const std::string pocket = rectangle(70, 40);
   const auto says = [&](const std::string& program, const std::string& words) {
