@@ -323,6 +323,12 @@ Result<int> run_locate_regions(const LocateOptions& o, const std::string& part_b
                                              {&shapes.blank, &blank_bytes, &o.blank, o.of_blank()}}) {
     Result<Shape> shape = read_shape(*bytes, *path, how);
     if (!shape) return tl::unexpected(shape.error());
+    if (!shape->open.empty())
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("{}: the edge from ({:.6g}, {:.6g}) is said to be open; only pockets have open "
+                      "edges, take the word out",
+                      *path, shape->open[0].from.x, shape->open[0].from.y));
     *to = std::move(*shape);
   }
   const auto read_if_named = [](const std::string& path) {

@@ -7,8 +7,6 @@
 
 #include "earlier_programs.hpp"
 #include "lekalo/base/version.hpp"
-#include "lekalo/geom/offset.hpp"
-#include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/io/result_json.hpp"
@@ -55,14 +53,16 @@ Result<Before> cut_before(const PocketOptions& o) {
 }
 
 /// A larger tool that has cut what this program cuts with it.
-Result<Before> supposed_before(const PocketOptions& o, const PocketInput& input) {
+Result<Before> supposed_before(const PocketOptions& o) {
   if (!(o.rest_of > o.path.tool_diameter))
     return failure(ErrorCode::bad_input,
                    fmt::format("--rest {:g}: the tool before is to be larger than this one, {:g} mm",
                                o.rest_of, o.path.tool_diameter));
-  mill::PocketOptions first = o.path;
-  first.tool_diameter = o.rest_of;
-  const Result<mill::PocketPath> path = mill::pocket_path(input.extended, first);
+  PocketOptions first = o;
+  first.path.tool_diameter = o.rest_of;
+  const Result<PocketInput> input = read_pocket_input(first);
+  if (!input) return tl::unexpected(input.error());
+  const Result<mill::PocketPath> path = mill::pocket_path(input->extended, first.path);
   if (!path)
     return failure(path.error().code,
                    fmt::format("{}: --rest {:g}: {}", o.pocket, o.rest_of, path.error().message));
@@ -93,11 +93,6 @@ Result<verify::SimulateReport> judgement_of(const std::string& program, const Po
         fmt::format("{}: the program found would cut {:.4f} mm into what stays, or {:.3f} mm in rapid "
                     "motion; nothing is written, please report the pocket",
                     o.pocket, report->gouge_mm, report->rapid_cut_mm));
-  // Corners of what was added beyond open edges are air.
-  const geom::RegionIndex drawn(input.pockets);
-  std::erase_if(report->unreachable, [&](const verify::UnreachableSpot& spot) {
-    return !drawn.contains({spot.x, spot.y});
-  });
   return report;
 }
 
@@ -169,7 +164,7 @@ Result<int> run_pocket(PocketOptions o) {
     return tl::unexpected(good.error());
   const Result<PocketInput> input = read_pocket_input(o);
   if (!input) return tl::unexpected(input.error());
-  const Result<Before> before = o.rest_of > 0 ? supposed_before(o, *input) : cut_before(o);
+  const Result<Before> before = o.rest_of > 0 ? supposed_before(o) : cut_before(o);
   if (!before) return tl::unexpected(before.error());
   Result<mill::PocketPath> path = mill::pocket_path(input->extended, o.path, before->cuts);
   if (!path) return failure(path.error().code, fmt::format("{}: {}", o.pocket, path.error().message));

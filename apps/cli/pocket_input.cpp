@@ -27,7 +27,15 @@ Result<void> known(const Shape& shape, const std::vector<std::string>& layers, c
   return {};
 }
 
-/// What lies straight out of an edge, the tool's radius wide.
+/// The same edge, in this direction or the other.
+bool same(const geom::Edge& a, const geom::Edge& b) {
+  const bool arcs = a.kind != EdgeKind::line;
+  if (arcs != (b.kind != EdgeKind::line) || (arcs && !(a.centre == b.centre))) return false;
+  return (a.kind == b.kind && a.from == b.from && a.to == b.to) ||
+         ((!arcs || a.kind != b.kind) && a.from == b.to && a.to == b.from);
+}
+
+/// What lies straight out of an edge, so wide that the tool may stand on it.
 Result<geom::Region> strip_beyond(const geom::Edge& edge, double width) {
   if (edge.kind == EdgeKind::line) {
     const Point way = edge.to - edge.from;
@@ -74,6 +82,7 @@ Result<PocketInput> read_pocket_input(const PocketOptions& o) {
 
   std::size_t edge = 0;
   std::vector<geom::Region> all = shape->regions;
+  std::vector<geom::Edge> open;
   for (const geom::Region& region : shape->regions) {
     const auto look = [&](const geom::Contour& contour, bool outer) -> Result<void> {
       for (const geom::Edge& e : contour) {
@@ -82,8 +91,11 @@ Result<PocketInput> read_pocket_input(const PocketOptions& o) {
           return failure(ErrorCode::bad_input,
                          fmt::format("{}: the island on layer \"{}\" at ({:.6g}, {:.6g}) lies in no pocket",
                                      o.pocket, layer, e.from.x, e.from.y));
-        if (!listed(o.open_layers, layer)) continue;
-        Result<geom::Region> strip = strip_beyond(e, o.path.tool_diameter / 2);
+        if (!listed(o.open_layers, layer) && std::none_of(shape->open.begin(), shape->open.end(),
+                                                          [&](const geom::Edge& s) { return same(s, e); }))
+          continue;
+        open.push_back(e);
+        Result<geom::Region> strip = strip_beyond(e, o.path.tool_diameter / 2 + o.path.stock_to_leave);
         if (!strip)
           return failure(strip.error().code,
                          fmt::format("{}: the open edge at ({:.6g}, {:.6g}): {}", o.pocket, e.from.x,
@@ -106,7 +118,7 @@ Result<PocketInput> read_pocket_input(const PocketOptions& o) {
     if (!whole) return failure(whole.error().code, fmt::format("{}: {}", o.pocket, whole.error().message));
     input.extended = std::move(whole->regions);
   }
-  input.document = io::regions_json(input.extended);
+  input.document = io::regions_json(input.pockets, open);
   return input;
 }
 

@@ -14,8 +14,8 @@ struct PocketInput {
   std::string bytes;                  ///< of the file
   std::vector<geom::Region> pockets;  ///< as drawn, mm
   std::vector<geom::Region>
-      extended;          ///< and the tool's radius beyond open edges; the same where there are none
-  std::string document;  ///< region JSON of `extended`, for the checker
+      extended;          ///< and what the tool stands on beyond open edges; the same where there are none
+  std::string document;  ///< region JSON of `pockets` with their open edges, for the checker
   std::vector<std::string> notices;
 };
 

@@ -75,9 +75,9 @@ Result<Shape> shape_of_points(std::string_view bytes, const std::string& path, c
 }
 
 Result<Shape> shape_of_regions(std::string_view bytes, const std::string& path, const ShapeOptions& options) {
-  Result<io::RegionFile> file = io::parse_regions(bytes, path, options.units);
-  if (!file) return tl::unexpected(file.error());
   Shape shape;
+  Result<io::RegionFile> file = io::parse_regions(bytes, path, options.units, &shape.open);
+  if (!file) return tl::unexpected(file.error());
   shape.regions = std::move(file->regions);
   shape.tolerance = kOutlinePerCoordinate * file->coordinate_error;
   return shape;

@@ -17,6 +17,7 @@ struct Shape {
   std::vector<geom::Region> regions;  ///< mm
   double tolerance = 0;               ///< the true outline is within this of the regions', mm
   std::vector<std::string> labels;    ///< of every edge: its layer, or the name of its primitive; "" for none
+  std::vector<geom::Edge> open;       ///< edges that a region file says are no walls, as they are written
   std::vector<std::string> notices;
   std::optional<io::ScanRecord> scan;  ///< of a blank that was measured
 };

@@ -65,7 +65,8 @@ Result<int> run_simulate(const SimulateOptions& o) {
       return tl::unexpected(done.error());
   }
   if (!o.picture.empty() || !o.animation.empty()) {
-    const Result<io::RegionFile> regions = io::parse_regions(*pocket, o.pocket);
+    std::vector<geom::Edge> open;
+    const Result<io::RegionFile> regions = io::parse_regions(*pocket, o.pocket, {}, &open);
     if (!regions) return tl::unexpected(regions.error());
     if (Result<void> done =
             add_cut_pictures({o.picture, o.animation, {}}, o.pocket, regions->regions,

@@ -49,9 +49,15 @@ std::string list_json(const std::vector<T>& items, const std::string& indent, co
   return text + "\n" + indent + "]";
 }
 
-std::string region_json(const Region& region, const std::string& indent) {
-  const auto contour = [&indent](const std::string& more) {
-    return [inner = indent + more](const Contour& c) { return list_json(c, inner, detail::edge_text); };
+std::string region_json(const Region& region, const std::string& indent, const std::vector<Edge>& open) {
+  const auto edge = [&](const Edge& e) {
+    std::string text = detail::edge_text(e);
+    if (std::find(open.begin(), open.end(), e) != open.end())
+      text.insert(text.size() - 1, ", \"open\": true");
+    return text;
+  };
+  const auto contour = [&](const std::string& more) {
+    return [&edge, inner = indent + more](const Contour& c) { return list_json(c, inner, edge); };
   };
   return fmt::format("{0}\"outer\": {1},\n{0}\"holes\": {2}", indent, contour("")(region.outer),
                      list_json(region.holes, indent, contour(" ")));
@@ -60,7 +66,7 @@ std::string region_json(const Region& region, const std::string& indent) {
 }  // namespace
 
 Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name,
-                                 std::optional<LengthUnit> unit) {
+                                 std::optional<LengthUnit> unit, std::vector<Edge>* open) {
   using namespace detail;
   const auto json = parse_json(bytes, name);
   if (!json) return tl::unexpected(json.error());
@@ -74,7 +80,7 @@ Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name
 
   RegionFile file{name, *file_unit, {}, 0};
   const auto add = [&](const Json& piece, const std::string& where) -> Result<void> {
-    auto region = read_region(piece, where, millimetres_per(*file_unit));
+    auto region = read_region(piece, where, millimetres_per(*file_unit), open);
     if (!region) return tl::unexpected(std::move(region.error()));
     file.regions.push_back(std::move(*region));
     return {};
@@ -96,11 +102,11 @@ Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name
   return file;
 }
 
-std::string regions_json(const std::vector<Region>& regions) {
+std::string regions_json(const std::vector<Region>& regions, const std::vector<Edge>& open) {
   LEKALO_ASSERT(!regions.empty());
-  const auto piece = [](const Region& r) { return "{\n" + region_json(r, "   ") + "\n  }"; };
-  const std::string body =
-      regions.size() == 1 ? region_json(regions[0], " ") : " \"pieces\": " + list_json(regions, " ", piece);
+  const auto piece = [&](const Region& r) { return "{\n" + region_json(r, "   ", open) + "\n  }"; };
+  const std::string body = regions.size() == 1 ? region_json(regions[0], " ", open)
+                                               : " \"pieces\": " + list_json(regions, " ", piece);
   return "{\n \"units\": \"mm\",\n" + body + "\n}\n";
 }
 

@@ -62,7 +62,7 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(double scale) : scale_(scale) {}
+  Reader(double scale, std::vector<Edge>* open) : scale_(scale), open_(open) {}
 
   [[nodiscard]] Result<Region> region(const Json& json, const std::string& where) const {
     if (!json.contains("outer"))
@@ -95,14 +95,18 @@ class Reader {
       auto read = edge(json[i], fmt::format("{}, edge {}", where, i));
       if (!read) return tl::unexpected(std::move(read.error()));
       edges.push_back(*read);
+      if (json[i].contains("open") && json[i]["open"].get<bool>()) open_->push_back(*read);
     }
     return edges;
   }
 
   [[nodiscard]] Result<Edge> edge(const Json& json, const std::string& where) const {
-    if (const auto known = expect_object(json, where, {"line", "arc"}); !known)
-      return tl::unexpected(known.error());
-    if (json.size() != 1) return refuse(where, "an edge is one \"line\" or one \"arc\"");
+    const auto known = open_ != nullptr ? expect_object(json, where, {"line", "arc", "open"})
+                                        : expect_object(json, where, {"line", "arc"});
+    if (!known) return tl::unexpected(known.error());
+    const bool says_open = json.contains("open");
+    if (says_open && !json["open"].is_boolean()) return refuse(where, "\"open\" must say true or false");
+    if (json.size() != (says_open ? 2 : 1)) return refuse(where, "an edge is one \"line\" or one \"arc\"");
     return json.contains("line") ? line(json["line"], where) : arc(json["arc"], where);
   }
 
@@ -141,12 +145,14 @@ class Reader {
   }
 
   double scale_;
+  std::vector<Edge>* open_;
 };
 
 }  // namespace
 
-Result<Region> read_region(const Json& json, const std::string& where, double scale) {
-  return Reader(scale).region(json, where);
+Result<Region> read_region(const Json& json, const std::string& where, double scale,
+                           std::vector<Edge>* open) {
+  return Reader(scale, open).region(json, where);
 }
 
 }  // namespace lekalo::io::detail

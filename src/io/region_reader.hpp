@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
@@ -34,6 +35,8 @@ using Json = nlohmann::json;
                                              double scale);
 
 /// The region of an object with "outer" and "holes" or "islands", coordinates times `scale`.
-[[nodiscard]] Result<geom::Region> read_region(const Json& json, const std::string& where, double scale);
+/// \param open  if given, gets the edges with `"open": true`, as they are written; else the word is refused
+[[nodiscard]] Result<geom::Region> read_region(const Json& json, const std::string& where, double scale,
+                                               std::vector<geom::Edge>* open = nullptr);
 
 }  // namespace lekalo::io::detail

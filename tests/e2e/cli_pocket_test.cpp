@@ -72,13 +72,40 @@ TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
   const Ran open = run(folder.path(), words + Words{"--island-layer", "ISLAND", "--open-layer", "OPEN"});
   ASSERT_EQ(open.status, 0) << open.err;
   EXPECT_EQ(closed.json()["unreachable"].size(), 8U);
-  // At the open side there are no corners, and the tool goes out to its middle: 2 mm more are swept.
+  // At the open side there are no corners; the tool goes out to its middle.
   EXPECT_EQ(open.json()["unreachable"].size(), 6U);
-  EXPECT_NEAR(open.json()["reachable_mm2"].get<double>() - closed.json()["reachable_mm2"].get<double>(), 40,
-              1);
+  EXPECT_NEAR(open.json()["reachable_mm2"].get<double>() - closed.json()["reachable_mm2"].get<double>(),
+              2 * (1 - 3.14159265 / 4) * 4, 0.1);
+  EXPECT_GE(open.json()["coverage_percent"].get<double>(), 99.99);
   EXPECT_LE(open.json()["gouge_mm"].get<double>(), 0.005);
   EXPECT_NE(read_bytes(folder / "p.svg").find("the tool does not fit in here"), std::string::npos);
   EXPECT_NE(read_bytes(folder / "p.html").find("<canvas"), std::string::npos);
+}
+
+TEST(CliPocket, open_edges_of_a_region_file_are_known_to_path_and_checker) {
+  const TemporaryFolder folder;
+  Json plate = Json::parse(kPlate);
+  plate["outer"][1]["open"] = true;
+  write_bytes(folder / "open.json", plate.dump());
+  for (const std::string stock : {"0", "0.5"}) {
+    const Ran made = run(folder.path(), {"pocket", "open.json", "--tool", "6", "--depth", "2",
+                                         "--stock-to-leave", stock, "-o", "p.ngc", "--json"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_GE(made.json()["coverage_percent"].get<double>(), 99.99);
+    EXPECT_LE(made.json()["uncut_width_mm"].get<double>(), 0.02);
+    EXPECT_LE(made.json()["gouge_mm"].get<double>(), 0.005);
+    EXPECT_EQ(made.json()["unreachable"].size(), stock == "0" ? 2U : made.json()["unreachable"].size());
+    const Ran judged = run(folder.path(), {"simulate", "p.ngc", "--pocket", "open.json", "--tool", "6",
+                                           "--stock-to-leave", stock, "--json", "--picture", "p.svg"});
+    ASSERT_EQ(judged.status, 0) << judged.err;
+    for (const char* figure : {"coverage_percent", "gouge_mm", "engagement_max_deg", "reachable_mm2"})
+      EXPECT_EQ(judged.json()[figure], made.json()[figure]) << figure;
+    // With a wall there the same program goes 3 mm into it.
+    write_bytes(folder / "plate.json", kPlate);
+    const Ran closed = run(folder.path(), {"simulate", "p.ngc", "--pocket", "plate.json", "--tool", "6",
+                                           "--stock-to-leave", stock, "--json"});
+    EXPECT_GT(closed.json()["gouge_mm"].get<double>(), 2.9);
+  }
 }
 
 /// The pair is proved: what the first program left is cut by the second, entered where nothing stands.

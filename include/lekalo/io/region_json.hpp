@@ -26,12 +26,16 @@ struct RegionFile {
 ///
 /// Fails with ErrorCode::bad_input, naming file, piece, contour, edge and number. A word it does not know is
 /// refused, never skipped: a hole under a misspelt key would be cut as material.
+/// \param open  of pockets: gets the edges with `"open": true`, as they are written; else the word is refused
 [[nodiscard]] Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name,
-                                               std::optional<LengthUnit> unit = std::nullopt);
+                                               std::optional<LengthUnit> unit = std::nullopt,
+                                               std::vector<geom::Edge>* open = nullptr);
 
 /// The same form in millimetres, one edge a line; every number is the shortest decimal that reads back to the
 /// same double. Law: parse_regions(regions_json(r)) gives r, for regions made by make_region.
 /// \pre regions is not empty
-[[nodiscard]] std::string regions_json(const std::vector<geom::Region>& regions);
+/// \param open  edges of them that are to be said open
+[[nodiscard]] std::string regions_json(const std::vector<geom::Region>& regions,
+                                       const std::vector<geom::Edge>& open = {});
 
 }  // namespace lekalo::io
