@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "lekalo/geom/offset.hpp"
+#include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/pocket_picture.hpp"
 #include "lekalo/io/result_json.hpp"
 
@@ -31,6 +33,13 @@ io::PocketPicture picture_of(const std::string& title, const std::vector<geom::R
   picture.name = io::as_utf8(std::filesystem::path(title).filename().string());
   picture.pockets = pockets;
   picture.unreachable = out_of_reach(pockets, diameter / 2, stock);
+  // The drawing alone does not say that a corner lies at an open edge; the checker does.
+  std::erase_if(picture.unreachable, [&](const geom::Region& piece) {
+    const geom::RegionIndex index({piece});
+    return std::none_of(r.unreachable.begin(), r.unreachable.end(), [&](const verify::UnreachableSpot& spot) {
+      return index.contains({spot.x, spot.y});
+    });
+  });
   picture.tool_diameter = diameter;
   geom::Point before;
   for (const verify::EngagementSample& s : r.samples) {
