@@ -1,12 +1,17 @@
 // Layouts of instance files within a budget, every one checked again by the independent checker: a table in
 // markdown, a line for a file and a seed, and means where there are several seeds.
 //
-//   bench_nest [--cpu SECONDS | --work N] [--seeds 1,2,3] [--threads N] [--angles N] [--save FOLDER] FILE...
+//   bench_nest [--cpu SECONDS | --work N] [--seeds 1,2,3] [--threads N] [--angles N] [--save FOLDER]
+//              [--scale 50,200,1000,5000] FILE...
+//
+// --scale: orders of so many pieces made here: 20 polygons of 4 to 9 corners, 20 to 120 mm across, four angles, a
+// gap of 1 mm, on a strip 1,000 mm wide.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -17,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/base/random.hpp"
 #include "lekalo/geom/grid.hpp"
 #include "lekalo/io/open_layout.hpp"
 #include "lekalo/layout/completeness.hpp"
@@ -35,12 +41,23 @@ struct Words {
   unsigned threads = 2;
   std::size_t angles = 24;
   std::string save;
+  std::vector<std::uint64_t> scale;
   std::vector<std::string> files;
 };
 
 [[noreturn]] void refuse(const std::string& sentence) {
   fmt::print(stderr, "bench_nest: {}\n", sentence);
   std::exit(2);
+}
+
+std::vector<std::uint64_t> numbers_of(const std::string& value) {
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t at = 0; at < value.size(); at = value.find_first_of("0123456789", at)) {
+    std::size_t used = 0;
+    numbers.push_back(std::stoull(value.substr(at), &used));
+    at += used;
+  }
+  return numbers;
 }
 
 Words words_of(int argc, char** argv) {
@@ -65,17 +82,14 @@ Words words_of(int argc, char** argv) {
     } else if (word == "--save") {
       words.save = value;
     } else if (word == "--seeds") {
-      words.seeds.clear();
-      for (std::size_t at = 0; at < value.size(); at = value.find_first_of("0123456789", at)) {
-        std::size_t used = 0;
-        words.seeds.push_back(std::stoull(value.substr(at), &used));
-        at += used;
-      }
+      words.seeds = numbers_of(value);
+    } else if (word == "--scale") {
+      words.scale = numbers_of(value);
     } else {
       refuse("unknown option " + word);
     }
   }
-  if (words.files.empty()) refuse("no files");
+  if (words.files.empty() && words.scale.empty()) refuse("no files");
   if (!(words.cpu_seconds > 0) || words.work == 0 || words.threads == 0 || words.seeds.empty())
     refuse("budgets, threads and seeds are positive numbers");
   return words;
@@ -85,6 +99,48 @@ double processor_seconds() {
   timespec at{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &at);
   return static_cast<double>(at.tv_sec) + 1e-9 * static_cast<double>(at.tv_nsec);
+}
+
+layout::Document order_of(std::uint64_t pieces) {
+  constexpr std::uint64_t kParts = 20;
+  constexpr double kHeight = 1000, kSmallest = 20, kLargest = 120;
+  Random random(pieces, 1);
+  layout::Document document;
+  document.name = fmt::format("{} pieces", pieces);
+  document.rules.gap = geom::grid_from_mm(1);
+  const auto outline_of = [](std::vector<geom::GridPoint> loop) {
+    layout::Outline outline;
+    outline.polygon = *geom::make_grid_region({std::move(loop)});
+    return outline;
+  };
+  const auto point = [](double x, double y) {
+    return geom::GridPoint{geom::grid_from_mm(x), geom::grid_from_mm(y)};
+  };
+  for (std::uint64_t p = 0; p < kParts; ++p) {
+    layout::Part part;
+    part.id = fmt::format("part {}", p);
+    part.rotations = {{0, 0}, {90, 90}, {180, 180}, {270, 270}};
+    part.demand = static_cast<std::int64_t>((pieces + kParts - 1 - p) / kParts);
+    const std::uint64_t corners = 4 + random.below(6);
+    const double radius = 0.5 * random.uniform(kSmallest, kLargest);
+    std::vector<geom::GridPoint> loop;
+    for (std::uint64_t k = 0; k < corners; ++k) {
+      const double turn = 6.283185307179586 * static_cast<double>(k) / static_cast<double>(corners);
+      const double far = radius * random.uniform(0.5, 1);
+      loop.push_back(point(far * std::cos(turn), far * std::sin(turn)));
+    }
+    part.outline = outline_of(std::move(loop));
+    document.parts.push_back(std::move(part));
+  }
+  layout::Stock strip;
+  strip.id = "strip";
+  strip.kind = layout::StockKind::strip;
+  strip.open_length = true;
+  const double length = geom::mm_from_grid(layout::kLongestStrip);
+  strip.outline =
+      outline_of({point(0, 0), point(length, 0), point(length, kHeight), point(0, kHeight)});
+  document.stocks = {strip};
+  return document;
 }
 
 /// What is counted of one run.
@@ -198,18 +254,20 @@ int main(int argc, char** argv) {
       "check |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool fine = true;
-  for (const std::string& path : words.files) {
-    const auto file = io::open_layout(path);
-    if (!file) refuse(file.error().message);
-    const std::filesystem::path where(path);
-    const std::string name = where.stem().string();
+  const auto run_all = [&](const layout::Document& document, const std::string& name) {
     std::vector<Figures> all;
     for (const std::uint64_t seed : words.seeds) {
-      all.push_back(run(file->document, words, seed, name));
+      all.push_back(run(document, words, seed, name));
       print(name, std::to_string(seed), all.back());
       fine = fine && all.back().fine;
     }
     if (all.size() > 1) print(name, "mean", mean_of(all));
+  };
+  for (const std::uint64_t pieces : words.scale) run_all(order_of(pieces), fmt::format("{} pieces", pieces));
+  for (const std::string& path : words.files) {
+    const auto file = io::open_layout(path);
+    if (!file) refuse(file.error().message);
+    run_all(file->document, std::filesystem::path(path).stem().string());
   }
   return fine ? 0 : 1;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "kit_choice.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "remnant.hpp"
 
@@ -13,23 +14,15 @@ namespace {
 /// What one kit takes of a part.
 struct Share {
   std::int64_t upright = 0, mirrored = 0, either = 0;
+  void add(std::optional<bool> hand, std::int64_t count) {
+    (hand ? (*hand ? mirrored : upright) : either) += count;
+  }
 };
 
 std::map<std::uint32_t, Share> shares_of(const Kit& kit) {
   std::map<std::uint32_t, Share> shares;
-  for (const KitPiece& piece : kit.pieces) {
-    Share& share = shares[piece.part];
-    (piece.mirrored ? (*piece.mirrored ? share.mirrored : share.upright) : share.either) += piece.count;
-  }
+  for (const KitPiece& piece : kit.pieces) shares[piece.part].add(piece.mirrored, piece.count);
   return shares;
-}
-
-/// Whole kits that these pieces make.
-std::int64_t kits_of(const PieceCount& pieces, const Share& share) {
-  std::int64_t kits = pieces.total() / (share.upright + share.mirrored + share.either);
-  if (share.upright > 0) kits = std::min(kits, pieces.upright / share.upright);
-  if (share.mirrored > 0) kits = std::min(kits, pieces.mirrored / share.mirrored);
-  return kits;
 }
 
 /// Takes what serves either way from the side that has more.
@@ -128,17 +121,16 @@ SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const
 }  // namespace
 
 KitsMade kits_made(const Document& document, std::vector<PieceCount> placed) {
-  KitsMade made{{}, std::move(placed)};
-  for (const Kit& kit : document.kits) {
-    const auto shares = shares_of(kit);
-    std::int64_t complete = kit.demand;
-    for (const auto& [part, share] : shares) complete = std::min(complete, kits_of(made.left[part], share));
-    for (const auto& [part, share] : shares) {
-      made.left[part].upright -= complete * share.upright;
-      made.left[part].mirrored -= complete * share.mirrored;
-      take_either(made.left[part], complete * share.either);
-    }
-    made.complete.push_back(complete);
+  KitsMade made{most_valuable_kits(document, placed), std::move(placed)};
+  std::map<std::uint32_t, Share> taken;
+  for (std::size_t k = 0; k < made.complete.size(); ++k)
+    for (const KitPiece& piece : document.kits[k].pieces)
+      taken[piece.part].add(piece.mirrored, made.complete[k] * piece.count);
+  for (const auto& [part, share] : taken) {
+    PieceCount& left = made.left[part];
+    left.upright -= share.upright;
+    left.mirrored -= share.mirrored;
+    take_either(left, share.either);
   }
   return made;
 }

@@ -51,7 +51,7 @@ State empty_state(const Problem& problem, const Items& items) {
   return state;
 }
 
-State built(const Problem& problem, const Items& items, Separator& separator, const State& from,
+State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
             const std::vector<std::uint32_t>& order, const std::function<bool()>& enough) {
   const auto& bins = problem.bins();
   const bool strip = bins.size() == 1 && bins[0].open;
@@ -75,9 +75,9 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
     if (area > 0) end += widest + 0.5 * area / (bins[0].box.y1 - bins[0].box.y0);
     state.ends[0] = std::min(bins[0].box.x1, end);
   }
-  separator.load(state);
+  placer.load(state);
   const auto open = [&](std::uint32_t bin) {
-    const auto& all = separator.state().open_bins;
+    const auto& all = placer.state().open_bins;
     return std::find(all.begin(), all.end(), bin) != all.end();
   };
   const std::vector<std::uint32_t> stock_order = cheapest_first(problem);
@@ -87,24 +87,24 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
   std::set<std::pair<std::uint32_t, std::uint32_t>> full;
   std::vector<Forms> hopeless;  // pieces like these found no place on any
   for (const std::uint32_t i : order) {
-    if (separator.state().spots[i].bin != kNowhere) continue;
+    if (placer.state().spots[i].bin != kNowhere) continue;
     if (std::find(hopeless.begin(), hopeless.end(), items.forms[i]) != hopeless.end()) continue;
     if (enough && enough()) break;
     bool placed = false;
     const auto try_open = [&] {
-      const std::vector<std::uint32_t> in_use = separator.state().open_bins;
+      const std::vector<std::uint32_t> in_use = placer.state().open_bins;
       return std::any_of(in_use.begin(), in_use.end(), [&](std::uint32_t bin) {
         if (full.contains({bin, items.forms[i].first})) return false;
-        const bool found = separator.place_low(i, bin, tries);
+        const bool found = placer.place_low(i, bin, tries);
         if (!found && !strip && alike) full.insert({bin, items.forms[i].first});
         return found;
       });
     };
-    while (!(placed = try_open()) && strip && (!open(0) || separator.state().ends[0] < bins[0].box.x1)) {
+    while (!(placed = try_open()) && strip && (!open(0) || placer.state().ends[0] < bins[0].box.x1)) {
       if (!open(0))
-        separator.open_bin(0);
+        placer.open_bin(0);
       else
-        separator.set_limits(0, std::min(bins[0].box.x1, separator.state().ends[0] + widest), bins[0].box.y1);
+        placer.set_end(0, std::min(bins[0].box.x1, placer.state().ends[0] + widest));
     }
     // Of each stock one more copy: others of it are the same.
     std::vector<std::uint32_t> tried;
@@ -112,14 +112,14 @@ State built(const Problem& problem, const Items& items, Separator& separator, co
       const std::uint32_t bin = stock_order[k];
       if (open(bin) || std::find(tried.begin(), tried.end(), bins[bin].stock) != tried.end()) continue;
       tried.push_back(bins[bin].stock);
-      if (!separator.can_hold(bin, i)) continue;
-      separator.open_bin(bin);
-      placed = separator.place_low(i, bin, kMostTries);
-      if (!placed) separator.close_bin(bin);
+      if (!placer.can_hold(bin, i)) continue;
+      placer.open_bin(bin);
+      placed = placer.place_low(i, bin, kMostTries);
+      if (!placed) placer.close_bin(bin);
     }
     if (!placed && alike) hopeless.push_back(items.forms[i]);
   }
-  return separator.state();
+  return placer.state();
 }
 
 }  // namespace lekalo::nest

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "separator.hpp"
+#include "placer.hpp"
 
 namespace lekalo::nest {
 
@@ -14,8 +14,8 @@ namespace lekalo::nest {
 /// Puts the items that lie nowhere one after the other, in this order, to the free place found furthest left:
 /// on stock that is open, else on the cheapest that can hold them; a strip gets longer. Those for which no
 /// place is found stay nowhere. What lies somewhere stays there. Ends early, between two items, where
-/// `enough` says so.
-[[nodiscard]] State built(const Problem& problem, const Items& items, Separator& separator, const State& from,
+/// `enough` says so. What it gives is settled: it breaks no rule.
+[[nodiscard]] State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
                           const std::vector<std::uint32_t>& order, const std::function<bool()>& enough);
 
 /// Items by priority, then by size, large ones first.

@@ -18,11 +18,15 @@ class Lane {
 
   /// Goes on from a valid state; where an attempt is under way, from its end, and only if that is better.
   void start(const State& state);
+  /// Goes on from a valid state, better or not; what was is forgotten.
+  void go_on_from(const State& state);
   /// Until about so much more work is done; less where nothing is left to be gained.
   void run(std::uint64_t work);
 
   const State& best() const noexcept { return best_; }
   const Merit& merit() const noexcept { return merit_; }
+  /// Of any valid state.
+  Merit merit_of(const State& state) const;
   Separator& separator() noexcept { return separator_; }
   std::uint64_t work() const noexcept { return separator_.work(); }
   /// Nothing is left to be gained.
@@ -37,7 +41,6 @@ class Lane {
   /// How far along the strip what lies there reaches, border gaps included, mm.
   double reach_of(const State& state) const;
   double used_area(const State& state) const;
-  Merit merit_of(const State& state) const;
   void choose_goal();
   void choose_goal_again();
   void next_attempt();
@@ -55,7 +58,6 @@ class Lane {
   void on_valid();
   void on_stuck();
   void on_failure();
-  void go_on_from(const State& state);
   bool take_offered();
 
   const Problem& problem_;

@@ -26,6 +26,8 @@ constexpr std::uint64_t kSegment = 200'000;
 constexpr int kMergesAlone = 20;
 /// Streams of chance of what makes the first states; those of the strands come before.
 constexpr std::uint64_t kBuilderStreams = 1000;
+/// Likewise of what gives pieces another place, by merge.
+constexpr std::uint64_t kMendingStreams = 1'000'000;
 /// Of a first layout: it is not left unfinished before, whoever wants to stop.
 constexpr std::uint64_t kFirstWork = 1'000'000;
 constexpr std::int64_t kMostPieces = 100'000;
@@ -42,11 +44,15 @@ struct Wanted {
 /// Pieces of one part: of either hand, upright, mirrored.
 struct Hands {
   std::int64_t either = 0, upright = 0, mirrored = 0;
+  /// Where a piece that is there already belongs: to those of its hand while they are wanted.
+  std::int64_t& of(bool is_mirrored) {
+    std::int64_t& own = is_mirrored ? mirrored : upright;
+    return own > 0 ? own : either;
+  }
 };
 
-/// What is still wanted beside what is locked. A locked piece that no kit wants of its hand serves where
-/// either does.
-std::vector<Hands> hands_wanted(const layout::Document& document) {
+/// All that is wanted.
+std::vector<Hands> hands_of(const layout::Document& document) {
   std::vector<Hands> wanted(document.parts.size());
   for (std::size_t p = 0; p < wanted.size(); ++p) wanted[p].either = document.parts[p].demand;
   for (const layout::Kit& kit : document.kits)
@@ -56,12 +62,15 @@ std::vector<Hands> hands_wanted(const layout::Document& document) {
        : *piece.mirrored ? hands.mirrored
                          : hands.upright) += kit.demand * piece.count;
     }
-  for (const layout::Placement& p : document.placements) {
-    if (!p.locked) continue;
-    Hands& hands = wanted[p.part];
-    std::int64_t& own = p.mirrored ? hands.mirrored : hands.upright;
-    --(own > 0 ? own : hands.either);
-  }
+  return wanted;
+}
+
+/// What is still wanted beside what is locked. A locked piece that no kit wants of its hand serves where
+/// either does.
+std::vector<Hands> hands_wanted(const layout::Document& document) {
+  std::vector<Hands> wanted = hands_of(document);
+  for (const layout::Placement& p : document.placements)
+    if (p.locked) --wanted[p.part].of(p.mirrored);
   return wanted;
 }
 
@@ -110,7 +119,8 @@ std::vector<layout::Placement> sound_placements(const layout::Document& document
   return sound;
 }
 
-/// Two and two of a kit's pieces of one part: left and right ones first.
+/// Two and two of a kit's pieces of one part: left and right ones first. Those that are locked serve the first
+/// kits.
 void add_partners(const Problem& problem, double reach, Items& items) {
   const layout::Document& document = problem.document();
   if (!(reach > 0) || document.kits.empty()) return;
@@ -128,6 +138,18 @@ void add_partners(const Problem& problem, double reach, Items& items) {
                                                     : pools[p].mirrored)
         .push_back(i);
   }
+  std::vector<Hands> wanted = hands_of(document);
+  for (std::size_t k = 0; k < items.fixed.size(); ++k) {
+    const Form& form = problem.forms()[items.fixed[k].form];
+    if (problem.kind_of(form) != SearchShape::Kind::part) continue;
+    const std::uint32_t p = problem.part_of(form);
+    std::int64_t& serves = wanted[p].of(form.mirrored);
+    if (--serves < 0) continue;  // nobody wants it
+    (&serves == &wanted[p].either    ? pools[p].either
+     : &serves == &wanted[p].upright ? pools[p].upright
+                                     : pools[p].mirrored)
+        .push_back(static_cast<std::uint32_t>(items.movable() + k));
+  }
   const auto take = [](Pool& from, Pool& or_from, std::int64_t count) {
     Pool taken;
     for (; count > 0 && !(from.empty() && or_from.empty()); --count) {
@@ -138,8 +160,8 @@ void add_partners(const Problem& problem, double reach, Items& items) {
     return taken;
   };
   const auto pair = [&](std::uint32_t a, std::uint32_t b) {
-    items.partners[a] = b;
-    items.partners[b] = a;
+    if (a < items.movable()) items.partners[a] = b;
+    if (b < items.movable()) items.partners[b] = a;
   };
   for (const layout::Kit& kit : document.kits)
     for (std::int64_t copy = 0; copy < kit.demand; ++copy) {
@@ -180,12 +202,9 @@ Wanted wanted_items(const Problem& problem, bool from_given) {
     std::vector<Hands> left = hands;
     for (const layout::Placement& p : document.placements) {
       if (p.locked) continue;
-      std::int64_t& own = p.mirrored ? left[p.part].mirrored : left[p.part].upright;
-      std::int64_t& either = left[p.part].either;
-      if (own > 0)
-        --own;
-      else if (either > 0)
-        --either;
+      std::int64_t& serves = left[p.part].of(p.mirrored);
+      if (serves > 0)
+        --serves;
       else
         ++(p.mirrored ? hands[p.part].mirrored : hands[p.part].upright);
     }
@@ -255,18 +274,6 @@ Result<void> check_document(const layout::Document& document, bool from_given) {
   return {};
 }
 
-/// The state without what keeps it from being exact: for a first layout there must be one.
-std::optional<layout::Document> settled_somehow(const Problem& problem, const Items& items, State state) {
-  while (true) {
-    if (auto document = settled(problem, items, state)) return document;
-    std::size_t last = items.movable();
-    for (std::size_t i = 0; i < items.movable(); ++i)
-      if (state.spots[i].bin != kNowhere) last = i;
-    if (last == items.movable()) return std::nullopt;
-    state.spots[last].bin = kNowhere;
-  }
-}
-
 /// What a strand is begun with: its own choices, and how much work they took.
 struct Begun {
   State state;
@@ -291,11 +298,10 @@ class Run {
     std::erase_if(best_.document.placements, [](const layout::Placement& p) { return !p.locked; });
     best_.unplaced = wanted_.unplaced;
     if (wanted_.items.movable() == 0) return best_;
-    begin();
-    if (begun_[0].work >= control_.work_limit) lanes_.resize(1);
-    merge();
-    while (!control_.stop_requested() && best_.work < control_.work_limit &&
-           std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return !lane->is_done(); })) {
+    build();
+    if (is_over()) return best_;
+    each_lane([&](Strand& lane, std::size_t k) { lane.start(begun_[k].state); });
+    while (!is_over() && std::any_of(lanes_.begin(), lanes_.end(), [](const auto& l) { return !l->is_done(); })) {
       each_lane([](Strand& lane, std::size_t) { lane.run(kSegment); });
       // What was ended in the middle does not count: the last merge is what the same work gives again.
       if (control_.stop_requested()) break;
@@ -317,52 +323,83 @@ class Run {
     for (std::thread& thread : threads) thread.join();
   }
 
-  /// First valid states. A run that ends here ends between two pieces of the first strand, and the others do
-  /// not count: so the same work ends it there again.
-  void begin() {
+  bool is_over() const { return control_.stop_requested() || best_.work >= control_.work_limit; }
+
+  /// First layouts, the better one for show at once. A run that ends here ends between two pieces of the first
+  /// strand, and the others do not count: so the same work ends it there again.
+  void build() {
     const std::vector<std::uint32_t> order = by_size(problem_, wanted_.items);
     std::atomic<bool> first_ended{false};
-    each_lane([&](Strand& lane, std::size_t k) {
+    each_lane([&](Strand&, std::size_t k) {
       Begun& begun = begun_[k];
-      Separator separator(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));
-      begun.state = built(problem_, wanted_.items, separator, wanted_.start, order, [&] {
+      Placer placer(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));
+      begun.state = built(problem_, wanted_.items, placer, wanted_.start, order, [&] {
         begun.ended_early =
             first_ended ||
-            (separator.work() >= kFirstWork &&
-             (control_.stop_requested() || (k == 0 && separator.work() >= control_.work_limit)));
+            (placer.work() >= kFirstWork &&
+             (control_.stop_requested() || (k == 0 && placer.work() >= control_.work_limit)));
         if (k == 0 && begun.ended_early) first_ended = true;
         return begun.ended_early;
       });
-      begun.work = separator.work();
-      if (!begun.ended_early) lane.start(begun.state);
+      begun.work = placer.work();
     });
-    if (std::any_of(begun_.begin(), begun_.end(), [](const Begun& b) { return b.ended_early; })) {
+    if (begun_[0].work >= control_.work_limit ||
+        std::any_of(begun_.begin(), begun_.end(), [](const Begun& b) { return b.ended_early; }))
       lanes_.resize(1);
-      lanes_[0]->start(begun_[0].state);
-    }
+    begin_merge();
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < lanes_.size(); ++k)
+      if (lanes_[k]->merit_of(begun_[k].state) < lanes_[first]->merit_of(begun_[first].state)) first = k;
+    const State& state = begun_[first].state;
+    show(settled(problem_, wanted_.items, state), lanes_[first]->merit_of(state));
+    end_merge();
   }
 
-  std::uint64_t work_of(std::size_t k) const { return begun_[k].work + lanes_[k]->work(); }
-
-  void merge() {
+  void begin_merge() {
     ++best_.merges;
     best_.work = 0;
+    for (std::size_t k = 0; k < lanes_.size(); ++k) best_.work += begun_[k].work + lanes_[k]->work();
+  }
+
+  void end_merge() {
+    if (!control_.progress) return;
+    const double part = control_.work_limit == std::numeric_limits<std::uint64_t>::max()
+                            ? 0
+                            : static_cast<double>(best_.work) / static_cast<double>(control_.work_limit);
+    control_.progress({best_.work, std::min(1.0, part)});
+  }
+
+  void show(Settled exact, const Merit& merit) {
+    state_ = std::move(exact.state);
+    merit_ = merit;
+    best_.document = numbered(std::move(exact.document));
+    count_unplaced();
+    if (options_.improved) options_.improved(best_);
+  }
+
+  /// What the exact check does not leave whole: what was taken out gets another place; better than what was
+  /// shown or not, the strand goes on from what there is.
+  void show_mended(Strand& strand, const State& rest) {
+    Placer placer(problem_, wanted_.items, Random(options_.seed, kMendingStreams + best_.merges));
+    const State mended =
+        built(problem_, wanted_.items, placer, rest, by_size(problem_, wanted_.items), {});
+    const Merit merit = strand.merit_of(mended);
+    if (merit < merit_) show(settled(problem_, wanted_.items, mended), merit);
+    strand.go_on_from(state_);
+  }
+
+  void merge() {
+    begin_merge();
     std::size_t first = 0;
-    for (std::size_t k = 0; k < lanes_.size(); ++k) {
-      best_.work += work_of(k);
+    for (std::size_t k = 1; k < lanes_.size(); ++k)
       if (lanes_[k]->merit() < lanes_[first]->merit()) first = k;
-    }
-    const Strand& leader = *lanes_[first];
-    if (!has_any_ || leader.merit() < merit_) {
-      auto document = has_any_ ? settled(problem_, wanted_.items, leader.best())
-                               : settled_somehow(problem_, wanted_.items, leader.best());
-      if (document) {
-        has_any_ = true;
-        merit_ = leader.merit();
-        best_.document = numbered(std::move(*document));
-        count_unplaced();
-        if (options_.improved) options_.improved(best_);
-      }
+    Strand& leader = *lanes_[first];
+    if (leader.merit() < merit_) {
+      Settled exact = settled(problem_, wanted_.items, leader.best());
+      if (exact.is_whole)
+        show(std::move(exact), leader.merit());
+      else
+        show_mended(leader, exact.state);
     }
     alone_.resize(lanes_.size(), 0);
     for (std::size_t k = 0; k < lanes_.size(); ++k) {
@@ -373,12 +410,7 @@ class Run {
         lanes_[k]->start(leader.best());
       }
     }
-    if (control_.progress) {
-      const double part = control_.work_limit == std::numeric_limits<std::uint64_t>::max()
-                              ? 0
-                              : static_cast<double>(best_.work) / static_cast<double>(control_.work_limit);
-      control_.progress({best_.work, std::min(1.0, part)});
-    }
+    end_merge();
   }
 
   /// Given pieces keep their ids, new ones get the next.
@@ -408,6 +440,9 @@ class Run {
   }
 
   Reason reason_of(std::uint32_t part) {
+    // Another piece of it has a place, so it is room that is missing.
+    for (const layout::Placement& p : best_.document.placements)
+      if (p.part == part) return Reason::no_stock;
     const auto known = reasons_.find(part);
     if (known != reasons_.end()) return known->second;
     return reasons_[part] = reason_alone(problem_, part);
@@ -421,7 +456,7 @@ class Run {
   std::vector<Begun> begun_;
   std::vector<int> alone_;
   Merit merit_;
-  bool has_any_ = false;
+  State state_;  ///< what best_ shows, on the grid
   Nested best_;
   std::map<std::uint32_t, Reason> reasons_;
 };

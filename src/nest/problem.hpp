@@ -82,6 +82,7 @@ class Problem {
   std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
   /// Those of one hand, or all.
   Forms forms_of(std::uint32_t part, std::optional<bool> mirrored = std::nullopt) const noexcept;
+  std::uint32_t part_of(const Form& form) const noexcept { return shapes_[form.shape].part; }
   SearchShape::Kind kind_of(const Form& form) const noexcept { return shapes_[form.shape].kind; }
   const std::vector<Bin>& bins() const noexcept { return bins_; }
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }

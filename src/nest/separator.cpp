@@ -151,17 +151,22 @@ double Separator::area_of(const Spot& a, const Spot& b) const {
   return problem_.common_area(problem_.forms()[a.form], problem_.forms()[b.form], b.x - a.x, b.y - a.y);
 }
 
-double Separator::distance_too_far(std::size_t i, const Spot& spot) const {
-  if (items_.partners.empty() || items_.partners[i] == kNowhere) return 0;
-  const Spot& other = state_.spots[items_.partners[i]];
+double too_far_from_partner(const Problem& problem, const Items& items, const State& state, std::size_t i,
+                            const Spot& spot) {
+  if (items.partners.empty() || items.partners[i] == kNowhere) return 0;
+  const Spot& other = state.spots[items.partners[i]];
   if (other.bin == kNowhere) return 0;
-  const Box &a = problem_.forms()[spot.form].box, &b = problem_.forms()[other.form].box;
+  const Box &a = problem.forms()[spot.form].box, &b = problem.forms()[other.form].box;
   const double dx = spot.x - other.x + 0.5 * (a.x0 + a.x1 - b.x0 - b.x1),
                dy = spot.y - other.y + 0.5 * (a.y0 + a.y1 - b.y0 - b.y1);
   // On another sheet it is further away than anywhere on this one.
-  const Box& sheet = problem_.bins()[other.bin].box;
+  const Box& sheet = problem.bins()[other.bin].box;
   if (spot.bin != other.bin) return std::hypot(sheet.x1 - sheet.x0, sheet.y1 - sheet.y0);
-  return std::max(0.0, std::hypot(dx, dy) - items_.pair_reach);
+  return std::max(0.0, std::hypot(dx, dy) - items.pair_reach);
+}
+
+double Separator::distance_too_far(std::size_t i, const Spot& spot) const {
+  return too_far_from_partner(problem_, items_, state_, i, spot);
 }
 
 void Separator::forget_weights() {
@@ -540,10 +545,6 @@ double Separator::pass() {
   return sum;
 }
 
-void Separator::open_bin(std::uint32_t bin) { state_.open_bins.push_back(bin); }
-
-void Separator::close_bin(std::uint32_t bin) { std::erase(state_.open_bins, bin); }
-
 double Separator::least_side(std::uint32_t bin, int axis) const {
   const Box& in = problem_.bins()[bin].box;
   double least = 0;
@@ -564,15 +565,6 @@ double Separator::least_side(std::uint32_t bin, int axis) const {
   return least;
 }
 
-bool Separator::can_hold(std::uint32_t bin, std::size_t i) const {
-  const Forms& forms = items_.forms[i];
-  for (std::uint32_t f = forms.first; f < forms.last; ++f) {
-    const Range r = range_of(f, bin, items_.parts[i]);
-    if (r.x1 >= r.x0 && r.y1 >= r.y0) return true;
-  }
-  return false;
-}
-
 void Separator::put_anywhere(std::size_t i) {
   const std::uint32_t part = items_.parts[i];
   const Forms& forms = items_.forms[i];
@@ -586,49 +578,6 @@ void Separator::put_anywhere(std::size_t i) {
     spot.y = random_.uniform(r.y0, r.y1);
     return set_spot(i, spot);
   }
-}
-
-bool Separator::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
-  const std::uint32_t part = items_.parts[i];
-  const Forms& forms = items_.forms[i];
-  bool found = false;
-  Spot best;
-  double best_cost = kFar;
-  const auto cost_of = [&](const Spot& s) {
-    const Box& b = problem_.forms()[s.form].box;
-    return s.x + b.x1 + 0.05 * (s.y + b.y1);
-  };
-  for (std::size_t k = 0; k < samples; ++k) {
-    Spot spot;
-    spot.bin = bin;
-    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
-    const Range r = range_of(spot.form, spot.bin, part);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
-    spot.x = random_.uniform(r.x0, r.x1);
-    spot.y = random_.uniform(r.y0, r.y1);
-    if (cost_of(spot) >= best_cost) continue;
-    if (evaluate_all(i, spot, 1e-12) > 0) continue;
-    double step = 0.5 * min_dim_[i];
-    while (step > 1e-3 * min_dim_[i]) {
-      bool better = false;
-      for (int direction = 0; direction < 2; ++direction) {
-        Spot to = spot;
-        (direction == 0 ? to.x : to.y) -= step;
-        to.x = std::max(r.x0, to.x);
-        to.y = std::max(r.y0, to.y);
-        if ((to.x < spot.x || to.y < spot.y) && evaluate_all(i, to, 1e-12) <= 0) {
-          spot = to;
-          better = true;
-        }
-      }
-      if (!better) step *= 0.5;
-    }
-    found = true;
-    best = spot;
-    best_cost = cost_of(spot);
-  }
-  if (found) set_spot(i, best);
-  return found;
 }
 
 }  // namespace lekalo::nest

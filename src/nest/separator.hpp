@@ -37,13 +37,16 @@ struct Items {
   std::vector<std::uint32_t> parts;  ///< by item that is moved
   std::vector<Forms> forms;          ///< likewise: those it may have
   std::vector<Spot> fixed;           ///< obstacles of all bins
-  /// By item: the one that it has to lie near, kNowhere for most; empty where there are none. The middles of
-  /// their boxes are no further apart than that, mm, on one bin.
+  /// By item: the one that it has to lie near, moved or fixed, kNowhere for most; empty where there are none.
+  /// The middles of their boxes are no further apart than that, mm, on one bin.
   std::vector<std::uint32_t> partners;
   double pair_reach = 0;
   std::size_t movable() const noexcept { return parts.size(); }
   std::size_t total() const noexcept { return parts.size() + fixed.size(); }
 };
+/// How much further from its partner item i would lie there than it may, mm.
+[[nodiscard]] double too_far_from_partner(const Problem& problem, const Items& items, const State& state,
+                                          std::size_t i, const Spot& spot);
 /// Depths up to this are rounding, mm: what is left of them is set right on the grid.
 inline constexpr double kTolerance = 3e-6;
 
@@ -80,16 +83,10 @@ class Separator {
   double deepest() const noexcept { return deepest_; }
   /// Candidate places looked at; grids of them and relaxing count as many as would take that long.
   std::uint64_t work() const noexcept { return work_; }
-  /// Moves item i to the free place on a bin found furthest left; false if none.
-  bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
   /// Anywhere on the open bins.
   void put_anywhere(std::size_t i);
-  void open_bin(std::uint32_t bin);
-  void close_bin(std::uint32_t bin);
   /// The length (axis 0) or height (axis 1) that the widest item on it needs.
   double least_side(std::uint32_t bin, int axis) const;
-  /// Whether the box of item i fits in some form.
-  bool can_hold(std::uint32_t bin, std::size_t i) const;
   /// Items beyond are pushed back.
   void set_limits(std::uint32_t bin, double x1, double y1);
   void set_spot(std::size_t i, const Spot& spot);

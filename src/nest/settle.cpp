@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lekalo/layout/check.hpp"
 
@@ -39,52 +40,83 @@ layout::Document placed(const Problem& problem, const Items& items, const State&
   return document;
 }
 
-/// Shifts what breaks a rule by what is missing, over and over.
-std::optional<layout::Document> mended(const Problem& problem, const Items& items, const State& state,
-                                       std::vector<Steps> at) {
+/// Whether a shift can end it.
+bool can_be_shifted(const layout::Violation& v) {
+  return v.direction.x != 0 || v.direction.y != 0;
+}
+
+/// Shifts both by what is missing.
+void shift(const layout::Violation& v, std::uint64_t first, std::vector<Steps>& at) {
+  const double by = v.amount_mm * static_cast<double>(geom::kGridPerMm) + kReserve;
+  const auto move = [&](std::uint64_t id, double share) {
+    if (id < first) return;
+    Steps& s = at[id - first];
+    if (!s.keeps_x) s.x += share * by * v.direction.x;
+    if (!s.keeps_y) s.y += share * by * v.direction.y;
+  };
+  const bool one = v.b == 0 || v.b < first || v.a < first;
+  // Rightwards there is room on a strip: whoever lies there gives way.
+  if (one) {
+    move(v.a, 1);
+    move(v.b, -1);
+  } else if (v.direction.x > 0) {
+    move(v.a, 0.75);
+    move(v.b, -0.25);
+  } else {
+    move(v.a, 0.25);
+    move(v.b, -0.75);
+  }
+}
+
+/// The item that breaks most rules; of equals the smallest.
+std::size_t worst_of(const Problem& problem, const Items& items, std::uint64_t first,
+                     const std::vector<layout::Violation>& violations) {
+  std::vector<int> broken(items.movable(), 0);
+  for (const layout::Violation& v : violations)
+    for (const std::uint64_t id : {v.a, v.b})
+      if (id >= first) ++broken[id - first];
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < broken.size(); ++i)
+    if (broken[i] > broken[worst] ||
+        (broken[i] == broken[worst] &&
+         problem.area_of(items.parts[i]) < problem.area_of(items.parts[worst])))
+      worst = i;
+  return worst;
+}
+
+/// Shifts what breaks a rule by what is missing, over and over; none where that does not end. `at_first` is
+/// what was broken before.
+std::optional<Settled> mended(const Problem& problem, const Items& items, const State& state,
+                              std::vector<Steps> at, std::vector<layout::Violation>& at_first) {
   const std::uint64_t first = problem.document().next_id;
   for (int round = 0; round < kRounds; ++round) {
     layout::Document document = placed(problem, items, state, at);
-    const std::vector<layout::Violation> violations = layout::check(document);
-    if (violations.empty()) return document;
-    for (const layout::Violation& v : violations) {
-      geom::Point direction = v.direction;
-      const double amount = v.amount_mm;
-      if (v.kind == layout::ViolationKind::rotation || v.kind == layout::ViolationKind::mirror ||
-          v.kind == layout::ViolationKind::grain || v.kind == layout::ViolationKind::stock)
-        return std::nullopt;
-      if (direction.x == 0 && direction.y == 0) return std::nullopt;
-      const double by = amount * static_cast<double>(geom::kGridPerMm) + kReserve;
-      const auto move = [&](std::uint64_t id, double share) {
-        if (id < first) return;
-        Steps& s = at[id - first];
-        if (!s.keeps_x) s.x += share * by * direction.x;
-        if (!s.keeps_y) s.y += share * by * direction.y;
-      };
-      const bool one = v.b == 0 || v.b < first || v.a < first;
-      // Rightwards there is room on a strip: whoever lies there gives way.
-      if (one) {
-        move(v.a, 1);
-        move(v.b, -1);
-      } else if (direction.x > 0) {
-        move(v.a, 0.75);
-        move(v.b, -0.25);
-      } else {
-        move(v.a, 0.25);
-        move(v.b, -0.75);
+    std::vector<layout::Violation> violations = layout::check(document);
+    if (violations.empty()) {
+      Settled done{std::move(document), state};
+      for (std::size_t i = 0; i < items.movable(); ++i) {
+        Spot& spot = done.state.spots[i];
+        spot.x = geom::mm_from_grid(std::llround(at[i].x));
+        spot.y = geom::mm_from_grid(std::llround(at[i].y));
       }
+      return done;
     }
+    const bool can_end = std::all_of(violations.begin(), violations.end(), can_be_shifted);
+    for (const layout::Violation& v : violations) shift(v, first, at);
+    if (round == 0) at_first = std::move(violations);
+    if (!can_end) return std::nullopt;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<layout::Document> settled(const Problem& problem, const Items& items, const State& state) {
+Settled settled(const Problem& problem, const Items& items, State state) {
   std::vector<Steps> at(items.movable());
   for (std::size_t i = 0; i < items.movable(); ++i)
     at[i] = {state.spots[i].x * static_cast<double>(geom::kGridPerMm),
              state.spots[i].y * static_cast<double>(geom::kGridPerMm), false, false};
+  std::vector<layout::Violation> broken;
   // Drawings in whole units fit one another in whole units.
   if (problem.unit() > 0) {
     std::vector<Steps> snapped = at;
@@ -99,9 +131,17 @@ std::optional<layout::Document> settled(const Problem& problem, const Items& ite
       snap(s.x, s.keeps_x);
       snap(s.y, s.keeps_y);
     }
-    if (auto document = mended(problem, items, state, std::move(snapped))) return document;
+    if (auto done = mended(problem, items, state, std::move(snapped), broken)) return std::move(*done);
   }
-  return mended(problem, items, state, std::move(at));
+  bool is_whole = true;
+  while (true) {
+    if (auto done = mended(problem, items, state, at, broken)) {
+      done->is_whole = is_whole;
+      return std::move(*done);
+    }
+    state.spots[worst_of(problem, items, problem.document().next_id, broken)].bin = kNowhere;
+    is_whole = false;
+  }
 }
 
 }  // namespace lekalo::nest

@@ -203,7 +203,7 @@ Merit SheetLane::merit_of(const State& state) const {
   return merit;
 }
 
-void SheetLane::start(const State& state) {
+void SheetLane::go_on_from(const State& state) {
   best_.state = state;
   tidy(best_.state);
   best_.merit = merit_of(best_.state);

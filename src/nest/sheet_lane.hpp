@@ -18,12 +18,15 @@ class SheetLane {
   SheetLane(const Problem& problem, const Items& items, std::uint64_t seed, std::uint64_t stream);
 
   /// Goes on from a valid state.
-  void start(const State& state);
+  void start(const State& state) { go_on_from(state); }
+  void go_on_from(const State& state);
   /// Until about so much more work is done; less where nothing is left to be gained.
   void run(std::uint64_t work);
 
   const State& best() const noexcept { return best_.state; }
   const Merit& merit() const noexcept { return best_.merit; }
+  /// Of any valid state.
+  Merit merit_of(const State& state) const;
   std::uint64_t work() const noexcept { return separator_.work() + attempts_ * items_.movable(); }
   /// Nothing is left to be gained.
   bool is_done() const noexcept { return goal_ == Goal::none; }
@@ -37,7 +40,6 @@ class SheetLane {
   };
 
   // What there is.
-  Merit merit_of(const State& state) const;
   double missing_value(const State& state) const;
   double reach_of(const State& state, std::uint32_t bin, int axis) const;
   /// What is outside the box from the corner that holds what is on a bin, mm^2.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -173,6 +174,73 @@ TEST(NestOrders, TheMostValuableKitsWhereNotAllHaveRoom) {
   EXPECT_EQ(found.unplaced[0], (Unplaced{0, 1, Reason::no_stock}));
 }
 
+TEST(NestOrders, TheValueOfTheKitsIsThatOfABruteForce) {
+  // Squares of three kinds on a sheet that holds a few of them, whichever: kits compete for squares and room.
+  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
+    Random random(cases::seed(), i);
+    Document document = cases::two_squares();
+    document.placements.clear();
+    document.parts.assign(3, document.parts[0]);
+    for (std::size_t p = 0; p < 3; ++p) {
+      document.parts[p].id = "p" + std::to_string(p);
+      document.parts[p].rotations = {{0, 0}};
+    }
+    const auto room = static_cast<std::int64_t>(4 + random.below(4));
+    document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 10.0 * static_cast<double>(room), 10)});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      layout::Kit kit{"k" + std::to_string(k), "", static_cast<std::int64_t>(1 + random.below(2)),
+                      static_cast<double>(1 + random.below(9)), {}};
+      for (std::uint32_t p = 0; p < 3; ++p)
+        if (const auto count = static_cast<std::int64_t>(random.below(3)); count > 0)
+          kit.pieces.push_back({p, count, std::nullopt});
+      if (kit.pieces.empty()) kit.pieces.push_back({k, 1, std::nullopt});
+      document.kits.push_back(kit);
+    }
+    double best = 0;
+    std::vector<std::int64_t> now(3);
+    const auto pieces = [&](std::size_t k) {
+      std::int64_t sum = 0;
+      for (const layout::KitPiece& piece : document.kits[k].pieces) sum += piece.count;
+      return sum;
+    };
+    for (now[0] = 0; now[0] <= document.kits[0].demand; ++now[0])
+      for (now[1] = 0; now[1] <= document.kits[1].demand; ++now[1])
+        for (now[2] = 0; now[2] <= document.kits[2].demand; ++now[2]) {
+          std::int64_t sum = 0;
+          double value = 0;
+          for (std::size_t k = 0; k < 3; ++k) {
+            sum += now[k] * pieces(k);
+            value += static_cast<double>(now[k]) * document.kits[k].value;
+          }
+          if (sum <= room) best = std::max(best, value);
+        }
+    const Nested found = nested(document, 400'000);
+    const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+    double value = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      value += static_cast<double>(done.kits[k].complete) * document.kits[k].value;
+    EXPECT_EQ(value, best) << "case " << i << " of seed " << cases::seed();
+  }
+}
+
+TEST(NestOrders, ACheapKitThatComesFirstDoesNotTakeSharedPieces) {
+  // Room for a plate and two bars, or for four bars.
+  Document document = cases::two_squares();
+  document.placements.clear();
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 100, 50)});
+  document.parts.resize(2, document.parts[0]);
+  document.parts[0].outline = cases::outline_of({cases::box_loop(0, 0, 50, 25)});
+  document.parts[1].id = "plate";
+  document.parts[1].outline = cases::outline_of({cases::box_loop(0, 0, 50, 50)});
+  for (layout::Part& part : document.parts) part.rotations = {{0, 0}};
+  document.kits = {{"cheap", "", 2, 1, {{0, 2, std::nullopt}}},
+                   {"dear", "", 1, 5, {{0, 2, std::nullopt}, {1, 1, std::nullopt}}}};
+  const Nested found = nested(document, 2'000'000);
+  const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+  EXPECT_EQ(done.kits[0].complete, 0);
+  EXPECT_EQ(done.kits[1].complete, 1);
+}
+
 TEST(NestOrders, ImprovingIsNeverWorseAndKeepsIdsAndLockedParts) {
   const Document document = order("begun");
   Nested first = nested(document, 300'000);
@@ -254,6 +322,33 @@ TEST(NestOrders, PairsLieNearOneAnotherWhenAsked) {
     EXPECT_GT(pairs, 0);
     EXPECT_GE(pairs, done.kits[k].complete) << document.kits[k].id;
   }
+}
+
+TEST(NestOrders, APieceLiesNearItsLockedPartner) {
+  Document document = cases::two_squares();
+  layout::Part& part = document.parts[0];  // an L, which mirrored is another one
+  part.outline =
+      cases::outline_of({{cases::grid_point(0, 0), cases::grid_point(10, 0), cases::grid_point(10, 3),
+                          cases::grid_point(3, 3), cases::grid_point(3, 6), cases::grid_point(0, 6)}});
+  part.may_mirror = true;
+  document.kits = {{"pair", "", 1, 1, {{0, 1, false}, {0, 1, true}}}};
+  document.placements.resize(1);
+  document.placements[0].locked = true;
+  document.placements[0].at = cases::grid_point(85, 90);  // far from where a layout begins
+  Options options;
+  options.pair_distance = 15;
+  RunControl control;
+  control.work_limit = 100'000;
+  const auto found = nest(document, options, control);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(layout::check(found->document).empty());
+  ASSERT_EQ(found->document.placements.size(), 2u);
+  std::array<geom::Point, 2> middle;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const geom::GridBox box = geom::bounds(placed_outline(part, found->document.placements[k]));
+    middle[k] = 0.5 * (geom::mm_from_grid(box.low) + geom::mm_from_grid(box.high));
+  }
+  EXPECT_LE(geom::norm(middle[0] - middle[1]), 15.001);
 }
 
 TEST(NestOrders, NoZoneGoodEnoughIsSaid) {

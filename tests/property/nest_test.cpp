@@ -7,6 +7,8 @@
 #include "lekalo/io/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
+#include "nest/builder.hpp"
+#include "nest/settle.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -148,6 +150,31 @@ TEST(Nest, StopsWithTheBestSoFar) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->merges, 1u);
   EXPECT_TRUE(layout::check(found->document).empty());
+}
+
+/// What the placer calls free is free by the exact check, whatever the rules.
+TEST(Placer, WhatItPlacesBreaksNoRule) {
+  std::size_t placed = 0;
+  for (std::size_t index = 0; index < cases::case_count(30); ++index) {
+    layout::Document document = cases::random_order(cases::seed(), index);
+    for (layout::Part& part : document.parts) part.demand = 3;
+    const Problem problem(document, {4, false, 64});
+    Items items;
+    for (std::uint32_t p = 0; p < document.parts.size(); ++p)
+      for (int k = 0; k < 3; ++k) {
+        if (problem.forms_of(p).first == problem.forms_of(p).last) continue;
+        items.parts.push_back(p);
+        items.forms.push_back(problem.forms_of(p));
+      }
+    if (items.movable() == 0) continue;
+    Placer placer(problem, items, Random(index));
+    const State state =
+        built(problem, items, placer, empty_state(problem, items), by_size(problem, items), {});
+    const Settled done = settled(problem, items, state);
+    EXPECT_TRUE(done.is_whole) << "case " << index << " of seed " << cases::seed();
+    placed += done.document.placements.size();
+  }
+  EXPECT_GT(placed, 0u);
 }
 
 }  // namespace

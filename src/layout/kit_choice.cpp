@@ -1,0 +1,211 @@
+#include "kit_choice.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace lekalo::layout {
+namespace {
+
+/// Steps of one search. What a person orders needs some tens.
+constexpr int kMostSteps = 5000;
+/// Sums of values in another order.
+constexpr double kRounding = 1e-12;
+
+/// So many pieces of a kind there are, and so many one kit takes.
+struct Supply {
+  std::int64_t there = 0;
+  std::vector<std::pair<std::size_t, std::int64_t>> takers;  ///< kit, pieces; ascending by kit
+};
+
+/// Upright ones, mirrored ones and all of a part: whole kits can be made exactly when none of the three runs
+/// out.
+std::vector<Supply> supplies_of(const Document& document, const std::vector<PieceCount>& placed) {
+  std::map<std::pair<std::uint32_t, int>, Supply> supplies;
+  for (std::size_t k = 0; k < document.kits.size(); ++k)
+    for (const KitPiece& piece : document.kits[k].pieces) {
+      const auto take = [&](int hand, std::int64_t there) {
+        Supply& supply = supplies[{piece.part, hand}];
+        supply.there = there;
+        if (supply.takers.empty() || supply.takers.back().first != k) supply.takers.emplace_back(k, 0);
+        supply.takers.back().second += piece.count;
+      };
+      const PieceCount& count = placed[piece.part];
+      take(2, count.total());
+      if (piece.mirrored) take(*piece.mirrored ? 1 : 0, *piece.mirrored ? count.mirrored : count.upright);
+    }
+  std::vector<Supply> all;
+  for (auto& [kind, supply] : supplies) all.push_back(std::move(supply));
+  return all;
+}
+
+/// Branch and bound over kits that compete for supplies.
+class Choice {
+ public:
+  /// \param most  by kit
+  Choice(const Document& document, const std::vector<Supply>& supplies, std::vector<std::size_t> kits,
+         const std::vector<std::int64_t>& most)
+      : kits_(std::move(kits)), now_(kits_.size()), best_(kits_.size()), takes_(kits_.size()) {
+    std::map<std::size_t, std::size_t> index;
+    for (std::size_t i = 0; i < kits_.size(); ++i) {
+      index[kits_[i]] = i;
+      values_.push_back(document.kits[kits_[i]].value);
+      most_.push_back(most[kits_[i]]);
+    }
+    for (const Supply& supply : supplies) {
+      if (!index.contains(supply.takers.front().first)) continue;
+      for (const auto& [kit, count] : supply.takers) takes_[index[kit]].emplace_back(left_.size(), count);
+      left_.push_back(supply.there);
+    }
+    // For the bound: who makes most of a supply comes first.
+    dearest_first_.resize(left_.size());
+    for (std::size_t i = 0; i < kits_.size(); ++i)
+      for (const auto& [supply, count] : takes_[i])
+        dearest_first_[supply].push_back({values_[i] / static_cast<double>(count), i, count});
+    for (auto& takers : dearest_first_)
+      std::stable_sort(takers.begin(), takers.end(),
+                       [](const Taker& a, const Taker& b) { return a.each > b.each; });
+    free_value_.assign(left_.size(), std::vector<double>(kits_.size() + 1, 0));
+    for (std::size_t s = 0; s < left_.size(); ++s)
+      for (std::size_t i = kits_.size(); i-- > 0;) {
+        const bool takes = std::any_of(takes_[i].begin(), takes_[i].end(),
+                                       [&](const auto& taken) { return taken.first == s; });
+        free_value_[s][i] =
+            free_value_[s][i + 1] + (takes ? 0 : values_[i] * static_cast<double>(most_[i]));
+      }
+  }
+
+  /// By kit of those given.
+  const std::vector<std::int64_t>& best() {
+    start_with_dear_ones();
+    search(0, 0);
+    return best_;
+  }
+  const std::vector<std::size_t>& kits() const noexcept { return kits_; }
+
+ private:
+  struct Taker {
+    double each = 0;  ///< value of a piece
+    std::size_t kit = 0;
+    std::int64_t count = 0;
+  };
+
+  std::int64_t room_for(std::size_t kit) const {
+    std::int64_t room = most_[kit];
+    for (const auto& [supply, count] : takes_[kit]) room = std::min(room, left_[supply] / count);
+    return room;
+  }
+  void take(std::size_t kit, std::int64_t kits) {
+    for (const auto& [supply, count] : takes_[kit]) left_[supply] -= kits * count;
+  }
+
+  /// The dearest kits first: something to beat, should the search not come to its end.
+  void start_with_dear_ones() {
+    std::vector<std::size_t> order(kits_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return values_[a] > values_[b]; });
+    for (const std::size_t kit : order) {
+      best_[kit] = room_for(kit);
+      take(kit, best_[kit]);
+      best_value_ += values_[kit] * static_cast<double>(best_[kit]);
+    }
+    for (const std::size_t kit : order) take(kit, -best_[kit]);
+  }
+
+  /// No more can be made of kits from this one on: with fractions of kits, and one supply that ends.
+  double bound(std::size_t from) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < left_.size(); ++s) {
+      double value = free_value_[s][from];
+      auto there = static_cast<double>(left_[s]);
+      for (const Taker& taker : dearest_first_[s]) {
+        if (taker.kit < from) continue;
+        const double pieces = std::min(there, static_cast<double>(most_[taker.kit] * taker.count));
+        value += taker.each * pieces;
+        there -= pieces;
+      }
+      least = std::min(least, value);
+    }
+    return least;
+  }
+
+  /// Many of the first kits come first, so of equals they stay.
+  void search(std::size_t kit, double value) {
+    if (kit == kits_.size()) {
+      const bool better = value > best_value_ * (1 + kRounding);
+      const bool earlier = value >= best_value_ * (1 - kRounding) && now_ > best_;
+      if (!better && !earlier) return;
+      best_ = now_;
+      best_value_ = std::max(value, best_value_);
+      return;
+    }
+    const std::int64_t room = room_for(kit);
+    for (std::int64_t count = room; count >= 0 && ++steps_ <= kMostSteps; --count) {
+      now_[kit] = count;
+      take(kit, count);
+      const double with = value + values_[kit] * static_cast<double>(count);
+      const double most = with + bound(kit + 1);
+      const bool may_be_better = most > best_value_ * (1 + kRounding);
+      // Of equals the one that has more of the first kits counts.
+      const bool may_be_earlier =
+          most >= best_value_ * (1 - kRounding) &&
+          std::lexicographical_compare_three_way(now_.begin(), now_.begin() + static_cast<std::ptrdiff_t>(kit) + 1,
+                                                 best_.begin(),
+                                                 best_.begin() + static_cast<std::ptrdiff_t>(kit) + 1) >= 0;
+      if (may_be_better || may_be_earlier) search(kit + 1, with);
+      take(kit, -count);
+    }
+    now_[kit] = 0;
+  }
+
+  std::vector<std::size_t> kits_;
+  std::vector<std::int64_t> now_, best_, most_;
+  std::vector<double> values_;
+  std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> takes_;  ///< by kit: supply, pieces
+  std::vector<std::int64_t> left_;                                       ///< by supply
+  std::vector<std::vector<Taker>> dearest_first_;                        ///< by supply
+  std::vector<std::vector<double>> free_value_;  ///< by supply, kit: value of those from it on that need none
+  double best_value_ = 0;
+  int steps_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::int64_t> most_valuable_kits(const Document& document,
+                                             const std::vector<PieceCount>& placed) {
+  std::vector<Supply> supplies = supplies_of(document, placed);
+  std::vector<std::int64_t> most;
+  for (const Kit& kit : document.kits) most.push_back(kit.demand);
+  for (const Supply& supply : supplies)
+    for (const auto& [kit, count] : supply.takers) most[kit] = std::min(most[kit], supply.there / count);
+  // Where there is enough for all, nobody competes.
+  std::erase_if(supplies, [&](const Supply& supply) {
+    std::int64_t wanted = 0;
+    for (const auto& [kit, count] : supply.takers) wanted += most[kit] * count;
+    return wanted <= supply.there;
+  });
+  std::vector<std::size_t> group(document.kits.size());  // the first kit of those that hang together
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (const Supply& supply : supplies)
+    for (const auto& [kit, count] : supply.takers) {
+      const std::size_t a = group[supply.takers.front().first], b = group[kit];
+      for (std::size_t& of : group)
+        if (of == std::max(a, b)) of = std::min(a, b);
+    }
+  std::vector<std::int64_t> chosen = most;
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    if (group[k] != k) continue;
+    std::vector<std::size_t> kits;
+    for (std::size_t m = k; m < group.size(); ++m)
+      if (group[m] == k) kits.push_back(m);
+    if (kits.size() == 1) continue;
+    Choice choice(document, supplies, std::move(kits), most);
+    const std::vector<std::int64_t>& best = choice.best();
+    for (std::size_t i = 0; i < best.size(); ++i) chosen[choice.kits()[i]] = best[i];
+  }
+  return chosen;
+}
+
+}  // namespace lekalo::layout
