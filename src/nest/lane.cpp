@@ -202,7 +202,7 @@ void Lane::limit(double length) { separator_.set_limits(kStrip, strip_.box.x0 + 
 
 /// Pushes the best together as far as that goes without another arrangement.
 void Lane::compact() {
-  for (double ratio = kCompactFrom; ratio > kCompactTo;) {
+  for (double ratio = kCompactFrom; ratio > kCompactTo && !separator_.is_stopped();) {
     const double length = reach_of(best_);
     separator_.load(best_);
     squeeze(length, length * (1 - ratio), separator_.random().uniform());

@@ -465,6 +465,7 @@ double Separator::overlap() {
   std::fill(in_conflict_.begin(), in_conflict_.end(), 0);
   double sum = 0;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
+    if (is_stopped()) break;
     if (state_.spots[i].bin == kNowhere) continue;
     gather(boxes_[i], state_.spots[i].bin, i);
     const Spot& spot = state_.spots[i];

@@ -58,7 +58,7 @@ class Separator {
   void load(const State& state);
   const State& state() const noexcept { return state_; }
   Random& random() noexcept { return random_; }
-  /// pass() ends in the middle, worth nothing, where this flag is set.
+  /// Where this flag is set pass(), relax() and overlap() end in the middle: nothing is worth anything then.
   void watch(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
   bool is_stopped() const noexcept { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 

@@ -43,7 +43,7 @@ bool Separator::relax(int rounds) {
   const auto pairs = close_pairs(gap + kMargin * unit_);
   double first = 0, least = std::numeric_limits<double>::infinity();
   int stalled = 0;
-  for (int round = 0; round < rounds && stalled <= kStalled; ++round) {
+  for (int round = 0; round < rounds && stalled <= kStalled && !is_stopped(); ++round) {
     double sum = 0;
     for (const auto& [i, j] : pairs) {
       const Box &a = boxes_[i], &b = boxes_[j];

@@ -25,6 +25,9 @@ constexpr double kFullest = 0.97;
 constexpr int kVainAttempts = 1000;
 /// Fillings in vain after which the others get their turns too.
 constexpr int kVainFills = 3;
+/// Plans made to find kits that are worth more, and the share of the stock that they may take beyond what is used.
+constexpr int kPlans = 8;
+constexpr double kMoreRoom = 0.1;
 /// Sums of areas in another order.
 constexpr double kRounding = 1e-12;
 
@@ -156,36 +159,90 @@ std::vector<std::uint32_t> SheetLane::pieces_for_a_kit(const State& state,
     if (rank <= most) continue;
     most = rank;
     best = std::move(pieces);
-    focus_ = k;
   }
   return best;
 }
 
-void SheetLane::make_room() {
+std::vector<std::int64_t> SheetLane::planned_kits() {
   const layout::Document& document = problem_.document();
   Random& random = separator_.random();
-  const layout::KitsMade made = layout::kits_made(document, placed_pieces(separator_.state()));
-  std::vector<std::int64_t> spare(document.parts.size(), 0);
-  for (std::size_t p = 0; p < spare.size(); ++p)
-    spare[p] = std::max<std::int64_t>(0, made.left[p].total() - document.parts[p].demand);
-  for (const layout::KitPiece& piece : document.kits[focus_].pieces)
-    spare[piece.part] = std::max<std::int64_t>(0, spare[piece.part] - piece.count);
-  if (random.below(2) == 0) {
-    std::vector<std::size_t> cheaper;
-    for (std::size_t k = 0; k < document.kits.size(); ++k)
-      if (made.complete[k] > 0 && document.kits[k].value < document.kits[focus_].value) cheaper.push_back(k);
-    if (!cheaper.empty())
-      for (const layout::KitPiece& piece : document.kits[cheaper[random.below(cheaper.size())]].pieces)
-        spare[piece.part] += piece.count;
+  const State& state = separator_.state();
+  const std::vector<std::int64_t> made = layout::kits_made(document, placed_pieces(state)).complete;
+  double value_now = 0, stock = 0, used = 0;
+  for (std::size_t k = 0; k < made.size(); ++k)
+    value_now += document.kits[k].value * static_cast<double>(made[k]);
+  for (const std::uint32_t bin : state.open_bins) stock += problem_.bins()[bin].area;
+  const std::vector<layout::PieceCount> placed = placed_pieces(state);
+  for (std::uint32_t p = 0; p < placed.size(); ++p)
+    used += problem_.area_of(p) * static_cast<double>(placed[p].total());
+  std::vector<double> areas(made.size(), 0);
+  for (std::size_t k = 0; k < made.size(); ++k)
+    for (const layout::KitPiece& piece : document.kits[k].pieces)
+      areas[k] += problem_.area_of(piece.part) * static_cast<double>(piece.count);
+  for (int tries = 0; tries < kPlans; ++tries) {
+    // As full as it is, or somewhat more.
+    const double room = std::min(stock, used + random.uniform(0, kMoreRoom) * stock) * (1 + kRounding);
+    std::vector<std::int64_t> kits(made.size(), 0);
+    double value = 0, area = 0;
+    std::vector<std::size_t> order(kits.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
+    if (tries % 2 == 0)
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return document.kits[a].value * areas[b] > document.kits[b].value * areas[a];
+      });
+    for (const std::size_t k : order)
+      while (kits[k] < document.kits[k].demand && area + areas[k] <= room) {
+        if (tries % 2 == 1 && random.below(4) == 0) break;
+        ++kits[k];
+        area += areas[k];
+        value += document.kits[k].value;
+      }
+    if (value > value_now * (1 + kRounding)) return kits;
   }
-  const std::size_t n = items_.movable(), first = static_cast<std::size_t>(random.below(n));
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = (first + k) % n;
+  return {};
+}
+
+void SheetLane::replace_by(const std::vector<std::int64_t>& kits) {
+  const layout::Document& document = problem_.document();
+  const std::size_t n = items_.movable();
+  std::vector<char> is_needed(n, 0);
+  std::vector<layout::PieceCount> locked = problem_.locked_pieces();
+  const auto first = static_cast<std::size_t>(separator_.random().below(n));
+  for (const bool either : {false, true})
+    for (std::size_t k = 0; k < kits.size(); ++k)
+      for (const layout::KitPiece& piece : document.kits[k].pieces) {
+        if (piece.mirrored.has_value() == either) continue;
+        std::int64_t needed = kits[k] * piece.count;
+        const auto use = [&](std::int64_t& of) {
+          const std::int64_t taken = std::min(needed, of);
+          of -= taken;
+          needed -= taken;
+        };
+        if (!piece.mirrored || !*piece.mirrored) use(locked[piece.part].upright);
+        if (!piece.mirrored || *piece.mirrored) use(locked[piece.part].mirrored);
+        const Forms hand = problem_.forms_of(piece.part, piece.mirrored);
+        for (const bool nowhere : {false, true})  // those that lie somewhere first
+          for (std::size_t m = 0; m < n && needed > 0; ++m) {
+            const std::size_t i = (first + m) % n;
+            const Spot& spot = separator_.state().spots[i];
+            if (is_needed[i] != 0 || items_.parts[i] != piece.part || (spot.bin == kNowhere) != nowhere)
+              continue;
+            const bool serves = nowhere ? items_.forms[i].first >= hand.first && items_.forms[i].last <= hand.last
+                                        : spot.form >= hand.first && spot.form < hand.last;
+            if (!serves) continue;
+            is_needed[i] = 1;
+            --needed;
+          }
+      }
+  for (std::size_t i = 0; i < n; ++i) {
     Spot spot = separator_.state().spots[i];
-    if (spot.bin == kNowhere || spare[items_.parts[i]] == 0) continue;
-    --spare[items_.parts[i]];
-    spot.bin = kNowhere;
-    separator_.set_spot(i, spot);
+    if (is_needed[i] != 0 && spot.bin == kNowhere) {
+      separator_.put_anywhere(i);
+    } else if (is_needed[i] == 0 && spot.bin != kNowhere) {
+      spot.bin = kNowhere;
+      separator_.set_spot(i, spot);
+    }
   }
 }
 
@@ -306,7 +363,7 @@ void SheetLane::begin_separation() {
 }
 
 void SheetLane::attempt() {
-  for (int vain = 0; goal_ != Goal::none; ++vain) {
+  for (int vain = 0; goal_ != Goal::none && !separator_.is_stopped(); ++vain) {
     if (goal_ == Goal::box ? attempt_box() : attempt_fill()) return;
     if (vain > kVainAttempts) {
       goal_ = Goal::none;
@@ -322,9 +379,16 @@ bool SheetLane::attempt_fill() {
   std::vector<std::uint32_t> missing = nowhere(current_.state);
   if (failures_ > 2 && failures_ % 2 == 0) exchange();
   if (!problem_.document().kits.empty() && random.below(4) != 0) {
+    if (failures_ > 0 && random.below(2) == 0) {
+      const std::vector<std::int64_t> kits = planned_kits();
+      if (!kits.empty()) {
+        replace_by(kits);
+        begin_separation();
+        return true;
+      }
+    }
     const std::vector<std::uint32_t> pieces = pieces_for_a_kit(current_.state, missing);
     if (!pieces.empty()) {
-      if (failures_ > 2) make_room();
       for (const std::uint32_t i : pieces) separator_.put_anywhere(i);
       begin_separation();
       return true;
@@ -469,7 +533,7 @@ void SheetLane::on_valid() {
 
 State SheetLane::without_conflicts(State state) {
   separator_.load(state);
-  while (separator_.overlap() > 0) {
+  while (separator_.overlap() > 0 && !separator_.is_stopped()) {
     std::size_t least = items_.movable();
     double lowest = kFar;
     for (std::size_t i = 0; i < items_.movable(); ++i) {

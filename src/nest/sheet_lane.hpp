@@ -62,10 +62,13 @@ class SheetLane {
   /// Pieces by part that are placed, locked ones too.
   std::vector<layout::PieceCount> placed_pieces(const State& state) const;
   /// Items that lie nowhere and make one more of the kit that is worth most for its missing material; none
-  /// where no kit can be completed that way. Sets focus_.
+  /// where no kit can be completed that way.
   std::vector<std::uint32_t> pieces_for_a_kit(const State& state, const std::vector<std::uint32_t>& missing);
-  /// Takes pieces out that serve no complete kit, and now and then those of a cheaper one than the focus.
-  void make_room();
+  /// Kits, by number, that are worth more than those complete now and for which there may be room; none where
+  /// none were thought of.
+  std::vector<std::int64_t> planned_kits();
+  /// Takes out what serves none of these kits and throws in what lacks for them.
+  void replace_by(const std::vector<std::int64_t>& kits);
   void on_valid();
   void on_stuck();
   bool take(State state);
@@ -87,7 +90,6 @@ class SheetLane {
   int rounds_ = 0;              ///< goals chosen
   int reductions_ = 0;          ///< goals `reduce` since the best has as many sheets as now
   int vain_fills_ = 0;          ///< goals `fill` since one gained something
-  std::uint32_t focus_ = 0;     ///< the kit that is completed
   std::size_t batch_ = 1;       ///< pieces thrown in at once
   std::uint32_t target_ = 0;    ///< the bin whose box gets smaller
   double ratio_ = 0, skew_ = 0;

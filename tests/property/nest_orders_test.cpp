@@ -214,7 +214,7 @@ TEST(NestOrders, TheValueOfTheKitsIsThatOfABruteForce) {
           }
           if (sum <= room) best = std::max(best, value);
         }
-    const Nested found = nested(document, 400'000);
+    const Nested found = nested(document, 1'000'000);
     const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
     double value = 0;
     for (std::size_t k = 0; k < 3; ++k)
