@@ -12,12 +12,12 @@ constexpr double kMostCells = 100'000;
 }  // namespace
 
 NeighbourGrid::NeighbourGrid(std::size_t items, std::vector<Box> bins, double cell)
-    : cell_(cell), items_(items) {
+    : per_mm_(1 / cell), items_(items) {
   for (const Box& box : bins) {
     Bin bin;
     bin.box = box;
     const auto count = [&](double length, double most) {
-      return static_cast<std::uint32_t>(std::clamp(std::ceil(length / cell_), 1.0, most));
+      return static_cast<std::uint32_t>(std::clamp(std::ceil(length * per_mm_), 1.0, most));
     };
     bin.rows = count(box.y1 - box.y0, std::sqrt(kMostCells));
     bin.columns = count(box.x1 - box.x0, kMostCells / bin.rows);
@@ -29,7 +29,7 @@ NeighbourGrid::NeighbourGrid(std::size_t items, std::vector<Box> bins, double ce
 NeighbourGrid::Cells NeighbourGrid::cells_of(const Bin& bin, const Box& box) const noexcept {
   const auto index = [&](double at, std::uint32_t count) {
     return static_cast<std::uint32_t>(
-        std::clamp(std::floor(at / cell_), 0.0, static_cast<double>(count - 1)));
+        std::clamp(at * per_mm_, 0.0, static_cast<double>(count - 1)));
   };
   return {index(box.x0 - bin.box.x0, bin.columns), index(box.y0 - bin.box.y0, bin.rows),
           index(box.x1 - bin.box.x0, bin.columns), index(box.y1 - bin.box.y0, bin.rows)};
@@ -56,12 +56,12 @@ void NeighbourGrid::find(std::uint32_t bin, const Box& box, std::vector<std::uin
   if (bin >= bins_.size()) return;
   const Cells cells = cells_of(bins_[bin], box);
   for (std::uint32_t y = cells.y0; y <= cells.y1; ++y)
-    for (std::uint32_t x = cells.x0; x <= cells.x1; ++x) {
-      const auto& list = bins_[bin].cells[std::size_t{y} * bins_[bin].columns + x];
-      into.insert(into.end(), list.begin(), list.end());
-    }
-  std::sort(into.begin(), into.end());
-  into.erase(std::unique(into.begin(), into.end()), into.end());
+    for (std::uint32_t x = cells.x0; x <= cells.x1; ++x)
+      for (const std::uint32_t item : bins_[bin].cells[std::size_t{y} * bins_[bin].columns + x]) {
+        // Told in the first of the cells that both meet.
+        const Cells& own = items_[item].cells;
+        if (std::max(own.x0, cells.x0) == x && std::max(own.y0, cells.y0) == y) into.push_back(item);
+      }
 }
 
 }  // namespace lekalo::nest

@@ -16,7 +16,7 @@ class NeighbourGrid {
 
   /// Puts an item there, or nowhere (a bin that is none), in place of where it was.
   void set(std::uint32_t item, std::uint32_t bin, const Box& box);
-  /// Items whose cells the box meets, ascending, each once.
+  /// Items whose cells the box meets, each once; their order follows from what was set before.
   void find(std::uint32_t bin, const Box& box, std::vector<std::uint32_t>& into) const;
 
  private:
@@ -35,7 +35,7 @@ class NeighbourGrid {
   };
   Cells cells_of(const Bin& bin, const Box& box) const noexcept;
 
-  double cell_;
+  double per_mm_;  ///< cells
   std::vector<Bin> bins_;
   std::vector<Item> items_;
 };

@@ -12,8 +12,6 @@ constexpr std::uint32_t kPart = 1, kBorder = 2, kDefect = 4, kZone = 8;  ///< la
 constexpr phi::ShapeIndex kNone = ~phi::ShapeIndex{0};
 /// How much less far right a place further down may be to count as much.
 constexpr double kDown = 0.05;
-/// Samples without a gain that end it where a place was found.
-constexpr std::size_t kVain = 1000;
 /// Steps of sliding left and down, as shares of the item's narrow side.
 constexpr double kFirstSlide = 0.5, kLastSlide = 1e-4;
 
@@ -153,13 +151,11 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
   const std::uint32_t partner = items_.partners.empty() ? kNowhere : items_.partners[i];
   const bool has_partner = partner != kNowhere && state_.spots[partner].bin == bin;
   bool found = false;
-  std::size_t last_gain = 0;
   geom::GridPoint best;
   std::uint32_t best_form = forms.first;
   double best_cost = std::numeric_limits<double>::infinity();
   Sheet& in = sheet(bin);
   for (std::size_t k = 0; k < samples; ++k) {
-    if (found && k - last_gain > kVain) break;
     const std::uint32_t form =
         forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
     Range r = range_of(i, form, bin);
@@ -205,7 +201,6 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
       if (!moved) step *= 0.5;
     }
     found = true;
-    last_gain = k;
     best = at;
     best_form = form;
     best_cost = cost_of(at);

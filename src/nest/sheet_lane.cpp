@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "builder.hpp"
 #include "lekalo/layout/completeness.hpp"
@@ -28,6 +29,8 @@ constexpr int kVainFills = 3;
 /// Plans made to find kits that are worth more, and the share of the stock that they may take beyond what is used.
 constexpr int kPlans = 8;
 constexpr double kMoreRoom = 0.1;
+/// Places tried, of a kind of piece on a bin, after a rearrangement.
+constexpr std::size_t kRefillTries = 2000;
 /// Sums of areas in another order.
 constexpr double kRounding = 1e-12;
 
@@ -551,6 +554,28 @@ State SheetLane::without_conflicts(State state) {
   return state;
 }
 
+/// The state with what lies nowhere put where there is room as it is: a rearrangement in vain may have made
+/// some.
+State SheetLane::refilled(const State& state) {
+  Placer placer(problem_, items_, Random(separator_.random().bits()));
+  placer.load(state);
+  const bool alike = items_.partners.empty();
+  std::set<std::pair<std::uint32_t, std::uint32_t>> full;  // bin, first form
+  for (const std::uint32_t i : nowhere(state)) {
+    if (separator_.is_stopped()) break;
+    for (const std::uint32_t bin : state.open_bins) {
+      const std::pair key(bin, items_.forms[i].first);
+      if (full.contains(key) || placer.place_low(i, bin, kRefillTries)) {
+        if (placer.state().spots[i].bin != kNowhere) break;
+        continue;
+      }
+      if (alike) full.insert(key);
+    }
+  }
+  refill_work_ += placer.work();
+  return placer.state();
+}
+
 void SheetLane::on_stuck() {
   ++failures_;
   if (goal_ == Goal::box) {
@@ -567,8 +592,7 @@ void SheetLane::on_stuck() {
     if (ratio_ < kLastShrink || (ratio_ < 0.02 && behind > kKickEnd * box)) choose_goal();
     return;
   }
-  const State rest = without_conflicts(attempt_.least());
-  if (take(rest)) failures_ = 0;
+  if (take(refilled(without_conflicts(attempt_.least())))) failures_ = 0;
   const std::size_t missing = nowhere(current_.state).size();
   if (missing == 0) return choose_goal();
   batch_ = std::max<std::size_t>(1, batch_ / 2);

@@ -27,7 +27,9 @@ class SheetLane {
   const Merit& merit() const noexcept { return best_.merit; }
   /// Of any valid state.
   Merit merit_of(const State& state) const;
-  std::uint64_t work() const noexcept { return separator_.work() + attempts_ * items_.movable(); }
+  std::uint64_t work() const noexcept {
+    return separator_.work() + refill_work_ + attempts_ * items_.movable();
+  }
   /// Nothing is left to be gained.
   bool is_done() const noexcept { return goal_ == Goal::none; }
   Separator& separator() noexcept { return separator_; }
@@ -75,6 +77,7 @@ class SheetLane {
   void keep_if_best();
   /// The state without items that overlap others, as few and as small as it goes.
   State without_conflicts(State state);
+  State refilled(const State& state);
 
   void begin_separation();
   void step();
@@ -87,7 +90,8 @@ class SheetLane {
   Goal goal_ = Goal::none;
   int failures_ = 0;
   std::uint64_t attempts_ = 0;  ///< each looks at every piece
-  int rounds_ = 0;              ///< goals chosen
+  std::uint64_t refill_work_ = 0;
+  int rounds_ = 0;  ///< goals chosen
   int reductions_ = 0;          ///< goals `reduce` since the best has as many sheets as now
   int vain_fills_ = 0;          ///< goals `fill` since one gained something
   std::size_t batch_ = 1;       ///< pieces thrown in at once
