@@ -30,7 +30,7 @@ constexpr int kVainFills = 3;
 constexpr int kPlans = 8;
 constexpr double kMoreRoom = 0.1;
 /// Places tried, of a kind of piece on a bin, after a rearrangement.
-constexpr std::size_t kRefillTries = 2000;
+constexpr std::size_t kRefillTries = 4000;
 /// Sums of areas in another order.
 constexpr double kRounding = 1e-12;
 
@@ -519,7 +519,7 @@ bool SheetLane::take(State state) {
 
 void SheetLane::on_valid() {
   if (problem_.unit() > 0) separator_.snap(problem_.unit());
-  const bool gained = take(separator_.state());
+  const bool gained = take(goal_ == Goal::box ? separator_.state() : refilled(separator_.state()));
   if (!gained) return on_stuck();
   failures_ = 0;
   if (goal_ == Goal::box) {
