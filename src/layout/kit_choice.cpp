@@ -8,8 +8,10 @@
 namespace lekalo::layout {
 namespace {
 
-/// Steps of one search. What a person orders needs some tens.
-constexpr int kMostSteps = 5000;
+/// Steps of one search, of a length that does not grow with the kits. What a person orders needs some tens.
+constexpr std::size_t kMostSteps = 5000, kTakersInAStep = 64;
+/// Kits that compete, times what they compete for, beyond which nothing is searched.
+constexpr std::size_t kMostTable = 100'000;
 /// Sums of values in another order.
 constexpr double kRounding = 1e-12;
 
@@ -54,31 +56,17 @@ class Choice {
       most_.push_back(most[kits_[i]]);
     }
     for (const Supply& supply : supplies) {
-      if (!index.contains(supply.takers.front().first)) continue;
       for (const auto& [kit, count] : supply.takers) takes_[index[kit]].emplace_back(left_.size(), count);
       left_.push_back(supply.there);
+      takers_ += supply.takers.size();
     }
-    // For the bound: who makes most of a supply comes first.
-    dearest_first_.resize(left_.size());
-    for (std::size_t i = 0; i < kits_.size(); ++i)
-      for (const auto& [supply, count] : takes_[i])
-        dearest_first_[supply].push_back({values_[i] / static_cast<double>(count), i, count});
-    for (auto& takers : dearest_first_)
-      std::stable_sort(takers.begin(), takers.end(),
-                       [](const Taker& a, const Taker& b) { return a.each > b.each; });
-    free_value_.assign(left_.size(), std::vector<double>(kits_.size() + 1, 0));
-    for (std::size_t s = 0; s < left_.size(); ++s)
-      for (std::size_t i = kits_.size(); i-- > 0;) {
-        const bool takes = std::any_of(takes_[i].begin(), takes_[i].end(),
-                                       [&](const auto& taken) { return taken.first == s; });
-        free_value_[s][i] =
-            free_value_[s][i + 1] + (takes ? 0 : values_[i] * static_cast<double>(most_[i]));
-      }
   }
 
   /// By kit of those given.
   const std::vector<std::int64_t>& best() {
     start_with_dear_ones();
+    if (kits_.size() * left_.size() > kMostTable) return best_;
+    prepare_bounds();
     search(0, 0);
     return best_;
   }
@@ -114,6 +102,25 @@ class Choice {
     for (const std::size_t kit : order) take(kit, -best_[kit]);
   }
 
+  void prepare_bounds() {
+    dearest_first_.resize(left_.size());
+    free_value_.assign(left_.size(), std::vector<double>(kits_.size() + 1, 0));
+    std::vector<char> takes(kits_.size() * left_.size(), 0);
+    for (std::size_t i = 0; i < kits_.size(); ++i)
+      for (const auto& [supply, count] : takes_[i]) {
+        dearest_first_[supply].push_back({values_[i] / static_cast<double>(count), i, count});
+        takes[i * left_.size() + supply] = 1;
+      }
+    for (std::size_t s = 0; s < left_.size(); ++s) {
+      std::stable_sort(dearest_first_[s].begin(), dearest_first_[s].end(),
+                       [](const Taker& a, const Taker& b) { return a.each > b.each; });
+      for (std::size_t i = kits_.size(); i-- > 0;)
+        free_value_[s][i] =
+            free_value_[s][i + 1] +
+            (takes[i * left_.size() + s] != 0 ? 0 : values_[i] * static_cast<double>(most_[i]));
+    }
+  }
+
   /// No more can be made of kits from this one on: with fractions of kits, and one supply that ends.
   double bound(std::size_t from) const {
     double least = std::numeric_limits<double>::infinity();
@@ -142,7 +149,8 @@ class Choice {
       return;
     }
     const std::int64_t room = room_for(kit);
-    for (std::int64_t count = room; count >= 0 && ++steps_ <= kMostSteps; --count) {
+    for (std::int64_t count = room; count >= 0 && steps_ <= kMostSteps; --count) {
+      steps_ += 1 + takers_ / kTakersInAStep;
       now_[kit] = count;
       take(kit, count);
       const double with = value + values_[kit] * static_cast<double>(count);
@@ -168,7 +176,7 @@ class Choice {
   std::vector<std::vector<Taker>> dearest_first_;                        ///< by supply
   std::vector<std::vector<double>> free_value_;  ///< by supply, kit: value of those from it on that need none
   double best_value_ = 0;
-  int steps_ = 0;
+  std::size_t takers_ = 0, steps_ = 0;
 };
 
 }  // namespace
@@ -186,26 +194,32 @@ std::vector<std::int64_t> most_valuable_kits(const Document& document,
     for (const auto& [kit, count] : supply.takers) wanted += most[kit] * count;
     return wanted <= supply.there;
   });
-  std::vector<std::size_t> group(document.kits.size());  // the first kit of those that hang together
-  std::iota(group.begin(), group.end(), std::size_t{0});
+  // Kits that compete for one of the rest hang together.
+  std::vector<std::size_t> before(document.kits.size());  // one of the same group; the first of it: itself
+  std::iota(before.begin(), before.end(), std::size_t{0});
+  const auto first_of = [&](std::size_t kit) {
+    while (before[kit] != kit) kit = before[kit] = before[before[kit]];
+    return kit;
+  };
   for (const Supply& supply : supplies)
     for (const auto& [kit, count] : supply.takers) {
-      const std::size_t a = group[supply.takers.front().first], b = group[kit];
-      for (std::size_t& of : group)
-        if (of == std::max(a, b)) of = std::min(a, b);
+      const std::size_t a = first_of(supply.takers.front().first), b = first_of(kit);
+      before[std::max(a, b)] = std::min(a, b);
     }
-  std::vector<std::int64_t> chosen = most;
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    if (group[k] != k) continue;
+  struct Group {
     std::vector<std::size_t> kits;
-    for (std::size_t m = k; m < group.size(); ++m)
-      if (group[m] == k) kits.push_back(m);
-    if (kits.size() == 1) continue;
-    Choice choice(document, supplies, std::move(kits), most);
+    std::vector<Supply> supplies;
+  };
+  std::map<std::size_t, Group> groups;
+  for (Supply& supply : supplies) groups[first_of(supply.takers.front().first)].supplies.push_back(supply);
+  for (std::size_t k = 0; k < before.size(); ++k)
+    if (const auto group = groups.find(first_of(k)); group != groups.end()) group->second.kits.push_back(k);
+  for (auto& [first, group] : groups) {
+    Choice choice(document, group.supplies, std::move(group.kits), most);
     const std::vector<std::int64_t>& best = choice.best();
-    for (std::size_t i = 0; i < best.size(); ++i) chosen[choice.kits()[i]] = best[i];
+    for (std::size_t i = 0; i < best.size(); ++i) most[choice.kits()[i]] = best[i];
   }
-  return chosen;
+  return most;
 }
 
 }  // namespace lekalo::layout

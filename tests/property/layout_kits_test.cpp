@@ -144,6 +144,12 @@ TEST(LayoutKits, ManyThatCompeteAreCountedInNoTime) {
   }
   EXPECT_GE(value, dear_first * (1 - 1e-12));
   EXPECT_GT(value, 0);
+  // As many as a file may have, all of which compete for one part.
+  c.document.kits.assign(100'000, {"", "", 1, 1, {{0, 1, std::nullopt}}});
+  c.document.kits.back().value = 2;
+  const std::vector<std::int64_t> complete = kits_made(c.document, c.placed).complete;
+  EXPECT_EQ(std::accumulate(complete.begin(), complete.end(), std::int64_t{0}), c.placed[0].total());
+  EXPECT_EQ(complete.back(), 1);
 }
 
 }  // namespace
