@@ -4,8 +4,8 @@
 //   bench_nest [--cpu SECONDS | --work N] [--seeds 1,2,3] [--threads N] [--angles N] [--save FOLDER]
 //              [--scale 50,200,1000,5000] FILE...
 //
-// --scale: orders of so many pieces made here: 20 polygons of 4 to 9 corners, 20 to 120 mm across, four angles, a
-// gap of 1 mm, on a strip 1,000 mm wide.
+// --scale: orders of so many pieces made here: 20 polygons of 4 to 9 corners, 20 to 120 mm across, four
+// angles, a gap of 1 mm, on a strip 1,000 mm wide.
 
 #include <fmt/format.h>
 
@@ -137,8 +137,7 @@ layout::Document order_of(std::uint64_t pieces) {
   strip.kind = layout::StockKind::strip;
   strip.open_length = true;
   const double length = geom::mm_from_grid(layout::kLongestStrip);
-  strip.outline =
-      outline_of({point(0, 0), point(length, 0), point(length, kHeight), point(0, kHeight)});
+  strip.outline = outline_of({point(0, 0), point(length, 0), point(length, kHeight), point(0, kHeight)});
   document.stocks = {strip};
   return document;
 }

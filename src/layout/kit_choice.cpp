@@ -159,9 +159,9 @@ class Choice {
       // Of equals the one that has more of the first kits counts.
       const bool may_be_earlier =
           most >= best_value_ * (1 - kRounding) &&
-          std::lexicographical_compare_three_way(now_.begin(), now_.begin() + static_cast<std::ptrdiff_t>(kit) + 1,
-                                                 best_.begin(),
-                                                 best_.begin() + static_cast<std::ptrdiff_t>(kit) + 1) >= 0;
+          std::lexicographical_compare_three_way(
+              now_.begin(), now_.begin() + static_cast<std::ptrdiff_t>(kit) + 1, best_.begin(),
+              best_.begin() + static_cast<std::ptrdiff_t>(kit) + 1) >= 0;
       if (may_be_better || may_be_earlier) search(kit + 1, with);
       take(kit, -count);
     }
@@ -172,8 +172,8 @@ class Choice {
   std::vector<std::int64_t> now_, best_, most_;
   std::vector<double> values_;
   std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> takes_;  ///< by kit: supply, pieces
-  std::vector<std::int64_t> left_;                                       ///< by supply
-  std::vector<std::vector<Taker>> dearest_first_;                        ///< by supply
+  std::vector<std::int64_t> left_;                                        ///< by supply
+  std::vector<std::vector<Taker>> dearest_first_;                         ///< by supply
   std::vector<std::vector<double>> free_value_;  ///< by supply, kit: value of those from it on that need none
   double best_value_ = 0;
   std::size_t takers_ = 0, steps_ = 0;

@@ -28,8 +28,7 @@ NeighbourGrid::NeighbourGrid(std::size_t items, std::vector<Box> bins, double ce
 
 NeighbourGrid::Cells NeighbourGrid::cells_of(const Bin& bin, const Box& box) const noexcept {
   const auto index = [&](double at, std::uint32_t count) {
-    return static_cast<std::uint32_t>(
-        std::clamp(at * per_mm_, 0.0, static_cast<double>(count - 1)));
+    return static_cast<std::uint32_t>(std::clamp(at * per_mm_, 0.0, static_cast<double>(count - 1)));
   };
   return {index(box.x0 - bin.box.x0, bin.columns), index(box.y0 - bin.box.y0, bin.rows),
           index(box.x1 - bin.box.x0, bin.columns), index(box.y1 - bin.box.y0, bin.rows)};

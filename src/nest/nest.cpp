@@ -119,8 +119,8 @@ std::vector<layout::Placement> sound_placements(const layout::Document& document
   return sound;
 }
 
-/// Two and two of a kit's pieces of one part: left and right ones first. Those that are locked serve the first
-/// kits.
+/// Two and two of a kit's pieces of one part: left and right ones first. Those that are locked serve the
+/// first kits.
 void add_partners(const Problem& problem, double reach, Items& items) {
   const layout::Document& document = problem.document();
   if (!(reach > 0) || document.kits.empty()) return;
@@ -301,7 +301,8 @@ class Run {
     build();
     if (is_over()) return best_;
     each_lane([&](Strand& lane, std::size_t k) { lane.start(begun_[k].state); });
-    while (!is_over() && std::any_of(lanes_.begin(), lanes_.end(), [](const auto& l) { return !l->is_done(); })) {
+    while (!is_over() &&
+           std::any_of(lanes_.begin(), lanes_.end(), [](const auto& l) { return !l->is_done(); })) {
       each_lane([](Strand& lane, std::size_t) { lane.run(kSegment); });
       // What was ended in the middle does not count: the last merge is what the same work gives again.
       if (control_.stop_requested()) break;
@@ -325,8 +326,8 @@ class Run {
 
   bool is_over() const { return control_.stop_requested() || best_.work >= control_.work_limit; }
 
-  /// First layouts, the better one for show at once. A run that ends here ends between two pieces of the first
-  /// strand, and the others do not count: so the same work ends it there again.
+  /// First layouts, the better one for show at once. A run that ends here ends between two pieces of the
+  /// first strand, and the others do not count: so the same work ends it there again.
   void build() {
     const std::vector<std::uint32_t> order = by_size(problem_, wanted_.items);
     std::atomic<bool> first_ended{false};
@@ -335,9 +336,8 @@ class Run {
       Placer placer(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));
       begun.state = built(problem_, wanted_.items, placer, wanted_.start, order, [&] {
         begun.ended_early =
-            first_ended ||
-            (placer.work() >= kFirstWork &&
-             (control_.stop_requested() || (k == 0 && placer.work() >= control_.work_limit)));
+            first_ended || (placer.work() >= kFirstWork &&
+                            (control_.stop_requested() || (k == 0 && placer.work() >= control_.work_limit)));
         if (k == 0 && begun.ended_early) first_ended = true;
         return begun.ended_early;
       });
@@ -381,8 +381,7 @@ class Run {
   /// shown or not, the strand goes on from what there is.
   void show_mended(Strand& strand, const State& rest) {
     Placer placer(problem_, wanted_.items, Random(options_.seed, kMendingStreams + best_.merges));
-    const State mended =
-        built(problem_, wanted_.items, placer, rest, by_size(problem_, wanted_.items), {});
+    const State mended = built(problem_, wanted_.items, placer, rest, by_size(problem_, wanted_.items), {});
     const Merit merit = strand.merit_of(mended);
     if (merit < merit_) show(settled(problem_, wanted_.items, mended), merit);
     strand.go_on_from(state_);

@@ -42,7 +42,8 @@ Placer::Sheet& Placer::sheet(std::uint32_t b) {
   Sheet& made = sheets_[b].emplace(phi::Scene(world, 2 * items_.movable() + 64),
                                    std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone),
                                    std::vector<std::uint32_t>{});
-  made.scene.put({.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorder, .container = true});
+  made.scene.put(
+      {.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorder, .container = true});
   if (counts_ == Counts::border) return made;
   for (const layout::Defect& defect : stock.defects)
     made.scene.put({.shape = made.scene.add_shape(defect.outline.polygon),
@@ -174,8 +175,7 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
            std::min(r.y1, y + reach)};
     }
     // Further right than the best nothing is better.
-    if (found)
-      r.x1 = std::min(r.x1, static_cast<std::int64_t>(best_cost - cost_of({0, r.y0})));
+    if (found) r.x1 = std::min(r.x1, static_cast<std::int64_t>(best_cost - cost_of({0, r.y0})));
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;
     const auto between = [&](std::int64_t low, std::int64_t high) {
       return std::clamp(std::llround(random_.uniform(static_cast<double>(low), static_cast<double>(high))),

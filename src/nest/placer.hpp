@@ -40,8 +40,8 @@ class Placer {
  private:
   struct Sheet {
     phi::Scene scene;
-    std::vector<phi::ShapeIndex> shapes;      ///< by form
-    std::vector<std::uint32_t> zones;         ///< by body: index of the zone
+    std::vector<phi::ShapeIndex> shapes;  ///< by form
+    std::vector<std::uint32_t> zones;     ///< by body: index of the zone
   };
   struct Range {
     std::int64_t x0, x1, y0, y1;

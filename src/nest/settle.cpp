@@ -41,9 +41,7 @@ layout::Document placed(const Problem& problem, const Items& items, const State&
 }
 
 /// Whether a shift can end it.
-bool can_be_shifted(const layout::Violation& v) {
-  return v.direction.x != 0 || v.direction.y != 0;
-}
+bool can_be_shifted(const layout::Violation& v) { return v.direction.x != 0 || v.direction.y != 0; }
 
 /// Shifts both by what is missing.
 void shift(const layout::Violation& v, std::uint64_t first, std::vector<Steps>& at) {
@@ -78,8 +76,7 @@ std::size_t worst_of(const Problem& problem, const Items& items, std::uint64_t f
   std::size_t worst = 0;
   for (std::size_t i = 1; i < broken.size(); ++i)
     if (broken[i] > broken[worst] ||
-        (broken[i] == broken[worst] &&
-         problem.area_of(items.parts[i]) < problem.area_of(items.parts[worst])))
+        (broken[i] == broken[worst] && problem.area_of(items.parts[i]) < problem.area_of(items.parts[worst])))
       worst = i;
   return worst;
 }

@@ -26,7 +26,8 @@ constexpr double kFullest = 0.97;
 constexpr int kVainAttempts = 1000;
 /// Fillings in vain after which the others get their turns too.
 constexpr int kVainFills = 3;
-/// Plans made to find kits that are worth more, and the share of the stock that they may take beyond what is used.
+/// Plans made to find kits that are worth more, and the share of the stock that they may take beyond what is
+/// used.
 constexpr int kPlans = 8;
 constexpr double kMoreRoom = 0.1;
 /// Places tried, of a kind of piece on a bin, after a rearrangement.
@@ -231,8 +232,9 @@ void SheetLane::replace_by(const std::vector<std::int64_t>& kits) {
             const Spot& spot = separator_.state().spots[i];
             if (is_needed[i] != 0 || items_.parts[i] != piece.part || (spot.bin == kNowhere) != nowhere)
               continue;
-            const bool serves = nowhere ? items_.forms[i].first >= hand.first && items_.forms[i].last <= hand.last
-                                        : spot.form >= hand.first && spot.form < hand.last;
+            const bool serves = nowhere
+                                    ? items_.forms[i].first >= hand.first && items_.forms[i].last <= hand.last
+                                    : spot.form >= hand.first && spot.form < hand.last;
             if (!serves) continue;
             is_needed[i] = 1;
             --needed;

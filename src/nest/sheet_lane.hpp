@@ -91,11 +91,11 @@ class SheetLane {
   int failures_ = 0;
   std::uint64_t attempts_ = 0;  ///< each looks at every piece
   std::uint64_t refill_work_ = 0;
-  int rounds_ = 0;  ///< goals chosen
-  int reductions_ = 0;          ///< goals `reduce` since the best has as many sheets as now
-  int vain_fills_ = 0;          ///< goals `fill` since one gained something
-  std::size_t batch_ = 1;       ///< pieces thrown in at once
-  std::uint32_t target_ = 0;    ///< the bin whose box gets smaller
+  int rounds_ = 0;            ///< goals chosen
+  int reductions_ = 0;        ///< goals `reduce` since the best has as many sheets as now
+  int vain_fills_ = 0;        ///< goals `fill` since one gained something
+  std::size_t batch_ = 1;     ///< pieces thrown in at once
+  std::uint32_t target_ = 0;  ///< the bin whose box gets smaller
   double ratio_ = 0, skew_ = 0;
   bool is_kick_ = false;  ///< the box under way is a new proportion, larger than it should be
   Attempt attempt_;

@@ -52,7 +52,7 @@ bool can_be_made(const Case& c, const std::vector<std::int64_t>& kits) {
         for (std::int64_t n = 0; n < kits[k] * piece.count; ++n) {
           PieceCount& there = left[piece.part];
           if (piece.mirrored.has_value() == either) continue;
-          std::int64_t& from = piece.mirrored ? (*piece.mirrored ? there.mirrored : there.upright)
+          std::int64_t& from = piece.mirrored      ? (*piece.mirrored ? there.mirrored : there.upright)
                                : there.upright > 0 ? there.upright
                                                    : there.mirrored;
           if (--from < 0) return false;
@@ -69,8 +69,7 @@ TEST(LayoutKits, AreWorthAsMuchAsABruteForceFindsAndTheFirstOnesOfEquals) {
     // Values are tenths: counted in whole ones.
     const auto value_of = [&](const std::vector<std::int64_t>& kits) {
       std::int64_t value = 0;
-      for (std::size_t k = 0; k < n; ++k)
-        value += kits[k] * std::llround(10 * c.document.kits[k].value);
+      for (std::size_t k = 0; k < n; ++k) value += kits[k] * std::llround(10 * c.document.kits[k].value);
       return value;
     };
     const std::function<void(std::size_t)> visit = [&](std::size_t k) {
@@ -109,7 +108,8 @@ TEST(LayoutKits, ACheapKitThatComesFirstLeavesSharedPiecesToTheDearOne) {
   Case c;
   c.document.parts.assign(1, cases::two_squares().parts[0]);
   c.placed = {{6, 0}};
-  c.document.kits = {{"cheap", "", 2, 1, {{0, 2, std::nullopt}}}, {"dear", "", 1, 10, {{0, 5, std::nullopt}}}};
+  c.document.kits = {{"cheap", "", 2, 1, {{0, 2, std::nullopt}}},
+                     {"dear", "", 1, 10, {{0, 5, std::nullopt}}}};
   EXPECT_EQ(kits_made(c.document, c.placed).complete, (std::vector<std::int64_t>{0, 1}));
 }
 

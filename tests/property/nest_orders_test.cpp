@@ -186,10 +186,14 @@ TEST(NestOrders, TheValueOfTheKitsIsThatOfABruteForce) {
       document.parts[p].rotations = {{0, 0}};
     }
     const auto room = static_cast<std::int64_t>(4 + random.below(4));
-    document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 10.0 * static_cast<double>(room), 10)});
+    document.stocks[0].outline =
+        cases::outline_of({cases::box_loop(0, 0, 10.0 * static_cast<double>(room), 10)});
     for (std::uint32_t k = 0; k < 3; ++k) {
-      layout::Kit kit{"k" + std::to_string(k), "", static_cast<std::int64_t>(1 + random.below(2)),
-                      static_cast<double>(1 + random.below(9)), {}};
+      layout::Kit kit{"k" + std::to_string(k),
+                      "",
+                      static_cast<std::int64_t>(1 + random.below(2)),
+                      static_cast<double>(1 + random.below(9)),
+                      {}};
       for (std::uint32_t p = 0; p < 3; ++p)
         if (const auto count = static_cast<std::int64_t>(random.below(3)); count > 0)
           kit.pieces.push_back({p, count, std::nullopt});
