@@ -3,12 +3,52 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/wide.hpp"
+
 namespace lekalo::nest {
 namespace {
 
-constexpr double kMostNodes = 16e6;  ///< of all rasters
+constexpr double kMostNodes = 16e6;        ///< of all rasters
+constexpr float kCostsPerUnit = 1u << 14;  ///< costs are multiples of one over this
+
+constexpr std::uint32_t kBlock = CostGrid::kBlock;
+
+LEKALO_WIDE void add_scaled(float* to, std::size_t to_stride, const float* from, std::size_t from_stride,
+                            std::size_t rows, std::size_t blocks, float weight) {
+  for (std::size_t r = 0; r < rows; ++r, to += to_stride, from += from_stride)
+    for (std::size_t k = 0; k < blocks * kBlock; k += kBlock)
+      for (std::size_t n = k; n < k + kBlock; ++n) to[n] += weight * from[n];
+}
+
+LEKALO_WIDE std::uint32_t first_below(const float* row, std::uint32_t block, std::uint32_t blocks,
+                                      float limit) {
+  for (; block < blocks; ++block) {
+    const float* at = row + std::size_t{block} * kBlock;
+    int below = 0;
+    for (std::uint32_t n = 0; n < kBlock; ++n) below |= at[n] < limit ? 1 : 0;
+    if (below != 0) break;
+  }
+  return block;
+}
+
+std::uint32_t blocks_of(std::size_t columns) {
+  return static_cast<std::uint32_t>((columns + kBlock - 1) / kBlock);
+}
 
 }  // namespace
+
+void NodeGrid::begin(double from_x, double from_y, std::uint32_t column_count, std::uint32_t row_count) {
+  x0 = from_x;
+  y0 = from_y;
+  columns = column_count;
+  rows = row_count;
+  stride = (blocks_of(columns) + 1) * kBlock;
+  sums.assign(std::size_t{stride} * rows, 0);
+}
+
+std::uint32_t NodeGrid::block_below(std::uint32_t r, std::uint32_t block, float limit) const noexcept {
+  return first_below(row(r), block, blocks_of(columns), limit);
+}
 
 Box CostGrid::shifts(const Form& fixed, const Form& moved) const {
   const double gap = problem_.widest_gap();
@@ -42,43 +82,33 @@ const CostGrid::Raster& CostGrid::raster(std::uint32_t fixed, std::uint32_t move
   made.row = static_cast<std::int32_t>(std::floor(range.y0 / pitch_));
   made.columns = static_cast<std::uint32_t>(std::ceil(range.x1 / pitch_) - made.column + 1);
   made.rows = static_cast<std::uint32_t>(std::ceil(range.y1 / pitch_) - made.row + 1);
-  made.stride = (made.columns + kBlock - 1) / kBlock * kBlock + kBlock;
+  made.stride = (blocks_of(made.columns) + 1) * kBlock;
   made.values.assign(std::size_t{made.stride} * made.rows, 0);
   for (std::uint32_t r = 0; r < made.rows; ++r)
     for (std::uint32_t c = 0; c < made.columns; ++c)
       made.values[std::size_t{r} * made.stride + c] =
-          cost_(a, b, (made.column + static_cast<std::int32_t>(c)) * pitch_,
-                (made.row + static_cast<std::int32_t>(r)) * pitch_);
+          std::round(kCostsPerUnit * cost_(a, b, (made.column + static_cast<std::int32_t>(c)) * pitch_,
+                                           (made.row + static_cast<std::int32_t>(r)) * pitch_)) /
+          kCostsPerUnit;
   added_ += std::uint64_t{made.columns} * made.rows * 128;
   return made;
 }
 
-void CostGrid::begin(double x0, double y0, std::uint32_t columns, std::uint32_t rows) {
-  x0_ = x0;
-  y0_ = y0;
-  columns_ = columns;
-  rows_ = rows;
-  stride_ = (columns + kBlock - 1) / kBlock * kBlock + kBlock;
-  sums_.assign(std::size_t{stride_} * rows_, 0);
-}
-
-void CostGrid::add(std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight) {
+void CostGrid::add(NodeGrid& to, std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight) {
   const Raster& from = raster(fixed, moved);
-  const auto left = static_cast<std::int64_t>(std::lround((x - x0_) / pitch_)) + from.column;
-  const auto low = static_cast<std::int64_t>(std::lround((y - y0_) / pitch_)) + from.row;
+  const auto left = static_cast<std::int64_t>(std::lround((x - to.x0) / pitch_)) + from.column;
+  const auto low = static_cast<std::int64_t>(std::lround((y - to.y0) / pitch_)) + from.row;
   const std::int64_t c0 = std::max<std::int64_t>(left, 0),
-                     c1 = std::min<std::int64_t>(left + from.columns, columns_),
-                     r0 = std::max<std::int64_t>(low, 0), r1 = std::min<std::int64_t>(low + from.rows, rows_);
+                     c1 = std::min<std::int64_t>(left + from.columns, to.columns),
+                     r0 = std::max<std::int64_t>(low, 0),
+                     r1 = std::min<std::int64_t>(low + from.rows, to.rows);
   if (c0 >= c1 || r0 >= r1) return;
-  const auto blocks = static_cast<std::uint32_t>((c1 - c0 + kBlock - 1) / kBlock);
-  for (std::int64_t r = r0; r < r1; ++r) {
-    float* to = &sums_[static_cast<std::size_t>(r) * stride_ + static_cast<std::size_t>(c0)];
-    const float* add =
-        &from.values[static_cast<std::size_t>(r - low) * from.stride + static_cast<std::size_t>(c0 - left)];
-    for (std::uint32_t k = 0; k < blocks; ++k, to += kBlock, add += kBlock)
-      for (std::uint32_t n = 0; n < kBlock; ++n) to[n] += weight * add[n];
-  }
-  added_ += static_cast<std::uint64_t>(r1 - r0) * blocks * kBlock;
+  const auto rows = static_cast<std::size_t>(r1 - r0);
+  const std::size_t blocks = blocks_of(static_cast<std::size_t>(c1 - c0));
+  add_scaled(&to.sums[static_cast<std::size_t>(r0) * to.stride + static_cast<std::size_t>(c0)], to.stride,
+             &from.values[static_cast<std::size_t>(r0 - low) * from.stride + static_cast<std::size_t>(c0 - left)],
+             from.stride, rows, blocks, weight);
+  added_ += rows * blocks * kBlock;
 }
 
 }  // namespace lekalo::nest

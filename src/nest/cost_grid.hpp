@@ -8,6 +8,20 @@
 
 namespace lekalo::nest {
 
+/// Places in rows, a pitch apart, and a sum at each.
+struct NodeGrid {
+  double x0 = 0, y0 = 0;  ///< the first
+  std::uint32_t columns = 0, rows = 0, stride = 0;
+  std::vector<float> sums;
+
+  /// Makes it so large, zero everywhere.
+  void begin(double from_x, double from_y, std::uint32_t column_count, std::uint32_t row_count);
+  /// Readable up to the next multiple of CostGrid::kBlock beyond the columns.
+  const float* row(std::uint32_t r) const noexcept { return &sums[std::size_t{r} * stride]; }
+  /// The first block of a row, from this one on, with a sum below a limit; the number of blocks if none.
+  std::uint32_t block_below(std::uint32_t r, std::uint32_t block, float limit) const noexcept;
+};
+
 /// What an item would cost at every node of a grid of places: the sum of one raster for each item that lies
 /// there, shifted to the node nearest to it. Everywhere at once for the price of some tens of single places;
 /// exact to half a pitch, and exactly where everything lies on multiples of the pitch. docs/design/nest.md
@@ -22,20 +36,16 @@ class CostGrid {
   CostGrid(const Problem& problem, double pitch, PairCost cost);
 
   double pitch() const noexcept { return pitch_; }
+  /// Nodes from 0 to a length.
+  std::uint32_t nodes(double length) const noexcept {
+    return static_cast<std::uint32_t>(length / pitch_ + 1e-6) + 1;
+  }
 
-  /// Begins a grid of columns x rows nodes, zero everywhere; (x0, y0) is the first.
-  void begin(double x0, double y0, std::uint32_t columns, std::uint32_t rows);
-  /// Adds what an item at (x, y) costs times a weight.
-  void add(std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight);
+  /// Adds what an item at (x, y) costs times a weight. Costs are multiples of 2^-14, so that sums of whole
+  /// weights are exact up to 1,000: what is added can be taken away without a trace.
+  void add(NodeGrid& to, std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight);
   /// Nodes added up so far.
   std::uint64_t added() const noexcept { return added_; }
-
-  std::uint32_t columns() const noexcept { return columns_; }
-  std::uint32_t rows() const noexcept { return rows_; }
-  double x0() const noexcept { return x0_; }
-  double y0() const noexcept { return y0_; }
-  /// Readable up to the next multiple of kBlock beyond columns().
-  const float* row(std::uint32_t r) const noexcept { return &sums_[std::size_t{r} * stride_]; }
 
  private:
   /// Costs at shifts (column + c, row + r) x pitch of the moved one from the fixed one.
@@ -51,9 +61,6 @@ class CostGrid {
   double pitch_;
   PairCost cost_;
   std::vector<Raster> rasters_;  ///< by fixed and moved form; without rows: not made yet
-  double x0_ = 0, y0_ = 0;
-  std::uint32_t columns_ = 0, rows_ = 0, stride_ = 0;
-  std::vector<float> sums_;
   std::uint64_t added_ = 0;
 };
 

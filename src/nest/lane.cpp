@@ -22,7 +22,7 @@ constexpr double kCompactFrom = 0.004, kCompactTo = 1e-5;
 /// Shorter than the best, as a share: what counts as that.
 constexpr double kGain = 1e-6;
 constexpr int kLatticeUnits = 3;                   ///< whole, half, quarter: one after the other
-constexpr std::uint64_t kLatticeWork = 3'000'000;  ///< without a gain, until it is left
+constexpr std::uint64_t kLatticeWork = 1'500'000;  ///< without a gain, until it is left
 
 double about_normal(Random& random) {
   double sum = 0;

@@ -13,19 +13,14 @@ constexpr double kLeastValue = 0.003;
 /// The depth of a long thin overlap says little: the root of its area counts beside it.
 constexpr double kAreaShare = 0.3;
 constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
-/// Of the grid that replaces those anywhere: its pitch as a share of the middling part's size, the largest
-/// window, and forms looked at in a move.
-constexpr double kPitch = 1.0 / 16;
-constexpr std::uint32_t kMostRows = 256, kMostNodes = 20'000, kFormsOnGrid = 4;
-constexpr std::uint64_t kNodesAsPlace = 1000;  ///< nodes added up in the time of one place
-/// Steps as shares of the item's narrow side.
 constexpr std::size_t kManyItems = 256;  ///< from which on neighbours are looked up in cells
+/// Steps as shares of the item's narrow side.
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
 }  // namespace
 
 Separator::Separator(const Problem& problem, const Items& items, Random random)
-    : problem_(problem), items_(items), random_(random), total_(items.total()) {
+    : problem_(problem), items_(items), random_(random), total_(items.total()), list_(items.total()) {
   weights_.assign(items_.movable() * total_, 1);
   in_conflict_.assign(total_, 0);
   boxes_.resize(total_);
@@ -37,71 +32,13 @@ Separator::Separator(const Problem& problem, const Items& items, Random random)
     min_dim_.push_back(std::min(b.x1 - b.x0, b.y1 - b.y0));
   }
   size_.resize(total_, 1);
+  for (const double size : size_) root_.push_back(std::sqrt(size));
   if (total_ > kManyItems) {
     std::vector<Box> bins;
     for (const Bin& bin : problem_.bins()) bins.push_back(bin.box);
     cells_.emplace(total_, std::move(bins), unit_);
   }
-  make_grid(kPitch * unit_);
-}
-
-bool Separator::make_grid(double pitch) {
-  grid_.reset();
-  if (!CostGrid::pays(problem_, pitch)) return false;
-  grid_.emplace(problem_, pitch, [this](const Form& a, const Form& b, double dx, double dy) {
-    const double depth = problem_.depth(a, b, dx, dy);
-    if (depth <= kTolerance) return 0.0f;
-    return static_cast<float>(cost_of(depth, problem_.common_area(a, b, dx, dy)));
-  });
-  return true;
-}
-
-bool Separator::use_lattice(double unit) {
-  lattice_ = 0;
-  if (unit > 0 && make_grid(unit)) {
-    lattice_ = unit;
-    return true;
-  }
-  make_grid(kPitch * unit_);
-  return unit == 0;
-}
-
-void Separator::to_lattice() {
-  for (std::size_t i = 0; i < items_.movable(); ++i) {
-    Spot spot = state_.spots[i];
-    if (spot.bin == kNowhere) continue;
-    const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
-    spot.x = r.x0 + std::round((spot.x - r.x0) / lattice_) * lattice_;
-    spot.y = r.y0 + std::round((spot.y - r.y0) / lattice_) * lattice_;
-    while (spot.x > r.x1 + 1e-6 && spot.x > r.x0) spot.x -= lattice_;
-    while (spot.y > r.y1 + 1e-6 && spot.y > r.y0) spot.y -= lattice_;
-    set_spot(i, spot);
-  }
-}
-
-/// What item i would cost in a form everywhere in the range, or in a window of it where that is large.
-void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range) {
-  const double pitch = grid_->pitch();
-  const auto nodes = [&](double length) { return static_cast<std::uint32_t>(length / pitch + 1e-6) + 1; };
-  double x0 = range.x0, y0 = range.y0;
-  std::uint32_t columns = nodes(range.x1 - range.x0), rows = nodes(range.y1 - range.y0);
-  const auto cut = [&](double& from, std::uint32_t& count, std::uint32_t most) {
-    if (count <= most) return;
-    from += static_cast<double>(random_.below(count - most + 1)) * pitch;
-    count = most;
-  };
-  cut(y0, rows, kMostRows);
-  cut(x0, columns, kMostNodes / rows);
-  grid_->begin(x0, y0, columns, rows);
-  const std::uint64_t before = grid_->added();
-  const Form& f = problem_.forms()[form];
-  gather({x0 + f.box.x0, y0 + f.box.y0, x0 + columns * pitch + f.box.x1, y0 + rows * pitch + f.box.y1}, bin,
-         i);
-  const float* weights = &weights_[i * total_];
-  for (const std::uint32_t j : near_)
-    grid_->add(state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y,
-               weights[j] * static_cast<float>(std::sqrt(size_[i] * size_[j])));
-  work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / kNodesAsPlace;
+  use_lattice(0);
 }
 
 void Separator::load(const State& state) {
@@ -113,7 +50,11 @@ void Separator::set_spot(std::size_t i, const Spot& spot) {
   state_.spots[i] = spot;
   const Box& b = problem_.forms()[spot.form].box;
   boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
-  if (cells_) cells_->set(static_cast<std::uint32_t>(i), spot.bin, boxes_[i]);
+  const auto item = static_cast<std::uint32_t>(i);
+  if (cells_)
+    cells_->set(item, spot.bin, boxes_[i]);
+  else
+    list_.set(item, spot.bin, boxes_[i]);
 }
 
 void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
@@ -140,7 +81,7 @@ void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
 }
 
 double Separator::value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept {
-  return cost_of(depth, area) * std::sqrt(size_[i] * size_[j]);
+  return cost_of(depth, area) * root_[i] * root_[j];
 }
 
 double Separator::cost_of(double depth, double area) const noexcept {
@@ -190,23 +131,15 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
 void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
   const double gap = problem_.widest_gap();
   const double x0 = box.x0 - gap, x1 = box.x1 + gap, y0 = box.y0 - gap, y1 = box.y1 + gap;
-  std::size_t count = 0;
-  if (cells_) {
+  if (cells_)
     cells_->find(bin, {x0, y0, x1, y1}, near_);
-    for (const std::uint32_t j : near_) {
-      near_[count] = j;
-      const Box& b = boxes_[j];
-      count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) & (j != but));
-    }
-    near_.resize(count);
-    return;
-  }
-  near_.resize(total_);
-  for (std::size_t j = 0; j < total_; ++j) {
-    near_[count] = static_cast<std::uint32_t>(j);
+  else
+    list_.find(bin, {x0, y0, x1, y1}, near_);
+  std::size_t count = 0;
+  for (const std::uint32_t j : near_) {
+    near_[count] = j;
     const Box& b = boxes_[j];
-    count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) &
-                                      (state_.spots[j].bin == bin) & (j != but));
+    count += static_cast<std::size_t>((b.x0 < x1) & (b.x1 > x0) & (b.y0 < y1) & (b.y1 > y0) & (j != but));
   }
   near_.resize(count);
 }
@@ -324,33 +257,6 @@ void Separator::push_out(std::size_t i, Candidate& best) {
   }
 }
 
-void Separator::move_on_lattice(std::size_t i) {
-  const Forms& forms = items_.forms[i];
-  const std::uint32_t bin = any_bin();
-  const double pitch = grid_->pitch();
-  Spot best = state_.spots[i];
-  float least = std::numeric_limits<float>::infinity();
-  std::uint64_t ties = 0;
-  for (std::uint32_t form = forms.first; form < forms.last; ++form) {
-    const Range r = range_of(form, bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
-    fill_grid(i, form, bin, r);
-    for (std::uint32_t row = 0; row < grid_->rows(); ++row) {
-      const float* values = grid_->row(row);
-      for (std::uint32_t c = 0; c < grid_->columns(); ++c) {
-        if (values[c] > least) continue;
-        if (values[c] < least) {
-          least = values[c];
-          ties = 0;
-        }
-        if (random_.below(++ties) == 0)
-          best = {grid_->x0() + c * pitch, grid_->y0() + row * pitch, form, bin};
-      }
-    }
-  }
-  if (ties > 0) set_spot(i, best);
-}
-
 void Separator::Choice::offer(const Candidate& candidate) {
   if (candidate.loss >= worst()) return;
   std::size_t at = count < kMost ? count++ : kMost - 1;
@@ -361,45 +267,6 @@ void Separator::Choice::offer(const Candidate& candidate) {
 std::uint32_t Separator::any_bin() {
   return state_.open_bins.size() == 1 ? state_.open_bins[0]
                                       : state_.open_bins[random_.below(state_.open_bins.size())];
-}
-
-/// The deepest of the hollows of the cost over a bin, in all forms or some of many.
-void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice) {
-  const Forms& forms = items_.forms[i];
-  const std::uint32_t count = forms.last - forms.first, tried = std::min(count, kFormsOnGrid);
-  const double pitch = grid_->pitch();
-  Choice rough;
-  for (std::uint32_t k = 0; k < tried; ++k) {
-    const std::uint32_t form =
-        forms.first + (tried == count ? k : static_cast<std::uint32_t>(random_.below(count)));
-    const Range r = range_of(form, bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
-    fill_grid(i, form, bin, r);
-    const std::uint32_t columns = grid_->columns(), rows = grid_->rows();
-    for (std::uint32_t row = 0; row < rows; ++row) {
-      const float* at = grid_->row(row);
-      const float* below = row > 0 ? grid_->row(row - 1) : at;
-      const float* above = row + 1 < rows ? grid_->row(row + 1) : at;
-      float worst = static_cast<float>(rough.worst());
-      for (std::uint32_t block = 0; block < columns; block += CostGrid::kBlock) {
-        unsigned lower = 0;
-        for (std::uint32_t c = block; c < block + CostGrid::kBlock; ++c) lower |= at[c] < worst ? 1u : 0u;
-        if (lower == 0) continue;
-        for (std::uint32_t c = block; c < std::min(columns, block + CostGrid::kBlock); ++c) {
-          const float v = at[c];
-          if (v >= worst || v > below[c] || v > above[c] || (c > 0 && v > at[c - 1]) ||
-              (c + 1 < columns && v > at[c + 1]))
-            continue;
-          const Spot spot = {std::min(r.x1, grid_->x0() + c * pitch),
-                             std::min(r.y1, grid_->y0() + row * pitch), form, bin};
-          rough.offer({spot, static_cast<double>(v)});
-          worst = static_cast<float>(rough.worst());
-        }
-      }
-    }
-  }
-  for (std::size_t k = 0; k < rough.count; ++k)
-    choice.offer({rough.places[k].spot, evaluate_all(i, rough.places[k].spot, kFar)});
 }
 
 void Separator::move(std::size_t i) {
@@ -418,6 +285,7 @@ void Separator::move(std::size_t i) {
   };
   const Box& size = problem_.forms()[now.form].box;
   const double w = size.x1 - size.x0, h = size.y1 - size.y0;
+  gather({now.x + size.x0 - w, now.y + size.y0 - h, now.x + size.x1 + w, now.y + size.y1 + h}, now.bin, i);
   for (int k = 0; k < kFocused; ++k) {
     Spot spot = now;
     spot.form = any_form();

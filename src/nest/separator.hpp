@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "box_list.hpp"
 #include "cost_grid.hpp"
 #include "lekalo/base/random.hpp"
 #include "neighbour_grid.hpp"
@@ -120,9 +121,13 @@ class Separator {
   void push_out(std::size_t i, Candidate& from);
   void move(std::size_t i);
   bool make_grid(double pitch);
+  bool sums_pay() const;
   void move_on_lattice(std::size_t i);
   void choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice);
   void fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range);
+  const NodeGrid& sums_of(std::uint32_t form, std::uint32_t bin, const Range& range, std::uint32_t columns,
+                          std::uint32_t rows);
+  void add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> close_pairs(double margin) const;
   /// What an overlap costs before its weight.
   double value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept;
@@ -141,7 +146,8 @@ class Separator {
   std::vector<Box> boxes_;
   std::vector<float> weights_;
   std::vector<std::size_t> raised_;     ///< indices of weights above 1
-  std::optional<NeighbourGrid> cells_;  ///< where there are many items
+  BoxList list_;
+  std::optional<NeighbourGrid> cells_;  ///< instead of the list where there are many items
   const std::atomic<bool>* stop_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> order_;
@@ -155,9 +161,18 @@ class Separator {
   double deepest_ = 0;
   std::uint64_t work_ = 0;
   std::optional<CostGrid> grid_;
+  NodeGrid nodes_;  ///< of the item being moved, in one form
+  /// By bin and form: what it would cost there if no weight had been raised, and where everything lay when that
+  /// was added up. Empty where adding up anew is cheaper.
+  struct Sums {
+    NodeGrid nodes;
+    std::vector<Spot> spots;
+  };
+  std::vector<Sums> sums_;
   double lattice_ = 0;        ///< 0: anywhere
   double unit_ = 0;           ///< mm: the middling part's size
   std::vector<double> size_;  ///< in units; 1 for what stays
+  std::vector<double> root_;  ///< of the sizes
 };
 
 }  // namespace lekalo::nest

@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <cmath>
+
+#include "separator.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+/// The grid's pitch as a share of the middling part's size, the largest window, and forms looked at in a move.
+constexpr double kPitch = 1.0 / 16;
+constexpr std::uint32_t kMostRows = 256, kMostNodes = 20'000, kFormsOnGrid = 4;
+constexpr std::uint64_t kNodesAsPlace = 2000;  ///< nodes added up in the time of one place
+/// Of sums that are kept: of one form, and of all.
+constexpr std::uint32_t kMostKept = 80'000, kMostKeptInAll = 8'000'000;
+
+}  // namespace
+
+bool Separator::make_grid(double pitch) {
+  grid_.reset();
+  sums_.clear();
+  if (!CostGrid::pays(problem_, pitch)) return false;
+  std::vector<double> root_of_form(problem_.forms().size(), 1);
+  for (std::size_t i = 0; i < items_.movable(); ++i)
+    for (std::uint32_t f = items_.forms[i].first; f < items_.forms[i].last; ++f) root_of_form[f] = root_[i];
+  const Form* first = problem_.forms().data();
+  grid_.emplace(problem_, pitch,
+                [this, first, roots = std::move(root_of_form)](const Form& a, const Form& b, double dx, double dy) {
+                  const double depth = problem_.depth(a, b, dx, dy);
+                  if (depth <= kTolerance) return 0.0f;
+                  return static_cast<float>(cost_of(depth, problem_.common_area(a, b, dx, dy)) *
+                                            roots[static_cast<std::size_t>(&a - first)] *
+                                            roots[static_cast<std::size_t>(&b - first)]);
+                });
+  if (sums_pay()) sums_.resize(problem_.bins().size() * problem_.forms().size());
+  return true;
+}
+
+/// A move changes two rasters in the sums of every form; without them it adds up all that lies there, in the
+/// forms it looks at.
+bool Separator::sums_pay() const {
+  const std::size_t forms = problem_.forms().size();
+  double looked_at = 0;
+  for (const Forms& f : items_.forms) looked_at += std::min(f.last - f.first, kFormsOnGrid);
+  looked_at /= static_cast<double>(items_.movable());
+  if (2.0 * static_cast<double>(forms) > looked_at * static_cast<double>(total_)) return false;
+  double nodes = 0;
+  for (const Bin& bin : problem_.bins())
+    nodes += std::min<double>(kMostKept, (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) /
+                                             (grid_->pitch() * grid_->pitch()));
+  return nodes * static_cast<double>(forms) <= kMostKeptInAll;
+}
+
+bool Separator::use_lattice(double unit) {
+  lattice_ = 0;
+  if (unit > 0 && make_grid(unit)) {
+    lattice_ = unit;
+    return true;
+  }
+  make_grid(kPitch * unit_);
+  return unit == 0;
+}
+
+void Separator::to_lattice() {
+  for (std::size_t i = 0; i < items_.movable(); ++i) {
+    Spot spot = state_.spots[i];
+    if (spot.bin == kNowhere) continue;
+    const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
+    spot.x = r.x0 + std::round((spot.x - r.x0) / lattice_) * lattice_;
+    spot.y = r.y0 + std::round((spot.y - r.y0) / lattice_) * lattice_;
+    while (spot.x > r.x1 + 1e-6 && spot.x > r.x0) spot.x -= lattice_;
+    while (spot.y > r.y1 + 1e-6 && spot.y > r.y0) spot.y -= lattice_;
+    set_spot(i, spot);
+  }
+}
+
+/// What item i would cost in a form everywhere in the range, or in a window of it where that is large.
+void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range) {
+  std::uint32_t columns = grid_->nodes(range.x1 - range.x0), rows = grid_->nodes(range.y1 - range.y0);
+  const std::uint64_t before = grid_->added();
+  if (!sums_.empty() && std::uint64_t{columns} * rows <= kMostKept) {
+    nodes_ = sums_of(form, bin, range, columns, rows);
+    add_raised(i, form, bin);
+  } else {
+    double x0 = range.x0, y0 = range.y0;
+    const auto cut = [&](double& from, std::uint32_t& count, std::uint32_t most) {
+      if (count <= most) return;
+      from += static_cast<double>(random_.below(count - most + 1)) * grid_->pitch();
+      count = most;
+    };
+    cut(y0, rows, kMostRows);
+    cut(x0, columns, kMostNodes / rows);
+    nodes_.begin(x0, y0, columns, rows);
+    const Form& f = problem_.forms()[form];
+    const double pitch = grid_->pitch();
+    gather({x0 + f.box.x0, y0 + f.box.y0, x0 + columns * pitch + f.box.x1, y0 + rows * pitch + f.box.y1}, bin,
+           i);
+    const float* weights = &weights_[i * total_];
+    for (const std::uint32_t j : near_)
+      grid_->add(nodes_, state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y, weights[j]);
+  }
+  work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / kNodesAsPlace;
+}
+
+/// What everything on a bin costs, brought up to where it lies now.
+const NodeGrid& Separator::sums_of(std::uint32_t form, std::uint32_t bin, const Range& range,
+                                   std::uint32_t columns, std::uint32_t rows) {
+  Sums& sums = sums_[bin * problem_.forms().size() + form];
+  const auto is_there = [&](const Spot& s) { return s.bin == bin; };
+  const auto is_same = [&](const Spot& s, const Spot& t) {
+    return is_there(s) ? is_there(t) && s.form == t.form && s.x == t.x && s.y == t.y : !is_there(t);
+  };
+  std::size_t changed = total_;
+  if (sums.nodes.columns == columns && sums.nodes.rows == rows && sums.nodes.x0 == range.x0 &&
+      sums.nodes.y0 == range.y0) {
+    changed = 0;
+    for (std::size_t j = 0; j < total_; ++j) changed += is_same(sums.spots[j], state_.spots[j]) ? 0 : 1;
+  }
+  if (2 * changed > total_) {
+    sums.nodes.begin(range.x0, range.y0, columns, rows);
+    sums.spots.assign(total_, {0, 0, 0, kNowhere});
+  }
+  for (std::size_t j = 0; j < total_; ++j) {
+    Spot &was = sums.spots[j], &is = state_.spots[j];
+    if (is_same(was, is)) continue;
+    if (is_there(was)) grid_->add(sums.nodes, was.form, form, was.x, was.y, -1);
+    if (is_there(is)) grid_->add(sums.nodes, is.form, form, is.x, is.y, 1);
+    was = is;
+  }
+  return sums.nodes;
+}
+
+/// Of what everything on a bin costs, what item i pays for alone: its raised weights, and itself not at all.
+void Separator::add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin) {
+  const float* weights = &weights_[i * total_];
+  for (std::size_t j = 0; j < total_; ++j) {
+    const Spot& s = state_.spots[j];
+    const float weight = j == i ? 0.0f : weights[j];
+    if (s.bin == bin && weight != 1) grid_->add(nodes_, s.form, form, s.x, s.y, weight - 1);
+  }
+}
+
+void Separator::move_on_lattice(std::size_t i) {
+  const Forms& forms = items_.forms[i];
+  const std::uint32_t bin = any_bin();
+  const double pitch = grid_->pitch();
+  Spot best = state_.spots[i];
+  float least = std::numeric_limits<float>::infinity();
+  std::uint64_t ties = 0;
+  for (std::uint32_t form = forms.first; form < forms.last; ++form) {
+    const Range r = range_of(form, bin, items_.parts[i]);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    fill_grid(i, form, bin, r);
+    for (std::uint32_t row = 0; row < nodes_.rows; ++row) {
+      const float* values = nodes_.row(row);
+      for (std::uint32_t c = 0; c < nodes_.columns; ++c) {
+        if (values[c] > least) continue;
+        if (values[c] < least) {
+          least = values[c];
+          ties = 0;
+        }
+        if (random_.below(++ties) == 0)
+          best = {nodes_.x0 + c * pitch, nodes_.y0 + row * pitch, form, bin};
+      }
+    }
+  }
+  if (ties > 0) set_spot(i, best);
+}
+
+/// The deepest of the hollows of the cost over a bin, in all forms or some of many.
+void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice) {
+  const Forms& forms = items_.forms[i];
+  const std::uint32_t count = forms.last - forms.first, tried = std::min(count, kFormsOnGrid);
+  const double pitch = grid_->pitch();
+  Choice rough;
+  for (std::uint32_t k = 0; k < tried; ++k) {
+    const std::uint32_t form =
+        forms.first + (tried == count ? k : static_cast<std::uint32_t>(random_.below(count)));
+    const Range r = range_of(form, bin, items_.parts[i]);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    fill_grid(i, form, bin, r);
+    const std::uint32_t columns = nodes_.columns, rows = nodes_.rows;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      const float* at = nodes_.row(row);
+      const float* below = row > 0 ? nodes_.row(row - 1) : at;
+      const float* above = row + 1 < rows ? nodes_.row(row + 1) : at;
+      float worst = static_cast<float>(rough.worst());
+      for (std::uint32_t block = nodes_.block_below(row, 0, worst); block * CostGrid::kBlock < columns;
+           block = nodes_.block_below(row, block + 1, worst)) {
+        for (std::uint32_t c = block * CostGrid::kBlock; c < std::min(columns, (block + 1) * CostGrid::kBlock); ++c) {
+          const float v = at[c];
+          if (v >= worst || v > below[c] || v > above[c] || (c > 0 && v > at[c - 1]) ||
+              (c + 1 < columns && v > at[c + 1]))
+            continue;
+          const Spot spot = {std::min(r.x1, nodes_.x0 + c * pitch),
+                             std::min(r.y1, nodes_.y0 + row * pitch), form, bin};
+          rough.offer({spot, static_cast<double>(v)});
+          worst = static_cast<float>(rough.worst());
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < rough.count; ++k)
+    choice.offer({rough.places[k].spot, evaluate_all(i, rough.places[k].spot, std::numeric_limits<double>::infinity())});
+}
+
+}  // namespace lekalo::nest
