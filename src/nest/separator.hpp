@@ -9,19 +9,12 @@
 #include <vector>
 
 #include "box_list.hpp"
-#include "cost_grid.hpp"
+#include "cost_sums.hpp"
 #include "lekalo/base/random.hpp"
 #include "neighbour_grid.hpp"
 #include "problem.hpp"
 
 namespace lekalo::nest {
-
-/// Where an item lies.
-struct Spot {
-  double x = 0, y = 0;
-  std::uint32_t form = 0;
-  std::uint32_t bin = 0;
-};
 
 /// All items and the end of the strip.
 struct State {
@@ -30,8 +23,6 @@ struct State {
   std::vector<double> tops;              ///< likewise y
   std::vector<std::uint32_t> open_bins;  ///< those that may be used
 };
-
-inline constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
 /// What is moved, and after that what stays.
 struct Items {
@@ -125,8 +116,6 @@ class Separator {
   void move_on_lattice(std::size_t i);
   void choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice);
   void fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range);
-  const NodeGrid& sums_of(std::uint32_t form, std::uint32_t bin, const Range& range, std::uint32_t columns,
-                          std::uint32_t rows);
   void add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> close_pairs(double margin) const;
   /// What an overlap costs before its weight.
@@ -162,13 +151,7 @@ class Separator {
   std::uint64_t work_ = 0;
   std::optional<CostGrid> grid_;
   NodeGrid nodes_;  ///< of the item being moved, in one form
-  /// By bin and form: what it would cost there if no weight had been raised, and where everything lay when that
-  /// was added up. Empty where adding up anew is cheaper.
-  struct Sums {
-    NodeGrid nodes;
-    std::vector<Spot> spots;
-  };
-  std::vector<Sums> sums_;
+  std::optional<CostSums> sums_;  ///< not where adding up anew is cheaper
   double lattice_ = 0;        ///< 0: anywhere
   double unit_ = 0;           ///< mm: the middling part's size
   std::vector<double> size_;  ///< in units; 1 for what stays

@@ -17,7 +17,7 @@ constexpr std::uint32_t kMostKept = 80'000, kMostKeptInAll = 8'000'000;
 
 bool Separator::make_grid(double pitch) {
   grid_.reset();
-  sums_.clear();
+  sums_.reset();
   if (!CostGrid::pays(problem_, pitch)) return false;
   std::vector<double> root_of_form(problem_.forms().size(), 1);
   for (std::size_t i = 0; i < items_.movable(); ++i)
@@ -31,7 +31,7 @@ bool Separator::make_grid(double pitch) {
                                             roots[static_cast<std::size_t>(&a - first)] *
                                             roots[static_cast<std::size_t>(&b - first)]);
                 });
-  if (sums_pay()) sums_.resize(problem_.bins().size() * problem_.forms().size());
+  if (sums_pay()) sums_.emplace(problem_.bins().size(), problem_.forms().size());
   return true;
 }
 
@@ -77,8 +77,8 @@ void Separator::to_lattice() {
 void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range) {
   std::uint32_t columns = grid_->nodes(range.x1 - range.x0), rows = grid_->nodes(range.y1 - range.y0);
   const std::uint64_t before = grid_->added();
-  if (!sums_.empty() && std::uint64_t{columns} * rows <= kMostKept) {
-    nodes_ = sums_of(form, bin, range, columns, rows);
+  if (sums_ && std::uint64_t{columns} * rows <= kMostKept) {
+    nodes_ = sums_->now(*grid_, form, bin, range.x0, range.y0, columns, rows, state_.spots);
     add_raised(i, form, bin);
   } else {
     double x0 = range.x0, y0 = range.y0;
@@ -99,34 +99,6 @@ void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, 
       grid_->add(nodes_, state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y, weights[j]);
   }
   work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / kNodesAsPlace;
-}
-
-/// What everything on a bin costs, brought up to where it lies now.
-const NodeGrid& Separator::sums_of(std::uint32_t form, std::uint32_t bin, const Range& range,
-                                   std::uint32_t columns, std::uint32_t rows) {
-  Sums& sums = sums_[bin * problem_.forms().size() + form];
-  const auto is_there = [&](const Spot& s) { return s.bin == bin; };
-  const auto is_same = [&](const Spot& s, const Spot& t) {
-    return is_there(s) ? is_there(t) && s.form == t.form && s.x == t.x && s.y == t.y : !is_there(t);
-  };
-  std::size_t changed = total_;
-  if (sums.nodes.columns == columns && sums.nodes.rows == rows && sums.nodes.x0 == range.x0 &&
-      sums.nodes.y0 == range.y0) {
-    changed = 0;
-    for (std::size_t j = 0; j < total_; ++j) changed += is_same(sums.spots[j], state_.spots[j]) ? 0 : 1;
-  }
-  if (2 * changed > total_) {
-    sums.nodes.begin(range.x0, range.y0, columns, rows);
-    sums.spots.assign(total_, {0, 0, 0, kNowhere});
-  }
-  for (std::size_t j = 0; j < total_; ++j) {
-    Spot &was = sums.spots[j], &is = state_.spots[j];
-    if (is_same(was, is)) continue;
-    if (is_there(was)) grid_->add(sums.nodes, was.form, form, was.x, was.y, -1);
-    if (is_there(is)) grid_->add(sums.nodes, is.form, form, is.x, is.y, 1);
-    was = is;
-  }
-  return sums.nodes;
 }
 
 /// Of what everything on a bin costs, what item i pays for alone: its raised weights, and itself not at all.

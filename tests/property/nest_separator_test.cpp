@@ -3,7 +3,7 @@
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/nest/nest.hpp"
-#include "nest/cost_grid.hpp"
+#include "nest/cost_sums.hpp"
 #include "nest/lattice.hpp"
 #include "nest/separator.hpp"
 #include "support/cases.hpp"
@@ -60,7 +60,8 @@ TEST(CostGrid, IsTheSumOfTheCostsAtEveryNode) {
     const auto any_form = [&] { return static_cast<std::uint32_t>(random.below(problem.forms().size())); };
     const auto moved = any_form();
     const double x0 = -3.0 + static_cast<double>(random.below(6)), y0 = 2;
-    grid.begin(x0, y0, 21, 13);
+    NodeGrid nodes;
+    nodes.begin(x0, y0, 21, 13);
     struct Item {
       std::uint32_t form;
       double x, y;
@@ -70,19 +71,50 @@ TEST(CostGrid, IsTheSumOfTheCostsAtEveryNode) {
     for (int k = 0; k < 4; ++k) {
       items.push_back({any_form(), static_cast<double>(random.below(22)),
                        static_cast<double>(random.below(18)), static_cast<float>(1 + random.below(3))});
-      grid.add(items.back().form, moved, items.back().x, items.back().y, items.back().weight);
+      grid.add(nodes, items.back().form, moved, items.back().x, items.back().y, items.back().weight);
     }
-    for (std::uint32_t r = 0; r < grid.rows(); ++r)
-      for (std::uint32_t c = 0; c < grid.columns(); ++c) {
+    for (std::uint32_t r = 0; r < nodes.rows; ++r)
+      for (std::uint32_t c = 0; c < nodes.columns; ++c) {
         float sum = 0;
         for (const Item& item : items)
           sum += item.weight *
                  cost(problem.forms()[item.form], problem.forms()[moved], x0 + c - item.x, y0 + r - item.y);
-        EXPECT_FLOAT_EQ(grid.row(r)[c], sum) << "case " << i << " of seed " << cases::seed();
+        EXPECT_NEAR(nodes.row(r)[c], sum, 12.0 / (1 << 14)) << "case " << i << " of seed " << cases::seed();
         free += sum == 0 ? 1 : 0;
       }
   }
   EXPECT_GT(free, 0u);
+}
+
+TEST(CostSums, AreTheSameAsAddedUpAnew) {
+  const layout::Document document =
+      whole_millimetres({l_shape(5), l_shape(7), cases::box_loop(0, 0, 4, 3)}, 20);
+  const Problem problem(document, {});
+  CostGrid grid(problem, 0.37, [&](const Form& a, const Form& b, double dx, double dy) {
+    return static_cast<float>(0.1 * std::max(0.0, problem.depth(a, b, dx, dy)));
+  });
+  const auto forms = static_cast<std::uint32_t>(problem.forms().size());
+  CostSums sums(2, forms);
+  Random random(cases::seed(), 8);
+  std::vector<Spot> spots(12, Spot{0, 0, 0, kNowhere});
+  for (std::size_t i = 0; i < cases::case_count(300); ++i) {
+    // Some move, to another bin or nowhere too.
+    for (std::size_t moved = 1 + random.below(random.below(10) == 0 ? 12 : 3); moved > 0; --moved) {
+      const std::uint64_t bin = random.below(3);
+      spots[random.below(spots.size())] = {random.uniform(-1, 21), random.uniform(0, 18),
+                                           static_cast<std::uint32_t>(random.below(forms)),
+                                           bin == 2 ? kNowhere : static_cast<std::uint32_t>(bin)};
+    }
+    const auto form = static_cast<std::uint32_t>(random.below(3));
+    const auto bin = static_cast<std::uint32_t>(random.below(2));
+    const auto columns = static_cast<std::uint32_t>(40 + random.below(2));
+    const NodeGrid& now = sums.now(grid, form, bin, 0.5, 1, columns, 30, spots);
+    NodeGrid anew;
+    anew.begin(0.5, 1, columns, 30);
+    for (const Spot& s : spots)
+      if (s.bin == bin) grid.add(anew, s.form, form, s.x, s.y, 1);
+    ASSERT_EQ(now.sums, anew.sums) << "case " << i << " of seed " << cases::seed();
+  }
 }
 
 class RelaxedSquares : public testing::Test {
