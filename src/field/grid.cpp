@@ -7,6 +7,7 @@
 
 #include "grid_quadratic.hpp"
 #include "grid_tiles.hpp"
+#include "lekalo/base/wide.hpp"
 
 namespace lekalo::field {
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "grid_tiles.hpp"
+#include "lekalo/base/wide.hpp"
 
 /// The quadratic conjunction over tiles. Every segment counts everywhere, but a subtree of the fold whose
 /// segments are far is so smooth over a tile that a cubic polynomial stands for it. How far off that

@@ -12,15 +12,6 @@
 /// What filling grids by tiles shares.
 namespace lekalo::field {
 
-// Loops over nodes become vector instructions: no branch, no call, no order of sums that matters. Wider ones
-// are taken where the processor has them; they round the same.
-#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-#define LEKALO_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define LEKALO_WIDE
-#endif
-
 inline constexpr std::size_t kTop = 256;  // nodes along a tile
 
 struct Tile {

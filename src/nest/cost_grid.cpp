@@ -20,13 +20,26 @@ LEKALO_WIDE void add_scaled(float* to, std::size_t to_stride, const float* from,
       for (std::size_t n = k; n < k + kBlock; ++n) to[n] += weight * from[n];
 }
 
+/// The first of so many blocks with a number below the limit. Eight blocks are looked at together first, as
+/// most have none.
 LEKALO_WIDE std::uint32_t first_below(const float* row, std::uint32_t block, std::uint32_t blocks,
                                       float limit) {
+  constexpr std::uint32_t kTogether = 8;
+  for (; block + kTogether <= blocks; block += kTogether) {
+    const float* at = row + std::size_t{block} * kBlock;
+    float least[kBlock];
+    for (std::uint32_t n = 0; n < kBlock; ++n) least[n] = at[n];
+    for (std::uint32_t k = kBlock; k < kTogether * kBlock; k += kBlock)
+      for (std::uint32_t n = 0; n < kBlock; ++n) least[n] = at[k + n] < least[n] ? at[k + n] : least[n];
+    bool below = false;
+    for (std::uint32_t n = 0; n < kBlock; ++n) below |= least[n] < limit;
+    if (below) break;
+  }
   for (; block < blocks; ++block) {
     const float* at = row + std::size_t{block} * kBlock;
-    int below = 0;
-    for (std::uint32_t n = 0; n < kBlock; ++n) below |= at[n] < limit ? 1 : 0;
-    if (below != 0) break;
+    bool below = false;
+    for (std::uint32_t n = 0; n < kBlock; ++n) below |= at[n] < limit;
+    if (below) break;
   }
   return block;
 }

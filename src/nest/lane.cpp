@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::uint32_t kStrip = 0;  ///< the only bin there is
 constexpr double kExploreShrink = 0.001, kFirstShrink = 0.02;
-constexpr double kCompressFrom = 0.0005, kCompressTo = 0.00001;
-constexpr Patience kExplore = {200, 3}, kCompress = {100, 5}, kHasty = {50, 1}, kInsert = {100, 2};
-constexpr int kFailuresToCompress = 12;
+constexpr double kCompressFrom = 0.0005, kCompressTo = 0.00001, kCompressDecay = 0.7;
+constexpr Patience kExplore = {200, 3}, kCompress = {100, 3}, kHasty = {50, 1}, kInsert = {100, 2};
+constexpr int kFailuresToCompress = 6;
 /// Relaxing: rounds; tried at a new least overlap, and up to so many times that after so many passes.
 constexpr int kRelaxRounds = 100, kRelaxEvery = 10;
 constexpr double kRelaxBelow = 1.5;
@@ -305,7 +305,7 @@ void Lane::on_failure() {
     return attempt_disrupted();
   }
   if (phase_ == Phase::compress) {
-    ratio_ *= 0.85;
+    ratio_ *= kCompressDecay;
     if (ratio_ < kCompressTo) {
       phase_ = Phase::explore;
       ratio_ = kExploreShrink;

@@ -13,7 +13,7 @@ constexpr double kLeastValue = 0.003;
 /// The depth of a long thin overlap says little: the root of its area counts beside it.
 constexpr double kAreaShare = 0.3;
 constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
-constexpr std::size_t kManyItems = 256;  ///< from which on neighbours are looked up in cells
+constexpr std::size_t kManyItems = 512;  ///< from which on neighbours are looked up in cells
 /// Steps as shares of the item's narrow side.
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
