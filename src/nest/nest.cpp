@@ -401,8 +401,13 @@ class Run {
         show_mended(leader, exact.state);
     }
     alone_.resize(lanes_.size(), 0);
+    merits_.resize(lanes_.size());
     for (std::size_t k = 0; k < lanes_.size(); ++k) {
-      if (!(leader.merit() < lanes_[k]->merit())) {
+      const Merit now = lanes_[k]->merit();
+      const bool gains = now < merits_[k];
+      merits_[k] = now;
+      // One that still gains goes its own way.
+      if (!(leader.merit() < now) || (gains && !lanes_[k]->is_done())) {
         alone_[k] = 0;
       } else if (++alone_[k] >= kMergesAlone || lanes_[k]->is_done()) {
         alone_[k] = 0;
@@ -453,7 +458,8 @@ class Run {
   const RunControl& control_;
   std::vector<std::unique_ptr<Strand>> lanes_;
   std::vector<Begun> begun_;
-  std::vector<int> alone_;
+  std::vector<int> alone_;      ///< merges since a strand gained or led
+  std::vector<Merit> merits_;  ///< of the strands at the last merge
   Merit merit_;
   State state_;  ///< what best_ shows, on the grid
   Nested best_;
