@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "earlier_programs.hpp"
+#include "full_cuts.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
@@ -122,6 +123,7 @@ std::string report_json(const PocketOptions& o, const PocketInput& input, const 
             {"stock_to_leave_mm", o.path.stock_to_leave}};
   if (o.rest_of > 0) json["rest_of_mm"] = o.rest_of;
   json.update(report_fields(r));
+  json["full_cuts"] = full_cuts(r);
   json["version"] = kVersion;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -209,6 +211,7 @@ Result<int> run_pocket(PocketOptions o) {
         "Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
         "takes the program that ran)\n",
         o.rest_of, o.rest_of);
+  text += full_cut_notices(full_cuts(*judged));
   text += report_rows(*judged);
   for (const std::string& name : written)
     if (!name.empty()) text += fmt::format("Written: {}\n", name);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arrival.hpp"
+#include "corridors.hpp"
 #include "edge_path.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -23,10 +24,10 @@ constexpr double kSpacing = 0.3;    // mm between places at which a boundary is 
 constexpr double kOnIt = 2e-4;      // mm: a place nearer to what is cut than this is cut
 constexpr double kLeastGap = 4e-3;  // mm: a stretch that is nowhere farther from it than this is no front
 constexpr double kOnWall = 1e-6;    // mm
+constexpr double kMouth = 1.5;      // of the strip: what is farther from the walls is a corridor's mouth
 constexpr std::size_t kMostLayers = 20000;
 constexpr double kPitch = 0.07;  // of the tool's radius
-constexpr double kMostNodes = 4e6;
-constexpr double kNarrowStep = 0.13;  // of the tool's radius
+constexpr double kMostNodes = 6e5;
 constexpr double kLeastShare = 0.3;
 
 // What a layer is to hold, degrees; the share of its length that may pass it, and how far.
@@ -41,9 +42,11 @@ constexpr double kLeft = 0.75;           // of the step: what a pass may leave a
 constexpr double kTouching = 0.05;       // of the tool's radius
 constexpr double kNearlyTangent = 0.94;  // cosine of 20 degrees
 
-bool on_wall(const Edge& edge, const RegionIndex& fields) {
-  return fields.nearest(place_at(edge, 0.5)).distance < kOnWall &&
-         fields.nearest(edge.from).distance < kOnWall && fields.nearest(edge.to).distance < kOnWall;
+bool on_wall(const Edge& edge, const FieldWalls& walls) {
+  const Point middle = place_at(edge, 0.5);
+  for (const Point p : {middle, edge.from, edge.to})
+    if (!(walls.fields.nearest(p).distance < kOnWall)) return false;
+  return !walls.narrow.contains(middle) || walls.limit.nearest(middle).distance < kMouth * walls.strip;
 }
 
 bool is_fresh(Point p, const RegionIndex& before) {
@@ -111,8 +114,17 @@ void add_fronts(const Contour& contour, const RegionIndex& before, std::vector<F
 
 class Grower {
  public:
-  Grower(const std::vector<Region>& fields, const std::vector<Region>& narrow, const GrowthLaw& law)
-      : fields_(fields), narrow_(narrow), walls_(fields), law_(law), r_(law.tool_radius), step_(law.step) {}
+  Grower(const RegionIndex& limit, const std::vector<Region>& fields, const std::vector<Region>& narrow,
+         const GrowthLaw& law)
+      : limit_(limit),
+        fields_(fields),
+        narrow_(narrow),
+        walls_(fields),
+        corridors_(narrow),
+        bounds_{walls_, limit, corridors_, law.wall_strip},
+        law_(law),
+        r_(law.tool_radius),
+        step_(law.step) {}
 
   Result<Growth> run(const std::vector<Region>& start) {
     growth_.cut.push_back(start);
@@ -121,7 +133,7 @@ class Grower {
       if (!grown) return tl::unexpected(grown.error());
       auto filled = fill();
       if (!filled) return tl::unexpected(filled.error());
-      if (narrow_.empty() || (!*grown && !*filled)) break;
+      if (!*filled) break;
     }
     return std::move(growth_);
   }
@@ -162,23 +174,32 @@ class Grower {
     return growth_.fronts.size() > first;
   }
 
-  /// Corridors hardly wider than the tool, by short steps. Whether there were fronts.
+  /// Corridors hardly wider than the tool, by loops. Whether there were any.
   Result<bool> fill() {
     if (narrow_.empty()) return false;
-    const std::size_t first = growth_.fronts.size();
-    for (std::size_t layer = 0; layer < kMostLayers; ++layer) {
-      const std::vector<Region>& last = growth_.cut.back();
-      auto wider = geom::offset(last, kNarrowStep * r_);
-      if (!wider) return tl::unexpected(wider.error());
-      auto next =
-          geom::combine(wider->regions, narrow_, geom::BooleanOperation::intersect, wider->edge_error);
-      if (!next) return tl::unexpected(next.error());
-      auto all = geom::combine(next->regions, last, geom::BooleanOperation::unite);
-      if (!all) return tl::unexpected(all.error());
-      if (!add_fronts(all->regions)) break;
-      growth_.cut.push_back(std::move(all->regions));
+    std::vector<Front> fronts = corridor_loops(limit_, corridors_, growth_.cut.back(), growth_.fronts, law_);
+    if (fronts.empty()) return false;
+    std::vector<Region> pieces = growth_.cut.back();
+    for (const Front& front : fronts) {
+      if (!front.loop) continue;
+      const Edge& arc = front.edges.front();
+      auto disc = geom::make_region({{EdgeKind::arc_ccw, arc.from, arc.from, arc.centre}});
+      if (!disc) return tl::unexpected(disc.error());
+      pieces.push_back(std::move(*disc));
     }
-    return growth_.fronts.size() > first;
+    auto all = geom::united(pieces);
+    if (!all) return tl::unexpected(all.error());
+    const RegionIndex before(growth_.cut.back());
+    const std::size_t first = growth_.fronts.size();
+    for (Front& front : fronts) {
+      for (std::size_t& parent : front.parents) parent += first;
+      front.layer = growth_.cut.size();
+      growth_.fronts.push_back(std::move(front));
+    }
+    for (std::size_t i = first; i < growth_.fronts.size(); ++i)
+      if (growth_.fronts[i].parents.empty()) find_parents(i, first, before);
+    growth_.cut.push_back(std::move(all->regions));
+    return true;
   }
 
   /// A ring from its place nearest to what is cut; false where that is nowhere near it.
@@ -228,14 +249,14 @@ class Grower {
     std::vector<Front> fronts;
     for (Front& front : given) {
       std::vector<char> wall;
-      for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, walls_) ? 1 : 0);
+      for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, bounds_) ? 1 : 0);
       if (front.closed) {
         if (!begin_where_it_touches(front, before)) {
           fronts.push_back(std::move(front));
           continue;
         }
         wall.clear();
-        for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, walls_) ? 1 : 0);
+        for (const Edge& edge : front.edges) wall.push_back(on_wall(edge, bounds_) ? 1 : 0);
         front.closed = false;
       }
       const std::size_t n = wall.size();
@@ -285,7 +306,7 @@ class Grower {
     double length = 0, beyond = 0, largest = 0;
     for (const Front& front : fronts)
       for (const bool back : {false, true}) {
-        const Load load = load_of(pass_along(front, back, walls_, before, step_), back, before, r_,
+        const Load load = load_of(pass_along(front, back, bounds_, before, step_), back, before, r_,
                                   kHeldDegrees, kLookEvery * r_);
         length += load.length, beyond += load.beyond;
         largest = std::max(largest, load.largest);
@@ -294,13 +315,6 @@ class Grower {
     return largest > kPeakDegrees + 8 ? 0.85 : 0.93;
   }
 
-  bool add_fronts(const std::vector<Region>& cut) {
-    const RegionIndex before(growth_.cut.back());
-    std::vector<Front> fronts = fresh_stretches(cut, before);
-    const bool some = !fronts.empty();
-    add(std::move(fronts), before);
-    return some;
-  }
   void add(std::vector<Front> fronts, const RegionIndex& before) {
     const std::size_t first = growth_.fronts.size();
     for (Front& front : fronts) {
@@ -346,8 +360,10 @@ class Grower {
     }
   };
 
+  const RegionIndex& limit_;
   const std::vector<Region>&fields_, &narrow_;
-  const RegionIndex walls_;  ///< of the fields
+  const RegionIndex walls_, corridors_;  ///< of the fields and of what is narrow
+  const FieldWalls bounds_;
   GrowthLaw law_;
   double r_, step_;
   Growth growth_;
@@ -393,13 +409,13 @@ std::vector<Edge> around_corner(const std::vector<Edge>& edges, std::size_t corn
   return smooth;
 }
 
-std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& fields,
+std::vector<Edge> pass_along(const Front& front, bool back, const FieldWalls& walls,
                              const RegionIndex& before, double step) {
   std::vector<Edge> edges = back ? turned_back(front.edges) : front.edges;
   if (front.closed) return edges;
   std::size_t begin = 0, end = edges.size();
   double run = 0, gap = 0;
-  while (end > 1 && on_wall(edges[end - 1], fields)) {
+  while (end > 1 && on_wall(edges[end - 1], walls)) {
     --end;
     run += length_of(edges[end]);
     for (const double share : {0.0, 0.5})
@@ -407,7 +423,7 @@ std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& f
   }
   if (run < kShortRun * step && gap < kLeft * step) edges.resize(end);
   run = 0;
-  while (begin < edges.size() && on_wall(edges[begin], fields)) run += length_of(edges[begin++]);
+  while (begin < edges.size() && on_wall(edges[begin], walls)) run += length_of(edges[begin++]);
   if (begin == 0 || begin == edges.size()) return edges;
   double reach = std::min(run, kCorner * step);
   for (int trial = 0; trial < 3; ++trial, reach /= 2)
@@ -415,9 +431,10 @@ std::vector<Edge> pass_along(const Front& front, bool back, const RegionIndex& f
   return edges;
 }
 
-Result<Growth> grow(const std::vector<Region>& fields, const std::vector<Region>& narrow,
-                    const std::vector<Region>& start, const GrowthLaw& law) {
-  return Grower(fields, narrow, law).run(start);
+Result<Growth> grow(const RegionIndex& limit, const std::vector<Region>& fields,
+                    const std::vector<Region>& narrow, const std::vector<Region>& start,
+                    const GrowthLaw& law) {
+  return Grower(limit, fields, narrow, law).run(start);
 }
 
 }  // namespace lekalo::mill

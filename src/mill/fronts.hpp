@@ -15,6 +15,10 @@ struct Front {
   bool closed = false;
   std::vector<std::size_t> parents;  ///< fronts that are to be cut before
   std::size_t layer = 0;             ///< of Growth::cut after it
+  bool loop = false;                 ///< half a circle of a trochoid, from its right wall to its left
+  bool slot = false;                 ///< in full material, to be cut in its direction
+  /// Of a loop: cut on the way from where the loop before begins, or ends, to where this one does.
+  std::vector<geom::Point> right_lead, left_lead;
 };
 
 /// What grows from a start until it fills what is allowed.
@@ -30,16 +34,22 @@ struct GrowthLaw {
   double wall_strip = 0;   ///< mm between the fields and the walls
 };
 
-/// Fronts from `start`, which is cut, through `fields` and, by short steps, corridors (`narrow`) that lead
-/// from one field to another. docs/design/pocket.md says how. Errors: as geom::combine.
-[[nodiscard]] Result<Growth> grow(const std::vector<geom::Region>& fields,
+/// What bounds the fronts: the walls of the fields, but for the mouths of corridors.
+struct FieldWalls {
+  const geom::RegionIndex &fields, &limit, &narrow;
+  double strip = 0;  ///< mm from the fields to the limit
+};
+
+/// Fronts from `start`, which is cut, through `fields` and, by loops, corridors (`narrow`) that lead from one
+/// field to another or are large. `limit`: where the tool's middle may be. docs/design/pocket.md says how.
+/// Errors: as geom::combine.
+[[nodiscard]] Result<Growth> grow(const geom::RegionIndex& limit, const std::vector<geom::Region>& fields,
                                   const std::vector<geom::Region>& narrow,
                                   const std::vector<geom::Region>& start, const GrowthLaw& law);
 
 /// The pass that cuts a front, in its direction or back: from the wall on an arc, and without the way along
 /// the wall at its end, which is left to the pass along all walls.
-[[nodiscard]] std::vector<geom::Edge> pass_along(const Front& front, bool back,
-                                                 const geom::RegionIndex& fields,
+[[nodiscard]] std::vector<geom::Edge> pass_along(const Front& front, bool back, const FieldWalls& walls,
                                                  const geom::RegionIndex& before, double step);
 
 /// Stretches of the boundary of `cut` that are not nearly in `before`, as fronts without parents.

@@ -13,6 +13,8 @@
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "opening.hpp"
+#include "peels.hpp"
 #include "step_law.hpp"
 
 namespace lekalo::mill {
@@ -25,49 +27,28 @@ using geom::Region;
 
 constexpr double kStrip = 0.12;        // of the tool's radius, left to the pass along the walls
 constexpr double kFieldFillet = 0.55;  // of the tool's radius: corners of the fields
-// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls; and how
-// much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
-constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08};
+// How much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
 constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr std::size_t kManyEdges = 40;
+constexpr double kLeastCorridor = 2.8;  // of the radius the fields are opened by: what is shorter is a corner
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
 constexpr double kWallWay = 6;     // of the step: a way along a wall instead of one across, at most
 constexpr double kApproach = 1;    // mm above the stock: from there on at the plunge feed
 constexpr double kMissed = 5e-3;   // mm
 constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
-/// Leaves pieces that are large or lead from one of `wide` to another.
-void keep_corridors(std::vector<Region>& pieces, const std::vector<Region>& wide, double area) {
-  std::vector<geom::RegionIndex> indices;
-  for (const Region& region : wide) indices.emplace_back(std::vector<Region>{region});
-  std::erase_if(pieces, [&](const Region& piece) {
-    if (geom::area(piece) >= area) return false;
-    const auto touches = [&](const geom::RegionIndex& index) {
-      return std::any_of(piece.outer.begin(), piece.outer.end(),
-                         [&](const Edge& edge) { return index.nearest(edge.from).distance < 1e-3; });
-    };
-    return std::count_if(indices.begin(), indices.end(), touches) < 2;
-  });
-}
-
-/// Opened by a disc, but for the pieces this takes away that are larger than `area` or lead from
-/// one piece to another: corners are rounded, corridors stay.
-Result<std::vector<Region>> rounded(const std::vector<Region>& regions, double shrink, double fillet,
-                                    double area) {
-  auto small = geom::offset(regions, -shrink);
-  if (!small) return tl::unexpected(small.error());
-  auto least = geom::offset(small->regions, -fillet);
-  if (!least) return tl::unexpected(least.error());
-  auto opened = geom::offset(least->regions, fillet);
-  if (!opened) return tl::unexpected(opened.error());
-  auto lost =
-      geom::combine(small->regions, opened->regions, geom::BooleanOperation::subtract, opened->edge_error);
-  if (!lost) return tl::unexpected(lost.error());
-  keep_corridors(lost->regions, opened->regions, area);
-  if (lost->regions.empty()) return std::move(opened->regions);
-  auto all = geom::combine(opened->regions, lost->regions, geom::BooleanOperation::unite, lost->edge_error);
-  if (!all) return tl::unexpected(all.error());
-  return std::move(all->regions);
+/// Whether a piece leads on: more than one stretch of its boundary is no wall, or it goes round something.
+bool leads_on(const Region& piece, const geom::RegionIndex& walls) {
+  if (!piece.holes.empty()) return true;
+  const auto is_open = [&](const Edge& edge) { return walls.nearest(place_at(edge, 0.5)).distance > 1e-3; };
+  int stretches = 0;
+  bool last = is_open(piece.outer.back());
+  for (const Edge& edge : piece.outer) {
+    const bool now = is_open(edge);
+    stretches += now && !last ? 1 : 0;
+    last = now;
+  }
+  return stretches > 1;
 }
 
 /// Long contours of short edges as lines and arcs near them: the fields need not be exact.
@@ -157,11 +138,14 @@ class Clearing {
     fields_ = std::move(fields->regions);
     field_limit_.emplace(fields_);
     if (auto grown = grow_from(cleared); !grown) return tl::unexpected(grown.error());
-    auto peels = peels_beyond(cleared);
-    if (!peels) return tl::unexpected(peels.error());
+    Peels peels(allowed_, centres_, cleared, radius_);
+    const auto roundest = peels.first();
+    if (!roundest) return tl::unexpected(roundest.error());
+    const auto found = peels.between(*roundest, peels.last());
+    if (!found) return tl::unexpected(found.error());
+    const std::vector<Front>& corners = **found;
     const geom::RegionIndex grown(growth_.cut.back());
-    const std::vector<Front> walls = fresh_stretches(peels->rounds.front(), grown),
-                             corners = peels->between(0, peels->rounds.size() - 1);
+    const std::vector<Front> walls = fresh_stretches((*peels.at(*roundest))->regions, grown);
     std::vector<geom::RegionIndex> places;
     for (const Region& piece : left) places.emplace_back(std::vector<Region>{piece});
     std::vector<std::vector<std::size_t>> fronts_of(left.size()), walls_of(left.size()),
@@ -194,7 +178,8 @@ class Clearing {
           return norm(corners[a].edges.back().to - at_) < norm(corners[b].edges.back().to - at_);
         });
         bool back = true;
-        cut_corner(*peels, 0, corners[*next], back);
+        if (auto cut = cut_corner(peels, *roundest, corners[*next], back); !cut)
+          return tl::unexpected(cut.error());
         open.erase(next);
       }
     }
@@ -206,7 +191,7 @@ class Clearing {
 
  private:
   Result<void> grow_from(const std::vector<Region>& start) {
-    auto growth = grow(fields_, narrow_, start, {radius_, step_, strip_});
+    auto growth = grow(limit_, fields_, narrow_, start, {radius_, step_, strip_});
     if (!growth) return tl::unexpected(growth.error());
     growth_ = std::move(*growth);
     grid_.emplace(growth_, radius_);
@@ -269,16 +254,22 @@ class Clearing {
   Result<void> find_fields() {
     strip_ = kStrip * radius_;
     const double fillet = kFieldFillet * radius_;
-    auto fields = rounded(allowed_, strip_, fillet, 3 * fillet * fillet);
+    auto fields = opened_by(allowed_, strip_, fillet);
     if (!fields) return tl::unexpected(fields.error());
     fields_ = with_fewer_edges(std::move(*fields));
     field_limit_.emplace(fields_);
+    corridors_.emplace(narrow_);
     auto reached = geom::offset(fields_, 1.01 * strip_);
     if (!reached) return tl::unexpected(reached.error());
     auto lost =
         geom::combine(allowed_, reached->regions, geom::BooleanOperation::subtract, reached->edge_error);
     if (!lost) return tl::unexpected(lost.error());
-    keep_corridors(lost->regions, reached->regions, 4 * fillet * fillet);
+    // What is short leads into a corner.
+    std::erase_if(lost->regions, [&](const Region& piece) {
+      const geom::Box box = geom::bounds(piece.outer);
+      return !fields_.empty() && norm(box.high - box.low) < kLeastCorridor * (strip_ + fillet) &&
+             !leads_on(piece, limit_);
+    });
     if (lost->regions.empty()) return {};
     auto wider = geom::offset(lost->regions, 2 * strip_ + fillet);
     if (!wider) return tl::unexpected(wider.error());
@@ -286,6 +277,7 @@ class Clearing {
         geom::combine(wider->regions, allowed_, geom::BooleanOperation::intersect, wider->edge_error);
     if (!narrow) return tl::unexpected(narrow.error());
     narrow_ = std::move(narrow->regions);
+    corridors_.emplace(narrow_);
     return {};
   }
 
@@ -470,8 +462,34 @@ class Clearing {
     cuts_.push_back({at_, at_, at_});
   }
 
+  /// One loop of a trochoid, begun at the side where the one before ended.
+  void cut_loop(const Front& front) {
+    const bool back = o_.direction == Direction::any &&
+                      norm(front.left_lead.front() - at_) < norm(front.right_lead.front() - at_);
+    const std::vector<Point>& lead = back ? front.left_lead : front.right_lead;
+    // Across what the loop before has cut, if there is only that to cross.
+    if (norm(lead.front() - at_) < 3 * arc_radius(front.edges.front()) && is_inside(at_, lead.front())) {
+      if (norm(lead.front() - at_) > 1e-6) go(PathMove::Kind::link, lead.front());
+    } else {
+      link(lead.front(), nullptr);
+    }
+    for (std::size_t i = 1; i < lead.size(); ++i) go(PathMove::Kind::cut, lead[i]);
+    for (const Edge& edge : back ? turned_back(front.edges) : front.edges) go(PathMove::Kind::cut, edge);
+    cuts_.push_back({lead.back(), lead.back(), at_});
+    centres_.push_back(front.edges.front().centre);
+  }
+
   void cut(const Front& front) {
     if (front.closed) return cut_ring(front);
+    if (front.loop) return cut_loop(front);
+    if (front.slot) {
+      link(front.edges.front().from, nullptr);
+      for (const Edge& edge : front.edges) {
+        go(PathMove::Kind::slot, edge);
+        centres_.push_back(at_);
+      }
+      return;
+    }
     const bool back = o_.direction == Direction::any
                           ? norm(front.edges.back().to - at_) < norm(front.edges.front().from - at_)
                           : false;
@@ -486,8 +504,8 @@ class Clearing {
             given.edges.insert(back ? given.edges.end() : given.edges.begin(), more.begin(), more.end());
             break;
           }
-    std::vector<Edge> edges =
-        pass_along(given, back, *field_limit_, geom::RegionIndex(growth_.cut[front.layer - 1]), step_);
+    std::vector<Edge> edges = pass_along(given, back, {*field_limit_, limit_, *corridors_, strip_},
+                                         geom::RegionIndex(growth_.cut[front.layer - 1]), step_);
     if (!std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return is_inside(edge); }))
       edges = back ? turned_back(given.edges) : given.edges;
     link(edges.front().from, &growth_.cut[front.layer - 1]);
@@ -504,11 +522,13 @@ class Clearing {
   // ---- walls
   /// Once along each wall; corners in thinner peels, to and fro.
   Result<void> cut_walls() {
-    auto made = peels_beyond({});
-    if (!made) return tl::unexpected(made.error());
-    Peels& peels = *made;
-    const std::vector<Front>& corners = peels.between(0, peels.rounds.size() - 1);
-    const geom::RegionIndex walls(peels.rounds[0]);
+    Peels peels(allowed_, centres_, {}, radius_);
+    const auto roundest = peels.first();
+    if (!roundest) return tl::unexpected(roundest.error());
+    const auto found = peels.between(*roundest, peels.last());
+    if (!found) return tl::unexpected(found.error());
+    const std::vector<Front>& corners = **found;
+    const geom::RegionIndex& walls = (*peels.at(*roundest))->index;
     // Where along the walls each corner is left.
     std::vector<std::vector<std::pair<double, std::size_t>>> stops(walls.curves().size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -553,7 +573,7 @@ class Clearing {
             edge.from = ends ? edge.to : stop;
           }
           bool back = true;
-          cut_corner(peels, 0, corners[corner], back);
+          if (auto cut = cut_corner(peels, *roundest, corners[corner], back); !cut) return cut;
           link(stop, nullptr);
         }
         if (!(edge.from == edge.to)) go(PathMove::Kind::cut, edge);
@@ -649,35 +669,6 @@ class Clearing {
     }
   }
 
-  /// Places of the tool with corners rounded less and less, and what lies between two of them.
-  struct Peels {
-    std::vector<std::vector<Region>> rounds;
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<Front>> made;
-    const std::vector<Front>& between(std::size_t outer, std::size_t inner) {
-      const auto [place, fresh] = made.try_emplace({outer, inner});
-      if (fresh) place->second = fresh_stretches(rounds[inner], geom::RegionIndex(rounds[outer]));
-      return place->second;
-    }
-  };
-
-  /// \param cleared  where other tools have been
-  [[nodiscard]] Result<Peels> peels_beyond(const std::vector<Region>& cleared) const {
-    Peels peels;
-    for (const double peel : kPeels) {
-      const double fillet = peel * radius_;
-      auto round = rounded(allowed_, 0, fillet, 3 * fillet * fillet);
-      if (!round) return tl::unexpected(round.error());
-      if (!cleared.empty()) {
-        auto all = geom::combine(*round, cleared, geom::BooleanOperation::unite);
-        if (!all) return tl::unexpected(all.error());
-        *round = std::move(all->regions);
-      }
-      if (!round->empty()) peels.rounds.push_back(std::move(*round));
-    }
-    peels.rounds.push_back(allowed_);
-    return peels;
-  }
-
   static bool lies_on(Point p, const Front& zone) {
     return std::any_of(zone.edges.begin(), zone.edges.end(), [&](const Edge& edge) {
       return norm(geom::nearest_on(geom::make_curve(edge), p) - p) < 1e-3;
@@ -685,22 +676,29 @@ class Clearing {
   }
 
   /// What the zone of a corner holds beyond a round: to and fro, each peel as deep as it may be.
-  void cut_corner(Peels& peels, std::size_t outer, const Front& zone, bool& back) {
-    const std::size_t last = peels.rounds.size() - 1;
-    if (outer == last) return;
-    const geom::RegionIndex before(peels.rounds[outer]);
+  Result<void> cut_corner(Peels& peels, std::size_t outer, const Front& zone, bool& back) {
+    const std::size_t last = peels.last();
+    if (outer == last) return {};
+    const auto round = peels.at(outer);
+    if (!round) return tl::unexpected(round.error());
+    const geom::RegionIndex& before = (*round)->index;
     std::vector<Front> chosen;
     std::size_t inner = last;
     for (; inner > outer; --inner) {
       chosen.clear();
       double depth = 0;
-      for (const Front& front : peels.between(outer, inner)) {
+      const auto fronts = peels.between(outer, inner);
+      if (!fronts) return tl::unexpected(fronts.error());
+      for (const Front& front : **fronts) {
         if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
         chosen.push_back(front);
         for (const Point p : places_on(front.edges, 0.1 * radius_))
           depth = std::max(depth, before.nearest(p).distance);
       }
-      if (inner == outer + 1 || depth < (inner == last ? kSharpPeel : kPeel) * radius_) break;
+      // At the end of a corridor the other corner is met as well.
+      const double most =
+          (inner == last ? kSharpPeel : kPeel) * (corridors_->contains(zone.edges.front().from) ? 0.5 : 1);
+      if (inner == outer + 1 || depth < most * radius_) break;
     }
     if (chosen.empty()) return cut_corner(peels, inner, zone, back);
     if (back) std::reverse(chosen.begin(), chosen.end());
@@ -710,16 +708,19 @@ class Clearing {
       link(edges.front().from, nullptr);
       for (const Edge& edge : edges) go(PathMove::Kind::cut, edge);
       bool next = !back;
-      cut_corner(peels, inner, peel, next);
+      if (auto cut = cut_corner(peels, inner, peel, next); !cut) return cut;
     }
     back = !back;
+    return {};
   }
 
   // ---- links at depth through what is cut
   void link(Point to, const std::vector<Region>* cut) {
     if (norm(to - at_) < 1e-6) return;
     if (norm(to - at_) < (cut != nullptr ? 3 : kWallWay) * step_) {
-      if (const auto wall = along_wall(at_, to, cut != nullptr ? *field_limit_ : limit_)) {
+      const auto wall = along_wall(at_, to, cut != nullptr ? *field_limit_ : limit_);
+      // Past the mouth of a corridor the way along the wall of the fields may still be full.
+      if (wall && (cut == nullptr || is_within(*wall, geom::RegionIndex(*cut), 0.02 * radius_))) {
         for (const Edge& edge : *wall) go(PathMove::Kind::link, edge);
         return;
       }
@@ -755,12 +756,12 @@ class Clearing {
   }
 
   static bool is_within(Point a, Point b, const geom::RegionIndex& cut) {
-    const double pieces = std::ceil(norm(b - a) / 0.1);
-    for (double i = 1; i < pieces; ++i) {
-      const Point p = a + (i / pieces) * (b - a);
-      if (!cut.contains(p) && cut.nearest(p).distance > 1e-3) return false;
-    }
-    return true;
+    return is_within(std::vector<Edge>{{EdgeKind::line, a, b, {}}}, cut, 1e-3);
+  }
+  static bool is_within(const std::vector<Edge>& edges, const geom::RegionIndex& cut, double slack) {
+    const std::vector<Point> places = places_on(edges, 0.1);
+    return std::all_of(places.begin() + 1, places.end() - 1,
+                       [&](Point p) { return cut.contains(p) || cut.nearest(p).distance <= slack; });
   }
 
   /// Along the wall, where both ends are on it and not far from each other.
@@ -817,12 +818,13 @@ class Clearing {
   std::vector<Region> allowed_;
   geom::RegionIndex limit_;
   std::vector<Region> fields_, narrow_;
-  std::optional<geom::RegionIndex> field_limit_;
+  std::optional<geom::RegionIndex> field_limit_, corridors_;
   double strip_ = 0;  ///< mm between fields and walls
   Growth growth_;
   std::optional<ClearedGrid> grid_;
   std::vector<double> waiting_;  ///< mm of each front and of all that wait for it
   std::vector<Cut> cuts_;        ///< of fronts, in order
+  std::vector<Point> centres_;   ///< of loops, and places of slots
   Point entry_, at_;
   double disc_ = 0;   ///< radius of the widest disc of places, about entry_
   double helix_ = 0;  ///< radius of the helix

@@ -150,8 +150,9 @@ class Writer {
     const double mm = move.feed > 0                         ? move.feed
                       : move.kind == PathMove::Kind::plunge ? o_.plunge_feed_mm_per_min
                       : move.kind == PathMove::Kind::link   ? o_.link_feed_mm_per_min
-                      : move.kind == PathMove::Kind::helix  ? o_.feed_mm_per_min / 2
-                                                            : o_.feed_mm_per_min;
+                      : move.kind == PathMove::Kind::helix || move.kind == PathMove::Kind::slot
+                          ? o_.feed_mm_per_min / 2
+                          : o_.feed_mm_per_min;
     if (mm == feed_) return {};
     feed_ = mm;
     return inch_ ? fmt::format(" F{:.3f}", mm / unit_) : fmt::format(" F{:.1f}", mm);

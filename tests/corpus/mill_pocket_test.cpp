@@ -16,7 +16,7 @@ namespace {
 
 struct Case {
   const char* name;
-  double most_seconds;  ///< adaptive clearing needs; of paper-pocket nobody has measured it
+  double most_seconds;  ///< less than adaptive clearing needs; of paper-pocket nobody has measured that
 };
 
 class MeasuredPocket : public ::testing::TestWithParam<Case> {};
@@ -36,8 +36,8 @@ TEST_P(MeasuredPocket, HoldsTheFigures) {
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_GE(report->coverage_percent, 99.99);
   EXPECT_LE(report->uncut_width_mm, 0.02);
-  EXPECT_LE(report->gouge_mm, 0.005);
-  EXPECT_LE(report->engagement_max_deg, 98);
+  EXPECT_LE(report->gouge_mm, 0.0025);
+  EXPECT_LE(report->engagement_max_deg, 97);
   EXPECT_LE(report->engagement_p95_deg, 80);
   EXPECT_LE(report->air_percent, 10);
   EXPECT_EQ(report->retracts, 0U);
@@ -46,9 +46,9 @@ TEST_P(MeasuredPocket, HoldsTheFigures) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MeasuredPocket,
-                         ::testing::Values(Case{"rectangle", 137}, Case{"keyhole", 111}, Case{"L", 163},
-                                           Case{"islands", 161}, Case{"star", 88}, Case{"slot", 109},
-                                           Case{"paper-pocket", 100}),
+                         ::testing::Values(Case{"rectangle", 135}, Case{"keyhole", 108}, Case{"L", 148},
+                                           Case{"islands", 153}, Case{"star", 87}, Case{"slot", 106},
+                                           Case{"paper-pocket", 96}),
                          [](const auto& one) {
                            std::string name = one.param.name;
                            for (char& c : name)

@@ -59,6 +59,36 @@ TEST(CliPocket, a_program_for_every_post_is_judged_alike) {
   }
 }
 
+TEST(CliPocket, a_corridor_with_no_room_for_a_loop_is_said_with_its_place) {
+  const TemporaryFolder folder;
+  const auto rooms = [&](double low, double high) {
+    return fmt::format(
+        R"({{"units":"mm","outer":[{{"line":{{"from":[0,0],"to":[14,0]}}}},{{"line":{{"from":[14,0],"to":[14,{0}]}}}},)"
+        R"({{"line":{{"from":[14,{0}],"to":[24,{0}]}}}},{{"line":{{"from":[24,{0}],"to":[24,0]}}}},)"
+        R"({{"line":{{"from":[24,0],"to":[38,0]}}}},{{"line":{{"from":[38,0],"to":[38,14]}}}},)"
+        R"({{"line":{{"from":[38,14],"to":[24,14]}}}},{{"line":{{"from":[24,14],"to":[24,{1}]}}}},)"
+        R"({{"line":{{"from":[24,{1}],"to":[14,{1}]}}}},{{"line":{{"from":[14,{1}],"to":[14,14]}}}},)"
+        R"({{"line":{{"from":[14,14],"to":[0,14]}}}},{{"line":{{"from":[0,14],"to":[0,0]}}}}]}})",
+        low, high);
+  };
+  write_bytes(folder / "tight.json", rooms(3.95, 10.05));
+  write_bytes(folder / "wider.json", rooms(3.6, 10.4));
+  const Words words{"--tool", "6", "--depth", "1", "-o", "p.ngc", "--json"};
+  const Ran tight = run(folder.path(), Words{"pocket", "tight.json"} + words);
+  ASSERT_EQ(tight.status, 0) << tight.err;
+  const Json cuts = tight.json()["full_cuts"];
+  ASSERT_EQ(cuts.size(), 1U) << cuts;
+  EXPECT_NEAR(cuts[0]["length_mm"].get<double>(), 10, 1.5);
+  EXPECT_NEAR(cuts[0]["from"][1].get<double>(), 7, 0.1);
+  EXPECT_GT(cuts[0]["engagement_deg"].get<double>(), 170);
+  EXPECT_NE(tight.err.find("Hardly wider than the tool"), std::string::npos) << tight.err;
+  EXPECT_NE(read_bytes(folder / "p.ngc").find("F750.0"), std::string::npos);
+  const Ran wider = run(folder.path(), Words{"pocket", "wider.json"} + words);
+  ASSERT_EQ(wider.status, 0) << wider.err;
+  EXPECT_TRUE(wider.json()["full_cuts"].empty()) << wider.json()["full_cuts"];
+  EXPECT_EQ(wider.err.find("Hardly wider"), std::string::npos) << wider.err;
+}
+
 TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
   const TemporaryFolder folder;
   const std::string entities = dxf_rectangle("POCKET", 0, 0, 30, 20) + dxf_rectangle("ISLAND", 12, 8, 5, 4) +

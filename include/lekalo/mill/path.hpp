@@ -15,6 +15,7 @@ struct PathMove {
     plunge,  ///< straight down
     helix,   ///< down into material, and the level turn that takes the ramp's floor away
     cut,
+    slot,  ///< a cut in full material, where there is no room for anything else
     link,  ///< at depth, through what is cut already
     lead   ///< on to a wall or off it
   };

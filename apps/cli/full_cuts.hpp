@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lekalo/verify/simulate.hpp"
+
+namespace lekalo::cli {
+
+/// Stretches of the path, outside entries, where the checker finds more than 120 degrees of the rim in
+/// material over half a millimetre and more: where the pocket is too narrow for anything but a slot.
+[[nodiscard]] nlohmann::ordered_json full_cuts(const verify::SimulateReport& report);
+/// A line for each, for people.
+[[nodiscard]] std::string full_cut_notices(const nlohmann::ordered_json& cuts);
+
+}  // namespace lekalo::cli

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "fronts.hpp"
+
+namespace lekalo::mill {
+
+/// Where the tool's middle may be, with corners rounded less and less, the last as they are; what other tools
+/// have cut belongs to each. Where loops went a corner is rounded by the largest fillet it has room for. Each
+/// is made when it is asked for, as is what lies between two.
+class Peels {
+ public:
+  struct Round {
+    std::vector<geom::Region> regions;
+    geom::RegionIndex index;
+  };
+
+  /// \param allowed  where the tool's middle may be; kept by reference, as the loops
+  /// \param loops  their centres, and places of slots
+  /// \param cleared  where other tools have been
+  Peels(const std::vector<geom::Region>& allowed, const std::vector<geom::Point>& loops,
+        std::vector<geom::Region> cleared, double radius);
+
+  [[nodiscard]] std::size_t last() const { return fillets_.size() - 1; }
+  /// The roundest there is room for anywhere.
+  [[nodiscard]] Result<std::size_t> first();
+  /// Errors: as geom::offset and geom::combine. What is returned stays as long as this.
+  [[nodiscard]] Result<const Round*> at(std::size_t k);
+  [[nodiscard]] Result<const std::vector<Front>*> between(std::size_t outer, std::size_t inner);
+
+ private:
+  Result<void> add_corridors(std::size_t k, std::vector<geom::Region>& opened);
+
+  const std::vector<geom::Region>& allowed_;
+  const std::vector<geom::Point>& loops_;
+  std::vector<geom::Region> cleared_;
+  std::vector<double> fillets_;
+  std::map<std::size_t, Round> rounds_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Front>> made_;
+};
+
+}  // namespace lekalo::mill
