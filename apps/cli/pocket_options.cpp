@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -33,7 +34,7 @@ struct PocketWords {
   std::string post, output_units, work_offset, tool_number, coolant;
   std::string units, join;
   std::string method, sampling, trace_step, images;
-  std::vector<std::string> layers, island_layers, open_layers, after;
+  std::vector<std::string> layers, island_layers, open_layers, after, starts;
   std::string output, picture, animation;
   bool json = false, whole = false;
 };
@@ -56,6 +57,19 @@ void read_feed(WordReader& read, const PocketWords& w, mill::ProgramOptions& pro
   program.feed_mm_per_min = per_tooth * teeth * program.spindle;
   read.require(program.feed_mm_per_min >= 1e-3 && program.feed_mm_per_min <= 1e6,
                "--feed-per-tooth: the feed it makes is not from 0.001 to 1,000,000 mm/min");
+}
+
+/// `X,Y`
+void read_start(WordReader& read, const std::string& word, std::vector<geom::Point>& starts) {
+  const std::size_t comma = std::min(word.find(','), word.size());
+  const std::string x = word.substr(0, comma), y = word.substr(std::min(comma + 1, word.size()));
+  read.require(!x.empty() && !y.empty(),
+               fmt::format("--start: \"{}\" is not two lengths with a comma between, X,Y in mm", word));
+  const std::string wanted = fmt::format("a length in mm (X,Y in \"{}\")", word);
+  geom::Point p;
+  read.number("--start", x, -kLargestLength, kLargestLength, wanted.c_str(), p.x);
+  read.number("--start", y, -kLargestLength, kLargestLength, wanted.c_str(), p.y);
+  starts.push_back(p);
 }
 
 Result<Command> to_pocket(const PocketWords& w) {
@@ -82,11 +96,12 @@ Result<Command> to_pocket(const PocketWords& w) {
   read.number("--trace-step", w.trace_step, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.trace_step);
   read.require(o.path.method == mill::Method::fronts || (w.rest.empty() && w.after.empty()),
                "--rest and --after have a meaning with --method fronts alone");
+  for (const std::string& word : w.starts) read_start(read, word, o.path.starts);
   o.path.whole = w.whole, o.images = w.images;
-  read.require(o.path.method != mill::Method::fronts ||
-                   (w.sampling.empty() && w.trace_step.empty() && w.images.empty() && !w.whole),
-               "--sampling, --trace-step, --images and --whole have a meaning with --method floz-linear and "
-               "floz-quadratic alone");
+  read.require(o.path.method != mill::Method::fronts || (w.sampling.empty() && w.trace_step.empty() &&
+                                                         w.starts.empty() && w.images.empty() && !w.whole),
+               "--sampling, --trace-step, --start, --images and --whole have a meaning with --method "
+               "floz-linear and floz-quadratic alone");
   read.number("--safe-height", w.safe_height, 1e-3, 1e4, "a height above 0, mm", o.path.safe_height);
   read.number("--tolerance", w.tolerance, 1e-5, 1.0, "a length from 0.00001 to 1 mm", o.path.fit_tolerance);
   read.number("--spindle", w.spindle, 1.0, 1e6, "a speed from 1 to 1,000,000 rev/min", o.program.spindle);
@@ -185,6 +200,11 @@ Typed add_pocket_form(CLI::App& app) {
   source("--sampling", w.sampling, "MM", "Longest segment of its model of the outline [3]");
   source("--trace-step", w.trace_step, "MM",
          "Step of its spiral; a turn ends pi steps farther out [by --stepover]");
+  app.add_option("--start", w.starts,
+                 "Begin the spiral of the fragment there at this place; again for others [the peak of each]")
+      ->type_name("X,Y")
+      ->allow_extra_args(false)
+      ->group("The source's method, for comparison");
   source("--images", w.images, "PREFIX", "Write the model as PREFIX-A.png to -D.png and PREFIX-value.png");
   app.add_flag("--whole", w.whole, "One model and one spiral, not one for each convex fragment")
       ->group("The source's method, for comparison");

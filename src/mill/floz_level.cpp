@@ -1,5 +1,7 @@
 #include "floz_level.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "lekalo/field/contour_model.hpp"
@@ -45,19 +47,29 @@ std::size_t inside(const std::vector<Point>& path, const geom::Region& fragment)
 
 }  // namespace
 
-Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions& o) {
+Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions& o,
+                              std::optional<Point> start) {
   const double step =
       o.trace_step > 0 ? o.trace_step : o.step_over * o.tool_diameter / kPi;  // pi steps a turn outwards
   const auto logic = o.method == Method::floz_linear ? field::Logic::linear : field::Logic::quadratic;
   const auto model = field::ContourModel::make({fragment}, {o.sampling, logic, field::FlozForm::normalised});
   if (!model) return tl::unexpected(model.error());
   const field::Function f = [&](Point p) { return (*model)(p); };
-  const Point top = peak(*model, f, geom::bounds(fragment.outer));
+  const Point top = start ? *start : peak(*model, f, geom::bounds(fragment.outer));
+  // A peak has no way round it: its spiral begins beside it.
+  const bool at_peak = !start || !(norm(f(top).gradient) > 1e-12);
+  const Point first = at_peak ? top + Point{0.25 * step, 0} : top;
   // A spiral that goes round in one place ends after three times the length that would fill the fragment.
   const double most = 3 * geom::area(fragment) / (kPi * step * step) + 1000;
-  std::vector<Point> spiral = field::gradient_spiral(f, top + Point{0.25 * step, 0}, step,
-                                                     static_cast<std::size_t>(std::min(most, 1e6)));
+  std::vector<Point> spiral =
+      field::gradient_spiral(f, first, step, static_cast<std::size_t>(std::min(most, 1e6)));
   spiral.resize(inside(spiral, fragment));
+  if (start && spiral.size() < 2)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("the spiral from the start ({:g}, {:g}) leaves its place with its first step of "
+                    "{:g} mm: choose a start farther inside",
+                    top.x, top.y, step));
   PocketPath path;
   path.fronts = 1;
   const auto go = [&](Kind kind, Point to, double z) { path.moves.push_back({kind, to, z}); };

@@ -40,6 +40,9 @@ Result<void> check(const PocketOptions& o) {
   if (outside(o.ramp_angle, 1e-3, 0.8)) return wrong("ramp angle", o.ramp_angle, "0.001 to 0.8 rad");
   if (outside(o.sampling, 1e-3, 1e4)) return wrong("sampling step", o.sampling, "0.001 to 10000 mm");
   if (outside(o.trace_step, 0, 1e4)) return wrong("step of the trace", o.trace_step, "0 to 10000 mm");
+  for (const Point p : o.starts)
+    for (const double v : {p.x, p.y})
+      if (outside(v, -1e9, 1e9)) return wrong("coordinate of a start", v, "-1e9 to 1e9 mm");
   if (outside(o.fit_tolerance, 1e-5, 1)) return wrong("fit tolerance", o.fit_tolerance, "0.00001 to 1 mm");
   return {};
 }
@@ -69,14 +72,46 @@ Result<std::vector<Region>> allowed_places(const std::vector<Region>& pockets, c
   return std::move(allowed->regions);
 }
 
+/// The start of each piece's spiral, if one is chosen.
+Result<std::vector<std::optional<Point>>> starts_of(const std::vector<Region>& pieces,
+                                                    const PocketOptions& o) {
+  constexpr double kSlack = 1e-6;  // mm: a start on a border is in one of its pieces
+  std::vector<std::optional<Point>> starts(pieces.size());
+  for (const Point p : o.starts) {
+    std::size_t i = 0;
+    for (; i < pieces.size(); ++i)
+      if (const geom::RegionIndex index({pieces[i]});
+          index.contains(p) || index.nearest(p).distance <= kSlack)
+        break;
+    if (i == pieces.size())
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("the start ({:g}, {:g}) is no place to cut: the tool's middle has to keep {:g} "
+                      "mm from the walls",
+                      p.x, p.y, o.tool_diameter / 2 + o.stock_to_leave));
+    if (starts[i])
+      return failure(ErrorCode::bad_input,
+                     fmt::format("the starts ({:g}, {:g}) and ({:g}, {:g}) lie in the place of one spiral: "
+                                 "leave one of them out",
+                                 starts[i]->x, starts[i]->y, p.x, p.y));
+    starts[i] = p;
+  }
+  return starts;
+}
+
 /// One piece of places, level by level.
 class Levels {
  public:
-  Levels(const Region& places, double safe_height, double tool_radius)
-      : places_{places}, limit_(places_), safe_height_(safe_height), tool_radius_(tool_radius) {}
+  /// \param all_cut  a level's plan leaves nothing of the places
+  Levels(const Region& places, bool all_cut, double safe_height, double tool_radius)
+      : places_{places},
+        limit_(places_),
+        all_cut_(all_cut),
+        safe_height_(safe_height),
+        tool_radius_(tool_radius) {}
 
   /// The plan of a level, made for one at the stock's face, `top` below it. From the end of the level above
-  /// to its beginning the tool goes through what that level has cut.
+  /// to its beginning the tool goes through what that level has cut, if that is all.
   void add(const PocketPath& plan, double top) {
     const auto first_down = static_cast<std::size_t>(
         std::find_if(plan.moves.begin(), plan.moves.end(), [](const PathMove& m) { return m.z <= 0; }) -
@@ -86,7 +121,7 @@ class Levels {
       while (path_.moves.back().z > 0) path_.moves.pop_back();
       const Point start = plan.moves[first_down].to, at = path_.moves.back().to;
       const double z = path_.moves.back().z;
-      const std::vector<Point> corners = way(at, start);
+      const std::vector<Point> corners = all_cut_ ? way(at, start) : std::vector<Point>{};
       for (const Point corner : corners) path_.moves.push_back({Kind::link, corner, z});
       if (corners.empty()) {
         path_.moves.push_back({Kind::rapid, at, safe_height_});
@@ -122,6 +157,7 @@ class Levels {
 
   std::vector<Region> places_;
   geom::RegionIndex limit_;
+  bool all_cut_;
   double safe_height_, tool_radius_;
   std::optional<ClearedGrid> grid_;
   PocketPath path_;
@@ -179,16 +215,19 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
     if (!places) return tl::unexpected(places.error());
     cleared.push_back(std::move(*places));
   }
+  const auto starts = starts_of(pieces, o);
+  if (!starts) return tl::unexpected(starts.error());
   PocketPath whole;
-  for (const Region& region : pieces) {
-    Levels path(region, o.safe_height, o.tool_diameter / 2);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Region& region = pieces[i];
+    Levels path(region, !source, o.safe_height, o.tool_diameter / 2);
     Result<PocketPath> plan;
     for (std::size_t k = 0; k < cleared.size(); ++k) {
       if (k == 0 || cleared[k] != cleared[k - 1]) {
         const auto parts = divided(region, cleared[k]);
         if (!parts) return tl::unexpected(parts.error());
         plan = parts->left.empty() ? Result<PocketPath>(PocketPath{})
-               : source            ? floz_level(region, one)
+               : source            ? floz_level(region, one, (*starts)[i])
                                    : level_path(region, one, parts->cleared, parts->left);
         if (!plan) return tl::unexpected(plan.error());
         whole.fronts += plan->fronts;

@@ -218,6 +218,26 @@ TEST(CliPocket, the_sources_spirals_can_be_compared) {
   }
 }
 
+TEST(CliPocket, a_spiral_begins_at_the_chosen_start) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  const Words words{"pocket", "plate.json", "--tool", "6", "--depth", "2", "--method", "floz-quadratic"};
+  const Ran peak = run(folder.path(), words);
+  const Ran chosen = run(folder.path(), words + Words{"--start", "9.25,11.5"});
+  ASSERT_EQ(chosen.status, 0) << chosen.err;
+  const std::string there = "X9.25 Y11.5";
+  EXPECT_EQ(peak.out.find(there), std::string::npos);
+  EXPECT_NE(chosen.out.find(there), std::string::npos) << chosen.out.substr(0, 400);
+  write_bytes(
+      folder / "left.json",
+      R"({"units":"mm","outer":[{"line":{"from":[-30,0],"to":[0,0]}},{"line":{"from":[0,0],"to":[0,20]}},)"
+      R"({"line":{"from":[0,20],"to":[-30,20]}},{"line":{"from":[-30,20],"to":[-30,0]}}]})");
+  const Ran left = run(folder.path(), Words{"pocket", "--start", "-20.75,11.5", "left.json"} +
+                                          Words(words.begin() + 2, words.end()));
+  EXPECT_EQ(left.status, 0) << left.err;
+  EXPECT_NE(left.out.find("X-20.75 Y11.5"), std::string::npos);
+}
+
 TEST(CliPocket, a_located_part_has_its_pocket_cut_where_it_lies) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
@@ -293,6 +313,15 @@ TEST(CliPocket, bad_input_is_one_sentence) {
   write_bytes(folder / "a.ngc", "G21 G90\nG41 D1\n");
   says(Words{"plate.json", "--after", "a.ngc:8"} + tool, 3, "a.ngc:2: G41");
   says(Words{"plate.json", "--after", "a.ngc:8", "-o", "a.ngc"} + tool, 2, "--after");
+  const Words source = tool + Words{"--method", "floz-linear"};
+  says(Words{"plate.json", "--start", "15;10"} + source, 2, "not two lengths");
+  says(Words{"plate.json", "--start", "15,"} + source, 2, "not two lengths");
+  says(Words{"plate.json", "--start", "15,ten"} + source, 2, "\"ten\" is not a length");
+  says(Words{"plate.json", "--start", "15,nan"} + source, 2, "\"nan\" is not a length");
+  says(Words{"plate.json", "--start", "15,10"} + tool, 2, "--method");
+  says(Words{"plate.json", "--start", "2,10"} + source, 3, "no place to cut");
+  says(Words{"plate.json", "--start", "15,10", "--start", "12,10"} + source, 3, "leave one of them out");
+  says(Words{"plate.json", "--start", "3,10"} + source, 3, "first step");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "lekalo/mill/floz_field.hpp"
 #include "lekalo/mill/fragments.hpp"
 #include "lekalo/mill/pocket.hpp"
+#include "mill/floz_level.hpp"
 #include "support/cases.hpp"
 
 // The source's method and its parts: fragments, tracing, pictures of the model.
@@ -180,6 +181,101 @@ TEST(MillFloz, TheSpiralsStayWhereTheToolMayBe) {
           EXPECT_GE(pocket.nearest(move.to).distance, 3 - 0.01);
         }
     }
+}
+
+/// The spiral's places, from the one where the tool goes down.
+std::vector<Point> cut_places(const PocketPath& path) {
+  std::vector<Point> places;
+  for (const PathMove& move : path.moves)
+    if (move.kind == PathMove::Kind::cut) places.push_back(move.to);
+  return places;
+}
+
+TEST(MillFloz, ASpiralBeginsAtItsStartAndItsTurnsKeepTheStepOver) {
+  // In a disc every turn is nearly a circle, so that a turn later is one step-over farther out.
+  const Region disc = geom::make_region({{EdgeKind::arc_ccw, {40, 0}, {40, 0}, {0, 0}}}).value();
+  constexpr double kTurn = 6.283185307179586;
+  for (std::size_t index = 0; index < cases::case_count(10); ++index) {
+    SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
+    Random random(cases::seed(), 94000 + index);
+    PocketOptions options;
+    options.method = index % 2 == 0 ? Method::floz_linear : Method::floz_quadratic;
+    options.sampling = 1, options.step_over = random.uniform(0.2, 0.5);
+    const auto way = geom::sincos(random.uniform(0, kTurn));
+    const Point start = random.uniform(5, 25) * Point{way.cosine, way.sine};
+    const auto path = floz_level(disc, options, start);
+    ASSERT_TRUE(path) << path.error().message;
+    const std::vector<Point> places = cut_places(*path);
+    ASSERT_FALSE(places.empty());
+    EXPECT_EQ(places.front(), start);
+    double angle = 0, before = norm(start);
+    std::size_t turns = 0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      EXPECT_LE(norm(places[i]), 40);
+      angle += std::atan2(cross(places[i - 1], places[i]), dot(places[i - 1], places[i]));
+      if (angle < kTurn * static_cast<double>(turns + 1)) continue;
+      // The place is at most a step past the full turn.
+      EXPECT_NEAR(norm(places[i]) - before, options.step_over * options.tool_diameter, 0.25);
+      before = norm(places[i]), ++turns;
+    }
+    EXPECT_GE(turns, 4U);
+  }
+}
+
+TEST(MillFloz, EachFragmentsSpiralBeginsAtItsStart) {
+  PocketOptions options;
+  options.depth = 2, options.step_down = 1;
+  const std::vector<Point> starts{{4, 22}, {-3, 55}};
+  const geom::RegionIndex pocket(paper_pocket());
+  for (const Method method : {Method::floz_linear, Method::floz_quadratic}) {
+    options.method = method, options.starts.clear();
+    const auto peaks = pocket_path(paper_pocket(), options);
+    options.starts = starts;
+    const auto path = pocket_path(paper_pocket(), options);
+    ASSERT_TRUE(peaks && path) << path.error().message;
+    EXPECT_EQ(path->fronts, 3U);
+    std::vector<Point> down, peaks_down;
+    for (const PathMove& move : peaks->moves)
+      if (move.kind == PathMove::Kind::plunge && move.z < 0) peaks_down.push_back(move.to);
+    for (const PathMove& move : path->moves) {
+      if (move.kind == PathMove::Kind::plunge && move.z < 0) down.push_back(move.to);
+      // What is above a start's level stays: no way through it at depth.
+      EXPECT_NE(move.kind, PathMove::Kind::link);
+      if (move.z >= 0) continue;
+      EXPECT_TRUE(pocket.contains(move.to));
+      EXPECT_GE(pocket.nearest(move.to).distance, 3 - 0.01);
+    }
+    for (const Point start : starts) EXPECT_EQ(std::count(down.begin(), down.end(), start), 2 + 1);
+    // The third, in the half-disc, begins at its peak as before.
+    EXPECT_EQ(std::count_if(down.begin(), down.end(), [](Point p) { return p.y < 0; }), 2 + 1);
+    for (const Point p : down)
+      if (p.y < 0) {
+        EXPECT_EQ(std::count(peaks_down.begin(), peaks_down.end(), p), 2 + 1);
+      }
+  }
+}
+
+TEST(MillFloz, ASpiralMayBeginWhereTheModelIsFlat) {
+  const Region square = ring_of({{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}, {});
+  PocketOptions options;
+  options.method = Method::floz_quadratic, options.starts = {{0, 0}};
+  const auto path = pocket_path({square}, options);
+  ASSERT_TRUE(path) << path.error().message;
+  EXPECT_GT(cut_places(*path).size(), 100U);
+}
+
+TEST(MillFloz, StartsThatBeginNothingAreRefused) {
+  PocketOptions options;
+  options.method = Method::floz_quadratic;
+  const auto refusal = [&](const std::vector<Point>& starts) {
+    options.starts = starts;
+    const auto path = pocket_path(paper_pocket(), options);
+    return path ? std::string() : path.error().message;
+  };
+  EXPECT_NE(refusal({{28, 20}}).find("(28, 20) is no place to cut"), std::string::npos);
+  EXPECT_NE(refusal({{0, 20}, {5, 60}, {1, 10}}).find("(0, 20) and (1, 10)"), std::string::npos);
+  EXPECT_NE(refusal({{0, 40}}).find("first step"), std::string::npos);  // on the border of two
+  EXPECT_NE(refusal({{std::nan(""), 0}}).find("coordinate"), std::string::npos);
 }
 
 TEST(IoVoxelPictures, ValueAndGradientAreReadBackFromThePicturesAlone) {

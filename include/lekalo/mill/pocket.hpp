@@ -38,6 +38,8 @@ struct PocketOptions {
   bool whole = false;     ///< one model of each pocket, not one of each convex fragment
   double sampling = 3;    ///< mm: longest segment of the model
   double trace_step = 0;  ///< mm; 0: the one that leaves the step-over between turns
+  /// mm: the spiral in whose place one lies begins there, the others at their peaks
+  std::vector<geom::Point> starts;
 };
 
 /// A path that clears what the tool can reach of the pockets, by fronts: the places the tool's middle may be
@@ -48,8 +50,9 @@ struct PocketOptions {
 /// After other tools (`before`) only what they left is cut, from where they have been: the tool comes down
 /// there, and goes from one place to the next through what is gone.
 ///
-/// bad_input for options out of range, where the tool fits nowhere, and where the tools before have left
-/// nothing.
+/// bad_input for options out of range, where the tool fits nowhere, where the tools before have left nothing,
+/// and for a start outside all spirals' places, a second one in a place, and one whose spiral has no step
+/// there.
 [[nodiscard]] Result<PocketPath> pocket_path(const std::vector<geom::Region>& pockets,
                                              const PocketOptions& options,
                                              const std::vector<EarlierCut>& before = {});
