@@ -57,8 +57,7 @@ Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions&
   const field::Function f = [&](Point p) { return (*model)(p); };
   const Point top = start ? *start : peak(*model, f, geom::bounds(fragment.outer));
   // A peak has no way round it: its spiral begins beside it.
-  const bool at_peak = !start || !(norm(f(top).gradient) > 1e-12);
-  const Point first = at_peak ? top + Point{0.25 * step, 0} : top;
+  const Point first = start ? top : top + Point{0.25 * step, 0};
   // A spiral that goes round in one place ends after three times the length that would fill the fragment.
   const double most = 3 * geom::area(fragment) / (kPi * step * step) + 1000;
   std::vector<Point> spiral =
@@ -67,8 +66,8 @@ Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions&
   if (start && spiral.size() < 2)
     return failure(
         ErrorCode::bad_input,
-        fmt::format("the spiral from the start ({:g}, {:g}) leaves its place with its first step of "
-                    "{:g} mm: choose a start farther inside",
+        fmt::format("the spiral from the start ({:g}, {:g}) has no step of {:g} mm in its place: choose a "
+                    "start farther inside",
                     top.x, top.y, step));
   PocketPath path;
   path.fronts = 1;

@@ -225,7 +225,7 @@ TEST(CliPocket, a_spiral_begins_at_the_chosen_start) {
   const Ran peak = run(folder.path(), words);
   const Ran chosen = run(folder.path(), words + Words{"--start", "9.25,11.5"});
   ASSERT_EQ(chosen.status, 0) << chosen.err;
-  const std::string there = "X9.25 Y11.5";
+  const std::string there = "X9.2500 Y11.5000";
   EXPECT_EQ(peak.out.find(there), std::string::npos);
   EXPECT_NE(chosen.out.find(there), std::string::npos) << chosen.out.substr(0, 400);
   write_bytes(
@@ -235,7 +235,7 @@ TEST(CliPocket, a_spiral_begins_at_the_chosen_start) {
   const Ran left = run(folder.path(), Words{"pocket", "--start", "-20.75,11.5", "left.json"} +
                                           Words(words.begin() + 2, words.end()));
   EXPECT_EQ(left.status, 0) << left.err;
-  EXPECT_NE(left.out.find("X-20.75 Y11.5"), std::string::npos);
+  EXPECT_NE(left.out.find("X-20.7500 Y11.5000"), std::string::npos);
 }
 
 TEST(CliPocket, a_located_part_has_its_pocket_cut_where_it_lies) {
@@ -321,7 +321,7 @@ TEST(CliPocket, bad_input_is_one_sentence) {
   says(Words{"plate.json", "--start", "15,10"} + tool, 2, "--method");
   says(Words{"plate.json", "--start", "2,10"} + source, 3, "no place to cut");
   says(Words{"plate.json", "--start", "15,10", "--start", "12,10"} + source, 3, "leave one of them out");
-  says(Words{"plate.json", "--start", "3,10"} + source, 3, "first step");
+  says(Words{"plate.json", "--start", "3,10"} + source, 3, "has no step");
 }
 
 }  // namespace
