@@ -31,6 +31,13 @@ class Engagement {
       widest_ = std::max(widest_, cut.radius);
     }
     if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
+    bottoms_.resize(cuts_.size());
+    for (std::size_t i = cuts_.size(); i-- > 0;) {
+      bottoms_[i] = std::min(cuts_[i].from_z, cuts_[i].to_z);
+      if (!cuts_[i].level() && i + 1 < cuts_.size() && !cuts_[i + 1].level() &&
+          cuts_[i + 1].entry == cuts_[i].entry)
+        bottoms_[i] = std::min(bottoms_[i], bottoms_[i + 1]);
+    }
   }
 
   std::vector<Removed> run() {
@@ -166,7 +173,7 @@ class Engagement {
     }
     for (const std::uint32_t i : near_) {
       const Cut& earlier = cuts_[i];
-      if (!earlier.level() && earlier.entry == cut.entry &&
+      if (!earlier.level() && earlier.entry == cut.entry && bottoms_[i] <= z + kSameLevel &&
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
         add(i);
     }
@@ -219,6 +226,7 @@ class Engagement {
   const Air& air_;
   std::vector<Cut> cuts_;  ///< of earlier programs, and from first_ on of this one
   std::size_t first_ = 0;
+  std::vector<double> bottoms_;  ///< of each, how deep its ramp gets: what it left below that is no entry's
   double radius_, widest_, spacing_;  ///< of this tool, of the widest of all
   SimulateReport& report_;
   StrokeIndex index_;

@@ -66,6 +66,20 @@ TEST(CliNest, SaysWhatIsNotPlacedAndWhy) {
   EXPECT_EQ(unplaced[0]["reason"], "too-large");
 }
 
+TEST(CliNest, LeavesAloneWhatCannotBeBetter) {
+  const TemporaryFolder folder;
+  Json best = order();
+  best["parts"].erase(1);
+  best["parts"][0]["demand"] = 2;  // squares of 30: no box from the corner that holds them is smaller
+  for (int k = 0; k < 2; ++k)
+    best["placements"].push_back(
+        {{"id", k + 1}, {"part", "square"}, {"stock", "s"}, {"c", 1}, {"s", 0}, {"x", 30 * k}, {"y", 0}});
+  best["next_id"] = 3;
+  write_bytes(folder / "best.json", best.dump());
+  ASSERT_EQ(run(folder.path(), {"nest", "best.json", "-o", "again.json", "--work", "100000"}).status, 0);
+  EXPECT_EQ(Json::parse(read_bytes(folder / "again.json"))["placements"], best["placements"]);
+}
+
 TEST(CliNest, ImprovesWhatLiesThereAndKeepsItsIds) {
   const TemporaryFolder folder;
   write_bytes(folder / "order.json", order().dump());
@@ -85,8 +99,6 @@ TEST(CliNest, ImprovesWhatLiesThereAndKeepsItsIds) {
     EXPECT_EQ(first["placements"][i]["part"], second["placements"][i]["part"]);
   }
   EXPECT_EQ(read_bytes(folder / "now.json"), read_bytes(folder / "second.json")) << "the last one streamed";
-  ASSERT_EQ(run(folder.path(), {"nest", "second.json", "-o", "third.json", "--work", "1"}).status, 0);
-  EXPECT_EQ(read_bytes(folder / "third.json"), read_bytes(folder / "second.json")) << "not worse";
   ASSERT_EQ(run(folder.path(), {"nest", "second.json", "--from-scratch", "-o", "fourth.json", "--work", "1"})
                 .status,
             0);

@@ -237,6 +237,30 @@ TEST(VerifySimulateAfter, RoundACircleOfAnotherToolTheLawOfCosinesHolds) {
   }
 }
 
+TEST(VerifySimulateAfter, TheFloorOfAnotherProgramsRampIsNoEntry) {
+  // The first ramps down from X10 to X60; the second cuts the wedge it left, in a full slot.
+  const auto report = run_after("G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X60 Z-1 F1500\nG0 Z5\n",
+                                "G21 G90\nG0 X60 Y20 Z5\nG1 Z-1 F300\nG1 X10 F1500\nG0 Z5\n",
+                                rectangle(70, 40), 6);
+  EXPECT_NEAR(engagement_near(report, 4, 30), 180, 1e-4);
+  EXPECT_NEAR(report.engagement_max_deg, 180, 1e-4);
+  EXPECT_LT(report.entry_mm, 0.1);  // straight down, on what the ramp's end left
+}
+
+TEST(VerifySimulate, BelowTheRampOfALevelAboveIsNoEntry) {
+  // A ramp to Z-1 along the slot, back at Z-1, straight down in the room at its end, and the slot again at Z-2:
+  // without a lift, all of the second level is full.
+  const auto report = run(
+      "G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X60 Z-1 F1500\nG1 X10\nG1 Z-2 F300\nG1 X60 F1500\nG0 Z5\n",
+      rectangle(70, 40));
+  EXPECT_NEAR(engagement_near(report, 7, 35), 180, 1e-4);
+  EXPECT_NEAR(report.engagement_max_deg, 180, 1e-4);
+  for (const auto& sample : report.samples)
+    if (sample.z < -1.999 && sample.x > 20) {
+      EXPECT_FALSE(sample.entry) << sample.x;
+    }
+}
+
 TEST(VerifySimulateAfter, WithinTheSlotOfAWiderToolAllIsAir) {
   const auto report =
       run_after(wide_slot(-2), "G21 G90\nG0 X10 Y20 Z5\nG0 Z-2\nG1 X60 F1500\nG1 Y18\nG1 X10\nG0 Z5\n",
