@@ -17,15 +17,16 @@ struct ArrivalTimes {
 };
 
 /// Fast marching (J. A. Sethian, 1996) from a start at time 0, with differences of second order where two
-/// nodes behind are known. \param speed  mm/s at each node, as many as the frame has; not above 0 where
-/// nothing goes \param start  of lines and arcs; nodes in it or nearer than 2.2 pitches get the exact
-/// distance (negative inside) over their own speed Error, h the pitch: with one speed, where the way to a
-/// node from the start is straight and passes no wall closely, 0.5 h^2 / r over the speed (r the front's
-/// least radius, at least 2 h): second order. Elsewhere first order, over the least speed: h where the speed
-/// jumps, 1.5 h behind a corner, and 5.5 h half round a round wall, which on the grid is a staircase. Held by
-/// tests/property/field_arrival_test.cpp. Every node outside the start has a neighbour with an earlier time.
-/// No threads: the same input gives the same bytes. Cost: O(n log n), n the nodes with a speed. \pre
-/// frame.pitch > 0, a start that is not empty
+/// nodes behind are known.
+/// \param speed  mm/s at each node, as many as the frame has; not above 0 where nothing goes
+/// \param start  of lines and arcs; nodes in it or nearer than 2.2 pitches get the exact distance (negative
+///   inside) over their own speed
+/// Error, h the pitch: with one speed, where the way to a node from the start is straight and passes no wall
+/// closely, 0.5 h^2 / r over the speed (r the front's least radius, at least 2 h): second order. Elsewhere
+/// first order, over the least speed: h where the speed jumps, 1.5 h behind a corner, and 5.5 h half round a
+/// round wall, which on the grid is a staircase. Held by tests/property/field_arrival_test.cpp. Every node
+/// outside the start has a neighbour with an earlier time. No threads: the same input gives the same bytes.
+/// Cost: O(n log n), n the nodes with a speed. \pre frame.pitch > 0, a start that is not empty
 [[nodiscard]] ArrivalTimes arrival_times(const GridFrame& frame, const std::vector<double>& speed,
                                          const geom::RegionIndex& start);
 
