@@ -39,9 +39,9 @@ Placer::Sheet& Placer::sheet(std::uint32_t b) {
     const double length = std::max(state_.ends[b] - bin.box.x0, 2 * area / (bin.box.y1 - bin.box.y0));
     world.high.x = std::min(world.high.x, world.low.x + in_steps(length) + 1);
   }
-  Sheet& made = sheets_[b].emplace(phi::Scene(world, 2 * items_.movable() + 64),
-                                   std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone),
-                                   std::vector<std::uint32_t>{});
+  Sheet& made = sheets_[b].emplace(Sheet{phi::Scene(world, 2 * items_.movable() + 64),
+                                         std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone),
+                                         {}});
   made.scene.put(
       {.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorder, .container = true});
   if (counts_ == Counts::border) return made;
