@@ -52,7 +52,7 @@ std::string full_cut_notices(const nlohmann::ordered_json& cuts) {
   std::string text;
   for (const auto& cut : cuts)
     text += fmt::format(
-        "Hardly wider than the tool: {:.1f} mm of path from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) "
+        "Cut nearly full: {:.1f} mm of path from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) "
         "at Z {:g} are cut with up to {:.0f} degrees of the rim\n",
         cut["length_mm"].get<double>(), cut["from"][0].get<double>(), cut["from"][1].get<double>(),
         cut["to"][0].get<double>(), cut["to"][1].get<double>(), cut["z"].get<double>(),

@@ -28,7 +28,8 @@ constexpr float kLeast = std::numeric_limits<float>::min();
 constexpr double kValueShare = 0.5 * kQuadraticGridError, kGradientShare = 0.5 * kQuadraticGridGradientError;
 constexpr double kHalvings = 5;
 
-/// Value and derivatives up to the third: d[0] is the value, then x, y, xx, xy, yy, xxx, xxy, xyy, yyy.
+/// d[0] is the value, d[1] and d[2] the gradient, from d[3] the second derivatives and from d[6] the third, by
+/// falling power of x: of second order by x twice, by x and y, by y twice.
 struct Jet3 {
   std::array<double, 10> d{};
   friend Jet3 operator+(Jet3 a, const Jet3& b) {

@@ -81,12 +81,12 @@ TEST(CliPocket, a_corridor_with_no_room_for_a_loop_is_said_with_its_place) {
   EXPECT_NEAR(cuts[0]["length_mm"].get<double>(), 10, 1.5);
   EXPECT_NEAR(cuts[0]["from"][1].get<double>(), 7, 0.1);
   EXPECT_GT(cuts[0]["engagement_deg"].get<double>(), 170);
-  EXPECT_NE(tight.err.find("Hardly wider than the tool"), std::string::npos) << tight.err;
+  EXPECT_NE(tight.err.find("Cut nearly full"), std::string::npos) << tight.err;
   EXPECT_NE(read_bytes(folder / "p.ngc").find("F750.0"), std::string::npos);
   const Ran wider = run(folder.path(), Words{"pocket", "wider.json"} + words);
   ASSERT_EQ(wider.status, 0) << wider.err;
   EXPECT_TRUE(wider.json()["full_cuts"].empty()) << wider.json()["full_cuts"];
-  EXPECT_EQ(wider.err.find("Hardly wider"), std::string::npos) << wider.err;
+  EXPECT_EQ(wider.err.find("Cut nearly full"), std::string::npos) << wider.err;
 }
 
 TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
