@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -20,10 +21,17 @@ namespace {
 using namespace lekalo;
 using namespace lekalo::field;
 
-double seconds(const std::function<void()>& act) {
-  const std::clock_t begin = std::clock();
+struct Seconds {
+  double cpu = std::numeric_limits<double>::infinity();
+  double wall = std::numeric_limits<double>::infinity();
+};
+
+Seconds seconds(const std::function<void()>& act) {
+  const std::clock_t cpu = std::clock();
+  const auto wall = std::chrono::steady_clock::now();
   act();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return {static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count()};
 }
 
 geom::Region star(int segments) {
@@ -62,26 +70,24 @@ int main(int argc, char** argv) {
   fmt::print("{} segments, {} x {} nodes, value and gradient\n", model.segments().size(), nodes, nodes);
   double sum = 0;
   const auto brute_seconds = [&](const ContourModel& m) {
-    return seconds([&] { sum += brute(m, small); }) * static_cast<double>(frame.size()) /
+    return seconds([&] { sum += brute(m, small); }).cpu * static_cast<double>(frame.size()) /
            static_cast<double>(small.size());
   };
   const double slow = brute_seconds(model), slow_quadratic = brute_seconds(quadratic);
   fmt::print("brute force, FLOZ, double: linear {:.0f} s, quadratic {:.0f} s\n", slow, slow_quadratic);
   for (const unsigned threads : {1U, 2U}) {
-    const auto best = [&](int runs, const auto& act) {
-      double least = std::numeric_limits<double>::infinity();
-      for (int run = 0; run < runs; ++run)
-        least = std::min(least, seconds([&] { sum += static_cast<double>(act().value[0]); }));
-      return least;
+    const auto show = [&](const char* what, int runs, double brute_cpu, const auto& act) {
+      Seconds least;
+      for (int run = 0; run < runs; ++run) {
+        const Seconds took = seconds([&] { sum += static_cast<double>(act().value[0]); });
+        least = {std::min(least.cpu, took.cpu), std::min(least.wall, took.wall)};
+      }
+      fmt::print("{} threads, {}: {:.3f} s, CPU {:.3f} s, {:.0f} times brute force\n", threads, what,
+                 least.wall, least.cpu, brute_cpu / least.cpu);
     };
-    const double linear = best(3, [&] { return sample(model, frame, threads); });
-    const double distance = best(3, [&] { return sample_distance(model, frame, threads); });
-    const double smooth = best(1, [&] { return sample(quadratic, frame, threads); });
-    fmt::print(
-        "{} threads: linear conjunction {:.3f} s ({:.0f} times brute force), exact distance {:.3f} s, "
-        "quadratic "
-        "conjunction {:.2f} s ({:.0f} times brute force)\n",
-        threads, linear, slow / linear, distance, smooth, slow_quadratic / smooth);
+    show("linear conjunction", 5, slow, [&] { return sample(model, frame, threads); });
+    show("exact distance", 5, slow, [&] { return sample_distance(model, frame, threads); });
+    show("quadratic conjunction", 1, slow_quadratic, [&] { return sample(quadratic, frame, threads); });
   }
   return std::isfinite(sum) ? 0 : 1;
 }
