@@ -57,8 +57,9 @@ StopRequests::~StopRequests() {
 
 const std::atomic<bool>* StopRequests::flag() const noexcept { return &stop_flag; }
 
-ProgressLine::ProgressLine(std::string what)
+ProgressLine::ProgressLine(std::string what, std::string note)
     : what_(std::move(what)),
+      note_(std::move(note)),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()),
       next_(start_ + kQuietTime) {}
@@ -77,7 +78,7 @@ void ProgressLine::show(const Progress& progress, const std::string& says) {
   if (progress.fraction > 0.01) {
     line += fmt::format(", about {:.0f} s left", seconds * (1 - progress.fraction) / progress.fraction);
   }
-  line += " (Ctrl-C stops with the best so far)";
+  line += " (" + note_ + ")";
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
   shown_ = true;

@@ -24,7 +24,8 @@ class StopRequests {
 /// A line on stderr with the time left, for work of more than a second, where stderr is a terminal.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::string what);
+  /// \param note  ends the line: what a Ctrl-C does
+  explicit ProgressLine(std::string what, std::string note = "Ctrl-C stops with the best so far");
   ~ProgressLine();  ///< wipes the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -32,7 +33,7 @@ class ProgressLine {
   void show(const Progress& progress, const std::string& says = {});
 
  private:
-  std::string what_;
+  std::string what_, note_;
   bool terminal_;
   std::chrono::steady_clock::time_point start_, next_;
   bool shown_ = false;

@@ -7,6 +7,7 @@
 
 #include "earlier_programs.hpp"
 #include "full_cuts.hpp"
+#include "interrupt.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 /// What a machine's axes and a few decimals may take of a wall, mm.
 constexpr double kMostGouge = 0.005;
+constexpr const char* kOnCtrlC = "Ctrl-C ends it, nothing is written";
 
 /// What was cut before, for the path and for the checker.
 struct Before {
@@ -53,6 +55,13 @@ Result<Before> cut_before(const PocketOptions& o) {
   return before;
 }
 
+Result<mill::PocketPath> planned(const char* what, const std::vector<geom::Region>& pockets,
+                                 const mill::PocketOptions& options,
+                                 const std::vector<mill::EarlierCut>& before) {
+  ProgressLine line(what, kOnCtrlC);
+  return mill::pocket_path(pockets, options, before, [&](const Progress& p) { line.show(p); });
+}
+
 /// A larger tool that has cut what this program cuts with it.
 Result<Before> supposed_before(const PocketOptions& o) {
   if (!(o.rest_of > o.path.tool_diameter))
@@ -63,7 +72,7 @@ Result<Before> supposed_before(const PocketOptions& o) {
   first.path.tool_diameter = o.rest_of;
   const Result<PocketInput> input = read_pocket_input(first);
   if (!input) return tl::unexpected(input.error());
-  const Result<mill::PocketPath> path = mill::pocket_path(input->extended, first.path);
+  const Result<mill::PocketPath> path = planned("planning the tool before", input->extended, first.path, {});
   if (!path)
     return failure(path.error().code,
                    fmt::format("{}: --rest {:g}: {}", o.pocket, o.rest_of, path.error().message));
@@ -82,8 +91,11 @@ Result<verify::SimulateReport> judgement_of(const std::string& program, const Po
   machining.tool_diameter = o.path.tool_diameter;
   machining.stock_to_leave = o.path.stock_to_leave;
   machining.step_over = o.path.step_over;
-  Result<verify::SimulateReport> report = verify::simulate(
-      {"the program", program}, {"pocket.json", input.document}, machining, before.programs.programs());
+  Result<verify::SimulateReport> report = [&] {
+    ProgressLine line("checking the program", kOnCtrlC);
+    return verify::simulate({"the program", program}, {"pocket.json", input.document}, machining,
+                            before.programs.programs(), [&](const Progress& p) { line.show(p); });
+  }();
   if (!report)
     return failure(ErrorCode::refuted,
                    "the independent checker cannot read this program; please report the pocket: " +
@@ -168,7 +180,7 @@ Result<int> run_pocket(PocketOptions o) {
   if (!input) return tl::unexpected(input.error());
   const Result<Before> before = o.rest_of > 0 ? supposed_before(o) : cut_before(o);
   if (!before) return tl::unexpected(before.error());
-  Result<mill::PocketPath> path = mill::pocket_path(input->extended, o.path, before->cuts);
+  Result<mill::PocketPath> path = planned("planning the path", input->extended, o.path, before->cuts);
   if (!path) return failure(path.error().code, fmt::format("{}: {}", o.pocket, path.error().message));
   o.program.comments = comments_of(o);
   std::vector<std::size_t> move_of_line;

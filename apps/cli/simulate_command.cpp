@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "earlier_programs.hpp"
+#include "interrupt.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
@@ -56,8 +57,11 @@ Result<int> run_simulate(const SimulateOptions& o) {
   if (!pocket) return tl::unexpected(pocket.error());
   const Result<EarlierPrograms> earlier = read_earlier(o.after);
   if (!earlier) return tl::unexpected(earlier.error());
-  const Result<verify::SimulateReport> report =
-      verify::simulate({o.program, *program}, {o.pocket, *pocket}, o.machining, earlier->programs());
+  const Result<verify::SimulateReport> report = [&] {
+    ProgressLine line("following the program", "Ctrl-C ends it, nothing is written");
+    return verify::simulate({o.program, *program}, {o.pocket, *pocket}, o.machining, earlier->programs(),
+                            [&](const Progress& progress) { line.show(progress); });
+  }();
   if (!report) return tl::unexpected(report.error());
   io::AtomicFiles files;
   if (!o.samples.empty()) {

@@ -21,6 +21,12 @@ double length_of(const std::vector<Edge>& edges) {
   return length;
 }
 
+double area_of(const std::vector<geom::Region>& regions) {
+  double sum = 0;
+  for (const geom::Region& region : regions) sum += geom::area(region);
+  return sum;
+}
+
 Point place_at(const Edge& edge, double share) {
   if (share <= 0) return edge.from;
   if (share >= 1) return edge.to;

@@ -9,6 +9,8 @@ namespace lekalo::mill {
 
 [[nodiscard]] double length_of(const geom::Edge& edge);
 [[nodiscard]] double length_of(const std::vector<geom::Edge>& edges);
+/// All together, mm2. \pre they do not overlap
+[[nodiscard]] double area_of(const std::vector<geom::Region>& regions);
 /// The place at a share of an edge's length, in [0, 1].
 [[nodiscard]] geom::Point place_at(const geom::Edge& edge, double share);
 /// The stretch between two shares. \pre 0 <= from < to <= 1

@@ -115,7 +115,7 @@ void add_fronts(const Contour& contour, const RegionIndex& before, std::vector<F
 class Grower {
  public:
   Grower(const RegionIndex& limit, const std::vector<Region>& fields, const std::vector<Region>& narrow,
-         const GrowthLaw& law)
+         const GrowthLaw& law, const AreaListener& listener)
       : limit_(limit),
         fields_(fields),
         narrow_(narrow),
@@ -123,6 +123,7 @@ class Grower {
         corridors_(narrow),
         bounds_{walls_, limit, corridors_, law.wall_strip},
         law_(law),
+        listener_(listener),
         r_(law.tool_radius),
         step_(law.step) {}
 
@@ -170,6 +171,7 @@ class Grower {
       if (fronts.empty()) continue;
       add(std::move(fronts), before);
       growth_.cut.push_back(std::move(cut));
+      listener_(area_of(growth_.cut.back()));
     }
     return growth_.fronts.size() > first;
   }
@@ -365,6 +367,7 @@ class Grower {
   const RegionIndex walls_, corridors_;  ///< of the fields and of what is narrow
   const FieldWalls bounds_;
   GrowthLaw law_;
+  const AreaListener& listener_;
   double r_, step_;
   Growth growth_;
   std::vector<std::vector<Point>> places_;  ///< of each front
@@ -433,8 +436,8 @@ std::vector<Edge> pass_along(const Front& front, bool back, const FieldWalls& wa
 
 Result<Growth> grow(const RegionIndex& limit, const std::vector<Region>& fields,
                     const std::vector<Region>& narrow, const std::vector<Region>& start,
-                    const GrowthLaw& law) {
-  return Grower(limit, fields, narrow, law).run(start);
+                    const GrowthLaw& law, const AreaListener& listener) {
+  return Grower(limit, fields, narrow, law, listener).run(start);
 }
 
 }  // namespace lekalo::mill

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -40,12 +41,16 @@ struct FieldWalls {
   double strip = 0;  ///< mm from the fields to the limit
 };
 
+/// Hears now and then how much is planned to be cut, mm2 of the places of the tool's middle.
+using AreaListener = std::function<void(double)>;
+
 /// Fronts from `start`, which is cut, through `fields` and, by loops, corridors (`narrow`) that lead from one
 /// field to another or are large. `limit`: where the tool's middle may be. docs/design/pocket.md says how.
 /// Errors: as geom::combine.
 [[nodiscard]] Result<Growth> grow(const geom::RegionIndex& limit, const std::vector<geom::Region>& fields,
                                   const std::vector<geom::Region>& narrow,
-                                  const std::vector<geom::Region>& start, const GrowthLaw& law);
+                                  const std::vector<geom::Region>& start, const GrowthLaw& law,
+                                  const AreaListener& listener);
 
 /// The pass that cuts a front, in its direction or back: from the wall on an arc, and without the way along
 /// the wall at its end, which is left to the pass along all walls.

@@ -96,8 +96,9 @@ Result<std::vector<Region>> mirrored(const std::vector<Region>& regions) {
 
 class Clearing {
  public:
-  Clearing(const Region& allowed, const PocketOptions& o)
+  Clearing(const Region& allowed, const PocketOptions& o, const AreaListener& listener)
       : o_(o),
+        listener_(listener),
         radius_(o.tool_diameter / 2),
         step_(o.step_over * o.tool_diameter),
         allowed_{allowed},
@@ -191,8 +192,10 @@ class Clearing {
 
  private:
   Result<void> grow_from(const std::vector<Region>& start) {
-    auto growth = grow(limit_, fields_, narrow_, start, {radius_, step_, strip_});
+    auto growth = grow(limit_, fields_, narrow_, start, {radius_, step_, strip_},
+                       [this](double mm2) { listener_(planned_ + mm2); });
     if (!growth) return tl::unexpected(growth.error());
+    planned_ += area_of(growth->cut.back());
     growth_ = std::move(*growth);
     grid_.emplace(growth_, radius_);
     waiting_.assign(growth_.fronts.size(), 0.0);
@@ -814,6 +817,8 @@ class Clearing {
   };
 
   PocketOptions o_;
+  const AreaListener& listener_;
+  double planned_ = 0;  ///< mm2 of places, by growths before the one under way
   double radius_, step_;
   std::vector<Region> allowed_;
   geom::RegionIndex limit_;
@@ -834,18 +839,19 @@ class Clearing {
 }  // namespace
 
 Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
-                              const std::vector<Region>& cleared, const std::vector<Region>& left) {
+                              const std::vector<Region>& cleared, const std::vector<Region>& left,
+                              const AreaListener& listener) {
   if (options.direction != Direction::conventional)
-    return cleared.empty() ? Clearing(allowed, options).run()
-                           : Clearing(allowed, options).run_from(cleared, left);
+    return cleared.empty() ? Clearing(allowed, options, listener).run()
+                           : Clearing(allowed, options, listener).run_from(cleared, left);
   // What is climb on one side of a mirror is conventional on the other.
   PocketOptions turned = options;
   turned.direction = Direction::climb;
   const auto other = mirrored({allowed}), start = mirrored(cleared), rest = mirrored(left);
   for (const auto* made : {&other, &start, &rest})
     if (!*made) return tl::unexpected(made->error());
-  auto path = cleared.empty() ? Clearing(other->front(), turned).run()
-                              : Clearing(other->front(), turned).run_from(*start, *rest);
+  auto path = cleared.empty() ? Clearing(other->front(), turned, listener).run()
+                              : Clearing(other->front(), turned, listener).run_from(*start, *rest);
   if (!path) return path;
   for (PathMove& move : path->moves) {
     move.to.x = -move.to.x, move.centre.x = -move.centre.x;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "fronts.hpp"
 #include "lekalo/mill/pocket.hpp"
 
 namespace lekalo::mill {
@@ -13,6 +14,7 @@ namespace lekalo::mill {
 /// what is to be cut. With nothing cleared the entry is a helix, else the tool comes down where it is.
 [[nodiscard]] Result<PocketPath> level_path(const geom::Region& allowed, const PocketOptions& options,
                                             const std::vector<geom::Region>& cleared,
-                                            const std::vector<geom::Region>& left);
+                                            const std::vector<geom::Region>& left,
+                                            const AreaListener& listener);
 
 }  // namespace lekalo::mill

@@ -187,7 +187,7 @@ std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter) {
 }
 
 Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o,
-                               const std::vector<EarlierCut>& before) {
+                               const std::vector<EarlierCut>& before, const ProgressListener& progress) {
   auto allowed = allowed_places(pockets, o);
   if (!allowed) return tl::unexpected(allowed.error());
   const double depth = o.depth - o.floor_stock;
@@ -217,6 +217,14 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
   }
   const auto starts = starts_of(pieces, o);
   if (!starts) return tl::unexpected(starts.error());
+  double plans = 0;
+  for (std::size_t k = 0; k < cleared.size(); ++k) plans += k == 0 || cleared[k] != cleared[k - 1] ? 1 : 0;
+  const double to_plan = plans * area_of(pieces);
+  double planned = 0, told = 0;
+  const AreaListener tell = [&](double mm2) {
+    told = std::max(told, std::min(1.0, (planned + mm2) / to_plan));
+    if (progress) progress({static_cast<std::uint64_t>(told * to_plan), told});
+  };
   PocketPath whole;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Region& region = pieces[i];
@@ -228,8 +236,10 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
         if (!parts) return tl::unexpected(parts.error());
         plan = parts->left.empty() ? Result<PocketPath>(PocketPath{})
                : source            ? floz_level(region, one, (*starts)[i])
-                                   : level_path(region, one, parts->cleared, parts->left);
+                                   : level_path(region, one, parts->cleared, parts->left, tell);
         if (!plan) return tl::unexpected(plan.error());
+        planned += geom::area(region);
+        tell(0);
         whole.fronts += plan->fronts;
       }
       if (!plan->moves.empty()) path.add(*plan, -static_cast<double>(k) * one.depth);

@@ -40,7 +40,7 @@ struct Removed {
 /// Engagement along the path: fills samples and all figures of `report` that come from them. Returns what is
 /// taken off at each depth.
 std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
-                                        SimulateReport& report);
+                                        SimulateReport& report, const ProgressListener& progress);
 
 /// Coverage, uncut spots, gouge and unreachable spots.
 void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report);

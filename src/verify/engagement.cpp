@@ -11,6 +11,7 @@ namespace {
 constexpr double kAirDegrees = 3, kLasting = 0.2;
 constexpr double kDegrees = 180 / kPi;
 constexpr double kSameLevel = 1e-6;  // mm of Z that no machine tells
+constexpr std::size_t kCutsToTell = 1000;
 constexpr double kSpeck = 0.02;      // mm of material under a plunging tool that are not looked for
 
 /// All of it is at least as deep.
@@ -31,6 +32,11 @@ class Engagement {
       widest_ = std::max(widest_, cut.radius);
     }
     if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
+    for (const Cut& cut : cuts_) {
+      const Place middle = 0.5 * (cut.stroke.from + cut.stroke.to);
+      // An arc of at most a quarter turn lies in the disc about its chord.
+      discs_.push_back({middle, 0.5 * length(cut.stroke.to - cut.stroke.from) + cut.radius + kSpeck});
+    }
     bottoms_.resize(cuts_.size());
     for (std::size_t i = cuts_.size(); i-- > 0;) {
       bottoms_[i] = std::min(cuts_[i].from_z, cuts_[i].to_z);
@@ -40,10 +46,12 @@ class Engagement {
     }
   }
 
-  std::vector<Removed> run() {
+  std::vector<Removed> run(const ProgressListener& progress) {
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
       if (i >= first_) measure(i);
       index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
+      if (progress && i % kCutsToTell == 0)
+        progress({i, static_cast<double>(i) / static_cast<double>(cuts_.size())});
     }
     sum_up();
     std::vector<Removed> removed;
@@ -52,6 +60,11 @@ class Engagement {
   }
 
  private:
+  struct Disc {
+    Place middle;
+    double radius;
+  };
+
   void measure(std::size_t number) {
     const Cut& cut = cuts_[number];
     const double whole = length(cut.stroke);
@@ -125,10 +138,6 @@ class Engagement {
     if (cut.rapid) report_.rapid_cut_mm += drop;
   }
 
-  struct Disc {
-    Place middle;
-    double radius;
-  };
   /// Whether of the squares of kSpeck mm this one is made of none with its middle in the disc has it in
   /// material at depth z.
   bool is_cut(const Disc& disc, Place middle, double side, const std::vector<std::uint32_t>& near,
@@ -155,13 +164,16 @@ class Engagement {
   void engage(const Cut& cut, EngagementSample& sample) {
     const double z = sample.z;
     const auto as_deep = [&](std::uint32_t i) { return highest(cuts_[i]) <= z + kSameLevel; };
-    const auto add = [&](std::uint32_t i) { return rim_.add(cuts_[i].stroke, cuts_[i].radius); };
+    const auto add = [&](std::uint32_t i) {
+      return rim_.may_meet(discs_[i].middle, discs_[i].radius) && as_deep(i) &&
+             rim_.add(cuts_[i].stroke, cuts_[i].radius);
+    };
     // What covered much a moment ago comes first, then what is newest.
     found_.clear();
     for (const std::uint32_t i : useful_)
-      if (as_deep(i) && add(i)) found_.push_back(i);
+      if (add(i)) found_.push_back(i);
     for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();)
-      if (as_deep(near_[k]) && add(near_[k])) found_.push_back(near_[k]);
+      if (add(near_[k])) found_.push_back(near_[k]);
     useful_.swap(found_);
     if (!air_.empty()) rim_.add_air(air_);
     sample.engagement = rim_.open_angle() * kDegrees;
@@ -175,7 +187,7 @@ class Engagement {
       const Cut& earlier = cuts_[i];
       if (!earlier.level() && earlier.entry == cut.entry && bottoms_[i] <= z + kSameLevel &&
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
-        add(i);
+        rim_.add(earlier.stroke, earlier.radius);
     }
     sample.entry = rim_.open_angle() * kDegrees < sample.engagement - 1e-6;
   }
@@ -226,6 +238,7 @@ class Engagement {
   const Air& air_;
   std::vector<Cut> cuts_;  ///< of earlier programs, and from first_ on of this one
   std::size_t first_ = 0;
+  std::vector<Disc> discs_;      ///< of each, about all that the tool sweeps along it
   std::vector<double> bottoms_;  ///< of each, how deep its ramp gets: what it left below that is no entry's
   double radius_, widest_, spacing_;  ///< of this tool, of the widest of all
   SimulateReport& report_;
@@ -243,8 +256,8 @@ class Engagement {
 }  // namespace
 
 std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
-                                        SimulateReport& report) {
-  return Engagement(path, air, radius, spacing, report).run();
+                                        SimulateReport& report, const ProgressListener& progress) {
+  return Engagement(path, air, radius, spacing, report).run(progress);
 }
 
 }  // namespace lekalo::verify

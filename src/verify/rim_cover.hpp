@@ -15,6 +15,11 @@ class RimCover {
   /// \param came_along  the stroke that ends there; what the tool swept along it is gone
   /// \pre the stroke is of positive length
   void begin(Place at, double radius, const Stroke& came_along);
+  /// Whether what lies in this disc may be at what is left of the rim.
+  [[nodiscard]] bool may_meet(Place middle, double radius) const {
+    const Place off = bound_middle_ - middle;
+    return dot(off, off) < (bound_radius_ + radius) * (bound_radius_ + radius);
+  }
   /// What a tool of this radius, mm, swept along a stroke is gone. Returns whether that made a difference.
   bool add(const Stroke& stroke, double swept_radius);
   /// What lies beyond open edges is gone.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 
 #include "cut_path.hpp"
 
@@ -88,7 +89,8 @@ double cutting_feed(const std::vector<Move>& moves, const std::vector<Engagement
 }  // namespace
 
 Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
-                                const std::vector<EarlierProgram>& earlier) {
+                                const std::vector<EarlierProgram>& earlier,
+                                const ProgressListener& progress) {
   if (const Result<void> good = check(o, earlier); !good) return tl::unexpected(good.error());
   const Result<std::vector<Move>> moves = read_moves(program);
   if (!moves) return tl::unexpected(moves.error());
@@ -111,12 +113,19 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   SimulateReport report;
   report.retracts = path->retracts;
   report.turning_rad = turning_of(*path);
-  const std::vector<Removed> removed = measure_engagement(*path, reach->air(), radius, o.spacing, report);
-  measure_coverage(*path, *reach, radius, report);
-  report.left_before_mm2 = report.reachable_mm2;
-  if (!path->before.empty()) report.left_before_mm2 = left_before(*path, *reach, radius);
-  measure_gouge(*path, *reach, report);
-  find_unreachable(*reach, radius, report);
+  // Each fills members of the report of its own.
+  const auto measure_what_is_left = [&] {
+    measure_coverage(*path, *reach, radius, report);
+    report.left_before_mm2 = report.reachable_mm2;
+    if (!path->before.empty()) report.left_before_mm2 = left_before(*path, *reach, radius);
+    measure_gouge(*path, *reach, report);
+    find_unreachable(*reach, radius, report);
+  };
+  std::future<void> left = std::async(o.threads > 1 ? std::launch::async : std::launch::deferred,
+                                      measure_what_is_left);
+  const std::vector<Removed> removed =
+      measure_engagement(*path, reach->air(), radius, o.spacing, report, progress);
+  left.get();
   report.seconds = machine_seconds(*moves, o);
   const double feed = cutting_feed(*moves, report.samples);
   if (feed > 0) {

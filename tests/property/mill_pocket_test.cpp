@@ -297,6 +297,20 @@ bool has_slots(const std::string& pocket) {
                              [](const PathMove& move) { return move.kind == PathMove::Kind::slot; });
 }
 
+TEST(PocketPath, TellsWhatShareIsPlanned) {
+  const auto regions = io::parse_regions(corridors(9).front().pocket, "pocket.json");
+  ASSERT_TRUE(regions);
+  std::vector<double> told;
+  const auto path =
+      pocket_path(regions->regions, {}, {}, [&](const Progress& p) { told.push_back(p.fraction); });
+  ASSERT_TRUE(path);
+  ASSERT_GE(told.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GE(told.front(), 0);
+  EXPECT_LT(told.front(), 0.6);
+  EXPECT_NEAR(told.back(), 1, 1e-9);
+}
+
 TEST(PocketPath, CorridorsHardlyWiderThanTheToolHoldTheAngle) {
   for (const double ratio : {2.1, 2.15, 2.24, 2.4, 2.7, 3.0})
     for (const auto& [name, pocket] : corridors(ratio * 3)) {

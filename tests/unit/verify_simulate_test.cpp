@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "lekalo/verify/simulate.hpp"
 
@@ -436,6 +438,34 @@ TEST(VerifySimulate, WhatItCannotJudgeIsRefusedByName) {
   EXPECT_NE(complaint_of(kBegin, "{}").find("pocket"), std::string::npos);
   EXPECT_NE(complaint_of(kBegin, pocket, tool(0)).find("tool diameter"), std::string::npos);
   EXPECT_NE(complaint_of(kBegin, pocket, tool(std::nan(""))).find("tool diameter"), std::string::npos);
+}
+
+/// Zigzag, two levels: some thousand stretches.
+TEST(VerifySimulate, SaysHowFarItIsAndFindsTheSameWithOneThread) {
+  std::string program = kBegin;
+  for (const int z : {-1, -2}) {
+    program += fmt::format("G1 Z{} F300\n", z);
+    for (int row = 0; row < 30; ++row)
+      program += fmt::format("G1 Y{} F1500\nX{}\n", 10 + 0.5 * row, row % 2 == 0 ? 60 : 10);
+    program += "G0 Z5\nG0 X10 Y10\n";
+  }
+  SimulateOptions one = tool(6);
+  one.threads = 1;
+  std::vector<double> told;
+  const auto alone = simulate({"part.ngc", program}, {"pocket.json", rectangle(70, 40)}, one, {},
+                              [&](const Progress& progress) { told.push_back(progress.fraction); });
+  ASSERT_TRUE(alone) << alone.error().message;
+  ASSERT_GE(told.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GE(told.front(), 0);
+  EXPECT_LE(told.back(), 1);
+  const SimulateReport both = run(program, rectangle(70, 40));
+  EXPECT_EQ(alone->coverage_percent, both.coverage_percent);
+  EXPECT_EQ(alone->uncut_width_mm, both.uncut_width_mm);
+  EXPECT_EQ(alone->gouge_mm, both.gouge_mm);
+  EXPECT_EQ(alone->unreachable.size(), both.unreachable.size());
+  EXPECT_EQ(alone->engagement_p95_deg, both.engagement_p95_deg);
+  EXPECT_EQ(alone->samples.size(), both.samples.size());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/run_control.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/mill/path.hpp"
 
@@ -53,9 +54,11 @@ struct PocketOptions {
 /// bad_input for options out of range, where the tool fits nowhere, where the tools before have left nothing,
 /// and for a start outside all spirals' places, a second one in a place, and one whose spiral has no step
 /// there.
+/// \param progress  hears what share is planned; may be empty
 [[nodiscard]] Result<PocketPath> pocket_path(const std::vector<geom::Region>& pockets,
                                              const PocketOptions& options,
-                                             const std::vector<EarlierCut>& before = {});
+                                             const std::vector<EarlierCut>& before = {},
+                                             const ProgressListener& progress = {});
 
 /// What a tool of this diameter cuts along the path.
 [[nodiscard]] std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter);

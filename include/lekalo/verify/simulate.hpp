@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/run_control.hpp"
 #include "lekalo/verify/verify.hpp"
 
 namespace lekalo::verify {
@@ -21,6 +22,7 @@ struct SimulateOptions {
   double acceleration = 500;  ///< mm/s2, of every axis
   double rapid_feed = 5000;   ///< mm/min, of G0
   double spacing = 0.05;      ///< mm between the places where engagement is measured, at most
+  unsigned threads = 2;       ///< two are used; the report is the same with one
 };
 
 /// A program that ran before with a tool of its own: what it cut is gone, down to where it cut.
@@ -82,9 +84,11 @@ struct SimulateReport {
 /// options out of range. Cost: about a microsecond for a sample and each stroke of the path near it; a pocket
 /// of 100 x 60 mm with 3 m of path takes about a second.
 /// \param earlier  programs that ran before on the same stock, with the same top
+/// \param progress  hears, in the calling thread, how far along the path it is; may be empty
 [[nodiscard]] Result<SimulateReport> simulate(const Document& program, const Document& pocket,
                                               const SimulateOptions& options,
-                                              const std::vector<EarlierProgram>& earlier = {});
+                                              const std::vector<EarlierProgram>& earlier = {},
+                                              const ProgressListener& progress = {});
 
 /// A stretch of a program's path below the stock's upper face: a line, or at most a quarter turn.
 struct CutStretch {
