@@ -298,7 +298,7 @@ bool has_slots(const std::string& pocket) {
 }
 
 TEST(PocketPath, TellsWhatShareIsPlanned) {
-  const auto regions = io::parse_regions(corridors(9).front().pocket, "pocket.json");
+  const auto regions = io::parse_regions(kRectangle, "pocket.json");
   ASSERT_TRUE(regions);
   std::vector<double> told;
   const auto path =
