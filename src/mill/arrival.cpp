@@ -16,7 +16,6 @@ using geom::RegionIndex;
 namespace {
 
 constexpr double kFit = 0.004;      // mm
-constexpr double kCosine = 0.182;   // of 79.5 degrees
 constexpr std::size_t kMargin = 4;  // nodes beyond the box
 
 field::GridFrame frame_about(const geom::Box& box, double pitch) {
@@ -42,7 +41,7 @@ ArrivalField::ArrivalField(const RegionIndex& allowed, const std::vector<Region>
 
 double ArrivalField::speed(double distance) const {
   const double step =
-      step_for(law_.bend * (law_.beyond + std::max(0.0, distance)), law_.tool_radius, kCosine);
+      step_for(law_.bend * (law_.beyond + std::max(0.0, distance)), law_.tool_radius, law_.cosine);
   return std::min(law_.step, std::max(step, law_.least * law_.step));
 }
 

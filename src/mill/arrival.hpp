@@ -20,6 +20,7 @@ class ArrivalField {
   /// below `least`.
   struct Law {
     double tool_radius = 0, step = 0;
+    double cosine = 0;  ///< of the angle that the next step is to hold
     double beyond = 0;  ///< mm from the region's boundary to the walls
     double bend = 2;
     double least = 0.1;  ///< of the step

@@ -19,7 +19,7 @@ using geom::Region;
 using geom::RegionIndex;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kHeldDegrees = 81;
+constexpr double kHeld = 1.032;  // of the angle of a straight pass
 constexpr double kLeastLoop = 0.03;       // of the tool's radius: below it the tool goes straight
 constexpr double kLeastInCorner = 0.006;  // of the tool's radius
 constexpr double kRoom = 0.9;             // of the tool's radius: from there on fronts go on
@@ -49,7 +49,7 @@ class Walker {
  public:
   Walker(const RegionIndex& limit, const RegionIndex& narrow, const std::vector<Region>& cut,
          const std::vector<Front>& done, const GrowthLaw& law)
-      : limit_(limit), narrow_(narrow), cut_(cut), r_(law.tool_radius), step_(law.step) {
+      : limit_(limit), narrow_(narrow), cut_(cut), r_(law.tool_radius), step_(law.step), held_(kHeld * law.angle / kDegree) {
     for (const Front& front : done)
       if (front.slot)
         for (const Edge& edge : front.edges) discs_.push_back({edge.to, 0});
@@ -227,7 +227,7 @@ class Walker {
         peak = peak_ahead(last.at, step, heading);
         if (!(peak.room > 0)) continue;
         next = {peak.at, peak.room - std::min(kOffWall * r_, 0.1 * peak.room)};
-        if (engagement(last, next) <= kHeldDegrees) break;
+        if (engagement(last, next) <= held_) break;
       }
       if (!(peak.room > 0)) return;
       const Point way = unit(next.at - last.at);
@@ -338,7 +338,7 @@ class Walker {
 
   const RegionIndex &limit_, &narrow_;
   const RegionIndex cut_;
-  double r_, step_;
+  double r_, step_, held_;  ///< held_: degrees of the rim in material
   std::uint32_t likely_ = 0;
   std::vector<Start> starts_;
   std::vector<Disc> discs_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lekalo/geom/trig.hpp"
+#include "step_law.hpp"
 
 namespace lekalo::mill {
 namespace {
@@ -34,9 +35,8 @@ std::array<double, 6> steps_of(const FeedOptions& o) {
 }
 
 double wanted_feed(double degrees, const FeedOptions& o) {
-  // Of a straight pass: cosine 1 - a_e / r.
-  const double cosine = 1 - 2 * o.step_over, sine = std::sqrt(1 - cosine * cosine);
-  const double nominal = geom::direction_angle(cosine, sine) / kDegree;
+  const double angle = straight_pass_angle(o.step_over), nominal = angle / kDegree;
+  const double sine = geom::sincos(angle).sine;
   if (degrees > nominal) return o.feed_mm_per_min * std::min(1.0, kHeld * nominal / degrees);
   const double found = geom::sincos(degrees * kDegree).sine;
   if (!(found * o.most_mm_per_min > sine * o.feed_mm_per_min)) return o.most_mm_per_min;

@@ -8,7 +8,9 @@
 #include "edge_path.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
+#include "lekalo/geom/trig.hpp"
 #include "load.hpp"
+#include "step_law.hpp"
 
 namespace lekalo::mill {
 namespace {
@@ -20,6 +22,7 @@ using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
+constexpr double kDegree = 0.017453292519943295;
 constexpr double kSpacing = 0.3;    // mm between places at which a boundary is compared with the one before
 constexpr double kOnIt = 2e-4;      // mm: a place nearer to what is cut than this is cut
 constexpr double kLeastGap = 4e-3;  // mm: a stretch that is nowhere farther from it than this is no front
@@ -30,8 +33,9 @@ constexpr double kPitch = 0.07;  // of the tool's radius
 constexpr double kMostNodes = 6e5;
 constexpr double kLeastShare = 0.3;
 
-// What a layer is to hold, degrees; the share of its length that may pass it, and how far.
-constexpr double kHeldDegrees = 80, kPeakDegrees = 93;
+// What a layer is to hold, of the angle of a straight pass; the share of its length that may pass it, and how
+// far.
+constexpr double kHeld = 1.02, kPeak = 1.185, kFarBeyond = 1.287;
 constexpr double kBeyond = 0.07;
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
@@ -123,6 +127,7 @@ class Grower {
         corridors_(narrow),
         bounds_{walls_, limit, corridors_, law.wall_strip},
         law_(law),
+        degrees_(law.angle / kDegree),
         listener_(listener),
         r_(law.tool_radius),
         step_(law.step) {}
@@ -148,7 +153,10 @@ class Grower {
     const double area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
     const double pitch = std::max(kPitch * r_, std::sqrt(area / kMostNodes));
     const ArrivalField field(walls_, growth_.cut.back(), pitch,
-                             {.tool_radius = r_, .step = step_, .beyond = law_.wall_strip});
+                             {.tool_radius = r_,
+                              .step = step_,
+                              .cosine = geom::sincos(kNext * law_.angle).cosine,
+                              .beyond = law_.wall_strip});
     double time = 0, share = 1;
     bool held = true;
     for (std::size_t layer = 0; layer < kMostLayers && time <= field.last(); ++layer) {
@@ -309,12 +317,12 @@ class Grower {
     for (const Front& front : fronts)
       for (const bool back : {false, true}) {
         const Load load = load_of(pass_along(front, back, bounds_, before, step_), back, before, r_,
-                                  kHeldDegrees, kLookEvery * r_);
+                                  kHeld * degrees_, kLookEvery * r_);
         length += load.length, beyond += load.beyond;
         largest = std::max(largest, load.largest);
       }
-    if (beyond <= kBeyond * length && largest <= kPeakDegrees) return 1;
-    return largest > kPeakDegrees + 8 ? 0.85 : 0.93;
+    if (beyond <= kBeyond * length && largest <= kPeak * degrees_) return 1;
+    return largest > kFarBeyond * degrees_ ? 0.85 : 0.93;
   }
 
   void add(std::vector<Front> fronts, const RegionIndex& before) {
@@ -367,6 +375,7 @@ class Grower {
   const RegionIndex walls_, corridors_;  ///< of the fields and of what is narrow
   const FieldWalls bounds_;
   GrowthLaw law_;
+  double degrees_;  ///< of a straight pass
   const AreaListener& listener_;
   double r_, step_;
   Growth growth_;

@@ -33,6 +33,7 @@ struct GrowthLaw {
   double tool_radius = 0;  ///< mm
   double step = 0;         ///< mm between straight passes, at most
   double wall_strip = 0;   ///< mm between the fields and the walls
+  double angle = 0;        ///< rad of the rim in material on a straight pass: what others hold but for a few per cent
 };
 
 /// What bounds the fronts: the walls of the fields, but for the mouths of corridors.

@@ -101,6 +101,7 @@ class Clearing {
         listener_(listener),
         radius_(o.tool_diameter / 2),
         step_(o.step_over * o.tool_diameter),
+        thinness_(std::min(1.0, o.step_over / 0.4)),
         allowed_{allowed},
         limit_(allowed_) {}
 
@@ -139,7 +140,7 @@ class Clearing {
     fields_ = std::move(fields->regions);
     field_limit_.emplace(fields_);
     if (auto grown = grow_from(cleared); !grown) return tl::unexpected(grown.error());
-    Peels peels(allowed_, centres_, cleared, radius_);
+    Peels peels(allowed_, centres_, cleared, radius_, thinness_);
     const auto roundest = peels.first();
     if (!roundest) return tl::unexpected(roundest.error());
     const auto found = peels.between(*roundest, peels.last());
@@ -192,7 +193,7 @@ class Clearing {
 
  private:
   Result<void> grow_from(const std::vector<Region>& start) {
-    auto growth = grow(limit_, fields_, narrow_, start, {radius_, step_, strip_},
+    auto growth = grow(limit_, fields_, narrow_, start, {radius_, step_, strip_, straight_pass_angle(o_.step_over)},
                        [this](double mm2) { listener_(planned_ + mm2); });
     if (!growth) return tl::unexpected(growth.error());
     planned_ += area_of(growth->cut.back());
@@ -366,10 +367,11 @@ class Clearing {
     turn_about(helix_ * ahead, Kind::helix);
     if (!(disc_ > helix_)) return;
     std::vector<double> steps;
+    const double cosine = geom::sincos(kNext * straight_pass_angle(o_.step_over)).cosine;
     double reach = helix_;
     while (reach < disc_) {
       // The second turn meets the step of the first: what a turn may add depends on where it begins.
-      steps.push_back(std::min(step_, step_for(reach, radius_, 0.182)));
+      steps.push_back(std::min(step_, step_for(reach, radius_, cosine)));
       reach += steps.back();
     }
     const double scale = (disc_ - helix_) / (reach - helix_);
@@ -525,7 +527,7 @@ class Clearing {
   // ---- walls
   /// Once along each wall; corners in thinner peels, to and fro.
   Result<void> cut_walls() {
-    Peels peels(allowed_, centres_, {}, radius_);
+    Peels peels(allowed_, centres_, {}, radius_, thinness_);
     const auto roundest = peels.first();
     if (!roundest) return tl::unexpected(roundest.error());
     const auto found = peels.between(*roundest, peels.last());
@@ -700,7 +702,7 @@ class Clearing {
       }
       // At the end of a corridor the other corner is met as well.
       const double most =
-          (inner == last ? kSharpPeel : kPeel) * (corridors_->contains(zone.edges.front().from) ? 0.5 : 1);
+          thinness_ * (inner == last ? kSharpPeel : kPeel) * (corridors_->contains(zone.edges.front().from) ? 0.5 : 1);
       if (inner == outer + 1 || depth < most * radius_) break;
     }
     if (chosen.empty()) return cut_corner(peels, inner, zone, back);
@@ -819,7 +821,7 @@ class Clearing {
   PocketOptions o_;
   const AreaListener& listener_;
   double planned_ = 0;  ///< mm2 of places, by growths before the one under way
-  double radius_, step_;
+  double radius_, step_, thinness_;  ///< thinness_: of peels, Peels::Peels
   std::vector<Region> allowed_;
   geom::RegionIndex limit_;
   std::vector<Region> fields_, narrow_;

@@ -1,6 +1,8 @@
 #include "peels.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "lekalo/geom/boolean.hpp"
 #include "opening.hpp"
@@ -12,15 +14,21 @@ using geom::Region;
 
 namespace {
 
-/// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls.
+/// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls. Thinner peels
+/// have others between.
 constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08};
 
 }  // namespace
 
 Peels::Peels(const std::vector<Region>& allowed, const std::vector<Point>& loops, std::vector<Region> cleared,
-             double radius)
+             double radius, double thinness)
     : allowed_(allowed), loops_(loops), cleared_(std::move(cleared)) {
-  for (const double peel : kPeels) fillets_.push_back(peel * radius);
+  const double parts = std::ceil(1 / thinness - 1e-9);
+  for (std::size_t k = 0; k < std::size(kPeels); ++k) {
+    const double next = k + 1 < std::size(kPeels) ? kPeels[k + 1] : 0;
+    for (double i = 0; i < parts; ++i)
+      fillets_.push_back((kPeels[k] + (next - kPeels[k]) * i / parts) * radius);
+  }
   fillets_.push_back(0);
 }
 

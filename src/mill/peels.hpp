@@ -22,8 +22,9 @@ class Peels {
   /// \param allowed  where the tool's middle may be; kept by reference, as the loops
   /// \param loops  their centres, and places of slots
   /// \param cleared  where other tools have been
+  /// \param thinness  at most 1: how deep a peel may be, of one beside passes of a step-over of 0.4
   Peels(const std::vector<geom::Region>& allowed, const std::vector<geom::Point>& loops,
-        std::vector<geom::Region> cleared, double radius);
+        std::vector<geom::Region> cleared, double radius, double thinness);
 
   [[nodiscard]] std::size_t last() const { return fillets_.size() - 1; }
   /// The roundest there is room for anywhere.

@@ -85,6 +85,23 @@ TEST(PocketPath, ARectangleIsCleared) {
   EXPECT_EQ(judge(kRectangle).program, judged.program);
 }
 
+/// A small step-over is chosen for a light cut: what a straight pass meets is what the path is to hold.
+TEST(PocketPath, TheAngleFollowsTheStepOver) {
+  const std::string ring = kDisc + R"("islands":[[{"arc":{"from":[7,0],"to":[7,0],"centre":[4,0],"ccw":true}}]]})";
+  for (const double step_over : {0.1, 0.2, 0.3, 0.5})
+    for (const std::string& pocket : {kRectangle, ring}) {
+      SCOPED_TRACE(fmt::format("step-over {} of {}", step_over, pocket));
+      PocketOptions options;
+      options.step_over = step_over;
+      const Judged judged = judge(pocket, options);
+      expect_cleared(judged);
+      const double straight = std::acos(1 - 2 * step_over) * 57.29577951308232;
+      EXPECT_LE(judged.report.engagement_p95_deg, 1.03 * straight);
+      EXPECT_GE(judged.report.engagement_p95_deg, 0.9 * straight);
+      EXPECT_LE(judged.report.engagement_max_deg, (step_over < 0.15 ? 1.5 : 1.25) * straight);
+    }
+}
+
 TEST(PocketPath, AnIslandIsLeftStanding) {
   expect_cleared(
       judge(kDisc + R"("islands":[[{"arc":{"from":[7,0],"to":[7,0],"centre":[4,0],"ccw":true}}]]})"));

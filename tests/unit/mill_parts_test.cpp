@@ -41,6 +41,12 @@ TEST(MillParts, AStraightPassMeetsTheAngleOfItsStep) {
   }
 }
 
+TEST(MillParts, AStraightPassMeetsTheArcOfItsStepOver) {
+  EXPECT_NEAR(straight_pass_angle(0.5), 1.5707963267948966, 1e-15);
+  EXPECT_NEAR(straight_pass_angle(0.25), 1.0471975511965976, 1e-15);
+  EXPECT_NEAR(straight_pass_angle(0.4), std::acos(0.2), 1e-15);
+}
+
 TEST(MillParts, ARoundPassHoldsTheAngleOfTheStepLaw) {
   for (const double r0 : {3.0, 6.0, 20.0}) {
     const double r1 = r0 + step_for(r0, 3, 0.2);
@@ -72,7 +78,7 @@ TEST(MillParts, ArcsGoThroughPlacesOfACircle) {
 TEST(MillParts, FarFromWallsLevelLinesAreAStepApart) {
   const geom::RegionIndex allowed({square(100)});
   const std::vector<Region> start{disc(10)};
-  const ArrivalField field(allowed, start, 0.5, {.tool_radius = 3, .step = 1.2});
+  const ArrivalField field(allowed, start, 0.5, {.tool_radius = 3, .step = 1.2, .cosine = 0.182});
   EXPECT_EQ(field.speed(90), 1.2);  // the law would allow more
   EXPECT_LT(field.speed(0.5), field.speed(3));
   for (const double time : {5.0, 20.0}) {
@@ -90,7 +96,7 @@ TEST(MillParts, NothingArrivesBehindAWall) {
   const Region right = *geom::make_region(
       {line({12, 0}, {22, 0}), line({22, 0}, {22, 10}), line({22, 10}, {12, 10}), line({12, 10}, {12, 0})});
   const Region start = *geom::make_region({{EdgeKind::arc_ccw, {7, 5}, {7, 5}, {5, 5}}});
-  const ArrivalField field(geom::RegionIndex({left, right}), {start}, 0.25, {.tool_radius = 3, .step = 2.4});
+  const ArrivalField field(geom::RegionIndex({left, right}), {start}, 0.25, {.tool_radius = 3, .step = 2.4, .cosine = 0.182});
   EXPECT_FALSE(field.reaches_all());
   const auto early = field.before(field.last() + 1);
   ASSERT_TRUE(early);
