@@ -8,15 +8,14 @@
 #include "earlier_programs.hpp"
 #include "full_cuts.hpp"
 #include "interrupt.hpp"
+#include "judged_program.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/files.hpp"
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/io/result_json.hpp"
 #include "lekalo/io/voxel_pictures.hpp"
-#include "lekalo/mill/feeds.hpp"
 #include "lekalo/mill/floz_field.hpp"
 #include "lekalo/mill/fragments.hpp"
-#include "lekalo/verify/simulate.hpp"
 #include "outputs.hpp"
 #include "pocket_input.hpp"
 #include "simulate_report.hpp"
@@ -25,21 +24,11 @@
 namespace lekalo::cli {
 namespace {
 
-/// What a machine's axes and a few decimals may take of a wall, mm.
-constexpr double kMostGouge = 0.005;
-constexpr const char* kOnCtrlC = "Ctrl-C ends it, nothing is written";
-
-/// What was cut before, for the path and for the checker.
-struct Before {
-  EarlierPrograms programs;
-  std::vector<mill::EarlierCut> cuts;
-};
-
 /// The path begins where the checker finds that the programs cut.
-Result<Before> cut_before(const PocketOptions& o) {
+Result<CutBefore> cut_before(const PocketOptions& o) {
   Result<EarlierPrograms> programs = read_earlier(o.after);
   if (!programs) return tl::unexpected(programs.error());
-  Before before{std::move(*programs), {}};
+  CutBefore before{std::move(*programs), {}};
   for (const verify::EarlierProgram& earlier : before.programs.programs()) {
     const auto stretches = verify::cut_stretches(earlier.program, 0);
     if (!stretches) return tl::unexpected(stretches.error());
@@ -63,7 +52,7 @@ Result<mill::PocketPath> planned(const char* what, const std::vector<geom::Regio
 }
 
 /// A larger tool that has cut what this program cuts with it.
-Result<Before> supposed_before(const PocketOptions& o) {
+Result<CutBefore> supposed_before(const PocketOptions& o) {
   if (!(o.rest_of > o.path.tool_diameter))
     return failure(ErrorCode::bad_input,
                    fmt::format("--rest {:g}: the tool before is to be larger than this one, {:g} mm",
@@ -76,51 +65,14 @@ Result<Before> supposed_before(const PocketOptions& o) {
   if (!path)
     return failure(path.error().code,
                    fmt::format("{}: --rest {:g}: {}", o.pocket, o.rest_of, path.error().message));
-  Before before;
+  CutBefore before;
   before.cuts = mill::cuts_of(*path, o.rest_of);
   before.programs.files = {{"the program of the tool before", o.rest_of}};
   before.programs.texts = {mill::program_of(*path, {})};
   return before;
 }
 
-/// The written program, as who does not know how it was made finds it; ErrorCode::refuted where it leaves the
-/// pocket or crosses material in rapid motion.
-Result<verify::SimulateReport> judgement_of(const std::string& program, const PocketInput& input,
-                                            const Before& before, const PocketOptions& o) {
-  verify::SimulateOptions machining;
-  machining.tool_diameter = o.path.tool_diameter;
-  machining.stock_to_leave = o.path.stock_to_leave;
-  machining.step_over = o.path.step_over;
-  Result<verify::SimulateReport> report = [&] {
-    ProgressLine line("checking the program", kOnCtrlC);
-    return verify::simulate({"the program", program}, {"pocket.json", input.document}, machining,
-                            before.programs.programs(), [&](const Progress& p) { line.show(p); });
-  }();
-  if (!report)
-    return failure(ErrorCode::refuted,
-                   "the independent checker cannot read this program; please report the pocket: " +
-                       report.error().message);
-  if (report->gouge_mm > kMostGouge || report->rapid_cut_mm > 0)
-    return failure(
-        ErrorCode::refuted,
-        fmt::format("{}: the program found would cut {:.4f} mm into what stays, or {:.3f} mm in rapid "
-                    "motion; nothing is written, please report the pocket",
-                    o.pocket, report->gouge_mm, report->rapid_cut_mm));
-  return report;
-}
-
-/// What the checker found along each move.
-std::vector<std::vector<mill::MoveLoad>> loads_of(const verify::SimulateReport& report,
-                                                  const std::vector<std::size_t>& move_of_line,
-                                                  std::size_t moves) {
-  std::vector<std::vector<mill::MoveLoad>> loads(moves);
-  for (const verify::EngagementSample& sample : report.samples)
-    if (const std::size_t move = move_of_line[sample.line - 1]; move != mill::kNoMove)
-      loads[move].push_back({sample.length, sample.engagement});
-  return loads;
-}
-
-std::string report_json(const PocketOptions& o, const PocketInput& input, const Before& before,
+std::string report_json(const PocketOptions& o, const PocketInput& input, const CutBefore& before,
                         const std::string& program, const verify::SimulateReport& r) {
   using Json = nlohmann::ordered_json;
   Json inputs{{{"role", "pocket"}, {"path", o.pocket}, {"sha256", io::sha256(input.bytes)}}};
@@ -178,22 +130,15 @@ Result<int> run_pocket(PocketOptions o) {
     return tl::unexpected(good.error());
   const Result<PocketInput> input = read_pocket_input(o);
   if (!input) return tl::unexpected(input.error());
-  const Result<Before> before = o.rest_of > 0 ? supposed_before(o) : cut_before(o);
+  const Result<CutBefore> before = o.rest_of > 0 ? supposed_before(o) : cut_before(o);
   if (!before) return tl::unexpected(before.error());
-  Result<mill::PocketPath> path = planned("planning the path", input->extended, o.path, before->cuts);
+  const Result<mill::PocketPath> path = planned("planning the path", input->extended, o.path, before->cuts);
   if (!path) return failure(path.error().code, fmt::format("{}: {}", o.pocket, path.error().message));
   o.program.comments = comments_of(o);
-  std::vector<std::size_t> move_of_line;
-  std::string program = mill::program_of(*path, o.program, &move_of_line);
-  Result<verify::SimulateReport> judged = judgement_of(program, *input, *before, o);
+  const Result<JudgedProgram> judged = judged_program(*path, *input, *before, o);
   if (!judged) return tl::unexpected(judged.error());
-  if (o.most_feed) {
-    path = mill::with_feeds(*path, loads_of(*judged, move_of_line, path->moves.size()),
-                            {o.program.feed_mm_per_min, *o.most_feed, o.path.step_over});
-    program = mill::program_of(*path, o.program);
-    judged = judgement_of(program, *input, *before, o);
-    if (!judged) return tl::unexpected(judged.error());
-  }
+  const std::string& program = judged->text;
+  const verify::SimulateReport& report = judged->report;
   io::AtomicFiles files;
   std::vector<std::string> written{o.output, o.picture, o.animation};
   CutPictures pictures{o.picture, o.animation, {}};
@@ -203,7 +148,7 @@ Result<int> run_pocket(PocketOptions o) {
     pictures.fragments = std::move(*fragments);
   }
   if (Result<void> done = add_cut_pictures(pictures, o.pocket, input->pockets, o.path.tool_diameter,
-                                           o.path.stock_to_leave, *judged, files);
+                                           o.path.stock_to_leave, report, files);
       !done)
     return tl::unexpected(done.error());
   if (!o.images.empty())
@@ -212,7 +157,7 @@ Result<int> run_pocket(PocketOptions o) {
     if (Result<void> done = files.add(o.output, program); !done) return tl::unexpected(done.error());
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   if (o.json || o.output.empty()) {
-    if (Result<void> done = print(o.json ? report_json(o, *input, *before, program, *judged) : program);
+    if (Result<void> done = print(o.json ? report_json(o, *input, *before, program, report) : program);
         !done)
       return tl::unexpected(done.error());
   }
@@ -223,8 +168,8 @@ Result<int> run_pocket(PocketOptions o) {
         "Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
         "takes the program that ran)\n",
         o.rest_of, o.rest_of);
-  text += full_cut_notices(full_cuts(*judged));
-  text += report_rows(*judged);
+  text += full_cut_notices(full_cuts(report));
+  text += report_rows(report);
   for (const std::string& name : written)
     if (!name.empty()) text += fmt::format("Written: {}\n", name);
   tell(text);

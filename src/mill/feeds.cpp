@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "lekalo/geom/trig.hpp"
 #include "step_law.hpp"
@@ -15,7 +16,6 @@ using geom::Point;
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kAround = 1;   // mm of path before and after a load
-constexpr double kHeld = 1.25;  // of a straight pass's angle: what a path that holds its engagement keeps to
 
 struct Piece {
   std::size_t move = 0;
@@ -37,7 +37,7 @@ std::array<double, 6> steps_of(const FeedOptions& o) {
 double wanted_feed(double degrees, const FeedOptions& o) {
   const double angle = straight_pass_angle(o.step_over), nominal = angle / kDegree;
   const double sine = geom::sincos(angle).sine;
-  if (degrees > nominal) return o.feed_mm_per_min * std::min(1.0, kHeld * nominal / degrees);
+  if (degrees > nominal) return o.feed_mm_per_min * std::min(1.0, kMostHeld * nominal / degrees);
   const double found = geom::sincos(degrees * kDegree).sine;
   if (!(found * o.most_mm_per_min > sine * o.feed_mm_per_min)) return o.most_mm_per_min;
   return o.feed_mm_per_min * sine / found;
@@ -128,6 +128,36 @@ PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<Move
       part.feed = pieces[next].feed;
       result.moves.push_back(part);
     }
+  }
+  return result;
+}
+
+PocketPath with_cutting_links_slow(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
+                                   const FeedOptions& o, double link_mm_per_min) {
+  const double sine = geom::sincos(straight_pass_angle(o.step_over)).sine * o.feed_mm_per_min / link_mm_per_min;
+  if (!(sine < 1)) return path;
+  const double most = geom::direction_angle(std::sqrt(1 - sine * sine), sine) / kDegree;
+  PocketPath result;
+  result.fronts = path.fronts;
+  for (std::size_t i = 0; i < path.moves.size(); ++i) {
+    const PathMove& move = path.moves[i];
+    double whole = 0, begin = std::numeric_limits<double>::infinity(), end = 0;
+    if (move.kind == PathMove::Kind::link)
+      for (const MoveLoad& load : loads[i]) {
+        if (load.engagement_deg > most) begin = std::min(begin, whole), end = whole + load.length;
+        whole += load.length;
+      }
+    if (!(end > 0)) {
+      result.moves.push_back(move);
+      continue;
+    }
+    const Point from = path.moves[i - 1].to;
+    const double from_z = path.moves[i - 1].z;
+    if (begin > kAround) result.moves.push_back(part_of(move, from, from_z, (begin - kAround) / whole));
+    const bool ends = end + kAround < whole;
+    result.moves.push_back(part_of(move, from, from_z, ends ? (end + kAround) / whole : 1));
+    result.moves.back().kind = PathMove::Kind::cut;
+    if (ends) result.moves.push_back(move);
   }
   return result;
 }

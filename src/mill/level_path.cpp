@@ -13,6 +13,7 @@
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "load.hpp"
 #include "opening.hpp"
 #include "peels.hpp"
 #include "step_law.hpp"
@@ -25,10 +26,12 @@ using geom::EdgeKind;
 using geom::Point;
 using geom::Region;
 
+constexpr double kDegrees = 57.29577951308232;
 constexpr double kStrip = 0.12;        // of the tool's radius, left to the pass along the walls
 constexpr double kFieldFillet = 0.55;  // of the tool's radius: corners of the fields
 // How much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
 constexpr double kSharpPeel = 0.12, kPeel = 0.22;
+constexpr double kHotSpacing = 0.02, kHotMoment = 0.04;  // of the tool's radius
 constexpr std::size_t kManyEdges = 40;
 constexpr double kLeastCorridor = 2.8;  // of the radius the fields are opened by: what is shorter is a corner
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
@@ -680,6 +683,14 @@ class Clearing {
     });
   }
 
+  /// Whether more than a moment of passes meets too much of the rim.
+  [[nodiscard]] bool is_hot(const std::vector<Front>& passes, const geom::RegionIndex& before) const {
+    const double held = kMostHeld * straight_pass_angle(o_.step_over) * kDegrees;
+    return std::any_of(passes.begin(), passes.end(), [&](const Front& pass) {
+      return load_of(pass.edges, false, before, radius_, held, kHotSpacing * radius_).beyond > kHotMoment * radius_;
+    });
+  }
+
   /// What the zone of a corner holds beyond a round: to and fro, each peel as deep as it may be.
   Result<void> cut_corner(Peels& peels, std::size_t outer, const Front& zone, bool& back) {
     const std::size_t last = peels.last();
@@ -703,7 +714,7 @@ class Clearing {
       // At the end of a corridor the other corner is met as well.
       const double most =
           thinness_ * (inner == last ? kSharpPeel : kPeel) * (corridors_->contains(zone.edges.front().from) ? 0.5 : 1);
-      if (inner == outer + 1 || depth < most * radius_) break;
+      if (inner == outer + 1 || (depth < most * radius_ && !is_hot(chosen, before))) break;
     }
     if (chosen.empty()) return cut_corner(peels, inner, zone, back);
     if (back) std::reverse(chosen.begin(), chosen.end());

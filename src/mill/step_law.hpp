@@ -3,6 +3,8 @@
 /// How far a pass may lie from the one before: exact for two circles, docs/design/pocket.md.
 namespace lekalo::mill {
 
+/// What no stretch is to pass, of the angle of a straight pass, outside entries, corners and slots.
+constexpr double kMostHeld = 1.25;
 /// What the next pass is to hold, of the angle of a straight one: a little more, for it is seldom as deep.
 constexpr double kNext = 1.0134;
 

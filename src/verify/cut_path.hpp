@@ -42,6 +42,10 @@ struct Removed {
 std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
                                         SimulateReport& report, const ProgressListener& progress);
 
+/// Fills the samples on some lines alone, nothing else.
+void measure_engagement_on(const CutPath& path, const Air& air, const SimulateOptions& options,
+                           const std::vector<LineRange>& lines, SimulateReport& report);
+
 /// Coverage, uncut spots, gouge and unreachable spots.
 void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report);
 void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report);

@@ -46,6 +46,17 @@ class Engagement {
     }
   }
 
+  /// Fills the samples on these lines.
+  void measure_on(const std::vector<LineRange>& lines) {
+    auto range = lines.begin();
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+      while (range != lines.end() && range->last < cuts_[i].line) ++range;
+      if (range == lines.end()) return;
+      if (i >= first_ && cuts_[i].line >= range->first) measure(i);
+      index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
+    }
+  }
+
   std::vector<Removed> run(const ProgressListener& progress) {
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
       if (i >= first_) measure(i);
@@ -177,6 +188,7 @@ class Engagement {
     useful_.swap(found_);
     if (!air_.empty()) rim_.add_air(air_);
     sample.engagement = rim_.open_angle() * kDegrees;
+    sample.left = rim_.open_left() * kDegrees;
     width_ = rim_.open_width();
     if (sample.engagement < kAirDegrees) return;
     if (cut.to_z < cut.from_z) {
@@ -258,6 +270,11 @@ class Engagement {
 std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
                                         SimulateReport& report, const ProgressListener& progress) {
   return Engagement(path, air, radius, spacing, report).run(progress);
+}
+
+void measure_engagement_on(const CutPath& path, const Air& air, const SimulateOptions& options,
+                           const std::vector<LineRange>& lines, SimulateReport& report) {
+  Engagement(path, air, options.tool_diameter / 2, options.spacing, report).measure_on(lines);
 }
 
 }  // namespace lekalo::verify

@@ -141,12 +141,12 @@ double RimCover::open_width() const {
   return width;
 }
 
-double RimCover::open_angle() const {
+double RimCover::open_between(double low, double high) const {
   double open = 0;
   // At most a quarter turn at a time, so that the angle between directions is the angle meant.
   for (const Stretch& stretch : open_)
-    for (double from = stretch.begin; from < stretch.end;) {
-      const double to = std::min(stretch.end, std::floor(from) + 1);
+    for (double from = std::max(low, stretch.begin), end = std::min(high, stretch.end); from < end;) {
+      const double to = std::min(end, std::floor(from) + 1);
       open += std::abs(angle_between(direction_of(from), direction_of(to)));
       from = to;
     }

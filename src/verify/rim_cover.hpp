@@ -26,11 +26,15 @@ class RimCover {
   void add_air(const Air& air);
   [[nodiscard]] bool nothing_left() const { return open_.empty(); }
   /// Angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
-  [[nodiscard]] double open_angle() const;
+  [[nodiscard]] double open_angle() const { return open_between(0, 2); }
+  /// The same of what is left of the heading.
+  [[nodiscard]] double open_left() const { return open_between(1, 2); }
   /// How wide it is across the heading, mm: a mm of path removes so many square mm.
   [[nodiscard]] double open_width() const;
 
  private:
+  /// Between two diamond angles.
+  [[nodiscard]] double open_between(double low, double high) const;
   void add_circle_cuts(Place centre, double circle_radius);
   void add_line_cuts(Place through, Place direction, double offset);
   void add_cut(Place direction);

@@ -86,16 +86,20 @@ double cutting_feed(const std::vector<Move>& moves, const std::vector<Engagement
   return 0;
 }
 
-}  // namespace
+/// What is judged: the program's moves, the pocket, and the path in the stock with what ran before.
+struct Job {
+  std::vector<Move> moves;
+  PocketReach reach;
+  CutPath path;
+};
 
-Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
-                                const std::vector<EarlierProgram>& earlier,
-                                const ProgressListener& progress) {
+Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
+                     const std::vector<EarlierProgram>& earlier) {
   if (const Result<void> good = check(o, earlier); !good) return tl::unexpected(good.error());
-  const Result<std::vector<Move>> moves = read_moves(program);
+  Result<std::vector<Move>> moves = read_moves(program);
   if (!moves) return tl::unexpected(moves.error());
   const double radius = o.tool_diameter / 2;
-  const Result<PocketReach> reach =
+  Result<PocketReach> reach =
       PocketReach::make(pocket, radius + o.stock_to_leave, kAirWidth * (radius + o.stock_to_leave));
   if (!reach) return tl::unexpected(reach.error());
   Result<CutPath> path = cuts_of(program, *moves, o.tool_diameter, o.top);
@@ -110,24 +114,38 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
       path->before.push_back(cut);
     }
   }
+  return Job{std::move(*moves), std::move(*reach), std::move(*path)};
+}
+
+}  // namespace
+
+Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
+                                const std::vector<EarlierProgram>& earlier,
+                                const ProgressListener& progress) {
+  const Result<Job> job = read_job(program, pocket, o, earlier);
+  if (!job) return tl::unexpected(job.error());
+  const std::vector<Move>& moves = job->moves;
+  const PocketReach& reach = job->reach;
+  const CutPath& path = job->path;
+  const double radius = o.tool_diameter / 2;
   SimulateReport report;
-  report.retracts = path->retracts;
-  report.turning_rad = turning_of(*path);
+  report.retracts = path.retracts;
+  report.turning_rad = turning_of(path);
   // Each fills members of the report of its own.
   const auto measure_what_is_left = [&] {
-    measure_coverage(*path, *reach, radius, report);
+    measure_coverage(path, reach, radius, report);
     report.left_before_mm2 = report.reachable_mm2;
-    if (!path->before.empty()) report.left_before_mm2 = left_before(*path, *reach, radius);
-    measure_gouge(*path, *reach, report);
-    find_unreachable(*reach, radius, report);
+    if (!path.before.empty()) report.left_before_mm2 = left_before(path, reach, radius);
+    measure_gouge(path, reach, report);
+    find_unreachable(reach, radius, report);
   };
   std::future<void> left = std::async(o.threads > 1 ? std::launch::async : std::launch::deferred,
                                       measure_what_is_left);
   const std::vector<Removed> removed =
-      measure_engagement(*path, reach->air(), radius, o.spacing, report, progress);
+      measure_engagement(path, reach.air(), radius, o.spacing, report, progress);
   left.get();
-  report.seconds = machine_seconds(*moves, o);
-  const double feed = cutting_feed(*moves, report.samples);
+  report.seconds = machine_seconds(moves, o);
+  const double feed = cutting_feed(moves, report.samples);
   if (feed > 0) {
     // No level is larger than what can be reached; measured sums may be, by their rounding.
     double mm2 = 0;
@@ -136,6 +154,17 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
     report.lower_bound_seconds = mm2 / (o.step_over * o.tool_diameter * feed / 60);
   }
   return report;
+}
+
+Result<std::vector<EngagementSample>> engagement_on(const Document& program, const Document& pocket,
+                                                    const SimulateOptions& o,
+                                                    const std::vector<EarlierProgram>& earlier,
+                                                    const std::vector<LineRange>& lines) {
+  const Result<Job> job = read_job(program, pocket, o, earlier);
+  if (!job) return tl::unexpected(job.error());
+  SimulateReport report;
+  measure_engagement_on(job->path, job->reach.air(), o, lines, report);
+  return std::move(report.samples);
 }
 
 Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top) {

@@ -342,5 +342,34 @@ TEST(MillFeeds, FollowTheLoadInStepsThatHold) {
   EXPECT_EQ(result.moves[6].feed, 0);
 }
 
+/// At 5 times the feed a chip as thick as the one of 78.5 degrees is met at 11.3.
+TEST(MillFeeds, WhatOfALinkCutsIsACut) {
+  PocketPath path;
+  path.moves = {{PathMove::Kind::rapid, {0, 0}, 5},
+                {PathMove::Kind::plunge, {0, 0}, -1},
+                {PathMove::Kind::link, {20, 0}, -1},
+                {PathMove::Kind::link, {20, 20}, -1, EdgeKind::arc_ccw, {20, 10}},
+                {PathMove::Kind::link, {0, 20}, -1}};
+  std::vector<std::vector<MoveLoad>> loads(5);
+  for (int i = 0; i < 100; ++i) loads[2].push_back({0.2, i >= 40 && i < 50 ? 40.0 : 11.0});
+  for (int i = 0; i < 100; ++i) loads[3].push_back({0.31415926, i < 5 ? 60.0 : 0.0});
+  loads[4].push_back({20, 11});
+  const PocketPath result = with_cutting_links_slow(path, loads, {1000, 1000, 0.4}, 5000);
+  ASSERT_EQ(result.moves.size(), 8U);
+  const auto expect = [&](std::size_t i, PathMove::Kind kind, double x) {
+    EXPECT_EQ(result.moves[i].kind, kind) << i;
+    EXPECT_NEAR(result.moves[i].to.x, x, 1e-9) << i;
+  };
+  expect(2, PathMove::Kind::link, 7);  // a mm before
+  expect(3, PathMove::Kind::cut, 11);
+  expect(4, PathMove::Kind::link, 20);
+  EXPECT_EQ(result.moves[5].kind, PathMove::Kind::cut);
+  EXPECT_NEAR(norm(result.moves[5].to - Point{20, 10}), 10, 1e-9);
+  EXPECT_EQ(result.moves[6].kind, PathMove::Kind::link);
+  EXPECT_EQ(result.moves[6].to, path.moves[3].to);
+  expect(7, PathMove::Kind::link, 0);
+  EXPECT_EQ(with_cutting_links_slow(path, loads, {1000, 1000, 0.4}, 900).moves.size(), path.moves.size());
+}
+
 }  // namespace
 }  // namespace lekalo::mill

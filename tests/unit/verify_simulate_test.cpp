@@ -468,5 +468,45 @@ TEST(VerifySimulate, SaysHowFarItIsAndFindsTheSameWithOneThread) {
   EXPECT_EQ(alone->samples.size(), both.samples.size());
 }
 
+TEST(VerifySimulate, SaysOnWhichSideTheMaterialIs) {
+  // A slot, then a pass 2 mm to its left: the material is on the left going on, on the right coming back.
+  const std::string slot = kBegin + "G1 X50 F1500\nY12\n";
+  const auto right = run(slot + "X10\n", rectangle(70, 40));
+  const auto left = run(kBegin + "G1 X50 F1500\nX10 Y10\nY12\nX50\n", rectangle(70, 40));
+  const auto middle = [](const SimulateReport& report) {
+    for (const EngagementSample& sample : report.samples)
+      if (sample.y > 11.99 && std::abs(sample.x - 30) < 0.1) return sample;
+    return EngagementSample{};
+  };
+  const double angle = std::acos(1 - 2 / 3.0) * 180 / kPi;
+  EXPECT_NEAR(middle(right).engagement, angle, 1e-3);
+  EXPECT_NEAR(middle(right).left, 0, 1e-3);
+  EXPECT_NEAR(middle(left).engagement, angle, 1e-3);
+  EXPECT_NEAR(middle(left).left, angle, 1e-3);
+  EXPECT_NEAR(left.samples[100].left, 90, 1e-3);  // of 180 in the slot
+}
+
+TEST(VerifySimulate, SomeLinesAloneGiveTheSameSamples) {
+  std::string program = kBegin;
+  for (int row = 1; row < 12; ++row)
+    program += fmt::format("G1 Y{} F1500\nX{}\n", 10 + 1.5 * row, row % 2 == 0 ? 60 : 10);
+  const auto whole = run(program, rectangle(70, 40));
+  const std::vector<LineRange> lines{{6, 6}, {9, 12}, {20, 21}};
+  const auto some = engagement_on({"part.ngc", program}, {"pocket.json", rectangle(70, 40)}, tool(6), {}, lines);
+  ASSERT_TRUE(some) << some.error().message;
+  std::vector<EngagementSample> wanted;
+  for (const EngagementSample& sample : whole.samples)
+    if (std::any_of(lines.begin(), lines.end(),
+                    [&](const LineRange& r) { return sample.line >= r.first && sample.line <= r.last; }))
+      wanted.push_back(sample);
+  ASSERT_EQ(some->size(), wanted.size());
+  ASSERT_GT(wanted.size(), 1000U);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    EXPECT_EQ((*some)[i].x, wanted[i].x);
+    EXPECT_NEAR((*some)[i].engagement, wanted[i].engagement, 1e-9);
+    EXPECT_EQ((*some)[i].line, wanted[i].line);
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::verify

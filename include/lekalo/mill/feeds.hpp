@@ -10,6 +10,7 @@ namespace lekalo::mill {
 struct MoveLoad {
   double length = 0;          ///< mm
   double engagement_deg = 0;  ///< of the rim
+  double left_deg = 0;        ///< of that, to the left of where the tool goes
 };
 
 struct FeedOptions {
@@ -25,5 +26,11 @@ struct FeedOptions {
 /// keep theirs. \param loads  of each move, along it; a move without any keeps its feed
 [[nodiscard]] PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
                                     const FeedOptions& options);
+
+/// The path with what of its links meets a thicker chip at their feed than a straight pass does at its own as
+/// cuts, and a millimetre before and after it. \param loads  of each link, along it
+[[nodiscard]] PocketPath with_cutting_links_slow(const PocketPath& path,
+                                                 const std::vector<std::vector<MoveLoad>>& loads,
+                                                 const FeedOptions& options, double link_mm_per_min);
 
 }  // namespace lekalo::mill

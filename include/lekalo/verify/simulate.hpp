@@ -36,6 +36,7 @@ struct EngagementSample {
   double x = 0, y = 0, z = 0;
   double length = 0;      ///< mm of path it stands for, up to here
   double engagement = 0;  ///< degrees of the rim's leading half
+  double left = 0;        ///< of them to the left of where the tool goes
   std::size_t line = 0;   ///< of the program, from 1
   bool entry = false;     ///< see SimulateReport::entry_mm
 };
@@ -89,6 +90,17 @@ struct SimulateReport {
                                               const SimulateOptions& options,
                                               const std::vector<EarlierProgram>& earlier = {},
                                               const ProgressListener& progress = {});
+
+/// Lines of a program, from 1, both ends among them.
+struct LineRange {
+  std::size_t first = 1, last = 0;
+};
+
+/// The samples of simulate() on these lines alone, at their share of its cost.
+/// \param lines  ascending, not overlapping
+[[nodiscard]] Result<std::vector<EngagementSample>> engagement_on(
+    const Document& program, const Document& pocket, const SimulateOptions& options,
+    const std::vector<EarlierProgram>& earlier, const std::vector<LineRange>& lines);
 
 /// A stretch of a program's path below the stock's upper face: a line, or at most a quarter turn.
 struct CutStretch {

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "lekalo/mill/feeds.hpp"
+#include "lekalo/mill/pocket.hpp"
+
+namespace lekalo::mill {
+
+/// A path with shallower passes ahead of stretches that meet more of the rim than 1.25 times what a straight
+/// pass does: along the stretch, further from the material, and back through what that has cut. Whoever asks
+/// measures (lekalo/verify/simulate.hpp); a pass that does not make its stretch better is left out again.
+///
+///     Relief relief(path, places, options);
+///     while (relief.improve(loads of relief.path(), at least of relief.wanted())) {}
+///
+/// Stretches are level and without a cusp. Nothing is done about those that cannot be entered from a side:
+/// slots, points of corners. Cost: n log n, and a distance to the walls for each 0.02 radii of a pass.
+class Relief {
+ public:
+  /// Moves of path(), both ends among them.
+  struct Moves {
+    std::size_t first = 0, last = 0;
+  };
+
+  /// \param pockets, options  of the path
+  [[nodiscard]] static Result<Relief> make(PocketPath path, const std::vector<geom::Region>& pockets,
+                                           const PocketOptions& options);
+
+  [[nodiscard]] const PocketPath& path() const { return path_; }
+  /// Whether path() is another one now, which is to be measured.
+  /// \param loads  of each move of path() in wanted(), along it; at first of all moves
+  bool improve(const std::vector<std::vector<MoveLoad>>& loads);
+  /// What is to be measured, ascending and apart.
+  [[nodiscard]] std::vector<Moves> wanted() const;
+
+ private:
+  /// A stretch that is too hot, in mm of the way along the path given.
+  struct Site {
+    double begin = 0, end = 0;          ///< where the tool may leave it and come back
+    double hot_begin = 0, hot_end = 0;  ///< what is too hot
+    double side = 1;                    ///< 1: the material is on the left
+    double largest = 0;                 ///< degrees
+    double given_excess = 0;            ///< degrees above what is held, times mm
+    double excess = 0;                  ///< the same with the best pass
+    int trials = 0;
+    bool settled = false;
+    std::vector<PathMove> best, tried;  ///< passes there and back
+    Moves moves;                        ///< of path_
+  };
+
+  Relief(PocketPath path, const std::vector<geom::Region>& places, const PocketOptions& options);
+  void find_sites(const std::vector<std::vector<MoveLoad>>& loads);
+  [[nodiscard]] double excess_of(const Site& site, const std::vector<std::vector<MoveLoad>>& loads) const;
+  void judge_trials(const std::vector<std::vector<MoveLoad>>& loads);
+  bool leave_out(const std::vector<std::vector<MoveLoad>>& loads);
+  void try_next(Site& site);
+  [[nodiscard]] bool is_inside(const geom::Edge& edge) const;
+  [[nodiscard]] std::vector<PathMove> pass_beside(const Site& site, double depth) const;
+  void compose();
+  /// The move given that holds a place, and the geometry of one.
+  [[nodiscard]] std::size_t move_at(double along) const;
+  [[nodiscard]] geom::Edge edge_of(std::size_t move) const;
+
+  PocketPath given_, path_;
+  std::vector<double> ends_;  ///< mm along the path given to the end of each move
+  geom::RegionIndex limit_;   ///< of the tool's middle
+  double radius_, straight_;  ///< mm; rad of the rim on a straight pass
+  double fit_tolerance_;
+  std::vector<Site> sites_;
+  /// Of a move of path_: the site it was added for, or where along the path given it begins.
+  struct Origin {
+    const Site* site = nullptr;
+    double begin = 0;
+  };
+  std::vector<Origin> origins_;
+  enum class Stage { begin, trials, confirmation } stage_ = Stage::begin;
+};
+
+}  // namespace lekalo::mill
