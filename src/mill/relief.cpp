@@ -23,11 +23,11 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kLasting = 0.1;   // mm of more than is held that are worth a pass
 constexpr double kTogether = 0.5;  // of the tool's radius: hot stretches so near are one
 constexpr double kRamp = 1;        // of the tool's radius: on the way from the path to the pass beside it
-constexpr double kShortRamp = 0.3;  // of a ramp: where there is less way the pass begins beside the path
+constexpr double kShortRamp = 0.08; // of a ramp: where there is less way the pass begins beside the path
 constexpr double kSpacing = 0.02;   // of the tool's radius, between places of a pass
 constexpr double kCusp = 0.5;       // cosine of the turn between two moves at which a stretch ends
 /// Of what would make the stretch meet as much as a straight pass; tried one after the other.
-constexpr double kDepths[] = {1, 1.6, 0.6};
+constexpr double kDepths[] = {1, 1.6, 0.6, 0.3};
 constexpr double kMostDepth = 0.95;  // of the tool's radius
 constexpr double kBetter = 0.7;      // of the excess before: what a pass has to bring
 constexpr double kNothing = 0.05;    // degrees times mm
