@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "earlier_programs.hpp"
-#include "full_cuts.hpp"
+#include "hot_cuts.hpp"
 #include "interrupt.hpp"
 #include "judged_program.hpp"
 #include "lekalo/base/version.hpp"
@@ -87,7 +87,7 @@ std::string report_json(const PocketOptions& o, const PocketInput& input, const 
             {"stock_to_leave_mm", o.path.stock_to_leave}};
   if (o.rest_of > 0) json["rest_of_mm"] = o.rest_of;
   json.update(report_fields(r));
-  json["full_cuts"] = full_cuts(r);
+  json["hot_cuts"] = hot_cuts(r, o.path.step_over);
   json["version"] = kVersion;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -168,7 +168,7 @@ Result<int> run_pocket(PocketOptions o) {
         "Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
         "takes the program that ran)\n",
         o.rest_of, o.rest_of);
-  text += full_cut_notices(full_cuts(report));
+  text += hot_cut_notices(hot_cuts(report, o.path.step_over));
   text += report_rows(report);
   for (const std::string& name : written)
     if (!name.empty()) text += fmt::format("Written: {}\n", name);
