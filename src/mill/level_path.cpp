@@ -698,23 +698,29 @@ class Clearing {
     const auto round = peels.at(outer);
     if (!round) return tl::unexpected(round.error());
     const geom::RegionIndex& before = (*round)->index;
+    // The deepest that may be: the last at once, else halved between what may be and what may not.
     std::vector<Front> chosen;
-    std::size_t inner = last;
-    for (; inner > outer; --inner) {
-      chosen.clear();
-      double depth = 0;
-      const auto fronts = peels.between(outer, inner);
+    std::size_t inner = outer, beyond = last + 1;
+    for (std::size_t tried = last; inner + 1 < beyond; tried = (inner + beyond) / 2) {
+      const auto fronts = peels.between(outer, tried);
       if (!fronts) return tl::unexpected(fronts.error());
+      std::vector<Front> peel;
+      double depth = 0;
       for (const Front& front : **fronts) {
         if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
-        chosen.push_back(front);
+        peel.push_back(front);
         for (const Point p : places_on(front.edges, 0.1 * radius_))
           depth = std::max(depth, before.nearest(p).distance);
       }
       // At the end of a corridor the other corner is met as well.
-      const double most =
-          thinness_ * (inner == last ? kSharpPeel : kPeel) * (corridors_->contains(zone.edges.front().from) ? 0.5 : 1);
-      if (inner == outer + 1 || (depth < most * radius_ && !is_hot(chosen, before))) break;
+      const double most = thinness_ * (tried == last ? kSharpPeel : kPeel) *
+                          (corridors_->contains(zone.edges.front().from) ? 0.5 : 1);
+      if (tried == outer + 1 || (depth < most * radius_ && !is_hot(peel, before))) {
+        inner = tried;
+        chosen = std::move(peel);
+      } else {
+        beyond = tried;
+      }
     }
     if (chosen.empty()) return cut_corner(peels, inner, zone, back);
     if (back) std::reverse(chosen.begin(), chosen.end());
