@@ -546,6 +546,13 @@ std::int32_t lekalo_completeness(std::int32_t handle) {
   return 0;
 }
 
+std::int32_t lekalo_kits(std::int32_t handle) {
+  const Workspace* layout = begin(handle);
+  if (layout == nullptr) return kFailed;
+  text = io::kits_json(layout->document(), kits_served(layout->document()).kits);
+  return 0;
+}
+
 std::int32_t lekalo_rotation(double degrees) {
   text.clear();
   numbers.clear();

@@ -104,6 +104,8 @@ LEKALO_EXPORT(lekalo_outline)
 std::int32_t lekalo_outline(std::int32_t handle, std::int32_t kind, double a, double b);
 /// Text: JSON of layout::completeness, as `lekalo show --json` words it.
 LEKALO_EXPORT(lekalo_completeness) std::int32_t lekalo_completeness(std::int32_t handle);
+/// Text: the kits of it alone, for every change: sheets are what takes time.
+LEKALO_EXPORT(lekalo_kits) std::int32_t lekalo_kits(std::int32_t handle);
 
 /// Numbers: cosine and sine that the kernel takes for an angle. A browser's own are others in the last bit.
 LEKALO_EXPORT(lekalo_rotation) std::int32_t lekalo_rotation(double degrees);

@@ -135,30 +135,39 @@ KitsMade kits_made(const Document& document, std::vector<PieceCount> placed) {
   return made;
 }
 
+KitsServed kits_served(const Document& document) {
+  KitsServed served;
+  served.placed.resize(document.parts.size());
+  for (const Placement& placement : document.placements) {
+    PieceCount& count = served.placed[placement.part];
+    ++(placement.mirrored ? count.mirrored : count.upright);
+  }
+  KitsMade made = kits_made(document, served.placed);
+  served.left = std::move(made.left);
+  for (std::size_t kit = 0; kit < document.kits.size(); ++kit) {
+    KitCount& count = served.kits.emplace_back(KitCount{made.complete[kit], {}});
+    for (const auto& [part, share] : shares_of(document.kits[kit]))
+      add_missing(part, share, document.kits[kit].demand - count.complete, served.left[part], count.missing);
+  }
+  return served;
+}
+
 Completeness completeness(const Workspace& workspace) {
   const Document& document = workspace.document();
   Completeness result;
-  result.placed.resize(document.parts.size());
   std::map<Sheet, std::vector<const Placement*>> sheets;
-  for (const Placement& placement : document.placements) {
-    PieceCount& count = result.placed[placement.part];
-    ++(placement.mirrored ? count.mirrored : count.upright);
+  for (const Placement& placement : document.placements)
     sheets[{placement.stock, placement.copy}].push_back(&placement);
-  }
 
-  auto [complete, left] = kits_made(document, result.placed);
+  KitsServed served = kits_served(document);
+  result.placed = std::move(served.placed);
+  result.kits = std::move(served.kits);
   result.missing.resize(document.parts.size());
   result.surplus.resize(document.parts.size());
-  for (const std::int64_t kits : complete) result.kits.push_back({kits, {}});
-  // What is left serves the kits begun, in the same order.
-  for (std::size_t kit = 0; kit < document.kits.size(); ++kit) {
-    KitCount& count = result.kits[kit];
-    for (const auto& [part, share] : shares_of(document.kits[kit]))
-      add_missing(part, share, document.kits[kit].demand - count.complete, left[part], count.missing);
-    for (const MissingPiece& piece : count.missing) result.missing[piece.part] += piece.count;
-  }
+  for (const KitCount& kit : result.kits)
+    for (const MissingPiece& piece : kit.missing) result.missing[piece.part] += piece.count;
   for (std::uint32_t part = 0; part < document.parts.size(); ++part) {
-    const std::int64_t own = document.parts[part].demand, there = left[part].total();
+    const std::int64_t own = document.parts[part].demand, there = served.left[part].total();
     result.missing[part] += std::max<std::int64_t>(0, own - there);
     result.surplus[part] = std::max<std::int64_t>(0, there - own);
   }

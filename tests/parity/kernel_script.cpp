@@ -213,6 +213,10 @@ void session(std::size_t index) {
               "the document");
       CALL(lekalo_placements, "", handle);
       CALL(lekalo_completeness, "", handle);
+      const std::string whole(lekalo_text(), lekalo_text_size());
+      CALL(lekalo_kits, "", handle);
+      const std::string kits(lekalo_text(), lekalo_text_size());
+      require(whole.find("\"kits\":" + kits) != std::string::npos, "the kits alone");
     }
     const double x = random.uniform(0, 300), y = random.uniform(0, 200);
     CALL(lekalo_pick, "", handle, 0, 0, x, y);

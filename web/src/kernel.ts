@@ -88,6 +88,15 @@ export interface Plan {
   nextId: number;
 }
 
+/** How many of a kit are complete, and what those lack that are wanted and not complete. */
+export interface KitCount {
+  kit: string;
+  wanted: number;
+  complete: number;
+  /** Of either hand where `mirrored` is absent. */
+  missing: { part: string; count: number; mirrored?: boolean }[];
+}
+
 /** Loops of points x, y, x, y, ...: outer loop counter-clockwise, holes clockwise, in the outline's own frame. */
 export type Outline = Float64Array[];
 
@@ -130,6 +139,7 @@ interface Exports {
   lekalo_placements(layout: number): number;
   lekalo_outline(layout: number, kind: number, a: number, b: number): number;
   lekalo_completeness(layout: number): number;
+  lekalo_kits(layout: number): number;
   lekalo_rotation(degrees: number): number;
   lekalo_degrees(c: number, s: number): number;
 }
@@ -383,6 +393,12 @@ export class Layout {
   completeness(): unknown {
     this.kernel.demand(this.wasm.lekalo_completeness(this.handle));
     return JSON.parse(this.kernel.text());
+  }
+
+  /** The kits of it alone, quick enough for every change. */
+  kits(): KitCount[] {
+    this.kernel.demand(this.wasm.lekalo_kits(this.handle));
+    return JSON.parse(this.kernel.text()) as KitCount[];
   }
 
   private outline(kind: number, a: number, b: number): Outline {

@@ -11,6 +11,8 @@ export interface LiveState { level: Level; violations: Violation[]; nearest: Nea
 /// What a look at some placements found: every violation that one of them has a part in, but for those with one
 /// that is still to be looked at.
 export interface Looked { left: number; ids: number[]; violations: Violation[] }
+/// How many of a kit are complete, and what those lack that are wanted and not complete; `mirrored` absent: either hand.
+export interface KitCount { kit: string; wanted: number; complete: number; missing: { part: string; count: number; mirrored?: boolean }[] }
 export const UNKNOWN: LiveState = { level: 'unknown', violations: [], nearest: null };
 
 export interface Kernel {
@@ -30,4 +32,6 @@ export interface Kernel {
   check(): Violation[] | null;
   /// The same a few placements at a time: of those that changed since they were looked at.
   checkSome(most: number): Looked | null;
+  /// By kit, as `lekalo show` counts; null: not known here.
+  kits(): KitCount[] | null;
 }

@@ -7,9 +7,6 @@ export interface Box { left: number; bottom: number; right: number; top: number 
 export interface Change { id: number; after: Placement | null }
 /// A copy of a stock and where its frame's origin stands in the picture, mm.
 export interface Sheet { stock: Stock; copy: number; x: number; y: number; box: Box }
-/// What a kit or a part still lacks. `mirrored` absent: either hand.
-export interface Missing { part: string; count: number; mirrored?: boolean }
-export interface KitState { id: string; name: string; wanted: number; complete: number; missing: Missing[] }
 
 export function boxOf(points: Iterable<Point>): Box {
   const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };

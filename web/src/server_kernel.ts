@@ -25,6 +25,9 @@ export class ServerKernel implements Kernel {
   checkSome(): null {
     return null;
   }
+  kits(): null {
+    return null;
+  }
   async state(_placements: readonly Placement[], text: string): Promise<LiveState> {
     const client = this.client();
     if (!client) return UNKNOWN;

@@ -2,7 +2,7 @@
 
 import { rotate } from './commands';
 import type { FeatureChange, LayoutDocument, Placement, Stock, Violation, ViolationKind } from './document';
-import { UNKNOWN, type Kernel, type Level, type LiveState, type Looked } from './kernel_api';
+import { UNKNOWN, type Kernel, type KitCount, type Level, type LiveState, type Looked } from './kernel_api';
 import type { Change } from './model';
 
 interface KernelViolation {
@@ -24,6 +24,7 @@ interface KernelLayout {
   };
   check(): KernelViolation[];
   checkSome(most: number): { left: number; ids: number[]; violations: KernelViolation[] };
+  kits(): KitCount[];
   plan(line: string, mode: 'strict' | 'free'): { changed: KernelPlacement[] };
 }
 interface KernelModule {
@@ -75,6 +76,9 @@ class WasmKernel implements Kernel {
   checkSome(most: number): Looked | null {
     const looked = this.layout?.checkSome(most);
     return looked ? { ...looked, violations: looked.violations.map((v) => this.violation(v)) } : null;
+  }
+  kits(): KitCount[] | null {
+    return this.layout?.kits() ?? null;
   }
   state(placements: readonly Placement[], _text: string, reach: number, depths: boolean): LiveState {
     const layout = this.layout;

@@ -36,5 +36,8 @@ namespace lekalo::io {
 /// sheets).
 [[nodiscard]] std::string completeness_json(const layout::Document& document,
                                             const layout::Completeness& completeness);
+/// Its "kits" alone. Cost: O(kits).
+[[nodiscard]] std::string kits_json(const layout::Document& document,
+                                    const std::vector<layout::KitCount>& kits);
 
 }  // namespace lekalo::io

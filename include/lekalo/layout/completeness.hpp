@@ -66,8 +66,18 @@ struct KitsMade {
 /// \param placed  by part
 [[nodiscard]] KitsMade kits_made(const Document& document, std::vector<PieceCount> placed);
 
-/// Pieces serve the kits that are worth most (kits_made), then those begun in the document's order, then the
-/// parts' own demand.
+/// What the placements are to the kits.
+struct KitsServed {
+  std::vector<PieceCount> placed;  ///< by part
+  std::vector<KitCount> kits;      ///< by kit
+  std::vector<PieceCount> left;    ///< by part: in no kit, not even in one begun
+};
+/// Pieces serve the kits that are worth most (kits_made), then those begun in the document's order. Cheap
+/// enough for every change of a layout: no geometry.
+/// Cost: O(placements) and that of kits_made.
+[[nodiscard]] KitsServed kits_served(const Document& document);
+
+/// Kits first (kits_served), then the parts' own demand.
 /// Cost: O(n log n), and for every sheet a raster of at most 192 by 192 cells for its remnant.
 [[nodiscard]] Completeness completeness(const Workspace& workspace);
 

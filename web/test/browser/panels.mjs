@@ -5,7 +5,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { run } from './harness.mjs';
 import { smallLayout } from './small_layout.mjs';
-import { at, broken, checked, command, drop, hold, inEditor, keys, message, placed, placementOf, press, scaleOf, settled } from './steps.mjs';
+import { at, broken, checked, command, drop, export_, hold, inEditor, keys, message, placed, placementOf, press, scaleOf, settled } from './steps.mjs';
 
 const kits = {
   ...smallLayout, parts: smallLayout.parts.map(({ demand, ...part }) => part),
@@ -29,6 +29,33 @@ inEditor('counts in the tray and in the table of kits what is placed and what is
   await settled(page);
   assert.match(await page.textContent('.body table'), /2 ?\/ ?2/s);
 }, { layout: kits });
+
+const sharing = {
+  ...smallLayout, parts: kits.parts,
+  kits: [
+    { id: 'cheap', demand: 2, value: 1, pieces: [{ part: 'plate', count: 2 }] },
+    { id: 'dear', demand: 2, value: 5, pieces: [{ part: 'plate', count: 1 }, { part: 'bracket', count: 1 }] },
+  ],
+};
+inEditor('counts kits that share parts as lekalo show does: the dear one takes them, not the first one', async (page, server) => {
+  const agreed = async () => {
+    const file = join(server.folder, 'kits.json');
+    writeFileSync(file, await export_(server));
+    const { kits: counted } = JSON.parse(run('show', file, '--json').stdout);
+    const name = (part) => smallLayout.parts.find(({ id }) => id === part).name;
+    const rows = await page.locator('.body tbody tr').evaluateAll((list) => list.map((row) => [row.dataset.id, row.cells[1].textContent, ...[...row.cells[2].children].map((e) => e.textContent)]));
+    assert.deepEqual(rows, counted.map((k) => [`kit-${k.kit}`, `${k.complete} / ${k.wanted}`, ...k.missing.map((m) => `${m.count} × ${name(m.part)}`)]));
+    return counted.map(({ complete }) => complete);
+  };
+  await command(page, 'side.kits');
+  assert.deepEqual(await agreed(), [0, 1]); // two plates, a bracket: in the document's order 1 and 0
+  await page.click('[data-id="part-plate"] .piece');
+  await settled(page);
+  assert.deepEqual(await agreed(), [1, 1]);
+  await page.click('[data-id="part-bracket"] .piece');
+  await settled(page);
+  assert.deepEqual(await agreed(), [0, 2]);
+}, { layout: sharing });
 
 inEditor('puts parts in by the keyboard alone', async (page, server) => {
   await page.focus('[data-id="part-bracket"] .piece');
