@@ -158,8 +158,13 @@ void PocketReach::find_outline() {
   for (const Stroke& s : all) {
     if (!(length(s) > 0)) continue;
     cuts.clear();
-    for (const Stroke& other : all)
-      if (&other != &s) add_crossings(s, other, cuts);
+    for (const Stroke& other : all) {
+      if (&other == &s) continue;
+      add_crossings(s, other, cuts);
+      // A strip's side may go on along a wall: what is behind changes where one of them ends.
+      for (const Place end : {other.from, other.to})
+        if (distance(end, s) <= 1e-9) cuts.push_back(end);
+    }
     for (const Stroke& piece : cut_at(s, cuts)) {
       constexpr double kAside = 1e-6;  // mm
       const Place middle = at_share(piece, 0.5);
@@ -216,7 +221,9 @@ void PocketReach::find_limit() {
     for (std::size_t k = 0; k < outline_.size(); ++k) {
       if (!(std::abs(outline_[k].from.x - v.x) < 1e-9 && std::abs(outline_[k].from.y - v.y) < 1e-9)) continue;
       const Place a = left_of(heading(outline_[i], v)), b = left_of(heading(outline_[k], v));
-      if (!(cross(a, b) < -1e-12)) continue;  // the pocket does not bend round this corner
+      // Where the outline turns back by half a turn there may be a thorn, of an arc and the side of a strip.
+      const bool thorn = std::abs(cross(a, b)) <= 1e-9 && dot(a, b) < 0;
+      if (!(cross(a, b) < -1e-12 || thorn)) continue;  // the pocket does not bend round this corner
       add_arc(v + clearance_ * a, v + clearance_ * b, v, false, 1e30, carriers);
     }
   }

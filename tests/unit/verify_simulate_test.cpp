@@ -241,20 +241,20 @@ TEST(VerifySimulateAfter, RoundACircleOfAnotherToolTheLawOfCosinesHolds) {
 
 TEST(VerifySimulateAfter, TheFloorOfAnotherProgramsRampIsNoEntry) {
   // The first ramps down from X10 to X60; the second cuts the wedge it left, in a full slot.
-  const auto report = run_after("G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X60 Z-1 F1500\nG0 Z5\n",
-                                "G21 G90\nG0 X60 Y20 Z5\nG1 Z-1 F300\nG1 X10 F1500\nG0 Z5\n",
-                                rectangle(70, 40), 6);
+  const auto report =
+      run_after("G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X60 Z-1 F1500\nG0 Z5\n",
+                "G21 G90\nG0 X60 Y20 Z5\nG1 Z-1 F300\nG1 X10 F1500\nG0 Z5\n", rectangle(70, 40), 6);
   EXPECT_NEAR(engagement_near(report, 4, 30), 180, 1e-4);
   EXPECT_NEAR(report.engagement_max_deg, 180, 1e-4);
   EXPECT_LT(report.entry_mm, 0.1);  // straight down, on what the ramp's end left
 }
 
 TEST(VerifySimulate, BelowTheRampOfALevelAboveIsNoEntry) {
-  // A ramp to Z-1 along the slot, back at Z-1, straight down in the room at its end, and the slot again at Z-2:
-  // without a lift, all of the second level is full.
-  const auto report = run(
-      "G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X60 Z-1 F1500\nG1 X10\nG1 Z-2 F300\nG1 X60 F1500\nG0 Z5\n",
-      rectangle(70, 40));
+  // A ramp to Z-1 along the slot, back at Z-1, straight down in the room at its end, and the slot again at
+  // Z-2: without a lift, all of the second level is full.
+  const auto report =
+      run("G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X60 Z-1 F1500\nG1 X10\nG1 Z-2 F300\nG1 X60 F1500\nG0 Z5\n",
+          rectangle(70, 40));
   EXPECT_NEAR(engagement_near(report, 7, 35), 180, 1e-4);
   EXPECT_NEAR(report.engagement_max_deg, 180, 1e-4);
   for (const auto& sample : report.samples)
@@ -390,6 +390,35 @@ TEST(VerifySimulateOpen, CornersAtAnOpenEdgeCanBeReachedAndAirIsNotCounted) {
   EXPECT_NEAR(report.reachable_mm2, reachable, 0.05);
   EXPECT_NEAR(report.coverage_percent, 100 * swept / reachable, 1e-3);
   EXPECT_EQ(report.unreachable.size(), 2U);
+}
+
+TEST(VerifySimulateOpen, AWallThatGoesOnFromAnOpenEdgesEndHasAirBehindIt) {
+  // Open at x = 30: the strip of air before it, to x = 42, lies on the wall y = 30, which ends in an arc
+  // at 38.3. There a thorn of material begins, between the arc and the strip. Turned, ends and tangents are
+  // rounded.
+  for (const double turn : {0.0, 0.1}) {
+    const auto at = [&](double x, double y) {
+      return fmt::format("[{},{}]", std::cos(turn) * x - std::sin(turn) * y,
+                         std::sin(turn) * x + std::cos(turn) * y);
+    };
+    const auto line = [&](const std::string& from, const std::string& to, const char* more = "") {
+      return fmt::format(R"({{"line":{{"from":{},"to":{}}}{}}})", from, to, more);
+    };
+    const std::string pocket = fmt::format(
+        R"({{"units":"mm","outer":[{},{},{{"arc":{{"from":{},"to":{},"centre":{},"ccw":true}}}},{},{},{},{}]}})",
+        line(at(0, 0), at(46, 0)), line(at(46, 0), at(46, 22.3)), at(46, 22.3), at(38.3, 30), at(38.3, 22.3),
+        line(at(38.3, 30), at(30, 30)), line(at(30, 30), at(30, 60), R"(,"open":true)"),
+        line(at(30, 60), at(0, 60)), line(at(0, 60), at(0, 0)));
+    const double corner = 1 - kPi / 4, drawn = 46 * 30 + 30 * 30 - 7.7 * 7.7 * corner;
+    const auto report = run("G0 X10 Y10 Z5\nG1 Z-1 F300\nG1 X20 F1500\n", pocket);
+    EXPECT_NEAR(report.reachable_mm2, drawn - 3 * 9 * corner, 0.05) << turn;
+    // All three corners, and nothing beside the thorn.
+    for (const auto& spot : report.unreachable) {
+      const double x = std::cos(turn) * spot.x + std::sin(turn) * spot.y;
+      const double y = std::cos(turn) * spot.y - std::sin(turn) * spot.x;
+      EXPECT_TRUE((x < 3 || x > 43) && (y < 3 || y > 57)) << turn << ": " << x << ", " << y;
+    }
+  }
 }
 
 TEST(VerifySimulateOpen, AnOpenArcIsAsOpen) {
