@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t kSmall = 8;    // nodes along a tile
 constexpr std::size_t kFew = 2;      // segments that need no further division
 constexpr std::size_t kBlock = 256;  // nodes looked at together
-constexpr float kLeast = std::numeric_limits<float>::min();
 using Numbers = std::vector<std::uint32_t>;
 
 /// A segment seen from a tile's middle, in single precision.
@@ -32,20 +31,6 @@ struct Block {
 };
 
 // The loops below become vector instructions: no branch, no call, no order of sums that matters.
-
-/// f is the line's value, u = f^2 / L, and over = sqrt(u^2 + t^2) - t without cancellation, as in floz().
-struct Terms {
-  float f, u, over, root;
-};
-inline Terms terms(float x, float y, float along_x, float along_y, float length, float per_length) {
-  const float f = along_x * y - along_y * x;
-  const float t = length * 0.25F - (x * x + y * y) * per_length;
-  const float u = f * f * per_length;
-  const float root = std::sqrt(u * u + t * t) + kLeast;
-  const float sum = root + std::abs(t);
-  const float small = u * u / sum;
-  return {f, u, t > 0 ? small : sum, root};
-}
 
 inline void keep_least(Block& block, std::size_t i, float value, std::uint32_t number) {
   const bool less = value < block.least[i];
@@ -193,11 +178,7 @@ class Sampler {
   };
 
   void divide(const Tile& tile, const Numbers& numbers, std::size_t depth, Workspace& space) const {
-    const GridFrame& frame = grid_.frame;
-    const geom::Point low = frame.node(tile.column, tile.row);
-    const geom::Point high = frame.node(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
-    const geom::Point middle = 0.5 * (low + high);
-    const double radius = norm(high - low) / 2;
+    const auto [middle, radius] = disc_of(tile, grid_.frame);
     double least_high = std::numeric_limits<double>::infinity();
     space.lows.clear();
     for (const std::uint32_t number : numbers) {
@@ -212,13 +193,7 @@ class Sampler {
       if (space.lows[i] <= limit) kept.push_back(numbers[i]);
     if (kept.size() <= kFew || (tile.columns <= kSmall && tile.rows <= kSmall))
       return fill(tile, middle, kept, space);
-    const std::size_t left = (tile.columns + 1) / 2, below = (tile.rows + 1) / 2;
-    for (const Tile& part :
-         {Tile{tile.column, tile.row, left, below},
-          Tile{tile.column + left, tile.row, tile.columns - left, below},
-          Tile{tile.column, tile.row + below, left, tile.rows - below},
-          Tile{tile.column + left, tile.row + below, tile.columns - left, tile.rows - below}})
-      if (part.columns > 0 && part.rows > 0) divide(part, kept, depth + 1, space);
+    each_quarter(tile, [&](const Tile& part) { divide(part, kept, depth + 1, space); });
   }
 
   void fill(const Tile& tile, geom::Point middle, const Numbers& numbers, Workspace& space) const {

@@ -22,7 +22,6 @@ constexpr std::size_t kSmall = 16;  // nodes along a tile
 constexpr std::size_t kFew = 7;     // parts of a tree that needs no further division
 constexpr std::size_t kBlock = 128;
 constexpr std::size_t kDeepest = 24;  // a balanced tree over a million segments, and some
-constexpr float kLeast = std::numeric_limits<float>::min();
 
 // What polynomials may take of the stated errors; a part for each halving of tiles, kTop to kSmall.
 constexpr double kValueShare = 0.5 * kQuadraticGridError, kGradientShare = 0.5 * kQuadraticGridGradientError;
@@ -215,49 +214,48 @@ struct Jets {
   std::array<float, kBlock> value, dx, dy;
 };
 
+/// At (x, y) from the segment's middle: sqrt(f^2 + g^2), with g = over / 2.
+inline void take_normalised(const Step& s, const Terms& at, float per_length, float x, float y, Jets& to,
+                            std::size_t i) {
+  const float g = 0.5F * at.over, value = std::sqrt(at.f * at.f + g * g) + kLeast;
+  const float scale = g * per_length / (at.root * value), turn = scale * at.u * at.f + at.f / value;
+  to.value[i] = value;
+  to.dx[i] = scale * 2 * g * x - turn * s.along_y;
+  to.dy[i] = scale * 2 * g * y + turn * s.along_x;
+}
+
+LEKALO_WIDE void take_near(const Step& s, const float* __restrict x, const float* __restrict y,
+                           Jets& __restrict to, std::size_t n) {
+  const float per_length = 1 / s.length;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float dx = x[i] - s.x, dy = y[i] - s.y;
+    take_normalised(s, terms(dx, dy, s.along_x, s.along_y, s.length, per_length), per_length, dx, dy, to, i);
+  }
+}
+
+/// The same where t < 0.
 LEKALO_WIDE void take_beyond(const Step& s, const float* __restrict x, const float* __restrict y,
                              Jets& __restrict to, std::size_t n) {
   const float per_length = 1 / s.length, quarter = 0.25F * s.length;
   for (std::size_t i = 0; i < n; ++i) {
     const float dx = x[i] - s.x, dy = y[i] - s.y;
     const float f = s.along_x * dy - s.along_y * dx, u = f * f * per_length;
-    const float t = (dx * dx + dy * dy) * per_length - quarter, root = std::sqrt(u * u + t * t) + kLeast;
-    const float g = 0.5F * (root + t), value = std::sqrt(f * f + g * g) + kLeast;
-    const float scale = g * per_length / (root * value), turn = scale * u * f + f / value;
-    to.value[i] = value;
-    to.dx[i] = scale * 2 * g * dx - turn * s.along_y;
-    to.dy[i] = scale * 2 * g * dy + turn * s.along_x;
-  }
-}
-
-LEKALO_WIDE void take_near(const Step& s, const float* __restrict x, const float* __restrict y,
-                           Jets& __restrict to, std::size_t n) {
-  const float per_length = 1 / s.length, quarter = 0.25F * s.length;
-  for (std::size_t i = 0; i < n; ++i) {
-    const float dx = x[i] - s.x, dy = y[i] - s.y;
-    const float f = s.along_x * dy - s.along_y * dx, u = f * f * per_length;
-    const float t = quarter - (dx * dx + dy * dy) * per_length, root = std::sqrt(u * u + t * t) + kLeast;
-    const float sum = root + std::abs(t), small = u * u / sum;
-    const float g = 0.5F * (t > 0 ? small : sum), value = std::sqrt(f * f + g * g) + kLeast;
-    const float scale = g * per_length / (root * value), turn = scale * u * f + f / value;
-    to.value[i] = value;
-    to.dx[i] = scale * 2 * g * dx - turn * s.along_y;
-    to.dy[i] = scale * 2 * g * dy + turn * s.along_x;
+    const float past = (dx * dx + dy * dy) * per_length - quarter;
+    const float root = std::sqrt(u * u + past * past) + kLeast;
+    take_normalised(s, {f, u, root + past, root}, per_length, dx, dy, to, i);
   }
 }
 
 LEKALO_WIDE void take_algebraic(const Step& s, const float* __restrict x, const float* __restrict y,
                                 Jets& __restrict to, std::size_t n) {
-  const float per_length = 1 / s.length, quarter = 0.25F * s.length;
+  const float per_length = 1 / s.length;
   for (std::size_t i = 0; i < n; ++i) {
     const float dx = x[i] - s.x, dy = y[i] - s.y;
-    const float f = s.along_x * dy - s.along_y * dx, u = f * f * per_length;
-    const float t = quarter - (dx * dx + dy * dy) * per_length, root = std::sqrt(u * u + t * t) + kLeast;
-    const float sum = root + std::abs(t), small = u * u / sum, over = t > 0 ? small : sum;
-    const float scale = 2 * per_length / root, turn = scale * u * f + 2 * f * per_length;
-    to.value[i] = u + over;
-    to.dx[i] = scale * over * dx - turn * s.along_y;
-    to.dy[i] = scale * over * dy + turn * s.along_x;
+    const Terms at = terms(dx, dy, s.along_x, s.along_y, s.length, per_length);
+    const float scale = 2 * per_length / at.root, turn = scale * at.u * at.f + 2 * at.f * per_length;
+    to.value[i] = at.u + at.over;
+    to.dx[i] = scale * at.over * dx - turn * s.along_y;
+    to.dy[i] = scale * at.over * dy + turn * s.along_x;
   }
 }
 
@@ -397,11 +395,7 @@ class Sampler {
   /// \param distance  no node of the tile is farther from the nearest segment
   void divide(const Tile& tile, const Tree& tree, double distance, std::size_t depth,
               Workspace& space) const {
-    const GridFrame& frame = grid_.frame;
-    const Point low = frame.node(tile.column, tile.row);
-    const Point high = frame.node(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
-    const Point middle = 0.5 * (low + high);
-    const double radius = norm(high - low) / 2;
+    const auto [middle, radius] = disc_of(tile, grid_.frame);
     std::vector<Bounds>& bounds = space.bounds;
     bounds.clear();
     for (std::size_t i = 0; i < tree.parts.size(); ++i) {
@@ -422,13 +416,7 @@ class Sampler {
     keep(tree, tree.parts.size() - 1, 1, distance, middle, radius, bounds, kept);
     if (kept.parts.size() <= kFew || (tile.columns <= kSmall && tile.rows <= kSmall))
       return fill(tile, middle, kept, space);
-    const std::size_t left = (tile.columns + 1) / 2, below = (tile.rows + 1) / 2;
-    for (const Tile& part :
-         {Tile{tile.column, tile.row, left, below},
-          Tile{tile.column + left, tile.row, tile.columns - left, below},
-          Tile{tile.column, tile.row + below, left, tile.rows - below},
-          Tile{tile.column + left, tile.row + below, tile.columns - left, tile.rows - below}})
-      if (part.columns > 0 && part.rows > 0) divide(part, kept, distance, depth + 1, space);
+    each_quarter(tile, [&](const Tile& part) { divide(part, kept, distance, depth + 1, space); });
   }
 
   /// The steps of a tree; the longest of its segments.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -17,6 +18,46 @@ inline constexpr std::size_t kTop = 256;  // nodes along a tile
 struct Tile {
   std::size_t column, row, columns, rows;
 };
+
+/// A disc that holds the nodes of a tile.
+struct TileDisc {
+  geom::Point middle;
+  double radius;
+};
+inline TileDisc disc_of(const Tile& tile, const GridFrame& frame) {
+  const geom::Point low = frame.node(tile.column, tile.row);
+  const geom::Point high = frame.node(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+  return {0.5 * (low + high), norm(high - low) / 2};
+}
+
+/// Calls act(tile) for those quarters of a tile that have nodes.
+template <class Act>
+void each_quarter(const Tile& tile, const Act& act) {
+  const std::size_t left = (tile.columns + 1) / 2, below = (tile.rows + 1) / 2;
+  for (const Tile& part :
+       {Tile{tile.column, tile.row, left, below},
+        Tile{tile.column + left, tile.row, tile.columns - left, below},
+        Tile{tile.column, tile.row + below, left, tile.rows - below},
+        Tile{tile.column + left, tile.row + below, tile.columns - left, tile.rows - below}})
+    if (part.columns > 0 && part.rows > 0) act(part);
+}
+
+inline constexpr float kLeast = std::numeric_limits<float>::min();
+
+/// Of FLOZ in single precision, at (x, y) from the segment's middle: f is the line's value, u = f^2 / L, and
+/// over = sqrt(u^2 + t^2) - t without cancellation, as in floz(). For loops that become vector instructions.
+struct Terms {
+  float f, u, over, root;
+};
+inline Terms terms(float x, float y, float along_x, float along_y, float length, float per_length) {
+  const float f = along_x * y - along_y * x;
+  const float t = length * 0.25F - (x * x + y * y) * per_length;
+  const float u = f * f * per_length;
+  const float root = std::sqrt(u * u + t * t) + kLeast;
+  const float sum = root + std::abs(t);
+  const float small = u * u / sum;
+  return {f, u, t > 0 ? small : sum, root};
+}
 
 /// Calls act(number) for 0 .. count - 1, each once, on `threads` threads. Which does which changes nothing.
 template <class Act>
