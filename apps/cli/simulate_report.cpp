@@ -119,9 +119,22 @@ std::string report_rows(const verify::SimulateReport& r) {
   row("time", fmt::format("{:.1f} s; no path of this step-over takes less than {:.1f} s", r.seconds,
                           r.lower_bound_seconds));
   if (r.rapid_cut_mm > 0) row("rapids in material", fmt::format("{:.2f} mm", r.rapid_cut_mm));
-  for (const verify::UnreachableSpot& spot : r.unreachable)
-    row("out of reach", fmt::format("{:.2f} mm2 about ({:.2f}, {:.2f}), up to {:.2f} mm from what can be cut",
-                                    spot.area_mm2, spot.x, spot.y, spot.distance_mm));
+  constexpr double kTold = 0.02;  // mm, as of uncut spots
+  std::size_t others = 0;
+  double farthest = 0;
+  for (const verify::UnreachableSpot& spot : r.unreachable) {
+    if (spot.distance_mm > kTold) {
+      row("out of reach",
+          fmt::format("{:.2f} mm2 about ({:.2f}, {:.2f}), up to {:.2f} mm from what can be cut",
+                      spot.area_mm2, spot.x, spot.y, spot.distance_mm));
+    } else {
+      ++others;
+      farthest = std::max(farthest, spot.distance_mm);
+    }
+  }
+  if (others > 0)
+    row("out of reach",
+        fmt::format("smaller spots: {}, up to {:.3f} mm from what can be cut", others, farthest));
   return text;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "cut_path.hpp"
@@ -216,10 +217,24 @@ void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& 
   const auto place = [&](std::size_t i) {
     return low + step * Place{static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5};
   };
-  for (std::size_t i = 0; i < off.size(); ++i) {
-    const Place p = place(i);
-    if (pocket.in_drawing(p)) off[i] = static_cast<float>(std::max(0.0, pocket.from_allowed(p) - radius));
-  }
+  // All of a block is outside, or all of it is reached, where its middle is so by more than it is wide.
+  constexpr double kSurely = 1e-5;  // mm; more than distances are off
+  const auto look = [&](const auto& self, std::size_t column, std::size_t row, std::size_t side) -> void {
+    if (column >= columns || row >= rows) return;
+    if (side == 1) {
+      const std::size_t i = row * columns + column;
+      const Place p = place(i);
+      if (pocket.in_drawing(p)) off[i] = static_cast<float>(std::max(0.0, pocket.from_allowed(p) - radius));
+      return;
+    }
+    const double wide = static_cast<double>(side) * step, half = 0.7071067811865476 * wide + kSurely;
+    const Place middle = low + Place{step * static_cast<double>(column) + wide / 2,
+                                     step * static_cast<double>(row) + wide / 2};
+    if (pocket.depth(middle) < -half || pocket.from_allowed(middle) + half <= radius) return;
+    for (const std::size_t k : {0U, 1U, 2U, 3U})
+      self(self, column + (k & 1) * (side / 2), row + (k >> 1) * (side / 2), side / 2);
+  };
+  look(look, 0, 0, std::bit_ceil(std::max(columns, rows)));
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < off.size(); ++i) {
     if (!(off[i] > 0)) continue;

@@ -9,6 +9,7 @@
 #include "lekalo/base/random.hpp"
 #include "lekalo/verify/simulate.hpp"
 #include "support/cases.hpp"
+#include "verify/cut_path.hpp"
 
 // Against a raster: the same figures from thousands of discs along the path, counted.
 
@@ -126,6 +127,58 @@ TEST(VerifySimulateRaster, EngagementAndCoverageAreThoseOfManyDiscs) {
       gouge = std::max(gouge, kRadius - std::min({p.x, p.y, kWidth - p.x, kHeight - p.y}));
     EXPECT_NEAR(report->gouge_mm, gouge, 0.021);
   }
+}
+
+/// A star of many chords whose tips and valleys are rounded by none of the tools below.
+std::string wavy_star(Random& random, int chords) {
+  const double size = random.uniform(10, 30), wave = random.uniform(0.05, 0.3);
+  const double tips = static_cast<double>(3 + random.below(8));
+  std::string text = R"({"units":"mm","outer":[)";
+  const auto corner = [&](int i) {
+    const double angle = 2 * kPi * (i % chords) / chords, r = size * (1 + wave * std::cos(tips * angle));
+    return fmt::format("[{:.6f},{:.6f}]", r * std::cos(angle), r * std::sin(angle));
+  };
+  for (int i = 0; i < chords; ++i)
+    text += fmt::format(R"({}{{"line":{{"from":{},"to":{}}}}})", i == 0 ? "" : ",", corner(i), corner(i + 1));
+  return text + "]}";
+}
+
+TEST(VerifySimulateRaster, UnreachableSpotsAreThoseOfEveryNode) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < cases::case_count(6); ++i) {
+    Random random(cases::seed(), 100 + i);
+    const double radius = random.uniform(1, 4);
+    const double stock = random.below(2) == 0 ? 0 : random.uniform(0, 0.5);
+    const std::string pocket = wavy_star(random, static_cast<int>(20 + random.below(200)));
+    SCOPED_TRACE(
+        fmt::format("seed {} case {}: radius {} stock {}\n{}", cases::seed(), i, radius, stock, pocket));
+    const auto reach = PocketReach::make({"star.json", pocket}, radius + stock, 0);
+    ASSERT_TRUE(reach) << reach.error().message;
+    SimulateReport report;
+    find_unreachable(*reach, radius, report);
+    double area = 0, farthest = 0;
+    for (const UnreachableSpot& spot : report.unreachable) {
+      area += spot.area_mm2;
+      farthest = std::max(farthest, spot.distance_mm);
+    }
+    const Place size = reach->high() - reach->low();
+    const double step = std::max(radius / 12, std::max(size.x, size.y) / 2000);
+    std::size_t nodes = 0;
+    float most = 0;
+    for (double y = 0.5; y * step <= size.y + step; ++y)
+      for (double x = 0.5; x * step <= size.x + step; ++x) {
+        const Place p = reach->low() + step * Place{x, y};
+        if (!reach->in_drawing(p)) continue;
+        const auto off = static_cast<float>(reach->from_allowed(p) - radius);
+        if (off > 0) ++nodes;
+        most = std::max(most, off);
+      }
+    EXPECT_NEAR(area, static_cast<double>(nodes) * step * step,
+                1e-6 * step * step * (1 + static_cast<double>(nodes)));
+    EXPECT_EQ(farthest, static_cast<double>(most));
+    found += nodes;
+  }
+  EXPECT_GT(found, 100U);
 }
 
 }  // namespace

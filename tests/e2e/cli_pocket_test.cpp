@@ -112,6 +112,26 @@ TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
   EXPECT_NE(read_bytes(folder / "p.html").find("<canvas"), std::string::npos);
 }
 
+TEST(CliPocket, spots_out_of_reach_that_nobody_sees_are_counted_in_one_row) {
+  const TemporaryFolder folder;
+  // Four corners of about 90 degrees, and one of 171 whose tip is 0.003 mm from a node of the raster.
+  write_bytes(
+      folder / "roof.json",
+      R"({"outer":[{"line":{"from":[0,0],"to":[39.331,0]}},{"line":{"from":[39.331,0],"to":[40.128,10.125]}},)"
+      R"({"line":{"from":[40.128,10.125],"to":[39.331,20.25]}},{"line":{"from":[39.331,20.25],"to":[0,20.25]}},)"
+      R"({"line":{"from":[0,20.25],"to":[0,0]}}]})");
+  write_bytes(folder / "p.ngc", "G0 X10 Y10 Z5\nG1 Z-1 F300\nG1 X15 F1500\n");
+  const Words words{"simulate", "p.ngc", "--pocket", "roof.json", "--tool", "6"};
+  const Ran told = run(folder.path(), words);
+  ASSERT_EQ(told.status, 0) << told.err;
+  std::size_t rows = 0;
+  for (std::size_t at = 0; (at = told.err.find("out of reach", at)) != std::string::npos; ++at) ++rows;
+  EXPECT_EQ(rows, 5U) << told.err;
+  EXPECT_NE(told.err.find("smaller spots: 1, up to 0.006 mm from what can be cut\n"), std::string::npos)
+      << told.err;
+  EXPECT_EQ(run(folder.path(), words + Words{"--json"}).json()["unreachable"].size(), 5U);
+}
+
 TEST(CliPocket, open_edges_of_a_region_file_are_known_to_path_and_checker) {
   const TemporaryFolder folder;
   Json plate = Json::parse(kPlate);
