@@ -57,6 +57,15 @@ inEditor('counts kits that share parts as lekalo show does: the dear one takes t
   assert.deepEqual(await agreed(), [0, 2]);
 }, { layout: sharing });
 
+inEditor('counts no kits by itself where the kernel is missing', async (page) => {
+  await page.route('**/lekalo.wasm', (route) => route.fulfill({ status: 404 }));
+  await page.reload();
+  await page.waitForSelector('.tray li');
+  await command(page, 'side.kits');
+  assert.match(await page.textContent('.body'), /Not counted in this browser/);
+  assert.equal(await page.locator('.body table').count(), 0);
+}, { layout: sharing, options: {}, expected: ['404'] });
+
 inEditor('puts parts in by the keyboard alone', async (page, server) => {
   await page.focus('[data-id="part-bracket"] .piece');
   await page.keyboard.press('Enter');
