@@ -6,17 +6,41 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "lekalo/base/random.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
+#include "lekalo/mill/relief.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace {
 
 void require(bool holds) {
   if (!holds) std::abort();
+}
+
+/// Passes ahead of stretches that are said to be hot, whether they are or not: none may leave the pocket.
+lekalo::mill::PocketPath with_passes(const lekalo::mill::PocketPath& path,
+                                     const std::vector<lekalo::geom::Region>& pockets,
+                                     const lekalo::mill::PocketOptions& options, unsigned seed) {
+  using namespace lekalo;
+  Random random(seed, 1);
+  auto relief = mill::Relief::make(path, pockets, options);
+  require(relief.has_value());
+  const auto loads = [&] {
+    std::vector<std::vector<mill::MoveLoad>> made(relief->path().moves.size());
+    for (auto& of_move : made)
+      for (int piece = 0; piece < 4; ++piece) {
+        const double degrees = random.below(4) == 0 ? 180 * random.uniform() : 0;
+        of_move.push_back({random.uniform(), degrees, degrees * random.uniform()});
+      }
+    return made;
+  };
+  for (int round = 0; relief->improve(loads()); ++round) require(round < 10000);
+  return relief->path();
 }
 
 }  // namespace
@@ -51,7 +75,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(!path.error().message.empty());
     return 0;
   }
-  const std::string program = mill::program_of(*path, {});
+  const mill::PocketPath relieved =
+      options.method == mill::Method::fronts ? with_passes(*path, file->regions, options, data[0]) : *path;
+  const std::string program = mill::program_of(relieved, {});
   if (data[2] % 16 != 0) return 0;  // the judgement takes longer than the path
   verify::SimulateOptions machining;
   machining.tool_diameter = options.tool_diameter;
