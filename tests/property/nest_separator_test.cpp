@@ -6,6 +6,7 @@
 #include "nest/cost_sums.hpp"
 #include "nest/lattice.hpp"
 #include "nest/separator.hpp"
+#include "nest/sheet_lane.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -221,6 +222,30 @@ TEST(MakeRoom, GathersWhatIsMissingForOneMore) {
   EXPECT_GT(separator.state().spots[2].x, 30.9);
   separator.put_near(4, 0, {25, 5});
   EXPECT_TRUE(separator.relax(200));
+}
+
+/// A full row with a little room between all: places thrown at random hardly ever close it.
+TEST(SheetLane, MakesRoomForTheLastPiece) {
+  constexpr std::size_t kSquares = 13;
+  layout::Document document = whole_millimetres(std::vector(kSquares, cases::box_loop(0, 0, 10, 10)), 10);
+  document.stocks[0].kind = layout::StockKind::sheet;
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 130.5, 10)});
+  const Problem problem(document, {});
+  const Items items = items_of(problem);
+  State state;
+  for (std::size_t k = 0; k < kSquares; ++k)
+    state.spots.push_back({10.85 * static_cast<double>(k), 0, items.forms[k].first, 0});
+  state.spots.back().bin = kNowhere;
+  state.ends = {130.5};
+  state.tops = {10};
+  state.open_bins = {0};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SheetLane lane(problem, items, seed, 0);
+    lane.start(state);
+    EXPECT_GT(lane.merit().unplaced, 0);
+    lane.run(20'000);
+    EXPECT_EQ(lane.merit().unplaced, 0) << "seed " << seed;
+  }
 }
 
 class RelaxedSquares : public testing::Test {
