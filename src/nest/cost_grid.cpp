@@ -44,6 +44,8 @@ LEKALO_WIDE std::uint32_t first_below(const float* row, std::uint32_t block, std
   return block;
 }
 
+float rounded(float cost) { return std::round(kCostsPerUnit * cost) / kCostsPerUnit; }
+
 std::uint32_t blocks_of(std::size_t columns) {
   return static_cast<std::uint32_t>((columns + kBlock - 1) / kBlock);
 }
@@ -59,6 +61,10 @@ void NodeGrid::begin(double from_x, double from_y, std::uint32_t column_count, s
   sums.assign(std::size_t{stride} * rows, 0);
 }
 
+void NodeGrid::add(const NodeGrid& from, std::uint32_t column, std::uint32_t row, float weight) {
+  add_scaled(sums.data(), stride, from.row(row) + column, from.stride, rows, blocks_of(columns), weight);
+}
+
 std::uint32_t NodeGrid::block_below(std::uint32_t r, std::uint32_t block, float limit) const noexcept {
   return first_below(row(r), block, blocks_of(columns), limit);
 }
@@ -69,11 +75,12 @@ Box CostGrid::shifts(const Form& fixed, const Form& moved) const {
           fixed.box.x1 - moved.box.x0 + gap, fixed.box.y1 - moved.box.y0 + gap};
 }
 
-bool CostGrid::pays(const Problem& problem, double pitch) {
+bool CostGrid::pays(const Problem& problem, double pitch, bool parts_only) {
   const auto& forms = problem.forms();
   if (forms.size() > 4000) return false;
   double sum_w = 0, sum_h = 0;
   for (const Form& f : forms) {
+    if (parts_only && problem.kind_of(f) != SearchShape::Kind::part) continue;
     sum_w += (f.box.x1 - f.box.x0) / pitch + 1;
     sum_h += (f.box.y1 - f.box.y0) / pitch + 1;
   }
@@ -100,11 +107,20 @@ const CostGrid::Raster& CostGrid::raster(std::uint32_t fixed, std::uint32_t move
   for (std::uint32_t r = 0; r < made.rows; ++r)
     for (std::uint32_t c = 0; c < made.columns; ++c)
       made.values[std::size_t{r} * made.stride + c] =
-          std::round(kCostsPerUnit * cost_(a, b, (made.column + static_cast<std::int32_t>(c)) * pitch_,
-                                           (made.row + static_cast<std::int32_t>(r)) * pitch_)) /
-          kCostsPerUnit;
+          rounded(cost_(a, b, (made.column + static_cast<std::int32_t>(c)) * pitch_,
+                        (made.row + static_cast<std::int32_t>(r)) * pitch_));
   added_ += std::uint64_t{made.columns} * made.rows * 128;
   return made;
+}
+
+void CostGrid::add_obstacles(NodeGrid& to, const std::vector<Obstacle>& obstacles, std::uint32_t moved) {
+  const Form& form = problem_.forms()[moved];
+  for (const Obstacle& o : obstacles)
+    for (std::uint32_t r = 0; r < to.rows; ++r)
+      for (std::uint32_t c = 0; c < to.columns; ++c)
+        to.sums[std::size_t{r} * to.stride + c] += rounded(
+            cost_(problem_.forms()[o.form], form, to.x0 + c * pitch_ - o.x, to.y0 + r * pitch_ - o.y));
+  added_ += std::uint64_t{to.columns} * to.rows * obstacles.size() * 128;
 }
 
 void CostGrid::add(NodeGrid& to, std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight) {
@@ -118,9 +134,10 @@ void CostGrid::add(NodeGrid& to, std::uint32_t fixed, std::uint32_t moved, doubl
   if (c0 >= c1 || r0 >= r1) return;
   const auto rows = static_cast<std::size_t>(r1 - r0);
   const std::size_t blocks = blocks_of(static_cast<std::size_t>(c1 - c0));
-  add_scaled(&to.sums[static_cast<std::size_t>(r0) * to.stride + static_cast<std::size_t>(c0)], to.stride,
-             &from.values[static_cast<std::size_t>(r0 - low) * from.stride + static_cast<std::size_t>(c0 - left)],
-             from.stride, rows, blocks, weight);
+  add_scaled(
+      &to.sums[static_cast<std::size_t>(r0) * to.stride + static_cast<std::size_t>(c0)], to.stride,
+      &from.values[static_cast<std::size_t>(r0 - low) * from.stride + static_cast<std::size_t>(c0 - left)],
+      from.stride, rows, blocks, weight);
   added_ += rows * blocks * kBlock;
 }
 

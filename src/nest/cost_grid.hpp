@@ -18,6 +18,9 @@ struct NodeGrid {
   void begin(double from_x, double from_y, std::uint32_t column_count, std::uint32_t row_count);
   /// Readable up to the next multiple of CostGrid::kBlock beyond the columns.
   const float* row(std::uint32_t r) const noexcept { return &sums[std::size_t{r} * stride]; }
+  /// Adds those of a grid of the same pitch that begins so many columns and rows before this one and reaches
+  /// at least as far, times a weight.
+  void add(const NodeGrid& from, std::uint32_t column, std::uint32_t row, float weight);
   /// The first block of a row, from this one on, with a sum below a limit; the number of blocks if none.
   std::uint32_t block_below(std::uint32_t r, std::uint32_t block, float limit) const noexcept;
 };
@@ -31,8 +34,9 @@ class CostGrid {
   /// Of a place, less than which nothing is: depth > 0.
   using PairCost = std::function<float(const Form& fixed, const Form& moved, double dx, double dy)>;
 
-  /// Whether rasters of all pairs of forms take little enough memory.
-  static bool pays(const Problem& problem, double pitch);
+  /// Whether rasters of all pairs of forms take little enough memory. \param parts_only  what belongs to the
+  /// stock needs none
+  static bool pays(const Problem& problem, double pitch, bool parts_only);
   CostGrid(const Problem& problem, double pitch, PairCost cost);
 
   double pitch() const noexcept { return pitch_; }
@@ -44,6 +48,9 @@ class CostGrid {
   /// Adds what an item at (x, y) costs times a weight. Costs are multiples of 2^-14, so that sums of whole
   /// weights are exact up to 1,000: what is added can be taken away without a trace.
   void add(NodeGrid& to, std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight);
+  /// What a form costs at every node from the lowest place on a bin that it may have, with the obstacles
+  /// there.
+  void add_obstacles(NodeGrid& to, const std::vector<Obstacle>& obstacles, std::uint32_t moved);
   /// Nodes added up so far.
   std::uint64_t added() const noexcept { return added_; }
 

@@ -3,7 +3,8 @@
 namespace lekalo::nest {
 
 const NodeGrid& CostSums::now(CostGrid& grid, std::uint32_t form, std::uint32_t bin, double x0, double y0,
-                              std::uint32_t columns, std::uint32_t rows, const std::vector<Spot>& spots) {
+                              std::uint32_t columns, std::uint32_t rows, std::span<const Spot> spots,
+                              const NodeGrid* fixed) {
   Sums& sums = sums_[bin * forms_ + form];
   const auto is_same = [&](const Spot& s, const Spot& t) {
     if (s.bin != bin || t.bin != bin) return s.bin != bin && t.bin != bin;
@@ -17,6 +18,7 @@ const NodeGrid& CostSums::now(CostGrid& grid, std::uint32_t form, std::uint32_t 
   }
   if (2 * changed > spots.size()) {
     nodes.begin(x0, y0, columns, rows);
+    if (fixed != nullptr) nodes.add(*fixed, 0, 0, 1);
     sums.spots.assign(spots.size(), {0, 0, 0, kNowhere});
   }
   for (std::size_t j = 0; j < spots.size(); ++j) {

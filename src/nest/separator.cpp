@@ -13,7 +13,8 @@ constexpr double kLeastValue = 0.003;
 /// The depth of a long thin overlap says little: the root of its area counts beside it.
 constexpr double kAreaShare = 0.3;
 constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
-constexpr std::size_t kManyItems = 512;  ///< from which on neighbours are looked up in cells
+constexpr int kNear = 400;                    ///< places looked at around a point
+constexpr std::size_t kManyItems = 512;       ///< from which on neighbours are looked up in cells
 /// Steps as shares of the item's narrow side.
 constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
 constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
@@ -447,6 +448,30 @@ void Separator::put_anywhere(std::size_t i) {
     spot.y = random_.uniform(r.y0, r.y1);
     return set_spot(i, spot);
   }
+}
+
+void Separator::put_near(std::size_t i, std::uint32_t bin, geom::Point at) {
+  const Forms& forms = items_.forms[i];
+  Choice choice;
+  for (int k = 0; k < kNear; ++k) {
+    Spot spot;
+    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    spot.bin = bin;
+    const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
+    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    const Box& b = problem_.forms()[spot.form].box;
+    const double far = size_[i] * unit_;
+    spot.x = std::clamp(at.x - 0.5 * (b.x0 + b.x1) + random_.uniform(-far, far), r.x0, r.x1);
+    spot.y = std::clamp(at.y - 0.5 * (b.y0 + b.y1) + random_.uniform(-far, far), r.y0, r.y1);
+    choice.offer({spot, evaluate_all(i, spot, choice.worst())});
+  }
+  if (choice.count == 0) return put_anywhere(i);
+  for (std::size_t k = 0; k < choice.count; ++k)
+    descend(i, choice.places[k], kFirstStep * min_dim_[i], kCoarse * min_dim_[i]);
+  const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.loss < b.loss; };
+  set_spot(i, std::min_element(choice.places.begin(),
+                               choice.places.begin() + static_cast<std::ptrdiff_t>(choice.count), cheaper)
+                  ->spot);
 }
 
 }  // namespace lekalo::nest

@@ -77,6 +77,11 @@ class Separator {
   std::uint64_t work() const noexcept { return work_; }
   /// Anywhere on the open bins.
   void put_anywhere(std::size_t i);
+  /// Slides what lies on a bin away from a point as far as it goes, what is furthest from it first: the room
+  /// between all gathers there. \pre nothing overlaps
+  void make_room(std::uint32_t bin, geom::Point at);
+  /// The cheapest place found around a point, whatever overlaps there.
+  void put_near(std::size_t i, std::uint32_t bin, geom::Point at);
   /// The length (axis 0) or height (axis 1) that the widest item on it needs.
   double least_side(std::uint32_t bin, int axis) const;
   /// Items beyond are pushed back.
@@ -107,6 +112,7 @@ class Separator {
   Range range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const;
   void gather(const Box& box, std::uint32_t bin, std::size_t but);
   double evaluate(std::size_t i, const Spot& spot, double limit);
+  bool is_free(std::size_t i, const Spot& spot);
   double evaluate_all(std::size_t i, const Spot& spot, double limit);
   void descend(std::size_t i, Candidate& from, double step, double until);
   void push_out(std::size_t i, Candidate& from);
@@ -116,6 +122,8 @@ class Separator {
   void move_on_lattice(std::size_t i);
   void choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice);
   void fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range);
+  const NodeGrid* fixed_costs(std::uint32_t form, std::uint32_t bin);
+  float heaviest_obstacle(std::size_t i, std::uint32_t bin) const;
   void add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> close_pairs(double margin) const;
   /// What an overlap costs before its weight.
@@ -134,7 +142,7 @@ class Separator {
   std::size_t total_ = 0;
   std::vector<Box> boxes_;
   std::vector<float> weights_;
-  std::vector<std::size_t> raised_;     ///< indices of weights above 1
+  std::vector<std::size_t> raised_;  ///< indices of weights above 1
   BoxList list_;
   std::optional<NeighbourGrid> cells_;  ///< instead of the list where there are many items
   const std::atomic<bool>* stop_ = nullptr;
@@ -151,11 +159,13 @@ class Separator {
   std::uint64_t work_ = 0;
   std::optional<CostGrid> grid_;
   NodeGrid nodes_;  ///< of the item being moved, in one form
+  /// By bin and form: what the obstacles there cost, made when first asked for; empty: each has rasters.
+  std::vector<std::optional<NodeGrid>> fixed_costs_;
   std::optional<CostSums> sums_;  ///< not where adding up anew is cheaper
-  double lattice_ = 0;        ///< 0: anywhere
-  double unit_ = 0;           ///< mm: the middling part's size
-  std::vector<double> size_;  ///< in units; 1 for what stays
-  std::vector<double> root_;  ///< of the sizes
+  double lattice_ = 0;            ///< 0: anywhere
+  double unit_ = 0;               ///< mm: the middling part's size
+  std::vector<double> size_;      ///< in units; 1 for what stays
+  std::vector<double> root_;      ///< of the sizes
 };
 
 }  // namespace lekalo::nest

@@ -6,31 +6,41 @@
 namespace lekalo::nest {
 namespace {
 
-/// The grid's pitch as a share of the middling part's size, the largest window, and forms looked at in a move.
-constexpr double kPitch = 1.0 / 16;
+/// The grid's pitch as a share of the middling part's size, the largest window, and forms looked at in a
+/// move.
+constexpr double kPitch = 1.0 / 16, kCoarsePitch = 1.0 / 8;
 constexpr std::uint32_t kMostRows = 256, kMostNodes = 20'000, kFormsOnGrid = 4;
 constexpr std::uint64_t kNodesAsPlace = 2000;  ///< nodes added up in the time of one place
 /// Of sums that are kept: of one form, and of all.
 constexpr std::uint32_t kMostKept = 80'000, kMostKeptInAll = 8'000'000;
+constexpr double kMostMerged = 8e6;  ///< nodes of what obstacles cost together
 
 }  // namespace
 
 bool Separator::make_grid(double pitch) {
   grid_.reset();
   sums_.reset();
-  if (!CostGrid::pays(problem_, pitch)) return false;
+  fixed_costs_.clear();
+  double nodes = 0;
+  for (const Bin& bin : problem_.bins())
+    nodes += (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) / (pitch * pitch);
+  const bool merged =
+      !items_.fixed.empty() && nodes * static_cast<double>(problem_.forms().size()) <= kMostMerged;
+  if (!CostGrid::pays(problem_, pitch, merged)) return false;
+  if (merged) fixed_costs_.resize(problem_.bins().size() * problem_.forms().size());
   std::vector<double> root_of_form(problem_.forms().size(), 1);
   for (std::size_t i = 0; i < items_.movable(); ++i)
     for (std::uint32_t f = items_.forms[i].first; f < items_.forms[i].last; ++f) root_of_form[f] = root_[i];
   const Form* first = problem_.forms().data();
-  grid_.emplace(problem_, pitch,
-                [this, first, roots = std::move(root_of_form)](const Form& a, const Form& b, double dx, double dy) {
-                  const double depth = problem_.depth(a, b, dx, dy);
-                  if (depth <= kTolerance) return 0.0f;
-                  return static_cast<float>(cost_of(depth, problem_.common_area(a, b, dx, dy)) *
-                                            roots[static_cast<std::size_t>(&a - first)] *
-                                            roots[static_cast<std::size_t>(&b - first)]);
-                });
+  grid_.emplace(
+      problem_, pitch,
+      [this, first, roots = std::move(root_of_form)](const Form& a, const Form& b, double dx, double dy) {
+        const double depth = problem_.depth(a, b, dx, dy);
+        if (depth <= kTolerance) return 0.0f;
+        return static_cast<float>(cost_of(depth, problem_.common_area(a, b, dx, dy)) *
+                                  roots[static_cast<std::size_t>(&a - first)] *
+                                  roots[static_cast<std::size_t>(&b - first)]);
+      });
   if (sums_pay()) sums_.emplace(problem_.bins().size(), problem_.forms().size());
   return true;
 }
@@ -45,8 +55,8 @@ bool Separator::sums_pay() const {
   if (2.0 * static_cast<double>(forms) > looked_at * static_cast<double>(total_)) return false;
   double nodes = 0;
   for (const Bin& bin : problem_.bins())
-    nodes += std::min<double>(kMostKept, (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) /
-                                             (grid_->pitch() * grid_->pitch()));
+    nodes += std::min<double>(
+        kMostKept, (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) / (grid_->pitch() * grid_->pitch()));
   return nodes * static_cast<double>(forms) <= kMostKeptInAll;
 }
 
@@ -56,7 +66,7 @@ bool Separator::use_lattice(double unit) {
     lattice_ = unit;
     return true;
   }
-  make_grid(kPitch * unit_);
+  if (!make_grid(kPitch * unit_)) make_grid(kCoarsePitch * unit_);
   return unit == 0;
 }
 
@@ -73,30 +83,64 @@ void Separator::to_lattice() {
   }
 }
 
+/// What a form costs with the obstacles of a bin, everywhere there; null where each of them has rasters.
+const NodeGrid* Separator::fixed_costs(std::uint32_t form, std::uint32_t bin) {
+  const Bin& on = problem_.bins()[bin];
+  if (fixed_costs_.empty() || on.obstacles.empty()) return nullptr;
+  std::optional<NodeGrid>& made = fixed_costs_[bin * problem_.forms().size() + form];
+  if (!made) {
+    const Box& b = problem_.forms()[form].box;
+    const double gap = problem_.border_gap_of(problem_.part_of(problem_.forms()[form]));
+    made.emplace();
+    made->begin(on.box.x0 + gap - b.x0, on.box.y0 + gap - b.y0,
+                grid_->nodes(on.box.x1 - on.box.x0 - 2 * gap - (b.x1 - b.x0)) + 1,
+                grid_->nodes(on.box.y1 - on.box.y0 - 2 * gap - (b.y1 - b.y0)) + 1);
+    grid_->add_obstacles(*made, on.obstacles, form);
+  }
+  return &*made;
+}
+
+/// What item i pays for an obstacle of the bin with, at most.
+float Separator::heaviest_obstacle(std::size_t i, std::uint32_t bin) const {
+  float most = 1;
+  for (std::size_t j = items_.movable(); j < total_; ++j)
+    if (state_.spots[j].bin == bin) most = std::max(most, weights_[i * total_ + j]);
+  return most;
+}
+
 /// What item i would cost in a form everywhere in the range, or in a window of it where that is large.
 void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range) {
   std::uint32_t columns = grid_->nodes(range.x1 - range.x0), rows = grid_->nodes(range.y1 - range.y0);
   const std::uint64_t before = grid_->added();
+  const NodeGrid* fixed = fixed_costs(form, bin);
+  const std::size_t rastered = fixed_costs_.empty() ? total_ : items_.movable();
   if (sums_ && std::uint64_t{columns} * rows <= kMostKept) {
-    nodes_ = sums_->now(*grid_, form, bin, range.x0, range.y0, columns, rows, state_.spots);
+    nodes_ = sums_->now(*grid_, form, bin, range.x0, range.y0, columns, rows,
+                        std::span(state_.spots).first(rastered), fixed);
     add_raised(i, form, bin);
+    if (const float most = heaviest_obstacle(i, bin); fixed != nullptr && most > 1)
+      nodes_.add(*fixed, 0, 0, most - 1);
   } else {
     double x0 = range.x0, y0 = range.y0;
     const auto cut = [&](double& from, std::uint32_t& count, std::uint32_t most) {
-      if (count <= most) return;
-      from += static_cast<double>(random_.below(count - most + 1)) * grid_->pitch();
+      if (count <= most) return std::uint32_t{0};
+      const auto skipped = static_cast<std::uint32_t>(random_.below(count - most + 1));
+      from += static_cast<double>(skipped) * grid_->pitch();
       count = most;
+      return skipped;
     };
-    cut(y0, rows, kMostRows);
-    cut(x0, columns, kMostNodes / rows);
+    const std::uint32_t row = cut(y0, rows, kMostRows);
+    const std::uint32_t column = cut(x0, columns, kMostNodes / rows);
     nodes_.begin(x0, y0, columns, rows);
     const Form& f = problem_.forms()[form];
     const double pitch = grid_->pitch();
     gather({x0 + f.box.x0, y0 + f.box.y0, x0 + columns * pitch + f.box.x1, y0 + rows * pitch + f.box.y1}, bin,
            i);
     const float* weights = &weights_[i * total_];
+    if (fixed != nullptr) nodes_.add(*fixed, column, row, heaviest_obstacle(i, bin));
     for (const std::uint32_t j : near_)
-      grid_->add(nodes_, state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y, weights[j]);
+      if (j < rastered)
+        grid_->add(nodes_, state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y, weights[j]);
   }
   work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / kNodesAsPlace;
 }
@@ -104,7 +148,8 @@ void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, 
 /// Of what everything on a bin costs, what item i pays for alone: its raised weights, and itself not at all.
 void Separator::add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin) {
   const float* weights = &weights_[i * total_];
-  for (std::size_t j = 0; j < total_; ++j) {
+  const std::size_t rastered = fixed_costs_.empty() ? total_ : items_.movable();
+  for (std::size_t j = 0; j < rastered; ++j) {
     const Spot& s = state_.spots[j];
     const float weight = j == i ? 0.0f : weights[j];
     if (s.bin == bin && weight != 1) grid_->add(nodes_, s.form, form, s.x, s.y, weight - 1);
@@ -130,8 +175,7 @@ void Separator::move_on_lattice(std::size_t i) {
           least = values[c];
           ties = 0;
         }
-        if (random_.below(++ties) == 0)
-          best = {nodes_.x0 + c * pitch, nodes_.y0 + row * pitch, form, bin};
+        if (random_.below(++ties) == 0) best = {nodes_.x0 + c * pitch, nodes_.y0 + row * pitch, form, bin};
       }
     }
   }
@@ -158,13 +202,14 @@ void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice)
       float worst = static_cast<float>(rough.worst());
       for (std::uint32_t block = nodes_.block_below(row, 0, worst); block * CostGrid::kBlock < columns;
            block = nodes_.block_below(row, block + 1, worst)) {
-        for (std::uint32_t c = block * CostGrid::kBlock; c < std::min(columns, (block + 1) * CostGrid::kBlock); ++c) {
+        for (std::uint32_t c = block * CostGrid::kBlock;
+             c < std::min(columns, (block + 1) * CostGrid::kBlock); ++c) {
           const float v = at[c];
           if (v >= worst || v > below[c] || v > above[c] || (c > 0 && v > at[c - 1]) ||
               (c + 1 < columns && v > at[c + 1]))
             continue;
-          const Spot spot = {std::min(r.x1, nodes_.x0 + c * pitch),
-                             std::min(r.y1, nodes_.y0 + row * pitch), form, bin};
+          const Spot spot = {std::min(r.x1, nodes_.x0 + c * pitch), std::min(r.y1, nodes_.y0 + row * pitch),
+                             form, bin};
           rough.offer({spot, static_cast<double>(v)});
           worst = static_cast<float>(rough.worst());
         }
@@ -172,7 +217,8 @@ void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice)
     }
   }
   for (std::size_t k = 0; k < rough.count; ++k)
-    choice.offer({rough.places[k].spot, evaluate_all(i, rough.places[k].spot, std::numeric_limits<double>::infinity())});
+    choice.offer({rough.places[k].spot,
+                  evaluate_all(i, rough.places[k].spot, std::numeric_limits<double>::infinity())});
 }
 
 }  // namespace lekalo::nest

@@ -32,6 +32,12 @@ constexpr int kPlans = 8;
 constexpr double kMoreRoom = 0.1;
 /// Places tried, of a kind of piece on a bin, after a rearrangement.
 constexpr std::size_t kRefillTries = 4000;
+/// Rooms made before a rearrangement, and so many slides at most, that with thousands of pieces these take no
+/// longer than it does; sweeps of a room, rounds of relaxing.
+constexpr std::size_t kRooms = 30, kSlides = 16'000;
+constexpr int kSweeps = 2, kRelaxRounds = 200;
+/// One piece in so many may lack, or one at all, for rooms to be worth their time.
+constexpr std::size_t kFewMissing = 8;
 /// Sums of areas in another order.
 constexpr double kRounding = 1e-12;
 
@@ -368,8 +374,10 @@ void SheetLane::begin_separation() {
 }
 
 void SheetLane::attempt() {
+  rooms_left_ = 0;
   for (int vain = 0; goal_ != Goal::none && !separator_.is_stopped(); ++vain) {
-    if (goal_ == Goal::box ? attempt_box() : attempt_fill()) return;
+    if (goal_ != Goal::box) return begin_rooms();
+    if (attempt_box()) return;
     if (vain > kVainAttempts) {
       goal_ = Goal::none;
       return;
@@ -378,7 +386,47 @@ void SheetLane::attempt() {
   }
 }
 
-bool SheetLane::attempt_fill() {
+/// A filling: where few pieces lack, first in rooms made for one at a time; then by a rearrangement.
+void SheetLane::begin_rooms() {
+  if (nowhere(current_.state).size() > std::max<std::size_t>(1, items_.movable() / kFewMissing))
+    return throw_in();
+  rooms_left_ = std::clamp<std::size_t>(kSlides / (kSweeps * items_.movable()), 1, kRooms);
+}
+
+/// Slides what lies on a bin away from a point anywhere and puts a missing piece there, if all that overlaps
+/// then can be shifted apart. Else everything stays as it was slid, which the next one begins with.
+void SheetLane::try_room() {
+  Random& random = separator_.random();
+  --rooms_left_;
+  separator_.load(current_.state);
+  const auto& open = current_.state.open_bins;
+  const std::uint32_t bin = open[random.below(open.size())];
+  const Box& box = problem_.bins()[bin].box;
+  const geom::Point at = {random.uniform(box.x0, box.x1), random.uniform(box.y0, box.y1)};
+  for (int k = 0; k < kSweeps; ++k) separator_.make_room(bin, at);
+  State slid = separator_.state();
+  current_.state.spots = slid.spots;
+  tidy(slid);
+  if (!slid.open_bins.empty()) current_.merit.reach = -leftover_of(slid, emptiest(slid));
+  const std::vector<std::uint32_t> missing = nowhere(current_.state);
+  separator_.put_near(missing[any_of(missing)], bin, at);
+  if (separator_.relax(kRelaxRounds)) {
+    attempt_.begin(0, separator_.state());
+    on_valid();
+    return attempt();
+  }
+  if (rooms_left_ == 0) throw_in();
+}
+
+/// Mostly the first, which is the largest or the most wanted.
+std::size_t SheetLane::any_of(const std::vector<std::uint32_t>& missing) {
+  Random& random = separator_.random();
+  return random.below(2) == 0 ? 0 : random.below(missing.size());
+}
+
+/// Missing pieces, a kit's or another plan's, wherever chance puts them; what overlaps then is to be
+/// separated.
+void SheetLane::throw_in() {
   Random& random = separator_.random();
   separator_.load(current_.state);
   std::vector<std::uint32_t> missing = nowhere(current_.state);
@@ -388,26 +436,22 @@ bool SheetLane::attempt_fill() {
       const std::vector<std::int64_t> kits = planned_kits();
       if (!kits.empty()) {
         replace_by(kits);
-        begin_separation();
-        return true;
+        return begin_separation();
       }
     }
     const std::vector<std::uint32_t> pieces = pieces_for_a_kit(current_.state, missing);
     if (!pieces.empty()) {
       for (const std::uint32_t i : pieces) separator_.put_anywhere(i);
-      begin_separation();
-      return true;
+      return begin_separation();
     }
   }
   batch_ = std::clamp<std::size_t>(batch_, 1, missing.size());
   for (std::size_t k = 0; k < batch_; ++k) {
-    // Mostly the first, which is the largest or the most wanted.
-    const std::size_t pick = random.below(2) == 0 ? 0 : random.below(missing.size());
+    const std::size_t pick = any_of(missing);
     separator_.put_anywhere(missing[pick]);
     missing.erase(missing.begin() + static_cast<std::ptrdiff_t>(pick));
   }
   begin_separation();
-  return true;
 }
 
 /// Two pieces change places, so that the next attempt is another one.
@@ -602,6 +646,7 @@ void SheetLane::on_stuck() {
 }
 
 void SheetLane::step() {
+  if (rooms_left_ > 0) return try_room();
   const double overlap = separator_.pass();
   if (overlap <= 0 || (separator_.deepest() < problem_.unit() && separator_.snap(problem_.unit()))) {
     on_valid();

@@ -58,7 +58,10 @@ class SheetLane {
   bool begin_box();
   /// Until one has begun: there is something to be separated.
   void attempt();
-  bool attempt_fill();
+  void begin_rooms();
+  void try_room();
+  void throw_in();
+  std::size_t any_of(const std::vector<std::uint32_t>& missing);
   bool attempt_box();
   void exchange();
   /// Pieces by part that are placed, locked ones too.
@@ -91,11 +94,12 @@ class SheetLane {
   int failures_ = 0;
   std::uint64_t attempts_ = 0;  ///< each looks at every piece
   std::uint64_t refill_work_ = 0;
-  int rounds_ = 0;            ///< goals chosen
-  int reductions_ = 0;        ///< goals `reduce` since the best has as many sheets as now
-  int vain_fills_ = 0;        ///< goals `fill` since one gained something
-  std::size_t batch_ = 1;     ///< pieces thrown in at once
-  std::uint32_t target_ = 0;  ///< the bin whose box gets smaller
+  int rounds_ = 0;              ///< goals chosen
+  int reductions_ = 0;          ///< goals `reduce` since the best has as many sheets as now
+  int vain_fills_ = 0;          ///< goals `fill` since one gained something
+  std::size_t rooms_left_ = 0;  ///< to be tried before the rearrangement of this attempt
+  std::size_t batch_ = 1;       ///< pieces thrown in at once
+  std::uint32_t target_ = 0;    ///< the bin whose box gets smaller
   double ratio_ = 0, skew_ = 0;
   bool is_kick_ = false;  ///< the box under way is a new proportion, larger than it should be
   Attempt attempt_;

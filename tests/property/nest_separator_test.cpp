@@ -6,6 +6,7 @@
 #include "nest/cost_sums.hpp"
 #include "nest/lattice.hpp"
 #include "nest/separator.hpp"
+#include "nest/sheet_lane.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -96,6 +97,9 @@ TEST(CostSums, AreTheSameAsAddedUpAnew) {
   const auto forms = static_cast<std::uint32_t>(problem.forms().size());
   CostSums sums(2, forms);
   Random random(cases::seed(), 8);
+  NodeGrid fixed;  // what does not move on the second bin
+  fixed.begin(0.5, 1, 41, 30);
+  grid.add(fixed, 1, 2, 7, 6, 1);
   std::vector<Spot> spots(12, Spot{0, 0, 0, kNowhere});
   for (std::size_t i = 0; i < cases::case_count(300); ++i) {
     // Some move, to another bin or nowhere too.
@@ -108,12 +112,139 @@ TEST(CostSums, AreTheSameAsAddedUpAnew) {
     const auto form = static_cast<std::uint32_t>(random.below(3));
     const auto bin = static_cast<std::uint32_t>(random.below(2));
     const auto columns = static_cast<std::uint32_t>(40 + random.below(2));
-    const NodeGrid& now = sums.now(grid, form, bin, 0.5, 1, columns, 30, spots);
+    const NodeGrid* rest = bin == 1 ? &fixed : nullptr;
+    const NodeGrid& now = sums.now(grid, form, bin, 0.5, 1, columns, 30, spots, rest);
     NodeGrid anew;
     anew.begin(0.5, 1, columns, 30);
+    if (rest != nullptr) anew.add(*rest, 0, 0, 1);
     for (const Spot& s : spots)
       if (s.bin == bin) grid.add(anew, s.form, form, s.x, s.y, 1);
     ASSERT_EQ(now.sums, anew.sums) << "case " << i << " of seed " << cases::seed();
+  }
+}
+
+/// A window of what obstacles cost together is the sum of their costs there.
+TEST(CostGrid, AddsObstaclesTogetherAndWindowsOfThem) {
+  const layout::Document document =
+      whole_millimetres({l_shape(5), l_shape(7), cases::box_loop(0, 0, 4, 3)}, 20);
+  const Problem problem(document, {});
+  const auto cost = [&](const Form& a, const Form& b, double dx, double dy) {
+    return static_cast<float>(0.1 * std::max(0.0, problem.depth(a, b, dx, dy)));
+  };
+  CostGrid grid(problem, 0.5, cost);
+  const std::vector<Obstacle> obstacles = {{0, 3, 4}, {5, 9, 8}, {9, 4, 5}};
+  NodeGrid all;
+  all.begin(0.5, 1, 45, 30);
+  grid.add_obstacles(all, obstacles, 2);
+  NodeGrid window;
+  window.begin(0.5 + 0.5 * 7, 1 + 0.5 * 3, 19, 11);
+  window.add(all, 7, 3, 2);
+  std::size_t costly = 0;
+  for (std::uint32_t r = 0; r < window.rows; ++r)
+    for (std::uint32_t c = 0; c < window.columns; ++c) {
+      float sum = 0;
+      for (const Obstacle& o : obstacles)
+        sum += 2 * cost(problem.forms()[o.form], problem.forms()[2], window.x0 + 0.5 * c - o.x,
+                        window.y0 + 0.5 * r - o.y);
+      EXPECT_NEAR(window.row(r)[c], sum, 6.0 / (1 << 14));
+      costly += sum > 0 ? 1 : 0;
+    }
+  EXPECT_GT(costly, 0u);
+}
+
+/// What slides away from a point stays valid, comes no nearer to it, and leaves room there.
+TEST(MakeRoom, SlidesEverythingAwayFromAPoint) {
+  layout::Document document =
+      whole_millimetres({cases::box_loop(0, 0, 4, 4), cases::box_loop(0, 0, 4, 4), l_shape(5),
+                         cases::box_loop(0, 0, 6, 3), l_shape(4), cases::box_loop(0, 0, 3, 3)},
+                        40);
+  document.stocks[0].kind = layout::StockKind::sheet;
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 40, 40)});
+  const Problem problem(document, {});
+  const Items items = items_of(problem);
+  Random random(cases::seed(), 9);
+  for (std::size_t n = 0; n < cases::case_count(100); ++n) {
+    SCOPED_TRACE("case " + std::to_string(n) + " of seed " + std::to_string(cases::seed()));
+    Separator separator(problem, items, Random(n));
+    State state;
+    for (std::size_t i = 0; i < items.movable(); ++i) {  // each in a cell of its own
+      const Forms& forms = items.forms[i];
+      const auto form = forms.first + static_cast<std::uint32_t>(random.below(forms.last - forms.first));
+      const Box& box = problem.forms()[form].box;
+      state.spots.push_back({13.0 * static_cast<double>(i % 3) + random.uniform(0, 6) - box.x0,
+                             20.0 * static_cast<double>(i / 3) + random.uniform(0, 13) - box.y0, form, 0});
+    }
+    state.ends = state.tops = {40};
+    state.open_bins = {0};
+    separator.load(state);
+    ASSERT_LE(separator.overlap(), 0);
+    const geom::Point at = {random.uniform(0, 40), random.uniform(0, 40)};
+    const auto far = [&](std::size_t i) {
+      const Spot& spot = separator.state().spots[i];
+      const Box& box = problem.forms()[spot.form].box;
+      return std::hypot(spot.x + 0.5 * (box.x0 + box.x1) - at.x, spot.y + 0.5 * (box.y0 + box.y1) - at.y);
+    };
+    std::vector<double> before;
+    for (std::size_t i = 0; i < items.movable(); ++i) before.push_back(far(i));
+    separator.make_room(0, at);
+    EXPECT_LE(separator.overlap(), 0);
+    double more = 0;
+    for (std::size_t i = 0; i < items.movable(); ++i) {
+      EXPECT_GE(far(i), before[i] - 1e-9);
+      more += far(i) - before[i];
+      const Spot& spot = separator.state().spots[i];
+      const Box& box = problem.forms()[spot.form].box;
+      EXPECT_TRUE(spot.x + box.x0 >= -1e-9 && spot.x + box.x1 <= 40 + 1e-9 && spot.y + box.y0 >= -1e-9 &&
+                  spot.y + box.y1 <= 40 + 1e-9);
+    }
+    EXPECT_GT(more, 10);
+  }
+}
+
+/// A row of squares with some room between all of them: the fifth goes where that is made one.
+TEST(MakeRoom, GathersWhatIsMissingForOneMore) {
+  const std::vector<geom::GridPoint> square = cases::box_loop(0, 0, 10, 10);
+  layout::Document document = whole_millimetres({square, square, square, square, square}, 10);
+  document.stocks[0].kind = layout::StockKind::sheet;
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 51, 10)});
+  const Problem problem(document, {});
+  const Items items = items_of(problem);
+  Separator separator(problem, items, Random(1));
+  State state;
+  for (int k = 0; k < 5; ++k) state.spots.push_back({2.0 + 12 * k, 0, items.forms[0].first, 0});
+  state.spots[4].bin = kNowhere;
+  state.ends = {51};
+  state.tops = {10};
+  state.open_bins = {0};
+  separator.load(state);
+  separator.make_room(0, {25, 5});
+  EXPECT_LT(separator.state().spots[1].x, 10.1);
+  EXPECT_GT(separator.state().spots[2].x, 30.9);
+  separator.put_near(4, 0, {25, 5});
+  EXPECT_TRUE(separator.relax(200));
+}
+
+/// A full row with a little room between all: places thrown at random hardly ever close it.
+TEST(SheetLane, MakesRoomForTheLastPiece) {
+  constexpr std::size_t kSquares = 13;
+  layout::Document document = whole_millimetres(std::vector(kSquares, cases::box_loop(0, 0, 10, 10)), 10);
+  document.stocks[0].kind = layout::StockKind::sheet;
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 130.5, 10)});
+  const Problem problem(document, {});
+  const Items items = items_of(problem);
+  State state;
+  for (std::size_t k = 0; k < kSquares; ++k)
+    state.spots.push_back({10.85 * static_cast<double>(k), 0, items.forms[k].first, 0});
+  state.spots.back().bin = kNowhere;
+  state.ends = {130.5};
+  state.tops = {10};
+  state.open_bins = {0};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SheetLane lane(problem, items, seed, 0);
+    lane.start(state);
+    EXPECT_GT(lane.merit().unplaced, 0);
+    lane.run(20'000);
+    EXPECT_EQ(lane.merit().unplaced, 0) << "seed " << seed;
   }
 }
 

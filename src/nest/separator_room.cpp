@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+
+#include "separator.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+/// Steps of a slide, as shares of the item's narrow side.
+constexpr double kFirstSlide = 0.5, kLastSlide = 1e-3;
+/// Aslant: how far from the straight way.
+constexpr double kAslant = 0.7071;
+/// A step that gets no further than this share of itself, as the border is in the way, is none.
+constexpr double kLeastGain = 0.1;
+
+}  // namespace
+
+/// Whether item i may lie there, with the items gathered around.
+bool Separator::is_free(std::size_t i, const Spot& spot) {
+  ++work_;
+  if (distance_too_far(i, spot) > 0.5 * kTolerance) return false;
+  const Form& form = problem_.forms()[spot.form];
+  const double gap = problem_.widest_gap();
+  const double x0 = spot.x + form.box.x0 - gap, x1 = spot.x + form.box.x1 + gap,
+               y0 = spot.y + form.box.y0 - gap, y1 = spot.y + form.box.y1 + gap;
+  return std::none_of(near_.begin(), near_.end(), [&](std::uint32_t j) {
+    const Box& o = boxes_[j];
+    if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) return false;
+    const Spot& other = state_.spots[j];
+    return problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y) >
+           0.5 * kTolerance;
+  });
+}
+
+void Separator::make_room(std::uint32_t bin, geom::Point at) {
+  std::vector<std::pair<double, std::uint32_t>> order;
+  const auto middle = [&](std::size_t i) {
+    return geom::Point{0.5 * (boxes_[i].x0 + boxes_[i].x1), 0.5 * (boxes_[i].y0 + boxes_[i].y1)};
+  };
+  for (std::uint32_t i = 0; i < items_.movable(); ++i)
+    if (state_.spots[i].bin == bin) order.emplace_back(-geom::norm(middle(i) - at), i);
+  std::sort(order.begin(), order.end());
+  for (const auto& [less, i] : order) {
+    if (is_stopped()) return;
+    if (less == 0) continue;
+    Spot spot = state_.spots[i];
+    const geom::Point way = (-1 / less) * (middle(i) - at);
+    const std::array<geom::Point, 3> ways = {
+        way, geom::Point{kAslant * (way.x - way.y), kAslant * (way.x + way.y)},
+        geom::Point{kAslant * (way.x + way.y), kAslant * (way.y - way.x)}};
+    const Range r = range_of(spot.form, bin, items_.parts[i]);
+    double step = kFirstSlide * min_dim_[i];
+    double reach = 0, ax = spot.x, ay = spot.y;
+    while (step > kLastSlide * min_dim_[i]) {
+      if (std::hypot(spot.x - ax, spot.y - ay) + step > reach) {
+        ax = spot.x;
+        ay = spot.y;
+        reach = 3 * step;
+        const Box& b = problem_.forms()[spot.form].box;
+        gather({ax + b.x0 - reach, ay + b.y0 - reach, ax + b.x1 + reach, ay + b.y1 + reach}, bin, i);
+      }
+      const bool moved = std::any_of(ways.begin(), ways.end(), [&](geom::Point d) {
+        Spot to = spot;
+        to.x = std::clamp(to.x + step * d.x, r.x0, std::max(r.x0, r.x1));
+        to.y = std::clamp(to.y + step * d.y, r.y0, std::max(r.y0, r.y1));
+        if ((to.x == spot.x && to.y == spot.y) || !is_free(i, to)) return false;
+        if ((to.x - spot.x) * way.x + (to.y - spot.y) * way.y < kLeastGain * step) return false;
+        spot = to;
+        return true;
+      });
+      if (!moved) step *= 0.5;
+    }
+    set_spot(i, spot);
+  }
+}
+
+}  // namespace lekalo::nest
