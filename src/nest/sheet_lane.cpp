@@ -36,7 +36,7 @@ constexpr std::size_t kRefillTries = 4000;
 /// longer than it does; sweeps of a room, rounds of relaxing.
 constexpr std::size_t kRooms = 30, kSlides = 16'000;
 constexpr int kSweeps = 2, kRelaxRounds = 200;
-/// One piece in so many may lack, or one at all, for rooms to be worth their time.
+/// One piece in so many may lack for rooms to be worth their time where less stock is tried.
 constexpr std::size_t kFewMissing = 8;
 /// Sums of areas in another order.
 constexpr double kRounding = 1e-12;
@@ -386,9 +386,9 @@ void SheetLane::attempt() {
   }
 }
 
-/// A filling: where few pieces lack, first in rooms made for one at a time; then by a rearrangement.
+/// A filling: first in rooms made for one piece at a time, then by a rearrangement.
 void SheetLane::begin_rooms() {
-  if (nowhere(current_.state).size() > std::max<std::size_t>(1, items_.movable() / kFewMissing))
+  if (goal_ == Goal::reduce && nowhere(current_.state).size() > items_.movable() / kFewMissing)
     return throw_in();
   rooms_left_ = std::clamp<std::size_t>(kSlides / (kSweeps * items_.movable()), 1, kRooms);
 }
