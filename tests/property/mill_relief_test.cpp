@@ -115,6 +115,21 @@ TEST(MillRelief, WhereThereIsNoRoomBesideNothingIsChanged) {
   EXPECT_EQ(after.report.gouge_mm, 0);
 }
 
+/// Of these two a chord of a pass once crossed a wall between two of its places, 0.04 mm into what stays.
+TEST(MillRelief, AChordOfAPassAcrossAWallIsNotWritten) {
+  for (const std::size_t i : {std::size_t{62}, std::size_t{73}}) {
+    Random random(1, 700 + i);
+    const std::string pocket = pockets::random_pocket(random, i, 12 + 20 * random.uniform());
+    const auto regions = io::parse_regions(pocket, "pocket.json");
+    const auto path = pocket_path(regions->regions, {});
+    ASSERT_TRUE(path);
+    const Made after = relieved(*path, pocket);
+    EXPECT_FALSE(same(after.path, *path));
+    EXPECT_LE(after.report.gouge_mm, 0.0025);
+    EXPECT_LE(after.report.engagement_max_deg, 98.1);
+  }
+}
+
 TEST(MillRelief, RandomPocketsGetNoHotterAndStayCleared) {
   double given = 0, left = 0;
   for (std::size_t i = 0; i < cases::case_count(6); ++i) {
