@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "allowed_places.hpp"
 #include "arc_fit.hpp"
@@ -69,9 +70,10 @@ Edge Relief::edge_of(std::size_t move) const {
   return {EdgeKind::line, from, m.to, {}};
 }
 
-std::size_t Relief::move_at(double along) const {
-  const auto at = std::lower_bound(ends_.begin(), ends_.end(), along);
-  return std::min(static_cast<std::size_t>(at - ends_.begin()), ends_.size() - 1);
+std::size_t Relief::move_at(const Moves& run, double along) const {
+  const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(run.first),
+             last = ends_.begin() + static_cast<std::ptrdiff_t>(run.last);
+  return static_cast<std::size_t>(std::upper_bound(first, last, along) - ends_.begin());
 }
 
 /// Over the passes of a site and its stretch of the path.
@@ -136,6 +138,7 @@ void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
     double hot = 0, left = 0, right = 0;
     const auto finish = [&] {
       if (hot >= kLasting) {
+        site.run = {first, last};
         site.side = left > right ? 1 : -1;
         site.begin = std::max(run_begin, site.hot_begin - kRamp * radius_);
         site.end = std::min(run_end, site.hot_end + kRamp * radius_);
@@ -218,20 +221,19 @@ std::vector<PathMove> Relief::pass_beside(const Site& site, double depth) const 
     return 1.0;
   };
   const double pieces = std::max(2.0, std::ceil((site.end - site.begin) / (kSpacing * radius_)));
-  const std::size_t first = move_at(site.begin);
-  const double z = given_.moves[first].z;
-  const Edge begun = edge_of(first);
-  const double begun_at = first > 0 ? ends_[first - 1] : 0;
-  const Point start = place_at(begun, (site.begin - begun_at) / length_of(begun));
+  const auto place_along = [&](double along) {
+    const std::size_t move = move_at(site.run, along);
+    const Edge edge = edge_of(move);
+    return std::pair(place_at(edge, (along - ends_[move - 1]) / (ends_[move] - ends_[move - 1])), edge);
+  };
+  const double z = given_.moves[site.run.first].z;
+  const Point start = place_along(site.begin).first;
   PocketPath there;
   there.moves.push_back({.kind = PathMove::Kind::rapid, .to = start, .z = z});
   bool beside = false;
   for (double k = 0; k <= pieces; ++k) {
     const double along = site.begin + (site.end - site.begin) * k / pieces;
-    const std::size_t move = move_at(along);
-    const Edge edge = edge_of(move);
-    const double before = move > 0 ? ends_[move - 1] : 0;
-    const Point on = place_at(edge, (along - before) / length_of(edge));
+    const auto [on, edge] = place_along(along);
     const Point aside = -site.side * perpendicular(heading_at(edge, on));
     double reach = depth * share_beside(along);
     Point to = on + reach * aside;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -113,6 +114,16 @@ TEST(MillRelief, WhereThereIsNoRoomBesideNothingIsChanged) {
   const Made after = relieved(path, groove);
   EXPECT_TRUE(same(after.path, path));
   EXPECT_EQ(after.report.gouge_mm, 0);
+}
+
+/// There the move before has no length; its place along the path was once taken for one of the cut's.
+TEST(MillRelief, AHotStretchAtTheVeryBeginningIsNoExit) {
+  PocketPath path;
+  path.moves = {{Kind::rapid, {10, 20}, 5}, {Kind::plunge, {10, 20}, -1}, {Kind::cut, {50, 20}, -1}};
+  const Made after = relieved(path, kRoom);
+  for (const PathMove& move : after.path.moves) EXPECT_TRUE(std::isfinite(move.to.x + move.to.y));
+  EXPECT_EQ(after.report.gouge_mm, 0);
+  EXPECT_EQ(after.report.retracts, 0U);
 }
 
 /// Of these two a chord of a pass once crossed a wall between two of its places, 0.04 mm into what stays.

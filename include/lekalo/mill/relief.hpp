@@ -40,6 +40,7 @@ class Relief {
  private:
   /// A stretch that is too hot, in mm of the way along the path given.
   struct Site {
+    Moves run;                          ///< of the path given: level, of some length each, without a cusp
     double begin = 0, end = 0;          ///< where the tool may leave it and come back
     double hot_begin = 0, hot_end = 0;  ///< what is too hot
     double side = 1;                    ///< 1: the material is on the left
@@ -61,8 +62,9 @@ class Relief {
   [[nodiscard]] bool is_inside(const geom::Edge& edge) const;
   [[nodiscard]] std::vector<PathMove> pass_beside(const Site& site, double depth) const;
   void compose();
-  /// The move given that holds a place, and the geometry of one.
-  [[nodiscard]] std::size_t move_at(double along) const;
+  /// The move of a run that holds a place.
+  [[nodiscard]] std::size_t move_at(const Moves& run, double along) const;
+  /// The geometry of a move given, but for the first, which begins anywhere.
   [[nodiscard]] geom::Edge edge_of(std::size_t move) const;
 
   PocketPath given_, path_;
