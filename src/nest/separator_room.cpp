@@ -40,7 +40,9 @@ void Separator::make_room(std::uint32_t bin, geom::Point at) {
   for (std::uint32_t i = 0; i < items_.movable(); ++i)
     if (state_.spots[i].bin == bin) order.emplace_back(-geom::norm(middle(i) - at), i);
   std::sort(order.begin(), order.end());
-  for (const auto& [less, i] : order) {
+  for (const auto& entry : order) {
+    const double less = entry.first;
+    const std::uint32_t i = entry.second;
     if (is_stopped()) return;
     if (less == 0) continue;
     Spot spot = state_.spots[i];
