@@ -79,12 +79,13 @@ std::size_t Relief::move_at(const Moves& run, double along) const {
 /// Over the passes of a site and its stretch of the path.
 double Relief::excess_of(const Site& site, const std::vector<std::vector<MoveLoad>>& loads) const {
   const double held = kMostHeld * straight_ * kDegrees;
+  const auto number = static_cast<std::size_t>(&site - sites_.data());
   double sum = 0;
   for (std::size_t i = site.moves.first; i <= site.moves.last; ++i) {
-    if (origins_[i].site != nullptr && origins_[i].site != &site) continue;
+    if (origins_[i].site != kNone && origins_[i].site != number) continue;
     double at = origins_[i].begin;
     for (const MoveLoad& load : loads[i]) {
-      if (origins_[i].site != nullptr || (at >= site.begin && at < site.end))
+      if (origins_[i].site == number || (at >= site.begin && at < site.end))
         sum += std::max(0.0, load.engagement_deg - held) * load.length;
       at += load.length;
     }
@@ -289,14 +290,14 @@ void Relief::compose() {
       if (!passes.empty() && site->begin > at) {
         PathMove part = move;
         part.to = place_at(edge, share);
-        add(part, site->begin, {nullptr, at});
+        add(part, site->begin, {kNone, at});
         at = site->begin;
       }
       site->moves.first = path_.moves.size();
       open.push_back(&*site);
-      for (const PathMove& pass : passes) add(pass, site->begin, {&*site, 0});
+      for (const PathMove& pass : passes) add(pass, site->begin, {static_cast<std::size_t>(site - sites_.begin()), 0});
     }
-    add(move, ends_[i], {nullptr, at});
+    add(move, ends_[i], {kNone, at});
   }
 }
 

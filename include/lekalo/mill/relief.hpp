@@ -73,9 +73,10 @@ class Relief {
   double radius_, straight_;  ///< mm; rad of the rim on a straight pass
   double fit_tolerance_;
   std::vector<Site> sites_;
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   /// Of a move of path_: the site it was added for, or where along the path given it begins.
   struct Origin {
-    const Site* site = nullptr;
+    std::size_t site = kNone;
     double begin = 0;
   };
   std::vector<Origin> origins_;
