@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "lekalo/mill/straight_pass.hpp"
 
 namespace lekalo::cli {
 namespace {
 
-constexpr double kHeld = 1.25;  // of what a straight pass meets
 constexpr double kLeast = 0.2;  // mm
 constexpr double kGap = 1;      // mm of less between two parts of one stretch
 constexpr double kFull = 120;   // degrees: nearly all of the leading half
@@ -21,7 +21,7 @@ double rounded(double mm) { return std::round(mm * 1000) / 1000; }
 }  // namespace
 
 nlohmann::ordered_json hot_cuts(const verify::SimulateReport& report, double step_over) {
-  const double held = kHeld * std::acos(1 - 2 * step_over) * 180 / std::numbers::pi;
+  const double held = mill::most_held_degrees(step_over);
   using Json = nlohmann::ordered_json;
   struct Stretch {
     const verify::EngagementSample *first, *last;

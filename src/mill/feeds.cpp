@@ -36,8 +36,8 @@ std::array<double, 6> steps_of(const FeedOptions& o) {
 
 double wanted_feed(double degrees, const FeedOptions& o) {
   const double angle = straight_pass_angle(o.step_over), nominal = angle / kDegree;
-  const double sine = geom::sincos(angle).sine;
-  if (degrees > nominal) return o.feed_mm_per_min * std::min(1.0, kMostHeld * nominal / degrees);
+  const double sine = geom::sincos(angle).sine, held = most_held_degrees(o.step_over);
+  if (degrees > nominal) return o.feed_mm_per_min * std::min(1.0, held / degrees);
   const double found = geom::sincos(degrees * kDegree).sine;
   if (!(found * o.most_mm_per_min > sine * o.feed_mm_per_min)) return o.most_mm_per_min;
   return o.feed_mm_per_min * sine / found;

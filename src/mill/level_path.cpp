@@ -26,7 +26,6 @@ using geom::EdgeKind;
 using geom::Point;
 using geom::Region;
 
-constexpr double kDegrees = 57.29577951308232;
 constexpr double kStrip = 0.12;        // of the tool's radius, left to the pass along the walls
 constexpr double kFieldFillet = 0.55;  // of the tool's radius: corners of the fields
 // How much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
@@ -685,7 +684,7 @@ class Clearing {
 
   /// Whether more than a moment of passes meets too much of the rim.
   [[nodiscard]] bool is_hot(const std::vector<Front>& passes, const geom::RegionIndex& before) const {
-    const double held = kMostHeld * straight_pass_angle(o_.step_over) * kDegrees;
+    const double held = most_held_degrees(o_.step_over);
     return std::any_of(passes.begin(), passes.end(), [&](const Front& pass) {
       return load_of(pass.edges, false, before, radius_, held, kHotSpacing * radius_).beyond > kHotMoment * radius_;
     });

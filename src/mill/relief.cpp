@@ -55,6 +55,7 @@ Relief::Relief(PocketPath path, const std::vector<geom::Region>& places, const P
       limit_(places),
       radius_(options.tool_diameter / 2),
       straight_(straight_pass_angle(options.step_over)),
+      held_(most_held_degrees(options.step_over)),
       fit_tolerance_(options.fit_tolerance) {
   double along = 0;
   for (std::size_t i = 0; i < given_.moves.size(); ++i) {
@@ -78,7 +79,6 @@ std::size_t Relief::move_at(const Moves& run, double along) const {
 
 /// Over the passes of a site and its stretch of the path.
 double Relief::excess_of(const Site& site, const std::vector<std::vector<MoveLoad>>& loads) const {
-  const double held = kMostHeld * straight_ * kDegrees;
   const auto number = static_cast<std::size_t>(&site - sites_.data());
   double sum = 0;
   for (std::size_t i = site.moves.first; i <= site.moves.last; ++i) {
@@ -86,7 +86,7 @@ double Relief::excess_of(const Site& site, const std::vector<std::vector<MoveLoa
     double at = origins_[i].begin;
     for (const MoveLoad& load : loads[i]) {
       if (origins_[i].site == number || (at >= site.begin && at < site.end))
-        sum += std::max(0.0, load.engagement_deg - held) * load.length;
+        sum += std::max(0.0, load.engagement_deg - held_) * load.length;
       at += load.length;
     }
   }
@@ -115,7 +115,6 @@ bool Relief::improve(const std::vector<std::vector<MoveLoad>>& loads) {
 
 /// Hot stretches of level runs without a cusp.
 void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
-  const double held = kMostHeld * straight_ * kDegrees;
   const auto is_level = [&](std::size_t i) {
     const PathMove& m = given_.moves[i];
     return i > 0 && m.z <= 0 && m.z == given_.moves[i - 1].z &&
@@ -153,13 +152,13 @@ void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
       for (const MoveLoad& load : loads[i]) {
         const double from = at;
         at += load.length;
-        if (!(load.engagement_deg > held)) continue;
+        if (!(load.engagement_deg > held_)) continue;
         if (hot > 0 && from - site.hot_end > kTogether * radius_) finish();
         if (hot == 0) site.hot_begin = from;
         site.hot_end = at;
         hot += load.length;
         site.largest = std::max(site.largest, load.engagement_deg);
-        site.given_excess += (load.engagement_deg - held) * load.length;
+        site.given_excess += (load.engagement_deg - held_) * load.length;
         left += load.left_deg * load.length, right += (load.engagement_deg - load.left_deg) * load.length;
       }
     }

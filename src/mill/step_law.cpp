@@ -15,4 +15,8 @@ double straight_pass_angle(double step_over) {
   return geom::direction_angle(cosine, std::sqrt(1 - cosine * cosine));
 }
 
+double most_held_degrees(double step_over) {
+  return 1.25 * straight_pass_angle(step_over) * 57.29577951308232;
+}
+
 }  // namespace lekalo::mill

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "lekalo/mill/straight_pass.hpp"
+
 /// How far a pass may lie from the one before: exact for two circles, docs/design/pocket.md.
 namespace lekalo::mill {
 
-/// What no stretch is to pass, of the angle of a straight pass, outside entries, corners and slots.
-constexpr double kMostHeld = 1.25;
 /// What the next pass is to hold, of the angle of a straight one: a little more, for it is seldom as deep.
 constexpr double kNext = 1.0134;
 
@@ -12,9 +12,5 @@ constexpr double kNext = 1.0134;
 /// material spans the angle of that cosine: (r0 + r)^2 = r1^2 + r^2 + 2 r1 r cosine, step = r1 - r0.
 /// \pre r0 >= 0, r > 0, (r0 + r)^2 >= r^2 (1 - cosine^2)
 [[nodiscard]] double step_for(double r0, double r, double cosine);
-
-/// What a straight pass beside a straight one meets of the rim, radians. \param step_over  of the diameter, in
-/// (0, 0.5]
-[[nodiscard]] double straight_pass_angle(double step_over);
 
 }  // namespace lekalo::mill

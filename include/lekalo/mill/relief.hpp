@@ -70,7 +70,7 @@ class Relief {
   PocketPath given_, path_;
   std::vector<double> ends_;  ///< mm along the path given to the end of each move
   geom::RegionIndex limit_;   ///< of the tool's middle
-  double radius_, straight_;  ///< mm; rad of the rim on a straight pass
+  double radius_, straight_, held_;  ///< mm; rad of the rim on a straight pass; degrees
   double fit_tolerance_;
   std::vector<Site> sites_;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
