@@ -15,6 +15,7 @@ namespace {
 
 /// What a machine's axes and a few decimals may take of a wall, mm.
 constexpr double kMostGouge = 0.005;
+constexpr int kMostRampings = 3;
 
 using Loads = std::vector<std::vector<mill::MoveLoad>>;
 
@@ -40,6 +41,7 @@ class Judge {
     Written best = written(std::move(*slowed));
     Result<verify::SimulateReport> report = judgement_of(best.text);
     if (!report) return tl::unexpected(report.error());
+    std::vector<mill::Ramp> ramps;
     if (o_.path.method == mill::Method::fronts) {
       auto relieved = with_relief(best, *report);
       if (!relieved) return tl::unexpected(relieved.error());
@@ -49,13 +51,22 @@ class Judge {
           best = std::move(*relieved);
           report = std::move(judged);
         }
+      // A ramp takes off what was to be met later elsewhere: seldom more than once.
+      for (int round = 0; round < kMostRampings; ++round) {
+        mill::RampedPath ramped = mill::with_ramps(best.path, loads_to_ramp(report->samples, best), o_.path);
+        if (ramped.ramps.empty()) break;
+        best = written(std::move(ramped.path));
+        ramps.insert(ramps.end(), ramped.ramps.begin(), ramped.ramps.end());
+        report = judgement_of(best.text);
+        if (!report) return tl::unexpected(report.error());
+      }
     }
     if (o_.most_feed) {
       best = written(mill::with_feeds(best.path, loads_of(report->samples, best), feeds(*o_.most_feed)));
       report = judgement_of(best.text);
       if (!report) return tl::unexpected(report.error());
     }
-    return JudgedProgram{std::move(best.text), std::move(*report)};
+    return JudgedProgram{std::move(best.text), std::move(*report), std::move(ramps)};
   }
 
  private:
@@ -96,6 +107,13 @@ class Judge {
       if (const std::size_t move = of.move_of_line[sample.line - 1]; move != mill::kNoMove)
         loads[move].push_back({sample.length, sample.engagement, sample.left});
     return loads;
+  }
+
+  /// The same but for what is an entry already.
+  static Loads loads_to_ramp(std::vector<verify::EngagementSample> samples, const Written& of) {
+    for (verify::EngagementSample& sample : samples)
+      if (sample.entry) sample.engagement = 0;
+    return loads_of(samples, of);
   }
 
   /// The same of some moves alone.

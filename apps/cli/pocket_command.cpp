@@ -73,14 +73,15 @@ Result<CutBefore> supposed_before(const PocketOptions& o) {
 }
 
 std::string report_json(const PocketOptions& o, const PocketInput& input, const CutBefore& before,
-                        const std::string& program, const verify::SimulateReport& r) {
+                        const JudgedProgram& judged) {
+  const verify::SimulateReport& r = judged.report;
   using Json = nlohmann::ordered_json;
   Json inputs{{{"role", "pocket"}, {"path", o.pocket}, {"sha256", io::sha256(input.bytes)}}};
   inputs.insert(inputs.end(), before.programs.inputs.begin(), before.programs.inputs.end());
   Json json{{"format", {{"name", "lekalo-pocket"}, {"version", 1}}},
             {"units", "mm"},
             {"inputs", std::move(inputs)},
-            {"outputs", {{{"role", "program"}, {"path", o.output}, {"sha256", io::sha256(program)}}}},
+            {"outputs", {{{"role", "program"}, {"path", o.output}, {"sha256", io::sha256(judged.text)}}}},
             {"tool_mm", o.path.tool_diameter},
             {"step_over", o.path.step_over},
             {"depth_mm", o.path.depth},
@@ -88,6 +89,7 @@ std::string report_json(const PocketOptions& o, const PocketInput& input, const 
   if (o.rest_of > 0) json["rest_of_mm"] = o.rest_of;
   json.update(report_fields(r));
   json["hot_cuts"] = hot_cuts(r, o.path.step_over);
+  json["ramps"] = ramps(judged.ramps);
   json["version"] = kVersion;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -157,7 +159,7 @@ Result<int> run_pocket(PocketOptions o) {
     if (Result<void> done = files.add(o.output, program); !done) return tl::unexpected(done.error());
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   if (o.json || o.output.empty()) {
-    if (Result<void> done = print(o.json ? report_json(o, *input, *before, program, report) : program);
+    if (Result<void> done = print(o.json ? report_json(o, *input, *before, *judged) : program);
         !done)
       return tl::unexpected(done.error());
   }
@@ -168,6 +170,7 @@ Result<int> run_pocket(PocketOptions o) {
         "Supposed: a tool of {:g} mm has cut all that lekalo pocket cuts with it (--after FILE:{:g} "
         "takes the program that ran)\n",
         o.rest_of, o.rest_of);
+  text += ramp_notices(ramps(judged->ramps));
   text += hot_cut_notices(hot_cuts(report, o.path.step_over));
   text += report_rows(report);
   for (const std::string& name : written)

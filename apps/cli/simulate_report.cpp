@@ -82,6 +82,7 @@ Json report_fields(const verify::SimulateReport& r) {
           {"engagement_p95_deg", r.engagement_p95_deg},
           {"air_percent", r.air_percent},
           {"entry_mm", r.entry_mm},
+          {"entry_layer_mm", r.entry_layer_mm},
           {"rapid_cut_mm", r.rapid_cut_mm},
           {"length_mm", r.length_mm},
           {"turning_rad", r.turning_rad},
@@ -111,8 +112,9 @@ std::string report_rows(const verify::SimulateReport& r) {
         fmt::format("{:.3f} mm wide at ({:.2f}, {:.2f})", r.uncut[i].width_mm, r.uncut[i].x, r.uncut[i].y));
   row("gouge", fmt::format("{:.4f} mm", r.gouge_mm));
   row("engagement",
-      fmt::format("at most {:.1f} degrees, 95 % of what cuts below {:.1f}, outside {:.1f} mm of entry",
-                  r.engagement_max_deg, r.engagement_p95_deg, r.entry_mm));
+      fmt::format("at most {:.1f} degrees, 95 % of what cuts below {:.1f}, outside {:.1f} mm of entry in "
+                  "layers of at most {:.2f} mm",
+                  r.engagement_max_deg, r.engagement_p95_deg, r.entry_mm, r.entry_layer_mm));
   row("air", fmt::format("{:.1f} % of {:.1f} mm of path", r.air_percent, r.length_mm));
   row("retracts", fmt::format("{}", r.retracts));
   row("turning", fmt::format("{:.1f} rad", r.turning_rad));

@@ -361,12 +361,12 @@ class Clearing {
       return q == 0 ? out : q == 1 ? perpendicular(out) : q == 2 ? -out : -perpendicular(out);
     };
     for (double i = 1; i <= 4 * turns; ++i)
-      go({.kind = Kind::helix,
+      go({.kind = Kind::entry,
           .to = entry_ + quarter(helix_ * ahead, i),
           .z = -o_.depth * i / (4 * turns),
           .shape = EdgeKind::arc_ccw,
           .centre = entry_});
-    turn_about(helix_ * ahead, Kind::helix);
+    turn_about(helix_ * ahead, Kind::entry);
     if (!(disc_ > helix_)) return;
     std::vector<double> steps;
     const double cosine = geom::sincos(kNext * straight_pass_angle(o_.step_over)).cosine;

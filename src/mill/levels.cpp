@@ -62,6 +62,10 @@ Result<std::vector<std::optional<Point>>> starts_of(const std::vector<Region>& p
   return starts;
 }
 
+double level_count(const PocketOptions& o) {
+  return o.step_down > 0 ? std::ceil((o.depth - o.floor_stock) / o.step_down * (1 - 1e-12)) : 1;
+}
+
 /// One piece of places, level by level.
 class Levels {
  public:
@@ -128,6 +132,8 @@ class Levels {
 
 }  // namespace
 
+double level_depth(const PocketOptions& o) { return (o.depth - o.floor_stock) / level_count(o); }
+
 std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter) {
   std::vector<EarlierCut> cuts;
   Point at;
@@ -153,10 +159,9 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
                                const std::vector<EarlierCut>& before, const ProgressListener& progress) {
   auto allowed = allowed_places(pockets, o);
   if (!allowed) return tl::unexpected(allowed.error());
-  const double depth = o.depth - o.floor_stock;
-  const double levels = o.step_down > 0 ? std::ceil(depth / o.step_down * (1 - 1e-12)) : 1;
+  const double levels = level_count(o);
   PocketOptions one = o;
-  one.depth = depth / levels;
+  one.depth = level_depth(o);
   std::vector<Region> pieces = *allowed;
   const bool source = o.method != Method::fronts;
   if (source && !before.empty())

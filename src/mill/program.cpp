@@ -150,7 +150,7 @@ class Writer {
     const double mm = move.feed > 0                         ? move.feed
                       : move.kind == PathMove::Kind::plunge ? o_.plunge_feed_mm_per_min
                       : move.kind == PathMove::Kind::link   ? o_.link_feed_mm_per_min
-                      : move.kind == PathMove::Kind::helix || move.kind == PathMove::Kind::slot
+                      : move.kind == PathMove::Kind::entry || move.kind == PathMove::Kind::slot
                           ? o_.feed_mm_per_min / 2
                           : o_.feed_mm_per_min;
     if (mm == feed_) return {};

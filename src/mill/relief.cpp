@@ -21,12 +21,12 @@ using geom::Point;
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kLasting = 0.1;   // mm of more than is held that are worth a pass
-constexpr double kTogether = 0.5;  // of the tool's radius: hot stretches so near are one
-constexpr double kRamp = 1;        // of the tool's radius: on the way from the path to the pass beside it
-constexpr double kShortRamp = 0.08; // of a ramp: where there is less way the pass begins beside the path
-constexpr double kSpacing = 0.02;   // of the tool's radius, between places of a pass
-constexpr double kCusp = 0.5;       // cosine of the turn between two moves at which a stretch ends
+constexpr double kLasting = 0.1;     // mm of more than is held that are worth a pass
+constexpr double kTogether = 0.5;    // of the tool's radius: hot stretches so near are one
+constexpr double kRamp = 1;          // of the tool's radius: on the way from the path to the pass beside it
+constexpr double kShortRamp = 0.08;  // of a ramp: where there is less way the pass begins beside the path
+constexpr double kSpacing = 0.02;    // of the tool's radius, between places of a pass
+constexpr double kCusp = 0.5;        // cosine of the turn between two moves at which a stretch ends
 /// Of what would make the stretch meet as much as a straight pass; tried one after the other.
 constexpr double kDepths[] = {1, 1.6, 0.6, 0.3};
 constexpr double kMostDepth = 0.95;  // of the tool's radius
@@ -51,31 +51,12 @@ Result<Relief> Relief::make(PocketPath path, const std::vector<geom::Region>& po
 
 Relief::Relief(PocketPath path, const std::vector<geom::Region>& places, const PocketOptions& options)
     : given_(std::move(path)),
-      path_(given_),
+      path_(given_.path()),
       limit_(places),
       radius_(options.tool_diameter / 2),
       straight_(straight_pass_angle(options.step_over)),
       held_(most_held_degrees(options.step_over)),
-      fit_tolerance_(options.fit_tolerance) {
-  double along = 0;
-  for (std::size_t i = 0; i < given_.moves.size(); ++i) {
-    if (i > 0) along += length_of(edge_of(i));
-    ends_.push_back(along);
-  }
-}
-
-Edge Relief::edge_of(std::size_t move) const {
-  const PathMove& m = given_.moves[move];
-  const Point from = given_.moves[move - 1].to;
-  if (m.shape != EdgeKind::line) return arc_of(m, from);
-  return {EdgeKind::line, from, m.to, {}};
-}
-
-std::size_t Relief::move_at(const Moves& run, double along) const {
-  const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(run.first),
-             last = ends_.begin() + static_cast<std::ptrdiff_t>(run.last);
-  return static_cast<std::size_t>(std::upper_bound(first, last, along) - ends_.begin());
-}
+      fit_tolerance_(options.fit_tolerance) {}
 
 /// Over the passes of a site and its stretch of the path.
 double Relief::excess_of(const Site& site, const std::vector<std::vector<MoveLoad>>& loads) const {
@@ -115,25 +96,18 @@ bool Relief::improve(const std::vector<std::vector<MoveLoad>>& loads) {
 
 /// Hot stretches of level runs without a cusp.
 void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
-  const auto is_level = [&](std::size_t i) {
-    const PathMove& m = given_.moves[i];
-    return i > 0 && m.z <= 0 && m.z == given_.moves[i - 1].z &&
-           (m.kind == PathMove::Kind::cut || m.kind == PathMove::Kind::link ||
-            m.kind == PathMove::Kind::lead) &&
-           length_of(edge_of(i)) > 0;
-  };
-  for (std::size_t first = 1; first < given_.moves.size();) {
-    if (!is_level(first)) {
+  for (std::size_t first = 1; first < given_.moves().size();) {
+    if (!given_.is_level(first)) {
       ++first;
       continue;
     }
     std::size_t last = first;
-    while (last + 1 < given_.moves.size() && is_level(last + 1)) {
-      const Edge before = edge_of(last), after = edge_of(last + 1);
+    while (last + 1 < given_.moves().size() && given_.is_level(last + 1)) {
+      const Edge before = given_.edge_of(last), after = given_.edge_of(last + 1);
       if (dot(heading_at(before, before.to), heading_at(after, after.from)) < kCusp) break;
       ++last;
     }
-    const double run_begin = ends_[first - 1], run_end = ends_[last];
+    const double run_begin = given_.begin_of(first), run_end = given_.end_of(last);
     Site site;
     double hot = 0, left = 0, right = 0;
     const auto finish = [&] {
@@ -148,7 +122,7 @@ void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
       site = {}, hot = left = right = 0;
     };
     for (std::size_t i = first; i <= last; ++i) {
-      double at = ends_[i - 1];
+      double at = given_.begin_of(i);
       for (const MoveLoad& load : loads[i]) {
         const double from = at;
         at += load.length;
@@ -222,11 +196,13 @@ std::vector<PathMove> Relief::pass_beside(const Site& site, double depth) const 
   };
   const double pieces = std::max(2.0, std::ceil((site.end - site.begin) / (kSpacing * radius_)));
   const auto place_along = [&](double along) {
-    const std::size_t move = move_at(site.run, along);
-    const Edge edge = edge_of(move);
-    return std::pair(place_at(edge, (along - ends_[move - 1]) / (ends_[move] - ends_[move - 1])), edge);
+    const std::size_t move = given_.move_at(site.run.first, site.run.last, along);
+    const Edge edge = given_.edge_of(move);
+    return std::pair(
+        place_at(edge, (along - given_.begin_of(move)) / (given_.end_of(move) - given_.begin_of(move))),
+        edge);
   };
-  const double z = given_.moves[site.run.first].z;
+  const double z = given_.moves()[site.run.first].z;
   const Point start = place_along(site.begin).first;
   PocketPath there;
   there.moves.push_back({.kind = PathMove::Kind::rapid, .to = start, .z = z});
@@ -243,13 +219,15 @@ std::vector<PathMove> Relief::pass_beside(const Site& site, double depth) const 
     }
     if (!limit_.contains(to)) reach = 0, to = on;
     beside = beside || reach > 0.5 * depth;
-    if (!(to == there.moves.back().to)) there.moves.push_back({.kind = PathMove::Kind::cut, .to = to, .z = z});
+    if (!(to == there.moves.back().to))
+      there.moves.push_back({.kind = PathMove::Kind::cut, .to = to, .z = z});
   }
   if (!beside || there.moves.size() < 3) return {};
   there = fitted(there, fit_tolerance_);
   Point from = start;
   for (const PathMove& move : there.moves) {
-    if (!is_inside(move.shape == EdgeKind::line ? Edge{EdgeKind::line, from, move.to, {}} : arc_of(move, from)))
+    if (!is_inside(move.shape == EdgeKind::line ? Edge{EdgeKind::line, from, move.to, {}}
+                                                : arc_of(move, from)))
       return {};
     from = move.to;
   }
@@ -272,9 +250,9 @@ void Relief::compose() {
   origins_.clear();
   auto site = sites_.begin();
   std::vector<Site*> open;  // whose stretches have not come to their end
-  for (std::size_t i = 0; i < given_.moves.size(); ++i) {
-    const PathMove& move = given_.moves[i];
-    const double begin = i > 0 ? ends_[i - 1] : 0;
+  for (std::size_t i = 0; i < given_.moves().size(); ++i) {
+    const PathMove& move = given_.moves()[i];
+    const double begin = given_.begin_of(i);
     const auto add = [&](const PathMove& part, double upto, Origin origin) {
       path_.moves.push_back(part);
       origins_.push_back(origin);
@@ -282,10 +260,10 @@ void Relief::compose() {
       std::erase_if(open, [&](const Site* s) { return s->end <= upto; });
     };
     double at = begin;
-    for (; site != sites_.end() && i > 0 && site->begin < ends_[i]; ++site) {
+    for (; site != sites_.end() && i > 0 && site->begin < given_.end_of(i); ++site) {
       const std::vector<PathMove>& passes = site->settled ? site->best : site->tried;
-      const Edge edge = edge_of(i);
-      const double share = (site->begin - begin) / (ends_[i] - begin);
+      const Edge edge = given_.edge_of(i);
+      const double share = (site->begin - begin) / (given_.end_of(i) - begin);
       if (!passes.empty() && site->begin > at) {
         PathMove part = move;
         part.to = place_at(edge, share);
@@ -294,9 +272,10 @@ void Relief::compose() {
       }
       site->moves.first = path_.moves.size();
       open.push_back(&*site);
-      for (const PathMove& pass : passes) add(pass, site->begin, {static_cast<std::size_t>(site - sites_.begin()), 0});
+      for (const PathMove& pass : passes)
+        add(pass, site->begin, {static_cast<std::size_t>(site - sites_.begin()), 0});
     }
-    add(move, ends_[i], {kNone, at});
+    add(move, given_.end_of(i), {kNone, at});
   }
 }
 

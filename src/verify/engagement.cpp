@@ -10,9 +10,11 @@ namespace {
 
 constexpr double kAirDegrees = 3, kLasting = 0.2;
 constexpr double kDegrees = 180 / kPi;
-constexpr double kSameLevel = 1e-6;  // mm of Z that no machine tells
+constexpr double kSameLevel = 1e-6;       // mm of Z that no machine tells
+constexpr double kTooShortToSink = 0.01;  // mm of a ramp, on which no written digit of Z changes
+constexpr double kLayerError = 1e-3;      // mm
 constexpr std::size_t kCutsToTell = 1000;
-constexpr double kSpeck = 0.02;      // mm of material under a plunging tool that are not looked for
+constexpr double kSpeck = 0.02;  // mm of material under a plunging tool that are not looked for
 
 /// All of it is at least as deep.
 double highest(const Cut& cut) { return std::max(cut.from_z, cut.to_z); }
@@ -30,6 +32,7 @@ class Engagement {
       low = {std::min(low.x, a.x), std::min(low.y, a.y)},
       high = {std::max(high.x, b.x), std::max(high.y, b.y)};
       widest_ = std::max(widest_, cut.radius);
+      top_ = std::max(top_, highest(cut));
     }
     if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
     for (const Cut& cut : cuts_) {
@@ -38,9 +41,10 @@ class Engagement {
       discs_.push_back({middle, 0.5 * length(cut.stroke.to - cut.stroke.from) + cut.radius + kSpeck});
     }
     bottoms_.resize(cuts_.size());
+    const auto slopes = [&](const Cut& cut) { return !cut.level() || length(cut.stroke) < kTooShortToSink; };
     for (std::size_t i = cuts_.size(); i-- > 0;) {
       bottoms_[i] = std::min(cuts_[i].from_z, cuts_[i].to_z);
-      if (!cuts_[i].level() && i + 1 < cuts_.size() && !cuts_[i + 1].level() &&
+      if (i + 1 < cuts_.size() && slopes(cuts_[i]) && slopes(cuts_[i + 1]) &&
           cuts_[i + 1].entry == cuts_[i].entry)
         bottoms_[i] = std::min(bottoms_[i], bottoms_[i + 1]);
     }
@@ -97,6 +101,7 @@ class Engagement {
       if (sample.length > 0) {
         rim_.begin(at, radius_, so_far);
         engage(cut, sample);
+        if (sample.entry) measure_layer(sample.z, so_far);
         if (cut.level() && sample.engagement >= kAirDegrees)
           removed_[std::round(sample.z / kSameLevel) * kSameLevel] += width_ * sample.length;
       }
@@ -204,6 +209,30 @@ class Engagement {
     sample.entry = rim_.open_angle() * kDegrees < sample.engagement - 1e-6;
   }
 
+  /// Whether the rim meets material at a depth at or above the tip's.
+  bool meets(double z, const Stroke& so_far) {
+    rim_.begin(so_far.to, radius_, so_far);
+    for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();) {
+      const Cut& earlier = cuts_[near_[k]];
+      if (highest(earlier) <= z + kSameLevel) rim_.add(earlier.stroke, earlier.radius);
+    }
+    if (!air_.empty()) rim_.add_air(air_);
+    return rim_.open_angle() * kDegrees >= kAirDegrees;
+  }
+
+  /// How thick a layer an entry's rim meets, where that is more than so far: what is cut down to a depth is
+  /// cut above it.
+  void measure_layer(double z, const Stroke& so_far) {
+    double low = z + report_.entry_layer_mm + kLayerError;
+    if (!(low < top_) || !meets(low, so_far)) return;
+    double high = top_;
+    while (high - low > kLayerError) {
+      const double middle = 0.5 * (low + high);
+      (meets(middle, so_far) ? low : high) = middle;
+    }
+    report_.entry_layer_mm = high - z;
+  }
+
   void sum_up() {
     double air = 0;
     std::vector<std::pair<double, double>> cutting;  // engagement, length
@@ -254,6 +283,7 @@ class Engagement {
   std::vector<double> bottoms_;  ///< of each, how deep its ramp gets: what it left below that is no entry's
   double radius_, widest_, spacing_;  ///< of this tool, of the widest of all
   SimulateReport& report_;
+  double top_ = -1e300;  ///< of the stock: where the tool comes down from
   StrokeIndex index_;
   RimCover rim_;
   double width_ = 0;                           ///< across the heading, of what was in material last

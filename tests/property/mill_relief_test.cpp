@@ -8,10 +8,9 @@
 
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/io/region_json.hpp"
-#include "lekalo/mill/program.hpp"
 #include "lekalo/mill/relief.hpp"
-#include "lekalo/verify/simulate.hpp"
 #include "support/cases.hpp"
+#include "support/judged_path.hpp"
 #include "support/pockets.hpp"
 
 // Shallower passes ahead of what is too hot, judged by the independent checker.
@@ -23,36 +22,15 @@ using Kind = PathMove::Kind;
 
 const std::string kRoom = pockets::document(pockets::outline({{0, 0}, {60, 0}, {60, 40}, {0, 40}}));
 
-struct Made {
-  PocketPath path;
-  verify::SimulateReport report;
-  std::vector<std::size_t> move_of_line;
-};
-
-Made made(const PocketPath& path, const std::string& pocket) {
-  Made result{path, {}, {}};
-  const std::string program = program_of(path, {}, &result.move_of_line);
-  verify::SimulateOptions machining;
-  machining.tool_diameter = 6;
-  const auto report = verify::simulate({"p.ngc", program}, {"pocket.json", pocket}, machining);
-  EXPECT_TRUE(report) << (report ? "" : report.error().message);
-  if (report) result.report = *report;
-  return result;
-}
-
-Made relieved(const PocketPath& path, const std::string& pocket) {
-  Made now = made(path, pocket);
+JudgedPath relieved(const PocketPath& path, const std::string& pocket) {
+  JudgedPath now = judged(path, pocket);
   const auto regions = io::parse_regions(pocket, "pocket.json");
   auto relief = Relief::make(path, regions->regions, {});
   EXPECT_TRUE(relief);
   for (int round = 0;; ++round) {
     EXPECT_LT(round, 20);
-    std::vector<std::vector<MoveLoad>> loads(now.path.moves.size());
-    for (const verify::EngagementSample& s : now.report.samples)
-      if (const std::size_t move = now.move_of_line[s.line - 1]; move != kNoMove)
-        loads[move].push_back({s.length, s.engagement, s.left});
-    const bool goes_on = round < 20 && relief->improve(loads);
-    now = made(relief->path(), pocket);
+    const bool goes_on = round < 20 && relief->improve(loads_of(now));
+    now = judged(relief->path(), pocket);
     if (!goes_on) return now;
   }
 }
@@ -65,12 +43,8 @@ double excess(const verify::SimulateReport& report) {
   return sum;
 }
 
-bool same(const PocketPath& a, const PocketPath& b) {
-  return std::equal(a.moves.begin(), a.moves.end(), b.moves.begin(), b.moves.end(),
-                    [](const PathMove& m, const PathMove& n) { return m.to == n.to && m.z == n.z; });
-}
-
-/// A slot, and beside it a pass that takes 5 mm of its 6: the rim meets 132 degrees, on the left or the right.
+/// A slot, and beside it a pass that takes 5 mm of its 6: the rim meets 132 degrees, on the left or the
+/// right.
 PocketPath wide_pass(double y, Kind second) {
   PocketPath path;
   path.moves = {{Kind::rapid, {10, 20}, 5}, {Kind::plunge, {10, 20}, -1}, {Kind::slot, {50, 20}, -1},
@@ -83,8 +57,8 @@ TEST(MillRelief, APassTooFarFromTheOneBeforeIsCutInTwo) {
     for (const Kind kind : {Kind::cut, Kind::link}) {
       SCOPED_TRACE(fmt::format("y {} kind {}", y, static_cast<int>(kind)));
       const PocketPath given = wide_pass(y, kind);
-      const Made before = made(given, kRoom), after = relieved(given, kRoom);
-      const auto hottest = [&](const Made& of) {
+      const JudgedPath before = judged(given, kRoom), after = relieved(given, kRoom);
+      const auto hottest = [&](const JudgedPath& of) {
         double most = 0;
         for (const verify::EngagementSample& s : of.report.samples)
           if (std::abs(s.y - y) < 4 && s.x > 18 && s.x < 45) most = std::max(most, s.engagement);
@@ -111,7 +85,7 @@ TEST(MillRelief, WhereThereIsNoRoomBesideNothingIsChanged) {
   const std::string groove = pockets::document(pockets::outline({{0, 0}, {60, 0}, {60, 6.3}, {0, 6.3}}));
   PocketPath path;
   path.moves = {{Kind::rapid, {5, 3.15}, 5}, {Kind::plunge, {5, 3.15}, -1}, {Kind::cut, {55, 3.15}, -1}};
-  const Made after = relieved(path, groove);
+  const JudgedPath after = relieved(path, groove);
   EXPECT_TRUE(same(after.path, path));
   EXPECT_EQ(after.report.gouge_mm, 0);
 }
@@ -120,7 +94,7 @@ TEST(MillRelief, WhereThereIsNoRoomBesideNothingIsChanged) {
 TEST(MillRelief, AHotStretchAtTheVeryBeginningIsNoExit) {
   PocketPath path;
   path.moves = {{Kind::rapid, {10, 20}, 5}, {Kind::plunge, {10, 20}, -1}, {Kind::cut, {50, 20}, -1}};
-  const Made after = relieved(path, kRoom);
+  const JudgedPath after = relieved(path, kRoom);
   for (const PathMove& move : after.path.moves) EXPECT_TRUE(std::isfinite(move.to.x + move.to.y));
   EXPECT_EQ(after.report.gouge_mm, 0);
   EXPECT_EQ(after.report.retracts, 0U);
@@ -134,7 +108,7 @@ TEST(MillRelief, AChordOfAPassAcrossAWallIsNotWritten) {
     const auto regions = io::parse_regions(pocket, "pocket.json");
     const auto path = pocket_path(regions->regions, {});
     ASSERT_TRUE(path);
-    const Made after = relieved(*path, pocket);
+    const JudgedPath after = relieved(*path, pocket);
     EXPECT_FALSE(same(after.path, *path));
     EXPECT_LE(after.report.gouge_mm, 0.0025);
     EXPECT_LE(after.report.engagement_max_deg, 98.1);
@@ -152,7 +126,7 @@ TEST(MillRelief, RandomPocketsGetNoHotterAndStayCleared) {
     if (geom::fault_of(regions->regions)) continue;
     const auto path = pocket_path(regions->regions, {});
     if (!path) continue;
-    const Made before = made(*path, pocket), after = relieved(*path, pocket);
+    const JudgedPath before = judged(*path, pocket), after = relieved(*path, pocket);
     EXPECT_LE(excess(after.report), excess(before.report) + 0.05);
     EXPECT_GE(after.report.coverage_percent, 99.99);
     EXPECT_LE(after.report.uncut_width_mm, 0.02);

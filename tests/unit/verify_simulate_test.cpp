@@ -263,6 +263,35 @@ TEST(VerifySimulate, BelowTheRampOfALevelAboveIsNoEntry) {
     }
 }
 
+/// Lines too short for their descent to be written once ended the ramp: what it left before them was no floor.
+TEST(VerifySimulate, ALineTooShortToSinkIsPartOfItsRamp) {
+  const std::string down = "G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X40 Z-0.5 F1500\n",
+                    rest = "G1 X60 Z-1\nG1 X10\nG0 Z5\n";
+  const auto along = [&](const std::string& between) {
+    const auto report = run(down + between + rest, rectangle(70, 40));
+    EXPECT_EQ(report.engagement_max_deg, 0) << between;
+    return report.entry_mm;
+  };
+  const double plain = along("");
+  EXPECT_GT(plain, 99);
+  EXPECT_NEAR(along("G1 X40.0002\nG1 X40.005\n"), plain, 0.1);
+  // One long enough is a cut of its own.
+  EXPECT_GT(run(down + "G1 X45\n" + rest, rectangle(70, 40)).engagement_max_deg, 170);
+}
+
+TEST(VerifySimulate, TheLayerOfAnEntryIsWhatStandsAboveTheTip) {
+  // Half a radius of a stroke sinks 0.03 mm of 50 : 1, 0.012 of 50 : 0.4.
+  const std::string begin = "G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\n";
+  const std::string pocket = rectangle(70, 40);
+  EXPECT_NEAR(run(begin + "G1 X60 Z-1 F1500\n", pocket).entry_layer_mm, 1, 0.032);
+  EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\n", pocket).entry_layer_mm, 0.4, 0.014);
+  // Back at the floor of each way: the wedge it left is thickest where the way began.
+  EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\nG1 X10\nG1 X60 Z-0.8\nG1 X10\n", pocket).entry_layer_mm, 0.4, 0.014);
+  // There and back: at the beginning nothing was cut on the way there.
+  EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\nG1 X10 Z-0.8\n", pocket).entry_layer_mm, 0.8, 0.026);
+  EXPECT_EQ(run(kBegin + "G1 X60 F1500\n", pocket).entry_layer_mm, 0);  // straight down
+}
+
 TEST(VerifySimulateAfter, WithinTheSlotOfAWiderToolAllIsAir) {
   const auto report =
       run_after(wide_slot(-2), "G21 G90\nG0 X10 Y20 Z5\nG0 Z-2\nG1 X60 F1500\nG1 Y18\nG1 X10\nG0 Z5\n",

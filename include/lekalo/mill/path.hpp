@@ -13,7 +13,7 @@ struct PathMove {
   enum class Kind : std::uint8_t {
     rapid,   ///< above the stock
     plunge,  ///< straight down
-    helix,   ///< down into material, and the level turn that takes the ramp's floor away
+    entry,   ///< down into material, on a helix or a ramp, and along the floor it left
     cut,
     slot,  ///< a cut in full material, where there is no room for anything else
     link,  ///< at depth, through what is cut already

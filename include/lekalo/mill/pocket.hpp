@@ -32,7 +32,7 @@ struct PocketOptions {
   double step_down = 0;       ///< mm, of one level at most; 0: one level
   Direction direction = Direction::any;
   double safe_height = 5;       ///< mm above the stock
-  double ramp_angle = 0.05;     ///< rad, of the helix
+  double ramp_angle = 0.05;     ///< rad, of entries
   double fit_tolerance = 2e-3;  ///< mm, of lines and arcs in place of the path's points
   Method method = Method::fronts;
   // Of the source's methods alone:
@@ -42,6 +42,9 @@ struct PocketOptions {
   /// mm: the spiral in whose place one lies begins there, the others at their peaks
   std::vector<geom::Point> starts;
 };
+
+/// mm that one level takes; levels are equally deep.
+[[nodiscard]] double level_depth(const PocketOptions& options);
 
 /// A path that clears what the tool can reach of the pockets, by fronts: the places the tool's middle may be
 /// are reached from an entry in steps that hold the engagement, and each step's boundary is cut.

@@ -6,6 +6,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/mill/feeds.hpp"
+#include "lekalo/mill/path_way.hpp"
 #include "lekalo/mill/pocket.hpp"
 
 namespace lekalo::mill {
@@ -62,13 +63,9 @@ class Relief {
   [[nodiscard]] bool is_inside(const geom::Edge& edge) const;
   [[nodiscard]] std::vector<PathMove> pass_beside(const Site& site, double depth) const;
   void compose();
-  /// The move of a run that holds a place.
-  [[nodiscard]] std::size_t move_at(const Moves& run, double along) const;
-  /// The geometry of a move given, but for the first, which begins anywhere.
-  [[nodiscard]] geom::Edge edge_of(std::size_t move) const;
 
-  PocketPath given_, path_;
-  std::vector<double> ends_;  ///< mm along the path given to the end of each move
+  PathWay given_;
+  PocketPath path_;
   geom::RegionIndex limit_;   ///< of the tool's middle
   double radius_, straight_, held_;  ///< mm; rad of the rim on a straight pass; degrees
   double fit_tolerance_;

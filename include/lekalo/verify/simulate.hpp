@@ -66,6 +66,9 @@ struct SimulateReport {
   double engagement_p95_deg = 0;    ///< by length, of what cuts, outside entries
   double air_percent = 0;           ///< of the path with the tool down: engagement below 3 degrees
   double entry_mm = 0;  ///< path that goes down into material, or cuts nothing but the floor of such a ramp
+  /// Thickest layer the rim meets at once on such path, but for straight down; at most 1e-3 mm above the
+  /// truth, and what a stroke of at most half a radius sinks.
+  double entry_layer_mm = 0;
   double rapid_cut_mm = 0;   ///< path of G0 with engagement of 3 degrees or more, or down into material
   double length_mm = 0;      ///< of path with the tool down
   double turning_rad = 0;    ///< of its direction, all added
