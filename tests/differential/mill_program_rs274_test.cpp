@@ -9,9 +9,12 @@
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
+#include "lekalo/mill/ramps.hpp"
 #include "lekalo/verify/simulate.hpp"
 #include "support/cases.hpp"
+#include "support/judged_path.hpp"
 #include "support/places.hpp"
+#include "support/pockets.hpp"
 #include "support/rs274.hpp"
 
 namespace lekalo::mill {
@@ -127,6 +130,46 @@ TEST(MillProgramRs274, TheRestOfALargerToolIsCutAsTheProgramSays) {
   // The interpreter comes from the origin.
   EXPECT_NEAR(ours->seconds, theirs->seconds, 0.01 * ours->seconds + 0.5);
   EXPECT_EQ(ours->retracts, theirs->retracts);
+}
+
+TEST(MillProgramRs274, RampsAreEntriesForTheInterpreterToo) {
+  const rs274::Oracle oracle(cases::source_dir() + "/tests/support/rs274.sh");
+  // Two rooms, and between them a bent way as wide as the tool and 0.1 mm.
+  const std::string pocket = pockets::document(
+      pockets::line({0, 0}, {14, 0}) + "," + pockets::line({14, 0}, {14, 4}) + "," +
+      pockets::bulge({14, 4}, {30, 4}, -2) + "," + pockets::line({30, 4}, {30, 0}) + "," +
+      pockets::line({30, 0}, {44, 0}) + "," + pockets::line({44, 0}, {44, 16}) + "," +
+      pockets::line({44, 16}, {30, 16}) + "," + pockets::line({30, 16}, {30, 10.2}) + "," +
+      pockets::bulge({30, 10.2}, {14, 10.2}, 2) + "," + pockets::line({14, 10.2}, {14, 16}) + "," +
+      pockets::line({14, 16}, {0, 16}) + "," + pockets::line({0, 16}, {0, 0}));
+  const auto regions = io::parse_regions(pocket, "pocket.json");
+  ASSERT_TRUE(regions) << regions.error().message;
+  PocketOptions options;
+  options.depth = 4, options.step_down = 2;
+  const auto path = pocket_path(regions->regions, options);
+  ASSERT_TRUE(path) << path.error().message;
+  const JudgedPath planned = judged(*path, pocket);
+  EXPECT_GT(planned.report.engagement_max_deg, 150);
+  const RampedPath ramped = with_ramps(*path, loads_of(planned), options);
+  EXPECT_GE(ramped.ramps.size(), 2U);
+  const JudgedPath ours = judged(ramped.path, pocket);
+  const rs274::Run run = oracle.run(program_of(ramped.path, {}));
+  ASSERT_TRUE(run.accepted) << run.errors;
+  verify::SimulateOptions machining;
+  machining.tool_diameter = 6;
+  const auto theirs =
+      verify::simulate({"canon.ngc", program_of_calls(run.calls)}, {"pocket.json", pocket}, machining);
+  ASSERT_TRUE(theirs) << theirs.error().message;
+  for (const verify::SimulateReport* report : {&ours.report, &*theirs}) {
+    EXPECT_LE(report->engagement_max_deg, 101);
+    EXPECT_LE(report->entry_layer_mm, 0.75);
+    EXPECT_GE(report->coverage_percent, 99.99);
+    EXPECT_LE(report->gouge_mm, 0.002);
+    EXPECT_EQ(report->rapid_cut_mm, 0);
+    EXPECT_EQ(report->retracts, planned.report.retracts);
+  }
+  EXPECT_NEAR(ours.report.entry_mm, theirs->entry_mm, 0.02 * ours.report.entry_mm);
+  EXPECT_NEAR(ours.report.entry_layer_mm, theirs->entry_layer_mm, 0.01);
 }
 
 }  // namespace
