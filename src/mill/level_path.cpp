@@ -20,8 +20,9 @@ using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
-/// Up, for the end of a level.
+/// Up, for the end of a level; no motion where there was nothing to cut.
 PocketPath finished(ToolMotion& tool, const FrontPasses& passes) {
+  if (tool.moves().empty()) return {};
   tool.rise();
   return {tool.moves(), passes.count()};
 }

@@ -1,6 +1,7 @@
 #include "tool_motion.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "edge_path.hpp"
 #include "wall_way.hpp"
@@ -13,8 +14,9 @@ using geom::Point;
 
 namespace {
 
-constexpr double kApproach = 1;    // mm above the stock: from there on at the plunge feed
-constexpr double kFrontWay = 3;    // of the step: links from front to front that need no grid, at most
+constexpr double kApproach = 1;  // mm above the stock: from there on at the plunge feed
+constexpr double kFrontWay = 3;  // of the step: links from front to front that need no grid, at most
+constexpr double kMostBack = 40, kBackSpacing = 1.5;  // mm: farther back a lift is sooner there
 constexpr double kOnlyStep = 0.5;  // of the tool's radius: what is nearer is cut to instead of hopped to
 
 bool is_within(const std::vector<Edge>& edges, const geom::RegionIndex& cut, double slack) {
@@ -83,16 +85,41 @@ void ToolMotion::link(Point to, const geom::RegionIndex& cut) {
   link_over_grid(to);
 }
 
+/// Over the grid, or back where the tool came from to where there is such a way: out of a corridor that is
+/// narrower than the grid, or past a place whose front is still to be cut.
 void ToolMotion::link_over_grid(Point to) {
-  const std::vector<Point> corners = grid_->way(at_, to);
-  Point last = at_;
-  bool inside = !corners.empty();
-  for (const Point corner : corners) {
-    inside = inside && is_inside(last, corner);
-    last = corner;
+  std::vector<Edge> back;
+  double length = 0, tried = -kBackSpacing;
+  for (std::size_t i = moves_.size(); i > 0; --i) {
+    const Point from = back.empty() ? at_ : back.back().to;
+    if (length - tried >= kBackSpacing) {
+      tried = length;
+      if (const std::vector<Point> corners = way_inside(from, to); !corners.empty()) {
+        go(Kind::link, back);
+        for (const Point corner : corners) go(Kind::link, corner);
+        return;
+      }
+    }
+    const PathMove& move = moves_[i - 1];
+    if (i < 2 || move.z != -depth_ || moves_[i - 2].z != -depth_) break;
+    const Point begin = moves_[i - 2].to;
+    back.push_back(turned_back(move.shape == EdgeKind::line ? Edge{EdgeKind::line, begin, move.to, {}}
+                                                            : arc_of(move, begin)));
+    length += length_of(back.back());
+    if (length > kMostBack) break;
   }
-  if (!inside) return hop(to);
-  for (const Point corner : corners) go(Kind::link, corner);
+  hop(to);
+}
+
+std::vector<Point> ToolMotion::way_inside(Point from, Point to) const {
+  const auto is_way = [&](const std::vector<Point>& corners) {
+    Point last = from;
+    return !corners.empty() && std::all_of(corners.begin(), corners.end(), [&](Point corner) {
+      return is_inside(std::exchange(last, corner), corner);
+    });
+  };
+  std::vector<Point> corners = grid_->way(from, to);
+  return is_way(corners) ? corners : std::vector<Point>{};
 }
 
 /// Over the stock, where there is no way at depth.

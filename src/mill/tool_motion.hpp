@@ -49,6 +49,8 @@ class ToolMotion {
 
  private:
   void link_over_grid(geom::Point to);
+  /// Corners of a way that cuts nothing and leaves no wall; none where none is found.
+  [[nodiscard]] std::vector<geom::Point> way_inside(geom::Point from, geom::Point to) const;
   void hop(geom::Point to);
 
   const Piece& piece_;

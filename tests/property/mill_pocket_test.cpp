@@ -166,6 +166,18 @@ TEST(PocketPath, RandomPocketsAreClearedAndNothingElse) {
   EXPECT_LE(beyond, 0.003 * length);
 }
 
+/// Of these the next front began where the grid of links has no way to, and the tool once lifted.
+TEST(PocketPath, WhereTheGridHasNoWayTheToolGoesBackOnItsPath) {
+  for (const std::size_t i : {std::size_t{48}, std::size_t{104}, std::size_t{125}}) {
+    Random random(1, 700 + i);
+    const std::string pocket = random_pocket(random, i, 12 + 20 * random.uniform());
+    SCOPED_TRACE(i);
+    const Judged judged = judge(pocket);
+    expect_cleared(judged);
+    EXPECT_EQ(judged.report.retracts, 0U);
+  }
+}
+
 struct Corridor {
   std::string name, pocket;
 };
