@@ -16,12 +16,12 @@ using geom::Edge;
 using geom::Point;
 using Kind = PathMove::Kind;
 
-constexpr double kLasting = 0.15;    // mm: the checker looks every 0.05 mm for what lasts over 0.2
-constexpr double kAround = 1;        // of the tool's radius, before and after what is too hot
-constexpr double kLongest = 4;       // of the tool's radius, of one ramp
-constexpr double kLeastDrop = 0.02;  // of the tool's diameter, of one way down
-constexpr double kNothing = 1e-6;    // mm
-constexpr double kBelowTop = 0.01;   // of a level: at its top the tool would be out of the stock
+constexpr double kLasting = 0.15;  // mm: the checker looks every 0.05 mm for what lasts over 0.2
+constexpr double kAround = 1;      // of the tool's radius, before and after what is too hot
+constexpr double kLongest = 4;     // of the tool's radius, of one ramp
+constexpr double kLeastDrop = 0.02, kMostDrop = 0.1;  // of the tool's diameter, of one way down
+constexpr double kNothing = 1e-6;                     // mm
+constexpr double kBelowTop = 0.01;  // of a level: at its top the tool would be out of the stock
 
 struct Stretch {
   double begin = 0, end = 0;  // mm along the path
@@ -130,7 +130,7 @@ class Ramping {
   void ramp_down(const std::vector<Part>& parts, double floor) {
     double length = 0;
     for (const Part& part : parts) length += part.length;
-    const double most = std::max(length * slope_, kLeastDrop * 2 * radius_);
+    const double most = std::clamp(length * slope_, kLeastDrop * 2 * radius_, kMostDrop * 2 * radius_);
     const double drop = (1 - kBelowTop) * level_, top = floor + drop;
     const double ways = std::ceil(drop / most);
     const Point begin = result_.path.moves.back().to, end = parts.back().edge.to;

@@ -52,7 +52,7 @@ TEST(MillRamps, AGrooveIsCutInThinLayersDownToEachFloor) {
       const RampedPath ramped = with_ramps(before.path, loads_of(before), options);
       const JudgedPath after = judged(ramped.path, kGroove);
       EXPECT_LE(after.report.engagement_max_deg, 1);
-      EXPECT_LE(after.report.entry_layer_mm, std::min(12 * std::tan(angle) + 0.1, -depths.front()) + 0.01);
+      EXPECT_LE(after.report.entry_layer_mm, std::min({12 * std::tan(angle), 0.6, -depths.front()}) + 0.11);
       EXPECT_EQ(after.report.gouge_mm, before.report.gouge_mm);
       EXPECT_EQ(after.report.retracts, before.report.retracts);
       EXPECT_EQ(after.report.rapid_cut_mm, 0);
@@ -105,8 +105,9 @@ TEST(MillRamps, RandomRampsCutWhatThePathCuts) {
     EXPECT_NEAR(after.report.coverage_percent, before.report.coverage_percent, 1e-3);
     EXPECT_EQ(after.report.rapid_cut_mm, 0);
     EXPECT_EQ(after.report.retracts, before.report.retracts);
-    EXPECT_LE(after.report.entry_layer_mm,
-              std::max(before.report.entry_layer_mm, 12 * std::tan(options.ramp_angle) + 0.12) + 0.1);
+    EXPECT_LE(after.report.entry_layer_mm, std::max(before.report.entry_layer_mm,
+                                                    std::min(12 * std::tan(options.ramp_angle), 0.6) + 0.12) +
+                                               0.1);
   }
 }
 
