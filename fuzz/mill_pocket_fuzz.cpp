@@ -13,6 +13,7 @@
 #include "lekalo/io/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
+#include "lekalo/mill/ramps.hpp"
 #include "lekalo/mill/relief.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -22,7 +23,8 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Passes ahead of stretches that are said to be hot, whether they are or not: none may leave the pocket.
+/// Passes ahead of stretches that are said to be hot, and ramps in them, whether they are or not: none may
+/// leave the pocket.
 lekalo::mill::PocketPath with_passes(const lekalo::mill::PocketPath& path,
                                      const std::vector<lekalo::geom::Region>& pockets,
                                      const lekalo::mill::PocketOptions& options, unsigned seed) {
@@ -30,8 +32,8 @@ lekalo::mill::PocketPath with_passes(const lekalo::mill::PocketPath& path,
   Random random(seed, 1);
   auto relief = mill::Relief::make(path, pockets, options);
   require(relief.has_value());
-  const auto loads = [&] {
-    std::vector<std::vector<mill::MoveLoad>> made(relief->path().moves.size());
+  const auto loads = [&](const mill::PocketPath& of) {
+    std::vector<std::vector<mill::MoveLoad>> made(of.moves.size());
     for (auto& of_move : made)
       for (int piece = 0; piece < 4; ++piece) {
         const double degrees = random.below(4) == 0 ? 180 * random.uniform() : 0;
@@ -39,8 +41,8 @@ lekalo::mill::PocketPath with_passes(const lekalo::mill::PocketPath& path,
       }
     return made;
   };
-  for (int round = 0; relief->improve(loads()); ++round) require(round < 10000);
-  return relief->path();
+  for (int round = 0; relief->improve(loads(relief->path())); ++round) require(round < 10000);
+  return mill::with_ramps(relief->path(), loads(relief->path()), options).path;
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ class Ramping {
       double at = way_.begin_of(i);
       for (const MoveLoad& load : loads[i]) {
         const double from = at;
-        at += load.length;
+        at = std::min(at + load.length, way_.end_of(i));
         if (!(load.engagement_deg > held_)) {
           finish();
           continue;
