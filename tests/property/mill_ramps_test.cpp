@@ -33,7 +33,8 @@ PocketPath through_the_groove(const std::vector<double>& depths) {
   path.moves.push_back({.kind = Kind::rapid, .to = {40, 3.15}, .z = 5});
   for (const double z : depths) {
     path.moves.push_back({.kind = Kind::plunge, .to = {40, 3.15}, .z = z});
-    path.moves.push_back({.kind = Kind::cut, .to = {3.15, 3.15}, .z = z});
+    for (const double x : {36.0, 21.0, 18.5, 3.15})
+      path.moves.push_back({.kind = Kind::cut, .to = {x, 3.15}, .z = z});
     path.moves.push_back({.kind = Kind::link, .to = {40, 3.15}, .z = z});
   }
   return path;
@@ -57,6 +58,12 @@ TEST(MillRamps, AGrooveIsCutInThinLayersDownToEachFloor) {
       EXPECT_EQ(after.report.retracts, before.report.retracts);
       EXPECT_EQ(after.report.rapid_cut_mm, 0);
       EXPECT_NEAR(after.report.coverage_percent, before.report.coverage_percent, 1e-9);
+      for (std::size_t i = 1; i < ramped.path.moves.size(); ++i) {
+        const PathMove &from = ramped.path.moves[i - 1], &to = ramped.path.moves[i];
+        if (to.kind == Kind::entry) {
+          EXPECT_LE(from.z - to.z, (std::tan(angle) + 1e-9) * norm(to.to - from.to));
+        }
+      }
       ASSERT_EQ(ramped.ramps.size(), depths.size());
       for (std::size_t i = 0; i < depths.size(); ++i) {
         EXPECT_EQ(ramped.ramps[i].z, depths[i]);
@@ -74,6 +81,18 @@ TEST(MillRamps, APathThatHoldsTheAngleStaysAsItIs) {
   const RampedPath ramped = with_ramps(*path, loads_of(judged(*path, room)), {});
   EXPECT_TRUE(ramped.ramps.empty());
   EXPECT_TRUE(same(ramped.path, *path));
+}
+
+TEST(MillRamps, WhatLastsTooShortOrIsNotTooMuchTakesNone) {
+  const PocketPath path = through_the_groove({-1});
+  const auto ramps_of = [&](double degrees, double length) {
+    std::vector<std::vector<MoveLoad>> loads(path.moves.size());
+    loads[3] = {{6, 50, 50}, {length / 2, degrees, 0}, {length / 2, degrees, degrees}, {6, 50, 50}};
+    return with_ramps(path, loads, {}).ramps.size();
+  };
+  EXPECT_EQ(ramps_of(kHeld + 0.5, 0.2), 1U);
+  EXPECT_EQ(ramps_of(kHeld - 0.5, 2), 0U);
+  EXPECT_EQ(ramps_of(180, 0.1), 0U);
 }
 
 /// Whatever is said to be hot, the pocket gets no hotter, is cleared as before, and no more than before.
