@@ -120,8 +120,9 @@ class Coverage {
 
   /// The widest uncut place of a square, where it may be wider than what is known.
   void widen(Place middle, double side) {
+    if (whole_ <= report_.uncut_width_mm) return;  // nothing is wider, and a path far away is long to look for
     const double half = side * 0.7071067811865476, deep = swept_at(middle) - radius_;
-    const double most = std::min(2 * (deep + half), length(pocket_.high() - pocket_.low()));
+    const double most = std::min(2 * (deep + half), whole_);
     spot(middle, 2 * deep);
     if (most <= report_.uncut_width_mm) return;
     if (side <= kLeaf || half <= 0.01 * deep) return widest(most);
@@ -136,14 +137,14 @@ class Coverage {
     report_.uncut_mm2 += side * side * std::max(0.0, reachable + left - 1);
     undecided_ += side * side;
     const double width =
-        std::min(2 * (swept + half - radius_), (swept - radius_) + (radius_ - off) + 2 * half);
+        std::min({2 * (swept + half - radius_), (swept - radius_) + (radius_ - off) + 2 * half, whole_});
     widest(width);
     spot(middle, width);
   }
 
   void widest(double width) { report_.uncut_width_mm = std::max(report_.uncut_width_mm, width); }
   void spot(Place at, double width) {
-    if (width > spot_.width_mm) spot_ = {at.x, at.y, width};
+    if (width > spot_.width_mm) spot_ = {at.x, at.y, std::min(width, whole_)};
   }
 
   void tell_spots() {
@@ -166,6 +167,7 @@ class Coverage {
   double widest_ = 0;
   StrokeIndex index_;
   double undecided_ = 0;
+  double whole_ = length(pocket_.high() - pocket_.low());  ///< mm; no place is wider
   UncutSpot spot_;  ///< the widest of the square that is looked at
   std::vector<UncutSpot> spots_;
 };

@@ -346,6 +346,16 @@ TEST(VerifySimulateAfter, AFaultOfAnEarlierProgramIsNamed) {
   EXPECT_NE(zero.error().message.find("earlier tool's diameter"), std::string::npos);
 }
 
+/// A program in inches for a pocket in mm: spots ten times as wide as the pocket were told, after a long search.
+TEST(VerifySimulate, NoUncutSpotIsWiderThanThePocket) {
+  const auto report =
+      run("G20 G90\nG0 X5 Y5 Z5\nG1 Z-1 F300\nG1 X25 F1500\nG3 X25 Y10 I0 J2.5\n", rectangle(30, 20));
+  EXPECT_EQ(report.coverage_percent, 0);
+  EXPECT_NEAR(report.uncut_width_mm, std::hypot(30, 20), 1e-9);
+  ASSERT_FALSE(report.uncut.empty());
+  EXPECT_LE(report.uncut.front().width_mm, std::hypot(30, 20) + 1e-9);
+}
+
 /// Straight down there is no length along which engagement could be seen.
 TEST(VerifySimulate, ARapidStraightDownIntoMaterialIsFound) {
   const std::string pocket = rectangle(70, 40);
