@@ -73,7 +73,8 @@ builds_agree() {
     (cd "$data/layouts" && "$root/build/$build/lekalo" edit shoes.json --commands shoes.commands \
       -o "$out/agree-$build/shoes.json")
     (cd "$data/pockets" && "$root/build/$build/lekalo" pocket cover.json --tool 6 --stepover 20% --depth 4 \
-      --stepdown 2 --feed-max 3000 -o "$out/agree-$build/cover.ngc" --json) >"$out/agree-$build/cover.json"
+      --stepdown 2 --feed-max 3000 -o "$out/agree-$build/cover.ngc" --json) |
+      grep -v '"path":' >"$out/agree-$build/cover.json"
     (cd "$data/layouts" && "$root/build/$build/lekalo" nest shoes.json --work 300000 \
       -o "$out/agree-$build/nested.json")
     # 200 sessions of 200 commands each: what they did, and replayed, as one number.
