@@ -17,6 +17,15 @@ constexpr std::size_t kMostTold = 4;
 
 double rounded(double mm) { return std::round(mm * 1000) / 1000; }
 
+nlohmann::ordered_json stretch(double from_x, double from_y, double to_x, double to_y, double z,
+                               double length, double degrees) {
+  return {{"from", {rounded(from_x), rounded(from_y)}},
+          {"to", {rounded(to_x), rounded(to_y)}},
+          {"z", rounded(z)},
+          {"length_mm", rounded(length)},
+          {"engagement_deg", rounded(degrees)}};
+}
+
 /// A line for each of the hottest.
 template <class Line>
 std::string notices(const nlohmann::ordered_json& cuts, const Line& line) {
@@ -55,30 +64,22 @@ nlohmann::ordered_json hot_cuts(const verify::SimulateReport& report, double ste
     if (hot && !goes_on) stretches.push_back({&sample, &sample, 0, 0});
     goes_on = hot;
     if (!hot) continue;
-    Stretch& stretch = stretches.back();
-    stretch.last = &sample;
-    stretch.length += sample.length;
-    stretch.largest = std::max(stretch.largest, sample.engagement);
+    Stretch& last = stretches.back();
+    last.last = &sample;
+    last.length += sample.length;
+    last.largest = std::max(last.largest, sample.engagement);
   }
   Json cuts = Json::array();
-  for (const Stretch& stretch : stretches)
-    if (stretch.length >= kLasting - 1e-9)
-      cuts.push_back({{"from", {rounded(stretch.first->x), rounded(stretch.first->y)}},
-                      {"to", {rounded(stretch.last->x), rounded(stretch.last->y)}},
-                      {"z", rounded(stretch.last->z)},
-                      {"length_mm", rounded(stretch.length)},
-                      {"engagement_deg", rounded(stretch.largest)}});
+  for (const Stretch& s : stretches)
+    if (s.length >= kLasting - 1e-9)
+      cuts.push_back(stretch(s.first->x, s.first->y, s.last->x, s.last->y, s.last->z, s.length, s.largest));
   return cuts;
 }
 
 nlohmann::ordered_json ramps(const std::vector<mill::Ramp>& ramps) {
   nlohmann::ordered_json cuts = nlohmann::ordered_json::array();
-  for (const mill::Ramp& ramp : ramps)
-    cuts.push_back({{"from", {rounded(ramp.from.x), rounded(ramp.from.y)}},
-                    {"to", {rounded(ramp.to.x), rounded(ramp.to.y)}},
-                    {"z", rounded(ramp.z)},
-                    {"length_mm", rounded(ramp.length)},
-                    {"engagement_deg", rounded(ramp.engagement_deg)}});
+  for (const mill::Ramp& r : ramps)
+    cuts.push_back(stretch(r.from.x, r.from.y, r.to.x, r.to.y, r.z, r.length, r.engagement_deg));
   return cuts;
 }
 

@@ -9,8 +9,9 @@
 
 namespace lekalo::cli {
 
-/// Stretches of the path, outside entries, where the checker finds more of the rim in material than 1.25 times
-/// what a straight pass of this step-over meets, all along 0.2 mm or more: in spirals of the source's methods.
+/// Stretches of the path, outside entries, where the checker finds more of the rim in material than 1.25
+/// times what a straight pass of this step-over meets, all along 0.2 mm or more: the source's spirals have
+/// them; of the product's path what ramps would not hold would be told here, too.
 [[nodiscard]] nlohmann::ordered_json hot_cuts(const verify::SimulateReport& report, double step_over);
 /// Stretches that would have been such, and are cut in ramps; as the path maker tells.
 [[nodiscard]] nlohmann::ordered_json ramps(const std::vector<mill::Ramp>& ramps);

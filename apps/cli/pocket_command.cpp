@@ -159,8 +159,7 @@ Result<int> run_pocket(PocketOptions o) {
     if (Result<void> done = files.add(o.output, program); !done) return tl::unexpected(done.error());
   if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
   if (o.json || o.output.empty()) {
-    if (Result<void> done = print(o.json ? report_json(o, *input, *before, *judged) : program);
-        !done)
+    if (Result<void> done = print(o.json ? report_json(o, *input, *before, *judged) : program); !done)
       return tl::unexpected(done.error());
   }
   std::string text;

@@ -162,7 +162,8 @@ Typed add_pocket_form(CLI::App& app) {
   add_after(app, w.after);
   add("--rest", w.rest, "MM", "Instead: suppose a larger tool cut all it can, as lekalo pocket would");
   add("--cut", w.direction, "WORD", "climb, conventional or any [any]");
-  add("--ramp-angle", w.ramp_angle, "DEGREES", "Of ways down into the material: the helix, and ramps in slots and sharp corners [2.9]");
+  add("--ramp-angle", w.ramp_angle, "DEGREES",
+      "Of ways down into the material: the helix, and ramps in slots and sharp corners [2.9]");
   add("--safe-height", w.safe_height, "MM", "Above Z 0 [5]");
   add("-o,--output", w.output, "FILE", "Write the program to this file [stdout]");
   add("--picture", w.picture, "FILE", "Draw the path coloured by engagement (.svg or .png)");
