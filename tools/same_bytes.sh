@@ -126,8 +126,10 @@ while IFS= read -r line; do
   folder=$kept/$name
   [ ! -e "$folder" ] || cannot "$list: two lines are named $name"
   run_line "$old" "$folder/old" "$command" &
-  run_line "$new" "$folder/new" "$command" &
-  wait
+  running=$!
+  run_line "$new" "$folder/new" "$command" || cannot "$name could not be run with $new"
+  wait "$running" || cannot "$name could not be run with $old"
+  [ -s "$folder/old/statuses" ] || cannot "$name runs no step with $old"
   steps=$((steps + $(wc -l <"$folder/old/statuses")))
   found=$(differences "$folder")
   reason=$(reason_for "$name")
