@@ -6,8 +6,8 @@
 
 #include "lekalo/disk/files.hpp"
 #include "lekalo/geom/boolean.hpp"
+#include "lekalo/io/formats/outline_file.hpp"
 #include "lekalo/io/shape/region_json.hpp"
-#include "shapes.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -19,7 +19,7 @@ bool listed(const std::vector<std::string>& layers, const std::string& label) {
   return std::find(layers.begin(), layers.end(), label) != layers.end();
 }
 
-Result<void> known(const Shape& shape, const std::vector<std::string>& layers, const std::string& path) {
+Result<void> known(const locate::Outline& shape, const std::vector<std::string>& layers, const std::string& path) {
   for (const std::string& layer : layers)
     if (!listed(shape.labels, layer))
       return failure(ErrorCode::bad_input,
@@ -75,23 +75,23 @@ Result<PocketInput> read_pocket_input(const PocketOptions& o) {
     how.layers.insert(how.layers.end(), o.island_layers.begin(), o.island_layers.end());
     how.layers.insert(how.layers.end(), o.open_layers.begin(), o.open_layers.end());
   }
-  Result<Shape> shape = read_shape(*bytes, o.pocket, how);
-  if (!shape) return tl::unexpected(shape.error());
+  LEKALO_TRY(io::ReadOutline read, io::read_outline(*bytes, o.pocket, how));
+  locate::Outline& shape = read.outline;
   for (const auto* layers : {&o.island_layers, &o.open_layers})
-    if (Result<void> good = known(*shape, *layers, o.pocket); !good) return tl::unexpected(good.error());
+    if (Result<void> good = known(shape, *layers, o.pocket); !good) return tl::unexpected(good.error());
 
   std::size_t edge = 0;
-  std::vector<geom::Region> all = shape->regions;
+  std::vector<geom::Region> all = shape.regions;
   std::vector<geom::Edge> open;
-  for (const geom::Region& region : shape->regions) {
+  for (const geom::Region& region : shape.regions) {
     const auto look = [&](const geom::Contour& contour, bool outer) -> Result<void> {
       for (const geom::Edge& e : contour) {
-        const std::string& layer = shape->labels[edge++];
+        const std::string& layer = shape.labels[edge++];
         if (outer && listed(o.island_layers, layer))
           return failure(ErrorCode::bad_input,
                          fmt::format("{}: the island on layer \"{}\" at ({:.6g}, {:.6g}) lies in no pocket",
                                      o.pocket, layer, e.from.x, e.from.y));
-        if (!listed(o.open_layers, layer) && std::none_of(shape->open.begin(), shape->open.end(),
+        if (!listed(o.open_layers, layer) && std::none_of(read.open.begin(), read.open.end(),
                                                           [&](const geom::Edge& s) { return same(s, e); }))
           continue;
         open.push_back(e);
@@ -110,9 +110,9 @@ Result<PocketInput> read_pocket_input(const PocketOptions& o) {
   }
   PocketInput input;
   input.bytes = std::move(*bytes);
-  input.pockets = std::move(shape->regions);
+  input.pockets = std::move(shape.regions);
   input.extended = input.pockets;
-  input.notices = std::move(shape->notices);
+  input.notices = std::move(read.notices);
   if (all.size() > input.pockets.size()) {
     Result<geom::BooleanResult> whole = geom::united(all);
     if (!whole) return failure(whole.error().code, fmt::format("{}: {}", o.pocket, whole.error().message));
