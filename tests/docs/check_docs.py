@@ -360,11 +360,17 @@ def nearest(root, place):
 
 
 def code_words(root, path):
-    """(line number, word) of everything in backticks, page by page."""
+    """(line number, word) of everything in backticks, page by page; a word may go on in the next line."""
     prose, _ = split_page(lines_of(root, path))
-    for number, line in enumerate(prose, 1):
-        for word in re.findall(r"`([^`]+)`", line):
-            yield number, word
+    block = []
+    for number, line in enumerate(prose + [""], 1):
+        if line.strip():
+            block = block or [number]
+            block.append(line.strip())
+        elif block:
+            start, text, block = block[0], "\n".join(block[1:]), []
+            for match in re.finditer(r"`([^`]+)`", text):
+                yield start + text.count("\n", 0, match.start()), match.group(1).replace("\n", " ")
 
 
 def names_a_file(root, word):
