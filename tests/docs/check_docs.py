@@ -576,9 +576,11 @@ def check_json(root):
 
 
 def check_cpp(root, compiler):
+    """Code that is quoted from a file is left to the test that compiles the file."""
     for path in pages(root):
-        for block in split_page(lines_of(root, path))[1]:
-            if block.info[:1] == ["cpp"] and "fragment" not in block.info:
+        lines = lines_of(root, path)
+        for block in split_page(lines)[1]:
+            if block.info[:1] == ["cpp"] and "fragment" not in block.info and not quoted_file(lines, block):
                 error = compile_error(root, compiler, block.lines)
                 if error:
                     yield Finding(path, block.line, "code", f"this does not compile: {error}")
@@ -602,24 +604,31 @@ def compile_error(root, compiler, lines):
     return next((l for l in told.stderr.split("\n") if "error" in l), told.stderr.strip()).split("error: ")[-1]
 
 
+def quoted_file(lines, block):
+    """The file that a comment <!-- code of FILE --> above a block names."""
+    above = next((line for line in reversed(lines[:block.line - 1]) if line.strip()), "")
+    match = re.match(r"^<!-- code of (\S+) -->$", above.strip())
+    return match.group(1) if match else None
+
+
 def check_quoted(root):
-    """A comment <!-- code of FILE --> above a block says that its lines stand in that file, in this order."""
+    """The lines of quoted code stand in their file, in this order."""
     for path in pages(root):
         lines = lines_of(root, path)
         for block in split_page(lines)[1]:
-            above = next((l for l in reversed(lines[:block.line - 1]) if l.strip()), "")
-            match = re.match(r"^<!-- code of (\S+) -->$", above.strip())
-            if not match:
+            source = quoted_file(lines, block)
+            if not source:
                 continue
-            source = match.group(1)
             if not os.path.exists(os.path.join(root, source)):
-                yield Finding(path, block.line, "code", f"the code is said to be of {source}, which does not exist{nearest(root, source)}")
+                yield Finding(path, block.line, "code",
+                              f"the code is said to be of {source}, which does not exist{nearest(root, source)}")
                 continue
-            rest = iter([" ".join(l.split()) for l in lines_of(root, source)])
+            rest = iter([" ".join(line.split()) for line in lines_of(root, source)])
             for offset, line in enumerate(block.lines, 1):
                 text = " ".join(line.split())
                 if text and text not in rest:
-                    yield Finding(path, block.line + offset, "code", f"this line does not stand in {source} where it should.")
+                    yield Finding(path, block.line + offset, "code",
+                                  f"this line does not stand in {source} where it should.")
                     break
 
 
