@@ -8,7 +8,10 @@ import os
 import sys
 import tempfile
 
-import check_docs
+from baseline import beyond_baseline
+from project import Finding
+from references import references
+from voice import voice
 
 PAGE = """# A page
 
@@ -69,10 +72,13 @@ PLANTED = [
     ("src/geom/shape.cpp", "a shape.", "a shape", "ends without a full stop"),
     ("src/geom/shape.cpp", "reads a shape.", "reads\n// a shape.", "wrap it anew"),
     ("include/lekalo/geom/shape.hpp", "as step 1", "as step 7", "has no step 7"),
-    ("include/lekalo/geom/shape.hpp", "page.md", "pages.md", "the comment names docs/design/pages.md, which does not exist"),
-    ("README.md", "page.md#goal", "pages.md", "the link leads to docs/design/pages.md, which does not exist; the nearest is docs/design/page.md"),
+    ("include/lekalo/geom/shape.hpp", "page.md", "pages.md",
+     "the comment names docs/design/pages.md, which does not exist"),
+    ("README.md", "page.md#goal", "pages.md",
+     "the link leads to docs/design/pages.md, which does not exist; the nearest is docs/design/page.md"),
     ("README.md", "#goal", "#goals", "no heading for the anchor #goals"),
-    ("docs/design/page.md", "src/geom/shape.cpp` by", "src/shape.cpp` by", "`src/shape.cpp` does not exist; the nearest is src/geom/shape.cpp"),
+    ("docs/design/page.md", "src/geom/shape.cpp` by", "src/shape.cpp` by",
+     "`src/shape.cpp` does not exist; the nearest is src/geom/shape.cpp"),
     ("docs/design/page.md", "`geom/shape.hpp`", "`geom/{shape,form}.hpp`", "`geom/form.hpp` does not exist"),
     ("docs/design/page.md", "kLimit", "kTurnLimit", "no source has the name `kTurnLimit`; the nearest is kLimit"),
     ("docs/design/page.md", "`PartShape`", "`geom::PartForm`", "no source has the name `PartForm`"),
@@ -80,10 +86,12 @@ PLANTED = [
     ("docs/design/page.md", "", "\nIt is held by `LEKALO_CASES=9 unit_form`.\n", "no program is called unit_form"),
     ("docs/design/page.md", "--gap 1", "--gaps 1", "no program has an option --gaps; the nearest is --gap"),
     ("docs/design/page.md", "--gap 1", "--gap-of-others 1", "lekalo place has no option --gap-of-others"),
-    ("docs/design/page.md", "examples/part.csv", "examples/parts.csv", "the example examples/parts.csv does not exist; the nearest is examples/part.csv"),
+    ("docs/design/page.md", "examples/part.csv", "examples/parts.csv",
+     "the example examples/parts.csv does not exist; the nearest is examples/part.csv"),
     ("docs/design/page.md", "[1, 2]", "[1, ...]", "this is no JSON"),
     ("docs/design/page.md", "a == 1", "b == 1", "this does not compile"),
-    ("docs/design/page.md", "int read_shape() {\n```", "int read_form() {\n```", "does not stand in src/geom/shape.cpp"),
+    ("docs/design/page.md", "int read_shape() {\n```", "int read_form() {\n```",
+     "does not stand in src/geom/shape.cpp"),
 ]
 
 
@@ -101,7 +109,7 @@ def findings(files, compiler):
         lekalo = os.path.join(root, "lekalo.sh")
         write(root, {"lekalo.sh": LEKALO})
         os.chmod(lekalo, 0o755)
-        found = check_docs.voice(root) + check_docs.references(root, lekalo, compiler)
+        found = voice(root) + references(root, lekalo, compiler)
     return [f"{f.path}:{f.line}: {f.text}" for f in found]
 
 
@@ -117,11 +125,11 @@ def planted(path, old, new):
 
 def check_baseline():
     """A folder may have the offences of the baseline, and none more."""
-    finding = check_docs.Finding("src/geom/shape.cpp", 1, "opening", "")
+    finding = Finding("src/geom/shape.cpp", 1, "opening", "")
     with tempfile.TemporaryDirectory() as root:
         write(root, {"baseline.txt": "# folder rule count\nsrc/geom opening 1\n"})
         file = os.path.join(root, "baseline.txt")
-        return not check_docs.beyond_baseline([finding], file) and len(check_docs.beyond_baseline([finding] * 2, file)) == 2
+        return not beyond_baseline([finding], file) and len(beyond_baseline([finding] * 2, file)) == 2
 
 
 def main():
