@@ -152,13 +152,14 @@ def check_files_of_comments(root):
                 if not os.path.exists(os.path.join(root, place)):
                     yield Finding(path, number, "file",
                                   f"the comment names {place}, which does not exist{nearest(root, place)}")
-            for step, place in re.findall(r"\b[Ss]teps? (\d+) of (docs/design/[\w-]+\.md)", line):
+            for step, place in re.findall(r"\b[Ss]teps? (\d+[a-z]?) of (docs/design/[\w-]+\.md)", line):
                 if os.path.exists(os.path.join(root, place)) and not has_step(root, place, step):
                     yield Finding(path, number, "file", f"{place} has no step {step}.")
 
 
 def has_step(root, path, step):
-    return any(re.match(rf"^\s*{step}\. ", line) for line in lines_of(root, path))
+    """Steps are items of a list, or headings."""
+    return any(re.match(rf"^\s*(#+ )?{step}\. ", line) for line in lines_of(root, path))
 
 
 WORDS_OF_STYLE = {"CamelCase", "snake_case", "member_"}
