@@ -80,7 +80,7 @@ PLANTED = [
     ("docs/design/page.md", "src/geom/shape.cpp` by", "src/shape.cpp` by",
      "`src/shape.cpp` does not exist; the nearest is src/geom/shape.cpp"),
     ("docs/design/page.md", "`geom/shape.hpp`", "`geom/{shape,form}.hpp`", "`geom/form.hpp` does not exist"),
-    ("docs/design/page.md", "kLimit", "kTurnLimit", "no source has the name `kTurnLimit`; the nearest is kLimit"),
+    ("docs/design/page.md", "kLimit", "kLimits", "no source has the name `kLimits`; the nearest is kLimit"),
     ("docs/design/page.md", "`PartShape`", "`geom::PartForm`", "no source has the name `PartForm`"),
     ("docs/design/page.md", "", "\nIt is held by `unit_shape`.\n", ""),
     ("docs/design/page.md", "", "\nIt is held by `LEKALO_CASES=9 unit_form`.\n", "no program is called unit_form"),

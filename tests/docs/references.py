@@ -93,20 +93,33 @@ def is_there(root, place):
 
 def nearest(root, place):
     """The end of a sentence: where a file of this name is, or one of nearly this name."""
-    name = os.path.basename(place.rstrip("/"))
-    files = all_files(root)
-    same = [path for path in files if os.path.basename(path) == name]
-    if not same:
-        stem = re.sub(r"\.[a-z]+$", "", name).replace("*", "")
-        same = [path for path in files if re.sub(r"\.[a-z]+$", "", os.path.basename(path)) == stem]
-    if not same:  # dxf_writer.cpp may have become dxf/writer.cpp
-        words = [w for w in re.split(r"[_./*]+", re.sub(r"\.[a-z]+$", "", place)) if w]
-        same = [path for path in files if path.endswith(CODE_ENDINGS) and len(words) > 1
-                and re.split(r"[_./]+", re.sub(r"\.[a-z]+$", "", path))[-2:] == words[-2:]]
-    if not same:
-        close = difflib.get_close_matches(name, {os.path.basename(path) for path in files}, 1, 0.75)
-        same = [path for path in files if close and os.path.basename(path) == close[0]]
-    return f"; the nearest is {same[0]}." if same else "."
+    found = files_like(root, place)
+    if not found:
+        return "."
+    best = max(found, key=lambda path: (len(os.path.commonprefix([path, place])), path.endswith((".hpp", ".h")), path))
+    return f"; the nearest is {best}."
+
+
+def stem(path):
+    return re.sub(r"\.[a-z]+$", "", os.path.basename(path.rstrip("/*")))
+
+
+def files_like(root, place):
+    """Files of this name, whatever their ending; then FOLDER/NAME for FOLDER_NAME, or what the last word names; then
+    files of nearly this name."""
+    files = [path for path in all_files(root) if path.endswith(CODE_ENDINGS)]
+    name = stem(place).rstrip("_")
+    folder, _, word = name.partition("_")
+    return ([path for path in all_files(root) if os.path.basename(path) == os.path.basename(place)]
+            or [path for path in files if stem(path) == name]
+            or [path for path in files if path.split("/")[-2:-1] == [folder] and stem(path) == (word or stem(path))]
+            or [path for path in files if word and stem(path) in (word, word.replace("_", ""))]
+            or [path for path in all_files(root) if os.path.basename(path) in similar(os.path.basename(place),
+                                                                                      map(os.path.basename, all_files(root)))])
+
+
+def similar(word, words):
+    return difflib.get_close_matches(word, set(words), 1, 0.8)
 
 
 def code_words(root, path):
@@ -162,7 +175,7 @@ def has_step(root, path, step):
     return any(re.match(rf"^\s*(#+ )?{step}\. ", line) for line in lines_of(root, path))
 
 
-WORDS_OF_STYLE = {"CamelCase", "snake_case", "member_"}
+WORDS_OF_STYLE = {"CamelCase", "snake_case", "member_", "kConstant"}
 NAME = re.compile(r"^(?:[A-Za-z_]\w*::)*[A-Za-z_]\w*(?:\(\))?$")
 WORDS_OF = ("include/", "src/", "apps/", "bindings/", "web/src/", "tests/", "bench/", "fuzz/", "cmake/", "tools/",
             "CMakeLists.txt", "CMakePresets.json", "examples/", "docs/schema/", "docs/formats.md", "docs/protocol.md")
@@ -186,7 +199,7 @@ def is_a_name(word):
     if not NAME.match(word) or word.startswith("std::") or word in WORDS_OF_STYLE:
         return False
     bare = word.removesuffix("()")
-    return "::" in bare or "_" in bare.strip("_") or bool(re.match(r"^k?[A-Z][a-z0-9]+[A-Z]", bare))
+    return "::" in bare or "_" in bare.strip("_") or bool(re.match(r"^(k[A-Z]|[A-Z][a-z0-9]+[A-Z])", bare))
 
 
 def check_names(root):
@@ -201,8 +214,8 @@ def check_names(root):
             missing = [part for part in word.removesuffix("()").split("::")
                        if part not in known_names(root) and not is_there(root, part)]
             if missing:
-                close = difflib.get_close_matches(missing[0], known_names(root), 1, 0.7)
-                hint = f"; the nearest is {close[0]}." if close else "."
+                close = similar(missing[0], known_names(root))
+                hint = f"; the nearest is {close[0]}." if close else nearest(root, missing[0])
                 yield Finding(path, number, "name", f"no source has the name `{missing[0]}`{hint}")
 
 
