@@ -22,7 +22,7 @@ def all_files(root):
     found = []
     for folder, names, files in os.walk(root):
         relative = os.path.relpath(folder, root)
-        names[:] = sorted(n for n in names if not n.startswith(".git") and not is_generated(join(relative, n) + "/"))
+        names[:] = sorted(n for n in names if not n.startswith((".", "__")) and not is_generated(join(relative, n) + "/"))
         found += [join(relative, name) for name in files]
     return sorted(found)
 
