@@ -84,7 +84,7 @@ def first_folders(root):
 
 
 def is_there(root, place):
-    place = re.sub(r"(?<![a-z])[A-Z]{2,}(?![a-z])", "*", place.rstrip("/"))
+    place = re.sub(r"NAME|KIND|MODULE|TOPIC", "*", place.rstrip("/"))
     if "*" not in place:
         return place in file_index(root)
     pattern = re.compile(re.escape(place).replace(r"\*", "[^ ]*") + r"$")
@@ -107,15 +107,16 @@ def stem(path):
 def files_like(root, place):
     """Files of this name, whatever their ending; then FOLDER/NAME for FOLDER_NAME, or what the last word names; then
     files of nearly this name."""
-    files = [path for path in all_files(root) if path.endswith(CODE_ENDINGS)]
-    name = stem(place).rstrip("_")
+    every = all_files(root)
+    files = [path for path in every if path.endswith(CODE_ENDINGS)]
+    name, base = stem(place).rstrip("_"), os.path.basename(place)
     folder, _, word = name.partition("_")
-    return ([path for path in all_files(root) if os.path.basename(path) == os.path.basename(place)]
-            or [path for path in files if stem(path) == name]
-            or [path for path in files if path.split("/")[-2:-1] == [folder] and stem(path) == (word or stem(path))]
-            or [path for path in files if word and stem(path) in (word, word.replace("_", ""))]
-            or [path for path in all_files(root) if os.path.basename(path) in similar(os.path.basename(place),
-                                                                                      map(os.path.basename, all_files(root)))])
+    found = ([path for path in every if os.path.basename(path) == base]
+             or [path for path in files if stem(path) == name]
+             or [path for path in files if path.split("/")[-2:-1] == [folder] and stem(path) == (word or stem(path))]
+             or [path for path in files if word and stem(path) in (word, word.replace("_", ""))])
+    close = [] if found else similar(base, map(os.path.basename, every))
+    return found or [path for path in every if os.path.basename(path) in close]
 
 
 def similar(word, words):
