@@ -38,7 +38,8 @@ int read_shape() {
     lekalo place examples/part.csv --gap 1
 """
 HEADER = """#pragma once
-/// A shape of a part, as step 1 of docs/design/page.md reads it.
+/// A shape of a part, as step 1 of docs/design/page.md reads it; docs/design/page.md,
+/// "Goal", says why.
 struct PartShape {};
 constexpr int kLimit = 3;
 """
@@ -72,6 +73,7 @@ PLANTED = [
     ("src/geom/shape.cpp", "a shape.", "a shape", "ends without a full stop"),
     ("src/geom/shape.cpp", "reads a shape.", "reads\n// a shape.", "wrap it anew"),
     ("include/lekalo/geom/shape.hpp", "as step 1", "as step 7", "has no step 7"),
+    ("include/lekalo/geom/shape.hpp", "\"Goal\"", "\"Aim\"", "docs/design/page.md has no section \"Aim\""),
     ("include/lekalo/geom/shape.hpp", "page.md", "pages.md",
      "the comment names docs/design/pages.md, which does not exist"),
     ("README.md", "page.md#goal", "pages.md",

@@ -22,7 +22,8 @@ def all_files(root):
     found = []
     for folder, names, files in os.walk(root):
         relative = os.path.relpath(folder, root)
-        names[:] = sorted(n for n in names if not n.startswith((".", "__")) and not is_generated(join(relative, n) + "/"))
+        names[:] = sorted(name for name in names
+                          if not name.startswith((".", "__")) and not is_generated(join(relative, name) + "/"))
         found += [join(relative, name) for name in files]
     return sorted(found)
 
@@ -87,3 +88,22 @@ def paragraphs(prose):
                 continue  # a formula
             start = number
         words.append(ITEM.sub("", line).strip())
+
+
+COMMENT = re.compile(r"^\s*//+!?(?![</!])(.*)$")
+TOOL_WORDS = re.compile(r"clang-format|NOLINT|eslint|prettier|@ts-|SPDX|https?://")
+
+
+def comment_blocks(lines):
+    """(first line number, texts) of each paragraph of comments on lines of their own."""
+    start, block = 0, []
+    for number, line in enumerate(lines + [""], 1):
+        match = COMMENT.match(line)
+        text = match.group(1) if match else ""
+        if match and text.strip() and not TOOL_WORDS.search(text):
+            if not block:
+                start = number
+            block.append(text[1:] if text.startswith(" ") else text)
+        elif block:
+            yield start, block
+            block = []

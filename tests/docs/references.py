@@ -8,7 +8,7 @@ import re
 import subprocess
 import tempfile
 
-from project import FENCE, Finding, all_files, is_generated, join, lines_of, pages, sources, split_page
+from project import FENCE, Finding, all_files, comment_blocks, is_generated, join, lines_of, pages, sources, split_page
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 
@@ -159,16 +159,28 @@ def check_files(root):
 
 
 def check_files_of_comments(root):
-    """Pages that comments in the sources name, with the steps and sections they name."""
+    """Pages that comments in the sources name, with the steps and the sections that they name."""
     for path in sources(root):
-        for number, line in enumerate(lines_of(root, path), 1):
+        lines = lines_of(root, path)
+        for number, line in enumerate(lines, 1):
             for place in re.findall(r"\bdocs/[\w/.-]+\.md\b", line):
                 if not os.path.exists(os.path.join(root, place)):
                     yield Finding(path, number, "file",
                                   f"the comment names {place}, which does not exist{nearest(root, place)}")
-            for step, place in re.findall(r"\b[Ss]teps? (\d+[a-z]?) of (docs/design/[\w-]+\.md)", line):
+        for number, block in comment_blocks(lines):
+            text = " ".join(line.strip() for line in block)
+            for step, place in re.findall(r"\b(?:[Ss]teps?|[Rr]ule) (\d+[a-z]?) of (docs/design/[\w-]+\.md)", text):
                 if os.path.exists(os.path.join(root, place)) and not has_step(root, place, step):
                     yield Finding(path, number, "file", f"{place} has no step {step}.")
+            for place, section in re.findall(r"\b(docs/[\w/-]+\.md), \"([^\"]+)\"", text):
+                if os.path.exists(os.path.join(root, place)) and not has_section(root, place, section):
+                    yield Finding(path, number, "file", f"{place} has no section \"{section}\".")
+
+
+def has_section(root, path, section):
+    """A heading, or a paragraph that begins with the words in bold or as code."""
+    pattern = re.compile(rf"^\s*(#+ |[*]+|`){re.escape(section)}\b", re.IGNORECASE)
+    return any(pattern.match(line) for line in lines_of(root, path))
 
 
 def has_step(root, path, step):

@@ -2,7 +2,7 @@
 import os
 import re
 
-from project import ITEM, Finding, is_prose, lines_of, pages, paragraphs, sources, split_page
+from project import ITEM, Finding, comment_blocks, is_prose, lines_of, pages, paragraphs, sources, split_page
 
 WIDEST_LINE = 100
 MOST_WORDS = 40
@@ -62,26 +62,9 @@ def check_headings(root):
 
 
 OPENINGS = ["Of", "What", "Whether", "Where", "Which", "As who"]
-COMMENT = re.compile(r"^\s*//+!?(?![</!])(.*)$")
-TOOL_WORDS = re.compile(r"clang-format|NOLINT|eslint|prettier|@ts-|SPDX|https?://")
 COLUMN_LIMIT = re.compile(r"^ColumnLimit:\s*(\d+)", re.M)
 SHORT_LINE = 40
 TAG = re.compile(r"\\(?:pre|param|return|see)\b[^.]*$")  # the words after a tag need not be a sentence
-
-
-def comment_blocks(lines):
-    """(first line number, texts) of each paragraph of comments on lines of their own."""
-    start, block = 0, []
-    for number, line in enumerate(lines + [""], 1):
-        match = COMMENT.match(line)
-        text = match.group(1) if match else ""
-        if match and text.strip() and not TOOL_WORDS.search(text):
-            if not block:
-                start = number
-            block.append(text[1:] if text.startswith(" ") else text)
-        elif block:
-            yield start, block
-            block = []
 
 
 def is_set_off(text):
