@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../src/io/drawn_shapes.hpp"
+#include "io/drawing/drawn_shapes.hpp"
 #include "io_contour_check.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/io/drawing/drawing.hpp"

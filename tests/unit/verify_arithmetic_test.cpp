@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "../../src/verify/edge_triple.hpp"
-#include "../../src/verify/exact.hpp"
-#include "../../src/verify/interval.hpp"
-#include "../../src/verify/json.hpp"
-#include "../../src/verify/outline.hpp"
-#include "../../src/verify/span.hpp"
 #include "support/verify_cases.hpp"
+#include "verify/locate/edge_triple.hpp"
+#include "verify/locate/outline.hpp"
+#include "verify/number/exact.hpp"
+#include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
+#include "verify/read/json.hpp"
 
 namespace {
 
