@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "lekalo/geom/region_index.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
 #include "lekalo/verify/verify.hpp"

@@ -3,7 +3,7 @@
 //   bench_drawing_regions
 #include <benchmark/benchmark.h>
 
-#include "lekalo/io/drawing_regions.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
 #include "support/boolean_cases.hpp"
 #include "support/drawn.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"

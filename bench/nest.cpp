@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "lekalo/base/random.hpp"
+#include "lekalo/disk/open_layout.hpp"
 #include "lekalo/geom/grid.hpp"
-#include "lekalo/io/open_layout.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/workspace.hpp"
 #include "lekalo/nest/nest.hpp"
@@ -264,7 +264,7 @@ int main(int argc, char** argv) {
   };
   for (const std::uint64_t pieces : words.scale) run_all(order_of(pieces), fmt::format("{} pieces", pieces));
   for (const std::string& path : words.files) {
-    const auto file = io::open_layout(path);
+    const auto file = disk::open_layout(path);
     if (!file) refuse(file.error().message);
     run_all(file->document, std::filesystem::path(path).stem().string());
   }

@@ -13,11 +13,11 @@
 #include <array>
 #include <cmath>
 
+#include "lekalo/disk/files.hpp"
+#include "lekalo/draw/grey_png.hpp"
+#include "lekalo/draw/voxel_pictures.hpp"
 #include "lekalo/field/r_function.hpp"
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/grey_png.hpp"
-#include "lekalo/io/region_json.hpp"
-#include "lekalo/io/voxel_pictures.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/floz_field.hpp"
 
 namespace {
@@ -79,10 +79,10 @@ std::size_t wrong_signs(const field::FieldGrid& grid, const std::vector<double>&
 }
 
 /// Means of squares of kShrink pixels, 8 bits, to the right of what is in the row.
-void append(io::GreyImage& row, const io::GreyImage& image) {
+void append(draw::GreyImage& row, const draw::GreyImage& image) {
   const std::size_t columns = image.columns / kShrink, rows = image.rows / kShrink;
   const std::size_t before = row.columns == 0 ? 0 : row.columns + kGap;
-  io::GreyImage wider;
+  draw::GreyImage wider;
   wider.columns = before + columns, wider.rows = rows, wider.bits = 8;
   wider.pixels.assign(wider.columns * rows, 255);
   const std::uint32_t scale = (image.bits == 16 ? 257 : 1) * kShrink * kShrink;
@@ -99,14 +99,14 @@ void append(io::GreyImage& row, const io::GreyImage& image) {
   row = std::move(wider);
 }
 
-Result<io::GreyImage> row_of(const field::FieldGrid& grid) {
-  const auto models = io::voxel_pngs(field::voxel_images(grid));
+Result<draw::GreyImage> row_of(const field::FieldGrid& grid) {
+  const auto models = draw::voxel_pngs(field::voxel_images(grid));
   if (!models) return tl::unexpected(models.error());
-  const auto value = io::value_png(grid);
+  const auto value = draw::value_png(grid);
   if (!value) return tl::unexpected(value.error());
-  io::GreyImage row;
+  draw::GreyImage row;
   for (const std::string& png : {(*models)[0], (*models)[1], (*models)[2], (*models)[3], *value}) {
-    const auto image = io::parse_grey_png(png, "picture");
+    const auto image = draw::parse_grey_png(png, "picture");
     if (!image) return tl::unexpected(image.error());
     append(row, *image);
   }
@@ -114,7 +114,7 @@ Result<io::GreyImage> row_of(const field::FieldGrid& grid) {
 }
 
 Result<void> draw(const std::string& pocket, const std::string& figure) {
-  const auto bytes = io::read_file(pocket);
+  const auto bytes = disk::read_file(pocket);
   if (!bytes) return tl::unexpected(bytes.error());
   const auto file = io::parse_regions(*bytes, pocket);
   if (!file) return tl::unexpected(file.error());
@@ -135,7 +135,7 @@ Result<void> draw(const std::string& pocket, const std::string& figure) {
                       pocket, wrong, distances.size()));
   }
   grids.push_back(*floz);
-  io::GreyImage all;
+  draw::GreyImage all;
   for (const field::FieldGrid& grid : grids) {
     const auto row = row_of(grid);
     if (!row) return tl::unexpected(row.error());
@@ -144,9 +144,9 @@ Result<void> draw(const std::string& pocket, const std::string& figure) {
     all.pixels.insert(all.pixels.end(), row->pixels.begin(), row->pixels.end());
   }
   all.rows = all.pixels.size() / all.columns;
-  const auto png = io::grey_png(all);
+  const auto png = draw::grey_png(all);
   if (!png) return tl::unexpected(png.error());
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   if (auto added = files.add(figure, *png); !added) return added;
   return files.commit();
 }

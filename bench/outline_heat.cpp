@@ -12,9 +12,9 @@
 #include <cmath>
 
 #include "heated_plate.hpp"
+#include "lekalo/disk/files.hpp"
 #include "lekalo/field/level_lines.hpp"
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 
 namespace {
 
@@ -148,7 +148,7 @@ class Figure {
 
 Result<void> draw(const std::string& pocket, const std::string& path) {
   if (auto checked = check_round_hole(); !checked) return checked;
-  const auto bytes = io::read_file(pocket);
+  const auto bytes = disk::read_file(pocket);
   if (!bytes) return tl::unexpected(bytes.error());
   const auto file = io::parse_regions(*bytes, pocket);
   if (!file) return tl::unexpected(file.error());
@@ -201,7 +201,7 @@ Result<void> draw(const std::string& pocket, const std::string& path) {
   const Point foot = corner + Point{next.x + size.x + 6, size.y};
   figure.scale(foot, kTemperature);
   figure.scale(foot + Point{0, next.y}, kStress);
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   const std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}mm\" "
       "height=\"{1:g}mm\" font-family=\"sans-serif\" font-size=\"4.8\">\n<rect width=\"100%\" "

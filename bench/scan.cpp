@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "lekalo/io/scan_file.hpp"
+#include "lekalo/io/scan/scan_file.hpp"
 #include "lekalo/locate/region.hpp"
 #include "support/scan_cases.hpp"
 

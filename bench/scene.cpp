@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "lekalo/base/random.hpp"
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/nesting_files.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/nesting/nesting_files.hpp"
 #include "lekalo/layout/workspace.hpp"
 #include "lekalo/phi/outline_relation.hpp"
 #include "lekalo/phi/reference_overlap.hpp"
@@ -53,7 +53,7 @@ layout::Document load(const std::string& data, const std::string& name) {
     std::exit(3);
   };
   const auto read = [&](const std::string& path) {
-    auto bytes = io::read_file(path);
+    auto bytes = disk::read_file(path);
     if (!bytes) fail(bytes.error());
     return *bytes;
   };

@@ -10,13 +10,15 @@ target_compile_options(lekalo_options INTERFACE
   # multiply-add unless the source says so (docs/design/geometry.md).
   -ffp-contract=off)
 
-# lekalo_module(NAME [PUBLIC targets...] [PRIVATE targets...])
+# lekalo_module(NAME [PUBLIC targets...] [PRIVATE targets...] [ROOMS "room: used rooms..."...])
 #
 # PUBLIC: what the module's headers may include; PRIVATE: what only its body may. The lekalo:: targets
-# among them are the arrows of ARCHITECTURE.md; there is no other list of them.
+# among them are the arrows of ARCHITECTURE.md; there is no other list of them. ROOMS are the folders of
+# src/NAME and include/lekalo/NAME, each with the rooms stated before it that its files may include; files
+# beside the rooms may include all of them.
 function(lekalo_module NAME)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;ROOMS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${NAME}/*.cpp)
   if(NOT sources)
     set(sources ${PROJECT_BINARY_DIR}/empty_${NAME}.cpp)
     file(CONFIGURE OUTPUT ${sources} CONTENT "")
@@ -27,6 +29,7 @@ function(lekalo_module NAME)
   target_include_directories(lekalo_${NAME} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(lekalo_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/src)  # "MODULE/ROOM/file.hpp"
   target_compile_features(lekalo_${NAME} PUBLIC cxx_std_20)
   target_link_libraries(lekalo_${NAME}
     PUBLIC ${ARG_PUBLIC}
@@ -40,6 +43,9 @@ function(lekalo_module NAME)
     list(TRANSFORM modules REPLACE "^lekalo::" "")
     list(JOIN modules " " modules)
     string(APPEND arrows "\n${face} ${NAME}: ${modules}")
+  endforeach()
+  foreach(room IN LISTS ARG_ROOMS)
+    string(APPEND arrows "\nROOM ${NAME}/${room}")
   endforeach()
   set_property(GLOBAL APPEND_STRING PROPERTY LEKALO_LAYERS "${arrows}\n")
 endfunction()

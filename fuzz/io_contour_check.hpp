@@ -8,7 +8,7 @@
 
 #include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/predicates.hpp"
-#include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 
 namespace lekalo::fuzz {
 

@@ -5,7 +5,7 @@
 #include "../src/io/drawn_shapes.hpp"
 #include "io_contour_check.hpp"
 #include "lekalo/geom/predicates.hpp"
-#include "lekalo/io/drawing.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
 
 // What holds of every drawing that a reader gives: every number and index in it is sound.
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/drawing_regions.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
 
 // Curves of any kind from bytes: mostly on a coarse grid, where ends, copies and overlaps meet, sometimes
 // with any doubles. Whatever they are, what comes out is in order.

@@ -7,7 +7,7 @@
 #include "io_contour_check.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/geom/region_index.hpp"
-#include "lekalo/io/scan_file.hpp"
+#include "lekalo/io/scan/scan_file.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "io_contour_check.hpp"
-#include "lekalo/io/shape_tree.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
 
 // parse_shape_tree on any bytes: a sentence, or regions in order with a tolerance and a name for every edge.
 

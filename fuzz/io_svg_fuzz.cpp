@@ -1,5 +1,5 @@
 #include "io_drawing_check.hpp"
-#include "lekalo/io/svg.hpp"
+#include "lekalo/io/svg/svg.hpp"
 
 // parse_svg on any bytes: a sentence, or a sound drawing. Bytes that do not begin as XML are lines of
 // attributes, in a document around them: random bytes hardly ever are XML.

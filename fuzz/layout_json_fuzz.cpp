@@ -1,5 +1,5 @@
 #include "io_contour_check.hpp"
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 
 // read_layout on any bytes: a sentence, or a document that keeps its rules and is the same again when it is
 // written and read.

@@ -10,7 +10,7 @@
 
 #include "lekalo/base/random.hpp"
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
 #include "lekalo/mill/ramps.hpp"

@@ -1,5 +1,5 @@
 #include "io_contour_check.hpp"
-#include "lekalo/io/nesting_files.hpp"
+#include "lekalo/io/nesting/nesting_files.hpp"
 
 // Jobs and placements of other programs on any bytes: a sentence, or a layout that can be written and read.
 

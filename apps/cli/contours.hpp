@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
-#include "lekalo/io/contour_file.hpp"
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
+#include "lekalo/io/locate/result_json.hpp"
 
 namespace lekalo::cli {
 

@@ -1,7 +1,8 @@
 #include "earlier_programs.hpp"
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/text/sha256.hpp"
 
 namespace lekalo::cli {
 
@@ -16,7 +17,7 @@ Result<EarlierPrograms> read_earlier(const std::vector<EarlierFile>& files) {
   EarlierPrograms earlier;
   earlier.files = files;
   for (const EarlierFile& file : files) {
-    Result<std::string> text = io::read_file(file.path);
+    Result<std::string> text = disk::read_file(file.path);
     if (!text) return tl::unexpected(text.error());
     earlier.inputs.push_back({{"role", "after"},
                               {"path", file.path},

@@ -6,7 +6,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/verify/simulate.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 
 namespace lekalo::cli {
 

@@ -8,7 +8,7 @@
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/ramps.hpp"
 #include "lekalo/verify/simulate.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 #include "pocket_input.hpp"
 
 namespace lekalo::cli {

@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "lekalo/base/version.hpp"
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/layout_picture.hpp"
-#include "lekalo/io/open_layout.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/disk/open_layout.hpp"
+#include "lekalo/draw/layout_picture.hpp"
+#include "lekalo/io/text/sha256.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "summary.hpp"
 
 namespace lekalo::cli {
@@ -46,16 +48,16 @@ Result<LayoutInput> read_layout_input(const LayoutSource& source, const std::vec
   if (Result<void> fine = check_outputs(outputs, others); !fine) return tl::unexpected(fine.error());
   LayoutInput input;
   input.path = source.path;
-  Result<std::string> bytes = io::read_file(source.path);
+  Result<std::string> bytes = disk::read_file(source.path);
   if (!bytes) return tl::unexpected(bytes.error());
   input.sha256 = io::sha256(*bytes);
-  io::OpenOptions options;
+  disk::OpenOptions options;
   options.instance = source.instance;
   options.parts.unit = source.units;
   if (source.chord_tolerance) options.parts.chord_tolerance = *source.chord_tolerance;
   if (source.join) options.parts.drawing.join_tolerance = *source.join;
   options.parts.drawing.take = source.layers;
-  Result<io::LayoutFile> file = io::open_layout(source.path, options);
+  Result<io::LayoutFile> file = disk::open_layout(source.path, options);
   if (!file) return tl::unexpected(file.error());
   input.document = std::move(file->document);
   input.notices = std::move(file->notices);
@@ -94,11 +96,11 @@ std::string dumped(const Json& json) {
 Result<std::string> picture_bytes(const std::string& path, const std::string& name,
                                   const layout::Document& document, const layout::Completeness& completeness,
                                   const std::vector<layout::Violation>& violations) {
-  const io::LayoutPicture picture{io::as_utf8(document.name.empty() ? name : document.name), document,
-                                  completeness, violations};
-  if (path.ends_with(".png")) return io::layout_png(picture);
-  if (path.ends_with(".pdf")) return io::layout_pdf(picture);
-  return io::layout_svg(picture);
+  const draw::LayoutPicture picture{io::as_utf8(document.name.empty() ? name : document.name), document,
+                                    completeness, violations};
+  if (path.ends_with(".png")) return draw::layout_png(picture);
+  if (path.ends_with(".pdf")) return draw::layout_pdf(picture);
+  return draw::layout_svg(picture);
 }
 
 std::string completeness_text(const layout::Document& document, const layout::Completeness& c) {

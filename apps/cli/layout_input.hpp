@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/nesting_files.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/nesting/nesting_files.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 #include "outputs.hpp"
 
 namespace lekalo::cli {

@@ -3,19 +3,19 @@
 #include <new>
 #include <variant>
 
-#include "check_command.hpp"
-#include "edit_command.hpp"
-#include "export_command.hpp"
+#include "commands/check_command.hpp"
+#include "commands/edit_command.hpp"
+#include "commands/export_command.hpp"
+#include "commands/locate_command.hpp"
+#include "commands/nest_command.hpp"
+#include "commands/pocket_command.hpp"
+#include "commands/serve_command.hpp"
+#include "commands/show_command.hpp"
+#include "commands/simulate_command.hpp"
+#include "commands/verify_command.hpp"
 #include "lekalo/base/error.hpp"
-#include "locate_command.hpp"
-#include "nest_command.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 #include "outputs.hpp"
-#include "pocket_command.hpp"
-#include "serve_command.hpp"
-#include "show_command.hpp"
-#include "simulate_command.hpp"
-#include "verify_command.hpp"
 
 namespace lekalo::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "lekalo/io/files.hpp"
+#include "lekalo/disk/files.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -77,7 +77,7 @@ Result<void> print(std::string_view text) {
 
 Result<void> deliver(const std::string& path, std::string_view text) {
   if (path.empty()) return print(text);
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   return files.add(path, text).and_then([&] { return files.commit(); });
 }
 

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "lekalo/geom/pose.hpp"
-#include "lekalo/io/drawing_writer.hpp"
+#include "lekalo/io/drawing/written_drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/svg/svg.hpp"
 
 namespace lekalo::cli {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "lekalo/disk/files.hpp"
 #include "lekalo/geom/boolean.hpp"
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "shapes.hpp"
 
 namespace lekalo::cli {
@@ -68,7 +68,7 @@ Result<geom::Region> strip_beyond(const geom::Edge& edge, double width) {
 }  // namespace
 
 Result<PocketInput> read_pocket_input(const PocketOptions& o) {
-  Result<std::string> bytes = io::read_file(o.pocket);
+  Result<std::string> bytes = disk::read_file(o.pocket);
   if (!bytes) return tl::unexpected(bytes.error());
   ShapeOptions how = o.shape;
   if (!how.layers.empty()) {

@@ -5,7 +5,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/region.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 
 namespace lekalo::cli {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lekalo/base/rounding.hpp"
-#include "lekalo/io/files.hpp"
+#include "lekalo/io/text/sha256.hpp"
 
 namespace lekalo::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "contours.hpp"
-#include "lekalo/io/result_json.hpp"
-#include "options.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "options/options.hpp"
 
 namespace lekalo::cli {
 

@@ -6,13 +6,14 @@
 #include <filesystem>
 
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/contour_file.hpp"
-#include "lekalo/io/drawing.hpp"
-#include "lekalo/io/drawing_regions.hpp"
-#include "lekalo/io/region_json.hpp"
-#include "lekalo/io/scan_file.hpp"
-#include "lekalo/io/shape_tree.hpp"
-#include "lekalo/io/svg.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/scan/scan_file.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
+#include "lekalo/io/svg/svg.hpp"
 
 namespace lekalo::cli {
 namespace {

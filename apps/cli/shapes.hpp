@@ -7,8 +7,8 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/region.hpp"
-#include "lekalo/io/result_json.hpp"
-#include "options.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "options/options.hpp"
 
 namespace lekalo::cli {
 

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lekalo/draw/pocket_picture.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
-#include "lekalo/io/pocket_picture.hpp"
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/text/words.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -27,9 +28,9 @@ std::vector<geom::Region> out_of_reach(const std::vector<geom::Region>& pockets,
   return left ? left->regions : std::vector<geom::Region>{};
 }
 
-io::PocketPicture picture_of(const std::string& title, const std::vector<geom::Region>& pockets,
-                             double diameter, double stock, const verify::SimulateReport& r) {
-  io::PocketPicture picture;
+draw::PocketPicture picture_of(const std::string& title, const std::vector<geom::Region>& pockets,
+                               double diameter, double stock, const verify::SimulateReport& r) {
+  draw::PocketPicture picture;
   picture.name = io::as_utf8(std::filesystem::path(title).filename().string());
   picture.pockets = pockets;
   picture.unreachable = out_of_reach(pockets, diameter / 2, stock);
@@ -143,18 +144,18 @@ std::string report_rows(const verify::SimulateReport& r) {
 Result<void> add_cut_pictures(const CutPictures& names, const std::string& title,
                               const std::vector<geom::Region>& pockets, double tool_diameter,
                               double stock_to_leave, const verify::SimulateReport& report,
-                              io::AtomicFiles& files) {
+                              disk::AtomicFiles& files) {
   if (names.picture.empty() && names.animation.empty()) return {};
-  io::PocketPicture picture = picture_of(title, pockets, tool_diameter, stock_to_leave, report);
+  draw::PocketPicture picture = picture_of(title, pockets, tool_diameter, stock_to_leave, report);
   picture.fragments = names.fragments;
   if (!names.picture.empty()) {
     const Result<std::string> bytes = names.picture.ends_with(".png")
-                                          ? io::pocket_png(picture)
-                                          : Result<std::string>(io::pocket_svg(picture));
+                                          ? draw::pocket_png(picture)
+                                          : Result<std::string>(draw::pocket_svg(picture));
     if (!bytes) return tl::unexpected(bytes.error());
     if (Result<void> added = files.add(names.picture, *bytes); !added) return added;
   }
-  if (!names.animation.empty()) return files.add(names.animation, io::pocket_animation(picture));
+  if (!names.animation.empty()) return files.add(names.animation, draw::pocket_animation(picture));
   return {};
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/disk/files.hpp"
 #include "lekalo/geom/region.hpp"
-#include "lekalo/io/files.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::cli {
@@ -25,6 +25,6 @@ struct CutPictures {
 [[nodiscard]] Result<void> add_cut_pictures(const CutPictures& names, const std::string& title,
                                             const std::vector<geom::Region>& pockets, double tool_diameter,
                                             double stock_to_leave, const verify::SimulateReport& report,
-                                            io::AtomicFiles& files);
+                                            disk::AtomicFiles& files);
 
 }  // namespace lekalo::cli

@@ -8,7 +8,7 @@
 #include "contours.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/locate/convex.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 
 namespace lekalo::cli {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/io/locate/result_json.hpp"
 
 namespace lekalo::cli {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "lekalo/base/double_of_text.hpp"
-#include "lekalo/io/layout_export.hpp"
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/layout_picture.hpp"
-#include "lekalo/io/nesting_files.hpp"
-#include "lekalo/io/open_layout.hpp"
+#include "lekalo/draw/layout_picture.hpp"
+#include "lekalo/io/formats/any_layout.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/nesting/nesting_files.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 
@@ -181,9 +181,9 @@ ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
     return api_error(400, "the form has to be layout, placements, pdf, png, dxf, svg, hpgl or gcode");
   const layout::Completeness completeness = layout::completeness(layout::Workspace(document));
   const std::vector<layout::Violation> violations = layout::check(document);
-  const io::LayoutPicture picture{layout->name, document, completeness, violations};
-  if (*form == "pdf") return file(io::layout_pdf(picture), "application/pdf", ".pdf");
-  return file(io::layout_png(picture), "image/png", ".png");
+  const draw::LayoutPicture picture{layout->name, document, completeness, violations};
+  if (*form == "pdf") return file(draw::layout_pdf(picture), "application/pdf", ".pdf");
+  return file(draw::layout_png(picture), "image/png", ".png");
 }
 
 ApiAnswer wrong_method(const char* allow) {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <iterator>
 
-#include "lekalo/io/layout_messages.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
 #include "store.hpp"
 
 namespace lekalo::server {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/nest/nest.hpp"
 #include "lekalo/verify/layout.hpp"
 

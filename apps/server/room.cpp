@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/layout_messages.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
 #include "nest_job.hpp"
 
 namespace lekalo::server {

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "lekalo/base/double_of_text.hpp"
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 
 namespace lekalo::server {
 namespace {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/layout_messages.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/command.hpp"
 #include "lekalo/layout/completeness.hpp"

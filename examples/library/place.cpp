@@ -3,9 +3,9 @@
 #include <iostream>
 #include <string>
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/region_json.hpp"
-#include "lekalo/io/shape_tree.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
 #include "lekalo/locate/region.hpp"
 
 namespace {
@@ -15,11 +15,11 @@ constexpr double kOutlinePerCoordinate = 2;
 
 lekalo::Result<lekalo::locate::RegionProblem> read_problem(const std::string& part_path,
                                                            const std::string& blank_path) {
-  const auto part_bytes = lekalo::io::read_file(part_path);
+  const auto part_bytes = lekalo::disk::read_file(part_path);
   if (!part_bytes) return tl::unexpected(part_bytes.error());
   auto part = lekalo::io::parse_shape_tree(*part_bytes, part_path);
   if (!part) return tl::unexpected(part.error());
-  const auto blank_bytes = lekalo::io::read_file(blank_path);
+  const auto blank_bytes = lekalo::disk::read_file(blank_path);
   if (!blank_bytes) return tl::unexpected(blank_bytes.error());
   auto blank = lekalo::io::parse_regions(*blank_bytes, blank_path, {});
   if (!blank) return tl::unexpected(blank.error());

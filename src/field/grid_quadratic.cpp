@@ -27,8 +27,8 @@ constexpr std::size_t kDeepest = 24;  // a balanced tree over a million segments
 constexpr double kValueShare = 0.5 * kQuadraticGridError, kGradientShare = 0.5 * kQuadraticGridGradientError;
 constexpr double kHalvings = 5;
 
-/// d[0] is the value, d[1] and d[2] the gradient, from d[3] the second derivatives and from d[6] the third, by
-/// falling power of x: of second order by x twice, by x and y, by y twice.
+/// d[0] is the value, d[1] and d[2] the gradient, from d[3] the second derivatives and from d[6] the third,
+/// by falling power of x: of second order by x twice, by x and y, by y twice.
 struct Jet3 {
   std::array<double, 10> d{};
   friend Jet3 operator+(Jet3 a, const Jet3& b) {

@@ -458,7 +458,7 @@ class Run {
   const RunControl& control_;
   std::vector<std::unique_ptr<Strand>> lanes_;
   std::vector<Begun> begun_;
-  std::vector<int> alone_;      ///< merges since a strand gained or led
+  std::vector<int> alone_;     ///< merges since a strand gained or led
   std::vector<Merit> merits_;  ///< of the strands at the last merge
   Merit merit_;
   State state_;  ///< what best_ shows, on the grid

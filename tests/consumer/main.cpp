@@ -4,7 +4,7 @@
 #include <cassert>
 #include <iostream>
 
-#include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "lekalo/locate/convex.hpp"
 
 namespace {

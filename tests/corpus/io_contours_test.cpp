@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "lekalo/io/contour_file.hpp"
-#include "lekalo/io/files.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "support/cases.hpp"
 #include "support/io_contours.hpp"
 #include "support/places.hpp"
@@ -20,10 +20,10 @@ namespace {
 
 const std::string kFolder = cases::source_dir() + "/tests/corpus/data/contours/";
 
-nlohmann::json index() { return nlohmann::json::parse(*io::read_file(kFolder + "index.json")); }
+nlohmann::json index() { return nlohmann::json::parse(*disk::read_file(kFolder + "index.json")); }
 
 Result<io::ContourFile> read(const std::string& file) {
-  return io::parse_contour(*io::read_file(kFolder + file), file, std::nullopt);
+  return io::parse_contour(*disk::read_file(kFolder + file), file, std::nullopt);
 }
 
 TEST(IoCorpus, HasCases) { EXPECT_GE(index().size(), 20U); }

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "lekalo/io/drawing.hpp"
-#include "lekalo/io/files.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
 #include "support/drawn_curves.hpp"
 #include "support/places.hpp"
 
@@ -35,7 +36,7 @@ TEST(IoDrawings, ThePlateIsTheSameWhicheverProgramDrewIt) {
   for (const Style& style : kStyles) {
     SCOPED_TRACE(style.file);
     const auto drawing = io::parse_dxf(
-        *io::read_file(cases::source_dir() + "/tests/corpus/data/dxf_styles/" + std::string(style.file)),
+        *disk::read_file(cases::source_dir() + "/tests/corpus/data/dxf_styles/" + std::string(style.file)),
         style.file);
     ASSERT_TRUE(drawing.has_value()) << drawing.error().message;
     drawn::Integrals total;

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/nesting_files.hpp"
-#include "lekalo/io/open_layout.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/disk/open_layout.hpp"
+#include "lekalo/io/nesting/nesting_files.hpp"
 #include "support/shared_data.hpp"
 
 namespace lekalo::io {

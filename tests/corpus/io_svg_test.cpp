@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "lekalo/io/svg.hpp"
+#include "lekalo/io/svg/svg.hpp"
 #include "support/drawn_measures.hpp"
 #include "support/places.hpp"
 

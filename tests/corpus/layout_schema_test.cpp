@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "support/cases.hpp"
 #include "support/layout_documents.hpp"
 #include "support/places.hpp"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
 #include "lekalo/verify/simulate.hpp"
@@ -23,7 +23,7 @@ class MeasuredPocket : public ::testing::TestWithParam<Case> {};
 
 TEST_P(MeasuredPocket, HoldsTheFigures) {
   const std::string file = cases::source_dir() + "/tests/corpus/pockets/" + GetParam().name + ".json";
-  const auto text = io::read_file(file);
+  const auto text = disk::read_file(file);
   ASSERT_TRUE(text) << text.error().message;
   const auto regions = io::parse_regions(*text, file);
   ASSERT_TRUE(regions) << regions.error().message;

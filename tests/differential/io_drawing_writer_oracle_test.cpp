@@ -11,8 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "lekalo/io/drawing_writer.hpp"
-#include "lekalo/io/files.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/drawing/written_drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/svg/svg.hpp"
 #include "support/drawn_measures.hpp"
 #include "support/drawn_region_cases.hpp"
 #include "support/places.hpp"

@@ -13,8 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/io/drawing.hpp"
-#include "lekalo/io/files.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
 #include "support/drawn_curves.hpp"
 #include "support/places.hpp"
 
@@ -76,7 +77,7 @@ TEST(IoDxfOracle, EzdxfFindsTheSameCurvesLengthsPlacesAndAreas) {
   std::size_t compared = 0;
   for (const std::string& file : files) {
     SCOPED_TRACE(file);
-    const auto drawing = io::parse_dxf(*io::read_file(file), file);
+    const auto drawing = io::parse_dxf(*disk::read_file(file), file);
     ASSERT_TRUE(drawing.has_value()) << drawing.error().message;
     std::map<std::pair<std::string, std::string>, Sum> found;
     double reach = 1;
@@ -120,7 +121,7 @@ TEST(IoDxfOracle, OgrFindsTheSameLengthsAndBoxesOnEachLayer) {
   for (const std::string& file : files) {
     if (oracle[file].is_null()) continue;  // OGR does not open it
     SCOPED_TRACE(file);
-    const auto drawing = io::parse_dxf(*io::read_file(file), file);
+    const auto drawing = io::parse_dxf(*disk::read_file(file), file);
     ASSERT_TRUE(drawing.has_value()) << drawing.error().message;
     // OGR draws dimensions with lines.
     if (std::any_of(drawing->unread.begin(), drawing->unread.end(),

@@ -11,7 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "lekalo/io/layout_export.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
 #include "support/cases.hpp"
 #include "support/layout_documents.hpp"
 #include "support/places.hpp"

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "io/contour_number.hpp"
-#include "lekalo/io/contour_file.hpp"
+#include "io/text/decimal.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "support/cases.hpp"
 
 // Reading of decimals against exact rationals.

@@ -18,9 +18,9 @@
 #include <tuple>
 #include <vector>
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/open_layout.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/disk/open_layout.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/session.hpp"
 #include "lekalo/verify/layout.hpp"
@@ -168,9 +168,9 @@ void add_with_broken_ones(Cases& cases, const std::string& name, const Document&
 }
 
 Document committed_layout(const std::string& job, const std::string& commands) {
-  const auto file = io::open_layout(job);
+  const auto file = disk::open_layout(job);
   EXPECT_TRUE(file) << file.error().message;
-  const auto log = io::read_file(commands);
+  const auto log = disk::read_file(commands);
   EXPECT_TRUE(log) << log.error().message;
   if (!file || !log) return {};
   // Strict: a command that broke a rule would be refused.
@@ -211,7 +211,7 @@ TEST(LayoutOracle, PublishedLayoutsOfStrips) {
   if (data.empty()) GTEST_SKIP() << "no shared data";
   Cases cases;
   for (const char* name : {"albano", "jakobs1", "shirts", "swim"}) {
-    const auto file = io::open_layout(fmt::format("{}/nesting/layouts/{}.json", data, name));
+    const auto file = disk::open_layout(fmt::format("{}/nesting/layouts/{}.json", data, name));
     ASSERT_TRUE(file) << file.error().message;
     cases.add(name, file->document);
     // As they are, they touch and may overlap by rounding; broken ones by a known amount.

@@ -1,6 +1,6 @@
 // The program of a cell against every corner, edge and face point of a fine grid, and by its own multipliers.
 
-#include "locate/cell_program.hpp"
+#include "locate/region/cell_program.hpp"
 
 #include <gtest/gtest.h>
 

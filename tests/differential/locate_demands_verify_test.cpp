@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/region_cases.hpp"

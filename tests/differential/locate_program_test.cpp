@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lekalo/locate/convex.hpp"
-#include "locate/contact_program.hpp"
+#include "locate/convex/contact_program.hpp"
 #include "support/cases.hpp"
 
 namespace lekalo::locate {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/region_cases.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/locate/guaranteed_blank.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
 #include "lekalo/mill/ramps.hpp"

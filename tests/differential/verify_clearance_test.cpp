@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/boolean_cases.hpp"
 #include "support/cases.hpp"

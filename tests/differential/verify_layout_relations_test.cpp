@@ -6,7 +6,7 @@
 #include "lekalo/phi/outline_relation.hpp"
 #include "support/cases.hpp"
 #include "support/lattice_outlines.hpp"
-#include "verify/grid_outline.hpp"
+#include "verify/layout/grid_outline.hpp"
 
 namespace lekalo {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lekalo/io/result_json.hpp"
+#include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/boolean_cases.hpp"

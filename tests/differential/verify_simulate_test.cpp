@@ -9,7 +9,7 @@
 #include "lekalo/base/random.hpp"
 #include "lekalo/verify/simulate.hpp"
 #include "support/cases.hpp"
-#include "verify/cut_path.hpp"
+#include "verify/pocket/cut_path.hpp"
 
 // Against a raster: the same figures from thousands of discs along the path, counted.
 

@@ -16,7 +16,7 @@
 
 #include "cli_run.hpp"
 #include "lekalo/base/random.hpp"
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "support/cases.hpp"
 #include "support/places.hpp"
 

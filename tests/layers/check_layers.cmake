@@ -7,14 +7,19 @@
 #   (2) src/M reaches that, and what lies behind M's PRIVATE arrows;
 #   (3) verify reaches base and nothing else, whatever CMake says: the checker must not share code with
 #       what it judges;
-#   (4) every other quoted include is a file of the same folder: no way round through "../";
-#   (5) below io no files, clocks, threads of output, standard randomness or unordered containers: the same
-#       input gives the same bytes;
-#   (6) apps may include any module, but only through public headers; the command line may include the server.
+#   (4) a file in a room of a module (src/M/ROOM, include/lekalo/M/ROOM) reaches the rooms that its room states;
+#       files beside the rooms reach all of them;
+#   (5) every other quoted include is a file of the same folder, or of another room of the same module under
+#       its whole name, "M/ROOM/file.hpp": no way round through "../";
+#   (6) below disk no files, clocks, threads of output or standard randomness, below io no unordered containers
+#       either: the same input gives the same bytes;
+#   (7) apps may include any module, but only through public headers; the command line may include the server;
+#   (8) no folder of the product holds more than 40 files of its own.
 cmake_minimum_required(VERSION 3.25)
 
-set(forbidden_below_io
-  fstream iostream filesystem chrono ctime time.h random unordered_map unordered_set)
+set(forbidden_below_disk fstream iostream filesystem chrono ctime time.h random)
+set(forbidden_below_io unordered_map unordered_set)
+set(most_files 40)
 
 set(violations "")
 set(checked 0)
@@ -31,6 +36,17 @@ foreach(line IN LISTS lines)
     list(APPEND modules ${CMAKE_MATCH_1})
   elseif(line MATCHES "^(PUBLIC|PRIVATE) ([a-z]+): ?(.*)$")
     string(REPLACE " " ";" ${CMAKE_MATCH_1}_${CMAKE_MATCH_2} "${CMAKE_MATCH_3}")
+  elseif(line MATCHES "^ROOM ([a-z]+)/([a-z_]+): ?(.*)$")
+    set(module ${CMAKE_MATCH_1})
+    set(room ${CMAKE_MATCH_2})
+    string(REPLACE " " ";" used "${CMAKE_MATCH_3}")
+    foreach(other IN LISTS used)
+      if(NOT other IN_LIST rooms_${module})
+        violation("CMake: room ${module}/${room} uses ${other}, which is not stated before it")
+      endif()
+    endforeach()
+    list(APPEND rooms_${module} ${room})
+    set(room_${module}_${room} ${room} ${used})
   else()
     message(FATAL_ERROR "${LAYERS}: cannot read '${line}'")
   endif()
@@ -60,11 +76,30 @@ if("verify" IN_LIST modules AND NOT stated_verify STREQUAL expected_verify)
 endif()
 
 # ---- the includes -----------------------------------------------------------------------------------------
-# check_file(FILE ALLOWED...): every include of FILE, relative to ROOT.
+# check_room(FILE MODULE PATH): PATH, as a file of MODULE includes it, lies in a room that FILE may reach.
+function(check_room FILE MODULE PATH)
+  if(NOT FILE MATCHES "^(src|include/lekalo)/${MODULE}/([a-z_]+)/")
+    return()
+  endif()
+  set(room ${CMAKE_MATCH_2})
+  if(NOT room IN_LIST rooms_${MODULE})
+    violation("${FILE} lies in a room of ${MODULE} that CMake does not state")
+  elseif(NOT PATH MATCHES "^(lekalo/)?${MODULE}/([a-z_]+)/")
+    if(NOT PATH MATCHES "^lekalo/${MODULE}/" OR "${rooms_${MODULE}}" STREQUAL "")
+      return()
+    endif()
+  elseif(NOT CMAKE_MATCH_2 IN_LIST room_${MODULE}_${room})
+    violation("${FILE} includes ${PATH}: room ${MODULE}/${room} has no arrow to ${CMAKE_MATCH_2}")
+  endif()
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+
+# check_file(FILE MODULE ALLOWED...): every include of FILE, relative to ROOT.
 function(check_file FILE MODULE)
   set(allowed ${ARGN})
   file(STRINGS ${ROOT}/${FILE} includes REGEX "^[ \t]*#[ \t]*include")
   get_filename_component(folder ${ROOT}/${FILE} DIRECTORY)
+  string(REGEX REPLACE "^([^/]+/[^/]+)/.*" "\\1" app "${FILE}")
   foreach(include IN LISTS includes)
     if(NOT include MATCHES "include[ \t]*([\"<])([^\">]+)[\">]")
       violation("${FILE}: cannot read '${include}'")
@@ -76,13 +111,21 @@ function(check_file FILE MODULE)
       set(used ${CMAKE_MATCH_1})
       if(NOT used IN_LIST allowed)
         violation("${FILE} includes ${path}: ${MODULE} has no arrow to ${used}")
+      elseif(used STREQUAL MODULE)
+        check_room(${FILE} ${MODULE} ${path})
       endif()
+    elseif(path MATCHES "^${MODULE}/[a-z_]+/[a-z_0-9]+[.]hpp$" AND EXISTS ${ROOT}/src/${path})
+      check_room(${FILE} ${MODULE} ${path})
+    elseif(MODULE STREQUAL "apps" AND EXISTS ${ROOT}/${app}/${path} AND NOT path MATCHES "[.][.]/")
+      continue()
     elseif(MODULE STREQUAL "apps" AND path MATCHES "^server/[a-z_]+[.]hpp$" AND EXISTS ${ROOT}/apps/${path})
       continue()
     elseif(quote STREQUAL "\"" AND (path MATCHES "/" OR NOT EXISTS ${folder}/${path}))
       violation("${FILE} includes \"${path}\": neither lekalo/MODULE/... nor a file beside it")
-    elseif(path IN_LIST forbidden_below_io AND NOT MODULE MATCHES "^(io|apps)$")
-      violation("${FILE} includes <${path}>: below io nothing may depend on files, clocks or chance")
+    elseif(path IN_LIST forbidden_below_disk AND NOT MODULE MATCHES "^(disk|apps)$")
+      violation("${FILE} includes <${path}>: below disk nothing may depend on files, clocks or chance")
+    elseif(path IN_LIST forbidden_below_io AND NOT MODULE MATCHES "^(io|draw|disk|apps)$")
+      violation("${FILE} includes <${path}>: below io nothing may depend on the order of a hash")
     endif()
   endforeach()
   math(EXPR checked "${checked} + 1")
@@ -108,7 +151,7 @@ check_folder(apps apps ${modules})
 # ---- one name, one type -----------------------------------------------------------------------------------
 # Two headers of a module that define types of one name are fine for every compiler and link into one of the two.
 foreach(module IN LISTS modules)
-  file(GLOB headers RELATIVE ${ROOT} ${ROOT}/include/lekalo/${module}/*.hpp ${ROOT}/src/${module}/*.hpp)
+  file(GLOB_RECURSE headers RELATIVE ${ROOT} ${ROOT}/include/lekalo/${module}/*.hpp ${ROOT}/src/${module}/*.hpp)
   set(types "")
   foreach(header IN LISTS headers)
     file(STRINGS ${ROOT}/${header} definitions REGEX "^(struct|class) [A-Za-z0-9_]+( final)?( :.*| )?{")
@@ -129,6 +172,19 @@ foreach(place include/lekalo src)
       violation("${place}/${folder} belongs to no module that CMake states")
     endif()
   endforeach()
+endforeach()
+
+# ---- no drawers -------------------------------------------------------------------------------------------
+file(GLOB_RECURSE entries LIST_DIRECTORIES true RELATIVE ${ROOT} ${ROOT}/include/* ${ROOT}/src/* ${ROOT}/apps/*
+     ${ROOT}/bindings/* ${ROOT}/web/src/*)
+foreach(entry IN LISTS entries)
+  if(IS_DIRECTORY ${ROOT}/${entry})
+    file(GLOB own LIST_DIRECTORIES false ${ROOT}/${entry}/*)
+    list(LENGTH own count)
+    if(count GREATER most_files)
+      violation("${entry} holds ${count} files of its own; more than ${most_files} are a drawer, name its rooms")
+    endif()
+  endif()
 endforeach()
 
 if(checked EQUAL 0)

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "kernel.hpp"
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/layout_messages.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 #include "support/layout_commands.hpp"

@@ -5,7 +5,7 @@
 
 #include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/predicates.hpp"
-#include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "support/cases.hpp"
 #include "support/io_contours.hpp"
 

@@ -7,7 +7,7 @@
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/geom/region_index.hpp"
-#include "lekalo/io/drawing_regions.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
 #include "support/cases.hpp"
 #include "support/drawn.hpp"
 #include "support/drawn_region_cases.hpp"

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "lekalo/io/drawing_regions.hpp"
-#include "lekalo/io/drawing_writer.hpp"
-#include "lekalo/io/svg.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/drawing/written_drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/svg/svg.hpp"
 #include "support/drawn_region_cases.hpp"
 
 // The laws of drawing_writer.hpp.

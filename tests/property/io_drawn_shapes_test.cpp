@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/drawn_shapes.hpp"
+#include "io/drawing/drawn_shapes.hpp"
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "io/grid_decimal.hpp"
-#include "lekalo/io/layout_json.hpp"
+#include "io/text/grid_decimal.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "support/cases.hpp"
 #include "support/layout_documents.hpp"
 

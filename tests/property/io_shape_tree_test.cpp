@@ -1,7 +1,7 @@
 // The law of io/shape_tree.hpp: a point is in the result exactly when the Boolean of its being in the
 // primitives says so. The primitives are judged from their definitions alone, in coordinates of their own.
 
-#include "lekalo/io/shape_tree.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

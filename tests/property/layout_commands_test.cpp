@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/session.hpp"
 #include "lekalo/phi/outline_relation.hpp"

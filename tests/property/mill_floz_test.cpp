@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/draw/voxel_pictures.hpp"
 #include "lekalo/field/trace.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
-#include "lekalo/io/region_json.hpp"
-#include "lekalo/io/voxel_pictures.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/feeds.hpp"
 #include "lekalo/mill/floz_field.hpp"
 #include "lekalo/mill/fragments.hpp"
 #include "lekalo/mill/pocket.hpp"
-#include "mill/floz_level.hpp"
+#include "mill/fragment/floz_level.hpp"
 #include "support/cases.hpp"
 
 // The source's method and its parts: fragments, tracing, pictures of the model.
@@ -293,10 +293,10 @@ TEST(IoVoxelPictures, ValueAndGradientAreReadBackFromThePicturesAlone) {
   ASSERT_TRUE(grid);
   for (const std::uint16_t palette : {std::uint16_t{255}, std::uint16_t{65535}}) {
     const field::VoxelImages images = field::voxel_images(*grid, palette);
-    const auto bytes = io::voxel_pngs(images);
+    const auto bytes = draw::voxel_pngs(images);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const std::array<std::string, 4> names{"a.png", "b.png", "c.png", "d.png"};
-    const auto read = io::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], (*bytes)[2], (*bytes)[3]}, names);
+    const auto read = draw::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], (*bytes)[2], (*bytes)[3]}, names);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->images, images.images);
     EXPECT_EQ(read->palette, palette);
@@ -308,13 +308,13 @@ TEST(IoVoxelPictures, ValueAndGradientAreReadBackFromThePicturesAlone) {
       const field::ReadingError error = field::reading_error(*read, i, j, node);
       EXPECT_LE(std::abs(field::read_node(*read, i, j).value - node.value), error.value);
     }
-    const auto swapped = io::parse_voxel_pngs({(*bytes)[1], (*bytes)[0], (*bytes)[2], (*bytes)[3]}, names);
+    const auto swapped = draw::parse_voxel_pngs({(*bytes)[1], (*bytes)[0], (*bytes)[2], (*bytes)[3]}, names);
     ASSERT_FALSE(swapped);
     EXPECT_NE(swapped.error().message.find("a.png"), std::string::npos);
     std::string damaged = (*bytes)[2];
     damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
-    EXPECT_FALSE(io::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], damaged, (*bytes)[3]}, names));
-    EXPECT_FALSE(io::parse_voxel_pngs({(*bytes)[0], "", (*bytes)[2], (*bytes)[3]}, names));
+    EXPECT_FALSE(draw::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], damaged, (*bytes)[3]}, names));
+    EXPECT_FALSE(draw::parse_voxel_pngs({(*bytes)[0], "", (*bytes)[2], (*bytes)[3]}, names));
   }
 }
 

@@ -14,7 +14,7 @@
 #include "lekalo/base/random.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/geom/trig.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/program.hpp"
 #include "lekalo/verify/simulate.hpp"
@@ -93,7 +93,8 @@ TEST(PocketPath, ARectangleIsCleared) {
 
 /// A small step-over is chosen for a light cut: what a straight pass meets is what the path is to hold.
 TEST(PocketPath, TheAngleFollowsTheStepOver) {
-  const std::string ring = kDisc + R"("islands":[[{"arc":{"from":[7,0],"to":[7,0],"centre":[4,0],"ccw":true}}]]})";
+  const std::string ring =
+      kDisc + R"("islands":[[{"arc":{"from":[7,0],"to":[7,0],"centre":[4,0],"ccw":true}}]]})";
   for (const double step_over : {0.1, 0.2, 0.3, 0.5})
     for (const std::string& pocket : {kRectangle, ring}) {
       SCOPED_TRACE(fmt::format("step-over {} of {}", step_over, pocket));

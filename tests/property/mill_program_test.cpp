@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lekalo/mill/program.hpp"
-#include "mill/arc_fit.hpp"
+#include "mill/path/arc_fit.hpp"
 #include "support/cases.hpp"
-#include "verify/nc_moves.hpp"
+#include "verify/pocket/nc_moves.hpp"
 
 // What is written is read back by the checker's own reader and lies on the path that was meant, for every
 // post and unit; and fewer motions are the same path.

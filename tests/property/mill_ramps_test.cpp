@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/pocket.hpp"
 #include "lekalo/mill/ramps.hpp"
 #include "support/cases.hpp"

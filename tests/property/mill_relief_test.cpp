@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/mill/relief.hpp"
 #include "support/cases.hpp"
 #include "support/judged_path.hpp"

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 
-#include "lekalo/io/open_layout.hpp"
+#include "lekalo/disk/open_layout.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/command.hpp"
 #include "lekalo/layout/completeness.hpp"
@@ -28,7 +28,7 @@ using layout::Sheet;
 const std::vector<std::string> kOrders = {"begun", "brackets", "cupboard", "bags", "frames", "coats"};
 
 Document order(const std::string& name) {
-  auto file = io::open_layout(cases::source_dir() + "/examples/orders/" + name + ".json");
+  auto file = disk::open_layout(cases::source_dir() + "/examples/orders/" + name + ".json");
   if (!file) throw std::runtime_error(file.error().message);
   return std::move(file->document);
 }

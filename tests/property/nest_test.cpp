@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "nest/builder.hpp"

@@ -8,7 +8,7 @@
 
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
-#include "verify/cover_bound.hpp"
+#include "verify/locate/cover_bound.hpp"
 
 namespace lekalo::verify {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "lekalo/base/random.hpp"
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "support/region_cases.hpp"
-#include "verify/grown_ball.hpp"
-#include "verify/shape_distance.hpp"
-#include "verify/shape_inside.hpp"
+#include "verify/locate/grown_ball.hpp"
+#include "verify/shape/shape_distance.hpp"
+#include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {

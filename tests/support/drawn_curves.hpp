@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lekalo/io/drawing.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
 
 namespace lekalo::drawn {
 

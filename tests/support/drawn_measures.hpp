@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lekalo/geom/region.hpp"
-#include "lekalo/io/drawing.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
 
 namespace lekalo::cases {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "lekalo/geom/predicates.hpp"
-#include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "support/io_contours.hpp"
 
 namespace lekalo {

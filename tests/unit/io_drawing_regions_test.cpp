@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/io/drawing_regions.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
 #include "support/boolean_cases.hpp"
 #include "support/drawn.hpp"
 

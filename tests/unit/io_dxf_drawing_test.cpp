@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "io/drawn_shapes.hpp"
-#include "lekalo/io/drawing.hpp"
-#include "lekalo/io/files.hpp"
+#include "io/drawing/drawn_shapes.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
 #include "support/drawn_curves.hpp"
 
 namespace lekalo {

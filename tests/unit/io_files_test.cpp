@@ -9,7 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "lekalo/io/files.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/text/sha256.hpp"
 
 namespace lekalo {
 namespace {
@@ -26,7 +27,7 @@ class IoFiles : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  [[nodiscard]] std::string content(const std::string& name) const { return *io::read_file(path(name)); }
+  [[nodiscard]] std::string content(const std::string& name) const { return *disk::read_file(path(name)); }
   void put(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
   /// Names in the folder, sorted, without those given.
   [[nodiscard]] std::size_t entries() const {
@@ -39,21 +40,21 @@ class IoFiles : public testing::Test {
 TEST_F(IoFiles, ReadsWholeFilesAndPipes) {
   const std::string bytes = std::string(200'000, 'x') + '\0' + "end";
   put("a", bytes);
-  EXPECT_EQ(*io::read_file(path("a")), bytes);
+  EXPECT_EQ(*disk::read_file(path("a")), bytes);
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   if (::fork() == 0) {
     std::ofstream(path("pipe")) << bytes;
     ::_exit(0);
   }
-  EXPECT_EQ(*io::read_file(path("pipe")), bytes);
+  EXPECT_EQ(*disk::read_file(path("pipe")), bytes);
 }
 
 TEST_F(IoFiles, RefusesWhatIsNoFile) {
   put("empty", "");
   put("large", "x");
-  fs::resize_file(path("large"), io::kLargestFile + 1);
+  fs::resize_file(path("large"), disk::kLargestFile + 1);
   const auto expect = [&](const std::string& name, const char* says) {
-    const auto file = io::read_file(path(name));
+    const auto file = disk::read_file(path(name));
     ASSERT_FALSE(file.has_value()) << name;
     EXPECT_EQ(file.error().code, ErrorCode::bad_input);
     EXPECT_NE(file.error().message.find(path(name) + ": " + says), std::string::npos) << file.error().message;
@@ -67,7 +68,7 @@ TEST_F(IoFiles, RefusesWhatIsNoFile) {
 
 TEST_F(IoFiles, FilesAppearAtCommitAndNotBefore) {
   put("old", "before");
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   ASSERT_TRUE(files.add(path("old"), "after"));
   ASSERT_TRUE(files.add(path("new"), "fresh"));
   EXPECT_EQ(content("old"), "before");
@@ -84,7 +85,7 @@ TEST_F(IoFiles, FilesAppearAtCommitAndNotBefore) {
 TEST_F(IoFiles, NothingIsLeftWithoutCommit) {
   put("old", "before");
   {
-    io::AtomicFiles files;
+    disk::AtomicFiles files;
     ASSERT_TRUE(files.add(path("old"), "after"));
     ASSERT_TRUE(files.add(path("new"), "fresh"));
     EXPECT_EQ(entries(), 3U);
@@ -95,7 +96,7 @@ TEST_F(IoFiles, NothingIsLeftWithoutCommit) {
 
 TEST_F(IoFiles, ARenameThatFailsPutsTheOthersBack) {
   put("a", "old a");
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   ASSERT_TRUE(files.add(path("a"), "new a"));
   ASSERT_TRUE(files.add(path("b"), "new b"));
   ASSERT_TRUE(files.add(path("c"), "new c"));
@@ -113,7 +114,7 @@ TEST_F(IoFiles, KeepsPermissionsOfAReplacedFileAndMakesNewOnesAsTheUmaskSays) {
   put("old", "x");
   fs::permissions(path("old"), fs::perms(0640));
   const mode_t mask = ::umask(027);
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   ASSERT_TRUE(files.add(path("old"), "y"));
   ASSERT_TRUE(files.add(path("new"), "y"));
   ASSERT_TRUE(files.commit());
@@ -132,7 +133,7 @@ TEST_F(IoFiles, FollowsLinks) {
   fs::create_symlink("dir/real", path("link"));
   fs::create_symlink("link", path("link-to-link"));
   fs::create_symlink("dir/not-yet", path("dangling"));
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   ASSERT_TRUE(files.add(path("link-to-link"), "y"));
   ASSERT_TRUE(files.add(path("dangling"), "z"));
   ASSERT_TRUE(files.commit());
@@ -145,7 +146,7 @@ TEST_F(IoFiles, FollowsLinks) {
 }
 
 TEST_F(IoFiles, RefusesTargetsThatCannotBe) {
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   fs::create_directory(path("dir"));
   for (const std::string& target : {path("dir"), path("missing/file"), std::string("/dev/null")}) {
     const auto done = files.add(target, "x");
@@ -173,7 +174,7 @@ TEST_F(IoFiles, AFullDiskLeavesNothing) {
   struct rlimit limit = old_limit;
   limit.rlim_cur = 1000;
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   const auto done = files.add(path("a"), std::string(5000, 'x'));
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old_limit), 0);
   ASSERT_FALSE(done.has_value());
@@ -185,7 +186,7 @@ TEST_F(IoFiles, AFullDiskLeavesNothing) {
 
 TEST_F(IoFiles, TheLongestNameWorks) {
   const std::string name(255, 'n');
-  io::AtomicFiles files;
+  disk::AtomicFiles files;
   ASSERT_TRUE(files.add(path(name), "x"));
   ASSERT_TRUE(files.commit());
   EXPECT_EQ(content(name), "x");

@@ -1,4 +1,4 @@
-#include "lekalo/io/layout_export.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,12 @@
 #include <numbers>
 #include <sstream>
 
-#include "lekalo/io/drawing.hpp"
-#include "lekalo/io/drawing_regions.hpp"
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/open_layout.hpp"
-#include "lekalo/io/svg.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/formats/any_layout.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/svg/svg.hpp"
 #include "support/layout_texts.hpp"
 #include "support/profile_parts.hpp"
 

@@ -1,4 +1,4 @@
-#include "lekalo/io/layout_json.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 
 #include <gtest/gtest.h>
 

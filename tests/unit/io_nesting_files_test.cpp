@@ -1,4 +1,4 @@
-#include "lekalo/io/nesting_files.hpp"
+#include "lekalo/io/nesting/nesting_files.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "lekalo/io/files.hpp"
-#include "lekalo/io/open_layout.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/disk/open_layout.hpp"
 #include "support/places.hpp"
 
 namespace lekalo::io {

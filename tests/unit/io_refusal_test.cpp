@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/io/contour_file.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
 #include "support/io_contours.hpp"
 
 namespace lekalo {

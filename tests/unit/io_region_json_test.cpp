@@ -1,4 +1,4 @@
-#include "lekalo/io/region_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 
 #include <gtest/gtest.h>
 

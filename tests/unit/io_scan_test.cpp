@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/io/scan_file.hpp"
+#include "lekalo/io/scan/scan_file.hpp"
 #include "support/scan_files.hpp"
 
 namespace lekalo {

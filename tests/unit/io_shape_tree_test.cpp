@@ -1,4 +1,4 @@
-#include "lekalo/io/shape_tree.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lekalo/io/svg.hpp"
+#include "lekalo/io/svg/svg.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "lekalo/geom/region_index.hpp"
-#include "mill/edge_path.hpp"
-#include "mill/entry.hpp"
-#include "mill/fields.hpp"
-#include "mill/mirror.hpp"
-#include "mill/tool_motion.hpp"
-#include "mill/wall_way.hpp"
+#include "mill/front/fields.hpp"
+#include "mill/level/entry.hpp"
+#include "mill/level/tool_motion.hpp"
+#include "mill/level/wall_way.hpp"
+#include "mill/path/edge_path.hpp"
+#include "mill/path/mirror.hpp"
 
 namespace lekalo::mill {
 namespace {

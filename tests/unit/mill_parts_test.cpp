@@ -5,11 +5,11 @@
 
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
-#include "mill/arc_through.hpp"
-#include "mill/arrival.hpp"
-#include "mill/edge_path.hpp"
-#include "mill/load.hpp"
-#include "mill/step_law.hpp"
+#include "mill/front/arrival.hpp"
+#include "mill/front/load.hpp"
+#include "mill/front/step_law.hpp"
+#include "mill/path/arc_through.hpp"
+#include "mill/path/edge_path.hpp"
 
 namespace lekalo::mill {
 namespace {
@@ -96,7 +96,8 @@ TEST(MillParts, NothingArrivesBehindAWall) {
   const Region right = *geom::make_region(
       {line({12, 0}, {22, 0}), line({22, 0}, {22, 10}), line({22, 10}, {12, 10}), line({12, 10}, {12, 0})});
   const Region start = *geom::make_region({{EdgeKind::arc_ccw, {7, 5}, {7, 5}, {5, 5}}});
-  const ArrivalField field(geom::RegionIndex({left, right}), {start}, 0.25, {.tool_radius = 3, .step = 2.4, .cosine = 0.182});
+  const ArrivalField field(geom::RegionIndex({left, right}), {start}, 0.25,
+                           {.tool_radius = 3, .step = 2.4, .cosine = 0.182});
   EXPECT_FALSE(field.reaches_all());
   const auto early = field.before(field.last() + 1);
   ASSERT_TRUE(early);

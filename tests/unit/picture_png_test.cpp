@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "lekalo/io/picture.hpp"
+#include "lekalo/draw/picture.hpp"
 #include "support/cases.hpp"
 
 namespace lekalo::test {
 namespace {
 
-io::LocatePicture example() {
+draw::LocatePicture example() {
   const auto one = cases::published_examples()[0];
-  io::LocatePicture picture;
+  draw::LocatePicture picture;
   picture.title = "lekalo locate";
   picture.part_name = "part.csv";
   picture.blank_name = "blank.csv";
@@ -24,8 +24,8 @@ io::LocatePicture example() {
   return picture;
 }
 
-std::string png(const io::LocatePicture& picture, int width = 1600) {
-  auto bytes = io::picture_png(picture, width);
+std::string png(const draw::LocatePicture& picture, int width = 1600) {
+  auto bytes = draw::picture_png(picture, width);
   EXPECT_TRUE(bytes.has_value());
   return bytes ? *bytes : "";
 }
@@ -52,7 +52,7 @@ TEST(PicturePng, GivesTheSameBytesEveryTime) { EXPECT_EQ(png(example()), png(exa
 
 TEST(PicturePng, RefusesAWidthThatCannotBeDrawn) {
   for (const int width : {-1, 0, 99, 20'001}) {
-    const auto refused = io::picture_png(example(), width);
+    const auto refused = draw::picture_png(example(), width);
     ASSERT_FALSE(refused.has_value()) << width;
     EXPECT_EQ(refused.error().code, ErrorCode::usage);
     EXPECT_NE(refused.error().message.find(std::to_string(width)), std::string::npos);
@@ -61,14 +61,14 @@ TEST(PicturePng, RefusesAWidthThatCannotBeDrawn) {
 
 TEST(PicturePng, DrawsCyrillicLettersAndNotBoxes) {
   // Without letters of its own a font shows the same box for each.
-  io::LocatePicture one = example(), other = example();
+  draw::LocatePicture one = example(), other = example();
   one.part_name = "гггг";
   other.part_name = "дддд";
   EXPECT_NE(png(one), png(other)) << "no font with Cyrillic letters is installed (package fonts-dejavu-core)";
 }
 
 TEST(PicturePng, ShowsWhatThePictureHolds) {
-  io::LocatePicture moved = example(), without_contacts = example();
+  draw::LocatePicture moved = example(), without_contacts = example();
   moved.result.x += 0.5;
   without_contacts.contacts.clear();
   const std::string before = png(example());
@@ -77,7 +77,7 @@ TEST(PicturePng, ShowsWhatThePictureHolds) {
 }
 
 TEST(PicturePng, NamesMayHoldAnything) {
-  io::LocatePicture picture = example();
+  draw::LocatePicture picture = example();
   picture.part_name = std::string("a\xff\x01") + "\xed\xa0\x80" + std::string(500, 'W');
   EXPECT_EQ(png(picture).substr(1, 3), "PNG");
 }

@@ -11,7 +11,7 @@
 
 #include "../../src/io/picture_colour.hpp"
 #include "../../src/io/picture_text.hpp"
-#include "lekalo/io/picture.hpp"
+#include "lekalo/draw/picture.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
@@ -20,9 +20,9 @@
 namespace lekalo::test {
 namespace {
 
+using draw::LocatePicture;
 using geom::Point;
 using geom::Ring;
-using io::LocatePicture;
 
 LocatePicture picture_of(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                          double min_allowance = 0) {

@@ -3,10 +3,10 @@
 #include <atomic>
 #include <cmath>
 
-#include "../../src/locate/ipopt_model.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/phi/convex.hpp"
+#include "locate/reference/ipopt_model.hpp"
 #include "support/cases.hpp"
 
 namespace lekalo::locate {

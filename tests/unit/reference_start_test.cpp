@@ -1,4 +1,4 @@
-#include "../../src/locate/start.hpp"
+#include "locate/reference/start.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../../src/io/picture_text.hpp"
-#include "lekalo/io/report.hpp"
+#include "lekalo/draw/report.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "support/region_cases.hpp"
 #include "support/xml.hpp"
@@ -18,10 +18,10 @@ namespace {
 using cases::region_detail::circle;
 using cases::region_detail::polygon;
 using cases::region_detail::region;
+using draw::Report;
 using geom::Point;
 using geom::Region;
 using io::LocateDocument;
-using io::Report;
 
 /// A document of regions at a pose whose clearance is known.
 LocateDocument document_of(const std::vector<Region>& part, const std::vector<Region>& blank,
@@ -42,9 +42,9 @@ LocateDocument document_of(const std::vector<Region>& part, const std::vector<Re
   return d;
 }
 
-Report report_of(const LocateDocument& document, std::vector<io::ReportFeature> features = {}) {
-  auto report = io::make_report(document, {document.regions->part, document.regions->blank, 0, {}, {}, {}},
-                                std::move(features));
+Report report_of(const LocateDocument& document, std::vector<draw::ReportFeature> features = {}) {
+  auto report = draw::make_report(document, {document.regions->part, document.regions->blank, 0, {}, {}, {}},
+                                  std::move(features));
   EXPECT_TRUE(report.has_value());
   return report ? *std::move(report) : Report{};
 }
@@ -80,7 +80,7 @@ std::vector<std::string> texts(const XmlDocument& page, const std::string& kind)
 TEST(Report, OfAPlateWithAHoleGivesEveryContourItsExtremesAndItsMean) {
   const Report report = report_of(plate_with_hole());
   ASSERT_EQ(report.features.size(), 2U);
-  const io::FeatureRow &outline = report.features[0], &hole = report.features[1];
+  const draw::FeatureRow &outline = report.features[0], &hole = report.features[1];
   EXPECT_EQ(outline.feature.name, "outline");
   EXPECT_EQ(outline.feature.edges, (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(hole.feature.name, "hole 0");
@@ -97,7 +97,7 @@ TEST(Report, OfAPlateWithAHoleGivesEveryContourItsExtremesAndItsMean) {
 }
 
 TEST(Report, SaysWhichDemandsOfFeaturesAreMetAndByHowMuchNot) {
-  const std::vector<io::ReportFeature> features{
+  const std::vector<draw::ReportFeature> features{
       {"bore, \"H7\"", {4}, 0.5, 1, 1.5}, {"long sides", {0, 2}, 3, {}, {}}, {"ends", {1, 3}, {}, {}, 1.2}};
   const Report report = report_of(plate_with_hole(), features);
   EXPECT_TRUE(report.features[0].met);
@@ -130,7 +130,7 @@ TEST(Report, OfDemandsThatAreMetFindsNothingMissingNeitherByRoundingNorOnTheRimO
   demands.margin = 0, demands.margin_bound = 1e-4;
   d.regions->demands = demands;
   const Report report = report_of(d, {{"face", {1}, -0.02, {}, 0.02}, {"sides", {0, 2, 3}, -0.0100, {}, {}}});
-  for (const io::FeatureRow& row : report.features) EXPECT_TRUE(row.met) << row.feature.name << row.verdict;
+  for (const draw::FeatureRow& row : report.features) EXPECT_TRUE(row.met) << row.feature.name << row.verdict;
   EXPECT_TRUE(report.missing.empty());
   const XmlDocument page(report_svg(report));
   EXPECT_TRUE(page.of("path", "allowance-outside").empty());
@@ -149,7 +149,7 @@ TEST(Report, ShowsWhereHowMuchIsMissingOutsideAndInsideThePart) {
       region(polygon({{-3, -3}, {38, -3}, {38, 23}, {-3, 23}}), {circle({10, 10}, 4)})};
   const Report report = report_of(document_of(part, blank, -4.02));
   ASSERT_GE(report.missing.size(), 2U);
-  ASSERT_LE(report.missing.size(), io::kMostMissingPlaces);
+  ASSERT_LE(report.missing.size(), draw::kMostMissingPlaces);
   EXPECT_NEAR(report.missing[0].depth, 4, 0.1);
   EXPECT_NEAR(report.missing[0].in_blank.x, 10, 0.2);
   EXPECT_NEAR(report.missing[1].depth, 2, 1e-9);
@@ -236,7 +236,7 @@ TEST(Report, OfConvexContoursPrintsTheNumbersOfTheFiles) {
   const auto as_region = [](const geom::ConvexPolygon& p) {
     return std::vector<Region>{region(polygon(p.vertices()))};
   };
-  io::ReportShapes shapes{as_region(part), as_region(blank), 0, {}, {}, {}};
+  draw::ReportShapes shapes{as_region(part), as_region(blank), 0, {}, {}, {}};
   const auto n = static_cast<std::uint32_t>(part.size());
   LocateDocument d;
   d.status = "optimal", d.method = "certified";
@@ -250,7 +250,7 @@ TEST(Report, OfConvexContoursPrintsTheNumbersOfTheFiles) {
     contact.part_vertex = n - 1 - contact.part_vertex;
     d.contacts.push_back(contact);
   }
-  const auto report = io::make_report(d, shapes);
+  const auto report = draw::make_report(d, shapes);
   ASSERT_TRUE(report.has_value());
   ASSERT_EQ(report->contacts.size(), found->contacts.size());
   for (std::size_t k = 0; k < found->contacts.size(); ++k) {
@@ -318,7 +318,7 @@ TEST(Report, PutsNoTextOnAnotherOrOffThePage) {
   full.min_allowance = 123.456, full.shortfall = 122.5;
   full.certificate_file = io::FileRecord{std::string(500, 'x'), std::string(64, 'd')};
   for (int k = 0; k < 40; ++k) full.warnings.push_back("a warning of some length " + std::string(150, 'w'));
-  std::vector<io::ReportFeature> features;
+  std::vector<draw::ReportFeature> features;
   for (std::uint32_t k = 0; k < 60; ++k)
     features.push_back({"Паз " + std::string(k, 'M'), {k % 5}, 0.1 * k, 1e-9, 1e9});
   expect_clear_page(report_of(full, features), "everything at once");

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <string>
 
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/layout_messages.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/layout/workspace.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"

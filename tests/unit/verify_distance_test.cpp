@@ -8,8 +8,8 @@
 
 #include "lekalo/base/random.hpp"
 #include "lekalo/verify/verify.hpp"
-#include "verify/shape_distance.hpp"
-#include "verify/stretch.hpp"
+#include "verify/shape/shape_distance.hpp"
+#include "verify/shape/stretch.hpp"
 
 namespace lekalo::verify {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "lekalo/verify/verify.hpp"
-#include "verify/shape_distance.hpp"
-#include "verify/shape_inside.hpp"
+#include "verify/shape/shape_distance.hpp"
+#include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {

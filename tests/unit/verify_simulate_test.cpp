@@ -263,7 +263,8 @@ TEST(VerifySimulate, BelowTheRampOfALevelAboveIsNoEntry) {
     }
 }
 
-/// Lines too short for their descent to be written once ended the ramp: what it left before them was no floor.
+/// Lines too short for their descent to be written once ended the ramp: what it left before them was no
+/// floor.
 TEST(VerifySimulate, ALineTooShortToSinkIsPartOfItsRamp) {
   const std::string down = "G21 G90\nG0 X10 Y20 Z5\nG1 Z0 F300\nG1 X40 Z-0.5 F1500\n",
                     rest = "G1 X60 Z-1\nG1 X10\nG0 Z5\n";
@@ -286,7 +287,8 @@ TEST(VerifySimulate, TheLayerOfAnEntryIsWhatStandsAboveTheTip) {
   EXPECT_NEAR(run(begin + "G1 X60 Z-1 F1500\n", pocket).entry_layer_mm, 1, 0.032);
   EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\n", pocket).entry_layer_mm, 0.4, 0.014);
   // Back at the floor of each way: the wedge it left is thickest where the way began.
-  EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\nG1 X10\nG1 X60 Z-0.8\nG1 X10\n", pocket).entry_layer_mm, 0.4, 0.014);
+  EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\nG1 X10\nG1 X60 Z-0.8\nG1 X10\n", pocket).entry_layer_mm, 0.4,
+              0.014);
   // There and back: at the beginning nothing was cut on the way there.
   EXPECT_NEAR(run(begin + "G1 X60 Z-0.4 F1500\nG1 X10 Z-0.8\n", pocket).entry_layer_mm, 0.8, 0.026);
   EXPECT_EQ(run(kBegin + "G1 X60 F1500\n", pocket).entry_layer_mm, 0);  // straight down
@@ -346,7 +348,8 @@ TEST(VerifySimulateAfter, AFaultOfAnEarlierProgramIsNamed) {
   EXPECT_NE(zero.error().message.find("earlier tool's diameter"), std::string::npos);
 }
 
-/// A program in inches for a pocket in mm: spots ten times as wide as the pocket were told, after a long search.
+/// A program in inches for a pocket in mm: spots ten times as wide as the pocket were told, after a long
+/// search.
 TEST(VerifySimulate, NoUncutSpotIsWiderThanThePocket) {
   const auto report =
       run("G20 G90\nG0 X5 Y5 Z5\nG1 Z-1 F300\nG1 X25 F1500\nG3 X25 Y10 I0 J2.5\n", rectangle(30, 20));
@@ -560,7 +563,8 @@ TEST(VerifySimulate, SomeLinesAloneGiveTheSameSamples) {
     program += fmt::format("G1 Y{} F1500\nX{}\n", 10 + 1.5 * row, row % 2 == 0 ? 60 : 10);
   const auto whole = run(program, rectangle(70, 40));
   const std::vector<LineRange> lines{{6, 6}, {9, 12}, {20, 21}};
-  const auto some = engagement_on({"part.ngc", program}, {"pocket.json", rectangle(70, 40)}, tool(6), {}, lines);
+  const auto some =
+      engagement_on({"part.ngc", program}, {"pocket.json", rectangle(70, 40)}, tool(6), {}, lines);
   ASSERT_TRUE(some) << some.error().message;
   std::vector<EngagementSample> wanted;
   for (const EngagementSample& sample : whole.samples)

@@ -46,3 +46,24 @@ using Result = tl::expected<T, Error>;
 }
 
 }  // namespace lekalo
+
+/// Passes an error on: `LEKALO_TRY(const auto region, read_region(file));` defines `region` as the value of
+/// what `read_region` returns, or leaves the function with its error. The first argument is a declaration or
+/// something that can be assigned to; the second any `tl::expected`. It stands for several statements, so an
+/// unbraced `if` before it does not compile. No structured binding: name the value, then take it apart.
+#define LEKALO_TRY(target, ...) LEKALO_TRY_AS(LEKALO_JOIN(lekalo_tried_, __LINE__), target, (__VA_ARGS__))
+
+/// Passes the error of a call on whose value nobody needs: `LEKALO_CHECK(write_file(path, text));` leaves the
+/// function with the error if there is one. One statement.
+#define LEKALO_CHECK(...)                                                                      \
+  do {                                                                                         \
+    if (auto&& lekalo_checked = (__VA_ARGS__); !lekalo_checked)                                \
+      return ::tl::unexpected(std::forward<decltype(lekalo_checked)>(lekalo_checked).error()); \
+  } while (false)
+
+#define LEKALO_TRY_AS(tried, target, expression)                 \
+  auto tried = expression;                                       \
+  if (!tried) return ::tl::unexpected(std::move(tried).error()); \
+  target = *std::move(tried)
+#define LEKALO_JOIN(a, b) LEKALO_JOIN_EXPANDED(a, b)
+#define LEKALO_JOIN_EXPANDED(a, b) a##b

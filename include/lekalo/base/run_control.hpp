@@ -20,7 +20,7 @@ using ProgressListener = std::function<void(const Progress&)>;
 /// of work. A result depends on the budget, never on a clock; a clock may only set the stop flag.
 struct RunControl {
   const std::atomic<bool>* stop = nullptr;  ///< looked at often; set it from any thread or a signal handler
-  ProgressListener progress;  ///< may be empty
+  ProgressListener progress;                ///< may be empty
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
 
   [[nodiscard]] bool stop_requested() const noexcept {

@@ -66,7 +66,7 @@ class Relief {
 
   PathWay given_;
   PocketPath path_;
-  geom::RegionIndex limit_;   ///< of the tool's middle
+  geom::RegionIndex limit_;          ///< of the tool's middle
   double radius_, straight_, held_;  ///< mm; rad of the rim on a straight pass; degrees
   double fit_tolerance_;
   std::vector<Site> sites_;

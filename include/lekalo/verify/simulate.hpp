@@ -101,9 +101,11 @@ struct LineRange {
 
 /// The samples of simulate() on these lines alone, at their share of its cost.
 /// \param lines  ascending, not overlapping
-[[nodiscard]] Result<std::vector<EngagementSample>> engagement_on(
-    const Document& program, const Document& pocket, const SimulateOptions& options,
-    const std::vector<EarlierProgram>& earlier, const std::vector<LineRange>& lines);
+[[nodiscard]] Result<std::vector<EngagementSample>> engagement_on(const Document& program,
+                                                                  const Document& pocket,
+                                                                  const SimulateOptions& options,
+                                                                  const std::vector<EarlierProgram>& earlier,
+                                                                  const std::vector<LineRange>& lines);
 
 /// A stretch of a program's path below the stock's upper face: a line, or at most a quarter turn.
 struct CutStretch {

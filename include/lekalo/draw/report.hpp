@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/locate/edge_allowance.hpp"
+
+namespace lekalo::draw {
+
+/// The report of a localisation: one page that a technologist decides by and files away, and the table of the
+/// allowance along the outline. Of convex contours (as regions of lines) and of regions alike.
+/// docs/design/picture.md.
+
+/// A named group of edges of the part, numbered through all pieces and contours, each outer contour before
+/// its holes, and what is demanded of it, mm.
+struct ReportFeature {
+  std::string name;
+  std::vector<std::uint32_t> edges;
+  std::optional<double> minimum, target, maximum;
+};
+
+/// A feature and the allowance over it, mm.
+struct FeatureRow {
+  ReportFeature feature;
+  double length = 0;
+  double minimum = 0;  ///< never above the exact one, of any outline within ReportShapes::outline_error
+  double mean = 0;     ///< over its length, by trapezoids between the samples: within a quarter of their step
+  double maximum = 0;  ///< never below the exact one
+  bool met = true;     ///< every demand that is known
+  std::string verdict;
+};
+
+/// Where the placed part is nearest to the blank, numbers as in the result document.
+struct ReportContact {
+  std::uint32_t part = 0, blank = 0;  ///< part vertex (convex contours) or edge; blank edge
+  geom::Point part_at, blank_at;      ///< in their own frames, mm
+  double distance = 0;
+};
+
+/// What the page needs beside the document.
+struct ReportShapes {
+  std::vector<geom::Region> part, blank;  ///< mm, as used
+  double outline_error = 0;               ///< how far the outlines may be from the true ones, together, mm
+  /// The document's numbers of part edges, part vertices and blank edges, where these regions count otherwise
+  /// (a contour that the file gives clockwise); empty: the same.
+  std::vector<std::uint32_t> part_edge_numbers, part_vertex_numbers, blank_edge_numbers;
+};
+
+struct Report {
+  io::LocateDocument document;  ///< without shapes and certificate
+  ReportShapes shapes;
+  bool mirrored = false;
+  std::optional<double> margin, margin_bound;  ///< of demands by feature
+  bool contacts_at_vertices = false;
+  std::vector<ReportContact> contacts;
+  std::vector<std::string> proof, assumptions;  ///< sentences
+  double step = 0;                              ///< mm along the outline between samples, at most
+  double tolerance = 0;                         ///< of the extremes, mm
+  std::vector<locate::EdgeAllowance> edges;     ///< of the part
+  std::vector<FeatureRow> features;
+  /// Less than this is missing material, for each edge: the greatest minimum of its features, else that of
+  /// the whole part where it is not met; below 0 for a finished one.
+  std::vector<double> demanded;
+  std::vector<locate::MissingPlace> missing;  ///< places and how much is missing there, the worst first
+};
+
+/// At most this many places of missing material.
+inline constexpr std::size_t kMostMissingPlaces = 5;
+
+/// Without features every contour is one: "outline", "hole 0"; of several pieces "piece 1, hole 2".
+///
+/// \pre the document's numbers are finite (upper_bound may be infinite), shapes have edges and were made by
+///      make_region, and every edge of a feature exists
+/// Errors: usage when the outline is too long to sample.
+/// Cost: that of locate::edge_allowances for a few thousand samples: a few milliseconds for 100 edges.
+[[nodiscard]] Result<Report> make_report(const io::LocateDocument& document, ReportShapes shapes,
+                                         std::vector<ReportFeature> features = {});
+
+/// The page (A4, portrait): placement with the allowance in colour, numbers and what is proved, histogram,
+/// contacts, features, input files with their digests, assumptions and warnings. Minima and clearances are
+/// rounded down, maxima, bounds and what is missing up. What finds no room is counted on the page.
+///
+/// Same input, same bytes; PNG and PDF on a machine with the same libraries and fonts. PDF has text as text
+/// and no date. ErrorCode::environment when the drawing library fails.
+[[nodiscard]] std::string report_svg(const Report& report);
+[[nodiscard]] Result<std::string> report_png(const Report& report, int width_px = 1654);
+[[nodiscard]] Result<std::string> report_pdf(const Report& report);
+
+/// The allowance along the outline as CSV (docs/formats.md): the report's samples, each edge with both ends
+/// and its least and greatest allowance. Numbers in the shortest form that reads back.
+[[nodiscard]] std::string allowances_csv(const Report& report);
+
+}  // namespace lekalo::draw

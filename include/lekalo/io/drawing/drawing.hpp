@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/geom/region.hpp"
+
+namespace lekalo::io {
+
+/// Drawings as they stand in DXF and SVG files: every curve in file order, exact where the file is, nothing
+/// joined yet. What is read, what is not, and why: docs/design/drawing.md. Regions come from make_regions
+/// (drawing_regions.hpp).
+
+/// Most curves of a drawing, blocks and arrays expanded; more are refused.
+inline constexpr std::size_t kMostCurves = 2'000'000;
+/// How deep blocks (or groups and uses of an SVG) may be nested.
+inline constexpr std::size_t kDeepestNesting = 32;
+/// Highest degree of a spline.
+inline constexpr std::size_t kHighestDegree = 15;
+
+/// centre + cos(t) u + sin(t) v for t from `begin` to `end`, begin < end <= begin + 2 pi: an arc of an
+/// ellipse. u and v are conjugate half diameters, not always the axes; the arc is counter-clockwise when
+/// cross(u, v) > 0.
+struct EllipseArc {
+  geom::Point from, to;  ///< its ends as the file has them; equal for a whole ellipse
+  geom::Point centre, u, v;
+  double begin = 0, end = 0;
+};
+
+/// A rational B-spline over [knots[degree], knots[poles.size()]].
+struct Spline {
+  std::size_t degree = 0;          ///< 1 to kHighestDegree
+  std::vector<double> knots;       ///< not descending, poles.size() + degree + 1 of them
+  std::vector<geom::Point> poles;  ///< more than `degree`
+  std::vector<double> weights;     ///< above 0, as many as poles; empty: all 1
+};
+
+/// A line or a circle's arc (from == to: a full circle), an arc of an ellipse, or a spline (Bezier curves
+/// too). Millimetres, y up.
+using Shape = std::variant<geom::Edge, EllipseArc, Spline>;
+
+struct DrawnCurve {
+  Shape shape;
+  std::uint32_t entity = 0, layer = 0;  ///< into Drawing
+  /// mm: the curve and the one that the file's decimals mean lie within this of each other, both ways (where
+  /// our own files state an arc's exact numbers beside it, both what they and what the curve means). Covers
+  /// reading, scaling, blocks and transforms; 0 where all of that was exact.
+  double error = 0;
+};
+
+/// What a person finds again in the drawing program.
+struct DrawnEntity {
+  std::string type;      ///< as in the file: "LWPOLYLINE", "path"
+  std::string handle;    ///< DXF handle or SVG id, "" if there is none
+  std::size_t line = 0;  ///< of the file, 1-based
+};
+
+struct Layer {
+  std::string name;     ///< UTF-8
+  bool hidden = false;  ///< switched off or frozen in the file
+};
+
+/// Entities that are not curves or that are not read, by name: "TEXT", "SPLINE (fit points alone)".
+struct Unread {
+  std::string name;
+  std::size_t count = 0;  ///< with the copies that blocks and arrays make
+  std::size_t line = 0;   ///< of the first
+};
+
+struct Drawing {
+  std::string name;  ///< as given, for messages
+  std::string unit = "mm";
+  double millimetres_per_unit = 1;
+  std::vector<Layer> layers;  ///< those of the curves, in the order of their first curve
+  std::vector<DrawnEntity> entities;
+  std::vector<DrawnCurve> curves;  ///< file order
+  std::vector<Unread> unread;      ///< by name
+  std::vector<std::string> notices;
+};
+
+}  // namespace lekalo::io

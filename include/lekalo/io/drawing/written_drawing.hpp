@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/geom/region.hpp"
+
+namespace lekalo::io {
+
+/// Regions as drawings that other programs read: lines stay lines, arcs stay arcs. docs/formats.md,
+/// docs/design/drawing-regions.md.
+
+/// A region and the layers that its contours are on.
+struct LayeredRegion {
+  geom::Region region;
+  std::string layer = "0";
+  std::vector<std::string> hole_layers;  ///< as many as holes; empty: all on `layer`
+};
+
+/// What else a drawing shows beside regions. Points and heights are in the drawing's unit.
+struct DrawnLine {
+  geom::Point from, to;
+  std::string layer;
+};
+struct DrawnText {
+  std::string text;    ///< one line; what is no UTF-8 and control characters are replaced
+  geom::Point middle;  ///< of the text, both ways
+  double height = 1;   ///< of capitals
+  std::string layer;
+};
+/// How a layer is shown: AutoCAD's colour index in DXF, the colour itself in SVG. Others are black (7).
+struct LayerColour {
+  std::string layer;
+  int index = 7;                 ///< 1 to 255
+  std::uint32_t rgb = 0x000000;  ///< 0xrrggbb
+};
+struct DrawingExtras {
+  std::vector<DrawnLine> lines;
+  std::vector<DrawnText> texts;
+  std::vector<LayerColour> colours;
+};
+
+/// What parse_dxf or parse_svg and make_regions make of the written text (tests/property/
+/// io_drawing_writer_test.cpp): the same regions, bit for bit (-0 as 0, and what is nearer to 0 than 1e-100
+/// as 0), holes and layers in the same order; written again, the same bytes. (With a join tolerance below
+/// what the regions measure across, otherwise their two sides are copies of a line to make_regions.)
+///
+/// What bulges and radii do not say of an arc stands beside its curves, where other programs pass over it.
+/// Those see, and so do our readers where the curves were changed since and the exact numbers do not fit any
+/// more:
+///   - lines and the ends of arcs bit for bit;
+///   - arcs as arcs, every point of either curve within kWrittenArcError times the largest coordinate, radius
+///     or centre coordinate, plus twice the difference of the radii at the arc's ends, of the other; an arc
+///     flatter than that perhaps as the line;
+///   - a full circle about the very centre, beginning on the right of it;
+///   - an arc of more than 300 degrees in two halves, because its ends lie too close together to say where
+///     its centre is; in SVG, which gives a radius instead of a centre, also one within half a degree of half
+///     a turn, and each such half.
+inline constexpr double kWrittenArcError = 0x1p-44;
+
+}  // namespace lekalo::io

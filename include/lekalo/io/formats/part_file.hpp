@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/layout/document.hpp"
+
+namespace lekalo::io {
+
+struct PartOptions {
+  std::optional<LengthUnit> unit;                 ///< applies where the file does not say
+  double chord_tolerance = kUsualChordTolerance;  ///< mm, of arcs: how far chords lie outside the material
+  DrawingOptions drawing;
+};
+
+struct PartsFile {
+  std::vector<layout::Part> parts;
+  std::vector<layout::Stock> stocks;  ///< sheets; of drawings with the layers below alone
+  std::vector<std::string> notices;
+};
+
+/// The parts in a DXF or SVG drawing, a region file or a tree of primitives, told apart by what is in them.
+/// Each closed outline with its holes is a part that is wanted once, may be turned but not mirrored; arcs are
+/// kept beside the chords that replace them.
+///
+/// Ids: of an SVG drawing the id of the outline's element, of a DXF drawing its layer, of a tree the name of
+/// the outline's primitive, else the file's name without its ending; "-2", "-3" after those that come again.
+/// The name is the layer's, or as the id.
+///
+/// A drawing that has a layer CUT beside others of kExportLayers (layout_export.hpp), as lekalo's exports
+/// have, holds its parts on CUT and its sheets on SHEET, unless layers are asked for; a notice says so.
+///
+/// Ellipses, splines and rounding make the outlines differ from the drawing; by how much a notice says where
+/// it is more than a step. Fails as parse_dxf, parse_svg, make_regions, parse_regions and parse_shape_tree
+/// do, and with a sentence that names the part where its polygon meets itself or has too many points.
+[[nodiscard]] Result<PartsFile> read_parts(std::string_view bytes, const std::string& name,
+                                           const PartOptions& options = {});
+
+}  // namespace lekalo::io

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/geom/polygon.hpp"
+#include "lekalo/locate/convex.hpp"
+#include "lekalo/locate/demand.hpp"
+#include "lekalo/locate/placement.hpp"
+#include "lekalo/locate/region.hpp"
+
+namespace lekalo::io {
+
+/// The result document of `lekalo locate` (docs/formats.md): what is in it, the writer, and a reader for the
+/// parts that other commands need. All indices here are file order already.
+
+/// A file by the name the user gave, and the digest of its bytes.
+struct FileRecord {
+  std::string path, sha256;
+};
+
+/// One file that the result was made from. `unit`, `points` and `dropped` are for contours only.
+struct InputRecord {
+  std::string role;  ///< "part", "blank", "nc" or "last-result"
+  FileRecord file;
+  std::optional<LengthUnit> unit;
+  std::size_t points = 0;
+  std::vector<std::size_t> dropped;
+};
+
+struct TrimRecord {
+  double tolerance = 0, loss = 0;  ///< mm
+  geom::Ring contour;              ///< mm, counter-clockwise
+};
+
+struct NcRecord {
+  std::string mode, scan_frame;
+  int work_offset = 1;
+  double rounding_mm = 0;
+  double clearance = 0;  ///< what the written program keeps, mm: never above clearance - rounding_mm
+  std::size_t motions = 0;
+  std::vector<std::string> notes;
+  FileRecord output;
+};
+
+/// Probing again: how far the new placement lies from that of an earlier result (input "last-result").
+struct ComparisonRecord {
+  bool same_part = true;           ///< the earlier result was made from a part file with the same bytes
+  double dx = 0, dy = 0;           ///< new minus last, mm
+  double dtheta = 0;               ///< new minus last, radians in (-pi, pi]
+  double largest_shift = 0;        ///< of all part vertices, mm
+  double last_clearance = 0;       ///< as written in the earlier result, mm
+  double last_pose_clearance = 0;  ///< of the last placement in the new blank, mm, never above the exact one
+};
+
+struct DeviationsRecord {
+  FileRecord file;
+  std::size_t points = 0;
+  double least = 0, greatest = 0;  ///< mm, positive outside the placed part
+};
+
+/// Demands and what became of them. A trade-off curve and `contacts` as in DemandResult.
+struct DemandRecord {
+  double minimum = 0;
+  std::vector<locate::Feature> features;
+  locate::Criterion criterion = locate::Criterion::smallest;
+  double give_up = 0;
+  double margin = 0, margin_bound = 0, margin_found = 0, margin_gap = 0, largest = 0, deviation = 0;
+  /// Its proof without `grown`; without certificate: there is none, or it is in certificate_file.
+  std::optional<locate::SmallestLargest> second;
+  std::vector<locate::TradeOff> curve;
+  double grown_for = 0, shift = 0, bound = 0;  ///< of DemandProof
+};
+
+/// A blank that was measured (GuaranteedBlank). Lengths in mm.
+struct ScanRecord {
+  std::size_t points = 0;
+  bool proved = false, ordered = false;
+  double guard = 0, step = 0, median_spacing = 0, widest = 0, deepest = 0, loss = 0;
+  std::vector<std::string> assumptions, unknown, dropped;  ///< sentences
+};
+
+/// What only a localisation of regions has (docs/formats.md).
+struct RegionRecord {
+  std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
+  double part_tolerance = 0, blank_tolerance = 0;
+  locate::Mirror mirror = locate::Mirror::no;  ///< allowed
+  bool mirrored = false;                       ///< the placement
+  std::vector<locate::RegionTouch> contacts;
+  /// Empty: there is none, or it is in certificate_file.
+  std::vector<locate::CoverTree> certificate;
+  geom::Point pivot;  ///< of the certificate, part coordinates
+  locate::LockedShift locked = {};
+  std::optional<DemandRecord> demands = {};  ///< then upper_bound of the document is not used
+  bool part_cut = false;                     ///< `part` is without what a file of features says to ignore
+  std::optional<ScanRecord> scan = {};       ///< what `blank` was made from
+};
+
+struct LocateDocument {
+  std::string status;  ///< optimal, stopped, infeasible, unproved
+  std::string method;  ///< certified, ipopt, icp
+  std::vector<InputRecord> inputs;
+  std::vector<std::string> warnings;
+  std::uint64_t seed = 0, work = 0;
+  locate::Placement placement;
+  std::optional<double> upper_bound;
+  double min_allowance = 0, shortfall = 0;
+  double window_from_deg = 0, window_to_deg = 360;
+  std::vector<locate::Contact> contacts;
+  std::optional<std::vector<locate::CertificateInterval>> certificate;
+  std::optional<FileRecord> certificate_file;
+  std::size_t certificate_intervals = 0;  ///< of certificate_file
+  std::vector<locate::Placement> alternatives;
+  bool alternatives_complete = true;
+  std::optional<TrimRecord> trim;
+  std::optional<NcRecord> nc;
+  std::optional<ComparisonRecord> comparison;
+  std::optional<DeviationsRecord> deviations;
+  std::optional<RegionRecord> regions;  ///< then `contacts` and `certificate` above are not used
+  double seconds = 0;                   ///< of this run; the only field that is not a function of the input
+  int threads = 1;
+};
+
+/// The document as JSON text, one top-level field or list item a line, numbers in the shortest form that
+/// reads back to the same double. Bytes of a path that are not UTF-8 become U+FFFD. \pre every number is
+/// finite.
+[[nodiscard]] std::string result_json(const LocateDocument& document);
+
+/// The document of a certificate file, built interval by interval so that only its text is held.
+class CertificateText {
+ public:
+  CertificateText();
+  void add(const locate::CertificateInterval& interval);
+  [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }
+  /// The finished text; nothing can be added afterwards.
+  [[nodiscard]] std::string finish() &&;
+
+ private:
+  std::string text_;
+  std::size_t intervals_ = 0;
+};
+
+/// The document of a certificate file of a localisation of regions: all its certificates.
+[[nodiscard]] std::string cover_text(const RegionRecord& record);
+
+/// What `verify` and `--compare` need of a written result; what is proved about the rest is verify's matter.
+struct WrittenResult {
+  std::string status, method;
+  std::vector<InputRecord> inputs;  ///< role and file only
+  locate::Placement placement;
+  bool mirrored = false;
+  std::optional<FileRecord> certificate_file, nc_output;
+
+  /// The first input with this role, or nullptr.
+  [[nodiscard]] const InputRecord* input(std::string_view role) const noexcept;
+};
+
+/// bad_input, naming the file and the field, when this is not a result of `lekalo locate` of this version.
+[[nodiscard]] Result<WrittenResult> read_result(std::string_view bytes, const std::string& name);
+
+}  // namespace lekalo::io

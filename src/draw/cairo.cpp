@@ -1,0 +1,88 @@
+#include "cairo.hpp"
+
+#include "lekalo/io/text/words.hpp"
+#include "printed_number.hpp"
+
+namespace lekalo::draw {
+namespace {
+
+class Painter {
+ public:
+  explicit Painter(cairo_t* canvas) : canvas_(canvas) {
+    cairo_set_line_join(canvas, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_fill_rule(canvas, CAIRO_FILL_RULE_WINDING);  // SVG's default
+  }
+
+  void operator()(const PathItem& item) const {
+    trace(item.lines, item.closed);
+    paint(item.paint);
+  }
+  void operator()(const DotItem& item) const {
+    cairo_new_path(canvas_);
+    cairo_arc(canvas_, item.centre.x, item.centre.y, item.radius, 0, 6.283185307179586);
+    cairo_close_path(canvas_);
+    paint(item.paint);
+  }
+  void operator()(const TextItem& item) const {
+    const std::string text = io::clean_text(item.text);
+    cairo_select_font_face(canvas_, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           item.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(canvas_, item.size);
+    cairo_text_extents_t extents;
+    cairo_text_extents(canvas_, text.c_str(), &extents);
+    const double share = item.anchor == Anchor::start ? 0 : item.anchor == Anchor::middle ? 0.5 : 1;
+    cairo_move_to(canvas_, item.at.x - share * extents.x_advance, item.at.y);
+    set(item.colour, 1);
+    cairo_show_text(canvas_, text.c_str());
+  }
+  void operator()(const ClipBegin& item) const {
+    cairo_save(canvas_);
+    trace(item.lines, true);
+    cairo_clip(canvas_);
+  }
+  void operator()(const ClipEnd&) const { cairo_restore(canvas_); }
+
+ private:
+  void set(Colour c, double alpha) const {
+    cairo_set_source_rgba(canvas_, c.red / 255.0, c.green / 255.0, c.blue / 255.0, alpha);
+  }
+  void trace(const std::vector<geom::Ring>& lines, bool closed) const {
+    cairo_new_path(canvas_);
+    for (const geom::Ring& line : lines) {
+      cairo_new_sub_path(canvas_);
+      for (const geom::Point p : line) cairo_line_to(canvas_, p.x, p.y);
+      if (closed) cairo_close_path(canvas_);
+    }
+  }
+  void paint(const Paint& paint) const {
+    if (paint.fill_alpha > 0) {
+      set(paint.fill, paint.fill_alpha);
+      cairo_fill_preserve(canvas_);
+    }
+    if (paint.width > 0) {
+      set(paint.stroke, 1);
+      cairo_set_line_width(canvas_, paint.width);
+      cairo_set_line_cap(canvas_, paint.round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+      const double dashes[] = {paint.dash, paint.dash};
+      cairo_set_dash(canvas_, dashes, paint.dash > 0 ? 2 : 0, 0);
+      cairo_stroke_preserve(canvas_);
+    }
+    cairo_new_path(canvas_);
+  }
+
+  cairo_t* canvas_;
+};
+
+}  // namespace
+
+void paint_scene(const Scene& scene, cairo_t* canvas) {
+  const Painter painter(canvas);
+  for (const Item& item : scene.items) std::visit(painter, item);
+}
+
+cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+}  // namespace lekalo::draw

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/draw/layout_picture.hpp"
+#include "scene.hpp"
+
+namespace lekalo::draw {
+
+/// Pages of 297 x 210 mm with a row for every sheet in use, every part and every kit with what it lacks:
+/// nothing is left out, however many there are.
+[[nodiscard]] std::vector<Scene> layout_tables(const LayoutPicture& picture);
+
+}  // namespace lekalo::draw

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "picture_drawing.hpp"
+#include "scene.hpp"
+#include "view.hpp"
+
+namespace lekalo::draw {
+
+/// Title, names, status, numbers, colour scale and legend, from the top of `room` downwards. Returns where
+/// they end. `start_drawn`: the legend names the start.
+double draw_panel(const LocatePicture& picture, const Located& shapes, bool start_drawn, const Rect& room,
+                  std::vector<Item>& items);
+
+}  // namespace lekalo::draw

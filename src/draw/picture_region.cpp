@@ -1,0 +1,255 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "colour.hpp"
+#include "lekalo/draw/picture.hpp"
+#include "lekalo/geom/pose.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "lekalo/io/text/words.hpp"
+#include "printed_number.hpp"
+#include "region_rings.hpp"
+#include "scene.hpp"
+#include "view.hpp"
+
+namespace lekalo::draw {
+namespace {
+
+using geom::Point;
+using geom::Ring;
+
+constexpr Rect kPage{0, 0, 250, 160};
+constexpr Rect kDrawing{6, 6, 168, 142};
+constexpr Rect kPanel{182, 8, 62, 144};
+constexpr double kSag = 0.01;        ///< of an arc's chord, mm of paper
+constexpr double kSampleStep = 0.5;  ///< along the part's outline, mm of paper
+constexpr double kBand = 1.3;        ///< width of the coloured outline, mm of paper
+
+Paint stroke(Colour colour, double width) {
+  Paint paint;
+  paint.stroke = colour;
+  paint.width = width;
+  paint.round = true;
+  return paint;
+}
+
+class RegionComposer {
+ public:
+  explicit RegionComposer(const RegionPicture& picture)
+      : picture_(picture),
+        blank_(picture.blank),
+        pose_(geom::BlankFromPart::from_angle(picture.result.theta, {picture.result.x, picture.result.y},
+                                              picture.mirrored)) {
+    scene_.width = kPage.width, scene_.height = kPage.height;
+    choose_view();
+    measure();
+  }
+
+  Scene compose() && {
+    const locate::Placement& p = picture_.result;
+    scene_.title = fmt::format("lekalo locate: {} in {}", io::file_name(picture_.part_name),
+                               io::file_name(picture_.blank_name));
+    scene_.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad",
+                                     picture_.status, p.clearance, p.x, p.y, p.theta);
+    Paint white;
+    white.fill = kPaper, white.fill_alpha = 1;
+    scene_.items.push_back(PathItem{{kPage.ring()}, true, white, {"page", ""}});
+    draw_blank();
+    draw_part();
+    draw_contacts();
+    draw_panel();
+    return std::move(scene_);
+  }
+
+ private:
+  void choose_view() {
+    geom::Box box = blank_.bounds();
+    const double rough = norm(box.high - box.low) / 200;
+    for (const Ring& ring : placed_rings(rough, 4 * rough)) box = joined(box, geom::bounds(ring));
+    view_ = fitted(box, kDrawing);
+  }
+
+  [[nodiscard]] std::vector<Ring> placed_rings(double sag, double step) const {
+    std::vector<Ring> rings = region_rings(picture_.part, sag, step);
+    for (Ring& ring : rings)
+      for (Point& p : ring) p = pose_(p);
+    return rings;
+  }
+
+  /// Allowance along the placed outline.
+  void measure() {
+    outline_ = placed_rings(kSag / view_.scale, kSampleStep / view_.scale);
+    for (const Ring& ring : outline_) {
+      std::vector<double>& values = allowance_.emplace_back();
+      for (const Point& p : ring) {
+        const double distance = blank_.nearest(p).distance;
+        values.push_back(blank_.contains(p) ? distance : -distance);
+        low_ = std::min(low_, values.back()), high_ = std::max(high_, values.back());
+      }
+    }
+    scale_low_ = std::max(0.0, low_);
+    if (!(high_ > scale_low_)) high_ = scale_low_ + 1;
+  }
+
+  [[nodiscard]] Ring paper(const Ring& ring) const {
+    Ring out;
+    for (const Point& p : ring) out.push_back(view_(p));
+    return out;
+  }
+
+  void draw_blank() {
+    Paint paint = stroke(kBlankLine, 0.3);
+    paint.fill = kBlankFill, paint.fill_alpha = 1;
+    std::vector<Ring> lines;
+    for (const Ring& ring : region_rings(picture_.blank, kSag / view_.scale, 1e300))
+      lines.push_back(paper(ring));
+    scene_.items.push_back(PathItem{std::move(lines), true, paint, {"blank", "blank"}});
+  }
+
+  void draw_part() {
+    Paint paint;
+    paint.fill = kPaper, paint.fill_alpha = 0.55;
+    std::vector<Ring> lines;
+    for (const Ring& ring : outline_) lines.push_back(paper(ring));
+    scene_.items.push_back(PathItem{std::move(lines), true, paint, {"part", "placed part"}});
+    for (std::size_t r = 0; r < outline_.size(); ++r) {
+      const std::size_t n = outline_[r].size();
+      // Stretches of one colour in one stroke.
+      for (std::size_t k = 0; k < n;) {
+        const int colour = step_of(r, k);
+        Ring stretch{view_(outline_[r][k])};
+        do {
+          ++k;
+          stretch.push_back(view_(outline_[r][k % n]));
+        } while (k < n && step_of(r, k) == colour);
+        scene_.items.push_back(PathItem{{std::move(stretch)},
+                                        false,
+                                        stroke(colour < 0 ? kOutside : scale_colour(colour), kBand),
+                                        {colour < 0 ? "outside" : "allowance", ""}});
+      }
+    }
+  }
+  /// -1 where the part sticks out.
+  [[nodiscard]] int step_of(std::size_t ring, std::size_t k) const {
+    const double value = allowance_[ring][k];
+    return value < 0 ? -1 : scale_step(value, scale_low_, high_);
+  }
+
+  void draw_contacts() {
+    for (const locate::RegionTouch& contact : picture_.contacts) {
+      const Point a = view_(pose_(contact.part)), b = view_(contact.blank);
+      Paint dot;
+      dot.fill = kInk, dot.fill_alpha = 1;
+      scene_.items.push_back(
+          PathItem{{{a, b}}, false, stroke(kInk, 0.4), {"contact", fmt::format("{} mm", contact.distance)}});
+      scene_.items.push_back(DotItem{a, 0.7, dot, {"contact-part", ""}});
+      scene_.items.push_back(DotItem{b, 0.7, dot, {"contact-blank", ""}});
+      scene_.items.push_back(DotItem{0.5 * (a + b), 2.4, stroke(kOutside, 0.35), {"contact-ring", ""}});
+    }
+  }
+
+  void text(const std::string& words, double size, Colour colour, bool bold = false, double x = kPanel.x) {
+    scene_.items.push_back(TextItem{{x, y_},
+                                    io::clean_text(words),
+                                    io::fitting_size(words, size, kPanel.right() - x),
+                                    Anchor::start,
+                                    colour,
+                                    bold,
+                                    {}});
+  }
+  void line(const std::string& name, const std::string& value) {
+    text(name, 3, kGrey);
+    scene_.items.push_back(TextItem{
+        {kPanel.right(), y_}, value, io::fitting_size(value, 3.2, 36), Anchor::end, kInk, false, {}});
+    y_ += 5;
+  }
+
+  void draw_panel() {
+    const locate::Placement& p = picture_.result;
+    const int decimals = decimals_for(norm(blank_.bounds().high - blank_.bounds().low));
+    text("Placement", 5, kInk, true);
+    y_ += 6;
+    text(io::shortened(io::file_name(picture_.part_name), kPanel.width / 3) + " in", 3, kGrey);
+    y_ += 4.2;
+    text(io::shortened(io::file_name(picture_.blank_name), kPanel.width / 3), 3, kGrey);
+    y_ += 7;
+    text(picture_.status, 4, picture_.status == "optimal" ? kGood : kDoubt, true);
+    y_ += 7;
+    line("x", decimal(p.x, decimals) + " mm");
+    line("y", decimal(p.y, decimals) + " mm");
+    line("angle", decimal(p.theta * 180 / std::numbers::pi, decimals) + "°");
+    if (picture_.mirrored) line("mirrored", "in x, before turning");
+    y_ += 2;
+    line("minimum allowance", decimal(p.clearance, decimals, Rounding::down) + " mm");
+    if (picture_.upper_bound)
+      line("proved: none above", decimal(*picture_.upper_bound, decimals, Rounding::up) + " mm");
+    if (picture_.margin) line("margin of the demands", decimal(*picture_.margin, decimals, Rounding::down));
+    if (picture_.margin_bound)
+      line("proved: none above", decimal(*picture_.margin_bound, decimals, Rounding::up));
+    if (picture_.min_allowance > 0) line("demanded", decimal(picture_.min_allowance, decimals) + " mm");
+    if (picture_.shortfall > 0) line("missing", decimal(picture_.shortfall, decimals, Rounding::up) + " mm");
+    y_ += 6;
+    draw_scale();
+    y_ = kPanel.bottom() - 10;
+    text("grey: blank; coloured line: the part's outline,", 2.6, kGrey);
+    y_ += 3.6;
+    text("in the colour of the material over it; ring: contact", 2.6, kGrey);
+  }
+
+  void draw_scale() {
+    text("allowance along the outline, mm", 3, kGrey);
+    y_ += 3;
+    const double height = 42;
+    for (int k = 0; k < kColourSteps; ++k) {
+      const double top = y_ + height * (kColourSteps - 1 - k) / kColourSteps;
+      Paint paint;
+      paint.fill = scale_colour(k), paint.fill_alpha = 1;
+      const Rect bar{kPanel.x, top, 6, height / kColourSteps + 0.05};
+      scene_.items.push_back(PathItem{{bar.ring()}, true, paint, {"scale", ""}});
+    }
+    constexpr int kTicks = 4;
+    for (int k = 0; k <= kTicks; ++k) {
+      const double value = scale_low_ + (high_ - scale_low_) * k / kTicks;
+      const double at = y_ + height * (kTicks - k) / kTicks;
+      scene_.items.push_back(TextItem{
+          {kPanel.x + 8, at + 1}, fmt::format("{:.3f}", value), 2.8, Anchor::start, kInk, false, {}});
+    }
+    if (low_ < 0) {
+      Paint paint;
+      paint.fill = kOutside, paint.fill_alpha = 1;
+      const Rect bar{kPanel.x, y_ + height + 2, 6, 3};
+      scene_.items.push_back(PathItem{{bar.ring()}, true, paint, {"scale", ""}});
+      scene_.items.push_back(TextItem{{kPanel.x + 8, y_ + height + 4.6},
+                                      fmt::format("sticks out, up to {:.3f}", -low_),
+                                      2.8,
+                                      Anchor::start,
+                                      kInk,
+                                      false,
+                                      {}});
+    }
+    y_ += height;
+  }
+
+  const RegionPicture& picture_;
+  geom::RegionIndex blank_;
+  geom::BlankFromPart pose_;
+  View view_;
+  std::vector<Ring> outline_;                   ///< of the placed part, blank frame
+  std::vector<std::vector<double>> allowance_;  ///< at its points
+  double low_ = 1e300, high_ = -1e300, scale_low_ = 0;
+  double y_ = kPanel.y + 3;
+  Scene scene_;
+};
+
+}  // namespace
+
+std::string picture_svg(const RegionPicture& picture) { return scene_svg(RegionComposer(picture).compose()); }
+
+Result<std::string> picture_png(const RegionPicture& picture, int width_px) {
+  return scene_png(RegionComposer(picture).compose(), width_px);
+}
+
+}  // namespace lekalo::draw

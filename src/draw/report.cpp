@@ -1,0 +1,284 @@
+#include "lekalo/draw/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/geom/pose.hpp"
+#include "lekalo/io/text/words.hpp"
+#include "printed_number.hpp"
+#include "report_words.hpp"
+
+namespace lekalo::draw {
+namespace {
+
+using geom::Point;
+
+constexpr double kSamplesAround = 2000;
+constexpr double kTolerance = 1e-4;        ///< mm, of the extremes
+constexpr double kToleranceOfSize = 1e-6;  ///< for parts so small that 1e-4 mm shows
+constexpr double kLargestOfSize = 1e-10;   ///< for ones so large that doubles cannot
+
+template <class Visit>
+void for_each_contour(const std::vector<geom::Region>& regions, Visit&& visit) {
+  for (std::size_t piece = 0; piece < regions.size(); ++piece) {
+    visit(piece, std::size_t{0}, regions[piece].outer);
+    for (std::size_t hole = 0; hole < regions[piece].holes.size(); ++hole)
+      visit(piece, hole + 1, regions[piece].holes[hole]);
+  }
+}
+
+double size_of(const std::vector<geom::Region>& regions) {
+  double size = 0;
+  for (const geom::Region& region : regions) {
+    const geom::Box box = geom::bounds(region.outer);
+    size = std::max({size, box.high.x - box.low.x, box.high.y - box.low.y});
+  }
+  return size;
+}
+
+double length_of(const std::vector<geom::Region>& regions) {
+  double length = 0;
+  for_each_contour(regions, [&](std::size_t, std::size_t, const geom::Contour& contour) {
+    for (const geom::Edge& edge : contour)
+      length +=
+          edge.kind == geom::EdgeKind::line ? norm(edge.to - edge.from) : arc_radius(edge) * arc_sweep(edge);
+  });
+  return length;
+}
+
+std::vector<ReportFeature> contours_as_features(const std::vector<geom::Region>& part) {
+  std::vector<ReportFeature> features;
+  std::uint32_t edge = 0;
+  for_each_contour(part, [&](std::size_t piece, std::size_t contour, const geom::Contour& edges) {
+    ReportFeature& feature = features.emplace_back();
+    if (part.size() > 1) feature.name = fmt::format("piece {}, ", piece);
+    feature.name += contour == 0 ? "outline" : fmt::format("hole {}", contour - 1);
+    for (std::size_t k = 0; k < edges.size(); ++k) feature.edges.push_back(edge++);
+  });
+  return features;
+}
+
+/// The integral of the allowance between samples.
+double area_over(const locate::EdgeAllowance& edge) {
+  double area = 0;
+  for (std::size_t k = 0; k + 1 < edge.samples.size(); ++k) {
+    const locate::OutlinePoint &a = edge.samples[k], &b = edge.samples[k + 1];
+    area += 0.5 * (a.allowance + b.allowance) * (b.along - a.along);
+  }
+  return area;
+}
+
+bool whole_is_met(const io::LocateDocument& document) {
+  return document.shortfall == 0 && document.placement.clearance >= document.min_allowance;
+}
+
+FeatureRow row_of(ReportFeature feature, const Report& report) {
+  FeatureRow row;
+  row.feature = std::move(feature);
+  double area = 0;
+  bool first = true;
+  for (const std::uint32_t k : row.feature.edges) {
+    const locate::EdgeAllowance& edge = report.edges[k];
+    row.minimum = first ? edge.least_low : std::min(row.minimum, edge.least_low);
+    row.maximum = first ? edge.most_high : std::max(row.maximum, edge.most_high);
+    first = false;
+    row.length += edge.length;
+    area += area_over(edge);
+  }
+  row.mean = row.length > 0 ? area / row.length : 0;
+  row.minimum -= report.shapes.outline_error;
+  row.maximum += report.shapes.outline_error;
+  return row;
+}
+
+/// Where the result says that every demand of a feature is met, a measurement that misses one by no more than
+/// its own tolerance does not say otherwise.
+double rounding_of(const Report& report) {
+  return report.margin && *report.margin >= 0 ? report.tolerance : 0;
+}
+
+/// By its own demand, else by that on the whole part. A part that just fits meets that where the checker says
+/// so: the rounding of the measurement here does not count then.
+void judge(const Report& report, FeatureRow& row) {
+  const io::LocateDocument& document = report.document;
+  const ReportFeature& demand = row.feature;
+  const double minimum = demand.minimum.value_or(document.min_allowance);
+  const bool enough =
+      row.minimum >= minimum - rounding_of(report) || (!demand.minimum && whole_is_met(document));
+  const bool too_much = demand.maximum && row.maximum > *demand.maximum + rounding_of(report);
+  row.met = enough && !too_much;
+  if (!enough) {
+    row.verdict = fmt::format("{} mm missing", short_number_up(minimum - row.minimum));
+  } else if (too_much) {
+    row.verdict = fmt::format("{} mm too much", short_number_up(row.maximum - *demand.maximum));
+  } else {
+    row.verdict = demand.minimum || demand.maximum || document.min_allowance > 0 ? "met" : "covered";
+  }
+}
+
+geom::BlankFromPart pose_of(const Report& report) {
+  const locate::Placement& p = report.document.placement;
+  return geom::BlankFromPart::from_angle(p.theta, {p.x, p.y}, report.mirrored);
+}
+
+void find_demands(Report& report) {
+  std::vector<std::optional<double>> own(report.edges.size());
+  for (const FeatureRow& row : report.features) {
+    if (!row.feature.minimum) continue;
+    for (const std::uint32_t k : row.feature.edges)
+      own[k] = std::max(own[k].value_or(*row.feature.minimum), *row.feature.minimum);
+  }
+  // A measurement that misses by its rounding what the checker has confirmed is no lack.
+  const double whole = whole_is_met(report.document) ? 0 : report.document.min_allowance;
+  for (const std::optional<double>& demand : own)
+    report.demanded.push_back(demand ? *demand - rounding_of(report) : whole);
+}
+
+/// The worst places of the outline and, where the part sticks out, of its inside, no two close together.
+void find_missing(Report& report) {
+  std::vector<locate::MissingPlace> places;
+  for (std::size_t k = 0; k < report.edges.size(); ++k) {
+    const locate::OutlinePoint& least = report.edges[k].least;
+    if (least.allowance < report.demanded[k])
+      places.push_back({least.in_part, least.in_blank, report.demanded[k] - least.allowance});
+  }
+  const double size = size_of(report.shapes.part), apart = size / 4;
+  if (report.document.placement.clearance < 0) {
+    // The rim of a finished feature may stick out.
+    const double allowed = -*std::min_element(report.demanded.begin(), report.demanded.end());
+    for (locate::MissingPlace place :
+         locate::missing_material(report.shapes.part, report.shapes.blank, pose_of(report),
+                                  kMostMissingPlaces, apart, 1e-6 * size)) {
+      if (place.depth <= allowed) continue;
+      place.depth += std::max(0.0, report.document.min_allowance);
+      places.push_back(place);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.depth > b.depth; });
+  for (const locate::MissingPlace& place : places) {
+    if (report.missing.size() == kMostMissingPlaces) break;
+    const auto close = [&](const auto& other) { return norm(other.in_part - place.in_part) < apart; };
+    if (std::none_of(report.missing.begin(), report.missing.end(), close)) report.missing.push_back(place);
+  }
+}
+
+std::size_t index_of(const std::vector<std::uint32_t>& numbers, std::uint32_t number) {
+  if (numbers.empty()) return number;
+  return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
+}
+
+/// Convex contours: the vertex and the foot of its perpendicular on the line of the blank's edge.
+std::vector<ReportContact> vertex_contacts(const io::LocateDocument& document, const Report& report) {
+  const geom::Contour &part = report.shapes.part[0].outer, &blank = report.shapes.blank[0].outer;
+  const geom::BlankFromPart pose = pose_of(report);
+  std::vector<ReportContact> contacts;
+  for (const locate::Contact& contact : document.contacts) {
+    const std::size_t i = index_of(report.shapes.part_vertex_numbers, contact.part_vertex);
+    const std::size_t j = index_of(report.shapes.blank_edge_numbers, contact.blank_edge);
+    if (i >= part.size() || j >= blank.size()) continue;
+    const Point vertex = pose(part[i].from), a = blank[j].from, along = blank[j].to - a;
+    const Point foot = a + (dot(vertex - a, along) / dot(along, along)) * along;
+    contacts.push_back({contact.part_vertex, contact.blank_edge, part[i].from, foot, norm(foot - vertex)});
+  }
+  return contacts;
+}
+
+std::vector<ReportContact> edge_contacts(const io::RegionRecord& regions) {
+  std::vector<ReportContact> contacts;
+  for (const locate::RegionTouch& touch : regions.contacts)
+    contacts.push_back({touch.part_edge, touch.blank_edge, touch.part, touch.blank, touch.distance});
+  return contacts;
+}
+
+/// What the page prints of the document, without its long lists.
+io::LocateDocument without_lists(const io::LocateDocument& document) {
+  io::LocateDocument kept;
+  kept.status = document.status, kept.method = document.method;
+  kept.inputs = document.inputs, kept.warnings = document.warnings;
+  kept.seed = document.seed, kept.work = document.work;
+  kept.placement = document.placement, kept.upper_bound = document.upper_bound;
+  kept.min_allowance = document.min_allowance, kept.shortfall = document.shortfall;
+  kept.window_from_deg = document.window_from_deg, kept.window_to_deg = document.window_to_deg;
+  kept.certificate_file = document.certificate_file;
+  kept.certificate_intervals = document.certificate_intervals;
+  kept.nc = document.nc;
+  return kept;
+}
+
+}  // namespace
+
+Result<Report> make_report(const io::LocateDocument& document, ReportShapes shapes,
+                           std::vector<ReportFeature> features) {
+  Report report;
+  report.document = without_lists(document);
+  report.shapes = std::move(shapes);
+  report.mirrored = document.regions && document.regions->mirrored;
+  if (document.regions && document.regions->demands) {
+    report.margin = document.regions->demands->margin;
+    report.margin_bound = document.regions->demands->margin_bound;
+  }
+  const double size = size_of(report.shapes.part);
+  report.step = round_length(length_of(report.shapes.part) / kSamplesAround);
+  report.tolerance = std::max(std::min(kTolerance, kToleranceOfSize * size), kLargestOfSize * size);
+  auto edges = locate::edge_allowances(report.shapes.part, report.shapes.blank, pose_of(report), report.step,
+                                       report.tolerance);
+  if (!edges) return tl::unexpected(edges.error());
+  report.edges = std::move(*edges);
+  if (features.empty()) features = contours_as_features(report.shapes.part);
+  for (ReportFeature& feature : features) {
+    report.features.push_back(row_of(std::move(feature), report));
+    judge(report, report.features.back());
+  }
+  find_demands(report);
+  find_missing(report);
+  report.contacts_at_vertices = !document.regions;
+  report.contacts = document.regions ? edge_contacts(*document.regions) : vertex_contacts(document, report);
+  const int decimals = decimals_for(std::max(size, size_of(report.shapes.blank)));
+  report.proof = proof_sentences(document, decimals);
+  report.assumptions = assumption_sentences(document, decimals);
+  return report;
+}
+
+namespace {
+
+/// RFC 4180.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::uint32_t number_of(const std::vector<std::uint32_t>& numbers, std::size_t index) {
+  return index < numbers.size() ? numbers[index] : static_cast<std::uint32_t>(index);
+}
+
+}  // namespace
+
+std::string allowances_csv(const Report& report) {
+  std::vector<std::string> names(report.edges.size());
+  for (const FeatureRow& row : report.features)
+    for (const std::uint32_t k : row.feature.edges)
+      names[k] += (names[k].empty() ? "" : "; ") + row.feature.name;
+  std::string text =
+      "piece,contour,edge,s_mm,x_part,y_part,x_blank,y_blank,allowance_mm,blank_edge,feature\n";
+  std::size_t edge = 0;
+  for_each_contour(report.shapes.part,
+                   [&](std::size_t piece, std::size_t contour, const geom::Contour& edges) {
+                     for (std::size_t k = 0; k < edges.size(); ++k, ++edge) {
+                       const std::string name = csv_field(names[edge]);
+                       for (const locate::OutlinePoint& p : report.edges[edge].samples) {
+                         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", piece,
+                                        contour, number_of(report.shapes.part_edge_numbers, edge), p.along,
+                                        p.in_part.x, p.in_part.y, p.in_blank.x, p.in_blank.y, p.allowance,
+                                        number_of(report.shapes.blank_edge_numbers, p.blank_edge), name);
+                       }
+                     }
+                   });
+  return text;
+}
+
+}  // namespace lekalo::draw

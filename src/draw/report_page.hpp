@@ -1,0 +1,48 @@
+#pragma once
+
+#include "colour.hpp"
+#include "lekalo/draw/report.hpp"
+#include "report_sheet.hpp"
+#include "view.hpp"
+
+namespace lekalo::draw {
+
+/// A4, portrait.
+inline constexpr Rect kReportPage{0, 0, 210, 297};
+
+[[nodiscard]] Scene report_page(const Report& report);
+
+/// What the sections of the page share.
+struct ReportLook {
+  double least = 0, greatest = 0;  ///< allowance along the outline, mm
+  ColourRange range;
+  int decimals = 6;        ///< of the placement
+  int table_decimals = 4;  ///< of measured lengths
+};
+[[nodiscard]] ReportLook look_of(const Report& report);
+
+/// 'A' to 'Z', then none: contacts after that are not marked.
+[[nodiscard]] std::string contact_letter(std::size_t index);
+
+/// A length as printed, with its unit.
+[[nodiscard]] std::string length_text(double mm, int decimals, Rounding rounding = Rounding::nearest);
+
+/// How high a frame of this width the shapes fill, at most (part and blank may be higher than wide: 10
+/// widths).
+[[nodiscard]] double placement_height(const Report& report, double width);
+
+/// The sections. Each draws from `top` downwards in its column and returns where it ends.
+void draw_placement(const Report& report, const ReportLook& look, const Rect& frame, Sheet& sheet);
+double draw_histogram(const Report& report, const ReportLook& look, const Rect& column, double top,
+                      Sheet& sheet);
+double draw_numbers(const Report& report, const ReportLook& look, const Rect& column, double top,
+                    Sheet& sheet);
+double draw_proof(const Report& report, const Rect& column, double top, Sheet& sheet);
+double draw_contacts(const Report& report, const ReportLook& look, const Rect& column, double top,
+                     std::size_t most_rows, Sheet& sheet);
+double draw_features(const Report& report, const ReportLook& look, const Rect& column, double top,
+                     std::size_t most_rows, Sheet& sheet);
+double draw_inputs(const Report& report, const Rect& column, double top, Sheet& sheet);
+double draw_notes(const Report& report, const Rect& column, double top, std::size_t most_lines, Sheet& sheet);
+
+}  // namespace lekalo::draw

@@ -1,0 +1,246 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/io/text/words.hpp"
+#include "report_page.hpp"
+
+namespace lekalo::draw {
+namespace {
+
+/// Columns by the share of the table's width; numbers are set against their right side.
+struct Column {
+  const char* title;
+  double share;
+  bool number = true;
+};
+
+class Table {
+ public:
+  Table(std::vector<Column> columns, const Rect& column, Sheet& sheet)
+      : columns_(std::move(columns)), room_(column), sheet_(sheet) {
+    double sum = 0;
+    for (const Column& one : columns_) sum += one.share;
+    for (Column& one : columns_) one.share /= sum;
+  }
+  double titles(double y) {
+    std::vector<std::string> words;
+    for (const Column& one : columns_) words.emplace_back(one.title);
+    return row(y, words, {.size = kReportSmall, .colour = kGrey, .kind = "table-title"});
+  }
+  /// Cells in order; an empty one is left out.
+  double row(double y, const std::vector<std::string>& cells, const TextStyle& style, Colour last = kInk) {
+    double x = room_.x;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const double width = columns_[k].share * room_.width;
+      TextStyle cell = style;
+      if (last != kInk && k + 1 == columns_.size()) cell.colour = last;
+      cell.anchor = columns_[k].number ? Anchor::end : Anchor::start;
+      sheet_.text(columns_[k].number ? x + width - 1 : x, y + kReportLine - 1, width - 2, cells[k], cell);
+      x += width;
+    }
+    return y + kReportLine;
+  }
+
+ private:
+  std::vector<Column> columns_;
+  Rect room_;
+  Sheet& sheet_;
+};
+
+class Rows {
+ public:
+  Rows(const Rect& column, double y, Sheet& sheet) : column_(column), y_(y), sheet_(sheet) {}
+  void add(const char* what, const std::string& value, const char* kind, Colour colour = kInk,
+           bool bold = false) {
+    y_ += kReportLine;
+    const double half = 0.42 * column_.width;
+    sheet_.text(column_.x, y_ - 1, half, what, {.colour = kGrey});
+    sheet_.text(column_.right(), y_ - 1, column_.width - half - 2, value,
+                {.colour = colour, .anchor = Anchor::end, .bold = bold, .kind = kind});
+  }
+  [[nodiscard]] double end() const { return y_; }
+
+ private:
+  Rect column_;
+  double y_;
+  Sheet& sheet_;
+};
+
+}  // namespace
+
+double draw_numbers(const Report& report, const ReportLook& look, const Rect& column, double top,
+                    Sheet& sheet) {
+  const io::LocateDocument& d = report.document;
+  const locate::Placement& p = d.placement;
+  Rows rows(column, sheet.heading(column, top, "Placement"), sheet);
+  rows.add("minimum allowance", length_text(p.clearance, look.decimals, Rounding::down), "clearance",
+           p.clearance < 0 ? kOutside : kInk, true);
+  if (d.upper_bound) {
+    const double gap = difference_rounded_up(*d.upper_bound, p.clearance);
+    rows.add("proven upper bound", length_text(*d.upper_bound, look.decimals, Rounding::up), "upper-bound");
+    rows.add("gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap");
+  } else if (report.margin) {
+    rows.add("margin of the demands", decimal(*report.margin, look.decimals, Rounding::down), "margin");
+    rows.add("proven bound of it", decimal(*report.margin_bound, look.decimals, Rounding::up),
+             "margin-bound");
+  } else {
+    rows.add("proven upper bound", "not proved", "upper-bound");
+  }
+  if (d.min_allowance > 0) rows.add("demanded", length_text(d.min_allowance, look.decimals), "min-allowance");
+  if (d.shortfall > 0)
+    rows.add("missing", length_text(d.shortfall, look.decimals, Rounding::up), "shortfall", kOutside, true);
+  rows.add("x", length_text(p.x, look.decimals), "x");
+  rows.add("y", length_text(p.y, look.decimals), "y");
+  // As many digits as move the rim of the part by less than the last digit of x.
+  rows.add("angle", decimal(p.theta * (180 / std::numbers::pi), 7) + "°", "theta-deg");
+  if (report.mirrored) rows.add("mirrored", "in x, before turning", "mirrored");
+  return rows.end();
+}
+
+double draw_proof(const Report& report, const Rect& column, double top, Sheet& sheet) {
+  double y = sheet.heading(column, top, "What is proved") + kReportSmall + 0.8;
+  for (const std::string& sentence : report.proof)
+    y = sheet.paragraph(column, y, sentence, {.size = kReportSmall, .kind = "proof"}, kReportSmallLine, 6) +
+        0.4;
+  return y - kReportSmall;
+}
+
+double draw_contacts(const Report& report, const ReportLook& look, const Rect& column, double top,
+                     std::size_t most_rows, Sheet& sheet) {
+  if (report.contacts.empty()) return top;
+  double y = sheet.heading(column, top, "Contacts, mm: where the part is nearest");
+  Table table({{"", 0.5, false},
+               {report.contacts_at_vertices ? "part vertex" : "part edge", 2},
+               {"blank edge", 2},
+               {"distance", 2},
+               {"x in blank", 2.1},
+               {"y", 1.9}},
+              column, sheet);
+  y = table.titles(y);
+  const std::size_t shown = std::min(report.contacts.size(), most_rows);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const ReportContact& contact = report.contacts[k];
+    y = table.row(
+        y,
+        {contact_letter(k), fmt::format("{}", contact.part), fmt::format("{}", contact.blank),
+         decimal(contact.distance, look.table_decimals), decimal(contact.blank_at.x, look.table_decimals - 1),
+         decimal(contact.blank_at.y, look.table_decimals - 1)},
+        {.size = kReportSmall, .kind = "contact-row"});
+  }
+  if (shown < report.contacts.size()) {
+    sheet.text(column.x, y + kReportLine - 1, column.width,
+               fmt::format("and {} more", report.contacts.size() - shown),
+               {.size = kReportSmall, .colour = kGrey, .kind = "more-contacts"});
+    y += kReportLine;
+  }
+  return y;
+}
+
+double draw_features(const Report& report, const ReportLook& look, const Rect& column, double top,
+                     std::size_t most_rows, Sheet& sheet) {
+  const std::vector<FeatureRow>& rows = report.features;
+  double y = sheet.heading(column, top, "Allowance by feature, mm");
+  const bool demands = std::any_of(rows.begin(), rows.end(), [](const FeatureRow& row) {
+    return row.feature.minimum || row.feature.target || row.feature.maximum;
+  });
+  std::vector<Column> columns{{"feature", 4, false}, {"edges", 1},  {"length", 1.7},
+                              {"minimum", 1.7},      {"mean", 1.7}, {"maximum", 1.7}};
+  if (demands) columns.insert(columns.end(), {{"demanded", 1.4}, {"target", 1.4}, {"at most", 1.4}});
+  columns.push_back({"", 2.2});
+  Table table(columns, column, sheet);
+  y = table.titles(y);
+  // Where not all find room: those that lack something first, then the thinnest, in their own order.
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (rows.size() > most_rows) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      if (rows[a].met != rows[b].met) return !rows[a].met;
+      return rows[a].minimum < rows[b].minimum;
+    });
+    order.resize(most_rows - 1);
+    std::sort(order.begin(), order.end());
+  }
+  const auto optional = [&](const std::optional<double>& value) {
+    return value ? decimal(*value, look.table_decimals) : std::string("–");
+  };
+  for (const std::size_t k : order) {
+    const FeatureRow& row = rows[k];
+    std::vector<std::string> cells{row.feature.name,
+                                   fmt::format("{}", row.feature.edges.size()),
+                                   decimal(row.length, look.table_decimals - 2),
+                                   decimal(row.minimum, look.table_decimals, Rounding::down),
+                                   decimal(row.mean, look.table_decimals - 1),
+                                   decimal(row.maximum, look.table_decimals, Rounding::up)};
+    if (demands) {
+      for (const auto& value : {row.feature.minimum, row.feature.target, row.feature.maximum})
+        cells.push_back(optional(value));
+    }
+    cells.push_back(row.verdict);
+    y = table.row(y, cells, {.size = kReportSmall, .kind = "feature"}, row.met ? kGood : kOutside);
+  }
+  if (order.size() < rows.size()) {
+    sheet.text(
+        column.x, y + kReportLine - 1, column.width,
+        fmt::format(
+            "and {} more with no less than the thinnest here; every edge is in the file of --allowances",
+            rows.size() - order.size()),
+        {.size = kReportSmall, .colour = kGrey, .kind = "more-features"});
+    y += kReportLine;
+  }
+  return y;
+}
+
+double draw_inputs(const Report& report, const Rect& column, double top, Sheet& sheet) {
+  double y = sheet.heading(column, top, "Input files and SHA-256 of their bytes");
+  for (const io::InputRecord& input : report.document.inputs) {
+    y += kReportLine;
+    // 64 hexadecimal digits must not be shortened: they are at most 0.66 of the size wide.
+    constexpr double kDigestSize = 1.95, kDigest = 64 * 0.66 * kDigestSize + 1, kRole = 17;
+    sheet.text(column.x, y - 1, kRole - 1, input.role, {.size = kReportSmall, .colour = kGrey});
+    std::string words = io::as_utf8(input.file.path);
+    if (input.unit)
+      words +=
+          fmt::format(", {} points in {}", input.points, *input.unit == LengthUnit::inch ? "inch" : "mm");
+    sheet.text(column.x + kRole, y - 1, column.width - kRole - kDigest - 2, words,
+               {.size = kReportSmall, .kind = "input"});
+    sheet.text(column.right(), y - 1, kDigest, input.file.sha256,
+               {.size = kDigestSize, .colour = kGrey, .anchor = Anchor::end, .kind = "sha256"});
+  }
+  return y;
+}
+
+double draw_notes(const Report& report, const Rect& column, double top, std::size_t most_lines,
+                  Sheet& sheet) {
+  double y = sheet.heading(column, top, "Assumptions and warnings") + kReportSmall + 0.8;
+  std::size_t used = 0, left = report.assumptions.size() + report.document.warnings.size();
+  const auto add = [&](const std::string& sentence, Colour colour, const char* kind) {
+    // One line is kept for the word about those that find no room.
+    const std::size_t room = most_lines - used - (left > 1 ? 1 : 0);
+    if (used >= most_lines || room == 0) return;
+    y = sheet.paragraph(column, y, sentence, {.size = kReportSmall, .colour = colour, .kind = kind},
+                        kReportSmallLine, std::min<std::size_t>(room, 3), &used);
+    --left;
+  };
+  for (const std::string& warning : report.document.warnings) add("Note: " + warning, kInk, "warning");
+  for (const std::string& sentence : report.assumptions) add(sentence, kGrey, "assumption");
+  if (left > 0) {
+    sheet.text(column.x, y, column.width, fmt::format("and {} more, in the result", left),
+               {.size = kReportSmall, .colour = kGrey, .kind = "more-notes"});
+    y += kReportSmallLine;
+  }
+  const std::string measured = fmt::format(
+      "Allowance along the outline: distance to the blank's boundary; minima rounded down, maxima up, both "
+      "within {} "
+      "mm; means and shares from points at most {} mm apart.",
+      short_number_up(report.tolerance), short_number_up(report.step));
+  y = sheet.paragraph(column, y, measured, {.size = kReportSmall, .colour = kGrey, .kind = "assumption"},
+                      kReportSmallLine, 2);
+  return y - kReportSmall;
+}
+
+}  // namespace lekalo::draw

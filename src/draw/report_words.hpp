@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lekalo/io/locate/result_json.hpp"
+
+namespace lekalo::draw {
+
+/// What is proved and where the proof is, one sentence each; clearances rounded down, bounds up.
+[[nodiscard]] std::vector<std::string> proof_sentences(const io::LocateDocument& document, int decimals);
+
+/// What the result takes for granted and where it was told to look.
+[[nodiscard]] std::vector<std::string> assumption_sentences(const io::LocateDocument& document, int decimals);
+
+}  // namespace lekalo::draw

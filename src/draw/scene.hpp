@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/point.hpp"
+#include "lekalo/geom/polygon.hpp"
+
+namespace lekalo::draw {
+
+/// A drawing as a list of primitives in painting order: millimetres of paper, origin top left, y down. Built
+/// once; SVG and PNG are two ways to write it.
+
+struct Colour {
+  std::uint8_t red = 0, green = 0, blue = 0;
+  friend constexpr bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// How outlines are filled and drawn; an absent fill is alpha 0, an absent line is width 0.
+struct Paint {
+  Colour fill;
+  double fill_alpha = 0;
+  Colour stroke;
+  double width = 0;
+  double dash = 0;  ///< length of dashes and of the gaps between them; 0: solid
+  bool round = false;
+};
+
+/// What a primitive shows, for people who look into the file and for tests: becomes class and title in SVG.
+struct Meaning {
+  std::string kind, title;
+};
+
+struct PathItem {
+  std::vector<geom::Ring> lines;
+  bool closed = false;
+  Paint paint;
+  Meaning meaning;
+};
+
+struct DotItem {
+  geom::Point centre;
+  double radius = 1;
+  Paint paint;
+  Meaning meaning;
+};
+
+enum class Anchor { start, middle, end };
+
+struct TextItem {
+  geom::Point at;  ///< on the baseline
+  std::string text;
+  double size = 3;
+  Anchor anchor = Anchor::start;
+  Colour colour;
+  bool bold = false;
+  Meaning meaning;
+};
+
+/// Everything up to the matching ClipEnd is drawn inside these closed lines only.
+struct ClipBegin {
+  std::vector<geom::Ring> lines;
+};
+struct ClipEnd {};
+
+using Item = std::variant<PathItem, DotItem, TextItem, ClipBegin, ClipEnd>;
+
+struct Scene {
+  double width = 0, height = 0;
+  std::string title, description;
+  std::vector<Item> items;
+};
+
+[[nodiscard]] std::string scene_svg(const Scene& scene);
+/// PNG bytes, `width_px` wide (100 to 20000, else ErrorCode::usage). ErrorCode::environment when the drawing
+/// library fails.
+[[nodiscard]] Result<std::string> scene_png(const Scene& scene, int width_px);
+/// PDF bytes, a page for the scene and each of `more`, which have its size; text as text, no date.
+/// ErrorCode::environment when the drawing library fails.
+[[nodiscard]] Result<std::string> scene_pdf(const Scene& scene, const std::vector<Scene>& more = {});
+
+}  // namespace lekalo::draw

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+
+namespace lekalo::io {
+
+/// Which layers count, and a sentence about those that do not.
+struct LayerChoice {
+  std::vector<bool> taken;  ///< by layer
+  std::vector<std::string> notices;
+};
+
+/// Fails with ErrorCode::bad_input where `take` or `leave` names a layer that no curve is on.
+[[nodiscard]] Result<LayerChoice> choose_layers(const Drawing& drawing, const DrawingOptions& options);
+
+/// "the LINE (handle 1F) at line 120, layer 'CUT'".
+[[nodiscard]] std::string curve_name(const Drawing& drawing, std::size_t curve);
+
+}  // namespace lekalo::io

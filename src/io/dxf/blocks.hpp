@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/drawing/drawn_shapes.hpp"
+#include "layers.hpp"
+#include "lekalo/base/error.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+
+namespace lekalo::io {
+
+/// An INSERT: a block, placed once or in columns and rows.
+struct Insertion {
+  std::size_t before = 0;                  ///< curves of its own block that stand before it in the file
+  std::string_view name;                   ///< of the block, as spelled
+  const struct DxfBlock* block = nullptr;  ///< set by expanded(); null: nothing to place
+  std::size_t line = 0;                    ///< of the INSERT
+  std::uint32_t layer = 0;                 ///< into DxfLayers
+  Affine world;                            ///< from the plane that the extrusion direction says
+  BoundedPoint at;
+  Millimetres scale_x{1, 0}, scale_y{1, 0};  ///< factors; never 0
+  Direction rotation{{1, 0}, true};
+  double rotation_error = 0;  ///< of its sine and cosine
+  std::uint32_t columns = 1, rows = 1;
+  Millimetres column_step, row_step;
+};
+
+struct UnreadTally {
+  std::size_t count = 0, line = 0;
+};
+
+/// A block, or the model space itself. Curves are DrawnCurve with `layer` into DxfLayers.
+struct DxfBlock {
+  BoundedPoint base;
+  std::vector<DrawnCurve> curves;
+  std::vector<Insertion> insertions;  ///< in file order
+  std::map<std::string, UnreadTally> unread;
+  std::size_t cost = 0;  ///< of the curves, in curves (curve_cost)
+  std::size_t line = 0;
+  bool external = false;  ///< a reference to another file
+  bool repeated = false;  ///< the file holds a second block of this name
+
+  void count_unread(const std::string& what, std::size_t at, std::size_t copies = 1);
+};
+
+using DxfBlocks = std::map<std::string, DxfBlock>;  ///< by folded name
+
+/// What a curve counts towards kMostCurves: a spline one more for every 8 poles.
+[[nodiscard]] std::size_t curve_cost(const Shape& shape);
+
+/// A line or arc of no length, a circle lost in rounding, a spline in one point: nothing to cut.
+[[nodiscard]] bool is_point(const Shape& shape);
+
+/// The model space with every insertion replaced by what it shows; layers are still those of DxfLayers:
+/// contents on the layer "0" take the layer of the insertion, and contents of an insertion on a frozen layer
+/// that layer, which hides them. Refused: a block that holds itself, nesting and copies beyond the limits of
+/// drawing.hpp, what an insertion makes too large.
+[[nodiscard]] Result<DxfBlock> expanded(DxfBlock model, DxfBlocks& blocks, const DxfLayers& layers,
+                                        const std::vector<DrawnEntity>& entities, const std::string& file);
+
+}  // namespace lekalo::io

@@ -1,0 +1,268 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "blocks.hpp"
+#include "entities.hpp"
+#include "header.hpp"
+#include "io/text/refusal.hpp"
+#include "layers.hpp"
+#include "stated_arcs.hpp"
+#include "text.hpp"
+
+namespace lekalo::io {
+namespace {
+
+/// The sections of a file, one after the other.
+class DxfDrawing {
+ public:
+  DxfDrawing(std::string_view bytes, const std::string& name, std::optional<LengthUnit> user_says)
+      : at_(bytes, name), user_says_(user_says) {
+    drawing_.name = name;
+  }
+
+  Result<Drawing> read() {
+    if (auto done = read_sections(); !done) return tl::unexpected(done.error());
+    if (!seen_entities_) {
+      return refuse(at_.name(), "there is no section ENTITIES; this is not a complete DXF file");
+    }
+    auto model = expanded(std::move(model_), blocks_, layers_, entities_->entities(), at_.name());
+    if (!model) return tl::unexpected(model.error());
+    take(std::move(*model));
+    return std::move(drawing_);
+  }
+
+ private:
+  Result<void> read_sections() {
+    while (at_.next()) {
+      if (at_.at(0, "EOF")) return {};
+      if (at_.code() == 999) continue;  // a comment
+      if (!at_.at(0, "SECTION")) {
+        return refuse_line(at_.name(), at_.line(),
+                           fmt::format("a section is wanted here, not {}", excerpt(at_.value())));
+      }
+      if (auto done = read_section(); !done) return done;
+    }
+    // The word EOF is often missing where sections are not.
+    if (at_.fault()) return tl::unexpected(*at_.fault());
+    return {};
+  }
+
+  Result<void> read_section() {
+    const std::size_t begin = at_.line();
+    do {
+      if (!at_.next()) return tl::unexpected(at_.broken_off(begin, "this section"));
+    } while (at_.code() == 999);
+    if (at_.code() != 2 || at_.value().empty()) {
+      return refuse_line(at_.name(), at_.line(), "a section without a name");
+    }
+    const std::string_view section = at_.value();
+    const std::string what = fmt::format("the section {}", excerpt(section));
+    if (!at_.next()) return tl::unexpected(at_.broken_off(begin, what));
+    Result<void> done;
+    if (section == "HEADER") done = read_header();
+    if (section == "TABLES") done = read_tables();
+    if (section == "OBJECTS") read_objects();
+    if (section == "BLOCKS" || section == "ENTITIES") {
+      done = begin_entities();
+      if (done) done = section == "BLOCKS" ? read_blocks() : read_entities();
+    }
+    if (!done) return done;
+    while (at_.ok() && !at_.at(0, "ENDSEC")) at_.next();
+    if (!at_.ok()) return tl::unexpected(at_.broken_off(begin, what));
+    return {};
+  }
+
+  Result<void> read_header() {
+    std::string_view variable;
+    for (; at_.ok() && at_.code() != 0; at_.next()) {
+      if (at_.code() == 9) variable = at_.value();
+      if (variable == "$DWGCODEPAGE" && at_.code() == 3) header_.code_page = at_.value();
+      if (variable == "$INSUNITS" && at_.code() == 70) {
+        header_.unit = at_.value();
+        header_.unit_line = at_.line();
+        if (entities_) {
+          return refuse_line(at_.name(), at_.line(),
+                             "$INSUNITS stands behind the entities; save the drawing again");
+        }
+      }
+    }
+    return {};
+  }
+
+  Result<void> read_tables() {
+    while (at_.ok() && !at_.at(0, "ENDSEC")) {
+      if (at_.at(0, "LAYER")) {
+        if (auto done = read_layer(); !done) return done;
+      } else {
+        at_.next();
+      }
+    }
+    return {};
+  }
+
+  void read_objects() {
+    while (at_.ok() && !at_.at(0, "ENDSEC")) {
+      if (!at_.at(0, "XRECORD")) {
+        at_.next();
+        continue;
+      }
+      bool first = true, ours = false;
+      while (at_.next() && at_.code() != 0) {
+        if (at_.code() != 1) continue;
+        if (ours) exact_arcs_.add(at_.value());
+        ours = ours || (first && at_.value() == kExactArcsName);
+        first = false;
+      }
+    }
+  }
+
+  Result<void> read_layer() {
+    std::string_view name, flags = "0", colour = "7";
+    while (at_.next() && at_.code() != 0) {
+      if (at_.code() == 2) name = at_.value();
+      if (at_.code() == 70) flags = at_.value();
+      if (at_.code() == 62) colour = at_.value();
+    }
+    if (!at_.ok() || name.empty()) return {};
+    const auto number = read_millimetres(flags, DecimalFactor{});
+    if (!number || !(number->value >= 0)) {
+      return refuse_line(
+          at_.name(), at_.line(),
+          fmt::format("the layer {} has flags that are no number: {}", excerpt(name), excerpt(flags)));
+    }
+    DxfLayers::Entry& layer = layers_[layers_.index(name)];
+    layer.name = name;
+    layer.off = colour.substr(0, 1) == "-";
+    layer.frozen = (static_cast<unsigned>(number->value) & 1U) != 0;
+    return {};
+  }
+
+  /// From here on numbers are read, in a unit that must be known.
+  Result<void> begin_entities() {
+    if (entities_) return {};
+    const auto unit = drawing_unit(header_, user_says_, at_.name());
+    if (!unit) return tl::unexpected(unit.error());
+    drawing_.unit = unit->name;
+    drawing_.millimetres_per_unit = unit->millimetres();
+    unit_is_said_ = unit->said;
+    entities_.emplace(at_, layers_, unit->factor);
+    return {};
+  }
+
+  Result<void> read_blocks() {
+    while (at_.ok() && !at_.at(0, "ENDSEC")) {
+      if (!at_.at(0, "BLOCK")) {
+        at_.next();
+        continue;
+      }
+      if (auto done = read_block(); !done) return done;
+    }
+    return {};
+  }
+
+  Result<void> read_block() {
+    DxfBlock block;
+    block.line = at_.line();
+    std::string_view name;
+    unsigned flags = 0;
+    while (at_.next() && at_.code() != 0) {
+      const bool is_number = at_.code() == 10 || at_.code() == 20 || at_.code() == 70;
+      if (at_.code() == 2) name = at_.value();
+      if (!is_number) continue;
+      const auto value = entities_->number(at_.code() != 70);
+      if (!value) return tl::unexpected(value.error());
+      if (at_.code() == 70) flags = static_cast<unsigned>(std::max(value->value, 0.0));
+      if (at_.code() == 10) block.base.at.x = value->value;
+      if (at_.code() == 20) block.base.at.y = value->value;
+      if (at_.code() != 70) block.base.error = std::max(block.base.error, value->error);
+    }
+    block.external = (flags & kExternal) != 0;
+    while (at_.ok() && at_.code() == 0 && !at_.at(0, "ENDBLK") && !at_.at(0, "ENDSEC")) {
+      if (at_.at(0, "BLOCK")) {
+        return refuse_line(at_.name(), at_.line(),
+                           fmt::format("a BLOCK begins here before the one of line {} ends", block.line));
+      }
+      if (auto done = entities_->read(block); !done) return done;
+    }
+    if (!at_.ok()) return {};
+    if (!at_.at(0, "ENDBLK")) {
+      return refuse_line(at_.name(), block.line, fmt::format("the block {} does not end", excerpt(name)));
+    }
+    while (at_.next() && at_.code() != 0) {
+    }
+    const auto [known, is_new] = blocks_.try_emplace(folded(name), std::move(block));
+    if (!is_new) known->second.repeated = true;
+    return {};
+  }
+
+  Result<void> read_entities() {
+    if (std::exchange(seen_entities_, true)) {
+      return refuse_line(at_.name(), at_.line(), "a second section ENTITIES");
+    }
+    while (at_.ok() && at_.code() == 999) at_.next();
+    if (at_.ok() && at_.code() != 0) {
+      return refuse_line(at_.name(), at_.line(), "an entity is wanted here (group code 0)");
+    }
+    while (at_.ok() && !at_.at(0, "ENDSEC")) {
+      if (auto done = entities_->read(model_); !done) return done;
+    }
+    return {};
+  }
+
+  /// Curves into the drawing; layers and entities are those of curves, in their order.
+  void take(DxfBlock model) {
+    constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> layer(layers_.size(), kNew), entity(entities_->entities().size(), kNew);
+    drawing_.curves = std::move(model.curves);
+    const std::size_t unfit = exact_arcs_.restore(drawing_.curves, entities_->entities());
+    for (DrawnCurve& curve : drawing_.curves) {
+      if (layer[curve.layer] == kNew) {
+        layer[curve.layer] = static_cast<std::uint32_t>(drawing_.layers.size());
+        const DxfLayers::Entry& entry = layers_[curve.layer];
+        drawing_.layers.push_back({text_of_name(entry.name, header_.code_page), entry.off || entry.frozen});
+      }
+      if (entity[curve.entity] == kNew) {
+        entity[curve.entity] = static_cast<std::uint32_t>(drawing_.entities.size());
+        drawing_.entities.push_back(std::move(entities_->entities()[curve.entity]));
+      }
+      curve.layer = layer[curve.layer];
+      curve.entity = entity[curve.entity];
+    }
+    for (const auto& [what, tally] : model.unread) drawing_.unread.push_back({what, tally.count, tally.line});
+    if (!unit_is_said_) {
+      drawing_.notices.push_back(
+          fmt::format("{}: the file does not say its unit; it is read as mm", at_.name()));
+    }
+    if (unfit > 0) drawing_.notices.push_back(unfit_arcs_sentence(unfit, at_.name()));
+    if (entities_->has_heights()) {
+      drawing_.notices.push_back(fmt::format("{}: z coordinates are ignored", at_.name()));
+    }
+  }
+
+  static constexpr unsigned kExternal = 4;
+
+  DxfCursor at_;
+  std::optional<LengthUnit> user_says_;
+  DxfHeader header_;
+  DxfLayers layers_;
+  std::optional<DxfEntities> entities_;  ///< from the first section that holds some
+  DxfBlocks blocks_;
+  DxfBlock model_;
+  DxfExactArcs exact_arcs_;
+  Drawing drawing_;
+  bool seen_entities_ = false, unit_is_said_ = false;
+};
+
+}  // namespace
+
+Result<Drawing> parse_dxf(std::string_view bytes, const std::string& name, std::optional<LengthUnit> unit) {
+  if (const std::string fault = wrong_encoding(bytes); !fault.empty()) return refuse(name, fault);
+  if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
+  if (bytes.empty()) return refuse(name, "the file is empty");
+  return DxfDrawing(bytes, name, unit).read();
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,200 @@
+#include "lekalo/io/formats/part_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "io/layout/layout_outline.hpp"
+#include "io/text/decimal.hpp"
+#include "io/text/json_tree.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
+#include "lekalo/io/svg/svg.hpp"
+#include "lekalo/io/text/words.hpp"
+
+namespace lekalo::io {
+namespace {
+
+/// A closed outline with its holes, and what it is called.
+struct DrawnPart {
+  geom::Region region;
+  std::string id, name;
+};
+
+struct DrawnParts {
+  std::vector<DrawnPart> parts;
+  std::vector<geom::Region> sheets;
+  double tolerance = 0;  ///< mm: the true outlines are within this
+  std::vector<std::string> notices;
+};
+
+constexpr std::size_t kLongestName = 200;
+
+/// As a text of a layout: no control characters, not too long, cut between characters.
+std::string plain(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  if (text.size() > kLongestName) {
+    std::size_t end = kLongestName;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80) --end;
+    text.resize(end);
+  }
+  return text;
+}
+
+std::string id_of_file(const std::string& name) {
+  const std::string stem = plain(stem_of(name));
+  return stem.empty() ? "part" : stem;
+}
+
+std::size_t edges_of(const geom::Region& region) {
+  std::size_t edges = region.outer.size();
+  for (const geom::Contour& hole : region.holes) edges += hole.size();
+  return edges;
+}
+
+bool has_layer(const Drawing& drawing, std::string_view name) {
+  return std::any_of(drawing.layers.begin(), drawing.layers.end(),
+                     [&](const Layer& layer) { return layer.name == name; });
+}
+
+/// With the layers of lekalo's own exports.
+bool is_export(const Drawing& drawing) {
+  return has_layer(drawing, "CUT") &&
+         std::any_of(std::begin(kExportLayers), std::end(kExportLayers), [&](const char* layer) {
+           return std::string_view(layer) != "CUT" && has_layer(drawing, layer);
+         });
+}
+
+Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, DrawingOptions options) {
+  if (!drawing) return tl::unexpected(drawing.error());
+  DrawnParts made;
+  if (options.take.empty() && options.leave.empty() && is_export(*drawing)) {
+    made.notices.push_back(
+        fmt::format("{}: the layers are those of lekalo's exports, so its parts are on CUT and its sheets on "
+                    "SHEET",
+                    drawing->name));
+    if (has_layer(*drawing, "SHEET")) {
+      options.take = {"SHEET"};
+      auto sheets = make_regions(*drawing, options);
+      if (!sheets) return tl::unexpected(sheets.error());
+      made.sheets = std::move(sheets->regions);
+      made.tolerance = sheets->tolerance;
+    }
+    options.take = {"CUT"};
+  }
+  auto drawn = make_regions(*drawing, options);
+  if (!drawn) return tl::unexpected(drawn.error());
+  made.tolerance = std::max(made.tolerance, drawn->tolerance);
+  made.notices.insert(made.notices.end(), drawn->notices.begin(), drawn->notices.end());
+  std::size_t edge = 0;
+  for (geom::Region& region : drawn->regions) {
+    const DrawnCurve& curve = drawing->curves[drawn->curve_of_edge[edge]];
+    edge += edges_of(region);
+    const std::string& layer = drawing->layers[curve.layer].name;
+    const std::string& handle = drawing->entities[curve.entity].handle;
+    made.parts.push_back({std::move(region), is_svg && !handle.empty() ? handle : layer, layer});
+  }
+  return made;
+}
+
+Result<DrawnParts> of_tree(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  auto file = parse_shape_tree(bytes, name, options.unit);
+  if (!file) return tl::unexpected(file.error());
+  DrawnParts made;
+  made.tolerance = file->tolerance;
+  std::size_t edge = 0;
+  for (geom::Region& region : file->regions) {
+    const std::uint32_t named = file->name_of_edge[edge];
+    edge += edges_of(region);
+    const std::string text = named == kNoName ? "" : file->names[named];
+    made.parts.push_back({std::move(region), text, text});
+  }
+  return made;
+}
+
+Result<DrawnParts> of_regions(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  auto file = parse_regions(bytes, name, options.unit);
+  if (!file) return tl::unexpected(file.error());
+  DrawnParts made;
+  for (geom::Region& region : file->regions) made.parts.push_back({std::move(region), "", ""});
+  return made;
+}
+
+Result<DrawnParts> drawn_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::string_view rest = bytes;
+  if (rest.substr(0, 3) == kByteOrderMark) rest.remove_prefix(3);
+  const std::size_t begin = rest.find_first_not_of(" \t\r\n");
+  const char first = begin == std::string_view::npos ? ' ' : rest[begin];
+  if (first == '<') return of_drawing(parse_svg(bytes, name, options.unit), true, options.drawing);
+  if (first != '{' && first != '[')
+    return of_drawing(parse_dxf(bytes, name, options.unit), false, options.drawing);
+  const auto tree = detail::JsonTree::parse(bytes, name);
+  if (!tree) return tl::unexpected(tree.error());
+  return tree->root().find("shape") ? of_tree(bytes, name, options) : of_regions(bytes, name, options);
+}
+
+}  // namespace
+
+Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  auto drawn = drawn_parts(bytes, name, options);
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (drawn->parts.size() > kMostParts)
+    return failure(ErrorCode::bad_input, fmt::format("{}: {} outlines; at most {} parts are read", name,
+                                                     drawn->parts.size(), kMostParts));
+  PartsFile file;
+  file.notices = std::move(drawn->notices);
+  for (std::size_t i = 0; i < drawn->sheets.size(); ++i) {
+    layout::Stock sheet;
+    sheet.id = i == 0 ? "SHEET" : fmt::format("SHEET-{}", i + 1);
+    auto outline =
+        detail::outline_of_curves(drawn->sheets[i], geom::ChordSide::shrink, options.chord_tolerance);
+    if (!outline)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: sheet {}: {}", name, sheet.id, outline.error().message));
+    sheet.outline = *std::move(outline);
+    file.stocks.push_back(std::move(sheet));
+  }
+  std::set<std::string> ids;
+  std::map<std::string, std::size_t> last_of;
+  std::size_t points = 0;
+  for (DrawnPart& one : drawn->parts) {
+    layout::Part part;
+    const std::string base = one.id.empty() ? id_of_file(name) : plain(one.id);
+    part.id = base;
+    std::size_t& last = last_of[base];
+    if (last == 0) last = 1;
+    while (!ids.insert(part.id).second) part.id = fmt::format("{}-{}", base, ++last);
+    part.name = plain(one.name);
+    part.demand = 1;
+    auto outline = detail::outline_of_curves(one.region, geom::ChordSide::grow, options.chord_tolerance);
+    if (!outline)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: part {}: {}", name, excerpt(part.id), outline.error().message));
+    points += outline->polygon.points.size();
+    constexpr std::size_t kMostPointsInAll = 20'000'000;
+    if (points > kMostPointsInAll)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: more than {} points with chords within {} mm; a larger tolerance needs "
+                                 "fewer",
+                                 name, kMostPointsInAll, options.chord_tolerance));
+    part.outline = *std::move(outline);
+    file.parts.push_back(std::move(part));
+  }
+  if (drawn->tolerance > geom::kGridStep)
+    file.notices.push_back(
+        fmt::format("{}: outlines are within {:.2g} mm of what is drawn (ellipses, splines, "
+                    "joined ends)",
+                    name, drawn->tolerance));
+  return file;
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,186 @@
+#include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/io/svg/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "hpgl_writer.hpp"
+#include "lekalo/io/drawing/written_drawing.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/layout/check.hpp"
+#include "sheet_shapes.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using detail::PlacedShape;
+using detail::SheetShapes;
+using geom::Point;
+
+bool wanted(const ExportRequest& request, const char* layer) {
+  return request.only.empty() ||
+         std::find(request.only.begin(), request.only.end(), layer) != request.only.end();
+}
+
+/// Regions, lines and texts in the file's unit, from the stock up to the labels.
+struct Drawn {
+  std::vector<LayeredRegion> regions;
+  DrawingExtras extras;
+};
+
+class Drawer {
+ public:
+  Drawer(const ExportRequest& request, double mm_per_unit) : request_(request), scale_(1 / mm_per_unit) {
+    drawn_.extras.colours = {{"CUT", 1, 0xd00000},   {"MARK", 5, 0x0000ff},   {"LABEL", 3, 0x008000},
+                             {"SHEET", 8, 0x808080}, {"DEFECT", 6, 0xc000c0}, {"ZONE", 30, 0xd07000},
+                             {"AREA", 4, 0x009090}};
+  }
+
+  Drawn draw(const std::vector<SheetShapes>& sheets) && {
+    for (const SheetShapes& sheet : sheets) add({sheet.material}, "SHEET");
+    for (const SheetShapes& sheet : sheets) add(sheet.defects, "DEFECT");
+    for (const SheetShapes& sheet : sheets) add(sheet.zones, "ZONE");
+    for (const SheetShapes& sheet : sheets)
+      for (const PlacedShape& part : sheet.parts) add(part.areas, "AREA");
+    for (const SheetShapes& sheet : sheets)
+      for (const PlacedShape& part : sheet.parts) add({part.region}, "CUT");
+    for (const SheetShapes& sheet : sheets) {
+      for (const PlacedShape& part : sheet.parts) add_texts(part);
+      if (sheets.size() > 1) add_title(sheet);
+    }
+    return std::move(drawn_);
+  }
+
+ private:
+  [[nodiscard]] Point scaled(Point p) const { return scale_ == 1 ? p : scale_ * p; }
+
+  void add(const std::vector<geom::Region>& regions, const char* layer) {
+    if (!wanted(request_, layer)) return;
+    for (geom::Region region : regions) {
+      if (scale_ != 1) {
+        scale(region.outer);
+        for (geom::Contour& hole : region.holes) scale(hole);
+      }
+      drawn_.regions.push_back({std::move(region), layer, {}});
+    }
+  }
+  void scale(geom::Contour& contour) const {
+    for (geom::Edge& edge : contour)
+      edge.from = scaled(edge.from), edge.to = scaled(edge.to), edge.centre = scaled(edge.centre);
+  }
+
+  void add_texts(const PlacedShape& part) {
+    if (!part.grain.empty() && wanted(request_, "MARK"))
+      drawn_.extras.lines.push_back({scaled(part.grain.front()), scaled(part.grain.back()), "MARK"});
+    if (part.label_height > 0 && wanted(request_, "LABEL"))
+      drawn_.extras.texts.push_back({part.label, scaled(part.label_at), scale_ * part.label_height, "LABEL"});
+  }
+
+  /// Above the sheet.
+  void add_title(const SheetShapes& sheet) {
+    if (!wanted(request_, "LABEL")) return;
+    const geom::Box box = geom::bounds(sheet.material.outer);
+    const double height = std::clamp(0.02 * (box.high.x - box.low.x), 3.0, 30.0);
+    drawn_.extras.texts.push_back({sheet.name, scaled({0.5 * (box.low.x + box.high.x), box.high.y + height}),
+                                   scale_ * height, "LABEL"});
+  }
+
+  const ExportRequest& request_;
+  double scale_;
+  Drawn drawn_;
+};
+
+Result<Exported> drawing(const std::vector<SheetShapes>& sheets, const ExportRequest& request) {
+  const bool dxf = request.form == ExportForm::dxf;
+  const Drawn drawn = Drawer(request, dxf ? millimetres_per(request.unit) : 1).draw(sheets);
+  if (drawn.regions.empty() && drawn.extras.lines.empty() && drawn.extras.texts.empty())
+    return failure(ErrorCode::bad_input, "there is nothing to write on the layers asked for");
+  auto text =
+      dxf ? dxf_drawing(drawn.regions, drawn.extras, request.unit) : svg_drawing(drawn.regions, drawn.extras);
+  if (!text) return tl::unexpected(text.error());
+  return Exported{{{sheets.size() == 1 ? sheets.front().name : "", *std::move(text)}}, {}};
+}
+
+Result<Exported> plotted(const std::vector<SheetShapes>& sheets, const ExportRequest& request) {
+  Exported made;
+  for (const SheetShapes& sheet : sheets) {
+    auto text = detail::hpgl_text(sheet, request.only, request.chord_tolerance_mm);
+    if (!text) return tl::unexpected(text.error());
+    made.files.push_back({sheet.name, *std::move(text)});
+  }
+  made.notes.push_back(
+      fmt::format("corners lie within {:.3f} mm of where they are (plotter units of {:g} mm), chords within "
+                  "{:g} mm of their arcs",
+                  0.7072 * detail::kPlotterUnit, detail::kPlotterUnit, request.chord_tolerance_mm));
+  return made;
+}
+
+Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::string& name,
+                            const ExportRequest& request) {
+  Exported made;
+  for (const SheetShapes& sheet : sheets) {
+    std::vector<nc::ProfilePart> parts;
+    for (const PlacedShape& part : sheet.parts) parts.push_back({part.placement->id, part.region});
+    const auto program = nc::profile_program(parts, name + " " + sheet.name, request.profile);
+    if (!program)
+      return failure(program.error().code, fmt::format("sheet {}: {}", sheet.name, program.error().message));
+    const nc::ProfileProgram& p = *program;
+    std::string said = fmt::format(
+        "sheet {}: {} cuts, {:.0f} mm, travel {:.0f} mm; the kerf enters no part by more than "
+        "{:.5f} mm",
+        sheet.name, p.cuts, p.cut_mm, p.travel_mm, p.deepest_mm + 0.5e-5);
+    if (p.shortened_leads > 0)
+      said += fmt::format("; {} leads are shorter for want of room", p.shortened_leads);
+    if (p.bare_starts > 0)
+      said += fmt::format("; {} cuts have no room for a lead and begin on the contour", p.bare_starts);
+    if (p.left_over_mm > request.profile.tolerance_mm)
+      said += fmt::format(
+          "; corners lie up to {:.3f} mm from the kerf and keep that much material, most in placement {}",
+          p.left_over_mm, p.left_over_of);
+    made.notes.push_back(std::move(said));
+    made.files.push_back({sheet.name, program->text});
+  }
+  return made;
+}
+
+}  // namespace
+
+std::optional<ExportForm> export_form(std::string_view word) noexcept {
+  if (word == "dxf") return ExportForm::dxf;
+  if (word == "svg") return ExportForm::svg;
+  if (word == "hpgl") return ExportForm::hpgl;
+  if (word == "gcode") return ExportForm::gcode;
+  return std::nullopt;
+}
+
+Result<Exported> export_layout(const layout::Document& document, const std::string& name,
+                               const ExportRequest& request) {
+  const auto sheets = detail::sheets_to_write(document, request.sheet);
+  if (!sheets) return tl::unexpected(sheets.error());
+  const bool together = request.form == ExportForm::dxf || request.form == ExportForm::svg;
+  std::vector<std::string> notes;
+  const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, *sheets, together, notes);
+  const std::vector<layout::Violation> broken = layout::check(document);
+  if (request.form == ExportForm::gcode)
+    for (const layout::Violation& violation : broken)
+      if (violation.kind == layout::ViolationKind::overlap &&
+          std::find(sheets->begin(), sheets->end(), layout::Sheet{violation.stock, violation.copy}) !=
+              sheets->end())
+        return failure(
+            ErrorCode::bad_input,
+            fmt::format("placements {} and {} overlap, so they cannot both be cut; lekalo check says how to "
+                        "move them apart",
+                        violation.a, violation.b));
+  Result<Exported> made = request.form == ExportForm::hpgl    ? plotted(shapes, request)
+                          : request.form == ExportForm::gcode ? programmed(shapes, name, request)
+                                                              : drawing(shapes, request);
+  if (!made) return made;
+  if (!broken.empty())
+    notes.push_back(fmt::format("the layout breaks {} of its rules; lekalo check says which", broken.size()));
+  made->notes.insert(made->notes.begin(), notes.begin(), notes.end());
+  return made;
+}
+
+}  // namespace lekalo::io

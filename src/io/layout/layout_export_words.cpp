@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "lekalo/io/layout/layout_export.hpp"
+
+namespace lekalo::io {
+namespace {
+
+/// One word: which forms take it, and what it sets. The value is not empty.
+class WordTaker {
+ public:
+  WordTaker(ExportRequest& request, const std::string& prefix) : request_(request), prefix_(prefix) {}
+
+  Result<void> take(const ExportWord& word) {
+    const auto known = std::find_if(export_words().begin(), export_words().end(),
+                                    [&](const ExportWordHelp& help) { return help.name == word.first; });
+    const auto& [name, value] = word;
+    if (known == export_words().end())
+      return failure(ErrorCode::usage, fmt::format("there is no option {}{}", prefix_, name));
+    if (!fits_form(name))
+      return failure(ErrorCode::usage,
+                     fmt::format("{}{} has no meaning for the form {}", prefix_, name, form_name()));
+    given_.push_back(name);
+    nc::ProfileOptions& p = request_.profile;
+    if (name == "sheet") {
+      request_.sheet = value;
+      return {};
+    }
+    if (name == "only") return layers(value);
+    if (name == "unit")
+      return choice(word, {{"mm", LengthUnit::millimetre}, {"inch", LengthUnit::inch}}, request_.unit);
+    if (name == "post")
+      return choice(word,
+                    {{"linuxcnc", nc::Post::linuxcnc}, {"grbl", nc::Post::grbl}, {"fanuc", nc::Post::fanuc}},
+                    p.post);
+    if (name == "process")
+      return choice(
+          word,
+          {{"laser", nc::Process::laser}, {"plasma", nc::Process::plasma}, {"router", nc::Process::router}},
+          p.process);
+    if (name == "lead")
+      return choice(word, {{"line", nc::LeadShape::line}, {"arc", nc::LeadShape::arc}}, p.lead);
+    if (name == "tolerance" && request_.form == ExportForm::hpgl)
+      return number(word, 1e-4, 10, request_.chord_tolerance_mm);
+    return profile_number(word);
+  }
+
+  /// What has to be given but was not.
+  Result<void> complete() {
+    const auto needs = [&](const char* name, const char* why) -> Result<void> {
+      if (std::find(given_.begin(), given_.end(), name) != given_.end()) return {};
+      return failure(ErrorCode::usage, fmt::format("{}{} is missing: {}", prefix_, name, why));
+    };
+    nc::ProfileOptions& p = request_.profile;
+    if (request_.form != ExportForm::gcode) return {};
+    if (auto fine = needs("kerf", "the width of the cut in mm"); !fine) return fine;
+    if (auto fine = needs("feed", "the speed of the cut in mm/min"); !fine) return fine;
+    const bool router = p.process == nc::Process::router;
+    if (router || (p.post == nc::Post::grbl && p.process == nc::Process::laser))
+      if (auto fine =
+              needs("speed", router ? "the speed of the spindle, the S word"
+                                    : "the power of the beam, the S word; without it the beam stays dark");
+          !fine)
+        return fine;
+    if (router) {
+      if (auto fine = needs("depth", "how deep a router cuts, in mm"); !fine) return fine;
+      if (auto fine = needs("plunge", "how fast a router goes down, in mm/min"); !fine) return fine;
+    }
+    for (const char* name : {"depth", "pass", "safe-height", "plunge"})
+      if (!router && std::find(given_.begin(), given_.end(), name) != given_.end())
+        return failure(ErrorCode::usage, fmt::format("{}{} has a meaning for routers alone: {}process router",
+                                                     prefix_, name, prefix_));
+    if (router && p.pierce_s > 0)
+      return failure(ErrorCode::usage,
+                     fmt::format("{}pierce has no meaning for routers: leave it out", prefix_));
+    if (std::find(given_.begin(), given_.end(), "tolerance") == given_.end())
+      p.tolerance_mm = std::min(p.tolerance_mm, 0.25 * p.kerf_mm);
+    if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
+      return failure(ErrorCode::usage,
+                     fmt::format("{}tolerance {:g}: has to be at most a quarter of the kerf of {:g} mm",
+                                 prefix_, p.tolerance_mm, p.kerf_mm));
+    return {};
+  }
+
+ private:
+  [[nodiscard]] const char* form_name() const {
+    constexpr const char* kNames[] = {"dxf", "svg", "hpgl", "gcode"};
+    return kNames[static_cast<int>(request_.form)];
+  }
+
+  [[nodiscard]] bool fits_form(const std::string& name) const {
+    const bool gcode = request_.form == ExportForm::gcode;
+    if (name == "sheet") return true;
+    if (name == "only") return !gcode;
+    if (name == "unit") return gcode || request_.form == ExportForm::dxf;
+    if (name == "tolerance") return gcode || request_.form == ExportForm::hpgl;
+    return gcode;
+  }
+
+  Result<void> layers(const std::string& value) {
+    for (std::size_t begin = 0; begin <= value.size();) {
+      const std::size_t end = std::min(value.find(',', begin), value.size());
+      const std::string layer = value.substr(begin, end - begin);
+      if (std::none_of(std::begin(kExportLayers), std::end(kExportLayers),
+                       [&](const char* k) { return layer == k; }))
+        return failure(ErrorCode::usage,
+                       fmt::format("{}only {}: the layers are {}", prefix_, value,
+                                   fmt::join(std::begin(kExportLayers), std::end(kExportLayers), ", ")));
+      request_.only.push_back(layer);
+      begin = end + 1;
+    }
+    return {};
+  }
+
+  template <class T>
+  Result<void> choice(const ExportWord& word, std::initializer_list<std::pair<const char*, T>> choices,
+                      T& to) const {
+    std::string list;
+    for (const auto& [name, value] : choices) {
+      if (word.second == name) {
+        to = value;
+        return {};
+      }
+      list += (list.empty() ? "" : ", ") + std::string(name);
+    }
+    return failure(ErrorCode::usage,
+                   fmt::format("{}{} {}: has to be one of {}", prefix_, word.first, word.second, list));
+  }
+
+  Result<void> number(const ExportWord& word, double low, double high, double& to) const {
+    const std::string& text = word.second;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high))
+      return failure(ErrorCode::usage, fmt::format("{}{} {}: has to be a number from {:g} to {:g}", prefix_,
+                                                   word.first, text, low, high));
+    to = value;
+    return {};
+  }
+
+  Result<void> profile_number(const ExportWord& word) {
+    struct Number {
+      const char* name;
+      double low, high;
+      double* to;
+    };
+    nc::ProfileOptions& p = request_.profile;
+    const Number numbers[] = {{"kerf", 0.01, 100, &p.kerf_mm},
+                              {"tolerance", 1e-4, 25, &p.tolerance_mm},
+                              {"lead-in", 0, 1000, &p.lead_in_mm},
+                              {"feed", 0.1, 1e6, &p.feed_mm_per_min},
+                              {"speed", 1, 1e6, &p.speed},
+                              {"pierce", 0, 100, &p.pierce_s},
+                              {"depth", 0.01, 1000, &p.depth_mm},
+                              {"pass", 0.01, 1000, &p.pass_mm},
+                              {"safe-height", 0.1, 1000, &p.safe_height_mm},
+                              {"plunge", 0.1, 1e6, &p.plunge_mm_per_min}};
+    for (const Number& one : numbers)
+      if (word.first == one.name) return number(word, one.low, one.high, *one.to);
+    return {};
+  }
+
+  ExportRequest& request_;
+  const std::string& prefix_;
+  std::vector<std::string> given_;
+};
+
+}  // namespace
+
+const std::vector<ExportWordHelp>& export_words() {
+  static const std::vector<ExportWordHelp> words{
+      {"sheet", "STOCK[#COPY]", "This sheet alone [all in use]"},
+      {"only", "LAYER,...",
+       "dxf, svg, hpgl: these layers alone: CUT, MARK, LABEL, SHEET, DEFECT, ZONE, AREA"},
+      {"unit", "mm|inch", "dxf, gcode: of the numbers written [mm]"},
+      {"tolerance", "MM", "hpgl: chords from arcs [0.02]; gcode: how far the kerf may enter a part [0.01]"},
+      {"kerf", "MM", "gcode: width of the cut"},
+      {"feed", "MM/MIN", "gcode: speed of the cut"},
+      {"lead-in", "MM", "gcode: length of a lead, or radius of an arc [0: none]"},
+      {"lead", "line|arc", "gcode: shape of a lead [line]"},
+      {"post", "linuxcnc|grbl|fanuc", "gcode: the control [linuxcnc]"},
+      {"process", "laser|plasma|router", "gcode: the tool [laser]"},
+      {"speed", "S", "gcode: the S word: speed of a spindle, power of a beam"},
+      {"pierce", "S", "gcode: seconds to wait for the pierce [0]"},
+      {"depth", "MM", "gcode, router: depth below Z 0"},
+      {"pass", "MM", "gcode, router: depth of one pass [all at once]"},
+      {"safe-height", "MM", "gcode, router: Z of travels [5]"},
+      {"plunge", "MM/MIN", "gcode, router: speed downwards"}};
+  return words;
+}
+
+Result<ExportRequest> read_export_words(ExportForm form, const std::vector<ExportWord>& words,
+                                        const std::string& prefix) {
+  ExportRequest request;
+  request.form = form;
+  WordTaker taker(request, prefix);
+  for (const ExportWord& word : words)
+    if (auto fine = taker.take(word); !fine) return tl::unexpected(fine.error());
+  if (auto fine = taker.complete(); !fine) return tl::unexpected(fine.error());
+  request.profile.unit = request.unit;
+  return request;
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,211 @@
+#include "lekalo/io/locate/feature_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/shape/region_reader.hpp"
+#include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/region_index.hpp"
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using detail::Json;
+using locate::Feature;
+
+/// Stretches of an edge lie this near to it, as part of the part's size.
+constexpr double kSameEdge = 1e-9;
+
+class FeatureReader {
+ public:
+  FeatureReader(std::string name, double scale) : name_(std::move(name)), scale_(scale) {}
+
+  Result<FeatureSpec> read(const Json& json, std::size_t index) {
+    where_ = fmt::format("{}, feature {}", name_, index);
+    if (auto fine = detail::expect_object(
+            json, where_,
+            {"name", "edges", "contour", "label", "minimum", "target", "maximum", "scale", "finished"});
+        !fine)
+      return tl::unexpected(std::move(fine.error()));
+    FeatureSpec spec;
+    if (!json.contains("name") || !json["name"].is_string() || json["name"].get<std::string>().empty())
+      return refuse(where_, "\"name\" must be a text");
+    spec.demand.name = json["name"].get<std::string>();
+    where_ = fmt::format("{}, feature \"{}\"", name_, spec.demand.name);
+    if (auto fine = select(json, spec); !fine) return tl::unexpected(std::move(fine.error()));
+    Result<void> fine =
+        length(json, "minimum", [&](double v) { spec.demand.minimum = v; })
+            .and_then([&] { return length(json, "target", [&](double v) { spec.demand.target = v; }); })
+            .and_then([&] { return length(json, "maximum", [&](double v) { spec.demand.maximum = v; }); })
+            .and_then([&] { return length(json, "finished", [&](double v) { spec.demand.finished = v; }); });
+    if (!fine) return tl::unexpected(std::move(fine.error()));
+    if (json.contains("scale")) {
+      if (!json["scale"].is_number() || !(json["scale"].get<double>() > 0))
+        return refuse(where_, "\"scale\" must be a number above 0");
+      spec.demand.scale = json["scale"].get<double>();
+    }
+    if (spec.demand.maximum && !(*spec.demand.maximum > spec.demand.minimum))
+      return refuse(where_, fmt::format("\"maximum\" {} mm is not above the minimum of {} mm",
+                                        *spec.demand.maximum, spec.demand.minimum));
+    if (spec.demand.finished) {
+      if (!(*spec.demand.finished > 0)) return refuse(where_, "\"finished\", a tolerance, must be above 0");
+      for (const char* other : {"minimum", "target", "maximum", "scale"})
+        if (json.contains(other))
+          return refuse(where_, fmt::format("a \"finished\" feature has no \"{}\"", other));
+    }
+    return spec;
+  }
+
+  template <class Take>
+  Result<void> length(const Json& json, const char* key, Take take) const {
+    if (!json.contains(key) || json[key].is_null()) return {};
+    if (!json[key].is_number() || !(json[key].get<double>() >= 0) ||
+        !std::isfinite(scale_ * json[key].get<double>()))
+      return refuse(where_, fmt::format("\"{}\" must be a length that is not negative", key));
+    take(scale_ * json[key].get<double>());
+    return {};
+  }
+  void at(std::string where) { where_ = std::move(where); }
+
+ private:
+  Result<void> select(const Json& json, FeatureSpec& spec) const {
+    if (json.contains("edges") + json.contains("contour") + json.contains("label") != 1)
+      return refuse(where_, "one of \"edges\", \"contour\" and \"label\" must say which edges it has");
+    if (json.contains("label")) {
+      if (!json["label"].is_string() || json["label"].get<std::string>().empty())
+        return refuse(where_, "\"label\" must be a text: a layer or the name of a primitive");
+      spec.label = json["label"].get<std::string>();
+    } else if (json.contains("contour")) {
+      if (!json["contour"].is_number_unsigned())
+        return refuse(where_, "\"contour\" must be a whole number from 0 on");
+      spec.contour = json["contour"].get<std::size_t>();
+    } else {
+      if (!json["edges"].is_array() || json["edges"].empty())
+        return refuse(where_, "\"edges\" must be a list of edge numbers");
+      for (const Json& edge : json["edges"]) {
+        if (!edge.is_number_unsigned() || edge.get<std::uint64_t>() > 0xffffffff)
+          return refuse(where_, "\"edges\" must hold whole numbers from 0 on");
+        spec.edges.push_back(edge.get<std::uint32_t>());
+      }
+    }
+    return {};
+  }
+
+  std::string name_, where_;
+  double scale_;
+};
+
+std::vector<std::uint32_t> contour_starts(const std::vector<geom::Region>& part) {
+  std::vector<std::uint32_t> starts{0};
+  const auto add = [&](const geom::Contour& contour) {
+    starts.push_back(starts.back() + static_cast<std::uint32_t>(contour.size()));
+  };
+  for (const geom::Region& region : part) {
+    add(region.outer);
+    for (const geom::Contour& hole : region.holes) add(hole);
+  }
+  return starts;
+}
+
+}  // namespace
+
+Result<FeatureFile> parse_features(std::string_view bytes, const std::string& name,
+                                   std::optional<LengthUnit> unit) {
+  const auto json = detail::parse_json(bytes, name);
+  if (!json) return tl::unexpected(json.error());
+  if (auto fine = detail::expect_object(*json, name, {"units", "minimum", "features", "ignore"}); !fine)
+    return tl::unexpected(std::move(fine.error()));
+  const auto file_unit = detail::unit_of(*json, name, unit);
+  if (!file_unit) return tl::unexpected(file_unit.error());
+  const double scale = millimetres_per(*file_unit);
+  FeatureFile file{name, {}, {}, {}};
+  FeatureReader reader(name, scale);
+  reader.at(name);
+  if (auto fine = reader.length(*json, "minimum", [&](double v) { file.minimum = v; }); !fine)
+    return tl::unexpected(std::move(fine.error()));
+  if (json->contains("features")) {
+    if (!(*json)["features"].is_array()) return refuse(name, "\"features\" must be a list");
+    for (const Json& item : (*json)["features"]) {
+      auto spec = reader.read(item, file.features.size());
+      if (!spec) return tl::unexpected(std::move(spec.error()));
+      file.features.push_back(std::move(*spec));
+    }
+  }
+  if (json->contains("ignore")) {
+    if (!(*json)["ignore"].is_array()) return refuse(name, "\"ignore\" must be a list of regions");
+    for (const Json& item : (*json)["ignore"]) {
+      const std::string where = fmt::format("{}, ignored region {}", name, file.ignored.size());
+      if (auto fine = detail::expect_object(item, where, {"outer", "holes", "islands"}); !fine)
+        return tl::unexpected(std::move(fine.error()));
+      auto region = detail::read_region(item, where, scale);
+      if (!region) return tl::unexpected(std::move(region.error()));
+      file.ignored.push_back(std::move(*region));
+    }
+  }
+  return file;
+}
+
+Result<std::vector<Feature>> find_features(const FeatureFile& file, const std::vector<geom::Region>& part,
+                                           const std::vector<std::string>& labels) {
+  const std::vector<std::uint32_t> starts = contour_starts(part);
+  std::vector<Feature> features;
+  for (const FeatureSpec& spec : file.features) {
+    const std::string where = fmt::format("{}, feature \"{}\"", file.name, spec.demand.name);
+    Feature feature = spec.demand;
+    feature.edges = spec.edges;
+    for (const std::uint32_t edge : spec.edges)
+      if (edge >= starts.back())
+        return refuse(where, fmt::format("edge {} is not one of the part's {}", edge, starts.back()));
+    if (spec.contour) {
+      if (*spec.contour + 1 >= starts.size())
+        return refuse(
+            where, fmt::format("contour {} is not one of the part's {}", *spec.contour, starts.size() - 1));
+      for (std::uint32_t k = starts[*spec.contour]; k < starts[*spec.contour + 1]; ++k)
+        feature.edges.push_back(k);
+    }
+    if (!spec.label.empty()) {
+      for (std::uint32_t k = 0; k < labels.size(); ++k)
+        if (labels[k] == spec.label) feature.edges.push_back(k);
+      if (feature.edges.empty()) {
+        std::vector<std::string> known = labels;
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        std::erase(known, "");
+        return refuse(
+            where, fmt::format("no edge of the part has the label \"{}\"; there {}", spec.label,
+                               known.empty() ? "are none" : fmt::format("is: {}", fmt::join(known, ", "))));
+      }
+    }
+    features.push_back(std::move(feature));
+  }
+  return features;
+}
+
+Result<RestOfPart> without_ignored(const FeatureFile& file, const std::vector<geom::Region>& part) {
+  auto rest = geom::combine(part, file.ignored, geom::BooleanOperation::subtract);
+  if (!rest) return refuse(file.name, rest.error().message);
+  if (rest->regions.empty()) return refuse(file.name, "nothing of the part is left beside what is ignored");
+  RestOfPart result{std::move(rest->regions), {}, rest->edge_error};
+  const geom::RegionIndex whole(part), left(result.regions);
+  const geom::Box box = whole.bounds();
+  const double same = kSameEdge * (norm(box.high - box.low) + norm(box.low));
+  for (const geom::Curve& curve : left.curves()) {
+    const geom::Edge& edge = curve.edge;
+    geom::Point middle = 0.5 * (edge.from + edge.to);
+    if (edge.kind != geom::EdgeKind::line) {
+      const double half = 0.5 * geom::arc_sweep(edge);
+      const geom::SinCos turn = geom::sincos(edge.kind == geom::EdgeKind::arc_ccw ? half : -half);
+      const geom::Point out = edge.from - edge.centre;
+      middle = edge.centre +
+               geom::Point{turn.cosine * out.x - turn.sine * out.y, turn.sine * out.x + turn.cosine * out.y};
+    }
+    const auto nearest = whole.nearest(middle);
+    result.edge_of.push_back(nearest.distance <= same ? std::optional(nearest.edge) : std::nullopt);
+  }
+  return result;
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,164 @@
+#include "lekalo/io/scan/scan_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "io/contour/contour_points.hpp"
+#include "io/text/rows.hpp"
+#include "lekalo/io/text/words.hpp"
+#include "ply_points.hpp"
+
+namespace lekalo::io {
+namespace {
+
+std::string plural(std::size_t count, const char* word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+
+class ScanReader {
+ public:
+  ScanReader(const std::string& name, LengthUnit unit, const std::optional<ScanSlice>& slice)
+      : slice_(slice) {
+    file_.name = name;
+    file_.unit = unit;
+    file_.points.contour_starts.clear();
+  }
+
+  Result<ScanFile> read_text(std::string_view bytes) {
+    const auto take = [&](const TextRow& row) -> Result<void> {
+      if (slice_ && row.count < 3)
+        return refuse_line(file_.name, row.line, "no z on this line, but a slice at a height was asked for");
+      const double z = row.count == 3 ? row.numbers[2].value : 0;
+      with_z_ += row.count - 2;
+      return add(row.numbers[0].value, row.numbers[1].value, z,
+                 std::max(row.numbers[0].error, row.numbers[1].error), row.line, row.after_a_gap && !slice_);
+    };
+    if (auto read = read_text_rows(bytes, file_.name, file_.unit, take, file_.notices); !read)
+      return tl::unexpected(std::move(read.error()));
+    file_.has_order = !slice_;
+    return finish();
+  }
+
+  Result<ScanFile> read_ply(std::string_view bytes) {
+    file_.places_are_lines = false;
+    file_.has_order = false;
+    const auto take = [&](const PlyPoint& p, std::size_t vertex) {
+      return add(p.xyz[0], p.xyz[1], p.xyz[2], p.error, vertex, false);
+    };
+    if (auto read = read_ply_points(bytes, file_.name, file_.unit, slice_.has_value(), take, file_.notices);
+        !read)
+      return tl::unexpected(std::move(read.error()));
+    return finish();
+  }
+
+ private:
+  Result<void> add(double x, double y, double z, double error, std::size_t place, bool begins_contour) {
+    if (++file_.points_in_file > kMostScanPoints)
+      return refuse(file_.name, fmt::format("more than {} points; thin the scan out first", kMostScanPoints));
+    if (slice_ && !(std::abs(z - slice_->height) <= 0.5 * slice_->thickness)) {
+      least_z_ = std::min(least_z_, z);
+      greatest_z_ = std::max(greatest_z_, z);
+      return {};
+    }
+    auto& points = file_.points.points;
+    if (begins_contour || points.empty()) {
+      file_.points.contour_starts.push_back(static_cast<std::uint32_t>(points.size()));
+    }
+    points.push_back({x, y});
+    file_.places.push_back(place);
+    file_.coordinate_error = std::max(file_.coordinate_error, error);
+    return {};
+  }
+
+  Result<ScanFile> finish() {
+    if (file_.points_in_file == 0) return refuse(file_.name, "there are no points in this file");
+    const std::size_t kept = file_.points.points.size();
+    if (slice_) {
+      if (kept == 0) {
+        return refuse(file_.name,
+                      fmt::format("no point lies in the slice at height {:g} mm, {:g} mm thick; z runs from "
+                                  "{:g} to {:g} mm",
+                                  slice_->height, slice_->thickness, least_z_, greatest_z_));
+      }
+      file_.notices.push_back(fmt::format("{}: {} of {} lie in the slice at height {:g} mm, {:g} mm thick",
+                                          file_.name, kept, plural(file_.points_in_file, "point"),
+                                          slice_->height, slice_->thickness));
+    } else if (with_z_ > 0) {
+      file_.notices.push_back(
+          fmt::format("{}: the third number of {} (z) is ignored", file_.name, plural(with_z_, "line")));
+    }
+    return std::move(file_);
+  }
+
+  const std::optional<ScanSlice>& slice_;
+  ScanFile file_;
+  std::size_t with_z_ = 0;
+  double least_z_ = std::numeric_limits<double>::infinity(),
+         greatest_z_ = -std::numeric_limits<double>::infinity();
+};
+
+std::string where(const ScanFile& file, std::uint32_t point) {
+  const geom::Point p = file.points.points[point];
+  return fmt::format("{} {} ({:.6g}, {:.6g})", file.places_are_lines ? "line" : "vertex", file.places[point],
+                     p.x, p.y);
+}
+
+}  // namespace
+
+Result<ScanFile> parse_scan(std::string_view bytes, const std::string& name, std::optional<LengthUnit> unit,
+                            const std::optional<ScanSlice>& slice) {
+  if (slice && !(slice->thickness > 0 && slice->thickness <= kLargestMillimetres &&
+                 std::abs(slice->height) <= kLargestMillimetres)) {
+    return failure(
+        ErrorCode::usage,
+        fmt::format(
+            "a slice at height {} mm, {} mm thick: the height must be finite and the thickness above 0",
+            slice->height, slice->thickness));
+  }
+  const std::string ending = ending_of(name);
+  ScanReader reader(name, unit.value_or(LengthUnit::millimetre), slice);
+  if (ending == ".ply") return reader.read_ply(bytes);
+  if (const std::string fault = wrong_encoding(bytes); !fault.empty()) return refuse(name, fault);
+  if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
+  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") return reader.read_text(bytes);
+  return refuse(name, fmt::format("scans are read from .csv, .txt, .xyz and .ply files, not from {}",
+                                  ending.empty() ? "a name without ending" : excerpt(ending)));
+}
+
+Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& name,
+                                  const ScanBlankOptions& options) {
+  auto file = parse_scan(bytes, name, options.unit, options.slice);
+  if (!file) return tl::unexpected(std::move(file.error()));
+  locate::ScanOptions scan = options.scan;
+  // Both coordinates may be off; 1.5 > sqrt(2).
+  scan.reading_error += 1.5 * file->coordinate_error;
+  if (scan.order == locate::PointOrder::automatic && !file->has_order) scan.order = locate::PointOrder::none;
+  auto blank = locate::guaranteed_blank(file->points, scan);
+  if (!blank) {
+    if (blank.error().code != ErrorCode::bad_input) return tl::unexpected(std::move(blank.error()));
+    return refuse(name, blank.error().message);
+  }
+  ScanBlank made{*std::move(blank), *std::move(file), {}, {}, {}};
+  made.notices = made.file.notices;
+  for (const std::string& notice : made.blank.notices) made.notices.push_back(name + ": " + notice);
+  if (options.slice) {
+    made.blank.assumptions.push_back(
+        fmt::format("the surface stands upright within the slice: points up to {:g} mm above and below "
+                    "height {:g} mm count "
+                    "as points of one contour",
+                    0.5 * options.slice->thickness, options.slice->height));
+  }
+  for (const locate::UnknownStretch& u : made.blank.unknown) {
+    made.unknown.push_back(fmt::format("{}: not measured: from {} to {}, {:.6g} mm", name,
+                                       where(made.file, u.from), where(made.file, u.to), u.width));
+  }
+  for (const std::uint32_t i : made.blank.dropped)
+    made.dropped.push_back(fmt::format("{}: left out: {}", name, where(made.file, i)));
+  return made;
+}
+
+}  // namespace lekalo::io

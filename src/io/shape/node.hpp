@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/drawing/similarity.hpp"
+#include "lekalo/base/error.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
+#include "region_reader.hpp"
+
+namespace lekalo::io::detail {
+
+/// Points whose left the half-plane is.
+struct HalfPlane {
+  geom::Point from, to;
+};
+
+enum class ShapeKind { primitive, half_plane, unite, intersect, subtract, map };
+
+/// Where a shape can have points.
+struct Extent {
+  bool bounded = true;  ///< else the box says nothing
+  bool empty = false;
+  geom::Box box;
+};
+
+/// A node of the tree, its numbers read and its primitives made.
+struct ShapeNode {
+  ShapeKind kind = ShapeKind::primitive;
+  std::string where;  ///< file and place in the tree, for messages
+  std::uint32_t name = kNoName;
+  std::vector<geom::Region> regions;  ///< of a primitive
+  HalfPlane half_plane;
+  double error = 0;  ///< mm: of a primitive's outline, or of a half-plane's points
+  Similarity map;
+  std::vector<ShapeNode> children;  ///< one for a map
+  Extent extent;
+};
+
+/// The primitive named by `word`, whose value is `json`: `regions` or `half_plane` of the node, and its
+/// error. Lengths times `scale`. \pre is_primitive(word)
+[[nodiscard]] bool is_primitive(std::string_view word);
+[[nodiscard]] Result<ShapeNode> read_primitive(const std::string& word, const Json& json,
+                                               const std::string& where, double scale);
+
+/// The number under `key`, times `scale`; refused beyond kLargestMillimetres.
+[[nodiscard]] Result<double> read_number(const Json& json, const std::string& where, const char* key,
+                                         double scale);
+/// The point [x, y], times `scale`; refused beyond kLargestMillimetres.
+[[nodiscard]] Result<geom::Point> place_of(const Json& json, const std::string& where, double scale);
+/// The same under `key`; `otherwise` where there is no such key.
+[[nodiscard]] Result<geom::Point> read_place(const Json& json, const std::string& where, const char* key,
+                                             double scale,
+                                             std::optional<geom::Point> otherwise = std::nullopt);
+
+struct ShapeTree {
+  ShapeNode root;
+  std::vector<std::string> names;
+};
+[[nodiscard]] Result<ShapeTree> read_shape_tree(const Json& json, const std::string& where, double scale);
+
+/// Where the node's shape can be; from its own numbers and its children's extents.
+[[nodiscard]] Extent extent_of(const ShapeNode& node);
+
+/// An edge of a primitive in the coordinates of the result, run through with the material of the result on
+/// its left.
+struct NamedEdge {
+  geom::Edge edge;
+  std::uint32_t name = kNoName;
+};
+
+struct Evaluated {
+  std::vector<geom::Region> regions;
+  /// mm: every edge is within this of that of an exact primitive. 0: there are none.
+  double edge_error = 0;
+  /// At least 1: corners are within this many times edge_error of the exact ones; greater where edges meet at
+  /// a small angle.
+  double sharpness = 1;
+  std::vector<NamedEdge> sources;  ///< in the order of the file
+};
+[[nodiscard]] Result<Evaluated> evaluate(const ShapeTree& tree);
+
+/// ShapeFile::name_of_edge.
+[[nodiscard]] std::vector<std::uint32_t> names_of_edges(const Evaluated& shape);
+
+}  // namespace lekalo::io::detail

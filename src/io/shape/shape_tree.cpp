@@ -1,0 +1,302 @@
+#include "lekalo/io/shape/shape_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/drawing/drawn_shapes.hpp"
+#include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/edge_distance.hpp"
+#include "node.hpp"
+
+namespace lekalo::io {
+
+namespace detail {
+
+using geom::BooleanOperation;
+using geom::Box;
+using geom::Contour;
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+using geom::Region;
+
+namespace {
+
+/// Points of curves move by no more than this many times what ends and centre do: an arc's point by its
+/// centre's distance and by the change of the radius, which is at most twice that.
+constexpr double kOutlinePerPoint = 3;
+
+Edge turned(Edge edge) {
+  std::swap(edge.from, edge.to);
+  if (edge.kind != EdgeKind::line)
+    edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+  return edge;
+}
+
+Contour rectangle(Point a, Point b, Point c, Point d) {
+  return {{EdgeKind::line, a, b, {}},
+          {EdgeKind::line, b, c, {}},
+          {EdgeKind::line, c, d, {}},
+          {EdgeKind::line, d, a, {}}};
+}
+
+/// The half-plane as a rectangle that covers its part of the window, one side on its edge; nothing where it
+/// has no part of it.
+Result<Evaluated> half_plane_in(const ShapeNode& node, const Box& window) {
+  // Sides that are not the half-plane's edge must lie where nobody looks.
+  const double size = std::max(window.high.x - window.low.x, window.high.y - window.low.y);
+  const auto& [from, to] = node.half_plane;
+  const double least = 1e-9 * std::max({largest_of(window), std::abs(from.x), std::abs(from.y)});
+  const Box wide = grown(window, 0.25 * size + least);
+  const Point centre = 0.5 * (wide.low + wide.high);
+  const double reach = 0.5 * norm(wide.high - wide.low);
+  const double length = norm(to - from);
+  const Point along = (1 / length) * (to - from), left = perpendicular(along);
+  const double inside = dot(left, centre - from), middle = dot(along, centre - from);
+  Evaluated out;
+  if (inside <= -reach) return out;
+  Contour contour;
+  if (inside >= reach) {
+    contour = rectangle(wide.low, {wide.high.x, wide.low.y}, wide.high, {wide.low.x, wide.high.y});
+  } else {
+    const Point a = from + (middle - reach) * along, b = from + (middle + reach) * along;
+    const Point width = (inside + reach) * left;
+    contour = rectangle(a, b, b + width, a + width);
+    out.sources.push_back({contour[0], node.name});
+    // What the two points are off, as seen from the far end of the edge; and the rounding of a and b.
+    const double far = std::abs(middle) + reach;
+    out.edge_error = 2 * node.error * (1 + 2 * far / length) + 16 * kUnitRoundoff * (far + largest_of(wide));
+  }
+  auto region = geom::make_region(std::move(contour));
+  if (!region) return refuse(node.where, region.error().message);
+  out.regions.push_back(*std::move(region));
+  return out;
+}
+
+class Evaluator {
+ public:
+  explicit Evaluator(bool named) : named_(named) {}
+
+  /// Regions whose part inside `window` is that of the node's shape; all of it where that is bounded.
+  [[nodiscard]] Result<Evaluated> run(const ShapeNode& node, const Box& outer_window) const {
+    if (node.extent.empty) return Evaluated{};
+    const Box window = node.extent.bounded ? node.extent.box : outer_window;
+    switch (node.kind) {
+      case ShapeKind::half_plane:
+        return half_plane_in(node, window);
+      case ShapeKind::map:
+        return mapped(node, window);
+      case ShapeKind::unite:
+        return combined(run_all(node, 0, window), {}, BooleanOperation::unite, node);
+      case ShapeKind::intersect:
+        return intersection(node, window);
+      case ShapeKind::subtract: {
+        auto first = run(node.children[0], window);
+        if (!first || node.children.size() == 1) return first;
+        auto rest = run_all(node, 1, window);
+        if (!rest) return rest;
+        for (NamedEdge& source : rest->sources) source.edge = turned(source.edge);
+        return combined(std::move(first), *std::move(rest), BooleanOperation::subtract, node);
+      }
+      case ShapeKind::primitive:
+        break;
+    }
+    Evaluated out{node.regions, node.error, 1, {}};
+    if (named_) {
+      const auto add = [&](const Contour& contour) {
+        for (const Edge& edge : contour) out.sources.push_back({edge, node.name});
+      };
+      add(node.regions[0].outer);
+      for (const Contour& hole : node.regions[0].holes) add(hole);
+    }
+    return out;
+  }
+
+ private:
+  /// The children from `first` on, beside each other; an operand counts as the union of its pieces.
+  [[nodiscard]] Result<Evaluated> run_all(const ShapeNode& node, std::size_t first, const Box& window) const {
+    Evaluated all;
+    for (std::size_t i = first; i < node.children.size(); ++i) {
+      auto one = run(node.children[i], window);
+      if (!one) return one;
+      append(all, *std::move(one));
+    }
+    return all;
+  }
+
+  static void append(Evaluated& all, Evaluated&& one) {
+    std::move(one.regions.begin(), one.regions.end(), std::back_inserter(all.regions));
+    all.sources.insert(all.sources.end(), one.sources.begin(), one.sources.end());
+    merge_errors(all, one);
+  }
+
+  [[nodiscard]] Result<Evaluated> intersection(const ShapeNode& node, const Box& window) const {
+    auto all = run(node.children[0], window);
+    for (std::size_t i = 1; all && i < node.children.size(); ++i) {
+      auto next = run(node.children[i], window);
+      if (!next) return next;
+      all = combined(std::move(all), *std::move(next), BooleanOperation::intersect, node);
+    }
+    return all;
+  }
+
+  [[nodiscard]] static Result<Evaluated> combined(Result<Evaluated> a, Evaluated b,
+                                                  BooleanOperation operation, const ShapeNode& node) {
+    if (!a || (operation == BooleanOperation::unite && a->regions.size() == 1)) return a;
+    merge_errors(b, *a);
+    auto result = geom::combine(a->regions, b.regions, operation, b.edge_error);
+    if (!result) return refuse(node.where, result.error().message);
+    Evaluated out{std::move(result->regions), result->edge_error, b.sharpness, {}};
+    if (result->edge_error > 0)
+      out.sharpness = std::max(out.sharpness, result->corner_error / result->edge_error);
+    out.sources = std::move(a->sources);
+    out.sources.insert(out.sources.end(), b.sources.begin(), b.sources.end());
+    return out;
+  }
+
+  static void merge_errors(Evaluated& all, const Evaluated& one) {
+    all.edge_error = std::max(all.edge_error, one.edge_error);
+    all.sharpness = std::max(all.sharpness, one.sharpness);
+  }
+
+  [[nodiscard]] Result<Evaluated> mapped(const ShapeNode& node, const Box& window) const {
+    const ShapeNode& child = node.children[0];
+    const auto inner = run(child, child.extent.bounded ? child.extent.box : preimage(node.map, window));
+    if (!inner) return inner;
+    std::vector<Region> regions;
+    double largest = 0;
+    double after = 0;
+    for (const Region& region : inner->regions) {
+      auto moved = image(node.map, region);
+      if (!moved) return refuse(node.where, moved.error().message);
+      largest = std::max(largest, largest_of(region));
+      after = std::max(after, largest_of(*moved));
+      regions.push_back(*std::move(moved));
+    }
+    const double rounding = kOutlinePerPoint * rounding_of(node.map, largest) + kShortest * after;
+    Evaluated out{std::move(regions), node.map.factor * inner->edge_error + rounding, inner->sharpness, {}};
+    for (const NamedEdge& source : inner->sources) {
+      const Edge edge = image(node.map, source.edge);
+      out.sources.push_back({node.map.mirrors ? turned(edge) : edge, source.name});
+    }
+    return out;
+  }
+
+  bool named_;
+};
+
+/// Middle of an edge, and the direction it is run through there.
+struct Middle {
+  Point at, direction;
+};
+Middle middle_of(const Edge& edge) {
+  const Point chord = edge.to - edge.from;
+  if (edge.kind == EdgeKind::line) return {edge.from + 0.5 * chord, chord};
+  const double radius = geom::arc_radius(edge), side = edge.kind == EdgeKind::arc_ccw ? 1 : -1;
+  if (edge.from == edge.to)
+    return {edge.centre - (edge.from - edge.centre), -side * perpendicular(edge.from - edge.centre)};
+  // Of the two middles between the ends' directions the one on the arc's side of the chord.
+  const Point out = (-side / norm(chord)) * perpendicular(chord);
+  return {edge.centre + radius * out, chord};
+}
+
+/// Distance from the line or the circle that carries the curve.
+double off_carrier(const geom::Curve& curve, Point p) {
+  if (curve.edge.kind == EdgeKind::line) return std::abs(cross(curve.unit, p - curve.edge.from));
+  return std::abs(norm(p - curve.edge.centre) - curve.radius);
+}
+
+bool comes_from(const Edge& edge, const Middle& middle, const geom::Curve& source, double reach) {
+  if (!(off_carrier(source, middle.at) <= reach && off_carrier(source, edge.from) <= reach &&
+        off_carrier(source, edge.to) <= reach))
+    return false;
+  if (!(norm(nearest_on(source, middle.at) - middle.at) <= reach)) return false;
+  Point direction = source.unit;
+  if (source.edge.kind != EdgeKind::line) {
+    const Point out = middle.at - source.edge.centre;
+    direction = source.edge.kind == EdgeKind::arc_ccw ? perpendicular(out) : -perpendicular(out);
+  }
+  return dot(direction, middle.direction) > 0;
+}
+
+}  // namespace
+
+Result<Evaluated> evaluate(const ShapeTree& tree) {
+  const ShapeNode& root = tree.root;
+  if (!root.extent.bounded) {
+    return refuse(root.where,
+                  "the shape has no end: half-planes bound only what something else bounds on the other "
+                  "sides, within 1e9 mm; intersect it with a rectangle");
+  }
+  auto result = Evaluator(!tree.names.empty()).run(root, root.extent.box);
+  if (result && result->regions.empty())
+    return refuse(root.where,
+                  "nothing is left of the shape; look for a difference that takes all, or an "
+                  "intersection of shapes that do not meet");
+  return result;
+}
+
+std::vector<std::uint32_t> names_of_edges(const Evaluated& shape) {
+  struct Source {
+    geom::Curve curve;
+    Box box;
+    std::uint32_t name = kNoName, order = 0;
+  };
+  std::vector<Source> sources;
+  for (const NamedEdge& s : shape.sources) {
+    const geom::Curve curve = geom::make_curve(s.edge);
+    sources.push_back({curve, geom::curve_box(curve), s.name, static_cast<std::uint32_t>(sources.size())});
+  }
+  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
+    return a.box.low.x != b.box.low.x ? a.box.low.x < b.box.low.x : a.order < b.order;
+  });
+  // A primitive's edge is within its error of the exact one, and so is the result's.
+  const double reach = 2 * shape.edge_error;
+  std::vector<std::uint32_t> names;
+  const auto look = [&](const Contour& contour) {
+    for (const Edge& edge : contour) {
+      const Middle middle = middle_of(edge);
+      const Source* best = nullptr;
+      for (const Source& source : sources) {
+        if (source.box.low.x > middle.at.x + reach) break;
+        if (source.box.high.x < middle.at.x - reach || source.box.low.y > middle.at.y + reach ||
+            source.box.high.y < middle.at.y - reach || (best != nullptr && best->order < source.order))
+          continue;
+        if (comes_from(edge, middle, source.curve, reach)) best = &source;
+      }
+      names.push_back(best == nullptr ? kNoName : best->name);
+    }
+  };
+  for (const Region& region : shape.regions) {
+    look(region.outer);
+    for (const Contour& hole : region.holes) look(hole);
+  }
+  return names;
+}
+
+}  // namespace detail
+
+Result<ShapeFile> parse_shape_tree(std::string_view bytes, const std::string& name,
+                                   std::optional<LengthUnit> unit) {
+  using namespace detail;
+  const auto json = parse_json(bytes, name);
+  if (!json) return tl::unexpected(json.error());
+  if (const auto known = expect_object(*json, name, {"name", "source", "units", "shape"}); !known)
+    return tl::unexpected(known.error());
+  const auto file_unit = unit_of(*json, name, unit);
+  if (!file_unit) return tl::unexpected(file_unit.error());
+  if (!json->contains("shape")) return refuse(name, "\"shape\", the tree of shapes, is missing");
+  auto tree = read_shape_tree((*json)["shape"], name + ": shape", millimetres_per(*file_unit));
+  if (!tree) return tl::unexpected(std::move(tree.error()));
+  auto shape = evaluate(*tree);
+  if (!shape) return tl::unexpected(std::move(shape.error()));
+  ShapeFile file{name, *file_unit, {}, shape->sharpness * shape->edge_error, std::move(tree->names), {}};
+  file.name_of_edge = names_of_edges(*shape);
+  file.regions = std::move(shape->regions);
+  return file;
+}
+
+}  // namespace lekalo::io

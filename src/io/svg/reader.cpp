@@ -1,0 +1,311 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "document.hpp"
+#include "lekalo/io/svg/svg.hpp"
+#include "shapes.hpp"
+#include "stated_arcs.hpp"
+#include "style.hpp"
+#include "viewport.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using namespace detail;
+
+/// Elements drawn, copies counted: uses of uses grow without curves too.
+constexpr std::size_t kMostElements = 2 * kMostCurves;
+
+/// Elements that draw nothing where they stand, and have no outline to lose.
+constexpr std::string_view kSilent[] = {"title",  "desc",   "metadata", "style",
+                                        "script", "symbol", "view",     "color-profile"};
+/// What else may stand in defs besides things to be used.
+constexpr std::string_view kResources[] = {"clipPath", "mask",        "pattern",        "marker",
+                                           "filter",   "font",        "linearGradient", "radialGradient",
+                                           "hatch",    "meshgradient"};
+
+template <std::size_t N>
+bool is_in(const std::string_view (&words)[N], std::string_view word) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+/// What an element takes from those around it.
+struct Context {
+  Affine map;  ///< user units to millimetres
+  Viewport viewport;
+  std::string layer;
+  bool layer_said = false;  ///< by a group that says it is a layer
+  bool shown = true;        ///< display, which no child can undo
+  bool visible = true;      ///< visibility, which it can
+  std::size_t depth = 0;
+};
+
+class SvgReader {
+ public:
+  SvgReader(const SvgDocument& document, const std::string& name) : document_(document), styles_(document) {
+    drawing_.name = name;
+  }
+
+  Result<Drawing> run(std::optional<LengthUnit> unit) {
+    const SvgElement& root = document_.elements.front();
+    const auto page = page_of(root, unit);
+    if (!page) return tl::unexpected(fault(root, page.error()).value());
+    drawing_.unit = page->unit;
+    drawing_.millimetres_per_unit = page->millimetres_per_unit;
+    if (!page->notice.empty()) drawing_.notices.push_back(page->notice);
+    for (const std::string& notice : styles_.notices()) drawing_.notices.push_back(notice);
+    Context context;
+    context.map = page->millimetres_from_user;
+    if (const std::string* corner = root.attribute(kPageCorner);
+        corner != nullptr && !restore_page_corner(context.map, *corner))
+      drawing_.notices.push_back(
+          fmt::format("{}: its page was changed since it was written, and no longer says where its corner "
+                      "lies; the origin is that corner",
+                      drawing_.name));
+    context.viewport = page->viewport;
+    if (auto failed = moved(root, context)) return tl::unexpected(*std::move(failed));
+    see(root, context);
+    if (auto failed = children(root, context)) return tl::unexpected(*std::move(failed));
+    if (unfit_arcs_ > 0) drawing_.notices.push_back(unfit_arcs_sentence(unfit_arcs_, drawing_.name));
+    for (auto& [what, unread] : unread_) drawing_.unread.push_back(std::move(unread));
+    return std::move(drawing_);
+  }
+
+ private:
+  using Failure = std::optional<Error>;
+
+  [[nodiscard]] Failure fault(const SvgElement& element, const std::string& why) const {
+    const std::string* id = element.attribute("id");
+    return Error{ErrorCode::bad_input,
+                 fmt::format("{}, line {}, {}{}: {}", drawing_.name, element.line, element.name,
+                             id == nullptr ? "" : " " + excerpt(*id), why)};
+  }
+
+  void count_unread(const std::string& what, const SvgElement& element) {
+    Unread& unread = unread_[what];
+    if (unread.count++ == 0) unread = {what, 1, element.line};
+    unread.line = std::min(unread.line, element.line);
+  }
+
+  /// The attribute "transform", after what the map does already.
+  Failure moved(const SvgElement& element, Context& context) {
+    if (const auto property = geometry_in_style(element)) {
+      return fault(element,
+                   fmt::format("its style attribute says {}, which is not read; save the drawing with "
+                               "presentation attributes",
+                               *property));
+    }
+    const std::string* text = element.attribute("transform");
+    if (text == nullptr) return std::nullopt;
+    const auto map = read_svg_transform(*text);
+    if (!map) return fault(element, "transform: " + map.error());
+    return placed(element, *map, context);
+  }
+
+  Failure placed(const SvgElement& element, const Affine& inner, Context& context) {
+    context.map = composed(context.map, inner);
+    const double largest =
+        std::max({context.map.size(), std::abs(context.map.shift.x), std::abs(context.map.shift.y)});
+    if (largest <= kLargestMillimetres) return std::nullopt;
+    return fault(element, fmt::format("it is moved or enlarged beyond {:g}", kLargestMillimetres));
+  }
+
+  void see(const SvgElement& element, Context& context) const {
+    const Visibility says = styles_.of(element);
+    if (says.display == "none") context.shown = false;
+    if (says.visibility == "hidden" || says.visibility == "collapse") context.visible = false;
+    if (says.visibility == "visible") context.visible = true;
+  }
+
+  static std::string name_of(const SvgElement& group) {
+    for (const char* key : {"inkscape:label", "id"})
+      if (const std::string* said = group.attribute(key)) return *said;
+    return "";
+  }
+
+  Failure children(const SvgElement& element, const Context& context) {
+    for (const std::uint32_t child : element.children)
+      if (auto failed = draw(document_.elements[child], context)) return failed;
+    return std::nullopt;
+  }
+
+  Failure draw(const SvgElement& element, Context context) {
+    if (++drawn_ > kMostElements)
+      return fault(element, fmt::format("more than {} elements, copies counted", kMostElements));
+    const std::string& name = element.name;
+    if (name == "defs") {
+      for (const std::uint32_t child : element.children)
+        if (is_in(kResources, document_.elements[child].name))
+          count_unread(document_.elements[child].name, document_.elements[child]);
+      return std::nullopt;
+    }
+    if (is_in(kSilent, name)) return std::nullopt;
+    see(element, context);
+    if (is_svg_shape(name)) {
+      if (auto failed = moved(element, context)) return failed;
+      return shape(element, context);
+    }
+    const bool group = name == "g" || name == "a" || name == "switch";
+    if (!group && name != "svg" && name != "use") {
+      count_unread(name, element);
+      return std::nullopt;
+    }
+    if (++context.depth > kDeepestNesting)
+      return fault(element, fmt::format("groups and uses are nested more than {} deep", kDeepestNesting));
+    if (auto failed = moved(element, context)) return failed;
+    if (name == "use") return use(element, context);
+    if (name == "svg") return viewport(element, element, context);
+    if (name == "g") enter_layer(element, context);
+    return name == "switch" ? choose(element, context) : children(element, context);
+  }
+
+  static void enter_layer(const SvgElement& group, Context& context) {
+    const std::string* mode = group.attribute("inkscape:groupmode");
+    const bool says_layer = mode != nullptr && *mode == "layer";
+    if (!says_layer && (context.layer_said || !context.layer.empty())) return;
+    context.layer = name_of(group);
+    context.layer_said = says_layer;
+  }
+
+  /// The first child that asks for nothing special.
+  Failure choose(const SvgElement& element, const Context& context) {
+    for (const std::uint32_t index : element.children) {
+      const SvgElement& child = document_.elements[index];
+      const std::string* extensions = child.attribute("requiredExtensions");
+      if (child.attribute("systemLanguage") != nullptr || (extensions != nullptr && !extensions->empty()))
+        continue;
+      return draw(child, context);
+    }
+    count_unread("switch", element);
+    return std::nullopt;
+  }
+
+  /// The content of an svg or symbol element; `place` has its corner and size (a use, or the element itself).
+  Failure viewport(const SvgElement& element, const SvgElement& place, Context context) {
+    const bool by_use = &element != &place;
+    const auto side = [&](const char* key, Along along, const Bounded& otherwise) -> Read<Bounded> {
+      const std::string* text = place.attribute(key);
+      if (text == nullptr && by_use) text = element.attribute(key);
+      if (text == nullptr || *text == "auto") return otherwise;
+      return read_svg_length(*text, context.viewport, along);
+    };
+    const auto width = side("width", Along::x, context.viewport.width),
+               height = side("height", Along::y, context.viewport.height);
+    const auto box = read_view_box(element);
+    if (!width || !height || !box)
+      return fault(place, !width    ? "width: " + width.error()
+                          : !height ? "height: " + height.error()
+                                    : box.error());
+    if (!by_use) {
+      if (auto failed = shifted(element, context)) return failed;
+    }
+    if (*box) {
+      if (!(width->value > 0 && height->value > 0)) return std::nullopt;  // by the standard nothing is drawn
+      const auto map = fit(element, **box, *width, *height);
+      if (!map) return fault(element, map.error());
+      if (auto failed = placed(element, *map, context)) return failed;
+      context.viewport = {(*box)->width, (*box)->height};
+    } else {
+      context.viewport = {*width, *height};
+    }
+    return children(element, context);
+  }
+
+  /// By the attributes x and y.
+  Failure shifted(const SvgElement& element, Context& context) {
+    Affine shift;
+    for (const char* key : {"x", "y"}) {
+      const std::string* text = element.attribute(key);
+      if (text == nullptr) continue;
+      const bool is_x = *key == 'x';
+      const auto read = read_svg_length(*text, context.viewport, is_x ? Along::x : Along::y);
+      if (!read) return fault(element, fmt::format("{}: {}", key, read.error()));
+      (is_x ? shift.shift.x : shift.shift.y) = read->value;
+      shift.shift_error = std::max(shift.shift_error, read->error);
+    }
+    return placed(element, shift, context);
+  }
+
+  Failure use(const SvgElement& element, Context context) {
+    const std::string* target = element.attribute("href");
+    if (target == nullptr) target = element.attribute("xlink:href");
+    if (target == nullptr || target->empty() || target->front() != '#') {
+      count_unread("use (of another file)", element);
+      return std::nullopt;
+    }
+    const SvgElement* used = document_.by_id(target->substr(1));
+    if (used == nullptr)
+      return fault(element, fmt::format("there is no element {} to use", excerpt(*target)));
+    if (auto failed = shifted(element, context)) return failed;
+    if (used->name != "symbol" && used->name != "svg") return draw(*used, context);
+    see(*used, context);
+    if (auto failed = moved(*used, context)) return failed;
+    return viewport(*used, element, context);
+  }
+
+  Failure shape(const SvgElement& element, const Context& context) {
+    auto shapes = read_svg_shape(element, context.viewport);
+    if (!shapes) return fault(element, shapes.error());
+    if (const std::string* exact = element.attribute(kExactArcs))
+      unfit_arcs_ += restore_exact_arcs(*shapes, *exact);
+    if (drawing_.curves.size() + shapes->size() > kMostCurves)
+      return fault(element, fmt::format("more than {} curves, copies counted", kMostCurves));
+    std::vector<BoundedShape> placed_shapes;
+    for (const BoundedShape& one : *shapes) {
+      auto placed_shape = image(context.map, one);
+      if (!placed_shape) {
+        return fault(element, fmt::format("its transforms make it flat, or bring it beyond {:g} mm",
+                                          kLargestMillimetres));
+      }
+      if (!std::isfinite(placed_shape->error)) return fault(element, "its numbers are too large to be drawn");
+      if (!is_point(placed_shape->shape)) placed_shapes.push_back(*std::move(placed_shape));
+    }
+    if (placed_shapes.empty()) {
+      count_unread(element.name + " (without length)", element);
+      return std::nullopt;
+    }
+    const std::string* id = element.attribute("id");
+    const auto entity = static_cast<std::uint32_t>(drawing_.entities.size());
+    drawing_.entities.push_back({element.name, id == nullptr ? "" : *id, element.line});
+    const std::uint32_t layer = layer_index(context.layer, !context.shown || !context.visible);
+    for (BoundedShape& one : placed_shapes)
+      drawing_.curves.push_back({std::move(one.shape), entity, layer, one.error});
+    return std::nullopt;
+  }
+
+  /// Lines and arcs of which rounding left nothing.
+  static bool is_point(const Shape& shape) {
+    const auto* edge = std::get_if<geom::Edge>(&shape);
+    if (edge == nullptr) return false;
+    if (edge->kind == geom::EdgeKind::line) return edge->from == edge->to;
+    return edge->from == edge->centre || edge->to == edge->centre;
+  }
+
+  std::uint32_t layer_index(const std::string& name, bool hidden) {
+    const auto [found, is_new] =
+        layers_.try_emplace({name, hidden}, static_cast<std::uint32_t>(drawing_.layers.size()));
+    if (is_new) drawing_.layers.push_back({name, hidden});
+    return found->second;
+  }
+
+  const SvgDocument& document_;
+  StyleSheet styles_;
+  Drawing drawing_;
+  std::map<std::string, Unread> unread_;
+  std::map<std::pair<std::string, bool>, std::uint32_t> layers_;
+  std::size_t drawn_ = 0, unfit_arcs_ = 0;
+};
+
+}  // namespace
+
+Result<Drawing> parse_svg(std::string_view bytes, const std::string& name, std::optional<LengthUnit> unit) {
+  const auto document = read_svg_document(bytes, name);
+  if (!document) return tl::unexpected(document.error());
+  return SvgReader(*document, name).run(unit);
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "document.hpp"
+#include "io/drawing/drawn_shapes.hpp"
+#include "scanner.hpp"
+
+namespace lekalo::io::detail {
+
+/// path, line, polyline, polygon, rect, circle or ellipse.
+[[nodiscard]] bool is_svg_shape(std::string_view element) noexcept;
+
+/// The curves of such an element in its user units, y down as they stand there. Empty where the standard
+/// draws nothing (a circle without radius).
+[[nodiscard]] Read<std::vector<BoundedShape>> read_svg_shape(const SvgElement& element,
+                                                             const Viewport& viewport);
+
+}  // namespace lekalo::io::detail

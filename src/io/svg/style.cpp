@@ -1,0 +1,180 @@
+#include "style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/text/decimal.hpp"
+
+namespace lekalo::io::detail {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\f";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+/// Calls visit(part) for the parts between separators, blanks removed.
+template <class Visit>
+void split(std::string_view text, char separator, const Visit& visit) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    if (const std::string_view part = trimmed(text.substr(0, end)); !part.empty()) visit(part);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+std::string without_comments(std::string_view text) {
+  std::string out;
+  while (true) {
+    const std::size_t begin = text.find("/*");
+    out += text.substr(0, begin);
+    if (begin == std::string_view::npos) return out;
+    const std::size_t end = text.find("*/", begin + 2);
+    if (end == std::string_view::npos) return out;
+    text.remove_prefix(end + 2);
+  }
+}
+
+constexpr std::array<std::string_view, 12> kGeometry{"transform", "translate", "rotate", "scale", "d",  "x",
+                                                     "y",         "cx",        "cy",     "r",     "rx", "ry"};
+
+/// The declarations between braces or of a style attribute.
+struct Declarations {
+  Visibility says;
+  std::string geometry;  ///< a property that moves or shapes, if there is one
+};
+Declarations declarations(std::string_view text) {
+  Declarations found;
+  split(text, ';', [&](std::string_view one) {
+    const std::size_t colon = one.find(':');
+    if (colon == std::string_view::npos) return;
+    const std::string property = lower(trimmed(one.substr(0, colon)));
+    std::string value = lower(trimmed(one.substr(colon + 1)));
+    if (const std::size_t mark = value.find('!'); mark != std::string::npos)
+      value = std::string(trimmed(std::string_view(value).substr(0, mark)));
+    if (property == "display") found.says.display = value;
+    if (property == "visibility") found.says.visibility = value;
+    const bool shapes = std::find(kGeometry.begin(), kGeometry.end(), property) != kGeometry.end();
+    if (shapes && value != "none" && value != "auto") found.geometry = property;
+  });
+  return found;
+}
+
+bool has_class(const SvgElement& element, std::string_view wanted) {
+  const std::string* classes = element.attribute("class");
+  bool found = false;
+  if (classes == nullptr) return false;
+  std::string blanks = *classes;
+  for (char& c : blanks)
+    if (c == '\t' || c == '\n' || c == '\r') c = ' ';
+  split(blanks, ' ', [&](std::string_view one) { found = found || one == wanted; });
+  return found;
+}
+
+void overwrite(Visibility& all, const Visibility& says) {
+  if (!says.display.empty()) all.display = says.display;
+  if (!says.visibility.empty()) all.visibility = says.visibility;
+}
+
+}  // namespace
+
+StyleSheet::StyleSheet(const SvgDocument& document) {
+  for (const SvgElement& element : document.elements)
+    if (element.name == "style") read(without_comments(element.text), element.line);
+  std::stable_sort(rules_.begin(), rules_.end(),
+                   [](const Rule& a, const Rule& b) { return a.weight < b.weight; });
+}
+
+void StyleSheet::read(std::string_view sheet, std::size_t line) {
+  while (true) {
+    const std::size_t open = sheet.find('{');
+    if (open == std::string_view::npos) return;
+    const std::string_view head = trimmed(sheet.substr(0, open));
+    // Rules within rules (@media) are skipped whole.
+    std::size_t end = open + 1;
+    for (int depth = 1; end < sheet.size() && depth > 0; ++end)
+      depth += sheet[end] == '{' ? 1 : sheet[end] == '}' ? -1 : 0;
+    const std::size_t close = end > open + 1 && sheet[end - 1] == '}' ? end - 1 : end;
+    const std::string_view body = sheet.substr(open + 1, close - open - 1);
+    if (head.find('@') != std::string_view::npos) {
+      if (body.find("display") != std::string_view::npos || body.find("visibility") != std::string_view::npos)
+        notices_.push_back(fmt::format("style sheet of line {}: {} is not read", line, excerpt(head)));
+    } else {
+      read_rule(head, body, line);
+    }
+    sheet.remove_prefix(end);
+  }
+}
+
+void StyleSheet::read_rule(std::string_view selectors, std::string_view body, std::size_t line) {
+  const Declarations found = declarations(body);
+  if (!found.geometry.empty()) {
+    notices_.push_back(fmt::format("style sheet of line {}: {} of {} is not read", line, found.geometry,
+                                   excerpt(selectors)));
+  }
+  if (found.says.display.empty() && found.says.visibility.empty()) return;
+  split(selectors, ',', [&](std::string_view selector) {
+    const std::string_view all = selector;
+    Rule rule;
+    rule.says = found.says;
+    const std::size_t end = std::min(selector.find_first_of(".#"), selector.size());
+    rule.element = selector.substr(0, end);
+    if (rule.element == "*") rule.element.clear();
+    selector.remove_prefix(end);
+    bool plain = rule.element.find_first_of(" \t\n>+~:[") == std::string::npos;
+    while (plain && !selector.empty()) {
+      const char mark = selector[0];
+      const std::size_t stop = std::min(selector.find_first_of(".#", 1), selector.size());
+      std::string& part = mark == '.' ? rule.cls : rule.id;
+      plain = part.empty() && stop > 1 &&
+              selector.substr(1, stop - 1).find_first_of(" \t\n>+~:[") == std::string_view::npos;
+      part = selector.substr(1, stop - 1);
+      selector.remove_prefix(stop);
+    }
+    if (!plain) {
+      notices_.push_back(
+          fmt::format("style sheet of line {}: the selector {} is not read", line, excerpt(all)));
+      return;
+    }
+    rule.weight = (rule.id.empty() ? 0 : 100) + (rule.cls.empty() ? 0 : 10) + (rule.element.empty() ? 0 : 1);
+    rules_.push_back(std::move(rule));
+  });
+}
+
+Visibility StyleSheet::of(const SvgElement& element) const {
+  Visibility all;
+  if (const std::string* said = element.attribute("display")) all.display = lower(trimmed(*said));
+  if (const std::string* said = element.attribute("visibility")) all.visibility = lower(trimmed(*said));
+  const std::string* id = element.attribute("id");
+  for (const Rule& rule : rules_) {
+    if (!rule.element.empty() && rule.element != element.name) continue;
+    if (!rule.id.empty() && (id == nullptr || *id != rule.id)) continue;
+    if (!rule.cls.empty() && !has_class(element, rule.cls)) continue;
+    overwrite(all, rule.says);
+  }
+  if (const std::string* style = element.attribute("style"))
+    overwrite(all, declarations(without_comments(*style)).says);
+  return all;
+}
+
+std::optional<std::string> geometry_in_style(const SvgElement& element) {
+  const std::string* style = element.attribute("style");
+  if (style == nullptr) return std::nullopt;
+  const Declarations found = declarations(without_comments(*style));
+  if (found.geometry.empty()) return std::nullopt;
+  return found.geometry;
+}
+
+}  // namespace lekalo::io::detail

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "document.hpp"
+
+namespace lekalo::io::detail {
+
+/// The two properties of CSS that decide what is seen; all others are left alone.
+struct Visibility {
+  std::string display, visibility;  ///< lower case; empty where nothing is said
+};
+
+/// The rules of all style elements of a document with those properties.
+class StyleSheet {
+ public:
+  explicit StyleSheet(const SvgDocument& document);
+
+  /// What attributes, rules and the style attribute say of an element, the later over the earlier.
+  [[nodiscard]] Visibility of(const SvgElement& element) const;
+  /// What of the sheets is not read, in sentences.
+  [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }
+
+ private:
+  struct Rule {
+    std::string element, id, cls;  ///< empty: any
+    int weight = 0;
+    Visibility says;
+  };
+  void read(std::string_view sheet, std::size_t line);
+  void read_rule(std::string_view selectors, std::string_view body, std::size_t line);
+
+  std::vector<Rule> rules_;
+  std::vector<std::string> notices_;
+};
+
+/// The property of a style attribute that moves or shapes its element (transform, d, x, ...), if it has one:
+/// those are not read.
+[[nodiscard]] std::optional<std::string> geometry_in_style(const SvgElement& element);
+
+}  // namespace lekalo::io::detail

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "lekalo/base/units.hpp"
+#include "lekalo/io/text/excerpt.hpp"
+
+namespace lekalo::io {
+
+/// Largest magnitude of a coordinate in a contour file, mm. A double still resolves 1e-7 mm there; beyond it
+/// stand mistyped exponents.
+inline constexpr double kLargestMillimetres = 1e9;
+/// Magnitudes below this, mm, are read as 0 with this as the error: below it the geometry predicates are not
+/// exact (geom/predicates.hpp).
+inline constexpr double kSmallestMillimetres = 1e-100;
+
+/// A decimal number of a file in millimetres (inches times exactly 25.4): the double nearest to it.
+struct Millimetres {
+  double value = 0;
+  double error = 0;  ///< |value - decimal| is at most this; 0 only where the two are proved equal
+};
+
+enum class NumberFault { not_a_number, not_finite, too_large };
+
+/// multiplier times 10^exponent: millimetres in a unit of length whose ratio is a decimal, {1, 0} for numbers
+/// that are no lengths.
+struct DecimalFactor {
+  unsigned multiplier = 1;  ///< at most 10^8
+  int exponent = 0;         ///< from -15 to 15
+};
+[[nodiscard]] constexpr DecimalFactor decimal_factor(LengthUnit unit) noexcept {
+  return unit == LengthUnit::inch ? DecimalFactor{254, -1} : DecimalFactor{};
+}
+
+/// Grammar: [+-] digits [. digits] [e|E [+-] digits], with at least one digit before the exponent.
+[[nodiscard]] tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,
+                                                                      DecimalFactor factor);
+[[nodiscard]] inline tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,
+                                                                             LengthUnit unit) {
+  return read_millimetres(text, decimal_factor(unit));
+}
+
+[[nodiscard]] bool is_number(std::string_view text);
+/// nan, inf or infinity, with or without a sign, in any case.
+[[nodiscard]] bool is_not_finite(std::string_view text);
+
+/// What is wrong with a number: "'abc' is not a number".
+[[nodiscard]] std::string number_sentence(NumberFault fault, std::string_view text);
+
+}  // namespace lekalo::io

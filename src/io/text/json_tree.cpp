@@ -1,0 +1,229 @@
+#include "json_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "decimal.hpp"
+
+namespace lekalo::io::detail {
+
+const char* name_of(JsonKind kind) noexcept {
+  switch (kind) {
+    case JsonKind::null:
+      return "null";
+    case JsonKind::boolean:
+      return "true or false";
+    case JsonKind::integer:
+    case JsonKind::number:
+      return "a number";
+    case JsonKind::text:
+      return "a text";
+    case JsonKind::list:
+      return "a list";
+    case JsonKind::object:
+      return "an object";
+  }
+  return "?";
+}
+
+std::optional<JsonValue> JsonValue::find(std::string_view key) const noexcept {
+  if (kind() != JsonKind::object) return std::nullopt;
+  for (const JsonValue item : *this)
+    if (item.key() == key) return item;
+  return std::nullopt;
+}
+
+std::string JsonValue::path() const {
+  std::string text;
+  JsonValue value = tree_->root();
+  while (value.at_ != at_) {
+    std::size_t index = 0;
+    for (const JsonValue item : value) {
+      if (at_ >= tree_->nodes_[item.at_].end) {
+        ++index;
+        continue;
+      }
+      if (value.kind() == JsonKind::list) {
+        text += fmt::format("[{}]", index);
+      } else {
+        text += (text.empty() ? "" : ".") + plain_key(item.key());
+      }
+      value = item;
+      break;
+    }
+  }
+  return text;
+}
+
+std::string plain_key(std::string_view key) {
+  const bool plain = !key.empty() && key.size() <= 40 && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  return plain ? std::string(key) : excerpt(key);
+}
+
+Json JsonValue::to_json() const {
+  switch (kind()) {
+    case JsonKind::null:
+      return {};
+    case JsonKind::boolean:
+      return truth();
+    case JsonKind::integer:
+      return integer();
+    case JsonKind::number:
+      return number();
+    case JsonKind::text:
+      return std::string(text());
+    case JsonKind::list: {
+      Json list = Json::array();
+      for (const JsonValue item : *this) list.push_back(item.to_json());
+      return list;
+    }
+    case JsonKind::object: {
+      Json object = Json::object();
+      for (const JsonValue item : *this) object[std::string(item.key())] = item.to_json();
+      return object;
+    }
+  }
+  return {};
+}
+
+/// What the parser of the JSON library tells, put into the list. Returning false ends the parse.
+class JsonTreeBuilder {
+ public:
+  JsonTreeBuilder(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  bool null() { return add(JsonKind::null, 0); }
+  bool boolean(bool value) { return add(JsonKind::boolean, value ? 1 : 0); }
+  bool number_integer(std::int64_t value) {
+    return add(JsonKind::integer, static_cast<std::uint64_t>(value));
+  }
+  bool number_unsigned(std::uint64_t value) {
+    return value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())
+               ? add(JsonKind::integer, value)
+               : add(JsonKind::number, std::bit_cast<std::uint64_t>(static_cast<double>(value)));
+  }
+  bool number_float(double value, const std::string&) {
+    return add(JsonKind::number, std::bit_cast<std::uint64_t>(value));
+  }
+  bool string(std::string& value) {
+    const std::uint64_t at = keep(value);
+    return add(JsonKind::text, at << 32U | value.size());
+  }
+  bool binary(Json::binary_t&) { return false; }  // JSON has none
+  bool start_object(std::size_t) { return open(JsonKind::object); }
+  bool start_array(std::size_t) { return open(JsonKind::list); }
+  bool key(std::string& value) {
+    key_ = keep(value);
+    key_size_ = static_cast<std::uint32_t>(value.size());
+    return true;
+  }
+  bool end_array() {
+    close();
+    return true;
+  }
+  bool end_object() {
+    if (!keys_differ(open_.back())) return false;
+    close();
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) {
+    constexpr int kNumberTooLarge = 406;
+    if (error.id == kNumberTooLarge)
+      return fault_at(position, fmt::format("the number {} is out of range", excerpt(token)));
+    // An end of file is reported one beyond the last byte.
+    if (position > bytes_.size()) return fault_at(position, "the file ends too early; it may be cut off");
+    return fault_at(position, fmt::format("this is not JSON from {} on", excerpt(token)));
+  }
+
+  std::optional<Error> fault;
+  JsonTree tree;
+
+ private:
+  std::uint32_t keep(const std::string& text) {
+    const auto at = static_cast<std::uint32_t>(tree.texts_.size());
+    tree.texts_ += text;
+    return at;
+  }
+
+  bool add(JsonKind kind, std::uint64_t bits) {
+    const auto at = static_cast<std::uint32_t>(tree.nodes_.size());
+    tree.nodes_.push_back({kind, at + 1, key_, key_size_, bits});
+    if (!open_.empty()) ++tree.nodes_[open_.back()].bits;
+    return true;
+  }
+
+  bool open(JsonKind kind) {
+    if (open_.size() == kDeepestJson) {
+      fault = Error{ErrorCode::bad_input, fmt::format("{}: {}: lists and objects are more than {} deep here",
+                                                      name_, path(), kDeepestJson)};
+      return false;
+    }
+    add(kind, 0);
+    open_.push_back(static_cast<std::uint32_t>(tree.nodes_.size() - 1));
+    return true;
+  }
+
+  void close() {
+    tree.nodes_[open_.back()].end = static_cast<std::uint32_t>(tree.nodes_.size());
+    open_.pop_back();
+  }
+
+  /// The standard leaves open which of two equal keys counts.
+  bool keys_differ(std::uint32_t object) {
+    keys_.clear();
+    tree.nodes_[object].end = static_cast<std::uint32_t>(tree.nodes_.size());
+    for (const JsonValue item : JsonValue(tree, object)) keys_.push_back(item.key());
+    std::sort(keys_.begin(), keys_.end());
+    const auto twice = std::adjacent_find(keys_.begin(), keys_.end());
+    if (twice == keys_.end()) return true;
+    const std::string at = path();
+    fault = Error{ErrorCode::bad_input, fmt::format("{}{}: the key {} stands twice in one object", name_,
+                                                    at.empty() ? "" : ": " + at, excerpt(*twice))};
+    return false;
+  }
+
+  /// Of the innermost list or object that is open.
+  [[nodiscard]] std::string path() const {
+    std::string text;
+    for (std::size_t i = 1; i < open_.size(); ++i) {
+      const JsonTree::Node &outer = tree.nodes_[open_[i - 1]], &inner = tree.nodes_[open_[i]];
+      if (outer.kind == JsonKind::list) {
+        text += fmt::format("[{}]", outer.bits - 1);
+      } else {
+        text += (text.empty() ? "" : ".") +
+                plain_key(std::string_view(tree.texts_).substr(inner.key, inner.key_size));
+      }
+    }
+    return text;
+  }
+
+  bool fault_at(std::size_t position, const std::string& why) {
+    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(position, bytes_.size()));
+    fault = Error{ErrorCode::bad_input,
+                  fmt::format("{}, line {}: {}", name_, 1 + std::count(bytes_.begin(), end, '\n'), why)};
+    return false;
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  std::vector<std::uint32_t> open_;
+  std::vector<std::string_view> keys_;
+  std::uint32_t key_ = 0, key_size_ = 0;
+};
+
+Result<JsonTree> JsonTree::parse(std::string_view bytes, const std::string& name) {
+  if (bytes.size() > kLargestJson)
+    return failure(ErrorCode::bad_input, fmt::format("{}: is larger than {} MiB; split it into several files",
+                                                     name, kLargestJson >> 20U));
+  JsonTreeBuilder builder(bytes, name);
+  builder.tree.texts_.reserve(bytes.size() / 4);
+  const bool parsed = Json::sax_parse(bytes.begin(), bytes.end(), &builder);
+  if (builder.fault) return tl::unexpected(std::move(*builder.fault));
+  if (!parsed) return failure(ErrorCode::bad_input, fmt::format("{}: this is not JSON", name));
+  return std::move(builder.tree);
+}
+
+}  // namespace lekalo::io::detail

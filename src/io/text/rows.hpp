@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "decimal.hpp"
+#include "lekalo/base/error.hpp"
+
+namespace lekalo::io {
+
+/// A line of a text file of points (docs/formats.md): two or three numbers.
+struct TextRow {
+  Millimetres numbers[3];
+  std::size_t count = 0;     ///< 2 or 3
+  std::size_t line = 0;      ///< 1-based
+  bool after_a_gap = false;  ///< an empty line (not a comment) stands between this row and the one before
+};
+
+/// Calls take(row) for every point of the text, until it fails. Adds a notice for a header that holds digits.
+/// Fails with ErrorCode::bad_input and a sentence that names file and line.
+[[nodiscard]] Result<void> read_text_rows(std::string_view bytes, const std::string& name, LengthUnit unit,
+                                          const std::function<Result<void>(const TextRow&)>& take,
+                                          std::vector<std::string>& notices);
+
+}  // namespace lekalo::io

@@ -1,0 +1,551 @@
+#include "lekalo/locate/demand.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "even_placement.hpp"
+#include "lekalo/geom/offset.hpp"
+#include "lekalo/phi/region.hpp"
+#include "locate/search/search_limits.hpp"
+
+namespace lekalo::locate {
+namespace {
+
+using geom::BlankFromPart;
+using geom::Edge;
+using geom::Point;
+using geom::Region;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Searches of one bisection; halving a metre to a micrometre takes twenty.
+constexpr int kMostDecisions = 40;
+/// Searches until the margin of edges with scales stays.
+constexpr int kMostGrowths = 12;
+/// Largest allowances are decided to this part of the blank's size, or to the gap where that is larger: where
+/// the deepest point is as far from two edges, bounds get sharper only as fast as boxes get smaller.
+constexpr double kCapGap = 1e-4;
+/// What one decision of a bisection leaves open, as part of what the bisection does.
+constexpr double kDecisionGap = 0.25;
+/// Units of work after which a search with caps is given up, with the bound it has.
+constexpr std::uint64_t kDecisionWork = 20'000;
+/// What decisions about largest allowances stay below the margin by, as part of the gap of one.
+constexpr double kStrictly = 1e-3;
+/// Questions of one bisection that may stay open: each has cost all its work, or is nearer to the truth than
+/// its gap.
+constexpr int kMostUnanswered = 6;
+/// How much less largest allowance is asked for first, in gaps.
+constexpr double kFirstStep = 4;
+/// Of sums of a few numbers, written as decimals and added again by somebody else.
+constexpr double kRounding = 0x1p-49;
+/// Samples of the outline for the mean square deviation.
+constexpr double kEvenSamples = 600;
+
+std::vector<Edge> edges_of(const std::vector<Region>& regions) {
+  std::vector<Edge> edges;
+  for (const Region& region : regions) {
+    edges.insert(edges.end(), region.outer.begin(), region.outer.end());
+    for (const geom::Contour& hole : region.holes) edges.insert(edges.end(), hole.begin(), hole.end());
+  }
+  return edges;
+}
+
+Result<void> check_features(const DemandProblem& problem, std::size_t edges) {
+  const auto wrong = [](const std::string& name, std::string_view what) {
+    return failure(ErrorCode::usage, fmt::format("feature \"{}\": {}", name, what));
+  };
+  const auto not_negative = [](double value) { return value >= 0 && std::isfinite(value); };
+  std::vector<const Feature*> owner(edges, nullptr);
+  for (const Feature& f : problem.features) {
+    if (f.edges.empty()) return wrong(f.name, "it has no edges");
+    for (const std::uint32_t edge : f.edges) {
+      if (edge >= edges)
+        return wrong(f.name, fmt::format("edge {} is not one of the part's {}", edge, edges));
+      if (owner[edge] != nullptr)
+        return wrong(f.name, fmt::format("edge {} belongs to feature \"{}\" too", edge, owner[edge]->name));
+      owner[edge] = &f;
+    }
+    if (f.finished) {
+      if (!(*f.finished > 0) || !std::isfinite(*f.finished))
+        return wrong(f.name, "the tolerance of a finished feature must be a number above 0");
+      if (f.minimum != 0 || f.target || f.maximum || f.scale != 1)
+        return wrong(f.name, "a finished feature has no minimum, target, maximum or scale");
+      continue;
+    }
+    if (!not_negative(f.minimum)) return wrong(f.name, "the minimum must be a number that is not negative");
+    if (f.target && !not_negative(*f.target))
+      return wrong(f.name, "the target must be a number that is not negative");
+    if (f.maximum && !(*f.maximum > f.minimum && std::isfinite(*f.maximum)))
+      return wrong(f.name, "the maximum must be a number above the minimum");
+    if (!(f.scale > 0) || !std::isfinite(f.scale)) return wrong(f.name, "the scale must be a number above 0");
+  }
+  if (!not_negative(problem.minimum))
+    return failure(ErrorCode::usage, "the minimum allowance must be a number that is not negative");
+  if (!not_negative(problem.give_up))
+    return failure(ErrorCode::usage, "what may be given up must be a number that is not negative");
+  if (problem.trade_off == 1) return failure(ErrorCode::usage, "a trade-off curve needs two points or more");
+  if (!problem.shapes.caps.empty()) return failure(ErrorCode::usage, "caps are said by features here");
+  return {};
+}
+
+class DemandLocaliser {
+ public:
+  DemandLocaliser(const DemandProblem& problem, const RegionOptions& options)
+      : problem_(problem),
+        shapes_(problem.shapes),
+        options_(options),
+        clearance_(shapes_.part, shapes_.blank),
+        edges_(edges_of(shapes_.part)),
+        demand_(edges_.size(), Demand{problem.minimum, 1, false, {}}) {
+    for (const Feature& f : problem.features) {
+      finished_ = finished_ || f.finished.has_value();
+      for (const std::uint32_t edge : f.edges)
+        demand_[edge] = {f.minimum, f.scale, f.finished.has_value(), f.target};
+      if (!f.maximum && !f.finished) continue;
+      caps_.push_back({{}, f.finished.value_or(f.maximum.value_or(0))});
+      for (const std::uint32_t edge : f.edges) caps_.back().edges.push_back(edges_[edge]);
+    }
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const Demand& d = demand_[k];
+      if (d.finished) continue;
+      least_scale_ = std::min(least_scale_, d.scale), most_scale_ = std::max(most_scale_, d.scale);
+      free_edges_.push_back(geom::make_curve(edges_[k]));
+    }
+    if (least_scale_ == kInfinity) least_scale_ = most_scale_ = 1;  // all of it finished
+    const geom::Box part = clearance_.part().bounds(), blank = clearance_.blank().bounds();
+    cap_gap_ = std::max(options.gap, kCapGap * norm(blank.high - blank.low));
+    for (const Point& corner : {part.low, part.high, blank.low, blank.high})
+      far_ = std::max({far_, std::abs(corner.x), std::abs(corner.y)});
+  }
+
+  Result<DemandResult> run() {
+    if (Result<void> done = find_margin(); !done) return tl::unexpected(std::move(done.error()));
+    result_.best = pose_.at, result_.mirrored = pose_.mirrored;
+    if (result_.margin >= 0 && problem_.trade_off > 0) {
+      if (Result<void> done = trace_curve(); !done) return tl::unexpected(std::move(done.error()));
+    }
+    if (result_.margin >= 0 && problem_.criterion != Criterion::smallest) {
+      const double keep = std::max(0.0, result_.margin - problem_.give_up);
+      auto smallest = smallest_largest(keep, pose_);
+      if (!smallest) return tl::unexpected(std::move(smallest.error()));
+      pose_ = smallest->pose;
+      result_.second = std::move(smallest->what);
+      SmallestLargest& second = *result_.second;
+      const bool closed = second.found - second.bound <= second.gap;
+      if (!closed && result_.status == Status::optimal) result_.status = Status::stopped;
+      second.kept = std::max(second.found, second.bound + second.gap);
+      if (problem_.criterion == Criterion::even) make_even(second);
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  struct Demand {
+    double minimum = 0, scale = 1;
+    bool finished = false;
+    std::optional<double> target;
+  };
+  struct Pose {
+    Placement at;
+    bool mirrored = false;
+    [[nodiscard]] BlankFromPart map() const {
+      return BlankFromPart::from_angle(at.theta, {at.x, at.y}, mirrored);
+    }
+  };
+  struct Grown {
+    std::vector<Region> regions;
+    double tolerance = 0;
+  };
+
+  /// Whether the part has to be grown anew for every margin. Rims of finished features do not grow.
+  [[nodiscard]] bool scaled() const { return least_scale_ < most_scale_ || finished_; }
+  [[nodiscard]] double rounding(const Pose& pose) const {
+    return 4 * geom::kEdgeDistanceError * (far_ + std::abs(pose.at.x) + std::abs(pose.at.y)) +
+           shapes_.part_tolerance + shapes_.blank_tolerance;
+  }
+
+  Result<Grown> grown_for(double margin) const {
+    std::vector<double> distances;
+    for (const Demand& d : demand_) distances.push_back(d.minimum + d.scale * margin);
+    std::size_t k = 0;
+    for (const Feature& f : problem_.features)
+      if (f.finished)
+        for (const std::uint32_t edge : f.edges) distances[edge] = -*f.finished;
+    for (k = 0; k < distances.size() && distances[k] == 0; ++k) {
+    }
+    if (k == distances.size()) return Grown{shapes_.part, 0};
+    auto made = geom::offset_edges(shapes_.part, distances);
+    if (!made) return tl::unexpected(std::move(made.error()));
+    if (made->regions.empty())
+      return failure(ErrorCode::bad_input, "nothing of the part is left beside its finished features");
+    return Grown{std::move(made->regions), made->edge_error};
+  }
+
+  /// Some more of the work allowed.
+  Result<RegionResult> search(const Grown& part, std::vector<Cap> caps, double shift, double gap,
+                              double enough = kInfinity, double not_above = -kInfinity) {
+    RegionProblem problem = shapes_;
+    problem.part = part.regions;
+    problem.part_tolerance = shapes_.part_tolerance + part.tolerance;
+    problem.caps = std::move(caps);
+    for (Cap& cap : problem.caps) cap.most += shift;
+    RegionOptions options = options_;
+    options.min_allowance = 0;
+    options.gap = gap, options.enough = enough, options.not_above = not_above;
+    if (options.run.work_limit != std::numeric_limits<std::uint64_t>::max())
+      options.run.work_limit -= std::min(options.run.work_limit, result_.work);
+    if (!problem.caps.empty()) options.run.work_limit = std::min(options.run.work_limit, kDecisionWork);
+    auto found = locate_regions(problem, options);
+    if (found) {
+      result_.work += found->work;
+      if (ran_out()) stopped_ = true;
+    }
+    return found;
+  }
+  [[nodiscard]] bool ran_out() const {
+    return options_.run.stop_requested() || result_.work >= options_.run.work_limit;
+  }
+
+  /// What the caps of features have left at a pose, rounded down; infinite without caps.
+  [[nodiscard]] double left(const Pose& pose) const {
+    double least = kInfinity;
+    for (const Cap& cap : caps_) {
+      std::vector<geom::Curve> curves;
+      for (const Edge& edge : cap.edges) curves.push_back(geom::make_curve(edge));
+      least = std::min(least, cap.most - depth(pose, curves));
+    }
+    return least;
+  }
+  [[nodiscard]] double depth(const Pose& pose, const std::vector<geom::Curve>& curves) const {
+    std::vector<phi::RegionContact> places;
+    return clearance_.deepest(pose.map(), curves, 0.125 * kDecisionGap * options_.gap, 0, places) +
+           rounding(pose);
+  }
+
+  /// The margin at a pose, rounded down: of DemandResult.
+  [[nodiscard]] double margin_at(const Pose& pose) const {
+    const phi::RegionClearance::Value value = base_->at(pose.map());
+    const double caps_left = left(pose);
+    if (!value.inside) {
+      // Not a rim of the demands may be missing: how deep it is.
+      const double missing = base_->depth(pose.map(), 0.25 * options_.gap);
+      return std::min(-missing, caps_left) - rounding(pose) - base_tolerance_;
+    }
+    double least = kInfinity;
+    for (std::uint32_t k = 0; k < edges_.size(); ++k) {
+      if (demand_[k].finished) continue;
+      const double spare = clearance_.nearest(pose.map(), k).distance - demand_[k].minimum;
+      least = std::min(least, spare / demand_[k].scale);
+    }
+    if (least == kInfinity) least = value.distance;
+    least -= rounding(pose) / least_scale_;
+    return caps_left < 0 ? std::min(caps_left, least) : least;
+  }
+
+  void take_pose(const RegionResult& found) {
+    const Pose pose{found.best, found.mirrored};
+    const double margin = margin_at(pose);
+    if (margin > result_.margin) pose_ = pose, result_.margin = margin;
+  }
+
+  void take_proof(const Grown& grown, double grown_for, bool with_caps, double shift, RegionResult& found,
+                  double bound) {
+    if (!(bound < result_.margin_bound)) return;
+    result_.margin_bound = bound;
+    // Where no cap was asked, none can be the least, however much is added to what it has left.
+    if (!with_caps) shift = std::max(0.0, found.upper_bound);
+    result_.proof = {grown.regions,
+                     grown_for,
+                     grown.tolerance,
+                     shift,
+                     found.upper_bound,
+                     found.pivot,
+                     std::move(found.certificate)};
+  }
+
+  Result<void> find_margin() {
+    result_.margin = -kInfinity, result_.margin_bound = kInfinity;
+    auto base = grown_for(0);
+    if (!base) return tl::unexpected(std::move(base.error()));
+    base_.emplace(base->regions, shapes_.blank);
+    base_tolerance_ = base->tolerance;
+    const double gap = options_.gap;
+    auto first = search(*base, {}, 0, gap * std::min(1.0, least_scale_));
+    if (!first) return tl::unexpected(std::move(first.error()));
+    take_pose(*first);
+    const double free_bound = first->upper_bound;
+    if (free_bound < 0 || !finished_)
+      take_proof(*base, 0, false, 0, *first, free_bound < 0 ? free_bound : free_bound / least_scale_);
+    if (free_bound < 0) return settle();
+    if (finished_) {  // no point is deeper in the blank than half its width
+      const geom::Box box = clearance_.blank().bounds();
+      result_.margin_bound = 0.5 * std::min(box.high.x - box.low.x, box.high.y - box.low.y) / least_scale_;
+    }
+
+    if (!caps_.empty() && left(pose_) < 0) {
+      auto with_caps = search(*base, caps_, 0, cap_gap_);
+      if (!with_caps) return tl::unexpected(std::move(with_caps.error()));
+      take_pose(*with_caps);
+      if (with_caps->upper_bound < 0) {
+        take_proof(*base, 0, true, 0, *with_caps, with_caps->upper_bound);
+        return settle();
+      }
+    }
+    if (result_.margin >= 0) {
+      // Without its caps first: often they do not bind.
+      Result<void> done = finished_ ? Result<void>() : grow();
+      if (done && !caps_.empty()) done = bisect_margin(*base);
+      if (!done) return done;
+    }
+    return settle();
+  }
+
+  /// Edges with scales: grown for the margin that the best pose has, no pose has more than the next bound.
+  Result<void> grow() {
+    for (int k = 0; scaled() && k < kMostGrowths && !stopped_; ++k) {
+      const double margin = result_.margin, width = result_.margin_bound - margin;
+      if (width <= options_.gap) break;
+      auto grown = grown_for(margin);
+      if (!grown) return tl::unexpected(std::move(grown.error()));
+      auto found = search(*grown, {}, 0, 0.5 * options_.gap * least_scale_);
+      if (!found) return tl::unexpected(std::move(found.error()));
+      take_pose(*found);
+      take_proof(*grown, margin, false, 0, *found, margin + std::max(0.0, found->upper_bound) / least_scale_);
+      if (!(result_.margin_bound - result_.margin < width)) break;  // caps hold it, or rounding
+    }
+    return {};
+  }
+
+  /// Caps that bind: is there a placement with this margin that keeps them?
+  Result<void> bisect_margin(const Grown& base) {
+    const double gap = cap_gap_ * kDecisionGap * least_scale_;
+    for (int k = 0; k < kMostDecisions && !stopped_; ++k) {
+      const double width = result_.margin_bound - result_.margin;
+      if (width <= cap_gap_) break;
+      const double margin = result_.margin + 0.5 * width, before = width;
+      Result<Grown> grown = scaled() ? grown_for(margin) : Result<Grown>(base);
+      if (!grown) return tl::unexpected(std::move(grown.error()));
+      const double level = scaled() ? 0 : margin * least_scale_;
+      auto found = search(*grown, caps_, level + gap, gap, level, level + gap);
+      if (!found) return tl::unexpected(std::move(found.error()));
+      take_pose(*found);
+      if (found->upper_bound <= level + gap)
+        take_proof(*grown, scaled() ? margin : 0, true, level + gap, *found,
+                   margin + std::max(0.0, found->upper_bound - level) / least_scale_);
+      if (!(result_.margin_bound - result_.margin < before)) break;  // what is left is rounding
+    }
+    return {};
+  }
+
+  Result<void> settle() {
+    result_.margin_bound = std::nextafter(result_.margin_bound, kInfinity);
+    const double gap = caps_.empty() ? options_.gap : cap_gap_;  // what a bisection is content with
+    result_.margin_found = result_.margin, result_.margin_gap = 1.001 * gap;
+    const bool closed = result_.margin_bound - result_.margin <= result_.margin_gap;
+    result_.status = result_.margin_bound < 0 ? Status::infeasible
+                                              : (closed && !stopped_ ? Status::optimal : Status::stopped);
+    return {};
+  }
+
+  struct Second {
+    Pose pose;
+    SmallestLargest what;
+  };
+  /// Of the placements with at least `margin` one with the smallest largest allowance, from a pose on that is
+  /// one of them.
+  ///
+  /// "Is there one with no more than c?" is answered by a pose, by a proof, or, where c is within what one
+  /// decision leaves open, not at all. Then what lies to both sides is asked about.
+  Result<Second> smallest_largest(double margin, const Pose& start) {
+    Second best{start, {margin, depth(start, free_edges_), 0, cap_gap_, 0, {}}};
+    SmallestLargest& s = best.what;
+    const double grown_for_margin = scaled() ? margin : 0;
+    auto grown = grown_for(grown_for_margin);
+    if (!grown) return tl::unexpected(std::move(grown.error()));
+    const double level = scaled() ? 0 : margin * least_scale_, gap = cap_gap_ * kDecisionGap;
+    // Strictly below: so the bound holds for the very margin, and maxima are kept by what has nothing left.
+    const double not_above = level - shapes_.part_tolerance - shapes_.blank_tolerance - grown->tolerance -
+                             std::max(kStrictly * gap, 16 * geom::kEdgeDistanceError * far_);
+    std::vector<Cap> caps = caps_;
+    caps.push_back({{}, 0});
+    for (const geom::Curve& curve : free_edges_) caps.back().edges.push_back(curve.edge);
+    double open_from = kInfinity, open_to = -kInfinity;  // not answered
+    int unanswered = 0;
+    double step = kFirstStep * cap_gap_;
+    for (int k = 0; k < kMostDecisions && s.found - s.bound > cap_gap_ && !stopped_; ++k) {
+      const bool open = open_from <= open_to;
+      const double below = open_from - s.bound, above = s.found - open_to;
+      double most = 0.5 * (s.found + s.bound);
+      if (open) most = below > above ? s.bound + 0.5 * below : open_to + 0.5 * above;
+      if (s.bound == 0) {
+        // Yes is a quicker answer than no, and the start is often nearly the best.
+        const double from = open ? open_from : s.found;
+        most = std::max(from - step, 0.5 * from), step *= 2;
+      }
+      if (unanswered == kMostUnanswered || !(most > s.bound && most < s.found)) break;
+      caps.back().most = most;
+      auto answer = search(*grown, caps, level, gap, level, not_above);
+      if (!answer) return tl::unexpected(std::move(answer.error()));
+      const Pose pose{answer->best, answer->mirrored};
+      if (answer->found && margin_at(pose) >= margin) {
+        const double largest = depth(pose, free_edges_);
+        if (largest < s.found) best.pose = pose, s.found = largest;
+      }
+      if (answer->upper_bound < level) take_bound(s, *grown, grown_for_margin, level, most, *answer);
+      if (s.found > most && s.bound < most) {
+        ++unanswered;
+        open_from = std::min(open_from, most), open_to = std::max(open_to, most);
+      }
+      open_from = std::max(open_from, s.bound), open_to = std::min(open_to, s.found);
+      if (open_from > open_to) open_from = kInfinity, open_to = -kInfinity;
+    }
+    s.bound = std::min(s.bound, s.found);
+    return best;
+  }
+
+  static void take_bound(SmallestLargest& s, const Grown& grown, double grown_for, double level, double most,
+                         RegionResult& answer) {
+    const double rounding = kRounding * (most + std::abs(level) + std::abs(answer.upper_bound));
+    const double bound = most + (level - answer.upper_bound) - rounding;
+    if (!(bound > s.bound)) return;
+    s.bound = bound;
+    s.proof.emplace();
+    static_cast<DemandProof&>(*s.proof) = {grown.regions,
+                                           grown_for,
+                                           grown.tolerance,
+                                           level,
+                                           answer.upper_bound,
+                                           answer.pivot,
+                                           std::move(answer.certificate)};
+    s.proof->most = most;
+  }
+
+  Result<void> trace_curve() {
+    Pose from = pose_;
+    for (std::size_t k = 0; k < problem_.trade_off && !stopped_; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(problem_.trade_off - 1);
+      const double margin = result_.margin * (1 - share);
+      auto smallest = smallest_largest(margin, from);
+      if (!smallest) return tl::unexpected(std::move(smallest.error()));
+      from = smallest->pose;
+      TradeOff point{from.at, from.mirrored, margin_at(from), smallest->what.found, smallest->what.bound};
+      point.at.clearance = part_clearance(from);
+      result_.curve.push_back(point);
+    }
+    return {};
+  }
+
+  [[nodiscard]] EvenSamples even_samples() const {
+    EvenSamples samples;
+    double length = 0;
+    for (const geom::Curve& curve : free_edges_)
+      length +=
+          curve.edge.kind == geom::EdgeKind::line ? curve.length : curve.radius * geom::arc_sweep(curve.edge);
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+      if (!demand_[k].finished) samples.add(edges_[k], length / kEvenSamples, demand_[k].target);
+    return samples;
+  }
+
+  /// From the best pose of the second criterion on, giving up nothing of what was reached before but what is
+  /// stated.
+  void make_even(const SmallestLargest& second) {
+    const auto allowed = [&](const Placement& at) {
+      const Pose pose{at, pose_.mirrored};
+      return margin_at(pose) >= second.margin && depth(pose, free_edges_) <= second.kept;
+    };
+    const AngleWindow& window = shapes_.window;
+    const double spare = std::max(0.0, margin_at(pose_) - second.margin) * least_scale_;
+    std::vector<LocalCap> caps{{free_edges_, second.kept}};
+    for (const Cap& cap : caps_) {
+      caps.push_back({{}, cap.most});
+      for (const Edge& edge : cap.edges) caps.back().edges.push_back(geom::make_curve(edge));
+    }
+    pose_.at = most_even(even_samples(), clearance_, caps, pose_.at, pose_.mirrored, spare,
+                         {!shapes_.locked.x, !shapes_.locked.y, window.to > window.from}, window, allowed)
+                   .at;
+  }
+
+  /// Of the part alone, rounded down.
+  [[nodiscard]] double part_clearance(const Pose& pose) const {
+    const phi::RegionClearance::Value value = clearance_.at(pose.map());
+    const double measured =
+        value.inside ? value.distance : -clearance_.depth(pose.map(), 0.25 * options_.gap);
+    return measured - rounding(pose);
+  }
+
+  void finish() {
+    result_.best = pose_.at, result_.mirrored = pose_.mirrored;
+    result_.best.clearance = part_clearance(pose_);
+    if (result_.margin >= 0) result_.margin = margin_at(pose_);
+    result_.largest = depth(pose_, free_edges_);
+    find_contacts();
+    result_.deviation = deviation_at(even_samples(), clearance_, pose_.map());
+  }
+
+  /// Where the demands hold the part; where they are not met, each place where the grown part is nearest, by
+  /// the nearest one of the part itself.
+  void find_contacts() {
+    const double margin = std::max(options_.gap, 1e-6 * far_);
+    const BlankFromPart map = pose_.map();
+    std::vector<phi::RegionContact> places;
+    (void)base_->at(map, margin, &places);
+    std::vector<RegionTouch>& touches = result_.contacts;
+    const auto add = [&](const RegionTouch& touch) {
+      const bool known = std::any_of(touches.begin(), touches.end(), [&](const RegionTouch& t) {
+        return t.part_edge == touch.part_edge && t.blank_edge == touch.blank_edge && t.cap == touch.cap;
+      });
+      if (!known) touches.push_back(touch);
+    };
+    if (result_.margin < 0) {
+      for (const phi::RegionContact& place : places) {
+        const auto own = clearance_.part().nearest(place.part);
+        add({own.edge, place.blank_edge, own.point, place.blank, norm(map(own.point) - place.blank), 0, {}});
+      }
+    }
+    for (std::uint32_t k = 0; result_.margin >= 0 && k < edges_.size(); ++k) {
+      if (demand_[k].finished) continue;
+      const phi::RegionContact place = clearance_.nearest(map, k);
+      if ((place.distance - demand_[k].minimum) / demand_[k].scale <= result_.margin + margin)
+        add({k, place.blank_edge, place.part, place.blank, place.distance, 0, {}});
+    }
+    for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
+      std::vector<geom::Curve> curves;
+      for (const Edge& edge : caps_[cap].edges) curves.push_back(geom::make_curve(edge));
+      if (caps_[cap].most - clearance_.deepest(map, curves, 0.125 * margin, margin, places) > margin)
+        continue;
+      for (const phi::RegionContact& place : places)
+        add({place.part_edge, place.blank_edge, place.part, place.blank, place.distance, 0, cap});
+    }
+  }
+
+  const DemandProblem& problem_;
+  const RegionProblem& shapes_;
+  const RegionOptions& options_;
+  phi::RegionClearance clearance_;
+  std::vector<Edge> edges_;
+  std::vector<Demand> demand_;  ///< by edge
+  std::vector<Cap> caps_;
+  std::vector<geom::Curve> free_edges_;  ///< those that are not finished
+  double least_scale_ = kInfinity, most_scale_ = 0, far_ = 0;
+  std::optional<phi::RegionClearance> base_;  ///< of the part grown for margin 0
+  double base_tolerance_ = 0, cap_gap_ = 0;
+  Pose pose_;
+  DemandResult result_;
+  bool finished_ = false, stopped_ = false;
+};
+
+}  // namespace
+
+Result<DemandResult> locate_demands(const DemandProblem& problem, const RegionOptions& options) {
+  if (Result<void> fine = check_limits(problem.shapes.window, options.gap, 0); !fine)
+    return tl::unexpected(std::move(fine.error()));
+  if (problem.shapes.part.empty() || problem.shapes.blank.empty())
+    return failure(ErrorCode::bad_input, "part and blank must have an outline");
+  if (Result<void> fine = check_features(problem, edges_of(problem.shapes.part).size()); !fine)
+    return tl::unexpected(std::move(fine.error()));
+  return DemandLocaliser(problem, options).run();
+}
+
+}  // namespace lekalo::locate

@@ -1,0 +1,158 @@
+#include "level_path.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "corners.hpp"
+#include "entry.hpp"
+#include "front_passes.hpp"
+#include "mill/front/fields.hpp"
+#include "mill/path/edge_path.hpp"
+#include "mill/path/mirror.hpp"
+#include "tool_motion.hpp"
+#include "walls.hpp"
+
+namespace lekalo::mill {
+// The order of things on one level; each of them has a file of its own.
+namespace {
+
+using geom::Point;
+using geom::Region;
+using geom::RegionIndex;
+
+/// Up, for the end of a level; no motion where there was nothing to cut.
+PocketPath finished(ToolMotion& tool, const FrontPasses& passes) {
+  if (tool.moves().empty()) return {};
+  tool.rise();
+  return {tool.moves(), passes.count()};
+}
+
+/// From the solid: an entry and its fronts, again where the tool cannot come to from there, then the walls.
+Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions& o,
+                                        const AreaListener& listener) {
+  ToolMotion tool(piece, o);
+  FrontPasses passes(piece, tool, o, listener);
+  std::vector<Region> left = piece.fields.regions.empty() ? piece.allowed.regions : piece.fields.regions;
+  while (!left.empty()) {
+    const Entry entry = widest_disc(left, piece.tool_radius);
+    const auto start = start_region(entry, piece);
+    if (!start) return tl::unexpected(start.error());
+    if (auto grown = passes.grow_from(*start); !grown) return tl::unexpected(grown.error());
+    enter(tool, entry, passes.first_direction(entry.centre, entry.disc), o);
+    passes.cut_all();
+    const RegionIndex cut(passes.reached());
+    const std::size_t before = left.size();
+    std::erase_if(left, [&](const Region& place) {
+      const Point edge = place.outer.front().from;
+      return cut.contains(edge) || cut.nearest(edge).distance < 1e-2 ||
+             cut.contains(entry.centre) == RegionIndex({place}).contains(entry.centre);
+    });
+    if (left.size() == before) break;
+  }
+  auto corners = Corners::find(piece, passes.loop_places(), {}, o);
+  if (!corners) return tl::unexpected(corners.error());
+  if (auto walls = cut_walls(tool, *corners, piece, passes.ends()); !walls)
+    return tl::unexpected(walls.error());
+  cut_missed_walls(tool, piece, {});
+  return finished(tool, passes);
+}
+
+/// A place that other tools have left, and what of each list is cut there.
+struct LeftPlace {
+  RegionIndex index;
+  std::vector<std::size_t> fronts, walls, corners;
+  [[nodiscard]] bool is_empty() const { return fronts.empty() && walls.empty() && corners.empty(); }
+};
+
+/// The one a front lies in or is nearest to.
+LeftPlace& place_of(const Front& front, std::vector<LeftPlace>& places) {
+  const Point p = place_at(front.edges[front.edges.size() / 2], 0.5);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double d = places[i].index.contains(p) ? 0 : places[i].index.nearest(p).distance;
+    if (d < least) least = d, best = i;
+  }
+  return places[best];
+}
+
+/// Corners of a place, the nearest first.
+Result<void> cut_corners(ToolMotion& tool, Corners& corners, std::vector<std::size_t> which) {
+  const auto far = [&](std::size_t i) { return norm(corners.zones()[i].edges.back().to - tool.at()); };
+  while (!which.empty()) {
+    const auto next = std::min_element(which.begin(), which.end(),
+                                       [&](std::size_t a, std::size_t b) { return far(a) < far(b); });
+    if (auto cut = corners.cut(*next, tool); !cut) return cut;
+    which.erase(next);
+  }
+  return {};
+}
+
+/// What other tools have left, place by place: fronts that grow from where they have been, then the walls
+/// they did not come to, then corners.
+Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions& o,
+                                        const std::vector<Region>& cleared, const std::vector<Region>& left,
+                                        const AreaListener& listener) {
+  ToolMotion tool(piece, o);
+  FrontPasses passes(piece, tool, o, listener);
+  if (auto grown = passes.grow_from(cleared); !grown) return tl::unexpected(grown.error());
+  auto corners = Corners::find(piece, passes.loop_places(), cleared, o);
+  if (!corners) return tl::unexpected(corners.error());
+  const std::vector<Front> walls = fresh_stretches(corners->walls().regions, RegionIndex(passes.reached()));
+  const std::vector<Front>&fronts = passes.fronts(), &zones = corners->zones();
+  std::vector<LeftPlace> places;
+  for (const Region& region : left) places.push_back({RegionIndex({region}), {}, {}, {}});
+  for (std::size_t i = 0; i < fronts.size(); ++i) place_of(fronts[i], places).fronts.push_back(i);
+  for (std::size_t i = 0; i < walls.size(); ++i) place_of(walls[i], places).walls.push_back(i);
+  for (std::size_t i = 0; i < zones.size(); ++i) place_of(zones[i], places).corners.push_back(i);
+  std::erase_if(places, [](const LeftPlace& place) { return place.is_empty(); });
+  const RegionIndex start(cleared);
+  while (!places.empty()) {
+    auto place = places.begin();
+    if (tool.moves().empty()) {
+      const Front& first = !place->fronts.empty()  ? fronts[place->fronts.front()]
+                           : !place->walls.empty() ? walls[place->walls.front()]
+                                                   : zones[place->corners.front()];
+      tool.come_down(roomy_place(first.edges.front().from, start, piece.tool_radius));
+    } else {
+      place = std::min_element(places.begin(), places.end(), [&](const LeftPlace& a, const LeftPlace& b) {
+        return a.index.nearest(tool.at()).distance < b.index.nearest(tool.at()).distance;
+      });
+    }
+    passes.cut_all(place->fronts);
+    cut_stretches(tool, walls, place->walls);
+    if (auto cut = cut_corners(tool, *corners, place->corners); !cut) return tl::unexpected(cut.error());
+    places.erase(place);
+  }
+  // What the fronts do not come to from there stays for a helix.
+  cut_missed_walls(tool, piece, cleared);
+  return finished(tool, passes);
+}
+
+Result<PocketPath> climb_or_any(const Region& allowed, const PocketOptions& o,
+                                const std::vector<Region>& cleared, const std::vector<Region>& left,
+                                const AreaListener& listener) {
+  const auto piece = find_fields(allowed, o.tool_diameter / 2, cleared);
+  if (!piece) return tl::unexpected(piece.error());
+  return cleared.empty() ? cleared_from_entries(*piece, o, listener)
+                         : cleared_after_others(*piece, o, cleared, left, listener);
+}
+
+}  // namespace
+
+Result<PocketPath> level_path(const Region& allowed, const PocketOptions& options,
+                              const std::vector<Region>& cleared, const std::vector<Region>& left,
+                              const AreaListener& listener) {
+  if (options.direction != Direction::conventional)
+    return climb_or_any(allowed, options, cleared, left, listener);
+  PocketOptions turned = options;
+  turned.direction = Direction::climb;
+  const auto other = mirrored({allowed}), start = mirrored(cleared), rest = mirrored(left);
+  for (const auto* made : {&other, &start, &rest})
+    if (!*made) return tl::unexpected(made->error());
+  auto path = climb_or_any(other->front(), turned, *start, *rest, listener);
+  if (!path) return path;
+  return mirrored(std::move(*path));
+}
+
+}  // namespace lekalo::mill

@@ -1,0 +1,338 @@
+#include "grid_outline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "verify/number/exact.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+GridPoint operator-(GridPoint a, GridPoint b) { return {a.x - b.x, a.y - b.y}; }
+Wide cross(GridPoint a, GridPoint b) { return Wide{a.x} * b.y - Wide{a.y} * b.x; }
+Wide dot(GridPoint a, GridPoint b) { return Wide{a.x} * b.x + Wide{a.y} * b.y; }
+int sign(Wide value) { return (value > 0) - (value < 0); }
+int turn(GridPoint a, GridPoint b, GridPoint c) { return sign(cross(b - a, c - a)); }
+
+Integer integer(Wide value) {
+  constexpr Wide kHalf = Wide{1} << 62;
+  const Wide high = value / kHalf, low = value % kHalf;
+  Integer result(static_cast<long>(high / kHalf));
+  result <<= 62;
+  result += static_cast<long>(high % kHalf);
+  result <<= 62;
+  return result + static_cast<long>(low);
+}
+
+GridBox box_of(const GridEdge& e) {
+  return {std::min(e.from.x, e.to.x), std::min(e.from.y, e.to.y), std::max(e.from.x, e.to.x),
+          std::max(e.from.y, e.to.y)};
+}
+
+bool come_within(const GridBox& a, const GridBox& b, std::int64_t gap = 0) {
+  return a.low_x - gap <= b.high_x && b.low_x - gap <= a.high_x && a.low_y - gap <= b.high_y &&
+         b.low_y - gap <= a.high_y;
+}
+
+bool cross_properly(const GridEdge& a, const GridEdge& b) {
+  return turn(a.from, a.to, b.from) * turn(a.from, a.to, b.to) < 0 &&
+         turn(b.from, b.to, a.from) * turn(b.from, b.to, a.to) < 0;
+}
+
+/// A vertex or a crossing: (x / w, y / w). Crossings stay below 2^125: with coordinates within 2^40, w is
+/// below 2^83 and a difference of coordinates below 2^41.
+struct Event {
+  Wide x = 0, y = 0, w = 1;  ///< w > 0
+};
+
+Event crossing(const GridEdge& a, const GridEdge& b) {
+  const GridPoint along = a.to - a.from, other = b.to - b.from;
+  Wide w = cross(along, other), share = cross(b.from - a.from, other);
+  if (w < 0) w = -w, share = -share;
+  return {a.from.x * w + along.x * share, a.from.y * w + along.y * share, w};
+}
+
+/// Which side of the edge's line the event is on: +1 left.
+int side(const GridEdge& edge, const Event& v) {
+  const GridPoint along = edge.to - edge.from;
+  const Wide x = v.x - edge.from.x * v.w, y = v.y - edge.from.y * v.w;
+  if (v.w == 1) return sign(along.x * y - along.y * x);
+  return sgn(Integer(integer(along.x) * integer(y) - integer(along.y) * integer(x)));
+}
+
+bool in_box(const Event& v, const GridBox& box) {
+  return box.low_x * v.w <= v.x && v.x <= box.high_x * v.w && box.low_y * v.w <= v.y &&
+         v.y <= box.high_y * v.w;
+}
+
+/// A direction from an event along an edge of outline `of`, and whether material lies on its
+/// counter-clockwise side.
+struct Ray {
+  GridPoint direction;
+  std::size_t of = 0;
+  bool material = false;
+};
+
+bool lower_half(GridPoint d) { return d.y < 0 || (d.y == 0 && d.x < 0); }
+/// Counter-clockwise from the positive x axis.
+bool before(const Ray& a, const Ray& b) {
+  if (lower_half(a.direction) != lower_half(b.direction)) return lower_half(b.direction);
+  return cross(a.direction, b.direction) > 0;
+}
+
+/// What an outline is at and around an event: rays where an edge passes through it, else inside or not.
+bool look_around(const std::vector<GridEdge>& edges, std::size_t of, const Event& v, std::vector<Ray>& rays) {
+  bool inside = false;
+  for (const GridEdge& edge : edges) {
+    const bool from_above = edge.from.y * v.w > v.y, to_above = edge.to.y * v.w > v.y;
+    const bool may_touch = in_box(v, box_of(edge));
+    if (from_above == to_above && !may_touch) continue;
+    const int at = side(edge, v);
+    if (at == 0 && may_touch) {
+      const GridPoint along = edge.to - edge.from;
+      if (v.x != edge.to.x * v.w || v.y != edge.to.y * v.w) rays.push_back({along, of, true});
+      if (v.x != edge.from.x * v.w || v.y != edge.from.y * v.w)
+        rays.push_back({{-along.x, -along.y}, of, false});
+    }
+    if (from_above != to_above && (at > 0) == to_above && at != 0) inside = !inside;
+  }
+  return inside;
+}
+
+/// The outlines of one question, `ins` that must hold and then those that must not; of each the edges that
+/// can matter inside the window.
+class Question {
+ public:
+  Question(const std::vector<const GridOutline*>& in, const std::vector<const GridOutline*>& out)
+      : ins_(in.size()), window_(in[0]->box) {
+    for (const GridOutline* outline : in) {
+      window_.low_x = std::max(window_.low_x, outline->box.low_x);
+      window_.low_y = std::max(window_.low_y, outline->box.low_y);
+      window_.high_x = std::min(window_.high_x, outline->box.high_x);
+      window_.high_y = std::min(window_.high_y, outline->box.high_y);
+    }
+    if (!has_room()) return;
+    for (const auto* list : {&in, &out}) {
+      for (const GridOutline* outline : *list) {
+        std::vector<GridEdge>& kept = edges_.emplace_back();
+        // Where an event lies is told by the edges on its right.
+        for (const GridEdge& edge : outline->edges) {
+          const GridBox box = box_of(edge);
+          if (box.high_x >= window_.low_x && box.low_y <= window_.high_y && box.high_y >= window_.low_y)
+            kept.push_back(edge);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool answer() {
+    if (!has_room()) return false;
+    for (const auto& edges : edges_)
+      for (const GridEdge& edge : edges)
+        if (has_wedge({edge.from.x, edge.from.y, 1})) return true;
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      for (std::size_t j = i + 1; j < edges_.size(); ++j)
+        if (has_wedge_at_crossing(edges_[i], edges_[j])) return true;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool has_room() const {
+    return window_.low_x < window_.high_x && window_.low_y < window_.high_y;
+  }
+
+  bool has_wedge_at_crossing(const std::vector<GridEdge>& first, const std::vector<GridEdge>& second) {
+    std::vector<const GridEdge*> near;
+    for (const GridEdge& edge : second)
+      if (come_within(box_of(edge), window_)) near.push_back(&edge);
+    for (const GridEdge& edge : first) {
+      const GridBox box = box_of(edge);
+      if (!come_within(box, window_)) continue;
+      for (const GridEdge* other : near)
+        if (come_within(box, box_of(*other)) && cross_properly(edge, *other) &&
+            has_wedge(crossing(edge, *other)))
+          return true;
+    }
+    return false;
+  }
+
+  /// Whether between two neighbouring directions at the event there is material of all `ins_` and no other.
+  bool has_wedge(const Event& v) {
+    if (!in_box(v, window_)) return false;
+    rays_.clear();
+    material_.assign(edges_.size(), false);
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const std::size_t rays_before = rays_.size();
+      material_[k] = look_around(edges_[k], k, v, rays_);
+      const bool elsewhere = rays_.size() == rays_before && material_[k] != (k < ins_);
+      if (elsewhere) return false;
+    }
+    std::sort(rays_.begin(), rays_.end(), before);
+    for (const Ray& ray : rays_) material_[ray.of] = ray.material;  // before the first one: that of the last
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      material_[rays_[i].of] = rays_[i].material;
+      const bool last_of_direction = i + 1 == rays_.size() || before(rays_[i], rays_[i + 1]);
+      if (last_of_direction && all_as_wanted()) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool all_as_wanted() const {
+    for (std::size_t k = 0; k < material_.size(); ++k)
+      if (material_[k] != (k < ins_)) return false;
+    return true;
+  }
+
+  std::size_t ins_;
+  GridBox window_;
+  std::vector<std::vector<GridEdge>> edges_;
+  std::vector<Ray> rays_;
+  std::vector<bool> material_;
+};
+
+/// p lies less than gap from the edge. Everything below 2^84 before it is squared.
+bool nearer_than(GridPoint p, const GridEdge& edge, std::int64_t gap) {
+  const GridPoint along = edge.to - edge.from, out = p - edge.from;
+  const Wide at = dot(out, along), length = dot(along, along), most = Wide{gap} * gap;
+  if (at <= 0) return dot(out, out) < most;
+  if (at >= length) return dot(p - edge.to, p - edge.to) < most;
+  const Wide height = cross(along, out);
+  const double left = static_cast<double>(height) * static_cast<double>(height),
+               right = static_cast<double>(most) * static_cast<double>(length);
+  if (left < 0.999 * right) return true;
+  if (left > 1.001 * right) return false;
+  const Integer exact = integer(height);
+  return exact * exact < integer(most) * integer(length);
+}
+
+Wide twice_area(const GridLoop& loop) {
+  Wide sum = 0;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
+  return sum;
+}
+
+void append_edges(const GridLoop& loop, std::vector<GridEdge>& edges) {
+  for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
+}
+
+std::string place(GridPoint p) {
+  return fmt::format("({:.6g}, {:.6g}) mm", static_cast<double>(p.x) * 0x1p-20,
+                     static_cast<double>(p.y) * 0x1p-20);
+}
+
+constexpr std::int64_t kResolution = 3;
+
+/// The end of one edge that is too near to the other, if it does not end there.
+bool too_near(GridPoint p, const GridEdge& edge) {
+  return p != edge.from && p != edge.to && nearer_than(p, edge, kResolution);
+}
+
+std::optional<std::string> fault_between(const GridEdge& a, const GridEdge& b) {
+  if (cross_properly(a, b))
+    return fmt::format("the edges from {} and {} cross", place(a.from), place(b.from));
+  for (const auto& [edge, other] : {std::pair{&a, &b}, std::pair{&b, &a}})
+    for (const GridPoint p : {edge->from, edge->to})
+      if (too_near(p, *other))
+        return fmt::format("the point {} is less than 3 steps of 2^-20 mm from the edge {} to {}", place(p),
+                           place(other->from), place(other->to));
+  return std::nullopt;
+}
+
+std::optional<std::string> fault_of_edges(const std::vector<GridEdge>& edges) {
+  std::vector<std::size_t> order(edges.size()), active;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto low = [&](std::size_t i) { return box_of(edges[i]).low_x; };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return low(i) != low(j) ? low(i) < low(j) : i < j; });
+  for (const std::size_t i : order) {
+    const GridBox box = box_of(edges[i]);
+    std::erase_if(active, [&](std::size_t j) { return box_of(edges[j]).high_x < box.low_x - kResolution; });
+    for (const std::size_t j : active)
+      if (come_within(box, box_of(edges[j]), kResolution))
+        if (auto fault = fault_between(edges[i], edges[j])) return fault;
+    active.push_back(i);
+  }
+  return std::nullopt;
+}
+
+/// Every point begins one edge: one that begins two is there twice.
+std::optional<std::string> fault_of_points(const std::vector<GridEdge>& edges) {
+  std::vector<GridPoint> points;
+  for (const GridEdge& edge : edges) points.push_back(edge.from);
+  const auto less = [](GridPoint a, GridPoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::sort(points.begin(), points.end(), less);
+  const auto twice = std::adjacent_find(points.begin(), points.end());
+  if (twice == points.end()) return std::nullopt;
+  return fmt::format("the point {} is there twice", place(*twice));
+}
+
+std::string loop_name(std::size_t l) { return l == 0 ? "the outer loop" : fmt::format("hole {}", l - 1); }
+
+/// \pre p is on no edge of the loop
+bool surrounds(const GridLoop& loop, GridPoint p) {
+  std::vector<GridEdge> edges;
+  append_edges(loop, edges);
+  std::vector<Ray> none;
+  return look_around(edges, 0, {p.x, p.y, 1}, none);
+}
+
+}  // namespace
+
+GridOutline make_outline(std::vector<GridLoop> loops) {
+  GridOutline outline;
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    if ((twice_area(loops[l]) > 0) != (l == 0)) std::reverse(loops[l].begin(), loops[l].end());
+    append_edges(loops[l], outline.edges);
+  }
+  outline.box = box_of(outline.edges.front());
+  for (const GridEdge& edge : outline.edges) {
+    outline.box = {std::min(outline.box.low_x, edge.from.x), std::min(outline.box.low_y, edge.from.y),
+                   std::max(outline.box.high_x, edge.from.x), std::max(outline.box.high_y, edge.from.y)};
+  }
+  return outline;
+}
+
+std::optional<std::string> fault_of(const std::vector<GridLoop>& loops) {
+  std::vector<GridEdge> edges;
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    if (loops[l].size() < 3) return fmt::format("{} has fewer than three points", loop_name(l));
+    append_edges(loops[l], edges);
+  }
+  if (auto fault = fault_of_points(edges)) return fault;
+  if (auto fault = fault_of_edges(edges)) return fault;
+  for (std::size_t h = 1; h < loops.size(); ++h) {
+    if (!surrounds(loops[0], loops[h][0]))
+      return fmt::format("{} is not inside the outer loop", loop_name(h));
+    for (std::size_t other = 1; other < loops.size(); ++other)
+      if (other != h && surrounds(loops[other], loops[h][0]))
+        return fmt::format("{} is inside {}", loop_name(h), loop_name(other));
+  }
+  return std::nullopt;
+}
+
+bool have_common_disc(const std::vector<const GridOutline*>& in, const std::vector<const GridOutline*>& out) {
+  return Question(in, out).answer();
+}
+
+bool edges_nearer_than(const GridOutline& a, const GridOutline& b, std::int64_t gap) {
+  if (gap <= 0 || !come_within(a.box, b.box, gap)) return false;
+  std::vector<const GridEdge*> near;
+  for (const GridEdge& edge : b.edges)
+    if (come_within(box_of(edge), a.box, gap)) near.push_back(&edge);
+  for (const GridEdge& edge : a.edges) {
+    const GridBox box = box_of(edge);
+    if (!come_within(box, b.box, gap)) continue;
+    for (const GridEdge* other : near) {
+      if (!come_within(box, box_of(*other), gap)) continue;
+      if (nearer_than(edge.from, *other, gap) || nearer_than(edge.to, *other, gap) ||
+          nearer_than(other->from, edge, gap) || nearer_than(other->to, edge, gap) ||
+          cross_properly(edge, *other))
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,392 @@
+#include "layout_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "chords.hpp"
+#include "verify/read/fields.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kMostOutlineMm = 262144, kMostPlacementMm = 524288, kMostDegrees = 3.6e6;
+constexpr std::int64_t kMostCount = 1'000'000'000;
+
+/// The members of one object, of which all are known; those that begin with x_ say nothing here.
+class Members {
+ public:
+  Members(Json object, const std::string& path, std::string& complaint,
+          std::initializer_list<std::string_view> known)
+      : fields_(object, path, complaint), path_(path), complaint_(complaint) {
+    if (!object.is_object()) return;
+    JsonItems items(object);
+    while (items.next()) {
+      const std::string_view key = items.key();
+      if (!key.starts_with("x_") && std::find(known.begin(), known.end(), key) == known.end())
+        complain(fmt::format("field {} is not one of a layout", fields_.name(excerpt(key))));
+    }
+  }
+
+  [[nodiscard]] bool has(std::string_view key) const { return !fields_.get(key).text.empty(); }
+  [[nodiscard]] Json get(std::string_view key) const { return fields_.get(key); }
+  [[nodiscard]] std::string name(std::string_view key) const { return fields_.name(key); }
+  [[nodiscard]] std::string& complaint() { return complaint_; }
+  void complain(const std::string& sentence) { fields_.complain(sentence); }
+
+  [[nodiscard]] double number(std::string_view key, double least, double most) {
+    return number_of(fields_.get(key), fields_.name(key), least, most);
+  }
+  [[nodiscard]] double number_of(Json value, const std::string& what, double least, double most) {
+    (void)fields_.number_of(value, what);
+    if (!complaint_.empty()) return 0;
+    const double number = nearest_double(value.text);
+    if (number >= least && number <= most) return number;
+    complain(fmt::format("field {} is {}, not from {} to {}", what, excerpt(value.text), least, most));
+    return 0;
+  }
+  [[nodiscard]] std::int64_t steps(std::string_view key, double least, double most, ToStep how) {
+    return steps_of(number(key, least, most), how, most).value_or(0);
+  }
+  [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least, std::int64_t most,
+                                   std::int64_t otherwise) {
+    if (!has(key)) return otherwise;
+    const Json value = get(key);
+    const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
+    if (number && number->exponent >= 0 && number->exponent < 19) {
+      const Integer exact = in_units(*number, 0);
+      if (exact >= static_cast<long>(least) && exact <= static_cast<long>(most)) return exact.get_si();
+    }
+    complain(fmt::format("field {} is {}, not a whole number from {} to {}", name(key), excerpt(value.text),
+                         least, most));
+    return otherwise;
+  }
+  [[nodiscard]] bool flag(std::string_view key) {
+    if (has(key) && !get(key).is_bool())
+      complain(fmt::format("field {} is neither true nor false", name(key)));
+    return get(key).is_true();
+  }
+  [[nodiscard]] std::string id() {
+    const std::string text = fields_.text("id");
+    if (text.empty()) complain(fmt::format("field {} is empty", name("id")));
+    return text;
+  }
+  [[nodiscard]] std::string text(std::string_view key) { return fields_.text(key); }
+  void optional_text(std::string_view key) {
+    if (has(key)) (void)fields_.text(key);
+  }
+  template <class F>
+  void each(std::string_view key, F f) {
+    if (!has(key)) return;
+    fields_.each(key, [&](Json item, const std::string& path) {
+      if (complaint_.empty()) f(item, path);
+    });
+  }
+
+ private:
+  Fields fields_;
+  std::string path_;
+  std::string& complaint_;
+};
+
+GridPoint read_point(Json item, const std::string& path, Members& members) {
+  std::array<std::int64_t, 2> steps{};
+  std::size_t count = 0;
+  if (item.is_array()) {
+    JsonItems numbers(item);
+    for (; const auto number = numbers.next(); ++count)
+      if (count < 2)
+        steps[count] = steps_of(members.number_of(*number, path, -kMostOutlineMm, kMostOutlineMm),
+                                ToStep::nearest, kMostOutlineMm)
+                           .value_or(0);
+  }
+  if (count != 2) members.complain(fmt::format("{} is not a list of two numbers", path));
+  return {steps[0], steps[1]};
+}
+
+GridLoop read_loop(Json list, const std::string& path, Members& members) {
+  GridLoop loop;
+  if (!list.is_array()) {
+    members.complain(fmt::format("field {} is not a list of points", path));
+    return loop;
+  }
+  JsonItems items(list);
+  for (std::size_t i = 0; const auto item = items.next(); ++i) {
+    if (!members.complaint().empty()) return loop;
+    loop.push_back(read_point(*item, fmt::format("{}[{}]", path, i), members));
+  }
+  return loop;
+}
+
+GridOutline read_outline(Json value, const std::string& path, std::string& complaint, ChordSide side) {
+  Members members(value, path, complaint, {"polygon", "curves", "chord_tolerance"});
+  if (!complaint.empty()) return {};
+  if (!members.has("polygon")) {
+    members.complain(fmt::format("{} has no polygon; let lekalo write the file, which makes it", path));
+    return {};
+  }
+  Members polygon(members.get("polygon"), members.name("polygon"), complaint, {"outer", "holes"});
+  std::vector<GridLoop> loops{read_loop(polygon.get("outer"), polygon.name("outer"), polygon)};
+  polygon.each("holes",
+               [&](Json hole, const std::string& at) { loops.push_back(read_loop(hole, at, polygon)); });
+  if (!complaint.empty()) return {};
+  if (const auto fault = fault_of(loops)) {
+    polygon.complain(fmt::format("{} is no outline: {}", members.name("polygon"), *fault));
+    return {};
+  }
+  const bool tolerant = members.has("chord_tolerance");
+  const double tolerance = tolerant ? members.number("chord_tolerance", 0x1p-16, 100) : 0.01;
+  if (members.has("curves") && complaint.empty()) {
+    const Shape drawn = read_shape(members.get("curves"), members.name("curves"), complaint);
+    if (!complaint.empty()) return {};
+    if (const auto fault = fault_of_chords(loops, drawn, side, tolerance))
+      members.complain(
+          fmt::format("{} is not what its curves become: {}; leave it out to have lekalo make it",
+                      members.name("polygon"), *fault));
+  } else if (tolerant) {
+    members.complain(fmt::format("{} is there without curves", members.name("chord_tolerance")));
+  }
+  return make_outline(std::move(loops));
+}
+
+int read_quality(Members& members, bool best_is_a_word) {
+  const Json value = members.get("quality");
+  if (best_is_a_word && value.is_string() && json_text(value) == "best")
+    return std::numeric_limits<int>::max();
+  return static_cast<int>(members.whole("quality", 0, std::numeric_limits<int>::max(), 0));
+}
+
+std::vector<WrittenAngles> read_rotations(Members& part) {
+  std::vector<WrittenAngles> rotations;
+  part.each("rotations", [&](Json item, const std::string& path) {
+    if (!item.is_object()) {
+      const double angle = part.number_of(item, path, -kMostDegrees, kMostDegrees);
+      rotations.push_back({angle, angle});
+      return;
+    }
+    Members range(item, path, part.complaint(), {"from", "to"});
+    const double from = range.number("from", -kMostDegrees, kMostDegrees),
+                 to = range.number("to", -kMostDegrees, kMostDegrees);
+    if (from > to) range.complain(fmt::format("{} ends before it begins", path));
+    rotations.push_back({from, to});
+  });
+  if (part.has("rotations") && rotations.empty())
+    part.complain(fmt::format("field {} is empty, so the part can never lie; leave it out for any angle",
+                              part.name("rotations")));
+  return rotations;
+}
+
+struct Gaps {
+  std::int64_t gap = 0, border = 0, defect = 0;
+};
+
+Gaps read_gaps(Members& members, Gaps otherwise) {
+  const auto read = [&](std::string_view key, std::int64_t& gap) {
+    if (members.has(key)) gap = members.steps(key, 0, kMostOutlineMm, ToStep::up);
+  };
+  read("gap", otherwise.gap);
+  read("border_gap", otherwise.border);
+  read("defect_gap", otherwise.defect);
+  return otherwise;
+}
+
+WrittenPart read_part(Json item, const std::string& path, std::string& complaint, const Gaps& rules) {
+  Members members(item, path, complaint,
+                  {"id", "name", "outline", "quality", "areas", "rotations", "mirror", "grain",
+                   "tolerated_severity", "priority", "demand", "gap", "border_gap", "defect_gap"});
+  WrittenPart part;
+  if (!complaint.empty()) return part;
+  part.id = members.id();
+  members.optional_text("name");
+  part.outline = read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::outside);
+  part.quality = read_quality(members, true);
+  members.each("areas", [&](Json value, const std::string& at) {
+    Members area(value, at, complaint, {"quality", "outline"});
+    if (!area.has("quality")) area.complain(fmt::format("field {} is missing", area.name("quality")));
+    part.areas.push_back({read_quality(area, true), read_outline(area.get("outline"), area.name("outline"),
+                                                                 complaint, ChordSide::outside)});
+  });
+  part.rotations = read_rotations(members);
+  part.may_mirror = members.flag("mirror");
+  if (members.has("grain")) {
+    Members grain(members.get("grain"), members.name("grain"), complaint, {"deg", "tolerance_deg"});
+    part.grain = WrittenGrain{grain.number("deg", -kMostDegrees, kMostDegrees),
+                              grain.has("tolerance_deg") ? grain.number("tolerance_deg", 0, 90) : 0};
+  }
+  part.tolerated_severity = members.whole("tolerated_severity", 0, std::numeric_limits<int>::max(), 0);
+  constexpr std::int64_t kInt = std::numeric_limits<int>::max();
+  (void)members.whole("priority", -kInt - 1, kInt, 0);
+  (void)members.whole("demand", 0, kMostCount, 0);
+  const Gaps gaps = read_gaps(members, rules);
+  part.gap = gaps.gap, part.border_gap = gaps.border, part.defect_gap = gaps.defect;
+  return part;
+}
+
+GridOutline rectangle(std::int64_t length, std::int64_t height) {
+  return make_outline({{{0, 0}, {length, 0}, {length, height}, {0, height}}});
+}
+
+std::vector<WrittenStockFeature> read_features(Members& stock, std::string_view list, std::string_view grade,
+                                               std::int64_t least) {
+  std::vector<WrittenStockFeature> features;
+  std::set<std::string> ids;
+  stock.each(list, [&](Json item, const std::string& path) {
+    Members members(item, path, stock.complaint(), {"id", grade, "outline"});
+    WrittenStockFeature feature;
+    feature.id = members.id();
+    if (!ids.insert(feature.id).second) members.complain(fmt::format("{} has the id of another", path));
+    if (grade == "quality" && !members.has(grade))
+      members.complain(fmt::format("field {} is missing", members.name(grade)));
+    feature.grade = members.whole(grade, least, std::numeric_limits<int>::max(), least);
+    feature.outline =
+        read_outline(members.get("outline"), members.name("outline"), stock.complaint(), ChordSide::outside);
+    features.push_back(std::move(feature));
+  });
+  return features;
+}
+
+WrittenStock read_stock(Json item, const std::string& path, std::string& complaint) {
+  Members members(item, path, complaint,
+                  {"id", "name", "kind", "count", "cost", "outline", "height", "length", "grain_deg",
+                   "defects", "zones"});
+  WrittenStock stock;
+  if (!complaint.empty()) return stock;
+  stock.id = members.id();
+  members.optional_text("name");
+  const std::string kind = members.text("kind");
+  if (kind != "strip" && kind != "sheet" && kind != "hide")
+    members.complain(fmt::format("field {} is not strip, sheet or hide", members.name("kind")));
+  stock.count = members.whole("count", 1, kMostCount, 1);
+  if (members.has("cost")) (void)members.number("cost", 0, 1e15);
+  if (kind == "strip") {
+    if (members.has("outline"))
+      members.complain(fmt::format("{} is a strip: height and length, no outline", path));
+    if (stock.count != 1) members.complain(fmt::format("{} is a strip, of which there is one", path));
+    const std::int64_t height = members.steps("height", 0x1p-18, kMostOutlineMm, ToStep::nearest);
+    const std::int64_t length = members.has("length")
+                                    ? members.steps("length", 0x1p-18, kMostOutlineMm, ToStep::nearest)
+                                    : kMostWritten;
+    if (complaint.empty()) stock.outline = rectangle(length, height);
+  } else {
+    if (members.has("height") || members.has("length"))
+      members.complain(fmt::format("{} has a height or length, but is no strip", path));
+    stock.outline =
+        read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::inside);
+  }
+  if (members.has("grain_deg")) stock.grain = members.number("grain_deg", -kMostDegrees, kMostDegrees);
+  stock.defects = read_features(members, "defects", "severity", 1);
+  stock.zones = read_features(members, "zones", "quality", 0);
+  return stock;
+}
+
+using Index = std::map<std::string, std::size_t, std::less<>>;
+
+void number_ids(const std::string& id, const std::string& path, Index& index, std::string& complaint) {
+  if (complaint.empty() && !index.emplace(id, index.size()).second)
+    complaint = fmt::format("{} has the id \"{}\" of another", path, excerpt(id));
+}
+
+std::size_t find(Members& members, std::string_view key, const Index& index) {
+  const std::string id = members.text(key);
+  const auto found = index.find(id);
+  if (found != index.end()) return found->second;
+  members.complain(fmt::format("{} names \"{}\", which is not there", members.name(key), excerpt(id)));
+  return 0;
+}
+
+void read_kits(Members& root, const Index& parts) {
+  Index ids;
+  root.each("kits", [&](Json item, const std::string& path) {
+    Members kit(item, path, root.complaint(), {"id", "name", "demand", "value", "pieces"});
+    number_ids(kit.id(), path, ids, root.complaint());
+    kit.optional_text("name");
+    (void)kit.whole("demand", 0, kMostCount, 1);
+    if (kit.has("value")) (void)kit.number("value", 0, 1e15);
+    kit.each("pieces", [&](Json value, const std::string& at) {
+      Members piece(value, at, root.complaint(), {"part", "count", "mirrored"});
+      (void)find(piece, "part", parts);
+      (void)piece.whole("count", 1, kMostCount, 1);
+      (void)piece.flag("mirrored");
+    });
+  });
+}
+
+GridTurn read_turn(Members& members) {
+  if (members.has("rotation_deg")) {
+    if (members.has("c") || members.has("s"))
+      members.complain(fmt::format("{} is there beside c and s", members.name("rotation_deg")));
+    const double degrees = members.number("rotation_deg", -kMostDegrees, kMostDegrees);
+    return turn_of_degrees(degrees);
+  }
+  const double c = members.number("c", -2, 2), s = members.number("s", -2, 2);
+  const auto turn = turn_of_pair(c, s);
+  if (!turn)
+    members.complain(fmt::format("{} and {} are no cosine and sine", members.name("c"), members.name("s")));
+  return turn.value_or(GridTurn{});
+}
+
+void read_placements(Members& root, const Index& parts, const Index& stocks, WrittenLayout& layout) {
+  std::set<std::uint64_t> ids;
+  std::uint64_t next = 1;
+  root.each("placements", [&](Json item, const std::string& path) {
+    Members members(
+        item, path, root.complaint(),
+        {"id", "part", "stock", "copy", "c", "s", "rotation_deg", "x", "y", "mirrored", "locked"});
+    WrittenPiece piece;
+    constexpr std::int64_t kMostId = std::int64_t{1} << 53;
+    piece.id = static_cast<std::uint64_t>(members.whole("id", 1, kMostId, static_cast<std::int64_t>(next)));
+    next = std::max(next, piece.id + 1);
+    if (!ids.insert(piece.id).second) members.complain(fmt::format("{} has the id of another", path));
+    piece.part = find(members, "part", parts);
+    piece.stock = find(members, "stock", stocks);
+    piece.copy = members.whole("copy", 0, kMostCount, 0);
+    piece.turn = read_turn(members);
+    piece.at = {members.steps("x", -kMostPlacementMm, kMostPlacementMm, ToStep::nearest),
+                members.steps("y", -kMostPlacementMm, kMostPlacementMm, ToStep::nearest)};
+    piece.mirrored = members.flag("mirrored");
+    (void)members.flag("locked");
+    layout.placements.push_back(piece);
+  });
+  if (root.has("next_id") && root.whole("next_id", static_cast<std::int64_t>(next),
+                                        std::numeric_limits<std::int64_t>::max() / 4, 0) == 0)
+    root.complain(fmt::format("field next_id is not above the ids of all placements"));
+}
+
+}  // namespace
+
+Result<WrittenLayout> read_layout(const Document& document) {
+  const auto parsed = parse_json(document.bytes, document.name);
+  if (!parsed) return tl::unexpected(parsed.error());
+  std::string complaint;
+  WrittenLayout layout;
+  Members root(*parsed, "", complaint,
+               {"format", "units", "name", "rules", "stocks", "parts", "kits", "placements", "next_id"});
+  if (root.text("format") != "lekalo-layout/1") root.complain("field format does not say lekalo-layout/1");
+  if (root.text("units") != "mm") root.complain("field units is not \"mm\"");
+  root.optional_text("name");
+  Gaps rules;
+  if (root.has("rules")) {
+    Members members(root.get("rules"), "rules", complaint, {"gap", "border_gap", "defect_gap"});
+    rules = read_gaps(members, {});
+  }
+  Index stocks, parts;
+  root.each("stocks", [&](Json item, const std::string& path) {
+    layout.stocks.push_back(read_stock(item, path, complaint));
+    number_ids(layout.stocks.back().id, path, stocks, complaint);
+  });
+  root.each("parts", [&](Json item, const std::string& path) {
+    layout.parts.push_back(read_part(item, path, complaint, rules));
+    number_ids(layout.parts.back().id, path, parts, complaint);
+  });
+  read_kits(root, parts);
+  read_placements(root, parts, stocks, layout);
+  if (!complaint.empty())
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
+  return layout;
+}
+
+}  // namespace lekalo::verify

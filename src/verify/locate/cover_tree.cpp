@@ -1,0 +1,251 @@
+#include "cover_tree.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "grown_ball.hpp"
+#include "verify/number/interval.hpp"
+#include "verify/shape/shape_distance.hpp"
+#include "verify/shape/shape_inside.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A leaf whose bound is not good enough over the whole cell is looked at in halves, this many times over.
+constexpr int kMostHalvings = 18;
+/// After so many leaves that prove too little the certificate has failed; the others are only read.
+constexpr std::size_t kMostFailures = 3;
+/// Cells that are looked at in all, beyond so many for each leaf: a certificate that needs more is none.
+constexpr std::size_t kMostCells = 1'000'000, kMostCellsALeaf = 64;
+/// Terms of one leaf.
+constexpr std::size_t kMostTerms = 8;
+
+Span enclosed(const Decimal& value) {
+  const Interval interval(value, 64);
+  return {interval.low_double(), interval.high_double()};
+}
+
+/// A degree in radians.
+Span radians(const Decimal& degrees) {
+  const mpfr_prec_t wide = 128 + angle_bits(degrees);
+  const Interval angle = Interval(degrees, wide) * Interval::pi(wide) / Interval(Integer(180), wide);
+  return {angle.low_double(), angle.high_double()};
+}
+
+Span plus(Span a, double by) { return a + just(by); }
+/// Products and sums of numbers that are not negative, rounded up.
+double up(double value) { return std::nextafter(value, kInfinity); }
+
+}  // namespace
+
+void CoverTree::check(Json tree, const std::string& path, std::string& complaint) {
+  Fields fields(tree, path, complaint);
+  mirrored_ = fields.get("mirrored").is_bool() && fields.get("mirrored").is_true();
+  const auto range = [&](std::string_view key) {
+    std::vector<Decimal> ends;
+    fields.each(key, [&](Json item, const std::string& at) {
+      if (ends.size() < 3) ends.push_back(fields.number_of(item, at));
+    });
+    if (ends.size() != 2)
+      return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
+    for (const Decimal& end : ends)
+      if (!(std::abs(approximate(end)) <= kLargestCoordinate))
+        fields.complain(fmt::format("{} is beyond {}", fields.name(key), kLargestCoordinate));
+    return Span{enclosed(ends[0]).low, enclosed(ends[1]).high};
+  };
+  const Span theta = range("theta"), x = range("x"), y = range("y");
+  const Json nodes = fields.get("nodes");
+  if (!nodes.is_array()) fields.complain(fmt::format("{} is not a list", fields.name("nodes")));
+  if (!complaint.empty()) return;
+  const Cell root{{theta.low, x.low, y.low}, {theta.high, x.high, y.high}};
+  check_root(root, path);
+
+  std::vector<Cell> open{root};
+  JsonItems items(nodes);
+  for (std::size_t i = 0; const auto item = items.next(); ++i) {
+    const std::string name = fmt::format("{}.nodes[{}]", path, i);
+    if (open.empty()) return fields.complain(name + " is one more than the subdivision needs");
+    const Cell cell = open.back();
+    open.pop_back();
+    if (item->is_array()) {  // ["x", at]
+      JsonItems split(*item);
+      const auto axis = split.next(), at = split.next();
+      const std::string which = axis && axis->is_string() ? json_text(*axis) : "";
+      const int k = which == "theta" ? 0 : (which == "x" ? 1 : (which == "y" ? 2 : -1));
+      if (k < 0 || !at || split.next()) return fields.complain(name + " is neither a split nor a leaf");
+      const Span place = enclosed(fields.number_of(*at, name));
+      Cell low = cell, high = cell;
+      low.high[k] = place.high, high.low[k] = place.low;
+      open.push_back(high);
+      open.push_back(low);
+      continue;
+    }
+    ++leaves_;
+    std::vector<Term> terms;
+    Fields leaf(*item, name, complaint);
+    if (!read_leaf(leaf.get("contacts"), terms, complaint, name)) return;
+    if (failed_ == kMostFailures || proved(cell, terms, 0)) continue;
+    ++failed_;
+    findings_.push_back(
+        fmt::format("{}: its contacts do not prove that no placement with theta {} to {} and the pivot at x "
+                    "{} to {}, y {} to "
+                    "{} has more clearance than {} mm",
+                    name, cell.low[0], cell.high[0], cell.low[1], cell.high[1], cell.low[2], cell.high[2],
+                    problem_.bound));
+  }
+  if (!open.empty())
+    findings_.push_back(
+        fmt::format("{}: the subdivision ends early, {} cells are missing", path, open.size()));
+}
+
+/// The root holds every pose of the window that could have more clearance than the bound.
+void CoverTree::check_root(const Cell& root, const std::string& path) {
+  const Span from = radians(problem_.window_from_deg), to = radians(problem_.window_to_deg);
+  const Span whole = radians(Decimal{36, 1});
+  const bool full = root.high[0] - root.low[0] >= whole.high;
+  if (!full && !(root.low[0] <= from.low && root.high[0] >= to.high)) {
+    findings_.push_back(
+        fmt::format("{}: theta from {} to {} does not cover the window", path, root.low[0], root.high[0]));
+  }
+  // There the material lies in the blank, or sticks out by less than -bound, and the pivot is within
+  // pivot_off of it.
+  const double more = up(problem_.pivot_off + std::max(0.0, -problem_.bound));
+  const Shape& blank = problem_.blank;
+  const auto covers = [&](int k, const std::optional<Decimal>& locked, double low, double high) {
+    if (locked) return root.low[k] <= enclosed(*locked).low && root.high[k] >= enclosed(*locked).high;
+    return root.low[k] <= plus(just(low), -more).low && root.high[k] >= plus(just(high), more).high;
+  };
+  if (!covers(1, problem_.locked_x, blank.low_x, blank.high_x) ||
+      !covers(2, problem_.locked_y, blank.low_y, blank.high_y)) {
+    findings_.push_back(fmt::format("{}: the box of the pivot does not cover the blank", path));
+  }
+}
+
+bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint,
+                          const std::string& path) {
+  const auto complain = [&](std::string_view what) {
+    if (complaint.empty()) complaint = fmt::format("{}: {}", path, what);
+    return false;
+  };
+  if (!contacts.is_array()) return complain("it has no list of contacts");
+  JsonItems items(contacts);
+  while (const auto item = items.next()) {
+    if (terms.size() == kMostTerms) return complain("it has more than eight contacts");
+    if (!item->is_array()) return complain("a contact is not a list");
+    std::array<Json, 8> value;
+    std::array<Span, 8> number;
+    JsonItems numbers(*item);
+    std::size_t cap = problem_.caps.size();
+    for (std::size_t k = 0; k < 7; ++k) {
+      const auto next = numbers.next();
+      const auto decimal = next && next->is_number() ? parse_decimal(next->text) : std::nullopt;
+      if (!decimal) return complain("a contact is not seven numbers");
+      value[k] = *next, number[k] = enclosed(*decimal);
+      if (!(number[k].low >= -kLargestCoordinate && number[k].high <= kLargestCoordinate))
+        return complain("a contact is beyond all bounds");
+      const bool may_be_negative = k != 2 && k != 5 && k != 6;
+      if (!may_be_negative && sgn(decimal->digits) < 0)
+        return complain("a radius or a multiplier is negative");
+    }
+    Term term;
+    if (const auto eighth = numbers.next()) {
+      const auto index = eighth->is_number() ? parse_decimal(eighth->text) : std::nullopt;
+      if (!index || index->exponent < 0 || sgn(index->digits) < 0 ||
+          !(approximate(*index) < static_cast<double>(problem_.caps.size())))
+        return complain("a contact names no cap of the demands");
+      cap = static_cast<std::size_t>(approximate(*index));
+      term.capped = true;
+    }
+    if (numbers.next()) return complain("a contact has more than eight numbers");
+    const Vec part{number[0], number[1]}, blank{number[3], number[4]};
+    if (term.capped) {
+      term.part_radius = -off_cap(part, problem_.caps[cap]);
+      term.blank_radius =
+          material_radius(value[3], value[4], value[5], blank, number[5].low) - problem_.caps[cap].most;
+    } else {
+      term.part_radius = part_radius(value[0], value[1], value[2], part, number[2].low);
+      term.blank_radius = blank_radius(value[3], value[4], value[5], blank, number[5].low);
+    }
+    term.multiplier = number[6];
+    term.part = part - problem_.pivot;
+    if (mirrored_) term.part.x = {-term.part.x.high, -term.part.x.low};
+    term.blank = blank;
+    if (term.multiplier.low > 0) terms.push_back(term);
+  }
+  return !terms.empty() || complain("its multipliers sum to nothing");
+}
+
+/// What of a ball's radius really lies in the part's material; negative when its centre lies beside it.
+double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
+  const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
+  const auto known = part_radii_.find(key);
+  if (known != part_radii_.end()) return known->second;
+  const double inside =
+      problem_.growth.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre, written);
+  const double real = std::min(std::max(0.0, written), inside);
+  return part_radii_.emplace(key, real).first->second;
+}
+
+/// From a point of the part to what is not in the grown part one must cross a side and then go as far as it
+/// is grown; a point beside the part is in what a side has grown to. Less is known, never more.
+double CoverTree::grown_radius(const Vec& centre, double written) const {
+  const std::vector<Side>& sides = problem_.part.sides;
+  double through = kInfinity, nearest = kInfinity, grown = -kInfinity;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Span d = distance(centre, sides[k]);
+    const double by = problem_.growth[k];
+    through = std::min(through, (just(d.low) + just(by)).low);
+    nearest = std::min(nearest, d.high);
+    if (by >= 0) grown = std::max(grown, (just(by) - just(d.high)).low);
+  }
+  const std::optional<bool> in = holds(problem_.part, centre);
+  if (in && *in && through < written) through = grown_ball(problem_.part, problem_.growth, centre, written);
+  // Beside the part its nearest point is off by that, and there the first rule holds.
+  const double to_part = in && *in ? 0 : nearest;
+  return std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);
+}
+
+double CoverTree::off_cap(const Vec& point, const Cap& cap) const {
+  double off = kInfinity;
+  for (const std::size_t k : cap.sides) off = std::min(off, distance(point, problem_.part.sides[k]).high);
+  return off;
+}
+
+/// What of a ball's radius really lies in the blank's material.
+double CoverTree::material_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
+  const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
+  const auto known = material_radii_.find(key);
+  if (known != material_radii_.end()) return known->second;
+  const double real = std::min(std::max(0.0, written), signed_distance(centre, problem_.blank).low);
+  return material_radii_.emplace(key, real).first->second;
+}
+
+double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
+  const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
+  const auto known = blank_radii_.find(key);
+  if (known != blank_radii_.end()) return known->second;
+  const double real = std::min(std::max(0.0, written), -signed_distance(centre, problem_.blank).high);
+  return blank_radii_.emplace(key, real).first->second;
+}
+
+bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int depth) {
+  if (++cells_ > kMostCells + kMostCellsALeaf * leaves_) return false;
+  const CellBound bound = bound_over(cell, terms);
+  if (bound.everywhere <= problem_.bound) return true;
+  if (depth == kMostHalvings || bound.in_the_middle > problem_.bound) return false;
+  // The widest direction, turning counted at the largest lever.
+  double lever = 0;
+  for (const Term& term : terms) lever = std::max(lever, length(term.part).high);
+  const double width[3] = {(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1],
+                           cell.high[2] - cell.low[2]};
+  int k = 0;
+  for (int i = 1; i < 3; ++i)
+    if (width[i] > width[k]) k = i;
+  const double middle = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
+  Cell low = cell, high = cell;
+  low.high[k] = high.low[k] = middle;
+  return proved(low, terms, depth + 1) && proved(high, terms, depth + 1);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,389 @@
+#include "demand_check.hpp"
+
+#include <algorithm>
+
+#include "verify/number/interval.hpp"
+#include "verify/shape/shape_distance.hpp"
+#include "verify/shape/shape_inside.hpp"
+#include "verify/shape/stretch.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Pieces of outlines that are looked at for one claim before it counts as not confirmed.
+constexpr std::size_t kMostPieces = 200'000;
+
+Span enclosed(const Decimal& value) {
+  const Interval interval(value, 64);
+  return {interval.low_double(), interval.high_double()};
+}
+
+bool is_positive(Span value) { return value.low > 0; }
+
+bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
+
+/// Sums that the writer makes in doubles: what is to be equal may differ by so much, relatively. Nothing that
+/// is proved rests on it.
+constexpr double kDerivedTolerance = 1e-15;
+bool differ(const Decimal& written, const Decimal& derived, const Decimal& from) {
+  const double size = std::abs(approximate(from)) + std::abs(approximate(derived));
+  return !(std::abs(approximate(written - derived)) <= kDerivedTolerance * size);
+}
+
+std::optional<WrittenSecond> read_second(Json value, std::string& complaint) {
+  if (value.is_null()) return std::nullopt;
+  WrittenSecond second;
+  Fields fields(value, "demands.smallest_largest", complaint);
+  for (auto [key, to] : {std::pair{"margin", &second.margin},
+                         {"found", &second.found},
+                         {"bound", &second.bound},
+                         {"gap", &second.gap},
+                         {"kept", &second.kept}})
+    *to = fields.number(key);
+  if (fields.get("proof").is_null()) return second;
+  Fields proof(fields.get("proof"), fields.name("proof"), complaint);
+  WrittenSecond::Proof& p = second.proof.emplace();
+  p.grown_for = proof.number("grown_for");
+  for (auto [key, to] : {std::pair{"most", &p.most}, {"shift", &p.shift}, {"bound", &p.bound}})
+    *to = enclosed(proof.number(key));
+  if (sgn(p.grown_for.digits) < 0) proof.complain(fmt::format("{} is negative", proof.name("grown_for")));
+  return second;
+}
+
+}  // namespace
+
+WrittenDemands read_demands(Json value, std::string& complaint) {
+  WrittenDemands d;
+  Fields fields(value, "demands", complaint);
+  for (auto [key, to] : {std::pair{"minimum", &d.minimum},
+                         {"margin", &d.margin},
+                         {"margin_bound", &d.margin_bound},
+                         {"largest", &d.largest},
+                         {"grown_for", &d.grown_for},
+                         {"shift", &d.shift},
+                         {"bound", &d.bound}})
+    *to = enclosed(fields.number(key));
+  for (auto [key, to] : {std::pair{"give_up", &d.give_up},
+                         {"margin", &d.margin_as_written},
+                         {"margin_bound", &d.margin_bound_as_written},
+                         {"margin_found", &d.margin_found},
+                         {"margin_gap", &d.margin_gap},
+                         {"largest", &d.largest_as_written}})
+    *to = fields.number(key);
+  d.criterion = fields.text("criterion");
+  if (d.criterion != "smallest" && d.criterion != "largest" && d.criterion != "even")
+    fields.complain("demands.criterion is none of \"smallest\", \"largest\", \"even\"");
+  d.second = read_second(fields.get("smallest_largest"), complaint);
+  fields.each("trade_off", [&](Json item, const std::string& path) {
+    Fields point(item, path, complaint);
+    WrittenTradeOff t;
+    t.x = point.number("x"), t.y = point.number("y"), t.theta = point.number("theta");
+    t.margin = enclosed(point.number("margin")), t.largest = enclosed(point.number("largest"));
+    if (!point.get("mirrored").is_bool()) point.complain(fmt::format("{}.mirrored is no truth value", path));
+    t.mirrored = point.get("mirrored").is_bool() && point.get("mirrored").is_true();
+    if (t.margin.low < 0) point.complain(fmt::format("{}.margin is negative", path));
+    d.curve.push_back(t);
+  });
+  if (sgn(d.give_up.digits) < 0) fields.complain("demands.give_up is negative");
+  if (d.grown_for.low < 0) fields.complain("demands.grown_for is negative");
+  if (d.minimum.low < 0) fields.complain("demands.minimum is negative");
+  fields.each("features", [&](Json item, const std::string& path) {
+    Fields feature(item, path, complaint);
+    WrittenFeature f;
+    f.name = feature.text("name");
+    feature.each("edges",
+                 [&](Json edge, const std::string& at) { f.edges.push_back(feature.index_of(edge, at)); });
+    f.minimum = enclosed(feature.number("minimum")), f.scale = enclosed(feature.number("scale"));
+    if (const auto most = feature.number_or_null("maximum")) f.maximum = enclosed(*most);
+    if (const auto off = feature.number_or_null("finished")) f.finished = enclosed(*off);
+    if (f.minimum.low < 0 || !is_positive(f.scale) || (f.maximum && f.maximum->low < 0) ||
+        (f.finished && !is_positive(*f.finished)))
+      feature.complain(fmt::format("{} has a number out of range", path));
+    d.features.push_back(std::move(f));
+  });
+  return d;
+}
+
+DemandCheck::DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part,
+                         const Shape& blank, Span off, std::vector<std::string>& findings)
+    : d_(demands), part_(part), placed_(placed_part), blank_(blank), off_(off), findings_(findings) {
+  // What joins an arc's end to its circle belongs to the edge beside it.
+  for (std::size_t k = 0; k < part.sides.size(); ++k) {
+    if (part.sides[k].written || sides_of_edge_.empty()) sides_of_edge_.emplace_back();
+    sides_of_edge_.back().push_back(k);
+  }
+  feature_of_edge_.assign(sides_of_edge_.size(), nullptr);
+  for (const WrittenFeature& f : d_.features)
+    for (const std::size_t edge : f.edges) {
+      if (edge >= feature_of_edge_.size()) {
+        find("feature \"{}\" has edge {}, which the part has not", f.name, edge);
+      } else if (feature_of_edge_[edge] != nullptr) {
+        find("edge {} belongs to two features", edge);
+      } else {
+        feature_of_edge_[edge] = &f;
+      }
+    }
+}
+
+bool DemandCheck::any_finished() const {
+  return std::any_of(d_.features.begin(), d_.features.end(),
+                     [](const WrittenFeature& f) { return f.finished.has_value(); });
+}
+
+bool DemandCheck::any_cap() const {
+  return std::any_of(d_.features.begin(), d_.features.end(),
+                     [](const WrittenFeature& f) { return f.maximum || f.finished; });
+}
+
+double DemandCheck::least_scale() const {
+  double least = kInfinity;
+  for (const WrittenFeature* const f : feature_of_edge_)
+    if (f == nullptr || !f->finished) least = std::min(least, f == nullptr ? 1 : f->scale.low);
+  return least == kInfinity ? 1 : least;
+}
+
+std::vector<std::size_t> DemandCheck::unfinished_sides() const {
+  std::vector<std::size_t> sides;
+  for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge)
+    if (feature_of_edge_[edge] == nullptr || !feature_of_edge_[edge]->finished)
+      sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
+  return sides;
+}
+
+void DemandCheck::check_placement() {
+  if (d_.margin.high < 0) return;
+  check_minima();
+  check_material();
+  check_depth(unfinished_sides(), (d_.largest - off_).low, "the part");
+  for (const WrittenFeature& f : d_.features) {
+    if (!f.maximum && !f.finished) continue;
+    std::vector<std::size_t> sides;
+    for (const std::size_t edge : f.edges)
+      if (edge < sides_of_edge_.size())
+        sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
+    check_depth(sides, ((f.finished ? *f.finished : *f.maximum) - off_).low, "feature \"" + f.name + "\"");
+  }
+}
+
+void DemandCheck::check_minima() {
+  for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge) {
+    const WrittenFeature* const f = feature_of_edge_[edge];
+    if (f != nullptr && f->finished) continue;
+    const Span needed = f == nullptr ? d_.minimum + d_.margin : f->minimum + f->scale * d_.margin;
+    for (const std::size_t k : sides_of_edge_[edge]) {
+      Span apart{kInfinity, kInfinity};
+      for (const Side& side : blank_.sides) {
+        const Span d = distance(placed_.sides[k], side);
+        apart = {std::min(apart.low, d.low), std::min(apart.high, d.high)};
+      }
+      if ((needed + off_).high <= apart.low) continue;
+      find("edge {} needs {} mm for the margin {}, but is {} mm from the outline of the blank", edge,
+           needed.low, d_.margin.low, (apart - off_).low);
+      return;
+    }
+    const std::optional<bool> in = holds(blank_, placed_.sides[sides_of_edge_[edge].front()].from);
+    if (!in || !*in) {
+      find("edge {} is not inside the blank, or cannot be told from it", edge);
+      return;
+    }
+  }
+}
+
+/// Nothing but the rims of finished features may stick out: where the blank's outline runs through the part's
+/// material, it does so within such a rim.
+void DemandCheck::check_material() {
+  if (!any_finished()) {
+    const std::optional<bool> inside = lies_within(placed_, blank_);
+    if (!inside || !*inside) find("the margin is not negative, but the part is not inside the blank");
+    return;
+  }
+  std::size_t looked = 0;
+  for (const Side& side : blank_.sides)
+    if (!beside_finished(side, looked))
+      return find("the outline of the blank runs through the part's material beside its finished features");
+}
+
+bool DemandCheck::beside_finished(const Side& whole, std::size_t& looked) const {
+  std::vector<Side> open{whole};
+  while (!open.empty()) {
+    if (++looked > kMostPieces) return false;
+    const Side piece = open.back();
+    open.pop_back();
+    const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
+    const double reach = farthest(piece, middle);
+    const Span from_part = distance(middle, placed_);
+    if (from_part.low > reach) {
+      const auto in = holds(placed_, middle);
+      if (in && !*in) continue;  // none of it in the part
+    }
+    bool in_rim = false;
+    const bool short_arc = !piece.arc || piece.sweep == Sweep::less;
+    if (short_arc) {
+      const Corners corners = corners_of(piece);
+      for (std::size_t edge = 0; edge < sides_of_edge_.size() && !in_rim; ++edge) {
+        const WrittenFeature* const f = feature_of_edge_[edge];
+        if (f == nullptr || !f->finished) continue;
+        for (const std::size_t k : sides_of_edge_[edge])
+          in_rim =
+              in_rim || (just(farthest(piece, corners, placed_.sides[k])) + off_).high <= f->finished->low;
+      }
+    }
+    if (in_rim) continue;
+    const auto two = halves(piece);
+    open.insert(open.end(), two.begin(), two.end());
+  }
+  return true;
+}
+
+/// No point of these sides of the placed part lies deeper in the blank than `most`.
+void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose) {
+  std::vector<Side> open;
+  for (const std::size_t k : sides) open.push_back(placed_.sides[k]);
+  for (std::size_t looked = 0; !open.empty(); ++looked) {
+    const Side piece = open.back();
+    open.pop_back();
+    if (piece.arc && piece.sweep != Sweep::less) {
+      for (const Side& half : halves(piece)) open.push_back(half);
+      continue;
+    }
+    const Corners corners = corners_of(piece);
+    const auto near_enough = [&](const Side& side) { return farthest(piece, corners, side) <= most; };
+    if (std::any_of(blank_.sides.begin(), blank_.sides.end(), near_enough)) continue;
+    const Vec middle = (piece.from + piece.to) * just(0.5);
+    if (distance(middle, blank_).low > farthest(piece, middle)) {
+      const auto in = holds(blank_, middle);
+      if (in && !*in) continue;  // none of it in the blank
+    }
+    if (signed_distance(piece.from, blank_).low > most || looked == kMostPieces)
+      return find("{} has an allowance above {} mm, or cannot be told from it", whose, most);
+    for (const Side& half : halves(piece)) open.push_back(half);
+  }
+}
+
+void DemandCheck::check_criteria(bool optimal) {
+  if (above(d_.margin_found, d_.margin_bound_as_written))
+    find("margin_found {} is above margin_bound", approximate(d_.margin_found));
+  if (optimal && above(d_.margin_bound_as_written - d_.margin_found, d_.margin_gap) &&
+      differ(d_.margin_bound_as_written - d_.margin_found, d_.margin_gap, d_.margin_found))
+    find("status is optimal, but margin_bound is {} above margin_found, more than {}",
+         approximate(d_.margin_bound_as_written - d_.margin_found), approximate(d_.margin_gap));
+  const bool met = sgn(d_.margin_found.digits) >= 0;
+  if (!met || d_.criterion == "smallest") {
+    if (d_.second) find("there is a smallest_largest, which was not asked for or cannot be");
+    if (compare(d_.margin_as_written, d_.margin_found) != 0) find("margin_found is not margin");
+    return;
+  }
+  if (!d_.second) return find("smallest_largest is missing, the second criterion");
+  const WrittenSecond& s = *d_.second;
+  Decimal kept = d_.margin_found - d_.give_up;
+  if (sgn(kept.digits) < 0) kept = Decimal{};
+  if (differ(s.margin, kept, d_.margin_found))
+    find("smallest_largest.margin {} is not margin_found less give_up", approximate(s.margin));
+  if (above(s.margin, d_.margin_as_written))
+    find("the margin {} is below {}, which was not to be given up", approximate(d_.margin_as_written),
+         approximate(s.margin));
+  if (above(s.bound, s.found)) find("smallest_largest.bound {} is above found", approximate(s.bound));
+  const bool open = above(s.found - s.bound, s.gap);
+  if (open ? differ(s.kept, s.found, s.gap) : differ(s.kept - s.bound, s.gap, s.kept))
+    find("smallest_largest.kept {} is neither bound and gap nor found", approximate(s.kept));
+  const Decimal& limit = d_.criterion == "even" ? s.kept : s.found;
+  if (above(d_.largest_as_written, limit))
+    find("largest {} is above {}, which the second criterion found", approximate(d_.largest_as_written),
+         approximate(limit));
+  if (optimal && above(s.found - s.bound, s.gap) && differ(s.found - s.bound, s.gap, s.found))
+    find("status is optimal, but smallest_largest.found is {} above its bound, more than {}",
+         approximate(s.found - s.bound), approximate(s.gap));
+  if (!s.proof && sgn(s.bound.digits) > 0)
+    find("nothing is said to prove smallest_largest.bound {}", approximate(s.bound));
+}
+
+std::vector<double> DemandCheck::growth(Span grown_for) const {
+  std::vector<double> growth(part_.sides.size(), 0.0);
+  for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge) {
+    const WrittenFeature* const f = feature_of_edge_[edge];
+    const Span by = f == nullptr  ? d_.minimum + grown_for
+                    : f->finished ? -*f->finished
+                                  : f->minimum + f->scale * grown_for;
+    // Sums are rounded outwards: what grows by 0 is no rim.
+    const bool rim = f != nullptr && f->finished;
+    for (const std::size_t k : sides_of_edge_[edge]) growth[k] = rim ? by.low : std::max(0.0, by.low);
+  }
+  return growth;
+}
+
+std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Span>& most) const {
+  std::vector<CoverTree::Cap> caps;
+  for (const WrittenFeature& f : d_.features) {
+    if (!f.maximum && !f.finished) continue;
+    CoverTree::Cap cap;
+    cap.most = ((f.finished ? *f.finished : *f.maximum) + shift).high;
+    for (const std::size_t edge : f.edges)
+      if (edge < sides_of_edge_.size())
+        cap.sides.insert(cap.sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
+    caps.push_back(std::move(cap));
+  }
+  if (most) caps.push_back({unfinished_sides(), (*most + shift).high});
+  return caps;
+}
+
+double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
+  const std::vector<double> by = growth(grown_for);
+  const auto beside_rims = [&](const auto& distance_from) {  // no finished side is as near as its rim is wide
+    for (std::size_t k = 0; k < by.size(); ++k)
+      if (by[k] < 0 && !((just(distance_from(part_.sides[k]).low) + just(by[k])).low >= 0)) return false;
+    return true;
+  };
+  const std::optional<bool> in = holds(part_, p);
+  if (in && *in && beside_rims([&](const Side& side) { return distance(p, side); })) return 0;
+  double off = kInfinity;
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    if (by[k] < 0) continue;
+    if (by[k] == 0 && !beside_rims([&](const Side& side) { return distance(part_.sides[k], side); }))
+      continue;
+    off = std::min(off, std::max(0.0, (just(distance(p, part_.sides[k]).high) - just(by[k])).high));
+  }
+  return off;
+}
+
+/// A placement with a margin above margin_bound that keeps the maxima: the part grown for grown_for has a
+/// clearance of at least scale times the difference, for the least scale (its finished features if they have
+/// `bound` to spare), and each cap has more left than `shift`. So that much must be above `bound`.
+void DemandCheck::check_bound() {
+  if (d_.margin_bound.high < 0) {
+    // The demands themselves cannot be met.
+    if (!(d_.grown_for.low == 0 && d_.grown_for.high == 0 && d_.bound.high <= d_.margin_bound.low))
+      find("margin_bound {} does not follow from the bound {} of the certificate", d_.margin_bound.low,
+           d_.bound.low);
+    return;
+  }
+  const Span spare = just(least_scale()) * (d_.margin_bound - d_.grown_for);
+  if (!((d_.margin_bound - d_.grown_for).high >= 0 && d_.bound.low <= spare.high))
+    find("margin_bound {} does not follow from the bound {} of the certificate", d_.margin_bound.low,
+         d_.bound.low);
+  if (any_cap() && !(d_.bound.low <= d_.shift.high))
+    find(
+        "the certificate's bound {} is above its shift {}: it says nothing of placements that keep the "
+        "maxima",
+        d_.bound.low, d_.shift.low);
+}
+
+/// A placement with a margin of at least `margin` that keeps the maxima: the part grown for grown_for has a
+/// clearance of at least the least scale times the difference, and each cap of a feature has `shift` or more
+/// left. Both are above what the certificate bounds; so the cap on all edges is the one that has so little.
+void DemandCheck::check_largest_bound() {
+  const WrittenSecond& s = *d_.second;
+  const WrittenSecond::Proof& p = *s.proof;
+  const Span spare = just(least_scale()) * (enclosed(s.margin) - enclosed(p.grown_for));
+  if (above(p.grown_for, s.margin) || !(p.bound.high < spare.low))
+    find("the certificate of largest allowances says nothing of placements with a margin of {}",
+         approximate(s.margin));
+  if (any_cap() && !(p.bound.high < p.shift.low))
+    find("the bound {} of the certificate of largest allowances is not below its shift {}", p.bound.low,
+         p.shift.low);
+  if (!(enclosed(s.bound).high <= (p.most + p.shift - p.bound).low))
+    find("smallest_largest.bound {} does not follow from the bound {} of its certificate",
+         approximate(s.bound), p.bound.low);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cover_tree.hpp"
+#include "verify/shape/shape.hpp"
+
+namespace lekalo::verify {
+
+/// What each feature of a part demands, as written in a result (docs/formats.md, "demands").
+struct WrittenFeature {
+  std::string name;
+  std::vector<std::size_t> edges;
+  Span minimum, scale;
+  std::optional<Span> maximum, finished;
+};
+
+/// What the second criterion is said to have found, with the numbers of its certificate.
+struct WrittenSecond {
+  Decimal margin, found, bound, gap, kept;
+  struct Proof {
+    Decimal grown_for;
+    Span most, shift, bound;
+  };
+  std::optional<Proof> proof;
+};
+
+/// A placement of the trade-off curve.
+struct WrittenTradeOff {
+  Decimal x, y, theta;
+  bool mirrored = false;
+  Span margin, largest;
+};
+
+struct WrittenDemands {
+  Span minimum;
+  std::vector<WrittenFeature> features;
+  std::string criterion;
+  Decimal give_up, margin_as_written, margin_found, margin_gap, margin_bound_as_written, largest_as_written;
+  Span margin, margin_bound, largest;
+  Span grown_for, shift, bound;
+  std::optional<WrittenSecond> second;
+  std::vector<WrittenTradeOff> curve;
+};
+[[nodiscard]] WrittenDemands read_demands(Json value, std::string& complaint);
+
+/// Rechecks what a result claims of its demands: at the placement, edge by edge, and of all placements.
+class DemandCheck {
+ public:
+  /// \param off  how far the true outlines of part and blank may be from those written, together
+  DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part, const Shape& blank,
+              Span off, std::vector<std::string>& findings);
+
+  /// Where the margin is not negative: every minimum, with its share of the margin, every maximum and the
+  /// largest allowance hold at the placement.
+  void check_placement();
+
+  /// What one criterion left to the next one is kept at the placement, as far as the result says so.
+  /// \param optimal  whether the result claims that the gaps are closed
+  void check_criteria(bool optimal);
+
+  /// What a certificate is to be checked with: by how much each side of the part is grown for a margin, and
+  /// the caps with `shift` added; for that of largest allowances also one for all that is not finished.
+  [[nodiscard]] std::vector<double> growth(Span grown_for) const;
+  [[nodiscard]] std::vector<CoverTree::Cap> caps(Span shift, const std::optional<Span>& most = {}) const;
+  /// A number that p is no further from the part grown so than.
+  [[nodiscard]] double off_grown_part(const Vec& p, Span grown_for) const;
+  /// Whether `bound` of what the certificate bounds makes margin_bound a bound of the margin.
+  void check_bound();
+  /// Whether that of the second certificate makes its `bound` one of largest allowances. \pre there is one
+  void check_largest_bound();
+
+ private:
+  template <class... Args>
+  void find(fmt::format_string<Args...> format, Args&&... args) {
+    findings_.push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+  [[nodiscard]] bool any_finished() const;
+  [[nodiscard]] bool any_cap() const;
+  [[nodiscard]] double least_scale() const;
+  [[nodiscard]] std::vector<std::size_t> unfinished_sides() const;
+  void check_minima();
+  void check_material();
+  void check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose);
+  [[nodiscard]] bool beside_finished(const Side& piece, std::size_t& looked) const;
+
+  const WrittenDemands& d_;
+  const Shape& part_;
+  const Shape& placed_;
+  const Shape& blank_;
+  Span off_;
+  std::vector<std::string>& findings_;
+  std::vector<std::vector<std::size_t>> sides_of_edge_;
+  std::vector<const WrittenFeature*> feature_of_edge_;  ///< nullptr: none
+};
+
+}  // namespace lekalo::verify

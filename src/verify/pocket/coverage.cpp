@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "cut_path.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kLeaf = 0.004;  // mm, side of the smallest squares
+constexpr double kSameLevel = 1e-6;
+constexpr double kTold = 0.02;  // mm, width of an uncut spot that is told of
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// Squares, divided until they are surely cut, surely not to be cut, or no larger than kLeaf.
+class Coverage {
+ public:
+  Coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report)
+      : pocket_(pocket), radius_(radius), report_(report) {
+    for (const std::vector<Cut>* cuts : {&path.before, &path.cuts})
+      for (const Cut& cut : *cuts)
+        if (std::max(cut.from_z, cut.to_z) <= path.deepest + kSameLevel) {
+          floor_.push_back(cut.stroke);
+          wider_.push_back(cut.radius - radius);
+          widest_ = std::max(widest_, wider_.back());
+        }
+    const Place pad{radius, radius};
+    index_ = StrokeIndex(pocket.low() - pad, pocket.high() + pad, radius);
+    for (std::size_t i = 0; i < floor_.size(); ++i) index_.add(static_cast<std::uint32_t>(i), floor_[i]);
+  }
+
+  void run() {
+    const double side = radius_ / 2;
+    const Place low = pocket_.low(), high = pocket_.high();
+    Numbers cuts, limits;
+    for (double y = low.y; y < high.y; y += side)
+      for (double x = low.x; x < high.x; x += side) {
+        const Place middle{x + side / 2, y + side / 2};
+        const double reach = radius_ + 2.2 * side;
+        index_.near(middle, reach + widest_, cuts);
+        pocket_.limit_index().near(middle, reach, limits);
+        spot_ = {};
+        look(middle, side, cuts, limits, false, cuts.empty() ? swept_at(middle) : kFar);
+        if (spot_.width_mm > kTold) spots_.push_back(spot_);
+      }
+    tell_spots();
+    report_.coverage_percent = 100 * (1 - report_.uncut_mm2 / report_.reachable_mm2);
+    report_.coverage_low_percent = std::max(0.0, 100 * (1 - undecided_ / report_.reachable_mm2));
+  }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+
+  /// Distance from what is cut, as if this tool had cut all of it along paths: of what a wider one cut that
+  /// path is as much nearer. Cut is what is nearer than this tool's radius.
+  [[nodiscard]] double swept_at(Place p) const { return index_.nearest(p, floor_, wider_, widest_); }
+
+  /// Distance from `middle` to the nearest; keeps those that may matter to the square.
+  template <class Distance>
+  static double nearest(double reach, const Numbers& from, Numbers& kept, Distance&& distance_of) {
+    double least = kFar;
+    for (const std::uint32_t i : from) {
+      const double d = distance_of(i);
+      least = std::min(least, d);
+      if (d <= reach) kept.push_back(i);
+    }
+    return least;
+  }
+
+  /// \param farthest  the nearest cut is not farther from the middle than this
+  void look(Place middle, double side, const Numbers& cuts, const Numbers& limits, bool all_reachable,
+            double farthest) {
+    const double half = side * 0.7071067811865476;
+    const bool beside_air = !pocket_.air().empty() && pocket_.air().from_borders(middle) < half;
+    if ((!beside_air || side <= kLeaf) && pocket_.air().holds(middle)) return;
+    Numbers near_cuts, near_limits;
+    double off = 0;  // from the places where the tool's middle may be
+    if (!all_reachable) {
+      off = nearest(radius_ + half, limits, near_limits,
+                    [&](std::uint32_t i) { return distance(middle, pocket_.limit()[i]); });
+      if (near_limits.empty()) {  // all of the square is among these places, or none of it can be cut
+        if (!pocket_.allowed(middle)) return;
+        off = 0;
+      } else if (off > radius_ - half && pocket_.allowed(middle)) {
+        off = 0;
+      }
+      if (off - half > radius_) return;
+      all_reachable = off + half <= radius_;
+    }
+    // Those a little too far are kept: they tell how wide a strip is that stays.
+    const double swept =
+        std::min(farthest, nearest(radius_ + 3 * half, cuts, near_cuts,
+                                   [&](std::uint32_t i) { return distance(middle, floor_[i]) - wider_[i]; }));
+    if (swept + half <= radius_ && (!beside_air || side <= kLeaf)) {
+      if (all_reachable) {
+        report_.reachable_mm2 += side * side;
+        return;
+      }
+      if (side <= 16 * kLeaf) {
+        report_.reachable_mm2 += side * side * share(radius_ - off, side);
+        return;
+      }
+    }
+    if (swept > radius_ + half && all_reachable && !beside_air) return add_uncut(middle, side);
+    if (side <= kLeaf) return add_leaf(middle, side, off, swept);
+    for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
+      look(middle + side / 4 * corner, side / 2, near_cuts, near_limits, all_reachable, swept + half);
+  }
+
+  /// Part of a square on this side of a line `past` beyond its middle.
+  static double share(double past, double side) { return std::clamp(0.5 + past / side, 0.0, 1.0); }
+
+  void add_uncut(Place middle, double side) {
+    report_.reachable_mm2 += side * side;
+    report_.uncut_mm2 += side * side;
+    undecided_ += side * side;
+    widen(middle, side);
+  }
+
+  /// The widest uncut place of a square, where it may be wider than what is known.
+  void widen(Place middle, double side) {
+    if (whole_ <= report_.uncut_width_mm)
+      return;  // nothing is wider, and a path far away is long to look for
+    const double half = side * 0.7071067811865476, deep = swept_at(middle) - radius_;
+    const double most = std::min(2 * (deep + half), whole_);
+    spot(middle, 2 * deep);
+    if (most <= report_.uncut_width_mm) return;
+    if (side <= kLeaf || half <= 0.01 * deep) return widest(most);
+    for (const Place corner : {Place{-1, -1}, Place{1, -1}, Place{-1, 1}, Place{1, 1}})
+      widen(middle + side / 4 * corner, side / 2);
+  }
+
+  void add_leaf(Place middle, double side, double off, double swept) {
+    const double half = side * 0.7071067811865476;
+    const double reachable = share(radius_ - off, side), left = share(swept - radius_, side);
+    report_.reachable_mm2 += side * side * reachable;
+    report_.uncut_mm2 += side * side * std::max(0.0, reachable + left - 1);
+    undecided_ += side * side;
+    const double width =
+        std::min({2 * (swept + half - radius_), (swept - radius_) + (radius_ - off) + 2 * half, whole_});
+    widest(width);
+    spot(middle, width);
+  }
+
+  void widest(double width) { report_.uncut_width_mm = std::max(report_.uncut_width_mm, width); }
+  void spot(Place at, double width) {
+    if (width > spot_.width_mm) spot_ = {at.x, at.y, std::min(width, whole_)};
+  }
+
+  void tell_spots() {
+    constexpr std::size_t kMost = 1000;
+    std::stable_sort(spots_.begin(), spots_.end(),
+                     [](const UncutSpot& a, const UncutSpot& b) { return a.width_mm > b.width_mm; });
+    for (const UncutSpot& s : spots_) {
+      const bool apart = std::all_of(report_.uncut.begin(), report_.uncut.end(), [&](const UncutSpot& t) {
+        return length(Place{s.x - t.x, s.y - t.y}) >= radius_;
+      });
+      if (apart && report_.uncut.size() < kMost) report_.uncut.push_back(s);
+    }
+  }
+
+  const PocketReach& pocket_;
+  double radius_;
+  SimulateReport& report_;
+  std::vector<Stroke> floor_;
+  std::vector<double> wider_;  ///< of each: its tool's radius less this one's
+  double widest_ = 0;
+  StrokeIndex index_;
+  double undecided_ = 0;
+  double whole_ = length(pocket_.high() - pocket_.low());  ///< mm; no place is wider
+  UncutSpot spot_;                                         ///< the widest of the square that is looked at
+  std::vector<UncutSpot> spots_;
+};
+
+/// The least signed distance of a stroke's places from the outline, from below: exact to rounding where the
+/// stroke is not near to crossing it, else within `step`.
+double least_depth(const Stroke& stroke, const PocketReach& pocket, double enough,
+                   std::vector<std::uint32_t>& near) {
+  const double half = 0.5 * length(stroke);
+  const double middle = pocket.depth(at_share(stroke, 0.5));
+  if (middle - half >= enough) return enough;
+  if (middle - half > 0) {  // all of it is inside
+    pocket.outline_index().near(at_share(stroke, 0.5), middle + 2 * half, near);
+    double least = enough;
+    for (const std::uint32_t i : near) least = std::min(least, distance_apart(stroke, pocket.outline()[i]));
+    return least;
+  }
+  constexpr double kStep = 1e-3;
+  if (half <= kStep) return middle - half;
+  const Place cut = at_share(stroke, 0.5);
+  return std::min(least_depth(until(stroke, cut), pocket, enough, near),
+                  least_depth(beginning(stroke, cut), pocket, enough, near));
+}
+
+}  // namespace
+
+void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report) {
+  Coverage(path, pocket, radius, report).run();
+}
+
+void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report) {
+  double least = pocket.clearance();
+  std::vector<std::uint32_t> near;
+  for (const Stroke& stroke : path.strokes) {
+    if (length(stroke.to - stroke.from) > 0)
+      least = std::min(least, least_depth(stroke, pocket, pocket.clearance(), near));
+    else
+      least = std::min(least, pocket.depth(stroke.from));
+  }
+  report.gouge_mm = pocket.clearance() - least;
+}
+
+void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& report) {
+  const Place low = pocket.low(), size = pocket.high() - low;
+  const double step = std::max(radius / 12, std::max(size.x, size.y) / 2000);
+  const auto columns = static_cast<std::size_t>(size.x / step) + 1,
+             rows = static_cast<std::size_t>(size.y / step) + 1;
+  std::vector<float> off(columns * rows, 0.0F);
+  const auto place = [&](std::size_t i) {
+    return low + step * Place{static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5};
+  };
+  // All of a block is outside, or all of it is reached, where its middle is so by more than it is wide.
+  constexpr double kSurely = 1e-5;  // mm; more than distances are off
+  const auto look = [&](const auto& self, std::size_t column, std::size_t row, std::size_t side) -> void {
+    if (column >= columns || row >= rows) return;
+    if (side == 1) {
+      const std::size_t i = row * columns + column;
+      const Place p = place(i);
+      if (pocket.in_drawing(p)) off[i] = static_cast<float>(std::max(0.0, pocket.from_allowed(p) - radius));
+      return;
+    }
+    const double wide = static_cast<double>(side) * step, half = 0.7071067811865476 * wide + kSurely;
+    const Place middle = low + Place{step * static_cast<double>(column) + wide / 2,
+                                     step * static_cast<double>(row) + wide / 2};
+    if (pocket.depth(middle) < -half || pocket.from_allowed(middle) + half <= radius) return;
+    for (const std::size_t k : {0U, 1U, 2U, 3U})
+      self(self, column + (k & 1) * (side / 2), row + (k >> 1) * (side / 2), side / 2);
+  };
+  look(look, 0, 0, std::bit_ceil(std::max(columns, rows)));
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (!(off[i] > 0)) continue;
+    UnreachableSpot spot;
+    open.assign(1, i);
+    const auto take = [&](std::size_t k) {
+      spot.area_mm2 += step * step;
+      if (off[k] > spot.distance_mm) {
+        const Place p = place(k);
+        spot.x = p.x, spot.y = p.y, spot.distance_mm = static_cast<double>(off[k]);
+      }
+      off[k] = 0;
+    };
+    take(i);
+    while (!open.empty()) {
+      const std::size_t k = open.back();
+      open.pop_back();
+      const std::size_t column = k % columns, row = k / columns;
+      for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(rows - 1, row + 1); ++r)
+        for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(columns - 1, column + 1); ++c)
+          if (off[r * columns + c] > 0) {
+            take(r * columns + c);
+            open.push_back(r * columns + c);
+          }
+    }
+    report.unreachable.push_back(spot);
+  }
+}
+
+}  // namespace lekalo::verify

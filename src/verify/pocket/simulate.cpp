@@ -1,0 +1,184 @@
+#include "lekalo/verify/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+
+#include "cut_path.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// How far out of open edges nothing stands, of the tool's radius with the stock to leave: a tool may stand
+/// there and come in.
+constexpr double kAirWidth = 4;
+
+Result<void> check(const SimulateOptions& o, const std::vector<EarlierProgram>& earlier) {
+  const auto outside = [](double value, double low, double high) { return !(value >= low && value <= high); };
+  const auto wrong = [](const char* what, double value, const char* wanted) {
+    return failure(ErrorCode::usage, fmt::format("{} of {:g}: it is to be {}", what, value, wanted));
+  };
+  if (outside(o.tool_diameter, 1e-3, 1e4))
+    return wrong("a tool diameter", o.tool_diameter, "0.001 to 10000 mm");
+  if (outside(o.stock_to_leave, 0, 1e4)) return wrong("a stock to leave", o.stock_to_leave, "0 to 10000 mm");
+  if (outside(o.step_over, 1e-3, 1)) return wrong("a step-over", o.step_over, "0.001 to 1 of the diameter");
+  if (outside(o.top, -1e6, 1e6)) return wrong("a top", o.top, "within 1e6 mm of 0");
+  if (outside(o.acceleration, 1e-3, 1e9)) return wrong("an acceleration", o.acceleration, "above 0, mm/s2");
+  if (outside(o.rapid_feed, 1e-3, 1e9)) return wrong("a rapid feed", o.rapid_feed, "above 0, mm/min");
+  if (outside(o.spacing, 1e-4, 10)) return wrong("a spacing", o.spacing, "0.0001 to 10 mm");
+  for (const EarlierProgram& other : earlier)
+    if (outside(other.tool_diameter, 1e-3, 1e4))
+      return wrong("an earlier tool's diameter", other.tool_diameter, "0.001 to 10000 mm");
+  return {};
+}
+
+double turning_of(const CutPath& path) {
+  double sum = 0;
+  const Stroke* before = nullptr;
+  for (const Stroke& s : path.strokes) {
+    if (!(length(s.to - s.from) > 0)) continue;
+    if (before != nullptr) sum += std::abs(angle_between(heading(*before, before->to), heading(s, s.from)));
+    if (s.arc) sum += std::abs(angle_between(s.from - s.centre, s.to - s.centre));
+    before = &s;
+  }
+  return sum;
+}
+
+/// Of a program that goes below the top; its error says so otherwise.
+Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves, double diameter,
+                        double top) {
+  Result<CutPath> path = cut_path(moves, top, diameter / 2, diameter / 4, program.name);
+  if (path && path->cuts.empty())
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("{}: the tool never goes below Z {:g}, the top of the stock; give --top if it is "
+                    "elsewhere",
+                    program.name, top));
+  return path;
+}
+
+/// What can be reached and earlier programs have not cut as deep as this one goes.
+double left_before(CutPath path, const PocketReach& reach, double radius) {
+  path.cuts.clear();
+  SimulateReport report;
+  measure_coverage(path, reach, radius, report);
+  return report.uncut_mm2;
+}
+
+/// The fastest feed, but for a twentieth of what cuts: a link that grazes a wall does not make the bound.
+double cutting_feed(const std::vector<Move>& moves, const std::vector<EngagementSample>& samples) {
+  std::vector<std::pair<double, double>> feeds;  // with the length cut at each
+  double whole = 0;
+  std::size_t next = 0;
+  for (const EngagementSample& sample : samples) {
+    while (next < moves.size() && moves[next].line < sample.line) ++next;
+    if (sample.engagement < 3 || next == moves.size()) continue;
+    feeds.emplace_back(moves[next].feed, sample.length);
+    whole += sample.length;
+  }
+  std::sort(feeds.rbegin(), feeds.rend());
+  double faster = 0;
+  for (const auto& [feed, mm] : feeds) {
+    faster += mm;
+    if (faster > 0.05 * whole) return feed;
+  }
+  return 0;
+}
+
+/// What is judged: the program's moves, the pocket, and the path in the stock with what ran before.
+struct Job {
+  std::vector<Move> moves;
+  PocketReach reach;
+  CutPath path;
+};
+
+Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
+                     const std::vector<EarlierProgram>& earlier) {
+  if (const Result<void> good = check(o, earlier); !good) return tl::unexpected(good.error());
+  Result<std::vector<Move>> moves = read_moves(program);
+  if (!moves) return tl::unexpected(moves.error());
+  const double radius = o.tool_diameter / 2;
+  Result<PocketReach> reach =
+      PocketReach::make(pocket, radius + o.stock_to_leave, kAirWidth * (radius + o.stock_to_leave));
+  if (!reach) return tl::unexpected(reach.error());
+  Result<CutPath> path = cuts_of(program, *moves, o.tool_diameter, o.top);
+  if (!path) return tl::unexpected(path.error());
+  for (const EarlierProgram& other : earlier) {
+    const Result<std::vector<Move>> its_moves = read_moves(other.program);
+    if (!its_moves) return tl::unexpected(its_moves.error());
+    Result<CutPath> its_path = cuts_of(other.program, *its_moves, other.tool_diameter, o.top);
+    if (!its_path) return tl::unexpected(its_path.error());
+    for (Cut& cut : its_path->cuts) {
+      cut.entry = 0;
+      path->before.push_back(cut);
+    }
+  }
+  return Job{std::move(*moves), std::move(*reach), std::move(*path)};
+}
+
+}  // namespace
+
+Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
+                                const std::vector<EarlierProgram>& earlier,
+                                const ProgressListener& progress) {
+  const Result<Job> job = read_job(program, pocket, o, earlier);
+  if (!job) return tl::unexpected(job.error());
+  const std::vector<Move>& moves = job->moves;
+  const PocketReach& reach = job->reach;
+  const CutPath& path = job->path;
+  const double radius = o.tool_diameter / 2;
+  SimulateReport report;
+  report.retracts = path.retracts;
+  report.turning_rad = turning_of(path);
+  // Each fills members of the report of its own.
+  const auto measure_what_is_left = [&] {
+    measure_coverage(path, reach, radius, report);
+    report.left_before_mm2 = report.reachable_mm2;
+    if (!path.before.empty()) report.left_before_mm2 = left_before(path, reach, radius);
+    measure_gouge(path, reach, report);
+    find_unreachable(reach, radius, report);
+  };
+  std::future<void> left =
+      std::async(o.threads > 1 ? std::launch::async : std::launch::deferred, measure_what_is_left);
+  const std::vector<Removed> removed =
+      measure_engagement(path, reach.air(), radius, o.spacing, report, progress);
+  left.get();
+  report.seconds = machine_seconds(moves, o);
+  const double feed = cutting_feed(moves, report.samples);
+  if (feed > 0) {
+    // No level is larger than what can be reached; measured sums may be, by their rounding.
+    double mm2 = 0;
+    for (const Removed& level : removed)
+      mm2 += std::min(level.mm2, std::max(0.0, report.reachable_mm2 - kPi * radius * radius));
+    report.lower_bound_seconds = mm2 / (o.step_over * o.tool_diameter * feed / 60);
+  }
+  return report;
+}
+
+Result<std::vector<EngagementSample>> engagement_on(const Document& program, const Document& pocket,
+                                                    const SimulateOptions& o,
+                                                    const std::vector<EarlierProgram>& earlier,
+                                                    const std::vector<LineRange>& lines) {
+  const Result<Job> job = read_job(program, pocket, o, earlier);
+  if (!job) return tl::unexpected(job.error());
+  SimulateReport report;
+  measure_engagement_on(job->path, job->reach.air(), o, lines, report);
+  return std::move(report.samples);
+}
+
+Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top) {
+  const Result<std::vector<Move>> moves = read_moves(program);
+  if (!moves) return tl::unexpected(moves.error());
+  const Result<CutPath> path = cut_path(*moves, top, 0, 1e30, program.name);
+  if (!path) return tl::unexpected(path.error());
+  std::vector<CutStretch> stretches;
+  for (const Cut& cut : path->cuts) {
+    const Stroke& s = cut.stroke;
+    stretches.push_back({s.arc, s.ccw, s.from.x, s.from.y, s.to.x, s.to.y, s.centre.x, s.centre.y,
+                         std::max(cut.from_z, cut.to_z)});
+  }
+  return stretches;
+}
+
+}  // namespace lekalo::verify

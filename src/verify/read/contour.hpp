@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "verify/number/exact.hpp"
+
+namespace lekalo::verify {
+
+/// The points of a contour file as they are written: exact decimals, file order, nothing dropped.
+struct Contour {
+  std::vector<Decimal> x, y;       ///< same size; in the file's unit
+  std::optional<LengthUnit> unit;  ///< when the file says one
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+};
+
+/// Reads a contour as docs/formats.md says; the ending of the document's name chooses the format.
+/// bad_input names the line or the item.
+[[nodiscard]] Result<Contour> read_contour(const Document& document);
+
+/// inches become millimetres: 25.4 exactly.
+void to_millimetres(Contour& contour, LengthUnit unit);
+
+}  // namespace lekalo::verify

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "json.hpp"
+#include "verify/number/exact.hpp"
+
+namespace lekalo::verify {
+
+/// The members of one object. The first complaint of all Fields of a document is kept; what a getter returns
+/// after one does not matter.
+class Fields {
+ public:
+  Fields(Json object, std::string path, std::string& complaint)
+      : path_(std::move(path)), complaint_(complaint) {
+    if (!object.is_object()) {
+      complain(fmt::format("{} is not an object", path_.empty() ? "it" : path_));
+      return;
+    }
+    JsonItems items(object);
+    while (const auto item = items.next()) {
+      if (!members_.emplace(items.key(), *item).second) {
+        complain(fmt::format("field {} is given twice", name(items.key())));
+      }
+    }
+  }
+
+  [[nodiscard]] Json get(std::string_view key) const {
+    const auto found = members_.find(key);
+    return found == members_.end() ? Json{} : found->second;
+  }
+
+  [[nodiscard]] Decimal number(std::string_view key) { return number_of(get(key), name(key)); }
+  [[nodiscard]] std::optional<Decimal> number_or_null(std::string_view key) {
+    if (get(key).is_null()) return std::nullopt;
+    return number(key);
+  }
+  [[nodiscard]] std::size_t index(std::string_view key) { return index_of(get(key), name(key)); }
+  [[nodiscard]] std::string text(std::string_view key) {
+    const Json value = get(key);
+    if (value.is_string()) return json_text(value);
+    complain(fmt::format("field {} is not a text", name(key)));
+    return {};
+  }
+  /// Calls f(item, path of the item) for each item of a list.
+  template <class F>
+  void each(std::string_view key, F f) {
+    const Json value = get(key);
+    if (!value.is_array()) return complain(fmt::format("field {} is not a list", name(key)));
+    JsonItems items(value);
+    for (std::size_t i = 0; const auto item = items.next(); ++i)
+      f(*item, fmt::format("{}[{}]", name(key), i));
+  }
+  [[nodiscard]] std::string name(std::string_view key) const {
+    return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+  }
+  void complain(const std::string& sentence) {
+    if (complaint_.empty()) complaint_ = sentence;
+  }
+
+  [[nodiscard]] Decimal number_of(Json value, const std::string& what) {
+    auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
+    if (number) return *std::move(number);
+    complain_of(value, what, kDecimalRule);
+    return {};
+  }
+  [[nodiscard]] std::size_t index_of(Json value, const std::string& what) {
+    const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
+    if (number && sgn(number->digits) >= 0 && number->exponent >= 0 && compare(*number, Decimal{1, 15}) < 0) {
+      return in_units(*number, 0).get_ui();
+    }
+    complain_of(value, what, "a whole number from 0 on");
+    return 0;
+  }
+
+ private:
+  void complain_of(Json value, const std::string& what, std::string_view wanted) {
+    complain(value.text.empty() ? fmt::format("field {} is missing", what)
+                                : fmt::format("field {} is {}, not {}", what, excerpt(value.text), wanted));
+  }
+
+  std::map<std::string, Json, std::less<>> members_;
+  std::string path_;
+  std::string& complaint_;
+};
+
+}  // namespace lekalo::verify

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "shape.hpp"
+#include "touching.hpp"
+#include "verify/number/interval.hpp"
+
+namespace lekalo::verify {
+
+/// Rotation and shift of a placement, enclosed.
+[[nodiscard]] Motion motion_of(const Interval& theta, Span x, Span y, bool mirrored);
+
+/// Clearance of a placed part in a blank: the least signed distance of a point of the part from the blank's
+/// boundary, positive inside. Enclosed: within a few last places of the coordinates where the part lies in
+/// the blank, within 1e-9 mm where it sticks out and that is no great work. Where the part touches and
+/// `shift` says how it was placed without rotation, exactly 0 if touches_from_inside shows it. \pre shapes
+/// without a fault
+[[nodiscard]] Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
+                             const std::optional<ExactShift>& shift);
+
+}  // namespace lekalo::verify

@@ -1,0 +1,285 @@
+#include "shape.hpp"
+
+#include <limits>
+
+#include "shape_distance.hpp"
+#include "verify/number/interval.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Span enclosed(const Decimal& value) {
+  const Interval interval(value, 64);
+  return {interval.low_double(), interval.high_double()};
+}
+
+struct WrittenPoint {
+  Decimal x, y;
+  friend bool operator==(const WrittenPoint& a, const WrittenPoint& b) {
+    return compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0;
+  }
+  [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
+};
+
+/// The decimals as integers of one unit, which is theirs.
+Point in_common_units(const WrittenPoint& a, const WrittenPoint& origin) {
+  const Decimal x = a.x - origin.x, y = a.y - origin.y;
+  const long unit = std::min(x.exponent, y.exponent);
+  return {in_units(x, unit), in_units(y, unit)};
+}
+
+class ShapeReader {
+ public:
+  ShapeReader(const std::string& path, std::string& complaint, bool inch)
+      : path_(path), complaint_(complaint), inch_(inch) {}
+
+  Shape read(Json value) {
+    Fields fields(value, path_, complaint_);
+    const Json units = fields.get("units");
+    if (!units.text.empty()) {
+      const std::string name = fields.text("units");
+      if (name != "mm" && name != "inch") complain(fmt::format("the units of {} are not mm or inch", path_));
+      inch_ = name == "inch";
+    }
+    if (fields.get("pieces").text.empty()) {
+      read_piece(fields, path_);
+    } else {
+      fields.each("pieces", [&](Json item, const std::string& path) {
+        Fields piece(item, path, complaint_);
+        read_piece(piece, path);
+      });
+    }
+    if (shape_.sides.empty()) complain(fmt::format("{} has no edges", path_));
+    bound();
+    return std::move(shape_);
+  }
+
+ private:
+  void read_piece(Fields& piece, const std::string& path) {
+    read_contour(piece.get("outer"), path + ".outer");
+    for (const char* key : {"holes", "islands"}) {  // two words for one thing
+      if (piece.get(key).text.empty()) continue;
+      piece.each(key, [&](Json hole, const std::string& at) { read_contour(hole, at); });
+    }
+    shape_.piece_starts.push_back(shape_.contour_starts.size() - 1);
+  }
+
+  WrittenPoint point(Fields& fields, std::string_view key) {
+    std::vector<Decimal> numbers;
+    fields.each(key, [&](Json item, const std::string& path) {
+      if (numbers.size() < 3) numbers.push_back(fields.number_of(item, path));
+    });
+    if (numbers.size() != 2) {
+      complain(fmt::format("{} is not two numbers", fields.name(key)));
+      return {};
+    }
+    for (Decimal& number : numbers) {
+      if (inch_) number.digits *= 254, --number.exponent;
+      if (!(std::abs(approximate(number)) <= kLargestCoordinate))
+        complain(
+            fmt::format("{} is farther than {} mm from the origin", fields.name(key), kLargestCoordinate));
+    }
+    return {numbers[0], numbers[1]};
+  }
+
+  void read_contour(Json value, const std::string& path) {
+    if (!value.is_array()) return complain(path + " is not a list of edges");
+    JsonItems items(value);
+    std::optional<WrittenPoint> begin, at;
+    for (std::size_t i = 0; const auto item = items.next(); ++i) {
+      const std::string name = fmt::format("{}[{}]", path, i);
+      Fields edge(*item, name, complaint_);
+      const bool arc = !edge.get("arc").text.empty();
+      if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
+      Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
+      const WrittenPoint from = point(inner, "from"), to = point(inner, "to");
+      if (at && !(*at == from)) return complain(name + " does not begin where the edge before it ends");
+      if (!begin) begin = from;
+      at = to;
+      const Json open = edge.get("open");
+      if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");
+      if (!complaint_.empty()) return;
+      const std::size_t first = shape_.sides.size();
+      arc ? add_arc(inner, from, to, name) : add_line(from, to, name);
+      for (std::size_t s = first; s < shape_.sides.size(); ++s) shape_.sides[s].open = open.is_true();
+      // Lines that join an arc to its ends have the arc's decimals.
+      WrittenSide exact{arc, !arc || inner.get("ccw").is_true(), from.x, from.y, to.x, to.y, {}, {}};
+      if (arc && complaint_.empty()) {
+        const WrittenPoint centre = point(inner, "centre");
+        exact.centre_x = centre.x, exact.centre_y = centre.y;
+      }
+      shape_.exact.resize(shape_.sides.size(), exact);
+    }
+    if (!begin || !(*begin == *at)) return complain(path + " is not closed");
+    shape_.contour_starts.push_back(shape_.sides.size());
+  }
+
+  void add_line(const WrittenPoint& from, const WrittenPoint& to, const std::string& name) {
+    if (from == to) return complain(name + " has no length");
+    add_line(from.enclosed(), to.enclosed(), true);
+  }
+
+  void add_line(const Vec& from, const Vec& to, bool written) {
+    Side side;
+    side.from = side.written_from = from, side.to = side.written_to = to;
+    side.written = written;
+    shape_.sides.push_back(side);
+  }
+
+  void add_arc(Fields& fields, const WrittenPoint& from, const WrittenPoint& to, const std::string& name) {
+    const Json ccw = fields.get("ccw");
+    if (!ccw.is_bool()) return complain(name + ".ccw is neither true nor false");
+    Side side;
+    side.arc = true;
+    side.ccw = ccw.is_true();
+    side.from = side.written_from = from.enclosed(), side.to = side.written_to = to.enclosed();
+    const WrittenPoint centre = point(fields, "centre");
+    if (!complaint_.empty()) return;
+    side.centre = centre.enclosed();
+    const auto sweep = sweep_of(side.ccw ? from : to, side.ccw ? to : from, centre);
+    if (!sweep) return complain(name + " is an arc that is a full circle or nothing");
+    side.sweep = *sweep;
+    const Vec a = side.from - side.centre, b = side.to - side.centre;
+    const Span ra = length(a), rb = length(b);
+    side.radius = just(0.5) * (ra + rb);
+    if (!(ra.low > 0 && rb.low > 0)) return complain(name + " is an arc without a radius");
+    const Vec ua = unit(a), ub = unit(b);
+    side.first = side.ccw ? ua : ub, side.last = side.ccw ? ub : ua;
+    add_joined(side, ua, ub, ra, rb);
+  }
+
+  /// Counter-clockwise about the centre.
+  static std::optional<Sweep> sweep_of(const WrittenPoint& from, const WrittenPoint& to,
+                                       const WrittenPoint& centre) {
+    if (from == to) return Sweep::full;
+    const Point a = in_common_units(from, centre), b = in_common_units(to, centre);
+    const int side = sgn(cross(a, b));  // each has a unit of its own, of which the sign knows nothing
+    if (side != 0) return side > 0 ? Sweep::less : Sweep::more;
+    if (sgn(dot(a, b)) < 0) return Sweep::half;
+    return std::nullopt;
+  }
+
+  /// The arc with what joins its ends to its circle: lines where they are long enough to be told apart.
+  void add_joined(Side side, const Vec& ua, const Vec& ub, Span ra, Span rb) {
+    const double off = absolute(just(0.5) * (ra - rb)).high;
+    const double blur = (ra.high - ra.low) + (rb.high - rb.low);
+    if (!(off > 64 * blur)) {
+      side.off = off;
+      shape_.sides.push_back(side);
+      return;
+    }
+    const Vec from = side.from, to = side.to;
+    side.from = side.centre + ua * side.radius, side.to = side.centre + ub * side.radius;
+    add_line(from, side.from, false);
+    shape_.sides.push_back(side);
+    add_line(side.to, to, false);
+  }
+
+  void bound() {
+    shape_.low_x = shape_.low_y = kInfinity, shape_.high_x = shape_.high_y = -kInfinity;
+    for (const Side& side : shape_.sides) {
+      const Box box = box_of(side);
+      shape_.low_x = std::min(shape_.low_x, box.low_x), shape_.high_x = std::max(shape_.high_x, box.high_x);
+      shape_.low_y = std::min(shape_.low_y, box.low_y), shape_.high_y = std::max(shape_.high_y, box.high_y);
+    }
+  }
+
+  void complain(const std::string& sentence) {
+    if (complaint_.empty()) complaint_ = sentence;
+  }
+
+  std::string path_;
+  std::string& complaint_;
+  bool inch_;
+  Shape shape_;
+};
+
+}  // namespace
+
+Shape read_shape(Json value, const std::string& path, std::string& complaint, bool inch) {
+  return ShapeReader(path, complaint, inch).read(value);
+}
+
+bool same_edges(const Shape& a, const Shape& b, double tolerance) {
+  const auto near = [&](const Vec& p, const Vec& q) {
+    const Vec d = p - q;
+    return absolute(d.x).high <= tolerance && absolute(d.y).high <= tolerance;
+  };
+  const auto same = [&](const Side& one, const Side& other, bool reversed) {
+    if (one.arc != other.arc || (one.sweep == Sweep::full) != (other.sweep == Sweep::full)) return false;
+    if (!near(one.written_from, reversed ? other.written_to : other.written_from) ||
+        !near(one.written_to, reversed ? other.written_from : other.written_to))
+      return false;
+    if (!one.arc) return true;
+    // Both arcs between these ends, or the two that make up the circle: told apart by the direction.
+    return near(one.centre, other.centre) &&
+           (one.sweep == Sweep::full || one.ccw == (reversed ? !other.ccw : other.ccw));
+  };
+  const auto written = [](const Shape& shape, std::size_t contour) {
+    std::vector<const Side*> sides;
+    for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k)
+      if (shape.sides[k].written) sides.push_back(&shape.sides[k]);
+    return sides;
+  };
+  if (a.piece_starts != b.piece_starts || a.contour_starts.size() != b.contour_starts.size()) return false;
+  for (std::size_t c = 0; c + 1 < a.contour_starts.size(); ++c) {
+    const std::vector<const Side*> one = written(a, c), other = written(b, c);
+    if (one.size() != other.size()) return false;
+    bool forwards = true, backwards = true;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      forwards = forwards && same(*one[k], *other[k], false);
+      backwards = backwards && same(*one[k], *other[one.size() - 1 - k], true);
+    }
+    if (!forwards && !backwards) return false;
+  }
+  return true;
+}
+
+namespace {
+
+Vec turned(const Vec& v, const Motion& motion) {
+  const Span x = motion.mirrored ? -v.x : v.x;
+  return {motion.cosine * x - motion.sine * v.y, motion.sine * x + motion.cosine * v.y};
+}
+
+}  // namespace
+
+Vec placed(const Vec& point, const Motion& motion) { return turned(point, motion) + motion.shift; }
+
+Shape placed(const Shape& shape, const Motion& motion) {
+  Shape moved = shape;
+  for (Side& side : moved.sides) {
+    side.from = placed(side.from, motion), side.to = placed(side.to, motion);
+    if (!side.arc) continue;
+    side.centre = placed(side.centre, motion);
+    side.first = turned(side.first, motion), side.last = turned(side.last, motion);
+    if (!motion.mirrored) continue;
+    std::swap(side.first, side.last);
+    side.ccw = !side.ccw;
+  }
+  moved.low_x = moved.low_y = kInfinity, moved.high_x = moved.high_y = -kInfinity;
+  for (const Side& side : moved.sides) {
+    const Box box = box_of(side);
+    moved.low_x = std::min(moved.low_x, box.low_x), moved.high_x = std::max(moved.high_x, box.high_x);
+    moved.low_y = std::min(moved.low_y, box.low_y), moved.high_y = std::max(moved.high_y, box.high_y);
+  }
+  return moved;
+}
+
+Box box_of(const Side& side) {
+  Box box{std::min(side.from.x.low, side.to.x.low), std::min(side.from.y.low, side.to.y.low),
+          std::max(side.from.x.high, side.to.x.high), std::max(side.from.y.high, side.to.y.high)};
+  if (!side.arc) return box;
+  const Span zero = just(0), one = just(1), back = just(-1);
+  if (may_face(side, {one, zero})) box.high_x = std::max(box.high_x, (side.centre.x + side.radius).high);
+  if (may_face(side, {zero, one})) box.high_y = std::max(box.high_y, (side.centre.y + side.radius).high);
+  if (may_face(side, {back, zero})) box.low_x = std::min(box.low_x, (side.centre.x - side.radius).low);
+  if (may_face(side, {zero, back})) box.low_y = std::min(box.low_y, (side.centre.y - side.radius).low);
+  const Span off{-side.off, side.off};
+  return {(just(box.low_x) + off).low, (just(box.low_y) + off).low, (just(box.high_x) + off).high,
+          (just(box.high_y) + off).high};
+}
+
+}  // namespace lekalo::verify
