@@ -112,7 +112,7 @@ TEST_F(WrittenBefore, ExportsAreReadBack) {
     ASSERT_TRUE(drawing) << drawing.error().message;
     for (const std::string layer : {"PART", "BLANK"}) {
       io::DrawingOptions only;
-      only.layers = {layer};
+      only.take = {layer};
       const Result<io::DrawnRegions> regions = io::make_regions(*drawing, only);
       ASSERT_TRUE(regions) << regions.error().message;
       EXPECT_EQ(regions->regions.size(), 1U) << name << ' ' << layer;
