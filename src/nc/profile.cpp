@@ -49,17 +49,16 @@ Result<void> check_options(const ProfileOptions& o) {
       {"plunge in mm/min", o.plunge_mm_per_min, 0.1, 1e6, router},
   };
   for (const Range& range : ranges)
-    if (range.needed)
-      if (auto fine = check_range(range.what, range.value, range.low, range.high); !fine) return fine;
-  if (auto fine = check_range("tolerance in mm (less than a quarter of the kerf)", o.tolerance_mm, 1e-4,
-                              0.25 * o.kerf_mm);
-      !fine)
-    return fine;
+    if (range.needed) LEKALO_CHECK(check_range(range.what, range.value, range.low, range.high));
+  LEKALO_CHECK(check_range("tolerance in mm (less than a quarter of the kerf)", o.tolerance_mm, 1e-4,
+                           0.25 * o.kerf_mm));
   if (router && !(o.speed >= 1))
     return failure(ErrorCode::usage, "a router needs the speed of its spindle, the S word");
-  if (o.post == Post::grbl && o.process == Process::laser && !(o.speed >= 1))
-    return failure(ErrorCode::usage,
-                   "a GRBL laser needs the power of its beam, the S word: without it the beam stays dark");
+  if (o.post.laser_needs_power && o.process == Process::laser && !(o.speed >= 1))
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a {} laser needs the power of its beam, the S word: without it the beam stays dark",
+                    o.post.control));
   if (router && o.pierce_s > 0)
     return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
   return {};
@@ -127,16 +126,15 @@ std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edg
 
 Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, const std::string& name,
                                        const ProfileOptions& options) {
-  if (auto fine = check_options(options); !fine) return tl::unexpected(fine.error());
+  LEKALO_CHECK(check_options(options));
   if (parts.empty()) return failure(ErrorCode::bad_input, "there is no part to cut");
   const Resolution resolution = resolution_of(options);
-  Result<std::vector<Cut>> cuts = compensated_cuts(parts, options);
-  if (!cuts) return tl::unexpected(cuts.error());
+  LEKALO_TRY(std::vector<Cut> cuts, compensated_cuts(parts, options));
 
   const KerfProof proof(parts, options);
   ProfileProgram program;
   std::vector<Starts> starts;
-  for (Cut& cut : *cuts) {
+  for (Cut& cut : cuts) {
     starts.push_back(starts_of(cut.path, proof, options));
     // The path is looked at as it will be written, after starts_of has begun new edges in it.
     const KerfProof::Finding finding = proof.look(cut.path);
@@ -147,12 +145,12 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
                                   resolution, 0.5 * options.kerf_mm);
     if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
   }
-  const std::vector<OrderedCut> order = ordered_cuts(starts, enclosing_cuts(parts, *cuts, resolution));
+  const std::vector<OrderedCut> order = ordered_cuts(starts, enclosing_cuts(parts, cuts, resolution));
 
   ProfileWriter writer(name, options);
   Point here;
   for (const OrderedCut& ordered : order) {
-    const Cut& cut = (*cuts)[ordered.cut];
+    const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
     const Start& start = its.choices[ordered.start];
     const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);

@@ -6,14 +6,9 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/nc/profile.hpp"
+#include "lekalo/nc/program_writer.hpp"
 
 namespace lekalo::nc {
-
-/// A point as the program writes it: whole units of the last decimal.
-struct WrittenPoint {
-  std::int64_t x = 0, y = 0;
-  friend bool operator==(const WrittenPoint&, const WrittenPoint&) = default;
-};
 
 /// The words' last decimal.
 struct Resolution {

@@ -59,18 +59,14 @@ std::string apply_edits(std::string_view text, std::vector<Edit> edits) {
 
 Result<Rewritten> rewrite_program(std::string_view text, const std::string& name, double x, double y,
                                   double theta, const RewriteOptions& options) {
-  if (auto request = check_request(name, x, y, theta, options); !request)
-    return tl::unexpected(request.error());
-  const Result<Program> program = parse_program(text, name);
-  if (!program) return tl::unexpected(program.error());
-  const Result<Interpretation> interpretation = interpret(*program, name, options);
-  if (!interpretation) return tl::unexpected(interpretation.error());
+  LEKALO_CHECK(check_request(name, x, y, theta, options));
+  LEKALO_TRY(const Program program, parse_program(text, name));
+  LEKALO_TRY(const Interpretation interpretation, interpret(program, name, options));
 
   const RigidMotion machine_from_part(x, y, theta);
-  Result<Rewritten> result =
-      run_mode({text, name, *program, *interpretation, machine_from_part, theta, options});
-  if (result)
-    result->notes.insert(result->notes.end(), interpretation->notes.begin(), interpretation->notes.end());
+  LEKALO_TRY(Rewritten result,
+             run_mode({text, name, program, interpretation, machine_from_part, theta, options}));
+  result.notes.insert(result.notes.end(), interpretation.notes.begin(), interpretation.notes.end());
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
+#include "lekalo/nc/dialect.hpp"
 
 namespace lekalo::nc {
 
@@ -20,7 +21,6 @@ struct ProfilePart {
   geom::Region region;   ///< made by make_region
 };
 
-enum class Post { linuxcnc, grbl, fanuc };
 enum class Process {
   laser,   ///< the beam on with M3 (GRBL: M4, whose power follows the speed), off with M5
   plasma,  ///< the same with M3 and a wait for the pierce
@@ -32,7 +32,7 @@ enum class LeadShape {
 };
 
 struct ProfileOptions {
-  Post post = Post::linuxcnc;
+  Dialect post = posts().front();
   Process process = Process::laser;
   LengthUnit unit = LengthUnit::millimetre;  ///< of the program's words: G21 or G20
   double kerf_mm = 0;                        ///< width of the cut, 0.01 to 100

@@ -35,7 +35,7 @@ struct ExportRequest {
 using ExportWord = std::pair<std::string, std::string>;
 /// Every word that some form takes, with what stands for its value and what it means.
 struct ExportWordHelp {
-  const char *name, *type, *help;
+  std::string name, type, help;
 };
 [[nodiscard]] const std::vector<ExportWordHelp>& export_words();
 
