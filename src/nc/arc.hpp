@@ -13,7 +13,6 @@ struct Arc {
   double sweep = 0;                         ///< radians in (0, 2 pi], without whole turns by P
 };
 
-inline constexpr double kFullTurn = 6.283185307179586;
 /// Smallest sweep that is an arc and not the full circle: LinuxCNC takes ends closer than 1e-6 rad for one
 /// point.
 inline constexpr double kSmallestSweep = 2e-6;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arc.hpp"
+#include "lekalo/base/angle.hpp"
 #include "modes.hpp"
 #include "white_list.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using geom::DoubleDouble;
 
-constexpr DoubleDouble kPi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+constexpr DoubleDouble kExactPi{kPi, 0x1.1a62633145c07p-53};
 /// LinuxCNC reads an angle in double precision: nine decimals of a degree are 2e-11 rad.
 constexpr int kOffsetAngleDecimals = 9;
 
@@ -64,12 +65,12 @@ struct RoundedMotion {
 /// should, and is rounded in its turn. What the angle's rounding does so grows from the middle of the
 /// program, not from its origin.
 RoundedMotion round_motion(const RewriteJob& job, int angle_decimals, LengthUnit unit) {
-  const DoubleDouble exact_degrees = DoubleDouble{job.theta} * DoubleDouble{180.0} / kPi;
+  const DoubleDouble exact_degrees = DoubleDouble{job.theta} * DoubleDouble{180.0} / kExactPi;
   double power = 1;
   for (int k = 0; k < angle_decimals; ++k) power *= 10;
   const Wide turn = static_cast<Wide>(360 * power);
   Wide steps = steps_nearest(DoubleDouble{power} * exact_degrees, 1);
-  const DoubleDouble written_theta = to_double_double(steps) * kPi / DoubleDouble{180.0 * power};
+  const DoubleDouble written_theta = to_double_double(steps) * kExactPi / DoubleDouble{180.0 * power};
   steps %= turn;
   if (2 * steps > turn) steps -= turn;
   if (2 * steps <= -turn) steps += turn;

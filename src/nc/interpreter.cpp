@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "arc.hpp"
+#include "lekalo/base/angle.hpp"
 #include "white_list.hpp"
 
 namespace lekalo::nc {
@@ -399,7 +400,7 @@ class Interpreter {
     if (!radii_agree(arc, motion.unit))
       return fmt::format("the centre is {:.5f} mm from the start but {:.5f} mm from the end of the arc",
                          arc.start_radius, arc.end_radius);
-    const double apart = std::min(arc.sweep, kFullTurn - arc.sweep);
+    const double apart = std::min(arc.sweep, kTurn - arc.sweep);
     if (motion.end != motion.start && apart < kSmallestSweep)
       return fmt::format(
           "the ends of the arc differ, but seen from its centre by {:.1e} rad only: a control may run a "

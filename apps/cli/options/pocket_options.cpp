@@ -3,14 +3,13 @@
 #include <memory>
 
 #include "after_words.hpp"
+#include "lekalo/base/angle.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
 
 namespace lekalo::cli {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 constexpr std::array kCoolants{Word<mill::Coolant>{"off", mill::Coolant::off},
                                Word<mill::Coolant>{"mist", mill::Coolant::mist},
