@@ -62,7 +62,7 @@ void append_written(const Edge& edge, const Resolution& resolution, WrittenPoint
   at = written.to;
 }
 
-/// Clockwise from its contour counter-clockwise, and the other way round.
+/// Outlines are counter-clockwise and cut clockwise, so that the part is on the right; holes the other way.
 std::vector<WrittenEdge> cut_along(const geom::Contour& contour, const Resolution& resolution) {
   return written_edges(geom::reversed(contour), resolution);
 }
@@ -81,7 +81,7 @@ Result<Cut> hole_cut(const ProfilePart& part, std::size_t index, std::size_t hol
   const std::string what = fmt::format("hole {}", hole + 1);
   if (shrunk.regions.empty()) return too_narrow(part, what, options.kerf_mm);
   if (shrunk.regions.size() > 1) return too_narrow(part, "a neck of " + what, options.kerf_mm);
-  // Counter-clockwise, as the outer contour of a region is.
+  // The outer contour of a region runs counter-clockwise, as the cut of a hole should.
   Cut cut{index, false, hole, written_edges(shrunk.regions.front().outer, resolution)};
   if (cut.path.size() < 2) return too_narrow(part, what, options.kerf_mm);
   return cut;

@@ -15,7 +15,7 @@ constexpr std::array kExportFormats{Word<ExportFormat>{"layout", ExportFormat::l
                                     Word<ExportFormat>{"hpgl", ExportFormat::machine},
                                     Word<ExportFormat>{"gcode", ExportFormat::machine}};
 
-/// As typed.
+/// The words as they were typed.
 struct ExportWords {
   LayoutWords layout;
   std::string format, output, instance_name;

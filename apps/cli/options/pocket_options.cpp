@@ -23,7 +23,7 @@ constexpr std::array kMethods{Word<mill::Method>{"fronts", mill::Method::fronts}
 constexpr std::array kWorkOffsets{Word<int>{"G54", 1}, Word<int>{"G55", 2}, Word<int>{"G56", 3},
                                   Word<int>{"G57", 4}, Word<int>{"G58", 5}, Word<int>{"G59", 6}};
 
-/// As typed.
+/// The words as they were typed.
 struct PocketWords {
   std::string pocket, tool, step_over, stock_to_leave, floor_stock, depth, step_down, rest, direction,
       ramp_angle, safe_height, tolerance;

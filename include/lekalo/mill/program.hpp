@@ -19,7 +19,7 @@ struct ProgramOptions {
   int tool_number = 0;  ///< 1 to 9999: the post's change to this tool; 0: the one in the spindle
   double spindle = 0;   ///< rev/min, the S word with M3; 0: left alone
   Coolant coolant = Coolant::off;
-  double feed_mm_per_min = 1500;  ///< in the cut; helices run at half of it
+  double feed_mm_per_min = 1500;  ///< feed of the cut; helices run at half of it
   double link_feed_mm_per_min = 5000;
   double plunge_feed_mm_per_min = 300;
   std::vector<std::string> comments;  ///< at the beginning; letters, digits, points and dashes stay

@@ -9,7 +9,7 @@
 
 namespace lekalo::nc {
 
-/// What one control wants its programs to look like: everything in which the posts differ.
+/// The form that one control wants its programs to have: everything in which the posts differ.
 /// docs/design/export.md shows how a post is added.
 ///
 /// Texts are whole lines, parted by `\n`, without a `\n` at their end. In them `{unit}` stands for G20 or
@@ -40,7 +40,7 @@ struct Dialect {
   std::string_view tape_mark = "";       ///< the first and the last line; empty: none
   std::string_view program_number = "";  ///< the line after the tape mark, before a title; empty: none
 
-  /// What sets every mode that a program of this kind depends on, and what ends it.
+  /// The lines that set every mode on which a program of this kind depends, and the lines that end it.
   struct Frame {
     std::string_view modes, end;
   };
@@ -52,7 +52,7 @@ struct Dialect {
   bool laser_needs_power = false;  ///< without an S word the beam stays dark
 };
 
-/// All posts. The first is the one that is taken where none is chosen.
+/// The list of all posts, in the order in which help shows them. The first one is taken if none is chosen.
 [[nodiscard]] std::span<const Dialect> posts() noexcept;
 
 /// The post of this name; none: nullptr.

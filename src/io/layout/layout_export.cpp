@@ -24,7 +24,8 @@ bool wanted(const ExportRequest& request, const char* layer) {
          std::find(request.only.begin(), request.only.end(), layer) != request.only.end();
 }
 
-/// Regions, lines and texts in the file's unit, from the stock up to the labels.
+/// Regions, lines and texts in the file's unit, in the order in which they are drawn: the stock first, labels
+/// last.
 struct Drawn {
   std::vector<LayeredRegion> regions;
   DrawingExtras extras;
@@ -78,7 +79,7 @@ class Drawer {
       drawn_.extras.texts.push_back({part.label, scaled(part.label_at), scale_ * part.label_height, "LABEL"});
   }
 
-  /// Above the sheet.
+  /// Several sheets stand side by side, so each has its name above it.
   void add_title(const SheetShapes& sheet) {
     if (!wanted(request_, "LABEL")) return;
     const geom::Box box = geom::bounds(sheet.material.outer);
@@ -156,6 +157,7 @@ std::optional<ExportForm> export_form(std::string_view word) noexcept {
 Result<Exported> export_layout(const layout::Document& document, const std::string& name,
                                const ExportRequest& request) {
   LEKALO_TRY(const auto sheets, detail::sheets_to_write(document, request.sheet));
+  // Steps 1 and 2 of docs/design/export.md.
   const bool together = request.form == ExportForm::dxf || request.form == ExportForm::svg;
   std::vector<std::string> notes;
   const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, sheets, together, notes);

@@ -10,7 +10,8 @@
 namespace lekalo::io {
 namespace {
 
-/// One word: which forms take it, and what it sets. The value is not empty.
+/// Takes words one after the other into a request, and at the end asks for those that are missing.
+/// \pre values are not empty
 class WordTaker {
  public:
   WordTaker(ExportRequest& request, const std::string& prefix) : request_(request), prefix_(prefix) {}
@@ -46,7 +47,7 @@ class WordTaker {
     return profile_number(word);
   }
 
-  /// What has to be given but was not.
+  /// Fails for words that have to be given but were not, and for those that contradict each other.
   Result<void> complete() {
     const auto needs = [&](const char* name, const char* why) -> Result<void> {
       if (std::find(given_.begin(), given_.end(), name) != given_.end()) return {};
