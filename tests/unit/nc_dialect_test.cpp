@@ -3,22 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
 #include <vector>
 
-#include "lekalo/io/layout_export.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/mill/program.hpp"
 #include "lekalo/nc/profile.hpp"
 #include "lekalo/nc/rewrite.hpp"
 #include "support/places.hpp"
 #include "support/profile_parts.hpp"
-#include "verify/nc_moves.hpp"
+#include "verify/pocket/nc_moves.hpp"
 
-// A post is a value: what both writers of programs write with one that nobody registered, and that whatever
-// lists the posts lists those of the library.
+// A post is a value. Both writers of programs take one that nobody registered, and whatever lists the posts
+// lists those of the library.
 
 namespace lekalo::nc {
 namespace {
@@ -68,9 +69,15 @@ std::vector<ProfilePart> square() {
   return {{1, cases::region_of_contours(cases::box_contour(5, 5, 10, 10))}};
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(cases::source_dir() + "/" + path);
-  return {std::istreambuf_iterator<char>(file), {}};
+/// The text of the file of this name, wherever it stands in a folder of the checkout.
+std::string text_of(const std::string& folder, const std::string& name) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(cases::source_dir() + "/" + folder)) {
+    if (entry.path().filename() != name) continue;
+    std::ifstream file(entry.path());
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  return {};
 }
 
 /// The words between quotes or bars.
@@ -190,14 +197,14 @@ TEST(NcDialect, TheOptionsOfExportListThePosts) {
 }
 
 TEST(NcDialect, ThePageOffersThePosts) {
-  const std::string page = text_of("web/src/export_choices.ts");
+  const std::string page = text_of("web/src", "export_choices.ts");
   std::smatch list;
   ASSERT_TRUE(std::regex_search(page, list, std::regex(R"(name:\s*['"]post['"],\s*of:\s*\[([^\]]*)\])")));
   EXPECT_EQ(words_of(list[1]), names_of_posts());
 }
 
 TEST(NcDialect, TheDocsNamePostsThatThereAre) {
-  const std::string docs = text_of("docs/cli.md");
+  const std::string docs = text_of("docs", "cli.md");
   const std::regex option(R"(--post ([a-z0-9|]+))");
   std::size_t named = 0;
   for (auto found = std::sregex_iterator(docs.begin(), docs.end(), option); found != std::sregex_iterator();
