@@ -26,7 +26,7 @@ int decimals_of(const ProgramOptions& o) {
   return o.unit == LengthUnit::inch ? std::max(decimals, kLeastInchDecimals) : decimals;
 }
 
-/// Step 6 of docs/design/pocket-program.md, whose numbers stand here.
+/// Step 6 of docs/design/pocket-program.md, whose numbers stand below.
 class Writer {
  public:
   explicit Writer(const ProgramOptions& o)
@@ -54,7 +54,7 @@ class Writer {
   }
 
  private:
-  /// 6.1
+  /// Step 6.1.
   void begin() {
     out_.begin();
     for (const std::string& words : o_.comments) out_.comment(words);
@@ -64,14 +64,14 @@ class Writer {
     if (o_.coolant != Coolant::off) out_.line(o_.coolant == Coolant::mist ? "M7" : "M8");
   }
 
-  /// 6.6
+  /// Step 6.6.
   std::string end() {
     if (o_.coolant != Coolant::off) out_.line("M9");
     if (o_.spindle > 0) out_.line("M5");
     return out_.finish(o_.post.pocket.end);
   }
 
-  /// 6.3
+  /// Step 6.3.
   [[nodiscard]] std::int64_t count(double mm) const {
     return static_cast<std::int64_t>(std::floor(mm / step_ + 0.5));
   }
@@ -86,7 +86,7 @@ class Writer {
     return words;
   }
 
-  /// 6.2: the tool goes up before it goes across, because nobody knows where it stands.
+  /// Step 6.2: the tool goes up before it goes across, because nobody knows where it stands.
   void first(const PathMove& move) {
     z_ = count(move.z);
     out_.line("G0 Z" + out_.number(z_));
@@ -106,7 +106,7 @@ class Writer {
     exact_ = move.to;
   }
 
-  /// 6.2: up, across, down.
+  /// Step 6.2: the tool goes up, across, down.
   void rapid(const PathMove& move) {
     const std::int64_t z = count(move.z);
     const Count to = count(move.to);
@@ -165,8 +165,8 @@ class Writer {
     }
   };
 
-  /// 6.4 and 6.5: the arc between two shares of its sweep. Of the centres on the grid near its own it gets
-  /// the one whose circle, as the control draws it between the written ends, keeps nearest to the arc.
+  /// Steps 6.4 and 6.5: the arc between two shares of its sweep. Of the centres on the grid near its own it
+  /// gets the one whose circle, as the control draws it between the written ends, keeps nearest to the arc.
   void part_of_arc(const Arc& arc, double begin, double end, int halved) {
     const Point to = arc.at(end);
     const double z = end >= 1 ? arc.move->z : arc.from_z + end * (arc.move->z - arc.from_z);
