@@ -2,7 +2,7 @@
 
 #include <array>
 
-/// A word for each post: src/nc/post_NAME.cpp defines `Dialect post_NAME()`.
+/// Each name stands for a post, the value of `post_NAME()`, which a file of its own defines: post_NAME.cpp.
 #define LEKALO_POSTS(each) each(linuxcnc) each(grbl) each(fanuc)
 
 #define LEKALO_DECLARED(name) Dialect post_##name();

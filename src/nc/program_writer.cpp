@@ -48,7 +48,7 @@ void ProgramWriter::lines(std::string_view text, Places places) {
   };
   fill("{unit}", unit_ == LengthUnit::inch ? "G20" : "G21");
   for (const auto& [place, word] : places) fill(place, word);
-  for (std::size_t begin = 0; begin <= filled.size();) {
+  for (std::size_t begin = 0; begin < filled.size();) {
     const std::size_t end = std::min(filled.find('\n', begin), filled.size());
     line(std::string_view(filled).substr(begin, end - begin));
     begin = end + 1;

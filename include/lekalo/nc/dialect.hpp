@@ -12,8 +12,8 @@ namespace lekalo::nc {
 /// The form that one control wants its programs to have: everything in which the posts differ.
 /// docs/design/export.md shows how a post is added.
 ///
-/// Texts are whole lines, parted by `\n`, without a `\n` at their end. In them `{unit}` stands for G20 or
-/// G21.
+/// Texts are whole lines, parted by `\n`, without a `\n` at their end; an empty text is no line. `{unit}` in
+/// them stands for G20 or G21.
 struct Dialect {
   std::string_view name;     ///< the word that chooses the post: small letters and digits
   std::string_view control;  ///< the control's own name, for sentences
