@@ -131,6 +131,15 @@ TEST(NcDialect, APocketIsWrittenInADialectOfOnesOwn) {
   EXPECT_EQ((*moves)[2].centre.y, 10);
 }
 
+TEST(NcDialect, AnEmptyTextIsNoLine) {
+  Dialect post = strange();
+  post.tool_change = "", post.pocket.end = "";
+  const std::string text = program_of(short_path(), pocket_options(post));
+  EXPECT_EQ(text.find("\n\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("G94 G56\nS9000 M3\n"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("M5\n%\n")) << text;
+}
+
 TEST(NcDialect, AProfileIsCutInADialectOfOnesOwn) {
   const auto made = profile_program(square(), "Plate", profile_options(strange()));
   ASSERT_TRUE(made) << made.error().message;
