@@ -63,7 +63,7 @@ Real distance_to_step(rs274::Point p, const rs274::Step& step) {
 
 ProfileOptions random_options(Random& random) {
   ProfileOptions o;
-  o.post = static_cast<Post>(random.below(3));
+  o.post = posts()[random.below(3)];
   o.process = random.below(2) == 0 ? Process::laser : Process::plasma;
   o.unit = random.below(3) == 0 ? LengthUnit::inch : LengthUnit::millimetre;
   o.kerf_mm = random.uniform(0.1, 1.5);

@@ -101,7 +101,7 @@ TEST(NcProfile, options_out_of_range_are_refused_by_name) {
          o.pass_mm = 0.01;
        },
        "pass"},
-      {"dark beam", [](ProfileOptions& o) { o.post = Post::grbl; }, "beam stays dark"},
+      {"dark beam", [](ProfileOptions& o) { o.post = *post_named("grbl"); }, "beam stays dark"},
   };
   for (const Wrong& wrong : wrongs) {
     ProfileOptions options = plain();
@@ -195,12 +195,12 @@ TEST(NcProfile, the_posts_write_their_own_words) {
   const auto has = [](const std::string& all, const char* part) {
     return all.find(part) != std::string::npos;
   };
-  options.post = Post::grbl;
+  options.post = *post_named("grbl");
   EXPECT_TRUE(has(text(), "M4 S700\nG4 P0.500\n"));
   EXPECT_FALSE(has(text(), "G80"));
   options.process = Process::plasma;
   EXPECT_TRUE(has(text(), "M3 S700\n"));
-  options.post = Post::fanuc;
+  options.post = *post_named("fanuc");
   EXPECT_EQ(text().rfind("%\nO0001 (X)\n", 0), 0U);
   EXPECT_TRUE(has(text(), "G4 P500\n"));
   EXPECT_TRUE(has(text(), "X4.500"));
@@ -209,7 +209,7 @@ TEST(NcProfile, the_posts_write_their_own_words) {
   options.unit = LengthUnit::inch;
   EXPECT_TRUE(has(text(), "G20 G17 G90"));
   EXPECT_TRUE(has(text(), "F23.62"));
-  options.pierce_s = 0, options.process = Process::router, options.post = Post::linuxcnc,
+  options.pierce_s = 0, options.process = Process::router, options.post = *post_named("linuxcnc"),
   options.unit = LengthUnit::millimetre;
   options.depth_mm = 5, options.pass_mm = 2, options.plunge_mm_per_min = 90;
   EXPECT_TRUE(has(text(), "G0 Z5.0000\nM3 S700\n"));
