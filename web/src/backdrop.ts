@@ -22,11 +22,23 @@ const AT_A_TIME = 32;
 /// Where changes come faster than it can be painted, it is painted at once after so long, ms.
 const LONGEST_STALE_MS = 300;
 
-interface Rectangle { left: number; top: number; right: number; bottom: number }
+interface Rectangle {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
 /// What the canvas shows.
 interface Painted {
-  x: number; y: number; scale: number; model: Model; theme: unknown; show: string; sheets: string;
-  looks: Map<number, { p: Placement; look: number }>; violations: Map<string, Violation>;
+  x: number;
+  y: number;
+  scale: number;
+  model: Model;
+  theme: unknown;
+  show: string;
+  sheets: string;
+  looks: Map<number, { p: Placement; look: number }>;
+  violations: Map<string, Violation>;
 }
 
 export class Backdrop {
@@ -40,7 +52,10 @@ export class Backdrop {
   private aside: CanvasRenderingContext2D | null = null;
   private coming: { ctx: CanvasRenderingContext2D; of: Painted; steps: Generator<void> } | null = null;
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly painter: Painter) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly painter: Painter,
+  ) {
     this.ctx = canvas.getContext('2d', { alpha: false })!;
   }
 
@@ -63,7 +78,10 @@ export class Backdrop {
   draw(scene: Scene, ms = Infinity): boolean {
     this.painter.take(scene.model);
     const now = described(scene);
-    const rectangles = this.painted && this.stale === null && sameView(this.painted, now) ? this.changed(scene, this.painted, now) : null;
+    const rectangles =
+      this.painted && this.stale === null && sameView(this.painted, now)
+        ? this.changed(scene, this.painted, now)
+        : null;
     if (!rectangles && ms < Infinity) {
       this.stale ??= performance.now();
       return this.sharpen(scene, ms);
@@ -85,7 +103,12 @@ export class Backdrop {
     ctx.setTransform(1, 0, 0, 1, 0, 0);
     if (this.stale === null && k === 1) {
       const [right, down] = [Math.round(dx), Math.round(dy)];
-      if (Math.abs(dx - right) > 1e-3 || Math.abs(dy - down) > 1e-3 || Math.abs(right) >= canvas.width || Math.abs(down) >= canvas.height) {
+      if (
+        Math.abs(dx - right) > 1e-3 ||
+        Math.abs(dy - down) > 1e-3 ||
+        Math.abs(right) >= canvas.width ||
+        Math.abs(down) >= canvas.height
+      ) {
         this.stale = performance.now();
         return this.sharpen(scene, ms);
       }
@@ -93,8 +116,16 @@ export class Backdrop {
       ctx.drawImage(canvas, right, down);
       ctx.globalCompositeOperation = 'source-over';
       const { right: w, bottom: h } = this.whole();
-      if (right !== 0) this.paint(scene, right > 0 ? { left: 0, top: 0, right, bottom: h } : { left: w + right, top: 0, right: w, bottom: h });
-      if (down !== 0) this.paint(scene, down > 0 ? { left: 0, top: 0, right: w, bottom: down } : { left: 0, top: h + down, right: w, bottom: h });
+      if (right !== 0)
+        this.paint(
+          scene,
+          right > 0 ? { left: 0, top: 0, right, bottom: h } : { left: w + right, top: 0, right: w, bottom: h },
+        );
+      if (down !== 0)
+        this.paint(
+          scene,
+          down > 0 ? { left: 0, top: 0, right: w, bottom: down } : { left: 0, top: h + down, right: w, bottom: h },
+        );
       [painted.x, painted.y] = [view.x, view.y];
       return true;
     }
@@ -155,7 +186,11 @@ export class Backdrop {
   }
 
   /// Paints a rectangle, in pixels of the canvas, a few parts at a time.
-  private *steps(ctx: CanvasRenderingContext2D, scene: Scene, { left, top, right, bottom }: Rectangle): Generator<void> {
+  private *steps(
+    ctx: CanvasRenderingContext2D,
+    scene: Scene,
+    { left, top, right, bottom }: Rectangle,
+  ): Generator<void> {
     const { model, view, theme } = scene;
     const world = (out: number): Box => {
       const [l, t] = view.toWorld(left / this.ratio - out, top / this.ratio - out);
@@ -183,7 +218,13 @@ export class Backdrop {
       if (!sheet || scene.moving.has(p.id)) continue;
       const gap = scene.selection.has(p.id) ? model.gap(p) : 0;
       const b = model.box(p);
-      if (b.left + sheet.x - gap > seen.right || b.right + sheet.x + gap < seen.left || b.bottom + sheet.y - gap > seen.top || b.top + sheet.y + gap < seen.bottom) continue;
+      if (
+        b.left + sheet.x - gap > seen.right ||
+        b.right + sheet.x + gap < seen.left ||
+        b.bottom + sheet.y - gap > seen.top ||
+        b.top + sheet.y + gap < seen.bottom
+      )
+        continue;
       this.painter.drawPart(ctx, scene, p, marks.get(p.id) ?? null);
       if (++n % AT_A_TIME === 0) yield;
     }
@@ -193,13 +234,18 @@ export class Backdrop {
 
   /// Rectangles that show something else than before; null: paint all.
   private changed(scene: Scene, was: Painted, now: Painted): Rectangle[] | null {
-    if (was.model !== now.model || was.theme !== now.theme || was.show !== now.show || was.sheets !== now.sheets) return null;
+    if (was.model !== now.model || was.theme !== now.theme || was.show !== now.show || was.sheets !== now.sheets)
+      return null;
     const rectangles: Rectangle[] = [];
     const { view, model } = scene;
     const add = (left: number, top: number, right: number, bottom: number, out: number): void => {
       const k = this.ratio;
-      const one = { left: Math.max(0, Math.floor((left - out) * k)), top: Math.max(0, Math.floor((top - out) * k)),
-        right: Math.min(this.canvas.width, Math.ceil((right + out) * k)), bottom: Math.min(this.canvas.height, Math.ceil((bottom + out) * k)) };
+      const one = {
+        left: Math.max(0, Math.floor((left - out) * k)),
+        top: Math.max(0, Math.floor((top - out) * k)),
+        right: Math.min(this.canvas.width, Math.ceil((right + out) * k)),
+        bottom: Math.min(this.canvas.height, Math.ceil((bottom + out) * k)),
+      };
       if (one.left < one.right && one.top < one.bottom) rectangles.push(one);
     };
     const addPart = (p: Placement): void => {
@@ -218,7 +264,10 @@ export class Backdrop {
       if (rectangles.length > MOST_RECTANGLES) return null;
     }
     for (const [id, { p }] of now.looks) if (!was.looks.has(id)) addPart(p);
-    for (const [some, others] of [[was.violations, now.violations], [now.violations, was.violations]] as const) {
+    for (const [some, others] of [
+      [was.violations, now.violations],
+      [now.violations, was.violations],
+    ] as const) {
       for (const [key, v] of some) {
         const sheet = others.has(key) ? undefined : model.sheet(v.stock, v.copy);
         if (!sheet) continue;
@@ -240,7 +289,8 @@ function copyOf(canvas: HTMLCanvasElement): HTMLCanvasElement {
 function marksOf(scene: Scene): Map<number, 'bad' | 'near'> {
   const marks = new Map<number, 'bad' | 'near'>();
   for (const v of scene.violations) {
-    for (const id of [v.a, v.b]) if (id !== null && marks.get(id) !== 'bad') marks.set(id, isGap(v.kind) ? 'near' : 'bad');
+    for (const id of [v.a, v.b])
+      if (id !== null && marks.get(id) !== 'bad') marks.set(id, isGap(v.kind) ? 'near' : 'bad');
   }
   return marks;
 }
@@ -255,18 +305,44 @@ function described(scene: Scene): Painted {
   for (const p of scene.model.placements.values()) {
     if (scene.moving.has(p.id)) continue;
     const mark = marks.get(p.id);
-    looks.set(p.id, { p, look: (mark === 'bad' ? 2 : mark === 'near' ? 1 : 0) + (scene.selection.has(p.id) ? 4 : 0) + (scene.others.has(p.id) ? 8 : 0) });
+    looks.set(p.id, {
+      p,
+      look:
+        (mark === 'bad' ? 2 : mark === 'near' ? 1 : 0) +
+        (scene.selection.has(p.id) ? 4 : 0) +
+        (scene.others.has(p.id) ? 8 : 0),
+    });
   }
   const { x, y, scale } = scene.view;
   return {
-    x, y, scale, model: scene.model, theme: scene.theme, show: JSON.stringify(scene.show), looks,
-    sheets: `${scene.model.features} ${scene.photos.count} ` + scene.model.sheets.map((s) => `${s.x} ${s.y} ${s.box.right} ${s.box.top}`).join(),
-    violations: new Map(restingViolations(scene).map((v) => [`${v.kind} ${v.a} ${v.b} ${v.copy} ${v.at[0]} ${v.at[1]} ${v.amount_mm}`, v])),
+    x,
+    y,
+    scale,
+    model: scene.model,
+    theme: scene.theme,
+    show: JSON.stringify(scene.show),
+    looks,
+    sheets:
+      `${scene.model.features} ${scene.photos.count} ` +
+      scene.model.sheets.map((s) => `${s.x} ${s.y} ${s.box.right} ${s.box.top}`).join(),
+    violations: new Map(
+      restingViolations(scene).map((v) => [
+        `${v.kind} ${v.a} ${v.b} ${v.copy} ${v.at[0]} ${v.at[1]} ${v.amount_mm}`,
+        v,
+      ]),
+    ),
   };
 }
 const sameView = (a: Painted, b: Painted): boolean => a.x === b.x && a.y === b.y && a.scale === b.scale;
 function sameParts(a: Painted, b: Painted): boolean {
-  if (a.model !== b.model || a.theme !== b.theme || a.show !== b.show || a.sheets !== b.sheets || a.looks.size !== b.looks.size) return false;
+  if (
+    a.model !== b.model ||
+    a.theme !== b.theme ||
+    a.show !== b.show ||
+    a.sheets !== b.sheets ||
+    a.looks.size !== b.looks.size
+  )
+    return false;
   for (const [id, look] of a.looks) {
     const other = b.looks.get(id);
     if (other?.p !== look.p || other.look !== look.look) return false;

@@ -57,10 +57,11 @@ export function benchmark(bench: Bench) {
       });
     },
     /// All of it at once.
-    whole: (n: number) => timed(n, () => {
-      paintAll(bench);
-      painted(base);
-    }),
+    whole: (n: number) =>
+      timed(n, () => {
+        paintAll(bench);
+        painted(base);
+      }),
     /// Slices of the sharp picture after zooming.
     sharpen: (n: number) => {
       let whole = true;
@@ -73,22 +74,25 @@ export function benchmark(bench: Bench) {
       });
     },
     /// The frame after a part is chosen or let go.
-    choose: (n: number) => timed(n, (i) => {
-      editor.selection = new Set([[...editor.model.placements.keys()][(i * 7) % editor.model.placements.size]!]);
-      drawing.backdrop.draw(scene());
-      painted(base);
-    }),
+    choose: (n: number) =>
+      timed(n, (i) => {
+        editor.selection = new Set([[...editor.model.placements.keys()][(i * 7) % editor.model.placements.size]!]);
+        drawing.backdrop.draw(scene());
+        painted(base);
+      }),
     /// Frames while the view moves a few pixels, or is zoomed.
-    pan: (n: number) => timed(n, (i) => {
-      view.pan(i % 40 < 20 ? 7 : -7, i % 40 < 20 ? 4 : -4);
-      drawing.backdrop.follow(scene());
-      painted(base);
-    }),
-    zoom: (n: number) => timed(n, (i) => {
-      view.zoomAt(400, 300, i % 20 < 10 ? 1.1 : 1 / 1.1);
-      drawing.backdrop.follow(scene());
-      painted(base);
-    }),
+    pan: (n: number) =>
+      timed(n, (i) => {
+        view.pan(i % 40 < 20 ? 7 : -7, i % 40 < 20 ? 4 : -4);
+        drawing.backdrop.follow(scene());
+        painted(base);
+      }),
+    zoom: (n: number) =>
+      timed(n, (i) => {
+        view.zoomAt(400, 300, i % 20 < 10 ? 1.1 : 1 / 1.1);
+        drawing.backdrop.follow(scene());
+        painted(base);
+      }),
     /// The check of the whole layout, after each change.
     check: (n: number) => timed(n, () => void editor.kernel.check()),
     /// One part in hand at n places across the sheet: the check, the drawing.
@@ -109,11 +113,12 @@ export function benchmark(bench: Bench) {
       return made;
     },
     /// What the machine itself does to such figures.
-    loop: (n: number) => timed(n, () => {
-      let sum = 0;
-      for (let i = 0; i < 1e6; ++i) sum += i ^ (i >> 3);
-      if (sum === 1) throw new Error('never');
-    }),
+    loop: (n: number) =>
+      timed(n, () => {
+        let sum = 0;
+        for (let i = 0; i < 1e6; ++i) sum += i ^ (i >> 3);
+        if (sum === 1) throw new Error('never');
+      }),
   };
 }
 
@@ -138,9 +143,17 @@ export async function printFigures(bench: Bench): Promise<void> {
   const firstView = performance.getEntriesByName('first view')[0]?.startTime ?? NaN;
   const rows = h('tbody');
   const head = h('tr', {}, ...['ms', 'median', '99 %', 'worst'].map((text) => h('th', {}, text)));
-  const dialog: HTMLDialogElement = h('dialog', { class: 'benchmark', 'data-id': 'benchmark' },
+  const dialog: HTMLDialogElement = h(
+    'dialog',
+    { class: 'benchmark', 'data-id': 'benchmark' },
     h('button', { 'aria-label': 'Close', click: () => dialog.remove() }, '×'),
-    h('p', {}, `${bench.editor.model.placements.size} parts; first view ${firstView.toFixed(0)} ms after the page began to load`), h('table', {}, h('thead', {}, head), rows));
+    h(
+      'p',
+      {},
+      `${bench.editor.model.placements.size} parts; first view ${firstView.toFixed(0)} ms after the page began to load`,
+    ),
+    h('table', {}, h('thead', {}, head), rows),
+  );
   document.body.append(dialog);
   dialog.show();
   if (bench.editor.model.placements.size === 0) {
@@ -150,7 +163,14 @@ export async function printFigures(bench: Bench): Promise<void> {
   for (const [name, what, times] of ROWS) {
     await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
     const { median, p99, worst } = work[name](times);
-    rows.append(h('tr', { 'data-id': `benchmark-${name}` }, h('td', {}, what), ...[median, p99, worst].map((ms) => h('td', {}, ms.toFixed(2)))));
+    rows.append(
+      h(
+        'tr',
+        { 'data-id': `benchmark-${name}` },
+        h('td', {}, what),
+        ...[median, p99, worst].map((ms) => h('td', {}, ms.toFixed(2))),
+      ),
+    );
   }
   bench.view.fit(bench.editor.model.extent(), 28, true);
   paintAll(bench);

@@ -23,7 +23,11 @@ export class Checking {
   private time = new TimeLeft();
 
   /// \param tell  some of it is done; \p whole: all
-  constructor(private readonly kernel: () => Kernel, private readonly model: () => Model, private readonly tell: (whole: boolean) => void) {}
+  constructor(
+    private readonly kernel: () => Kernel,
+    private readonly model: () => Model,
+    private readonly tell: (whole: boolean) => void,
+  ) {}
 
   get fraction(): number {
     return this.most > 0 ? 1 - this.left / this.most : 1;
@@ -89,7 +93,11 @@ export class Checking {
       this.left = looked.left;
       this.most = Math.max(this.most, this.left + looked.ids.length);
       now = performance.now();
-      if (looked.ids.length === this.atATime) this.atATime = Math.max(1, Math.min(MOST_AT_A_TIME, Math.round((this.atATime * SLICE_MS) / 4 / Math.max(now - begun, 0.1))));
+      if (looked.ids.length === this.atATime)
+        this.atATime = Math.max(
+          1,
+          Math.min(MOST_AT_A_TIME, Math.round((this.atATime * SLICE_MS) / 4 / Math.max(now - begun, 0.1))),
+        );
     } while (this.left > 0 && now < until);
     this.time.take(now / 1000, this.fraction);
     if (this.left === 0) return this.sort();
@@ -103,7 +111,8 @@ export class Checking {
     this.timer = null;
   }
   private drop(ids: ReadonlySet<number>): void {
-    if (this.found?.some((v) => ids.has(v.a) || (v.b !== null && ids.has(v.b)))) this.found = this.found.filter((v) => !ids.has(v.a) && !(v.b !== null && ids.has(v.b)));
+    if (this.found?.some((v) => ids.has(v.a) || (v.b !== null && ids.has(v.b))))
+      this.found = this.found.filter((v) => !ids.has(v.a) && !(v.b !== null && ids.has(v.b)));
   }
   private sort(): void {
     this.found = this.found && [...this.found].sort(this.order());
@@ -115,7 +124,12 @@ export class Checking {
       const of = stocks[stock.get(v.stock)!];
       return ((v.kind === 'quality' ? of?.zones : of?.defects) ?? []).findIndex((f) => f.id === v.feature);
     };
-    return (a, b) => stock.get(a.stock)! - stock.get(b.stock)! || a.copy - b.copy || a.a - b.a || VIOLATION_KINDS.indexOf(a.kind) - VIOLATION_KINDS.indexOf(b.kind) ||
-      (a.b ?? 0) - (b.b ?? 0) || (a.feature !== undefined && b.feature !== undefined ? feature(a) - feature(b) : 0);
+    return (a, b) =>
+      stock.get(a.stock)! - stock.get(b.stock)! ||
+      a.copy - b.copy ||
+      a.a - b.a ||
+      VIOLATION_KINDS.indexOf(a.kind) - VIOLATION_KINDS.indexOf(b.kind) ||
+      (a.b ?? 0) - (b.b ?? 0) ||
+      (a.feature !== undefined && b.feature !== undefined ? feature(a) - feature(b) : 0);
   }
 }

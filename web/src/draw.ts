@@ -9,16 +9,58 @@ import { boxesMeet, innerPoint, placedAt, placedBox, type Box, type Model, type 
 import type { View } from './view';
 
 export interface Theme {
-  back: string; material: string; edge: string; ink: string; faint: string; hole: string; defect: string; zone: string;
-  select: string; bad: string; near: string; good: string; partLight: number; partSat: number; partInk: string; other: string;
+  back: string;
+  material: string;
+  edge: string;
+  ink: string;
+  faint: string;
+  hole: string;
+  defect: string;
+  zone: string;
+  select: string;
+  bad: string;
+  near: string;
+  good: string;
+  partLight: number;
+  partSat: number;
+  partInk: string;
+  other: string;
 }
 export const LIGHT: Theme = {
-  back: '#e9ebee', material: '#fbfaf7', edge: '#59616b', ink: '#1d232b', faint: '#8a929c', hole: '#d5d9de', defect: '#7d3c98',
-  zone: '#a8793a', select: '#0b63ce', bad: '#c81e1e', near: '#b86e00', good: '#16794c', partLight: 84, partSat: 42, partInk: '#2c3540', other: '#7a4bd0',
+  back: '#e9ebee',
+  material: '#fbfaf7',
+  edge: '#59616b',
+  ink: '#1d232b',
+  faint: '#8a929c',
+  hole: '#d5d9de',
+  defect: '#7d3c98',
+  zone: '#a8793a',
+  select: '#0b63ce',
+  bad: '#c81e1e',
+  near: '#b86e00',
+  good: '#16794c',
+  partLight: 84,
+  partSat: 42,
+  partInk: '#2c3540',
+  other: '#7a4bd0',
 };
 export const DARK: Theme = {
-  back: '#15181c', material: '#23282e', edge: '#8f99a5', ink: '#e8ecf1', faint: '#77818d', hole: '#15181c', defect: '#c58be0',
-  zone: '#c79a5a', select: '#5aa7ff', bad: '#ff6b6b', near: '#ffb545', good: '#4cc38a', partLight: 36, partSat: 28, partInk: '#dfe5ec', other: '#b495f5',
+  back: '#15181c',
+  material: '#23282e',
+  edge: '#8f99a5',
+  ink: '#e8ecf1',
+  faint: '#77818d',
+  hole: '#15181c',
+  defect: '#c58be0',
+  zone: '#c79a5a',
+  select: '#5aa7ff',
+  bad: '#ff6b6b',
+  near: '#ffb545',
+  good: '#4cc38a',
+  partLight: 36,
+  partSat: 28,
+  partInk: '#dfe5ec',
+  other: '#b495f5',
 };
 
 export interface Scene {
@@ -241,8 +283,14 @@ export class Picture implements Painter {
       const sheet = first && scene.model.sheet(first.stock, first.copy);
       if (scene.live.nearest && sheet) {
         const n = scene.live.nearest;
-        this.drawMeasure(ctx, scene, [n.from[0] + sheet.x, n.from[1] + sheet.y], [n.to[0] + sheet.x, n.to[1] + sheet.y],
-          `${n.distance.toFixed(3)} mm`, theme.good);
+        this.drawMeasure(
+          ctx,
+          scene,
+          [n.from[0] + sheet.x, n.from[1] + sheet.y],
+          [n.to[0] + sheet.x, n.to[1] + sheet.y],
+          `${n.distance.toFixed(3)} mm`,
+          theme.good,
+        );
       }
     }
     if (scene.ruler) {
@@ -252,7 +300,8 @@ export class Picture implements Painter {
     if (scene.draft.length > 0) this.drawDraft(ctx, scene);
     for (const pin of scene.pins) this.drawPin(ctx, theme, view.toScreen(...pin));
     if (scene.handle) this.drawHandle(ctx, theme, scene.handle.top, scene.handle.at);
-    if (scene.arrow) this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
+    if (scene.arrow)
+      this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
     if (scene.band) {
       const [x0, y0] = view.toScreen(scene.band.left, scene.band.top);
       const [x1, y1] = view.toScreen(scene.band.right, scene.band.bottom);
@@ -311,7 +360,8 @@ export class Picture implements Painter {
       ctx.drawImage(image, 0, 0);
       ctx.restore();
     }
-    for (const hole of stock.outline?.polygon.holes ?? []) this.fillHatched(ctx, view, tracedPath([hole], 0), this.hatch(ctx, theme.faint, 'lines'));
+    for (const hole of stock.outline?.polygon.holes ?? [])
+      this.fillHatched(ctx, view, tracedPath([hole], 0), this.hatch(ctx, theme.faint, 'lines'));
     if (scene.show.zones) {
       ctx.save();
       ctx.clip(path, 'evenodd');
@@ -345,8 +395,13 @@ export class Picture implements Painter {
     ctx.textBaseline = 'alphabetic';
     const [tx, ty] = view.toScreen(sheet.x + box.left, sheet.y + box.top);
     if ((box.right - box.left) * view.scale > 60) {
-      ctx.fillText(`${stock.name ?? stock.id}${(stock.count ?? 1) > 1 ? `  ${sheet.copy + 1} / ${stock.count}` : ''}`, tx, ty - 8);
-      if (stock.kind !== 'strip' || stock.grain_deg !== undefined) this.grainMark(ctx, theme, tx + 18, ty + 12, stock.grain_deg ?? 0, 22);
+      ctx.fillText(
+        `${stock.name ?? stock.id}${(stock.count ?? 1) > 1 ? `  ${sheet.copy + 1} / ${stock.count}` : ''}`,
+        tx,
+        ty - 8,
+      );
+      if (stock.kind !== 'strip' || stock.grain_deg !== undefined)
+        this.grainMark(ctx, theme, tx + 18, ty + 12, stock.grain_deg ?? 0, 22);
     }
     if (scene.show.zones && view.scale > 0.12) {
       ctx.font = '11px system-ui, sans-serif';
@@ -395,8 +450,18 @@ export class Picture implements Painter {
       if (!small) this.fillHatched(ctx, view, path, this.hatch(ctx, colour, mark === 'bad' ? 'cross' : 'dots'));
     }
     if (!small || chosen || mark) {
-      ctx.strokeStyle = mark === 'bad' ? theme.bad : mark === 'near' ? theme.near : good ? theme.good : chosen ? theme.select
-        : scene.others.has(p.id) ? theme.other : theme.partInk;
+      ctx.strokeStyle =
+        mark === 'bad'
+          ? theme.bad
+          : mark === 'near'
+            ? theme.near
+            : good
+              ? theme.good
+              : chosen
+                ? theme.select
+                : scene.others.has(p.id)
+                  ? theme.other
+                  : theme.partInk;
       ctx.lineWidth = (chosen || mark || good || scene.others.has(p.id) ? 2 : 0.8) * px;
       ctx.stroke(path);
     }
@@ -436,7 +501,14 @@ export class Picture implements Painter {
     }
   }
 
-  private grainMark(ctx: CanvasRenderingContext2D, theme: Theme, x: number, y: number, degrees: number, length: number): void {
+  private grainMark(
+    ctx: CanvasRenderingContext2D,
+    theme: Theme,
+    x: number,
+    y: number,
+    degrees: number,
+    length: number,
+  ): void {
     const a = (-degrees * Math.PI) / 180;
     const [dx, dy] = [(Math.cos(a) * length) / 2, (Math.sin(a) * length) / 2];
     ctx.strokeStyle = theme.faint;
@@ -476,7 +548,14 @@ export class Picture implements Painter {
     if (v.amount_mm > 0) this.tag(ctx, theme, `${v.amount_mm.toFixed(3)} mm`, x, y - 16, colour);
   }
 
-  private drawMeasure(ctx: CanvasRenderingContext2D, scene: Scene, from: Point, to: Point, text: string, colour: string): void {
+  private drawMeasure(
+    ctx: CanvasRenderingContext2D,
+    scene: Scene,
+    from: Point,
+    to: Point,
+    text: string,
+    colour: string,
+  ): void {
     const [x0, y0] = scene.view.toScreen(...from);
     const [x1, y1] = scene.view.toScreen(...to);
     ctx.strokeStyle = colour;
@@ -486,7 +565,10 @@ export class Picture implements Painter {
     ctx.lineTo(x1, y1);
     const d = Math.hypot(x1 - x0, y1 - y0) || 1;
     const [nx, ny] = [(-(y1 - y0) / d) * 5, ((x1 - x0) / d) * 5];
-    for (const [x, y] of [[x0, y0], [x1, y1]] as const) {
+    for (const [x, y] of [
+      [x0, y0],
+      [x1, y1],
+    ] as const) {
       ctx.moveTo(x - nx, y - ny);
       ctx.lineTo(x + nx, y + ny);
     }
@@ -517,7 +599,12 @@ export class Picture implements Painter {
     ctx.fill();
     ctx.stroke();
     ctx.beginPath();
-    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]] as const) {
+    for (const [dx, dy] of [
+      [1, 0],
+      [-1, 0],
+      [0, 1],
+      [0, -1],
+    ] as const) {
       ctx.moveTo(x + dx * 3, y + dy * 3);
       ctx.lineTo(x + dx * 11, y + dy * 11);
     }
@@ -542,7 +629,12 @@ export class Picture implements Painter {
     ctx.stroke();
   }
 
-  private drawArrow(ctx: CanvasRenderingContext2D, [x0, y0]: [number, number], [x1, y1]: [number, number], colour: string): void {
+  private drawArrow(
+    ctx: CanvasRenderingContext2D,
+    [x0, y0]: [number, number],
+    [x1, y1]: [number, number],
+    colour: string,
+  ): void {
     const a = Math.atan2(y1 - y0, x1 - x0);
     ctx.strokeStyle = colour;
     ctx.lineWidth = 2.5;

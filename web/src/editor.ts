@@ -11,8 +11,23 @@ import { t } from './i18n';
 import { Transfer, type Answer } from './transfer';
 
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
-export type Topic = 'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'show' | 'photo' | 'long' | 'check' | 'transfer';
-export interface Feature { stock: string; kind: 'defect' | 'zone'; id: string }
+export type Topic =
+  | 'layout'
+  | 'selection'
+  | 'moving'
+  | 'mode'
+  | 'connection'
+  | 'message'
+  | 'show'
+  | 'photo'
+  | 'long'
+  | 'check'
+  | 'transfer';
+export interface Feature {
+  stock: string;
+  kind: 'defect' | 'zone';
+  id: string;
+}
 /// A command that runs beside the layout.
 export interface Long {
   verb: LongVerb;
@@ -26,7 +41,9 @@ export interface Long {
   ended: Promise<void>;
 }
 /// What was dropped and waits for its turn.
-export interface Queued { placements: Placement[] }
+export interface Queued {
+  placements: Placement[];
+}
 /// A line for the server, or how to make one of the layout as it is when its turn comes; null: it means nothing any more.
 export type Line = string | (() => string | null);
 
@@ -68,7 +85,11 @@ export class Editor {
   private resting: ReturnType<typeof setTimeout> | null = null;
   /// Files on their way from or to the server.
   readonly transfers = new Set<Transfer>();
-  readonly checking = new Checking(() => this.kernel, () => this.model, (whole) => this.tell(whole ? 'layout' : 'check'));
+  readonly checking = new Checking(
+    () => this.kernel,
+    () => this.model,
+    (whole) => this.tell(whole ? 'layout' : 'check'),
+  );
 
   constructor(public kernel: Kernel) {}
 
@@ -104,7 +125,9 @@ export class Editor {
   }
 
   apply(changes: readonly Change[], nextId: number, features: readonly FeatureChange[] = []): void {
-    this.fresh = new Set(changes.filter(({ id, after }) => after && !this.model.placements.has(id)).map(({ id }) => id));
+    this.fresh = new Set(
+      changes.filter(({ id, after }) => after && !this.model.placements.has(id)).map(({ id }) => id),
+    );
     this.model.apply(changes, nextId, features);
     this.kernel.apply(changes, nextId, features);
     this.checking.changed(changes.map(({ id }) => id));
@@ -189,7 +212,13 @@ export class Editor {
   }
 
   /// Asks the server for what may take a while. \return null: cancelled. Throws where there is no answer
-  async transfer(kind: Transfer['kind'], name: string, method: string, address: string, body?: Blob): Promise<Answer | null> {
+  async transfer(
+    kind: Transfer['kind'],
+    name: string,
+    method: string,
+    address: string,
+    body?: Blob,
+  ): Promise<Answer | null> {
     const one = new Transfer(kind, name, () => this.tell('transfer'));
     this.transfers.add(one);
     this.tell('transfer');
@@ -252,7 +281,9 @@ export class Editor {
     } else if (answer.type === 'done') {
       this.say(answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '');
       this.others.delete(-1);
-      const fresh = (answer.placements ?? []).filter(({ id, after }) => after && this.fresh.has(id)).map(({ id }) => id);
+      const fresh = (answer.placements ?? [])
+        .filter(({ id, after }) => after && this.fresh.has(id))
+        .map(({ id }) => id);
       if (fresh.length > 0 && type === 'command') this.select(fresh);
     }
     if (queued) this.leaveQueue(queued);
@@ -283,7 +314,15 @@ export class Editor {
 
   private beginLong(verb: LongVerb): Course & { ended(): void } {
     let end = (): void => undefined;
-    const long: Long = { verb, seq: 0, fraction: null, secondsLeft: null, best: [], stopping: false, ended: new Promise((resolve) => (end = resolve)) };
+    const long: Long = {
+      verb,
+      seq: 0,
+      fraction: null,
+      secondsLeft: null,
+      best: [],
+      stopping: false,
+      ended: new Promise((resolve) => (end = resolve)),
+    };
     this.long = long;
     this.tell('long');
     return {
@@ -308,7 +347,12 @@ export class Editor {
 }
 
 /// Placements moved by a vector on the grid, to another sheet where one is named.
-export function movedBy(placements: readonly Placement[], dx: number, dy: number, to?: { stock: string; copy: number }): Placement[] {
+export function movedBy(
+  placements: readonly Placement[],
+  dx: number,
+  dy: number,
+  to?: { stock: string; copy: number },
+): Placement[] {
   const [x, y] = [snapToGrid(dx), snapToGrid(dy)];
   return placements.map((p) => ({ ...p, x: p.x + x, y: p.y + y, ...(to ?? {}) }));
 }

@@ -26,16 +26,28 @@ export const CHOICES: Record<ChosenForm, { name: string; sheetEach: boolean; fie
   dxf: { name: 'DXF', sheetEach: false, fields: [UNIT, ONLY] },
   hpgl: { name: 'HPGL', sheetEach: true, fields: [ONLY] },
   gcode: {
-    name: 'G-code', sheetEach: true, fields: [
-      { name: 'process', of: ['laser', 'plasma', 'router'] }, { name: 'post', of: ['linuxcnc', 'grbl', 'fanuc'] }, UNIT,
-      { name: 'kerf', required: true }, { name: 'feed', required: true }, { name: 'lead-in', value: 0 }, { name: 'lead', of: ['line', 'arc'] }, { name: 'speed' },
+    name: 'G-code',
+    sheetEach: true,
+    fields: [
+      { name: 'process', of: ['laser', 'plasma', 'router'] },
+      { name: 'post', of: ['linuxcnc', 'grbl', 'fanuc'] },
+      UNIT,
+      { name: 'kerf', required: true },
+      { name: 'feed', required: true },
+      { name: 'lead-in', value: 0 },
+      { name: 'lead', of: ['line', 'arc'] },
+      { name: 'speed' },
       { name: 'pierce', when: BEAM },
-      { name: 'depth', required: true, when: ROUTER }, { name: 'pass', when: ROUTER }, { name: 'plunge', required: true, when: ROUTER }, { name: 'safe-height', when: ROUTER },
+      { name: 'depth', required: true, when: ROUTER },
+      { name: 'pass', when: ROUTER },
+      { name: 'plunge', required: true, when: ROUTER },
+      { name: 'safe-height', when: ROUTER },
     ],
   },
 };
 
-export const isAsked = (field: Field, values: Values): boolean => !field.when || field.when.includes(values.process ?? '');
+export const isAsked = (field: Field, values: Values): boolean =>
+  !field.when || field.when.includes(values.process ?? '');
 
 /// STOCK#COPY of the sheets that parts lie on; copies from 1.
 export function sheetsInUse(model: Model): string[] {

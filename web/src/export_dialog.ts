@@ -6,7 +6,10 @@ import { t, type Key } from './i18n';
 import type { Model } from './model';
 
 /// What came of saving: why not, or null; and what there is to know about the file.
-export interface Saved { refused: string | null; notes: string[] }
+export interface Saved {
+  refused: string | null;
+  notes: string[];
+}
 
 export interface ExportEvents {
   download(fields: URLSearchParams): Promise<Saved>;
@@ -23,47 +26,101 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
     if (field === 'only') return t(value === 'CUT' ? 'export.only.CUT' : 'export.only.all');
     return field === 'process' || field === 'lead' ? t(`export.${field}.${value}` as Key) : value;
   };
-  const inputOf = (field: Field): HTMLInputElement | HTMLSelectElement => field.of
-    ? h('select', { name: field.name, 'data-field': field.name }, ...field.of.map((value) => h('option', { value, selected: kept[field.name] === value }, words(field.name, value))))
-    : h('input', { name: field.name, 'data-field': field.name, inputmode: 'decimal', 'aria-required': field.required ? 'true' : undefined, autocomplete: 'off', value: kept[field.name] ?? field.value ?? '' });
+  const inputOf = (field: Field): HTMLInputElement | HTMLSelectElement =>
+    field.of
+      ? h(
+          'select',
+          { name: field.name, 'data-field': field.name },
+          ...field.of.map((value) =>
+            h('option', { value, selected: kept[field.name] === value }, words(field.name, value)),
+          ),
+        )
+      : h('input', {
+          name: field.name,
+          'data-field': field.name,
+          inputmode: 'decimal',
+          'aria-required': field.required ? 'true' : undefined,
+          autocomplete: 'off',
+          value: kept[field.name] ?? field.value ?? '',
+        });
   const rows = fields.map((field) => {
     const input = inputOf(field);
-    return { field, input, row: h('label', {}, h('span', {}, `${t(`export.${field.name}` as Key)}${field.required ? ' *' : ''}`), input) };
+    return {
+      field,
+      input,
+      row: h('label', {}, h('span', {}, `${t(`export.${field.name}` as Key)}${field.required ? ' *' : ''}`), input),
+    };
   });
-  const sheet = h('select', { 'data-field': 'sheet' }, ...(sheetEach ? [] : [h('option', { value: '' }, t('export.sheet.all'))]), ...sheets.map((one) => h('option', { value: one }, one)));
+  const sheet = h(
+    'select',
+    { 'data-field': 'sheet' },
+    ...(sheetEach ? [] : [h('option', { value: '' }, t('export.sheet.all'))]),
+    ...sheets.map((one) => h('option', { value: one }, one)),
+  );
   const trouble = h('p', { class: 'trouble', role: 'alert' });
   const known = h('div', { class: 'notes', role: 'status' });
-  const cancel = h('button', { type: 'button', 'data-action': 'export.cancel', click: () => dialog.close() }, t('export.cancel'));
+  const cancel = h(
+    'button',
+    { type: 'button', 'data-action': 'export.cancel', click: () => dialog.close() },
+    t('export.cancel'),
+  );
   const save = h('button', { type: 'submit', 'data-action': 'export.save' }, t('export.save'));
   /// A comma is what half of Europe writes; the server reads points.
-  const values = (): Values => Object.fromEntries(rows.map(({ field, input }) => [field.name, field.of ? input.value : input.value.trim().replace(',', '.')]));
+  const values = (): Values =>
+    Object.fromEntries(
+      rows.map(({ field, input }) => [field.name, field.of ? input.value : input.value.trim().replace(',', '.')]),
+    );
   const showAsked = (): void => {
     const now = values();
     for (const { field, row } of rows) row.hidden = !isAsked(field, now);
   };
   const title = t('export.as', { form: name });
-  const dialog = h('dialog', { class: 'export', 'aria-label': title }, h('h2', {}, title),
-    h('form', { change: showAsked, submit: (e) => {
-      e.preventDefault();
-      void (async () => {
-        save.disabled = true;
-        trouble.textContent = '';
-        known.replaceChildren();
-        const chosen = values();
-        const { refused, notes } = await events.download(request(form, sheets.length > 1 ? sheet.value : '', chosen));
-        save.disabled = false;
-        if (refused !== null) {
-          trouble.textContent = refused;
-          return save.focus();
-        }
-        events.keep(form, chosen);
-        if (notes.length === 0) return dialog.close();
-        // What is to be known about the file is read before the dialog goes.
-        known.replaceChildren(h('p', {}, t('export.saved')), h('ul', {}, ...notes.map((note) => h('li', {}, note))));
-        cancel.textContent = t('close');
-        cancel.focus();
-      })();
-    } }, h('div', { class: 'fields' }, sheets.length > 1 ? h('label', {}, h('span', {}, t('export.sheet')), sheet) : null, ...rows.map((r) => r.row)), trouble, known, h('div', { class: 'buttons' }, cancel, save)));
+  const dialog = h(
+    'dialog',
+    { class: 'export', 'aria-label': title },
+    h('h2', {}, title),
+    h(
+      'form',
+      {
+        change: showAsked,
+        submit: (e) => {
+          e.preventDefault();
+          void (async () => {
+            save.disabled = true;
+            trouble.textContent = '';
+            known.replaceChildren();
+            const chosen = values();
+            const { refused, notes } = await events.download(
+              request(form, sheets.length > 1 ? sheet.value : '', chosen),
+            );
+            save.disabled = false;
+            if (refused !== null) {
+              trouble.textContent = refused;
+              return save.focus();
+            }
+            events.keep(form, chosen);
+            if (notes.length === 0) return dialog.close();
+            // What is to be known about the file is read before the dialog goes.
+            known.replaceChildren(
+              h('p', {}, t('export.saved')),
+              h('ul', {}, ...notes.map((note) => h('li', {}, note))),
+            );
+            cancel.textContent = t('close');
+            cancel.focus();
+          })();
+        },
+      },
+      h(
+        'div',
+        { class: 'fields' },
+        sheets.length > 1 ? h('label', {}, h('span', {}, t('export.sheet')), sheet) : null,
+        ...rows.map((r) => r.row),
+      ),
+      trouble,
+      known,
+      h('div', { class: 'buttons' }, cancel, save),
+    ),
+  );
   dialog.addEventListener('close', () => dialog.remove());
   showAsked();
   return dialog;

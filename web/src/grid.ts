@@ -39,7 +39,12 @@ export const rotationFromPair = (c: number, s: number): Rotation => ({
 
 /// Rule 4: a vertex of a part, in steps, where the placement puts it.
 export function placedVertex(
-  px: number, py: number, rotation: Rotation, tx: number, ty: number, mirrored: boolean,
+  px: number,
+  py: number,
+  rotation: Rotation,
+  tx: number,
+  ty: number,
+  mirrored: boolean,
 ): [number, number] {
   const x = BigInt(mirrored ? -px : px);
   const y = BigInt(py);

@@ -36,7 +36,16 @@ export interface ChangeMessage {
 }
 
 export const violationKinds = [
-  'overlap', 'gap', 'outside', 'border-gap', 'defect', 'defect-gap', 'quality', 'rotation', 'mirror', 'grain',
+  'overlap',
+  'gap',
+  'outside',
+  'border-gap',
+  'defect',
+  'defect-gap',
+  'quality',
+  'rotation',
+  'mirror',
+  'grain',
   'stock',
 ] as const;
 export type ViolationKind = (typeof violationKinds)[number];
@@ -122,7 +131,12 @@ interface Exports {
   lekalo_set_feature(layout: number, stock: number, kind: number, index: number, bytes: number): number;
   lekalo_erase_feature(layout: number, stock: number, kind: number, bytes: number): number;
   lekalo_state(
-    layout: number, count: number, dx: number, dy: number, degrees: number, reach: number,
+    layout: number,
+    count: number,
+    dx: number,
+    dy: number,
+    degrees: number,
+    reach: number,
     depths: number,
   ): number;
   lekalo_state_of(layout: number, count: number, reach: number, depths: number): number;
@@ -131,11 +145,15 @@ interface Exports {
   lekalo_plan(layout: number, bytes: number, strict: number): number;
   lekalo_pick(layout: number, stock: number, copy: number, x: number, y: number): number;
   lekalo_in_box(
-    layout: number, stock: number, copy: number, left: number, bottom: number, right: number, top: number,
+    layout: number,
+    stock: number,
+    copy: number,
+    left: number,
+    bottom: number,
+    right: number,
+    top: number,
   ): number;
-  lekalo_fits_where(
-    layout: number, part: number, stock: number, copy: number, most: number, mirrored: number,
-  ): number;
+  lekalo_fits_where(layout: number, part: number, stock: number, copy: number, most: number, mirrored: number): number;
   lekalo_placements(layout: number): number;
   lekalo_outline(layout: number, kind: number, a: number, b: number): number;
   lekalo_completeness(layout: number): number;
@@ -262,9 +280,11 @@ export class Layout {
       const at = this.stockIndex.get(stock);
       if (at === undefined) throw new Refusal(`there is no stock ${stock}`);
       const which = kind === 'defect' ? 0 : 1;
-      this.kernel.demand(after === null
-        ? this.wasm.lekalo_erase_feature(this.handle, at, which, this.kernel.putText(id))
-        : this.wasm.lekalo_set_feature(this.handle, at, which, index, this.kernel.putText(JSON.stringify(after))));
+      this.kernel.demand(
+        after === null
+          ? this.wasm.lekalo_erase_feature(this.handle, at, which, this.kernel.putText(id))
+          : this.wasm.lekalo_set_feature(this.handle, at, which, index, this.kernel.putText(JSON.stringify(after))),
+      );
     }
     for (const { id, after } of change.placements) {
       if (after === null) this.erase(id);
@@ -299,17 +319,13 @@ export class Layout {
    */
   state(ids: ArrayLike<number>, dx: number, dy: number, { degrees = 0, reach = 50, depths = false } = {}): State {
     this.kernel.putNumbers(ids);
-    return this.stateOf(
-      this.wasm.lekalo_state(this.handle, ids.length, dx, dy, degrees, reach, Number(depths)),
-    );
+    return this.stateOf(this.wasm.lekalo_state(this.handle, ids.length, dx, dy, degrees, reach, Number(depths)));
   }
 
   /** The same of placements anywhere, also new ones (id 0), in place of those with their ids. */
   stateAt(placements: Placement[], { reach = 50, depths = false } = {}): State {
     this.kernel.putNumbers(placements.flatMap(flat));
-    return this.stateOf(
-      this.wasm.lekalo_state_of(this.handle, placements.length, reach, Number(depths)),
-    );
+    return this.stateOf(this.wasm.lekalo_state_of(this.handle, placements.length, reach, Number(depths)));
   }
 
   /** Every violation of the document. */
@@ -332,9 +348,7 @@ export class Layout {
 
   /** What a command line would change. Throws a Refusal with the reason. */
   plan(line: string, mode: 'strict' | 'free'): Plan {
-    this.kernel.demand(
-      this.wasm.lekalo_plan(this.handle, this.kernel.putText(line), mode === 'strict' ? 1 : 0),
-    );
+    this.kernel.demand(this.wasm.lekalo_plan(this.handle, this.kernel.putText(line), mode === 'strict' ? 1 : 0));
     const numbers = this.kernel.numbers();
     const made: Plan = { changed: [], removed: [], nextId: numbers[0]! };
     for (const one of placementsFrom(numbers, 1)) {

@@ -6,13 +6,30 @@ import type { Change } from './model';
 
 export type Mode = 'strict' | 'free';
 export type Level = 'clear' | 'gap' | 'forbidden' | 'unknown';
-export interface Nearest { distance: number; from: Point; to: Point }
-export interface LiveState { level: Level; violations: Violation[]; nearest: Nearest | null }
+export interface Nearest {
+  distance: number;
+  from: Point;
+  to: Point;
+}
+export interface LiveState {
+  level: Level;
+  violations: Violation[];
+  nearest: Nearest | null;
+}
 /// What a look at some placements found: every violation that one of them has a part in, but for those with one
 /// that is still to be looked at.
-export interface Looked { left: number; ids: number[]; violations: Violation[] }
+export interface Looked {
+  left: number;
+  ids: number[];
+  violations: Violation[];
+}
 /// How many of a kit are complete, and what those lack that are wanted and not complete; `mirrored` absent: either hand.
-export interface KitCount { kit: string; wanted: number; complete: number; missing: { part: string; count: number; mirrored?: boolean }[] }
+export interface KitCount {
+  kit: string;
+  wanted: number;
+  complete: number;
+  missing: { part: string; count: number; mirrored?: boolean }[];
+}
 export const UNKNOWN: LiveState = { level: 'unknown', violations: [], nearest: null };
 
 export interface Kernel {

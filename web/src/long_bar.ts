@@ -22,7 +22,9 @@ export interface Work {
 
 export function timeLeft(seconds: number | null): string {
   if (seconds === null || !(seconds >= 0)) return '';
-  return seconds < 90 ? t('long.seconds', { s: Math.ceil(seconds) }) : t('long.minutes', { m: Math.ceil(seconds / 60) });
+  return seconds < 90
+    ? t('long.seconds', { s: Math.ceil(seconds) })
+    : t('long.minutes', { m: Math.ceil(seconds / 60) });
 }
 
 /// Everything of an editor that takes its time.
@@ -31,20 +33,43 @@ function worksOf(editor: Editor): Work[] {
   const works: Work[] = [];
   if (long) {
     works.push({
-      of: long, kind: long.verb, name: t(`long.${long.verb}`), fraction: long.fraction, secondsLeft: long.secondsLeft,
-      says: [long.fraction === null ? t('long.turn') : '', long.best.length > 0 ? t('long.best', { n: long.best.length }) : '', queued.length > 0 ? t('long.queued', { n: queued.length }) : ''],
-      stop: { label: t(long.stopping ? 'long.stopping' : 'long.stop'), hint: t('long.stop.hint'), done: long.stopping, run: () => void editor.stopLong() },
+      of: long,
+      kind: long.verb,
+      name: t(`long.${long.verb}`),
+      fraction: long.fraction,
+      secondsLeft: long.secondsLeft,
+      says: [
+        long.fraction === null ? t('long.turn') : '',
+        long.best.length > 0 ? t('long.best', { n: long.best.length }) : '',
+        queued.length > 0 ? t('long.queued', { n: queued.length }) : '',
+      ],
+      stop: {
+        label: t(long.stopping ? 'long.stopping' : 'long.stop'),
+        hint: t('long.stop.hint'),
+        done: long.stopping,
+        run: () => void editor.stopLong(),
+      },
     });
   }
   if (checking.left > 0 && !checking.stopped) {
     works.push({
-      of: checking, kind: 'check', name: t('check.running'), fraction: checking.fraction, secondsLeft: checking.secondsLeft, says: [],
+      of: checking,
+      kind: 'check',
+      name: t('check.running'),
+      fraction: checking.fraction,
+      secondsLeft: checking.secondsLeft,
+      says: [],
       stop: { label: t('check.stop'), hint: t('check.stop.hint'), done: false, run: () => checking.stop() },
     });
   }
   for (const one of transfers) {
     works.push({
-      of: one, kind: one.kind, name: one.name, fraction: one.fraction, secondsLeft: one.secondsLeft, says: one.fraction === null ? [t('transfer.since', { s: one.since })] : [],
+      of: one,
+      kind: one.kind,
+      name: one.name,
+      fraction: one.fraction,
+      secondsLeft: one.secondsLeft,
+      says: one.fraction === null ? [t('transfer.since', { s: one.since })] : [],
       stop: { label: t('transfer.cancel'), hint: t('transfer.cancel'), done: false, run: () => one.abort() },
     });
   }
@@ -56,7 +81,14 @@ class Row {
   private readonly share = h('progress', { max: 1 });
   private readonly says = h('span', { class: 'says' });
   private readonly stop = h('button', { click: () => this.end() });
-  readonly element = h('div', { class: 'long', hidden: true, role: 'group' }, this.what, this.share, this.says, this.stop);
+  readonly element = h(
+    'div',
+    { class: 'long', hidden: true, role: 'group' },
+    this.what,
+    this.share,
+    this.says,
+    this.stop,
+  );
   private readonly timer = setTimeout(() => (this.element.hidden = false), PATIENCE);
   private end: () => void = () => undefined;
 
@@ -70,7 +102,13 @@ class Row {
     this.share.setAttribute('aria-label', work.name);
     if (work.fraction === null) this.share.removeAttribute('value');
     else this.share.value = work.fraction;
-    this.says.textContent = [work.fraction === null ? '' : `${Math.floor(work.fraction * 100)} %`, timeLeft(work.secondsLeft), ...work.says].filter(Boolean).join(' · ');
+    this.says.textContent = [
+      work.fraction === null ? '' : `${Math.floor(work.fraction * 100)} %`,
+      timeLeft(work.secondsLeft),
+      ...work.says,
+    ]
+      .filter(Boolean)
+      .join(' · ');
     this.stop.textContent = work.stop.label;
     this.stop.title = work.stop.hint;
     this.stop.disabled = work.stop.done;
@@ -87,7 +125,10 @@ export class LongBar {
   private readonly rows = new Map<object, Row>();
 
   /// \param leave where the focus goes when a row with it goes
-  constructor(private readonly editor: Editor, private readonly leave: () => void) {}
+  constructor(
+    private readonly editor: Editor,
+    private readonly leave: () => void,
+  ) {}
 
   show(): void {
     const works = worksOf(this.editor);

@@ -56,7 +56,8 @@ const author = ((): string => {
 const editor: Editor = new Editor(new ServerKernel(() => editor.client));
 const view = new View();
 const page = document.getElementById('page')!;
-let theme = stored('theme') === 'dark' || (!stored('theme') && matchMedia('(prefers-color-scheme: dark)').matches) ? DARK : LIGHT;
+let theme =
+  stored('theme') === 'dark' || (!stored('theme') && matchMedia('(prefers-color-scheme: dark)').matches) ? DARK : LIGHT;
 let side: Side = 'violations';
 let fitted = false;
 setLanguage((stored('language') ?? (navigator.language.startsWith('uk') ? 'uk' : 'en')) as Language);
@@ -92,8 +93,19 @@ function later(duty: Duty): void {
 }
 function scene(): Scene {
   return {
-    model: editor.model, view, theme, selection: editor.selection, others: new Set([...editor.others.values()].flat()),
-    violations: editor.violations ?? [], moving: editor.moving, coming: editor.coming(), live: editor.live, ...pointer.overlay, photos: editor.photos, pins: pinsShown(), show: editor.show,
+    model: editor.model,
+    view,
+    theme,
+    selection: editor.selection,
+    others: new Set([...editor.others.values()].flat()),
+    violations: editor.violations ?? [],
+    moving: editor.moving,
+    coming: editor.coming(),
+    live: editor.live,
+    ...pointer.overlay,
+    photos: editor.photos,
+    pins: pinsShown(),
+    show: editor.show,
     handle: editor.moving.size === 0 ? turningHandle(editor, view) : null,
   };
 }
@@ -156,7 +168,13 @@ function mirrorLater(): void {
   if (mirrorDue) clearTimeout(mirrorDue);
   mirrorDue = setTimeout(() => {
     mirrorDue = null;
-    mirror.update(editor.model, view, editor.selection, editor.violations, editor.violations !== null && editor.checking.left === 0);
+    mirror.update(
+      editor.model,
+      view,
+      editor.selection,
+      editor.violations,
+      editor.violations !== null && editor.checking.left === 0,
+    );
     const first = editor.chosen()[0];
     if (first === undefined) picture.removeAttribute('aria-activedescendant');
     else picture.setAttribute('aria-activedescendant', mirrorId(first));
@@ -164,23 +182,38 @@ function mirrorLater(): void {
   }, 60);
 }
 
-const showBar = (): void => showTools(bar, tools, editor, known, {
-  openLayout, takeFiles: (files) => void takeFiles(files), copyLayout: () => void copyLayout(), nameLayout, save: (form) => void save(form), choose, print: () => window.print(),
-  fit: fitAll, help: showHelp,
-  photo: (file) => void photoBeneath(editor, view, file).catch((error: unknown) => editor.say(String(error))),
-  theme: () => {
-    theme = theme === DARK ? LIGHT : DARK;
-    store('theme', theme === DARK ? 'dark' : 'light');
-    showAll();
-  },
-  language: () => {
-    setLanguage(currentLanguage() === 'en' ? 'uk' : 'en');
-    store('language', currentLanguage());
-    showAll();
-  },
-});
+const showBar = (): void =>
+  showTools(bar, tools, editor, known, {
+    openLayout,
+    takeFiles: (files) => void takeFiles(files),
+    copyLayout: () => void copyLayout(),
+    nameLayout,
+    save: (form) => void save(form),
+    choose,
+    print: () => window.print(),
+    fit: fitAll,
+    help: showHelp,
+    photo: (file) => void photoBeneath(editor, view, file).catch((error: unknown) => editor.say(String(error))),
+    theme: () => {
+      theme = theme === DARK ? LIGHT : DARK;
+      store('theme', theme === DARK ? 'dark' : 'light');
+      showAll();
+    },
+    language: () => {
+      setLanguage(currentLanguage() === 'en' ? 'uk' : 'en');
+      store('language', currentLanguage());
+      showAll();
+    },
+  });
 function showTray(): void {
-  left.replaceChildren(h('h2', {}, t('tray')), tray(editor, (part) => drawing.colour(part, theme), (button, part, mirrored) => dragFromTray(button, picture, editor, view, part, mirrored)));
+  left.replaceChildren(
+    h('h2', {}, t('tray')),
+    tray(
+      editor,
+      (part) => drawing.colour(part, theme),
+      (button, part, mirrored) => dragFromTray(button, picture, editor, view, part, mirrored),
+    ),
+  );
 }
 function showSide(): void {
   const held = right.querySelector('input')?.value ?? '';
@@ -189,12 +222,18 @@ function showSide(): void {
       side = to;
       showSide();
     },
-    violation: reveal, part: (id) => {
+    violation: reveal,
+    part: (id) => {
       editor.select([id]);
       revealPart(id);
     },
     sheet: (sheet) => {
-      view.fit({ left: sheet.box.left + sheet.x, right: sheet.box.right + sheet.x, bottom: sheet.box.bottom + sheet.y, top: sheet.box.top + sheet.y });
+      view.fit({
+        left: sheet.box.left + sheet.x,
+        right: sheet.box.right + sheet.x,
+        bottom: sheet.box.bottom + sheet.y,
+        top: sheet.box.top + sheet.y,
+      });
       later('view');
     },
   });
@@ -204,20 +243,37 @@ function showStatus(): void {
   const depth = now?.violations.reduce((most, v) => Math.max(most, v.amount_mm), 0) ?? 0;
   live.className = `live ${now?.level ?? ''}`;
   const { ruler } = pointer.overlay;
-  live.textContent = ruler ? measured(ruler.from, ruler.to) : now
-    ? [t(`live.${now.level}`), depth > 0 ? t('live.depth', { mm: depth.toFixed(3) }) : '', now.nearest ? t('live.nearest', { mm: now.nearest.distance.toFixed(3) }) : ''].filter(Boolean).join(' · ')
-    : editor.selection.size > 0 ? t('selected', { n: editor.selection.size }) : t('nothing');
+  live.textContent = ruler
+    ? measured(ruler.from, ruler.to)
+    : now
+      ? [
+          t(`live.${now.level}`),
+          depth > 0 ? t('live.depth', { mm: depth.toFixed(3) }) : '',
+          now.nearest ? t('live.nearest', { mm: now.nearest.distance.toFixed(3) }) : '',
+        ]
+          .filter(Boolean)
+          .join(' · ')
+      : editor.selection.size > 0
+        ? t('selected', { n: editor.selection.size })
+        : t('nothing');
   message.textContent = message.title = editor.message;
   const others = [...editor.others.keys()].filter((c) => c >= 0).length;
   status.dataset.pending = String(editor.pending);
   status.dataset.unchecked = String(editor.checking.left);
-  state.textContent = [others > 0 ? t('others', { n: others }) : '', t(editor.pending > (editor.long ? 1 + editor.queued.length : 0) ? 'state.saving' : `state.${editor.connection}`)].filter(Boolean).join(' · ');
+  state.textContent = [
+    others > 0 ? t('others', { n: others }) : '',
+    t(editor.pending > (editor.long ? 1 + editor.queued.length : 0) ? 'state.saving' : `state.${editor.connection}`),
+  ]
+    .filter(Boolean)
+    .join(' · ');
 }
 function showAll(): void {
   document.documentElement.dataset.theme = theme === DARK ? 'dark' : 'light';
   picture.setAttribute('aria-label', t('canvas'));
   picture.dataset.drop = t('drop');
-  legend.replaceChildren(...(['zone', 'defect', 'bad', 'near'] as const).map((k) => h('span', { class: k }, h('i'), t(`legend.${k}`))));
+  legend.replaceChildren(
+    ...(['zone', 'defect', 'bad', 'near'] as const).map((k) => h('span', { class: k }, h('i'), t(`legend.${k}`))),
+  );
   showBar();
   longBar.show();
   later('all');
@@ -228,9 +284,13 @@ function showAll(): void {
   showStatus();
 }
 function showHelp(): void {
-  const dialog = h('dialog', { 'aria-label': t('help') }, h('h2', {}, t('help')),
+  const dialog = h(
+    'dialog',
+    { 'aria-label': t('help') },
+    h('h2', {}, t('help')),
     h('dl', {}, ...SHORTCUTS.flatMap(([keys, what]) => [h('dt', {}, keys), h('dd', {}, t(what as Key))])),
-    h('form', { method: 'dialog' }, h('button', {}, t('close'))));
+    h('form', { method: 'dialog' }, h('button', {}, t('close'))),
+  );
   dialog.addEventListener('close', () => dialog.remove());
   page.append(dialog);
   dialog.showModal();
@@ -266,7 +326,10 @@ function revealPart(id: number): void {
   }
 }
 
-interface Known { id: number; name: string }
+interface Known {
+  id: number;
+  name: string;
+}
 let known: Known[] = [];
 async function api<T>(path: string, init?: RequestInit): Promise<T | null> {
   try {
@@ -290,11 +353,21 @@ async function takeFiles(files: FileList | null): Promise<void> {
     else if (made?.stocks === 0) askSheet(file, made.id);
   }
 }
-interface Made { id: number; stocks: number; notices: string[] }
+interface Made {
+  id: number;
+  stocks: number;
+  notices: string[];
+}
 /// Makes a layout of a file and opens it. \return why not; null: cancelled
 async function take(file: File, sheet: Record<string, string> = {}): Promise<Made | string | null> {
   try {
-    const answer = await editor.transfer('open', t('transfer.open', { name: file.name }), 'POST', `/api/layouts?${new URLSearchParams({ name: file.name, ...sheet })}`, file);
+    const answer = await editor.transfer(
+      'open',
+      t('transfer.open', { name: file.name }),
+      'POST',
+      `/api/layouts?${new URLSearchParams({ name: file.name, ...sheet })}`,
+      file,
+    );
     if (!answer) return null;
     if (answer.status !== 201) return await sentenceOf(answer);
     const made = JSON.parse(await answer.body.text()) as Made;
@@ -324,7 +397,12 @@ function askSheet(file: File, without: number): void {
 async function download(fields: URLSearchParams): Promise<Saved> {
   const form = fields.get('form')!;
   try {
-    const answer = await editor.transfer('export', t('transfer.export', { form }), 'GET', `/api/layouts/${editor.layoutId}/export?${fields}`);
+    const answer = await editor.transfer(
+      'export',
+      t('transfer.export', { form }),
+      'GET',
+      `/api/layouts/${editor.layoutId}/export?${fields}`,
+    );
     if (!answer) return { refused: t('transfer.cancelled'), notes: [] };
     if (answer.status !== 200) return { refused: await sentenceOf(answer), notes: [] };
     const name = /filename="([^"]*)"/.exec(answer.header('Content-Disposition') ?? '')?.[1] ?? `layout.${form}`;
@@ -357,7 +435,10 @@ function choose(form: ChosenForm): void {
   dialog.showModal();
 }
 async function copyLayout(): Promise<void> {
-  const made = await api<{ id: number }>(`/api/layouts/${editor.layoutId}/copy?name=${encodeURIComponent(`${editor.name} 2`)}`, { method: 'POST' });
+  const made = await api<{ id: number }>(
+    `/api/layouts/${editor.layoutId}/copy?name=${encodeURIComponent(`${editor.name} 2`)}`,
+    { method: 'POST' },
+  );
   if (!made) return;
   await readLayouts();
   openLayout(made.id);
@@ -436,8 +517,14 @@ editor.on((topic) => {
   if (topic === 'long' || topic === 'check' || topic === 'transfer' || topic === 'layout') longBar.show();
   if (topic === 'long') later('top');
   else if (topic === 'check' || topic === 'transfer') return;
-  else if (topic !== 'message' && topic !== 'connection') later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
-  if (topic === 'mode' || topic === 'show' || (topic === 'photo' && (editor.photos.size > 0) !== (tools.querySelector('[data-action="tool.photo"]') !== null))) showBar();
+  else if (topic !== 'message' && topic !== 'connection')
+    later(topic !== 'moving' || wasMoving !== isMoving ? 'all' : 'top');
+  if (
+    topic === 'mode' ||
+    topic === 'show' ||
+    (topic === 'photo' && editor.photos.size > 0 !== (tools.querySelector('[data-action="tool.photo"]') !== null))
+  )
+    showBar();
   const photosAtRest = topic === 'photo' && side === 'sheets' && ![...editor.photos].some((photo) => photo.pulled);
   if ((topic === 'layout' || topic === 'selection' || photosAtRest) && !panelsDue) {
     panelsDue = true;
@@ -466,7 +553,12 @@ picture.addEventListener('pointermove', (e) => {
 document.addEventListener('keydown', (e) => {
   const inPicture = e.target === picture;
   const idle = inPicture || e.target === document.body;
-  if ((e.target as HTMLElement).closest('input, select, dialog, details') || (!inPicture && e.key === 'Tab') || (!idle && e.key === ' ')) return;
+  if (
+    (e.target as HTMLElement).closest('input, select, dialog, details') ||
+    (!inPicture && e.key === 'Tab') ||
+    (!idle && e.key === ' ')
+  )
+    return;
   if (e.code === 'Space') pointer.spaceDown = true;
   if (pointer.features.draws && (e.key === 'Enter' || (e.key === 'Backspace' && pointer.features.back()))) {
     if (e.key === 'Enter') pointer.finishDraft();
@@ -474,7 +566,10 @@ document.addEventListener('keydown', (e) => {
     return e.preventDefault();
   }
   const mine = key(e, editor, {
-    fit: fitAll, help: showHelp, cancel: () => pointer.cancel(), reveal: revealPart,
+    fit: fitAll,
+    help: showHelp,
+    cancel: () => pointer.cancel(),
+    reveal: revealPart,
     zoom: (factor) => {
       view.zoomAt(view.width / 2, view.height / 2, factor);
       later('view');
@@ -490,11 +585,15 @@ document.addEventListener('keydown', (e) => {
 document.addEventListener('keyup', (e) => {
   if (e.code === 'Space') pointer.spaceDown = false;
 });
-for (const [type, on] of [['dragover', true], ['dragleave', false], ['drop', false]] as const) {
+for (const [type, on] of [
+  ['dragover', true],
+  ['dragleave', false],
+  ['drop', false],
+] as const) {
   document.addEventListener(type, (e) => {
     e.preventDefault();
     picture.classList.toggle('dropping', on);
-    if (type === 'drop') void takeFiles((e as DragEvent).dataTransfer?.files ?? null);
+    if (type === 'drop') void takeFiles((e).dataTransfer?.files ?? null);
   });
 }
 const paper = h('div', { class: 'paper' });
@@ -509,7 +608,16 @@ Object.assign(window, {
     ...benchmark(bench),
     rows: ROWS,
     paintAll: () => paintAll(bench),
-    photos: () => [...editor.photos].map(({ stock, a, b, x, y, image: { width, height } }) => ({ stock, a, b, x, y, width, height })),
+    photos: () =>
+      [...editor.photos].map(({ stock, a, b, x, y, image: { width, height } }) => ({
+        stock,
+        a,
+        b,
+        x,
+        y,
+        width,
+        height,
+      })),
   },
 });
 

@@ -11,7 +11,11 @@ import type { View } from './view';
 const MOST = 1000;
 
 type Level = 'clear' | 'gap' | 'forbidden' | 'unknown';
-interface Shown { item: HTMLLIElement; says: string; place: string }
+interface Shown {
+  item: HTMLLIElement;
+  says: string;
+  place: string;
+}
 
 export const mirrorId = (id: number): string => `placement-${id}`;
 
@@ -26,7 +30,13 @@ export class Mirror {
   }
 
   /// \param whole  what no violation names breaks no rule
-  update(model: Model, view: View, selection: ReadonlySet<number>, violations: readonly Violation[] | null, whole: boolean): void {
+  update(
+    model: Model,
+    view: View,
+    selection: ReadonlySet<number>,
+    violations: readonly Violation[] | null,
+    whole: boolean,
+  ): void {
     if (this.of !== model) {
       this.of = model;
       this.shown.clear();
@@ -46,7 +56,12 @@ export class Mirror {
     for (const p of wanted.values()) this.show(model, p, selection.has(p.id), broken.get(p.id) ?? (whole ? [] : null));
   }
 
-  private wanted(model: Model, view: View, selection: ReadonlySet<number>, broken: ReadonlyMap<number, unknown>): Map<number, Placement> {
+  private wanted(
+    model: Model,
+    view: View,
+    selection: ReadonlySet<number>,
+    broken: ReadonlyMap<number, unknown>,
+  ): Map<number, Placement> {
     if (model.placements.size <= MOST) return model.placements;
     const wanted = new Map<number, Placement>();
     const take = (p: Placement | undefined): void => {
@@ -59,19 +74,40 @@ export class Mirror {
       if (wanted.size === MOST) break;
       const sheet = model.sheet(p.stock, p.copy);
       const b = model.box(p);
-      if (sheet && boxesMeet({ left: b.left + sheet.x, right: b.right + sheet.x, bottom: b.bottom + sheet.y, top: b.top + sheet.y }, seen)) take(p);
+      if (
+        sheet &&
+        boxesMeet(
+          { left: b.left + sheet.x, right: b.right + sheet.x, bottom: b.bottom + sheet.y, top: b.top + sheet.y },
+          seen,
+        )
+      )
+        take(p);
     }
     return wanted;
   }
 
   private show(model: Model, p: Placement, chosen: boolean, broken: readonly Violation[] | null): void {
     let shown = this.shown.get(p.id);
-    const level: Level = !broken ? 'unknown' : broken.length === 0 ? 'clear' : broken.every((v) => isGap(v.kind)) ? 'gap' : 'forbidden';
+    const level: Level = !broken
+      ? 'unknown'
+      : broken.length === 0
+        ? 'clear'
+        : broken.every((v) => isGap(v.kind))
+          ? 'gap'
+          : 'forbidden';
     const part = model.part(p);
     const degrees = (Math.atan2(p.s, p.c) * 180) / Math.PI;
-    const says = [`${part.name ?? part.id} ${p.id}`, `${p.x.toFixed(2)} ${p.y.toFixed(2)} mm`, `${degrees.toFixed(1)}°`,
-      p.mirrored ? t('kits.mirrored') : '', p.locked ? t('locked') : '', t(`live.${level}`),
-      ...(broken ?? []).map((v) => `${t(`kind.${v.kind}` as Key)} ${v.amount_mm.toFixed(3)} mm`)].filter(Boolean).join(', ');
+    const says = [
+      `${part.name ?? part.id} ${p.id}`,
+      `${p.x.toFixed(2)} ${p.y.toFixed(2)} mm`,
+      `${degrees.toFixed(1)}°`,
+      p.mirrored ? t('kits.mirrored') : '',
+      p.locked ? t('locked') : '',
+      t(`live.${level}`),
+      ...(broken ?? []).map((v) => `${t(`kind.${v.kind}` as Key)} ${v.amount_mm.toFixed(3)} mm`),
+    ]
+      .filter(Boolean)
+      .join(', ');
     if (!shown) {
       const item = h('li', { role: 'option', id: mirrorId(p.id), 'data-id': mirrorId(p.id) });
       this.element.append(item);

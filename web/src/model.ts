@@ -3,10 +3,24 @@
 import type { Defect, FeatureChange, LayoutDocument, Part, Placement, Point, Stock, Zone } from './document';
 import { mmFromSteps, placedVertex, rotationFromPair, stepsFromMm } from './grid';
 
-export interface Box { left: number; bottom: number; right: number; top: number }
-export interface Change { id: number; after: Placement | null }
+export interface Box {
+  left: number;
+  bottom: number;
+  right: number;
+  top: number;
+}
+export interface Change {
+  id: number;
+  after: Placement | null;
+}
 /// A copy of a stock and where its frame's origin stands in the picture, mm.
-export interface Sheet { stock: Stock; copy: number; x: number; y: number; box: Box }
+export interface Sheet {
+  stock: Stock;
+  copy: number;
+  x: number;
+  y: number;
+  box: Box;
+}
 
 export function boxOf(points: Iterable<Point>): Box {
   const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
@@ -20,7 +34,12 @@ export function boxOf(points: Iterable<Point>): Box {
 }
 export const boxesMeet = (a: Box, b: Box): boolean =>
   a.left <= b.right && b.left <= a.right && a.bottom <= b.top && b.bottom <= a.top;
-export const placedAt = (b: Box, s: { x: number; y: number }): Box => ({ left: b.left + s.x, right: b.right + s.x, bottom: b.bottom + s.y, top: b.top + s.y });
+export const placedAt = (b: Box, s: { x: number; y: number }): Box => ({
+  left: b.left + s.x,
+  right: b.right + s.x,
+  bottom: b.bottom + s.y,
+  top: b.top + s.y,
+});
 export const sheetKey = (stock: string, copy: number): string => `${copy} ${stock}`;
 
 /// Loops of a placed part by rule 4, mm, exact: steps below 2^40 are whole doubles.
@@ -29,17 +48,20 @@ export function placedLoops(part: Part, p: Placement): Point[][] {
   const tx = stepsFromMm(p.x);
   const ty = stepsFromMm(p.y);
   const { outer, holes = [] } = part.outline.polygon;
-  return [outer, ...holes].map((loop) => loop.map(([x, y]) => {
-    const [sx, sy] = placedVertex(stepsFromMm(x), stepsFromMm(y), rotation, tx, ty, p.mirrored ?? false);
-    return [mmFromSteps(sx), mmFromSteps(sy)];
-  }));
+  return [outer, ...holes].map((loop) =>
+    loop.map(([x, y]) => {
+      const [sx, sy] = placedVertex(stepsFromMm(x), stepsFromMm(y), rotation, tx, ty, p.mirrored ?? false);
+      return [mmFromSteps(sx), mmFromSteps(sy)];
+    }),
+  );
 }
 
 /// Box of a placed part in doubles: for drawing and culling, never for a decision.
 export function placedBox(part: Part, p: Placement): Box {
   const flip = p.mirrored ? -1 : 1;
-  return boxOf(part.outline.polygon.outer.map(([x, y]): Point => [
-    p.c * flip * x - p.s * y + p.x, p.s * flip * x + p.c * y + p.y]));
+  return boxOf(
+    part.outline.polygon.outer.map(([x, y]): Point => [p.c * flip * x - p.s * y + p.x, p.s * flip * x + p.c * y + p.y]),
+  );
 }
 
 /// Even-odd rule in doubles: for picking with the mouse.
@@ -138,8 +160,9 @@ export class Model {
   }
 
   sheetAt(x: number, y: number): Sheet | undefined {
-    return this.sheets.find((s) =>
-      x >= s.x + s.box.left && x <= s.x + s.box.right && y >= s.y + s.box.bottom && y <= s.y + s.box.top);
+    return this.sheets.find(
+      (s) => x >= s.x + s.box.left && x <= s.x + s.box.right && y >= s.y + s.box.bottom && y <= s.y + s.box.top,
+    );
   }
 
   apply(changes: readonly Change[], nextId?: number, features: readonly FeatureChange[] = []): void {
@@ -150,8 +173,12 @@ export class Model {
       if (after) this.placements.set(id, after);
       else this.placements.delete(id);
       this.boxes.delete(id);
-      if (before?.stock !== after?.stock || before?.copy !== after?.copy ||
-          this.stocks.get(after?.stock ?? '')?.kind === 'strip') sheets = true;
+      if (
+        before?.stock !== after?.stock ||
+        before?.copy !== after?.copy ||
+        this.stocks.get(after?.stock ?? '')?.kind === 'strip'
+      )
+        sheets = true;
     }
     if (nextId !== undefined) this.nextId = nextId;
     if (sheets) this.arrangeSheets();
@@ -165,7 +192,7 @@ export class Model {
     if (!after) list.splice(at, at < 0 ? 0 : 1);
     else if (at >= 0) list[at] = after;
     else list.splice(Math.min(index, list.length), 0, after);
-    if (kind === 'defect') stock.defects = list as Defect[];
+    if (kind === 'defect') stock.defects = list;
     else stock.zones = list as Zone[];
     this.features += 1;
   }
@@ -188,8 +215,12 @@ export class Model {
       for (let copy = 0; copy <= last; ++copy) {
         const box = stock.outline
           ? boxOf(stock.outline.polygon.outer)
-          : { left: 0, bottom: 0, top: stock.height ?? 1,
-              right: stock.length ?? Math.max(stock.height ?? 1, (reach.get(stock.id) ?? 0) * 1.1) };
+          : {
+              left: 0,
+              bottom: 0,
+              top: stock.height ?? 1,
+              right: stock.length ?? Math.max(stock.height ?? 1, (reach.get(stock.id) ?? 0) * 1.1),
+            };
         const sheet = { stock, copy, x: x - box.left, y: -box.bottom, box };
         this.sheets.push(sheet);
         this.sheetOf.set(sheetKey(stock.id, copy), sheet);

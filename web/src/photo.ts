@@ -5,8 +5,16 @@ import type { Point } from './document';
 import type { Box } from './model';
 
 /// Two points of the image (pixels, right and down from the upper left) and where they are on the stock (mm).
-export interface PhotoScale { pixels: [number, number, number, number]; mm: [number, number, number, number] }
-interface Place { a: number; b: number; x: number; y: number }
+export interface PhotoScale {
+  pixels: [number, number, number, number];
+  mm: [number, number, number, number];
+}
+interface Place {
+  a: number;
+  b: number;
+  x: number;
+  y: number;
+}
 
 export class Photo {
   /// A pixel (u, v), v downwards, lies at (x + a u + b v, y + b u - a v) of the stock's frame.
@@ -19,7 +27,10 @@ export class Photo {
   private at: Point | null = null;
   private start: Place | null = null;
 
-  constructor(readonly stock: string, readonly image: ImageBitmap) {}
+  constructor(
+    readonly stock: string,
+    readonly image: ImageBitmap,
+  ) {}
 
   /// As large as fits over a box, from its upper left corner.
   cover(over: Box): this {

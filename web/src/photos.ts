@@ -10,7 +10,9 @@ const TYPES = ['image/png', 'image/jpeg'];
 const MOST_BYTES = 16 * 2 ** 20;
 const MOST_PIXELS = 6000;
 
-interface Listed extends PhotoScale { stock: string }
+interface Listed extends PhotoScale {
+  stock: string;
+}
 
 export class Photos {
   private readonly of = new Map<string, Photo>();
@@ -39,7 +41,9 @@ export class Photos {
   read(stale: { stock: string } | 'all' | 'none'): Promise<void> {
     const { layoutId } = this.editor;
     // One after the other, so that the last word is the newest.
-    this.reading = this.reading.then(() => this.readNow(layoutId, stale)).catch((error: unknown) => this.editor.say(String(error)));
+    this.reading = this.reading
+      .then(() => this.readNow(layoutId, stale))
+      .catch((error: unknown) => this.editor.say(String(error)));
     return this.reading;
   }
   private async readNow(layoutId: number, stale: { stock: string } | 'all' | 'none'): Promise<void> {
@@ -48,7 +52,8 @@ export class Photos {
     const { photos } = (await answer.json()) as { photos: Listed[] };
     const there = new Map<string, Photo>();
     for (const one of photos) {
-      const known = stale === 'all' || (stale !== 'none' && stale.stock === one.stock) ? undefined : this.of.get(one.stock);
+      const known =
+        stale === 'all' || (stale !== 'none' && stale.stock === one.stock) ? undefined : this.of.get(one.stock);
       const photo = known ?? (await this.fetched(layoutId, one.stock));
       if (!photo) continue;
       if (!photo.pulled) photo.scale = one; // what is in hand is let go before it counts
@@ -79,7 +84,9 @@ export class Photos {
   /// Where it lies now is kept.
   keep(photo: Photo): Promise<void> {
     this.changed();
-    return this.said(this.editor.transfer('photo', t('transfer.photo'), 'PATCH', this.address(photo.stock, photo.scale)));
+    return this.said(
+      this.editor.transfer('photo', t('transfer.photo'), 'PATCH', this.address(photo.stock, photo.scale)),
+    );
   }
   remove(stock: string): Promise<void> {
     return this.said(this.editor.transfer('photo', t('transfer.photo'), 'DELETE', this.address(stock)));
@@ -90,7 +97,10 @@ export class Photos {
   }
 
   private address(stock: string, scale?: PhotoScale): string {
-    const fields = new URLSearchParams({ stock, ...(scale ? { pixels: scale.pixels.join(), mm: scale.mm.join() } : {}) });
+    const fields = new URLSearchParams({
+      stock,
+      ...(scale ? { pixels: scale.pixels.join(), mm: scale.mm.join() } : {}),
+    });
     return `/api/layouts/${this.editor.layoutId}/photo?${fields}`;
   }
   /// The server tells everyone what has changed; refused, all is read as it is.

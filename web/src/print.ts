@@ -23,10 +23,33 @@ export function printed(editor: Editor): HTMLElement[] {
     count[p.mirrored ? 'mirrored' : 'upright'] += 1;
     used.set(sheet, counts.set(p.part, count));
   }
-  return model.sheets.filter((sheet) => used.has(sheet)).map((sheet) => h('section', {},
-    h('h1', {}, editor.name), picture(editor, sheet),
-    h('table', {}, h('tbody', {}, ...[...used.get(sheet)!].map(([id, n]) => h('tr', {}, h('th', { scope: 'row' }, model.parts.get(id)?.name ?? id),
-      h('td', {}, String(n.upright + n.mirrored)), h('td', {}, n.mirrored > 0 ? `${t('kits.mirrored')} ${n.mirrored}` : '')))))));
+  return model.sheets
+    .filter((sheet) => used.has(sheet))
+    .map((sheet) =>
+      h(
+        'section',
+        {},
+        h('h1', {}, editor.name),
+        picture(editor, sheet),
+        h(
+          'table',
+          {},
+          h(
+            'tbody',
+            {},
+            ...[...used.get(sheet)!].map(([id, n]) =>
+              h(
+                'tr',
+                {},
+                h('th', { scope: 'row' }, model.parts.get(id)?.name ?? id),
+                h('td', {}, String(n.upright + n.mirrored)),
+                h('td', {}, n.mirrored > 0 ? `${t('kits.mirrored')} ${n.mirrored}` : ''),
+              ),
+            ),
+          ),
+        ),
+      ),
+    );
 }
 
 function picture(editor: Editor, sheet: Sheet): HTMLCanvasElement {
@@ -36,10 +59,28 @@ function picture(editor: Editor, sheet: Sheet): HTMLCanvasElement {
   const scale = (ACROSS - 2 * MARGIN) / (box.right - box.left);
   const drawing = new Picture(canvas, h('canvas', {}));
   drawing.resize(view, ACROSS, Math.min(4 * ACROSS, (box.top - box.bottom) * scale + 2 * MARGIN), FINE);
-  view.fit({ left: box.left + sheet.x, right: box.right + sheet.x, bottom: box.bottom + sheet.y, top: box.top + sheet.y }, MARGIN);
+  view.fit(
+    { left: box.left + sheet.x, right: box.right + sheet.x, bottom: box.bottom + sheet.y, top: box.top + sheet.y },
+    MARGIN,
+  );
   drawing.backdrop.draw({
-    model: editor.model, view, theme: { ...LIGHT, back: '#fff' }, selection: new Set(), others: new Set(), violations: editor.violations ?? [],
-    moving: new Map(), coming: new Map(), live: null, band: null, ruler: null, arrow: null, draft: [], photos: editor.photos, pins: [], handle: null, show: { ...editor.show, labels: true },
+    model: editor.model,
+    view,
+    theme: { ...LIGHT, back: '#fff' },
+    selection: new Set(),
+    others: new Set(),
+    violations: editor.violations ?? [],
+    moving: new Map(),
+    coming: new Map(),
+    live: null,
+    band: null,
+    ruler: null,
+    arrow: null,
+    draft: [],
+    photos: editor.photos,
+    pins: [],
+    handle: null,
+    show: { ...editor.show, labels: true },
   });
   return canvas;
 }

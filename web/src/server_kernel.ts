@@ -1,18 +1,22 @@
 // The check while the WebAssembly kernel is not there: the server's preview, one question at a time.
 
-import type { LayoutDocument, Placement } from './document';
+import type { Placement } from './document';
 import { isGap } from './document';
 import { UNKNOWN, type Kernel, type LiveState } from './kernel_api';
-import type { Change } from './model';
 import type { Client } from './socket';
 
-const QUARTERS: Record<number, { c: number; s: number }> = { 0: { c: 1, s: 0 }, 90: { c: 0, s: 1 }, 180: { c: -1, s: 0 }, 270: { c: 0, s: -1 } };
+const QUARTERS: Record<number, { c: number; s: number }> = {
+  0: { c: 1, s: 0 },
+  90: { c: 0, s: 1 },
+  180: { c: -1, s: 0 },
+  270: { c: 0, s: -1 },
+};
 
 export class ServerKernel implements Kernel {
   readonly immediate = false;
   constructor(private readonly client: () => Client | null) {}
-  open(_document: LayoutDocument): void {}
-  apply(_changes: readonly Change[], _nextId: number): void {}
+  open(): void {}
+  apply(): void {}
   rotation(degrees: number): { c: number; s: number } | null {
     return QUARTERS[degrees] ?? null;
   }

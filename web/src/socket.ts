@@ -4,12 +4,27 @@ import type { FeatureChange, LayoutDocument, Placement, Violation } from './docu
 import type { Mode } from './kernel_api';
 import type { Change } from './model';
 
-export interface LayoutMessage { type: 'layout'; client: number; revision: number; name: string; document: LayoutDocument }
-export interface ChangeMessage {
-  type: 'change'; revision: number; client: number; text: string; kind: 'command' | 'undo' | 'redo' | 'restore';
-  placements: Change[]; features?: FeatureChange[]; next_id: number;
+export interface LayoutMessage {
+  type: 'layout';
+  client: number;
+  revision: number;
+  name: string;
+  document: LayoutDocument;
 }
-export interface Refusal { message: string; violations: Violation[] }
+export interface ChangeMessage {
+  type: 'change';
+  revision: number;
+  client: number;
+  text: string;
+  kind: 'command' | 'undo' | 'redo' | 'restore';
+  placements: Change[];
+  features?: FeatureChange[];
+  next_id: number;
+}
+export interface Refusal {
+  message: string;
+  violations: Violation[];
+}
 export type Answer =
   /// `placements`: what its change brought, where this client saw it.
   | { type: 'done'; seq: number; revision: number; nothing?: boolean; stopped?: boolean; placements?: Change[] }
@@ -42,7 +57,11 @@ export interface Wire {
   onmessage: ((event: { data: unknown }) => void) | null;
   onclose: (() => void) | null;
 }
-interface Gesture { type: 'command' | 'preview' | 'undo' | 'redo'; mode?: Mode; text?: string }
+interface Gesture {
+  type: 'command' | 'preview' | 'undo' | 'redo';
+  mode?: Mode;
+  text?: string;
+}
 
 export class Client {
   revision = -1;
@@ -56,7 +75,10 @@ export class Client {
   private timer: ReturnType<typeof setTimeout> | null = null;
   private ended = false;
 
-  constructor(private readonly connect: () => Wire, private readonly events: SocketEvents) {}
+  constructor(
+    private readonly connect: () => Wire,
+    private readonly events: SocketEvents,
+  ) {}
 
   start(): void {
     this.ended = false;
@@ -145,18 +167,26 @@ export class Client {
         this.courses.delete(answer.seq);
         // The change comes after its `done`: who asked hears of it when the layout is as it says.
         if (answer.type === 'done' && answer.revision > this.revision) {
-          this.ahead.push({ revision: answer.revision, tell: (change) => resolve?.(change?.revision === answer.revision ? { ...answer, placements: change.placements } : answer) });
+          this.ahead.push({
+            revision: answer.revision,
+            tell: (change) =>
+              resolve?.(change?.revision === answer.revision ? { ...answer, placements: change.placements } : answer),
+          });
         } else resolve?.(answer);
         break;
       }
       case 'progress':
-        this.courses.get(Number(message.seq))?.progress(Number(message.fraction), typeof message.seconds_left === 'number' ? message.seconds_left : null);
+        this.courses
+          .get(Number(message.seq))
+          ?.progress(Number(message.fraction), typeof message.seconds_left === 'number' ? message.seconds_left : null);
         break;
       case 'improved':
         this.courses.get(Number(message.seq))?.improved(message.placements as Change[]);
         break;
       case 'selections':
-        this.events.selections((message.clients as { client: number; ids: number[] }[]).filter((c) => c.client !== this.id));
+        this.events.selections(
+          (message.clients as { client: number; ids: number[] }[]).filter((c) => c.client !== this.id),
+        );
         break;
       case 'name':
         this.events.name?.(String(message.name));
@@ -206,4 +236,5 @@ export class Client {
   }
 }
 
-export const changesOf = (placements: readonly Placement[]): Change[] => placements.map((after) => ({ id: after.id, after }));
+export const changesOf = (placements: readonly Placement[]): Change[] =>
+  placements.map((after) => ({ id: after.id, after }));

@@ -2,7 +2,11 @@
 
 import { TimeLeft } from './time_left';
 
-export interface Answer { status: number; body: Blob; header(name: string): string | null }
+export interface Answer {
+  status: number;
+  body: Blob;
+  header(name: string): string | null;
+}
 
 export class Transfer {
   /// Of what is sent; null: the other side is at work, and does not say how far it is.
@@ -11,7 +15,11 @@ export class Transfer {
   private readonly request = new XMLHttpRequest();
   private readonly begun = performance.now();
 
-  constructor(readonly kind: 'open' | 'export' | 'photo', readonly name: string, private readonly changed: () => void) {}
+  constructor(
+    readonly kind: 'open' | 'export' | 'photo',
+    readonly name: string,
+    private readonly changed: () => void,
+  ) {}
 
   /// Whole seconds since it began.
   get since(): number {
@@ -33,7 +41,12 @@ export class Transfer {
     };
     const clock = setInterval(this.changed, 1000);
     return new Promise<Answer | null>((resolve, reject) => {
-      request.onload = () => resolve({ status: request.status, body: request.response as Blob, header: (name) => request.getResponseHeader(name) });
+      request.onload = () =>
+        resolve({
+          status: request.status,
+          body: request.response as Blob,
+          header: (name) => request.getResponseHeader(name),
+        });
       request.onabort = () => resolve(null);
       request.onerror = () => reject(new Error(`${method} ${address}`));
       request.send(body);

@@ -6,10 +6,28 @@ import { UNKNOWN, type Kernel, type KitCount, type Level, type LiveState, type L
 import type { Change } from './model';
 
 interface KernelViolation {
-  kind: ViolationKind; a: number; b: number; stock: number; copy: number; feature: number; amount: number;
-  at: [number, number]; direction: [number, number];
+  kind: ViolationKind;
+  a: number;
+  b: number;
+  stock: number;
+  copy: number;
+  feature: number;
+  amount: number;
+  at: [number, number];
+  direction: [number, number];
 }
-interface KernelPlacement { id: number; part: number; stock: number; copy: number; c: number; s: number; x: number; y: number; mirrored: boolean; locked: boolean }
+interface KernelPlacement {
+  id: number;
+  part: number;
+  stock: number;
+  copy: number;
+  c: number;
+  s: number;
+  x: number;
+  y: number;
+  mirrored: boolean;
+  locked: boolean;
+}
 interface LoadedKernel {
   open(document: string): KernelLayout;
   rotation(degrees: number): { c: number; s: number };
@@ -18,8 +36,12 @@ interface KernelLayout {
   close(): void;
   apply(change: { placements: readonly Change[]; features: readonly FeatureChange[]; next_id: number }): void;
   placementOf(p: Placement): unknown;
-  stateAt(p: unknown[], options: { reach: number; depths: boolean }): {
-    level: Exclude<Level, 'unknown'>; violations: KernelViolation[];
+  stateAt(
+    p: unknown[],
+    options: { reach: number; depths: boolean },
+  ): {
+    level: Exclude<Level, 'unknown'>;
+    violations: KernelViolation[];
     nearest: { distance: number; onOther: [number, number]; onPart: [number, number] } | null;
   };
   check(): KernelViolation[];
@@ -65,10 +87,20 @@ class WasmKernel implements Kernel {
   }
   turned(ids: readonly number[], degrees: number): Placement[] | null {
     if (!this.layout) return null;
-    return this.layout.plan(rotate(ids, degrees), 'free').changed.map((p) => ({
-      id: p.id, part: this.parts[p.part]!, stock: this.stocks[p.stock]!.id, copy: p.copy, c: p.c, s: p.s, x: p.x, y: p.y,
-      mirrored: p.mirrored, locked: p.locked,
-    }));
+    return this.layout
+      .plan(rotate(ids, degrees), 'free')
+      .changed.map((p) => ({
+        id: p.id,
+        part: this.parts[p.part]!,
+        stock: this.stocks[p.stock]!.id,
+        copy: p.copy,
+        c: p.c,
+        s: p.s,
+        x: p.x,
+        y: p.y,
+        mirrored: p.mirrored,
+        locked: p.locked,
+      }));
   }
   check(): Violation[] | null {
     return this.layout ? this.layout.check().map((v) => this.violation(v)) : null;
@@ -83,7 +115,10 @@ class WasmKernel implements Kernel {
   state(placements: readonly Placement[], _text: string, reach: number, depths: boolean): LiveState {
     const layout = this.layout;
     if (!layout) return UNKNOWN;
-    const { level, violations, nearest } = layout.stateAt(placements.map((p) => layout.placementOf(p)), { reach, depths });
+    const { level, violations, nearest } = layout.stateAt(
+      placements.map((p) => layout.placementOf(p)),
+      { reach, depths },
+    );
     return {
       level,
       violations: violations.map((v) => this.violation(v)),
@@ -92,7 +127,18 @@ class WasmKernel implements Kernel {
   }
   private violation(v: KernelViolation): Violation {
     const stock = this.stocks[v.stock]!;
-    const features = v.kind === 'quality' ? stock.zones : v.kind === 'defect' || v.kind === 'defect-gap' ? stock.defects : undefined;
-    return { kind: v.kind, a: v.a, b: v.b || null, stock: stock.id, copy: v.copy, amount_mm: v.amount, at: v.at, direction: v.direction, feature: features?.[v.feature]?.id };
+    const features =
+      v.kind === 'quality' ? stock.zones : v.kind === 'defect' || v.kind === 'defect-gap' ? stock.defects : undefined;
+    return {
+      kind: v.kind,
+      a: v.a,
+      b: v.b || null,
+      stock: stock.id,
+      copy: v.copy,
+      amount_mm: v.amount,
+      at: v.at,
+      direction: v.direction,
+      feature: features?.[v.feature]?.id,
+    };
   }
 }

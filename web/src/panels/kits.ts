@@ -10,9 +10,42 @@ export function kits(editor: Editor): HTMLElement {
   if (all.length === 0) return h('p', { class: 'note' }, t('kits.none'));
   const counts = editor.kernel.kits();
   if (counts === null) return h('p', { class: 'note', role: 'status' }, t('kits.unknown'));
-  return h('table', {}, h('thead', {}, h('tr', {}, ...(['kits.kit', 'kits.complete', 'kits.missing'] as const).map((k) => h('th', { scope: 'col' }, t(k))))),
-    h('tbody', {}, ...counts.map(({ kit, complete, wanted, missing }, i) => h('tr', { 'data-id': `kit-${kit}` }, h('th', { scope: 'row' }, all[i]?.name ?? kit),
-      h('td', {}, `${complete} / ${wanted}`),
-      h('td', {}, ...missing.map((m) => h('div', {}, `${m.count} × ${parts.get(m.part)?.name ?? m.part}${
-        m.mirrored === undefined ? '' : ` (${t(m.mirrored ? 'kits.mirrored' : 'kits.upright')})`}`)))))));
+  return h(
+    'table',
+    {},
+    h(
+      'thead',
+      {},
+      h(
+        'tr',
+        {},
+        ...(['kits.kit', 'kits.complete', 'kits.missing'] as const).map((k) => h('th', { scope: 'col' }, t(k))),
+      ),
+    ),
+    h(
+      'tbody',
+      {},
+      ...counts.map(({ kit, complete, wanted, missing }, i) =>
+        h(
+          'tr',
+          { 'data-id': `kit-${kit}` },
+          h('th', { scope: 'row' }, all[i]?.name ?? kit),
+          h('td', {}, `${complete} / ${wanted}`),
+          h(
+            'td',
+            {},
+            ...missing.map((m) =>
+              h(
+                'div',
+                {},
+                `${m.count} × ${parts.get(m.part)?.name ?? m.part}${
+                  m.mirrored === undefined ? '' : ` (${t(m.mirrored ? 'kits.mirrored' : 'kits.upright')})`
+                }`,
+              ),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }

@@ -21,7 +21,10 @@ export class FeatureTool {
   private moving: { feature: Feature; from: Point; by: Point } | null = null;
   private pulling: { photo: Photo; sheet: Sheet; from: Point } | null = null;
 
-  constructor(private readonly editor: Editor, private readonly view: View) {}
+  constructor(
+    private readonly editor: Editor,
+    private readonly view: View,
+  ) {}
 
   get draws(): 'defect' | 'zone' | null {
     const { tool } = this.editor;
@@ -35,7 +38,9 @@ export class FeatureTool {
   /// \return whether the press is for this tool
   down(world: Point): boolean {
     if (this.editor.tool === 'photo') {
-      const sheet = this.editor.model.sheetAt(...world) ?? this.editor.model.sheets.find((one) => this.editor.photos.get(one.stock.id));
+      const sheet =
+        this.editor.model.sheetAt(...world) ??
+        this.editor.model.sheets.find((one) => this.editor.photos.get(one.stock.id));
       const photo = sheet && this.editor.photos.get(sheet.stock.id);
       if (photo) this.pulling = { photo, sheet, from: [world[0] - sheet.x, world[1] - sheet.y] };
       return true;
@@ -106,7 +111,9 @@ export class FeatureTool {
     let n = list.length + 1;
     while (list.some((f) => f.id === `${kind} ${n}`)) ++n;
     const outline = draft.map(([x, y]): Point => [x - sheet.x, y - sheet.y]);
-    void this.editor.command(line.addFeature({ stock: sheet.stock.id, kind, id: `${kind} ${n}` }, this.editor.grades[kind], outline));
+    void this.editor.command(
+      line.addFeature({ stock: sheet.stock.id, kind, id: `${kind} ${n}` }, this.editor.grades[kind], outline),
+    );
   }
   back(): boolean {
     return this.draft.pop() !== undefined;
@@ -122,7 +129,8 @@ export class FeatureTool {
     for (const f of [...list].reverse()) {
       const { outer, holes = [] } = f.outline.polygon;
       // A zone is taken by its edge: within it others are drawn.
-      if (kind === 'defect' ? contains([outer, ...holes], ...at) : this.nearEdge(outer, at)) return { stock: sheet.stock.id, kind, id: f.id };
+      if (kind === 'defect' ? contains([outer, ...holes], ...at) : this.nearEdge(outer, at))
+        return { stock: sheet.stock.id, kind, id: f.id };
     }
     return null;
   }

@@ -30,14 +30,25 @@ export function inEditor(name, work, { layout = smallLayout, options = null, exp
     await open(page, server.page);
     if (whole) await settled(page);
     await work(page, server, t);
-    assert.deepEqual(page.problems.filter((p) => !expected.some((e) => p.includes(e))), []);
+    assert.deepEqual(
+      page.problems.filter((p) => !expected.some((e) => p.includes(e))),
+      [],
+    );
   });
 }
 
 export const picture = (page) => page.locator('.picture');
 export const settled = async (page) => {
-  await page.waitForFunction(() => document.querySelector('.status').dataset.pending === '0' && document.querySelector('.picture').dataset.moving === 'false' &&
-    document.querySelector('.picture').dataset.mirror === 'true' && document.querySelector('.picture').dataset.sharp !== 'false' && document.querySelector('.status').dataset.unchecked === '0', null, { polling: 20 });
+  await page.waitForFunction(
+    () =>
+      document.querySelector('.status').dataset.pending === '0' &&
+      document.querySelector('.picture').dataset.moving === 'false' &&
+      document.querySelector('.picture').dataset.mirror === 'true' &&
+      document.querySelector('.picture').dataset.sharp !== 'false' &&
+      document.querySelector('.status').dataset.unchecked === '0',
+    null,
+    { polling: 20 },
+  );
 };
 export const message = (page) => page.textContent('.status .message');
 export const live = (page) => page.textContent('.status .live');
