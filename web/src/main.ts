@@ -1,30 +1,30 @@
 // Puts the page together.
 
-import { DARK, LIGHT, measured, Picture, type Scene } from './draw';
-import type { Violation } from './document';
-import { showBar as showTools } from './bar';
-import { benchmark, paintAll, printFigures, ROWS } from './benchmark';
-import { Editor } from './editor';
-import { h } from './elements';
-import type { ChosenForm, Values } from './export_choices';
-import { exportDialog, type Saved } from './export_dialog';
+import { DARK, LIGHT, measured, Picture, type Scene } from './picture/draw';
+import type { Violation } from './layout/document';
+import { showBar as showTools } from './page/bar';
+import { benchmark, paintAll, printFigures, ROWS } from './page/benchmark';
+import { Editor } from './editor/editor';
+import { h } from './html/elements';
+import type { ChosenForm, Values } from './dialogs/export_choices';
+import { exportDialog, type Saved } from './dialogs/export_dialog';
 import { currentLanguage, setLanguage, t, type Key, type Language } from './i18n';
-import { printed } from './print';
-import { showSidePanel, type Side } from './sides';
-import { Client, type Wire } from './socket';
-import { ServerKernel } from './server_kernel';
+import { printed } from './picture/print';
+import { showSidePanel, type Side } from './panels/sides';
+import { Client, type Wire } from './server/socket';
+import { ServerKernel } from './server/server_kernel';
 import { key, SHORTCUTS } from './tools/keys';
-import { layoutDialog } from './layout_dialog';
-import { LongBar } from './long_bar';
-import { Mirror, mirrorId } from './mirror';
+import { layoutDialog } from './dialogs/layout_dialog';
+import { LongBar } from './page/long_bar';
+import { Mirror, mirrorId } from './picture/mirror';
 import { dragFromTray } from './tools/from_tray';
 import { photoBeneath } from './tools/features';
 import { PointerTool, turningHandle } from './tools/pointer';
-import { sheetDialog, type SheetSize } from './sheet_dialog';
+import { sheetDialog, type SheetSize } from './dialogs/sheet_dialog';
 import { tray } from './panels/tray';
-import { sentenceOf } from './transfer';
-import { View } from './view';
-import { loadWasmKernel } from './wasm_kernel';
+import { sentenceOf } from './work/transfer';
+import { View } from './picture/view';
+import { loadWasmKernel } from './kernel/wasm_kernel';
 
 const stored = (name: string): string | null => {
   try {
@@ -593,7 +593,7 @@ for (const [type, on] of [
   document.addEventListener(type, (e) => {
     e.preventDefault();
     picture.classList.toggle('dropping', on);
-    if (type === 'drop') void takeFiles((e).dataTransfer?.files ?? null);
+    if (type === 'drop') void takeFiles(e.dataTransfer?.files ?? null);
   });
 }
 const paper = h('div', { class: 'paper' });

@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { Checking } from '../src/checking';
-import type { LayoutDocument, Placement, Violation } from '../src/document';
-import type { Kernel, Looked } from '../src/kernel_api';
-import { Model } from '../src/model';
+import { Checking } from '../src/work/checking';
+import type { LayoutDocument, Placement, Violation } from '../src/layout/document';
+import type { Kernel, Looked } from '../src/kernel/kernel';
+import { Model } from '../src/layout/model';
 
 const overlap = (a: number, b: number): Violation => ({
   kind: 'overlap',

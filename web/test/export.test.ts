@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { CHOICES, request, sheetsInUse } from '../src/export_choices';
+import { CHOICES, request, sheetsInUse } from '../src/dialogs/export_choices';
 import { dictionaries } from '../src/i18n';
-import { Model } from '../src/model';
+import { Model } from '../src/layout/model';
 
 describe('the choices of an export', () => {
   it('are sent where they are asked and given, and by the names of the command line', () => {

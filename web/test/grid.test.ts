@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { placedVertex, rotationFromPair, roundTiesToEven, stepsFromMm, textOfMm } from '../src/grid';
+import { placedVertex, rotationFromPair, roundTiesToEven, stepsFromMm, textOfMm } from '../src/layout/grid';
 
 // Made by geom::turned and grid_from_mm of the C++ program: x, y, c, s, tx, ty, mirrored, placed x, y in steps.
 type Row = [number, number, number, number, number, number, boolean, number, number];

@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
-import type { LayoutDocument, Placement } from '../src/document';
-import { Editor } from '../src/editor';
-import { timeLeft } from '../src/long_bar';
-import { Client, type Wire } from '../src/socket';
-import { ServerKernel } from '../src/server_kernel';
+import type { LayoutDocument, Placement } from '../src/layout/document';
+import { Editor } from '../src/editor/editor';
+import { timeLeft } from '../src/page/long_bar';
+import { Client, type Wire } from '../src/server/socket';
+import { ServerKernel } from '../src/server/server_kernel';
 import { droppedLine } from '../src/tools/pointer';
 import { ServerDouble } from './double.mjs';
 

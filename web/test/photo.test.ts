@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { Photo, type PhotoScale } from '../src/photo';
+import { Photo, type PhotoScale } from '../src/editor/photo';
 
 const image = { width: 400, height: 300 } as ImageBitmap;
 /// Where a pixel lies.

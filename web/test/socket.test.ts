@@ -1,8 +1,8 @@
 import { describe, expect, it, vi } from 'vitest';
-import type { LayoutDocument } from '../src/document';
-import { Editor } from '../src/editor';
-import { Client, type SocketEvents, type Wire } from '../src/socket';
-import { ServerKernel } from '../src/server_kernel';
+import type { LayoutDocument } from '../src/layout/document';
+import { Editor } from '../src/editor/editor';
+import { Client, type SocketEvents, type Wire } from '../src/server/socket';
+import { ServerKernel } from '../src/server/server_kernel';
 import { ServerDouble } from './double.mjs';
 
 const square: LayoutDocument = {

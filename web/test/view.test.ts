@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { contains, innerPoint } from '../src/model';
-import type { Point } from '../src/document';
-import { View } from '../src/view';
+import { contains, innerPoint } from '../src/layout/model';
+import type { Point } from '../src/layout/document';
+import { View } from '../src/picture/view';
 
 describe('the view', () => {
   it('moves by whole pixels of the screen and loses nothing of what is left over', () => {

@@ -1,7 +1,7 @@
 // Find a part by its name or number: a row for each that is placed.
 
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 
 const MOST_SHOWN = 300;
 

@@ -1,7 +1,7 @@
 // Every change there was; any state can be made the newest one again.
 
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 import { t } from '../i18n';
 
 interface Entry {

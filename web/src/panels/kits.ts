@@ -1,7 +1,7 @@
 // Complete kits and what the others miss, as the kernel counts: pieces go where they are worth most.
 
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 import { t } from '../i18n';
 
 export function kits(editor: Editor): HTMLElement {

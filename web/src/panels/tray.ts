@@ -1,11 +1,11 @@
 // Parts still to place: a thumbnail, how many are left, a button that puts one where it fits.
 
-import * as line from '../commands';
-import type { Part } from '../document';
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import * as line from '../layout/commands';
+import type { Part } from '../layout/document';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 import { t } from '../i18n';
-import { boxOf } from '../model';
+import { boxOf } from '../layout/model';
 
 function thumbnail(part: Part, colour: string): SVGSVGElement {
   const ns = 'http://www.w3.org/2000/svg';

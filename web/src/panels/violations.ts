@@ -1,9 +1,9 @@
 // Rules that are broken; each entry shows its place.
 
-import type { Violation } from '../document';
-import { isGap } from '../document';
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import type { Violation } from '../layout/document';
+import { isGap } from '../layout/document';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 import { t, type Key } from '../i18n';
 
 /// The same for the same violation while the layout changes elsewhere.

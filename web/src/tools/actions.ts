@@ -1,8 +1,8 @@
 // What buttons and keys do.
 
-import * as line from '../commands';
-import type { Editor } from '../editor';
-import { movedBy } from '../editor';
+import * as line from '../layout/commands';
+import type { Editor } from '../editor/editor';
+import { movedBy } from '../editor/editor';
 import { t } from '../i18n';
 
 /// How long the nester looks where nobody stops it.

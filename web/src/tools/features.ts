@@ -1,12 +1,12 @@
 // Defects and zones by hand: drawn point by point or in one stroke, moved by dragging; and the photograph of a hide
 // beneath them, brought to scale by two points.
 
-import * as line from '../commands';
-import type { Point } from '../document';
-import type { Editor, Feature } from '../editor';
-import { contains, type Sheet } from '../model';
-import type { Photo } from '../photo';
-import type { View } from '../view';
+import * as line from '../layout/commands';
+import type { Point } from '../layout/document';
+import type { Editor, Feature } from '../editor/editor';
+import { contains, type Sheet } from '../layout/model';
+import type { Photo } from '../editor/photo';
+import type { View } from '../picture/view';
 
 /// Pixels: between points of a stroke, to the first point that closes an outline, of a stroke that is one.
 const STROKE_STEP = 4;

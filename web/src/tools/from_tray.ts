@@ -1,11 +1,11 @@
 // A part out of the tray by hand: it hangs at the pointer with its live state, and is placed where it is dropped.
 
-import * as line from '../commands';
-import type { Part, Placement } from '../document';
-import type { Editor } from '../editor';
-import { snapToGrid } from '../grid';
-import { placedBox } from '../model';
-import type { View } from '../view';
+import * as line from '../layout/commands';
+import type { Part, Placement } from '../layout/document';
+import type { Editor } from '../editor/editor';
+import { snapToGrid } from '../layout/grid';
+import { placedBox } from '../layout/model';
+import type { View } from '../picture/view';
 
 /// Pixels before a press becomes a drag.
 const SLACK = 5;

@@ -1,7 +1,7 @@
 // The keyboard alone: every command, the view, and going from part to part.
 
-import * as line from '../commands';
-import type { Editor } from '../editor';
+import * as line from '../layout/commands';
+import type { Editor } from '../editor/editor';
 import { act, type Action } from './actions';
 
 export const SHORTCUTS: [string, string][] = [

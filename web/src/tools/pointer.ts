@@ -1,11 +1,11 @@
 // Mouse, pen and fingers on the picture.
 
-import * as line from '../commands';
-import type { Placement, Point } from '../document';
-import { movedBy, type Editor, type Tool } from '../editor';
+import * as line from '../layout/commands';
+import type { Placement, Point } from '../layout/document';
+import { movedBy, type Editor, type Tool } from '../editor/editor';
 import { FeatureTool } from './features';
-import { boxesMeet, boxOf, contains, placedLoops, type Box, type Sheet } from '../model';
-import type { View } from '../view';
+import { boxesMeet, boxOf, contains, placedLoops, type Box, type Sheet } from '../layout/model';
+import type { View } from '../picture/view';
 
 export interface Overlay {
   draft: Point[];
@@ -347,9 +347,7 @@ export class PointerTool {
     const angles = ids.length === 1 && first ? this.editor.model.part(first).rotations : undefined;
     if (first && angles && angles.every((a) => typeof a === 'number')) {
       const now = (Math.atan2(first.s, first.c) * 180) / Math.PI;
-      const turns = (angles).map(
-        (a) => Math.round((((((a - now + 540) % 360) + 360) % 360) - 180) * 1e6) / 1e6,
-      );
+      const turns = angles.map((a) => Math.round((((((a - now + 540) % 360) + 360) % 360) - 180) * 1e6) / 1e6);
       const apart = (turn: number): number => Math.abs(((((turn - whole + 540) % 360) + 360) % 360) - 180);
       return turns.reduce((best, turn) => (apart(turn) < apart(best) ? turn : best), 0);
     }

@@ -1,8 +1,8 @@
 // The client's side of docs/protocol.md. Knows messages and order, nothing of drawing.
 
-import type { FeatureChange, LayoutDocument, Placement, Violation } from './document';
-import type { Mode } from './kernel_api';
-import type { Change } from './model';
+import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
+import type { Mode } from '../kernel/kernel';
+import type { Change } from '../layout/model';
 
 export interface LayoutMessage {
   type: 'layout';

@@ -1,10 +1,10 @@
 // How quick the page is on the layout that it shows. Opened with `benchmark` in its address it prints the figures;
 // bench/speed.mjs does so for layouts of its own, with processor times.
 
-import type { Picture, Scene } from './draw';
-import { movedBy, type Editor } from './editor';
-import { h } from './elements';
-import type { View } from './view';
+import type { Picture, Scene } from '../picture/draw';
+import { movedBy, type Editor } from '../editor/editor';
+import { h } from '../html/elements';
+import type { View } from '../picture/view';
 
 export interface Timed {
   median: number;

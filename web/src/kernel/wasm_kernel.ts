@@ -1,9 +1,9 @@
 // The WebAssembly kernel (kernel.ts, lekalo.wasm) behind the page's interface.
 
-import { rotate } from './commands';
-import type { FeatureChange, LayoutDocument, Placement, Stock, Violation, ViolationKind } from './document';
-import { UNKNOWN, type Kernel, type KitCount, type Level, type LiveState, type Looked } from './kernel_api';
-import type { Change } from './model';
+import { rotate } from '../layout/commands';
+import type { FeatureChange, LayoutDocument, Placement, Stock, Violation, ViolationKind } from '../layout/document';
+import { UNKNOWN, type Kernel, type KitCount, type Level, type LiveState, type Looked } from './kernel';
+import type { Change } from '../layout/model';
 
 interface KernelViolation {
   kind: ViolationKind;
@@ -53,11 +53,11 @@ interface KernelModule {
   Kernel: { load(source: Response): Promise<LoadedKernel> };
 }
 
-const modules = import.meta.glob<KernelModule>('./kernel.ts');
+const modules = import.meta.glob<KernelModule>('./wasm_module.ts');
 
 /// Null where the page was built without the kernel or the server has none.
 export async function loadWasmKernel(): Promise<Kernel | null> {
-  const load = modules['./kernel.ts'];
+  const load = modules['./wasm_module.ts'];
   if (!load) return null;
   const answer = await fetch('lekalo.wasm');
   if (!answer.ok) return null;

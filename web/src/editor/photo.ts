@@ -1,8 +1,8 @@
 // A photograph of a stock: where it lies is a similarity, set by hand. The first pull moves it and pins the point;
 // every later one turns and scales it about the pin until the pulled point is where the hand is.
 
-import type { Point } from './document';
-import type { Box } from './model';
+import type { Point } from '../layout/document';
+import type { Box } from '../layout/model';
 
 /// Two points of the image (pixels, right and down from the upper left) and where they are on the stock (mm).
 export interface PhotoScale {

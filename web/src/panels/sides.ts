@@ -1,15 +1,15 @@
 // The right-hand side: one of its panels at a time.
 
-import * as line from './commands';
-import type { Violation } from './document';
-import type { Editor } from './editor';
-import { h } from './elements';
-import { t, type Key } from './i18n';
-import type { Sheet } from './model';
-import { partRows } from './panels/find';
-import { history } from './panels/history';
-import { kits } from './panels/kits';
-import { violations } from './panels/violations';
+import * as line from '../layout/commands';
+import type { Violation } from '../layout/document';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
+import { t, type Key } from '../i18n';
+import type { Sheet } from '../layout/model';
+import { partRows } from './find';
+import { history } from './history';
+import { kits } from './kits';
+import { violations } from './violations';
 
 export type Side = 'violations' | 'parts' | 'kits' | 'sheets' | 'history';
 const LABELS: Record<Side, Key> = {

@@ -1,6 +1,6 @@
 // What can be chosen of the forms of export that have choices: the options of `lekalo export`, by their names.
 
-import type { Model, Sheet } from './model';
+import type { Model, Sheet } from '../layout/model';
 
 export type ChosenForm = 'dxf' | 'hpgl' | 'gcode';
 export interface Field {

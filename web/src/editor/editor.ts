@@ -1,14 +1,14 @@
 // The state of the page, and what a gesture does to it. Drawing and panels look at it and are told when it changes.
 
-import { Checking } from './checking';
-import type { FeatureChange, LayoutDocument, Placement, Violation } from './document';
-import { snapToGrid } from './grid';
-import { UNKNOWN, type Kernel, type LiveState, type Mode } from './kernel_api';
-import { Model, type Change } from './model';
+import { Checking } from '../work/checking';
+import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
+import { snapToGrid } from '../layout/grid';
+import { UNKNOWN, type Kernel, type LiveState, type Mode } from '../kernel/kernel';
+import { Model, type Change } from '../layout/model';
 import { Photos } from './photos';
-import type { Client, Connection, Course } from './socket';
-import { t } from './i18n';
-import { Transfer, type Answer } from './transfer';
+import type { Client, Connection, Course } from '../server/socket';
+import { t } from '../i18n';
+import { Transfer, type Answer } from '../work/transfer';
 
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
 export type Topic =

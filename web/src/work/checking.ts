@@ -1,8 +1,8 @@
 // The check of the whole layout, a little at a time, so that no hand is held up by it however much there is to do.
 
-import { VIOLATION_KINDS, type Violation } from './document';
-import type { Kernel } from './kernel_api';
-import type { Model } from './model';
+import { VIOLATION_KINDS, type Violation } from '../layout/document';
+import type { Kernel } from '../kernel/kernel';
+import type { Model } from '../layout/model';
 import { TimeLeft } from './time_left';
 
 /// Of a frame's 16 ms.

@@ -2,10 +2,10 @@
 // dragged, so that a drag costs as much as the parts in hand, not as the layout.
 
 import { Backdrop, type Painter } from './backdrop';
-import { isGap, type Part, type Placement, type Point, type Violation } from './document';
-import type { Photos } from './photos';
-import type { LiveState } from './kernel_api';
-import { boxesMeet, innerPoint, placedAt, placedBox, type Box, type Model, type Sheet } from './model';
+import { isGap, type Part, type Placement, type Point, type Violation } from '../layout/document';
+import type { Photos } from '../editor/photos';
+import type { LiveState } from '../kernel/kernel';
+import { boxesMeet, innerPoint, placedAt, placedBox, type Box, type Model, type Sheet } from '../layout/model';
 import type { View } from './view';
 
 export interface Theme {

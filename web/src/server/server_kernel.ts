@@ -1,8 +1,8 @@
 // The check while the WebAssembly kernel is not there: the server's preview, one question at a time.
 
-import type { Placement } from './document';
-import { isGap } from './document';
-import { UNKNOWN, type Kernel, type LiveState } from './kernel_api';
+import type { Placement } from '../layout/document';
+import { isGap } from '../layout/document';
+import { UNKNOWN, type Kernel, type LiveState } from '../kernel/kernel';
 import type { Client } from './socket';
 
 const QUARTERS: Record<number, { c: number; s: number }> = {

@@ -1,10 +1,10 @@
 // The picture for those who cannot see it, screen readers and tests: every part as an element over its place, with
 // a name, where it lies and what is wrong with it. Boxes are in millimetres; moving the view is one transform.
 
-import { isGap, type Placement, type Violation } from './document';
-import { h } from './elements';
-import { t, type Key } from './i18n';
-import { boxesMeet, type Model } from './model';
+import { isGap, type Placement, type Violation } from '../layout/document';
+import { h } from '../html/elements';
+import { t, type Key } from '../i18n';
+import { boxesMeet, type Model } from '../layout/model';
 import type { View } from './view';
 
 /// Elements cost; of a larger layout those chosen, those with a broken rule and those in view are there.

@@ -1,9 +1,9 @@
 // The photographs of a layout's stocks, as the server keeps them: there after a reload, and in every tab.
 
 import type { Editor } from './editor';
-import { t } from './i18n';
+import { t } from '../i18n';
 import { Photo, type PhotoScale } from './photo';
-import { sentenceOf, type Answer } from './transfer';
+import { sentenceOf, type Answer } from '../work/transfer';
 
 /// What the server takes; what is none of it is written anew.
 const TYPES = ['image/png', 'image/jpeg'];

@@ -1,6 +1,6 @@
 // From millimetres (y up) to pixels of the page (y down).
 
-import type { Box } from './model';
+import type { Box } from '../layout/model';
 
 export class View {
   /// Pixels a millimetre.

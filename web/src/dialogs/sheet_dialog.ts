@@ -1,7 +1,7 @@
 // A drawing holds parts and nothing to lay them on: asks for the sheet.
 
-import { h } from './elements';
-import { t, type Key } from './i18n';
+import { h } from '../html/elements';
+import { t, type Key } from '../i18n';
 
 export interface SheetSize {
   width: string;

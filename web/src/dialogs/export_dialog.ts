@@ -1,9 +1,9 @@
 // Asks what a form of export leaves to choose. What the server cannot write it says, and the dialog stays.
 
-import { h } from './elements';
+import { h } from '../html/elements';
 import { CHOICES, isAsked, request, sheetsInUse, type ChosenForm, type Field, type Values } from './export_choices';
-import { t, type Key } from './i18n';
-import type { Model } from './model';
+import { t, type Key } from '../i18n';
+import type { Model } from '../layout/model';
 
 /// What came of saving: why not, or null; and what there is to know about the file.
 export interface Saved {

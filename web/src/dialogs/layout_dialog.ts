@@ -1,7 +1,7 @@
 // The name of a layout, and its end.
 
-import { h } from './elements';
-import { t } from './i18n';
+import { h } from '../html/elements';
+import { t } from '../i18n';
 
 export interface LayoutEvents {
   /// \return why not, or null

@@ -1,12 +1,12 @@
 // The toolbar above and the tools beside the picture.
 
-import type { Editor, Tool } from './editor';
-import { h } from './elements';
-import { CHOICES, type ChosenForm } from './export_choices';
-import { icon } from './icons';
-import { currentLanguage, t, type Key } from './i18n';
-import { menu } from './menu';
-import { act, type Action } from './tools/actions';
+import type { Editor, Tool } from '../editor/editor';
+import { h } from '../html/elements';
+import { CHOICES, type ChosenForm } from '../dialogs/export_choices';
+import { icon } from '../html/icons';
+import { currentLanguage, t, type Key } from '../i18n';
+import { menu } from '../html/menu';
+import { act, type Action } from '../tools/actions';
 
 export interface BarEvents {
   openLayout(id: number): void;

@@ -2,9 +2,9 @@
 // than before are painted anew, a picture that is moved is moved along, one that is zoomed is stretched, and what has
 // to be painted whole is painted aside in slices that leave a frame its time.
 
-import { isGap, type Placement, type Violation } from './document';
+import { isGap, type Placement, type Violation } from '../layout/document';
 import type { Scene } from './draw';
-import { boxesMeet, placedAt, type Box, type Model, type Sheet } from './model';
+import { boxesMeet, placedAt, type Box, type Model, type Sheet } from '../layout/model';
 
 export interface Painter {
   take(model: Model): void;

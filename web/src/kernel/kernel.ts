@@ -1,8 +1,8 @@
 // Who decides what is allowed while a part is dragged. The WebAssembly kernel answers at once; without it the
 // server is asked (its `preview`), and until it has answered the state is 'unknown', never 'clear'.
 
-import type { FeatureChange, LayoutDocument, Placement, Point, Violation } from './document';
-import type { Change } from './model';
+import type { FeatureChange, LayoutDocument, Placement, Point, Violation } from '../layout/document';
+import type { Change } from '../layout/model';
 
 export type Mode = 'strict' | 'free';
 export type Level = 'clear' | 'gap' | 'forbidden' | 'unknown';

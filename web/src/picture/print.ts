@@ -1,10 +1,10 @@
 // What is printed: each sheet in use on a page of its own, with the names of its parts and a table of them.
 
 import { LIGHT, Picture } from './draw';
-import type { Editor } from './editor';
-import { h } from './elements';
-import { t } from './i18n';
-import type { Sheet } from './model';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
+import { t } from '../i18n';
+import type { Sheet } from '../layout/model';
 import { View } from './view';
 
 /// Pixels across a page, 0.25 mm each on A4, and how finely they are painted.

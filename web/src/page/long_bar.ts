@@ -1,8 +1,8 @@
 // What takes its time, over the picture: a row each, with the share done, the time left, and a button that ends it.
 
-import type { Editor } from './editor';
-import { h } from './elements';
-import { t } from './i18n';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
+import { t } from '../i18n';
 
 /// What is done before says nothing, ms.
 const PATIENCE = 300;
