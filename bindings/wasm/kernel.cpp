@@ -27,7 +27,6 @@ using namespace lekalo::layout;
 
 constexpr double kMostMm = 0x1p19;  ///< of places and shifts, as in layout files
 constexpr double kLargestId = 0x1p53 - 1;
-constexpr std::size_t kPlacementSize = 10;
 constexpr int kClear = 0, kTooClose = 1, kForbidden = 2, kFailed = -1;
 
 // One module is one kernel for one thread: what calls leave behind for their caller.

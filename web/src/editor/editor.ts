@@ -3,7 +3,8 @@
 import { Checking } from '../work/checking';
 import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
 import { snapToGrid } from '../layout/grid';
-import { UNKNOWN, type Kernel, type LiveState, type Mode } from '../kernel/kernel';
+import { UNKNOWN, type Kernel, type LiveState } from '../kernel/kernel';
+import type { Mode } from '../layout/commands';
 import { Model, type Change } from '../layout/model';
 import { Photos } from './photos';
 import type { Client, Connection, Course } from '../server/socket';

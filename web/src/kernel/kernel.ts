@@ -4,7 +4,6 @@
 import type { FeatureChange, LayoutDocument, Placement, Point, Violation } from '../layout/document';
 import type { Change } from '../layout/model';
 
-export type Mode = 'strict' | 'free';
 export type Level = 'clear' | 'gap' | 'forbidden' | 'unknown';
 export interface Nearest {
   distance: number;
@@ -16,39 +15,47 @@ export interface LiveState {
   violations: Violation[];
   nearest: Nearest | null;
 }
-/// What a look at some placements found: every violation that one of them has a part in, but for those with one
-/// that is still to be looked at.
+/** The answer to a look at some placements. */
 export interface Looked {
+  /** How many placements are still to be looked at. */
   left: number;
+  /** The placements that were looked at. */
   ids: number[];
+  /** Every violation that one of them has a part in, but for those with a placement still to be looked at. */
   violations: Violation[];
 }
-/// How many of a kit are complete, and what those lack that are wanted and not complete; `mirrored` absent: either hand.
+/** How many of a kit are complete, and which pieces the wanted ones that are not complete lack. */
 export interface KitCount {
   kit: string;
   wanted: number;
   complete: number;
+  /** Either hand will do where `mirrored` is absent. */
   missing: { part: string; count: number; mirrored?: boolean }[];
 }
 export const UNKNOWN: LiveState = { level: 'unknown', violations: [], nearest: null };
 
 export interface Kernel {
-  /// Says whether `state` answers within the call.
+  /** Says whether `state` answers within the call. */
   readonly immediate: boolean;
+  /** Throws the reader's sentence where the document is none. */
   open(document: LayoutDocument): void;
   apply(changes: readonly Change[], nextId: number, features: readonly FeatureChange[]): void;
-  /// What would be so if these placements stood instead of those with their ids. \p text: the command that
-  /// would bring it about.
-  /// \p depths: how deep overlaps are, too; at each move of the pointer that would take too long.
+  /**
+   * Tells what would be so if these placements stood in place of those with their ids.
+   *
+   * @param text the command that would bring it about
+   * @param reach how far the line to the nearest part looks, mm; 0: it is not asked for
+   * @param depths whether overlaps are measured, too; at each move of the pointer that would take too long
+   */
   state(placements: readonly Placement[], text: string, reach: number, depths: boolean): LiveState | Promise<LiveState>;
-  /// Cosine and sine on the grid; null: not known here.
+  /** Cosine and sine on the grid; null: this kernel does not know them. */
   rotation(degrees: number): { c: number; s: number } | null;
-  /// Where `rotate` would put these placements; null: not known here.
+  /** Where `rotate` would put these placements; null: this kernel does not know. */
   turned(ids: readonly number[], degrees: number): Placement[] | null;
-  /// Every violation of the layout; null: not known here.
+  /** Every violation of the layout; null: this kernel does not know. */
   check(): Violation[] | null;
-  /// The same a few placements at a time: of those that changed since they were looked at.
+  /** Looks at up to `most` of the placements that have changed since they were looked at. */
   checkSome(most: number): Looked | null;
-  /// By kit, as `lekalo show` counts; null: not known here.
+  /** The count of each kit, as `lekalo show` counts; null: this kernel does not know. */
   kits(): KitCount[] | null;
 }

@@ -1,8 +1,11 @@
-// Lines of docs/design/layout-commands.md.
+// The lines of the command language: docs/design/layout-commands.md.
 
 import type { Placement } from './document';
 import { textOfMm } from './grid';
 import type { Sheet } from './model';
+
+/** Strict: the server refuses what breaks a rule. Free: it carries it out. */
+export type Mode = 'strict' | 'free';
 
 const quoted = (name: string): string => `"${name.replace(/[\\"]/g, '\\$&').replace(/\n/g, '\\n')}"`;
 /// A defect or zone by its stock and id.

@@ -1,7 +1,7 @@
 // The client's side of docs/protocol.md. Knows messages and order, nothing of drawing.
 
 import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
-import type { Mode } from '../kernel/kernel';
+import type { Mode } from '../layout/commands';
 import type { Change } from '../layout/model';
 
 export interface LayoutMessage {
