@@ -1,6 +1,5 @@
 // The photographs of a layout's stocks, as the server keeps them: there after a reload, and in every tab.
 
-import type { Editor } from './editor';
 import { t } from '../i18n';
 import { Photo, type PhotoScale } from './photo';
 import { sentenceOf, type Answer } from '../work/transfer';
@@ -14,13 +13,21 @@ interface Listed extends PhotoScale {
   stock: string;
 }
 
+/** The editor, as photographs need it. */
+export interface PhotoOwner {
+  readonly layoutId: number;
+  tell(topic: 'photo'): void;
+  say(text: string): void;
+  transfer(kind: 'photo', name: string, method: string, address: string, body?: Blob): Promise<Answer | null>;
+}
+
 export class Photos {
   private readonly of = new Map<string, Photo>();
   private reading: Promise<void> = Promise.resolve();
   /// Changed photographs are others: what was painted of them is old.
   count = 0;
 
-  constructor(private readonly editor: Editor) {}
+  constructor(private readonly editor: PhotoOwner) {}
 
   get(stock: string): Photo | undefined {
     return this.of.get(stock);

@@ -15,3 +15,9 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   element.append(...children.filter((c): c is Node | string => c !== null));
   return element;
 }
+
+/** Shows a dialog over the page. */
+export function showDialog(dialog: HTMLDialogElement): void {
+  document.getElementById('page')!.append(dialog);
+  dialog.showModal();
+}

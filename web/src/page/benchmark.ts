@@ -1,8 +1,10 @@
 // How quick the page is on the layout that it shows. Opened with `benchmark` in its address it prints the figures;
 // bench/speed.mjs does so for layouts of its own, with processor times.
 
-import type { Picture, Scene } from '../picture/draw';
+import type { Picture } from '../picture/draw';
+import type { Scene } from '../picture/scene';
 import { movedBy, type Editor } from '../editor/editor';
+import type { Photo } from '../editor/photo';
 import { h } from '../html/elements';
 import type { View } from '../picture/view';
 
@@ -175,4 +177,17 @@ export async function printFigures(bench: Bench): Promise<void> {
   bench.view.fit(bench.editor.model.extent(), 28, true);
   paintAll(bench);
   dialog.dataset.done = 'true';
+}
+
+/** Gives bench/speed.mjs and the tests a hold on the page: `window.lekaloBench`. */
+export function offerBenchmark(bench: Bench): void {
+  const placed = ({ stock, a, b, x, y, image: { width, height } }: Photo) => ({ stock, a, b, x, y, width, height });
+  Object.assign(window, {
+    lekaloBench: {
+      ...benchmark(bench),
+      rows: ROWS,
+      paintAll: () => paintAll(bench),
+      photos: () => [...bench.editor.photos].map(placed),
+    },
+  });
 }

@@ -3,7 +3,7 @@
 // to be painted whole is painted aside in slices that leave a frame its time.
 
 import { isGap, type Placement, type Violation } from '../layout/document';
-import type { Scene } from './draw';
+import type { Scene } from './scene';
 import { boxesMeet, placedAt, type Box, type Model, type Sheet } from '../layout/model';
 
 export interface Painter {

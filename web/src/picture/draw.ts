@@ -1,151 +1,23 @@
 // The picture: two canvases. The lower holds sheets and parts at rest, the upper what moves while a part is
 // dragged, so that a drag costs as much as the parts in hand, not as the layout.
 
-import { Backdrop, type Painter } from './backdrop';
 import { isGap, type Part, type Placement, type Point, type Violation } from '../layout/document';
-import type { Photos } from '../editor/photos';
-import type { LiveState } from '../kernel/kernel';
-import { boxesMeet, innerPoint, placedAt, placedBox, type Box, type Model, type Sheet } from '../layout/model';
+import { boxesMeet, innerPoint, placedAt, placedBox, type Model, type Sheet } from '../layout/model';
+import { Backdrop, type Painter } from './backdrop';
+import {
+  drawArrow,
+  drawBand,
+  drawDraft,
+  drawGrain,
+  drawHandle,
+  drawMeasure,
+  drawPin,
+  drawTag,
+  measured,
+} from './marks';
+import { loopsOf, roomAlong, Shape, tracedPath, type Outlined } from './outlines';
+import type { Scene, Theme } from './scene';
 import type { View } from './view';
-
-export interface Theme {
-  back: string;
-  material: string;
-  edge: string;
-  ink: string;
-  faint: string;
-  hole: string;
-  defect: string;
-  zone: string;
-  select: string;
-  bad: string;
-  near: string;
-  good: string;
-  partLight: number;
-  partSat: number;
-  partInk: string;
-  other: string;
-}
-export const LIGHT: Theme = {
-  back: '#e9ebee',
-  material: '#fbfaf7',
-  edge: '#59616b',
-  ink: '#1d232b',
-  faint: '#8a929c',
-  hole: '#d5d9de',
-  defect: '#7d3c98',
-  zone: '#a8793a',
-  select: '#0b63ce',
-  bad: '#c81e1e',
-  near: '#b86e00',
-  good: '#16794c',
-  partLight: 84,
-  partSat: 42,
-  partInk: '#2c3540',
-  other: '#7a4bd0',
-};
-export const DARK: Theme = {
-  back: '#15181c',
-  material: '#23282e',
-  edge: '#8f99a5',
-  ink: '#e8ecf1',
-  faint: '#77818d',
-  hole: '#15181c',
-  defect: '#c58be0',
-  zone: '#c79a5a',
-  select: '#5aa7ff',
-  bad: '#ff6b6b',
-  near: '#ffb545',
-  good: '#4cc38a',
-  partLight: 36,
-  partSat: 28,
-  partInk: '#dfe5ec',
-  other: '#b495f5',
-};
-
-export interface Scene {
-  model: Model;
-  view: View;
-  theme: Theme;
-  selection: ReadonlySet<number>;
-  others: ReadonlySet<number>;
-  violations: readonly Violation[];
-  /// Placements in hand and what is known about where they are.
-  moving: ReadonlyMap<number, Placement>;
-  live: LiveState | null;
-  /// Where parts are going to be, by a command that is not carried out yet.
-  coming: ReadonlyMap<number, Placement>;
-  band: Box | null;
-  /// An outline being drawn.
-  draft: readonly Point[];
-  photos: Pick<Photos, 'get' | 'count'>;
-  /// What turning a photograph leaves where it is.
-  pins: readonly Point[];
-  ruler: { from: Point; to: Point } | null;
-  arrow: { from: Point; to: Point } | null;
-  /// Of the chosen parts at rest; pixels.
-  handle: { at: Point; top: Point } | null;
-  show: { labels: boolean; grain: boolean; gap: boolean; zones: boolean };
-}
-
-/// Outlines of a part by level of detail, in its own frame: level n drops what is nearer than 2^n / 8 mm.
-class Shape {
-  readonly reach: number;
-  private readonly levels = new Map<number, Path2D>();
-  constructor(private readonly loops: Point[][]) {
-    this.reach = Math.max(...loops[0]!.map(([x, y]) => Math.hypot(x, y)));
-  }
-  at(mmPerPixel: number): Path2D {
-    const level = Math.max(-1, Math.floor(Math.log2(mmPerPixel * 0.35 * 8)));
-    let path = this.levels.get(level);
-    if (!path) {
-      path = tracedPath(this.loops, level < 0 ? 0 : 2 ** level / 8);
-      this.levels.set(level, path);
-    }
-    return path;
-  }
-}
-
-function tracedPath(loops: readonly Point[][], apart: number): Path2D {
-  const path = new Path2D();
-  for (const loop of loops) {
-    let [lx, ly] = loop[0]!;
-    path.moveTo(lx, ly);
-    loop.forEach(([x, y], i) => {
-      if (i === 0 || Math.hypot(x - lx, y - ly) < apart) return;
-      path.lineTo(x, y);
-      [lx, ly] = [x, y];
-    });
-    path.closePath();
-  }
-  return path;
-}
-
-type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };
-const loopsOf = (o: Outlined): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
-
-/// How far one can go from a point of a part both ways along a direction of its own frame without leaving it, mm.
-function roomAlong(part: Part, [x, y]: Point, [dx, dy]: Point): number {
-  let room = Infinity;
-  for (const loop of loopsOf(part.outline)) {
-    let [ax, ay] = loop.at(-1)!;
-    for (const [bx, by] of loop) {
-      // Heights over the line.
-      const [ha, hb] = [dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)];
-      if (ha > 0 !== hb > 0) {
-        const k = ha / (ha - hb);
-        room = Math.min(room, Math.abs(dx * (ax + k * (bx - ax) - x) + dy * (ay + k * (by - ay) - y)));
-      }
-      [ax, ay] = [bx, by];
-    }
-  }
-  return room;
-}
-
-export function measured(from: Point, to: Point): string {
-  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  return `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`;
-}
 
 export class Picture implements Painter {
   readonly backdrop: Backdrop;
@@ -177,13 +49,13 @@ export class Picture implements Painter {
     return `hsl(${hue} ${theme.partSat}% ${theme.partLight}%)`;
   }
 
-  /// Colours of its parts from now on.
+  /** Gives the parts of this model their colours from now on. */
   take(model: Model): void {
     if (this.of === model) return;
     this.of = model;
     this.shapes = new Map();
     this.hues = new Map();
-    // Golden angle: neighbours in the list differ, whatever their number.
+    // Steps by the golden angle give neighbours in the list different hues, whatever their number.
     [...model.parts.keys()].forEach((id, i) => this.hues.set(id, Math.round(205 + i * 137.508) % 360));
   }
 
@@ -193,7 +65,7 @@ export class Picture implements Painter {
     return shape;
   }
 
-  /// Where the name of an outline stands, in its own frame.
+  /** The place of an outline's name, in its own frame. */
   private captionOf(outline: Outlined, within?: Outlined): Point {
     let at = this.captions.get(outline);
     if (!at) this.captions.set(outline, (at = innerPoint(loopsOf(outline), within ? loopsOf(within) : [])));
@@ -206,7 +78,7 @@ export class Picture implements Painter {
     return path;
   }
 
-  /// Hatching that a colour-blind eye tells apart: crossing lines forbidden, dots too near, lines of a zone or defect.
+  /** Hatching that a colour-blind eye tells apart: a cross is forbidden, dots are too near, lines are a hole or a defect. */
   private hatch(ctx: CanvasRenderingContext2D, colour: string, kind: 'cross' | 'dots' | 'lines'): CanvasPattern {
     const key = `${colour} ${kind} ${this.ratio}`;
     let pattern = this.patterns.get(key);
@@ -235,6 +107,11 @@ export class Picture implements Painter {
     return pattern;
   }
 
+  /**
+   * Makes the canvas count in mm of a sheet or, with a placement, of its part.
+   *
+   * \return mm of a pixel of the page
+   */
   private frame(ctx: CanvasRenderingContext2D, view: View, sheet: Sheet, p?: Placement): number {
     const k = view.scale * this.ratio;
     const ox = (view.x + sheet.x * view.scale) * this.ratio;
@@ -245,10 +122,10 @@ export class Picture implements Painter {
       const m = p.mirrored ? -1 : 1;
       ctx.setTransform(k * p.c * m, -k * p.s * m, -k * p.s, -k * p.c, ox + k * p.x, oy - k * p.y);
     }
-    return this.ratio / k; // mm a CSS pixel
+    return this.ratio / k;
   }
 
-  /// Fills a path with a pattern of pixels that moves with the view, so that a picture can be scrolled.
+  /** Fills a path with a pattern of pixels that moves with the view, so that a picture can be scrolled. */
   private fillHatched(ctx: CanvasRenderingContext2D, view: View, path: Path2D, pattern: CanvasPattern): void {
     const tile = Math.round(8 * this.ratio);
     const [x, y] = [Math.round(view.x * this.ratio) % tile, Math.round(view.y * this.ratio) % tile];
@@ -283,7 +160,7 @@ export class Picture implements Painter {
       const sheet = first && scene.model.sheet(first.stock, first.copy);
       if (scene.live.nearest && sheet) {
         const n = scene.live.nearest;
-        this.drawMeasure(
+        drawMeasure(
           ctx,
           scene,
           [n.from[0] + sheet.x, n.from[1] + sheet.y],
@@ -295,29 +172,16 @@ export class Picture implements Painter {
     }
     if (scene.ruler) {
       const { from, to } = scene.ruler;
-      this.drawMeasure(ctx, scene, from, to, measured(from, to), theme.select);
+      drawMeasure(ctx, scene, from, to, measured(from, to), theme.select);
     }
-    if (scene.draft.length > 0) this.drawDraft(ctx, scene);
-    for (const pin of scene.pins) this.drawPin(ctx, theme, view.toScreen(...pin));
-    if (scene.handle) this.drawHandle(ctx, theme, scene.handle.top, scene.handle.at);
-    if (scene.arrow)
-      this.drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
-    if (scene.band) {
-      const [x0, y0] = view.toScreen(scene.band.left, scene.band.top);
-      const [x1, y1] = view.toScreen(scene.band.right, scene.band.bottom);
-      ctx.strokeStyle = theme.select;
-      ctx.setLineDash([5, 3]);
-      ctx.lineWidth = 1;
-      ctx.strokeRect(x0 + 0.5, y0 + 0.5, x1 - x0, y1 - y0);
-      ctx.setLineDash([]);
-      ctx.globalAlpha = 0.08;
-      ctx.fillStyle = theme.select;
-      ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
-      ctx.globalAlpha = 1;
-    }
+    if (scene.draft.length > 0) drawDraft(ctx, scene);
+    for (const pin of scene.pins) drawPin(ctx, theme, view.toScreen(...pin));
+    if (scene.handle) drawHandle(ctx, theme, scene.handle.top, scene.handle.at);
+    if (scene.arrow) drawArrow(ctx, view.toScreen(...scene.arrow.from), view.toScreen(...scene.arrow.to), theme.select);
+    if (scene.band) drawBand(ctx, scene, scene.band);
   }
 
-  /// Dashed outlines: the parts themselves stand where they are until it is carried out.
+  /** Dashed outlines: the parts themselves stand where they are until the command is carried out. */
   private drawComing(ctx: CanvasRenderingContext2D, scene: Scene): void {
     const { model, view, theme } = scene;
     const seen = view.visible();
@@ -387,7 +251,13 @@ export class Picture implements Painter {
     ctx.strokeStyle = theme.edge;
     ctx.lineWidth = 1.5 * px;
     ctx.stroke(path);
-    // Captions, in pixels.
+    this.drawCaptions(ctx, scene, sheet);
+  }
+
+  /** The names of a sheet, of its zones and of its defects. */
+  private drawCaptions(ctx: CanvasRenderingContext2D, scene: Scene, sheet: Sheet): void {
+    const { view, theme } = scene;
+    const { stock, box } = sheet;
     ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     ctx.font = '600 12px system-ui, sans-serif';
     ctx.fillStyle = theme.ink;
@@ -401,7 +271,7 @@ export class Picture implements Painter {
         ty - 8,
       );
       if (stock.kind !== 'strip' || stock.grain_deg !== undefined)
-        this.grainMark(ctx, theme, tx + 18, ty + 12, stock.grain_deg ?? 0, 22);
+        drawGrain(ctx, theme, tx + 18, ty + 12, stock.grain_deg ?? 0, 22);
     }
     if (scene.show.zones && view.scale > 0.12) {
       ctx.font = '11px system-ui, sans-serif';
@@ -465,8 +335,21 @@ export class Picture implements Painter {
       ctx.lineWidth = (chosen || mark || good || scene.others.has(p.id) ? 2 : 0.8) * px;
       ctx.stroke(path);
     }
-    const size = shape.reach / px;
-    if (size < 18) return;
+    if (shape.reach / px >= 18) this.drawLabel(ctx, scene, sheet, p, px, mark !== null);
+  }
+
+  /** The name, the number and the grain of a part. */
+  private drawLabel(
+    ctx: CanvasRenderingContext2D,
+    scene: Scene,
+    sheet: Sheet,
+    p: Placement,
+    px: number,
+    hatched: boolean,
+  ): void {
+    const { view, theme } = scene;
+    const part = scene.model.part(p);
+    const size = this.shape(part).reach / px;
     const [ix, iy] = this.captionOf(part.outline);
     const mx = p.mirrored ? -ix : ix;
     const [sx, sy] = view.toScreen(sheet.x + p.x + p.c * mx - p.s * iy, sheet.y + p.y + p.s * mx + p.c * iy);
@@ -479,9 +362,9 @@ export class Picture implements Painter {
       const room = (2 * roomAlong(part, [ix, iy], p.mirrored ? [-p.c, -p.s] : [p.c, -p.s])) / px;
       const marks = `${p.mirrored ? ' ⇋' : ''}${p.locked ? ' 🔒' : ''}`;
       const name = part.name ?? part.id;
-      // Over hatching a text needs ground to stand on.
+      // A text over hatching is read only where it has ground to stand on.
       const write = (text: string, y: number): void => {
-        if (mark) ctx.strokeText(text, sx, y);
+        if (hatched) ctx.strokeText(text, sx, y);
         ctx.fillText(text, sx, y);
       };
       ctx.strokeStyle = theme.material;
@@ -497,33 +380,8 @@ export class Picture implements Painter {
     }
     if (scene.show.grain && part.grain && size > 26) {
       const deg = (p.mirrored ? 180 - part.grain.deg : part.grain.deg) + (Math.atan2(p.s, p.c) * 180) / Math.PI;
-      this.grainMark(ctx, theme, sx, sy - 13, deg, Math.min(26, size * 0.5));
+      drawGrain(ctx, theme, sx, sy - 13, deg, Math.min(26, size * 0.5));
     }
-  }
-
-  private grainMark(
-    ctx: CanvasRenderingContext2D,
-    theme: Theme,
-    x: number,
-    y: number,
-    degrees: number,
-    length: number,
-  ): void {
-    const a = (-degrees * Math.PI) / 180;
-    const [dx, dy] = [(Math.cos(a) * length) / 2, (Math.sin(a) * length) / 2];
-    ctx.strokeStyle = theme.faint;
-    ctx.lineWidth = 1.2;
-    ctx.beginPath();
-    for (const k of [1, -1]) {
-      const [ex, ey] = [x + k * dx, y + k * dy];
-      ctx.moveTo(x, y);
-      ctx.lineTo(ex, ey);
-      for (const turn of [2.6, -2.6]) {
-        ctx.moveTo(ex, ey);
-        ctx.lineTo(ex + k * Math.cos(a + turn) * 5, ey + k * Math.sin(a + turn) * 5);
-      }
-    }
-    ctx.stroke();
   }
 
   drawViolation(ctx: CanvasRenderingContext2D, scene: Scene, v: Violation): void {
@@ -545,122 +403,6 @@ export class Picture implements Painter {
       ctx.lineTo(x + 5, y - 5);
     }
     ctx.stroke();
-    if (v.amount_mm > 0) this.tag(ctx, theme, `${v.amount_mm.toFixed(3)} mm`, x, y - 16, colour);
-  }
-
-  private drawMeasure(
-    ctx: CanvasRenderingContext2D,
-    scene: Scene,
-    from: Point,
-    to: Point,
-    text: string,
-    colour: string,
-  ): void {
-    const [x0, y0] = scene.view.toScreen(...from);
-    const [x1, y1] = scene.view.toScreen(...to);
-    ctx.strokeStyle = colour;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.moveTo(x0, y0);
-    ctx.lineTo(x1, y1);
-    const d = Math.hypot(x1 - x0, y1 - y0) || 1;
-    const [nx, ny] = [(-(y1 - y0) / d) * 5, ((x1 - x0) / d) * 5];
-    for (const [x, y] of [
-      [x0, y0],
-      [x1, y1],
-    ] as const) {
-      ctx.moveTo(x - nx, y - ny);
-      ctx.lineTo(x + nx, y + ny);
-    }
-    ctx.stroke();
-    this.tag(ctx, scene.theme, text, (x0 + x1) / 2, (y0 + y1) / 2 - 14, colour);
-  }
-
-  private drawDraft(ctx: CanvasRenderingContext2D, { draft, view, theme }: Scene): void {
-    ctx.strokeStyle = ctx.fillStyle = theme.defect;
-    ctx.lineWidth = 1.8;
-    ctx.beginPath();
-    draft.forEach((p, i) => (i === 0 ? ctx.moveTo(...view.toScreen(...p)) : ctx.lineTo(...view.toScreen(...p))));
-    ctx.stroke();
-    for (const p of draft.length > 40 ? draft.slice(0, 1) : draft) {
-      const [x, y] = view.toScreen(...p);
-      ctx.beginPath();
-      ctx.arc(x, y, 3.5, 0, 7);
-      ctx.fill();
-    }
-  }
-
-  private drawPin(ctx: CanvasRenderingContext2D, theme: Theme, [x, y]: Point): void {
-    ctx.strokeStyle = theme.select;
-    ctx.fillStyle = theme.material;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    ctx.arc(x, y, 6, 0, 7);
-    ctx.fill();
-    ctx.stroke();
-    ctx.beginPath();
-    for (const [dx, dy] of [
-      [1, 0],
-      [-1, 0],
-      [0, 1],
-      [0, -1],
-    ] as const) {
-      ctx.moveTo(x + dx * 3, y + dy * 3);
-      ctx.lineTo(x + dx * 11, y + dy * 11);
-    }
-    ctx.stroke();
-  }
-
-  private drawHandle(ctx: CanvasRenderingContext2D, theme: Theme, [x0, y0]: Point, [x, y]: Point): void {
-    ctx.strokeStyle = theme.select;
-    ctx.fillStyle = theme.material;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.moveTo(x0, y0);
-    ctx.lineTo(x, y + 7);
-    ctx.stroke();
-    ctx.beginPath();
-    ctx.arc(x, y, 7, 0, 7);
-    ctx.fill();
-    ctx.stroke();
-    // A turning arrow within.
-    ctx.beginPath();
-    ctx.arc(x, y, 3.2, 0.6, 5.2);
-    ctx.stroke();
-  }
-
-  private drawArrow(
-    ctx: CanvasRenderingContext2D,
-    [x0, y0]: [number, number],
-    [x1, y1]: [number, number],
-    colour: string,
-  ): void {
-    const a = Math.atan2(y1 - y0, x1 - x0);
-    ctx.strokeStyle = colour;
-    ctx.lineWidth = 2.5;
-    ctx.beginPath();
-    ctx.moveTo(x0, y0);
-    ctx.lineTo(x1, y1);
-    for (const t of [2.6, -2.6]) {
-      ctx.moveTo(x1, y1);
-      ctx.lineTo(x1 + Math.cos(a + t) * 11, y1 + Math.sin(a + t) * 11);
-    }
-    ctx.stroke();
-  }
-
-  private tag(ctx: CanvasRenderingContext2D, theme: Theme, text: string, x: number, y: number, colour: string): void {
-    ctx.font = '600 11px system-ui, sans-serif';
-    ctx.textAlign = 'center';
-    ctx.textBaseline = 'middle';
-    const w = ctx.measureText(text).width + 10;
-    ctx.fillStyle = theme.material;
-    ctx.strokeStyle = colour;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.roundRect(x - w / 2, y - 9, w, 18, 4);
-    ctx.fill();
-    ctx.stroke();
-    ctx.fillStyle = colour;
-    ctx.fillText(text, x, y + 0.5);
+    if (v.amount_mm > 0) drawTag(ctx, theme, `${v.amount_mm.toFixed(3)} mm`, x, y - 16, colour);
   }
 }

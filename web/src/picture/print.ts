@@ -1,6 +1,7 @@
 // What is printed: each sheet in use on a page of its own, with the names of its parts and a table of them.
 
-import { LIGHT, Picture } from './draw';
+import { Picture } from './draw';
+import { LIGHT } from './scene';
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';
 import { t } from '../i18n';

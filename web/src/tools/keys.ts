@@ -2,9 +2,10 @@
 
 import * as line from '../layout/commands';
 import type { Editor } from '../editor/editor';
+import type { Key } from '../i18n';
 import { act, type Action } from './actions';
 
-export const SHORTCUTS: [string, string][] = [
+export const SHORTCUTS: readonly (readonly [keys: string, what: Key])[] = [
   ['Tab / Shift+Tab', 'key.next'],
   ['← ↑ → ↓', 'key.move'],
   ['Ctrl + ← ↑ → ↓', 'key.slide'],
