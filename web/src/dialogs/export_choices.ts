@@ -1,26 +1,26 @@
-// What can be chosen of the forms of export that have choices: the options of `lekalo export`, by their names.
+// The choices of the forms of export that have any: the options of `lekalo export`, by their names.
 
 import type { Model, Sheet } from '../layout/model';
 
 export type ChosenForm = 'dxf' | 'hpgl' | 'gcode';
 export interface Field {
   name: string;
-  /// The values of a list, the first as a rule; absent: a number.
+  /** The values of a list, of which the first stands as a rule; absent: the field takes a number. */
   of?: readonly string[];
-  /// Stands in the field at first.
+  /** The number that stands in the field at first. */
   value?: number;
-  /// The server refuses without it, and says so.
+  /** The server refuses without it, and says so. */
   required?: boolean;
-  /// Is asked of these processes alone.
+  /** The processes for which the field is asked; absent: all. */
   when?: readonly string[];
 }
-/// By the names of fields; '' is left out of the request, and the server takes what it does as a rule.
+/** The values by the names of their fields. An empty one is left out of the request: the server decides. */
 export type Values = Record<string, string>;
 
 const ROUTER = ['router'];
 const BEAM = ['laser', 'plasma'];
 const UNIT: Field = { name: 'unit', of: ['mm', 'inch'] };
-/// '': all layers.
+/** The empty value stands for all layers. */
 const ONLY: Field = { name: 'only', of: ['', 'CUT'] };
 export const CHOICES: Record<ChosenForm, { name: string; sheetEach: boolean; fields: readonly Field[] }> = {
   dxf: { name: 'DXF', sheetEach: false, fields: [UNIT, ONLY] },
@@ -49,7 +49,7 @@ export const CHOICES: Record<ChosenForm, { name: string; sheetEach: boolean; fie
 export const isAsked = (field: Field, values: Values): boolean =>
   !field.when || field.when.includes(values.process ?? '');
 
-/// STOCK#COPY of the sheets that parts lie on; copies from 1.
+/** The sheets that parts lie on as STOCK#COPY, copies counted from 1. */
 export function sheetsInUse(model: Model): string[] {
   const used = new Set<Sheet>();
   for (const p of model.placements.values()) {
@@ -59,7 +59,7 @@ export function sheetsInUse(model: Model): string[] {
   return model.sheets.filter((sheet) => used.has(sheet)).map((sheet) => `${sheet.stock.id}#${sheet.copy + 1}`);
 }
 
-/// The fields of the request, those alone that are asked.
+/** The fields of the request: those that are asked and have a value. */
 export function request(form: ChosenForm, sheet: string, values: Values): URLSearchParams {
   const fields = new URLSearchParams({ form });
   if (sheet) fields.set('sheet', sheet);

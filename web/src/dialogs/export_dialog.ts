@@ -1,11 +1,12 @@
-// Asks what a form of export leaves to choose. What the server cannot write it says, and the dialog stays.
+// Asks for the choices of a form of export. Where the server cannot write it, its sentence stands in the dialog,
+// which stays.
 
 import { h } from '../html/elements';
 import { CHOICES, isAsked, request, sheetsInUse, type ChosenForm, type Field, type Values } from './export_choices';
 import { t, type Key } from '../i18n';
 import type { Model } from '../layout/model';
 
-/// What came of saving: why not, or null; and what there is to know about the file.
+/** The result of saving: the reason why it was refused, or null, and notes about the file. */
 export interface Saved {
   refused: string | null;
   notes: string[];
@@ -13,7 +14,7 @@ export interface Saved {
 
 export interface ExportEvents {
   download(fields: URLSearchParams): Promise<Saved>;
-  /// What was chosen the last time; a shop's machine is the same tomorrow.
+  /** The values of the last time; a shop's machine is the same tomorrow. */
   recall(form: ChosenForm): Values;
   keep(form: ChosenForm, values: Values): void;
 }
@@ -65,7 +66,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
     t('export.cancel'),
   );
   const save = h('button', { type: 'submit', 'data-action': 'export.save' }, t('export.save'));
-  /// A comma is what half of Europe writes; the server reads points.
+  /** A comma is what half of Europe writes; the server reads points. */
   const values = (): Values =>
     Object.fromEntries(
       rows.map(({ field, input }) => [field.name, field.of ? input.value : input.value.trim().replace(',', '.')]),
@@ -100,7 +101,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
             }
             events.keep(form, chosen);
             if (notes.length === 0) return dialog.close();
-            // What is to be known about the file is read before the dialog goes.
+            // The dialog stays until its notes about the file have been read.
             known.replaceChildren(
               h('p', {}, t('export.saved')),
               h('ul', {}, ...notes.map((note) => h('li', {}, note))),

@@ -1,10 +1,10 @@
-// The name of a layout, and its end.
+// Asks for the name of a layout, or whether it is to be deleted.
 
 import { h } from '../html/elements';
 import { t } from '../i18n';
 
 export interface LayoutEvents {
-  /// \return why not, or null
+  /** Both give the reason why the server refused, or null. */
   rename(name: string): Promise<string | null>;
   remove(): Promise<string | null>;
 }
@@ -25,7 +25,7 @@ export function layoutDialog(name: string, events: LayoutEvents): HTMLDialogElem
       class: 'danger',
       'data-action': 'name.delete',
       click: () => {
-        // Nothing brings it back: asked once more.
+        // Nothing brings the layout back, so the button asks once more.
         if (sure) return run(events.remove());
         sure = true;
         remove.textContent = t('layout.delete.sure');

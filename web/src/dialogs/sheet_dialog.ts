@@ -1,4 +1,4 @@
-// A drawing holds parts and nothing to lay them on: asks for the sheet.
+// Asks for the sheet, as a drawing holds parts and nothing to lay them on.
 
 import { h } from '../html/elements';
 import { t, type Key } from '../i18n';
@@ -9,7 +9,7 @@ export interface SheetSize {
   count: string;
 }
 
-/// \param give  makes the layout with it. \return why not, or null
+/** @param give makes the layout with a sheet; gives the reason why it could not, or null */
 export function sheetDialog(
   name: string,
   kept: SheetSize,

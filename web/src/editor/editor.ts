@@ -1,4 +1,4 @@
-// The state of the page, and what a gesture does to it. Drawing and panels look at it and are told when it changes.
+// The state of the page, and the gestures that change it. Drawing and panels look at it and are told when it changes.
 
 import { Checking } from '../work/checking';
 import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
@@ -29,30 +29,33 @@ export interface Feature {
   kind: 'defect' | 'zone';
   id: string;
 }
-/// A command that runs beside the layout.
+/** A command that takes long: the server works at it beside the layout. */
 export interface Long {
   verb: LongVerb;
   seq: number;
-  /// Share done; null: nothing heard yet.
+  /** The share done; null: the server has not said anything yet. */
   fraction: number | null;
   secondsLeft: number | null;
-  /// What stopping it now would keep.
+  /** The placements that stopping it now would keep. */
   best: Placement[];
   stopping: boolean;
   ended: Promise<void>;
 }
-/// What was dropped and waits for its turn.
+/** A gesture that waits for its turn, with the placements that were dropped. */
 export interface Queued {
   placements: Placement[];
 }
-/// A line for the server, or how to make one of the layout as it is when its turn comes; null: it means nothing any more.
+/**
+ * A line for the server, or a function that makes one of the layout as it is when its turn comes; the function gives
+ * null where the gesture has lost its meaning.
+ */
 export type Line = string | (() => string | null);
 
 const LONG_VERBS = ['compact', 'fit', 'nest'] as const;
 export type LongVerb = (typeof LONG_VERBS)[number];
 const longVerb = (text: string): LongVerb | undefined => LONG_VERBS.find((verb) => text.startsWith(`${verb} `));
 
-/// How far the nearest-distance line looks, mm.
+/** The line to the nearest part looks so far, mm. */
 const REACH = 50;
 
 export class Editor {
@@ -68,23 +71,23 @@ export class Editor {
   moving = new Map<number, Placement>();
   live: LiveState | null = null;
   rotateStep = 15;
-  /// Severity of the next defect, quality of the next zone.
+  /** The severity of the next defect, and the quality of the next zone. */
   grades = { defect: 1, zone: 1 };
   readonly photos = new Photos(this);
   show = { labels: true, grain: true, gap: true, zones: true };
   message = '';
   pending = 0;
   long: Long | null = null;
-  /// Dropped while a long command runs: carried out, one after the other, when it has ended.
+  /** Gestures made while a long command runs; they are carried out one after the other when it has ended. */
   queued: Queued[] = [];
-  /// What the last change put on a sheet.
+  /** The placements that the last change added. */
   private fresh = new Set<number>();
   private listeners: ((topic: Topic) => void)[] = [];
   private asking = false;
   private next: { text: string } | null = null;
   private held: symbol | null = null;
   private resting: ReturnType<typeof setTimeout> | null = null;
-  /// Files on their way from or to the server.
+  /** The files on their way from or to the server. */
   readonly transfers = new Set<Transfer>();
   readonly checking = new Checking(
     () => this.kernel,
@@ -94,7 +97,7 @@ export class Editor {
 
   constructor(public kernel: Kernel) {}
 
-  /// What is known of them; null: not here.
+  /** The broken rules that are known; null: nobody here can tell. */
   get violations(): readonly Violation[] | null {
     return this.checking.found;
   }
@@ -151,7 +154,7 @@ export class Editor {
     this.tell('mode');
   }
 
-  /// Those of the selection that a command may take: ascending.
+  /** The selection as commands name it: ascending. */
   chosen(): number[] {
     return [...this.selection].sort((a, b) => a - b);
   }
@@ -159,9 +162,13 @@ export class Editor {
     return [...ids].map((id) => this.model.placements.get(id)).filter((p): p is Placement => p !== undefined);
   }
 
-  /// Shows placements in hand and finds out what is to be said about them. \p text: the command that would do it.
+  /**
+   * Shows placements in hand, and asks the kernel about them.
+   *
+   * @param text the command that would bring them there
+   */
   hold(placements: readonly Placement[], text: string): void {
-    this.held = null; // what was dropped before is not what is in hand
+    this.held = null; // the parts that were dropped before are no longer in hand
     this.moving = new Map(placements.map((p) => [p.id, p]));
     if (this.kernel.immediate) {
       try {
@@ -180,14 +187,14 @@ export class Editor {
     this.tell('moving');
   }
 
-  /// When the hand rests: how deep what is in hand overlaps.
+  /** Asks how deep the parts in hand overlap; this is for a hand that rests. */
   deepen(): void {
     if (!this.kernel.immediate || this.moving.size === 0 || this.live?.level !== 'forbidden') return;
     this.live = this.kernel.state([...this.moving.values()], '', REACH, true) as LiveState;
     this.tell('moving');
   }
 
-  /// One question under way at a time; an answer to an older place than the shown one says nothing.
+  /** Asks the server, one question at a time. An answer about an older place than the shown one is dropped. */
   private async askLater(): Promise<void> {
     if (this.asking) return;
     this.asking = true;
@@ -212,7 +219,11 @@ export class Editor {
     this.tell('moving');
   }
 
-  /// Asks the server for what may take a while. \return null: cancelled. Throws where there is no answer
+  /**
+   * Asks the server for something that may take a while. Throws where there is no answer.
+   *
+   * @returns null: it was cancelled
+   */
   async transfer(
     kind: Transfer['kind'],
     name: string,
@@ -231,7 +242,7 @@ export class Editor {
     }
   }
 
-  /// Sends a command; what is in hand stays shown where it is until the server has decided.
+  /** Sends a command. The parts in hand stay shown where they are until the server has decided. */
   async command(line: Line): Promise<boolean> {
     return this.ask('command', line);
   }
@@ -242,7 +253,11 @@ export class Editor {
     return this.ask('redo');
   }
 
-  /// Ends the long command with the best it has. \return whether there is one
+  /**
+   * Ends the long command with the best it has.
+   *
+   * @returns whether there is one
+   */
   stopLong(): boolean {
     if (!this.long) return false;
     this.client?.endEarly(this.long.seq);
@@ -256,7 +271,7 @@ export class Editor {
     if (!client) return false;
     this.pending += 1;
     const queued = this.long ? this.enqueue() : null;
-    while (this.long) await this.long.ended; // those before this one may be long too
+    while (this.long) await this.long.ended; // a gesture before this one may be long, too
     const text = typeof line === 'string' ? line : line();
     if (text === null) {
       this.pending -= 1;
@@ -266,7 +281,7 @@ export class Editor {
       this.tell('connection');
       return false;
     }
-    // What waited is no longer in hand: the hand may hold something else.
+    // A gesture that waited is no longer in hand: the hand may hold something else.
     const held = !queued && this.moving.size > 0 ? (this.held = Symbol()) : null;
     this.tell('connection');
     const verb = type === 'command' ? longVerb(text) : undefined;
@@ -294,7 +309,7 @@ export class Editor {
     return answer.type === 'done';
   }
 
-  /// What is in hand stays in sight, and the hand is free for the next.
+  /** Puts the parts in hand into the queue: they stay in sight, and the hand is free for the next. */
   private enqueue(): Queued {
     const mine: Queued = { placements: [...this.moving.values()] };
     this.queued.push(mine);
@@ -307,7 +322,7 @@ export class Editor {
     this.tell('long');
   }
 
-  /// Where parts are going to be: what stopping now would keep, and what was dropped since.
+  /** The places that parts are going to have: those that stopping now would keep, and those dropped since. */
   coming(): Map<number, Placement> {
     const all = [...(this.long?.best ?? []), ...this.queued.flatMap((one) => one.placements)];
     return new Map(all.map((p) => [p.id, p]));
@@ -329,7 +344,7 @@ export class Editor {
     return {
       begun: (seq) => (long.seq = seq),
       progress: (fraction, secondsLeft) => {
-        // Less than before: others have changed its parts, and it begins again.
+        // The share falls when others have changed its parts, and it begins again.
         if (fraction < (long.fraction ?? 0)) long.best = [];
         [long.fraction, long.secondsLeft] = [fraction, secondsLeft];
         this.tell('long');
@@ -347,7 +362,7 @@ export class Editor {
   }
 }
 
-/// Placements moved by a vector on the grid, to another sheet where one is named.
+/** Placements moved by a vector on the grid, to another sheet where one is named. */
 export function movedBy(
   placements: readonly Placement[],
   dx: number,

@@ -1,10 +1,10 @@
-// A photograph of a stock: where it lies is a similarity, set by hand. The first pull moves it and pins the point;
+// A photograph of a stock. A similarity lays it on the stock, set by hand: the first pull moves it and pins the point,
 // every later one turns and scales it about the pin until the pulled point is where the hand is.
 
 import type { Point } from '../layout/document';
 import type { Box } from '../layout/model';
 
-/// Two points of the image (pixels, right and down from the upper left) and where they are on the stock (mm).
+/** Two points of the image (pixels, right and down from the upper left) and where they are on the stock (mm). */
 export interface PhotoScale {
   pixels: [number, number, number, number];
   mm: [number, number, number, number];
@@ -17,12 +17,12 @@ interface Place {
 }
 
 export class Photo {
-  /// A pixel (u, v), v downwards, lies at (x + a u + b v, y + b u - a v) of the stock's frame.
+  /** A pixel (u, v), v downwards, lies at (x + a u + b v, y + b u - a v) of the stock's frame. */
   a = 1;
   b = 0;
   x = 0;
   y = 0;
-  /// What turning and scaling leave where it is.
+  /** The point that turning and scaling leave where it is. */
   pinned: Point | null = null;
   private at: Point | null = null;
   private start: Place | null = null;
@@ -32,19 +32,19 @@ export class Photo {
     readonly image: ImageBitmap,
   ) {}
 
-  /// As large as fits over a box, from its upper left corner.
+  /** Lays it over a box from the upper left corner, as large as it fits. */
   cover(over: Box): this {
     this.a = Math.min((over.right - over.left) / this.image.width, (over.top - over.bottom) / this.image.height);
     [this.b, this.x, this.y] = [0, over.left, over.top];
     return this;
   }
-  /// The scale that lays it here: two corners of the image.
+  /** The scale that lays it where it is, by two corners of the image. */
   get scale(): PhotoScale {
     const w = this.image.width;
     return { pixels: [0, 0, w, 0], mm: [this.x, this.y, this.x + this.a * w, this.y + this.b * w] };
   }
   set scale({ pixels: [u0, v0, u1, v1], mm: [x0, y0, x1, y1] }: PhotoScale) {
-    // Complex numbers: mm = place + (a + i b) (u - i v).
+    // In complex numbers: mm = place + (a + i b) (u - i v).
     const [du, dv, dx, dy] = [u1 - u0, -(v1 - v0), x1 - x0, y1 - y0];
     const d = du * du + dv * dv;
     this.a = (dx * du + dy * dv) / d;
@@ -56,7 +56,7 @@ export class Photo {
     return this.start !== null;
   }
 
-  /// Brings what lay at \p from when the pull began to \p to, both in the stock's frame.
+  /** Brings the point that lay at `from` when the pull began to `to`, both in the stock's frame. */
   pull(from: Point, to: Point): void {
     this.start ??= { a: this.a, b: this.b, x: this.x, y: this.y };
     this.at = to;
@@ -77,14 +77,18 @@ export class Photo {
     const [ox, oy] = turned(x - px, y - py);
     [this.x, this.y] = [px + ox, py + oy];
   }
-  /// The pull has ended. \return whether it has moved anything
+  /**
+   * Ends the pull.
+   *
+   * @returns whether it has moved anything
+   */
   pin(): boolean {
     const moved = this.start !== null;
     this.pinned ??= this.at;
     this.start = this.at = null;
     return moved;
   }
-  /// The next pull moves it again.
+  /** Makes the next pull move it again. */
   unpin(): void {
     this.pinned = null;
   }

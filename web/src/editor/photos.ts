@@ -4,7 +4,7 @@ import { t } from '../i18n';
 import { Photo, type PhotoScale } from './photo';
 import { sentenceOf, type Answer } from '../work/transfer';
 
-/// What the server takes; what is none of it is written anew.
+/** The types that the server takes; an image of another type or size is written anew. */
 const TYPES = ['image/png', 'image/jpeg'];
 const MOST_BYTES = 16 * 2 ** 20;
 const MOST_PIXELS = 6000;
@@ -24,7 +24,7 @@ export interface PhotoOwner {
 export class Photos {
   private readonly of = new Map<string, Photo>();
   private reading: Promise<void> = Promise.resolve();
-  /// Changed photographs are others: what was painted of them is old.
+  /** Counts the changes: a picture that was painted before the last one is old. */
   count = 0;
 
   constructor(private readonly editor: PhotoOwner) {}
@@ -39,15 +39,19 @@ export class Photos {
     return this.of.values();
   }
 
-  /// Another layout: none of these is of it.
+  /** Forgets them all: another layout is going to be opened. */
   clear(): void {
     if (this.of.size > 0) this.changed();
     this.of.clear();
   }
-  /// The server has others than before, or others have been missed. \param stale  of this stock what was read is old; all: of every one
+  /**
+   * Reads them from the server, which has others than before, or said so while this page did not hear it.
+   *
+   * @param stale the stock whose image is another one now, or all of them, or none
+   */
   read(stale: { stock: string } | 'all' | 'none'): Promise<void> {
     const { layoutId } = this.editor;
-    // One after the other, so that the last word is the newest.
+    // They are read one after the other, so that the last word is the newest.
     this.reading = this.reading
       .then(() => this.readNow(layoutId, stale))
       .catch((error: unknown) => this.editor.say(String(error)));
@@ -63,7 +67,7 @@ export class Photos {
         stale === 'all' || (stale !== 'none' && stale.stock === one.stock) ? undefined : this.of.get(one.stock);
       const photo = known ?? (await this.fetched(layoutId, one.stock));
       if (!photo) continue;
-      if (!photo.pulled) photo.scale = one; // what is in hand is let go before it counts
+      if (!photo.pulled) photo.scale = one; // the hand decides about a photograph that it holds
       there.set(one.stock, photo);
     }
     if (this.editor.layoutId !== layoutId) return;
@@ -73,22 +77,22 @@ export class Photos {
   }
   private async fetched(layoutId: number, stock: string): Promise<Photo | null> {
     const answer = await fetch(`/api/layouts/${layoutId}/photo?stock=${encodeURIComponent(stock)}`);
-    if (!answer.ok) return null; // taken away meanwhile
+    if (!answer.ok) return null; // it was taken away meanwhile
     return new Photo(stock, await createImageBitmap(await answer.blob()));
   }
 
-  /// A photograph for a stock, at first over all of it.
+  /** Gives a stock a photograph, which at first lies over all of it. */
   async add(stock: string, box: Parameters<Photo['cover']>[0], file: Blob): Promise<void> {
     const image = await createImageBitmap(file);
     const photo = new Photo(stock, image).cover(box);
     const taken = TYPES.includes(file.type) && file.size <= MOST_BYTES;
-    // A smaller picture of the same has other pixels: the scale is of the one that is sent.
+    // The scale counts pixels of the image that is sent, which may be smaller.
     const sent = taken ? { body: file, shrunk: 1 } : await rewritten(image);
     const { pixels, mm } = photo.scale;
     const scale = { pixels: pixels.map((v) => v * sent.shrunk) as PhotoScale['pixels'], mm };
     await this.said(this.editor.transfer('photo', t('transfer.photo'), 'PUT', this.address(stock, scale), sent.body));
   }
-  /// Where it lies now is kept.
+  /** Keeps the place where a photograph lies now. */
   keep(photo: Photo): Promise<void> {
     this.changed();
     return this.said(
@@ -110,7 +114,9 @@ export class Photos {
     });
     return `/api/layouts/${this.editor.layoutId}/photo?${fields}`;
   }
-  /// The server tells everyone what has changed; refused, all is read as it is.
+  /**
+   * Waits for the answer. The server itself tells every page what has changed; where it refuses, all is read as it is.
+   */
   private async said(answer: Promise<Answer | null>): Promise<void> {
     try {
       const said = await answer;

@@ -1,4 +1,4 @@
-// HTML from code: text is always text, never markup.
+// HTML made by code: a text is always a text, never markup.
 
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void) | undefined>;
 

@@ -1,4 +1,4 @@
-// Signs of the buttons, drawn: no font has all of them. 20 x 20, strokes in the colour of the text.
+// The signs of the buttons are drawn, as no font has all of them: 20 x 20, strokes in the colour of the text.
 
 const PATHS: Record<string, string> = {
   'open.file': 'M3 16V4h5l2 2h7v10zM10 9v5M7.5 11.5h5',

@@ -1,4 +1,4 @@
-// A button that opens a list under it; closes by a choice, by Escape and by a press elsewhere.
+// A button that opens a list under it. A choice, Escape and a press elsewhere close it.
 
 import { h } from './elements';
 
@@ -21,7 +21,7 @@ export function menu(name: string, label: string, ...items: HTMLElement[]): HTML
     summary,
     list,
   );
-  // A press on what takes no focus (a label's text) must not close it before it is a click.
+  // A press on a label's text, which takes no focus, must not close the list before it is a click.
   list.addEventListener('mousedown', (e) => e.preventDefault());
   return details;
 }

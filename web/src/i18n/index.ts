@@ -1,4 +1,4 @@
-// Words of the page. A plural is an object by the categories of Intl.PluralRules.
+// The words of the page. A plural is an object by the categories of Intl.PluralRules.
 
 import en from './en.json';
 import uk from './uk.json';

@@ -45,7 +45,7 @@ export class WasmModule {
     return new WasmModule(exports);
   }
 
-  /** \return how many bytes the text has */
+  /** @returns how many bytes the text has */
   putText(text: string): number {
     const bytes = new TextEncoder().encode(text);
     const at = this.exports.lekalo_input(bytes.length);

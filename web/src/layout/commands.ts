@@ -8,7 +8,7 @@ import type { Sheet } from './model';
 export type Mode = 'strict' | 'free';
 
 const quoted = (name: string): string => `"${name.replace(/[\\"]/g, '\\$&').replace(/\n/g, '\\n')}"`;
-/// A defect or zone by its stock and id.
+/** The name of a defect or zone: its stock and id. */
 interface Named {
   stock: string;
   kind: 'defect' | 'zone';
@@ -18,7 +18,7 @@ const named = (verb: string, f: Named): string => `${verb}-${f.kind} ${quoted(f.
 const ids = (list: readonly number[]): string => [...list].sort((a, b) => a - b).join(',');
 const pair = (x: number, y: number): string => `${textOfMm(x)} ${textOfMm(y)}`;
 const sheetOf = (sheet?: Sheet): string => (sheet ? ` to ${quoted(sheet.stock.id)} ${sheet.copy}` : '');
-/// Any number in decimals, without an exponent, that reads back to the same double.
+/** A number in decimals without an exponent, which reads back to the same double. */
 const exact = (value: number): string => {
   const text = String(value);
   return text.includes('e') ? value.toFixed(40).replace(/0+$/, '') : text;
@@ -47,9 +47,9 @@ export const addFeature = (f: Named, grade: number, outline: readonly (readonly 
 export const moveFeature = (f: Named, x: number, y: number): string => `${named('move', f)} by ${pair(x, y)}`;
 export const gradeFeature = (f: Named, grade: number): string => `${named('grade', f)} ${grade}`;
 export const removeFeature = (f: Named): string => named('remove', f);
-/// Without ids: the whole layout. The server's own command (docs/protocol.md).
+/** Nests these parts or, without ids, the whole layout. The command is the server's own (docs/protocol.md). */
 export const nest = (list: readonly number[], seconds: number, seed: number): string =>
   `nest ${list.length > 0 ? `${ids(list)} ` : ''}for ${seconds} seed ${seed}`;
-/// Without a sheet: all in use.
+/** Compacts a sheet or, without one, all in use. */
 export const compact = (x: number, y: number, sheet?: Sheet): string =>
   `compact ${sheet ? `${quoted(sheet.stock.id)} ${sheet.copy} ` : ''}towards ${x} ${y}`;

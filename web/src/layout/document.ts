@@ -1,4 +1,4 @@
-// lekalo-layout/1 as docs/formats.md has it.
+// The format lekalo-layout/1 of docs/formats.md.
 
 export type Point = [number, number];
 export interface Outline {
@@ -14,7 +14,7 @@ export interface Zone {
   quality: number;
   outline: Outline;
 }
-/// What a change message says of a defect or zone (docs/protocol.md).
+/** The change of a defect or zone in a change message (docs/protocol.md). */
 export interface FeatureChange {
   stock: string;
   kind: 'defect' | 'zone';
@@ -84,7 +84,7 @@ export interface LayoutDocument {
   placements?: Placement[];
   next_id?: number;
 }
-/// In the order in which the check names them.
+/** The kinds in the order of layout::ViolationKind, in which the check names them; a test holds the two together. */
 export const VIOLATION_KINDS = [
   'overlap',
   'gap',
@@ -110,5 +110,5 @@ export interface Violation {
   direction?: Point | null;
   feature?: string;
 }
-/// Violations that say "too near" rather than "forbidden".
+/** Says whether a kind is "too near" rather than "forbidden". */
 export const isGap = (kind: ViolationKind): boolean => kind === 'gap' || kind === 'border-gap' || kind === 'defect-gap';

@@ -1,9 +1,9 @@
-// The grid of layout documents (docs/design/layout.md, rules 1, 3 and 4): what the C++ program computes, bit for bit.
+// The grid of layout documents (docs/design/layout.md, rules 1, 3 and 4), computed as the C++ program does, bit for bit.
 
-/// Grid steps in a millimetre.
+/** Grid steps in a millimetre. */
 export const STEPS_PER_MM = 2 ** 20;
 
-/// The nearest integer, ties to even. Exact below 2^52.
+/** The nearest integer, ties to even; exact below 2^52. */
 export function roundTiesToEven(value: number): number {
   const low = Math.floor(value);
   const rest = value - low;
@@ -11,13 +11,13 @@ export function roundTiesToEven(value: number): number {
   return low % 2 === 0 ? low : low + 1;
 }
 
-/// The nearest step to a length in mm; multiplying by a power of two is exact.
+/** The nearest step to a length in mm; multiplying by a power of two is exact. */
 export const stepsFromMm = (mm: number): number => roundTiesToEven(mm * STEPS_PER_MM);
 export const mmFromSteps = (steps: number): number => steps / STEPS_PER_MM;
-/// The length on the grid that a length stands for.
+/** The length on the grid nearest to a length. */
 export const snapToGrid = (mm: number): number => mmFromSteps(stepsFromMm(mm));
 
-/// value / 2^52, ties to even.
+/** The integer nearest to value / 2^52, ties to even. */
 function roundedShift(value: bigint): bigint {
   const low = value >> 52n;
   const rest = value & 0xfffffffffffffn;
@@ -26,7 +26,7 @@ function roundedShift(value: bigint): bigint {
   return low + 1n;
 }
 
-/// A rotation: cosine and sine in steps of 2^-52.
+/** A rotation: cosine and sine in steps of 2^-52. */
 export interface Rotation {
   readonly c: bigint;
   readonly s: bigint;
@@ -37,7 +37,7 @@ export const rotationFromPair = (c: number, s: number): Rotation => ({
   s: BigInt(roundTiesToEven(s * 2 ** 52)),
 });
 
-/// Rule 4: a vertex of a part, in steps, where the placement puts it.
+/** The place of a part's vertex, in steps, where the placement puts it (rule 4). */
 export function placedVertex(
   px: number,
   py: number,
@@ -54,7 +54,7 @@ export function placedVertex(
   ];
 }
 
-/// A decimal that reads back to the same step, without an exponent.
+/** A decimal without an exponent, which reads back to the same step. */
 export function textOfMm(mm: number): string {
   const value = snapToGrid(mm);
   if (value === 0) return '0';

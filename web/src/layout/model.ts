@@ -1,4 +1,4 @@
-// The layout as the page holds it: the document, its placements by id, where every sheet is drawn.
+// The layout as the page holds it: the document, its placements by id, and the place of every sheet in the picture.
 
 import type { Defect, FeatureChange, LayoutDocument, Part, Placement, Point, Stock, Zone } from './document';
 import { mmFromSteps, placedVertex, rotationFromPair, stepsFromMm } from './grid';
@@ -13,7 +13,7 @@ export interface Change {
   id: number;
   after: Placement | null;
 }
-/// A copy of a stock and where its frame's origin stands in the picture, mm.
+/** A copy of a stock, and the place of its frame's origin in the picture, mm. */
 export interface Sheet {
   stock: Stock;
   copy: number;
@@ -42,7 +42,7 @@ export const placedAt = (b: Box, s: { x: number; y: number }): Box => ({
 });
 export const sheetKey = (stock: string, copy: number): string => `${copy} ${stock}`;
 
-/// Loops of a placed part by rule 4, mm, exact: steps below 2^40 are whole doubles.
+/** The loops of a placed part by rule 4 of docs/design/layout.md, mm. They are exact: doubles hold steps below 2^40. */
 export function placedLoops(part: Part, p: Placement): Point[][] {
   const rotation = rotationFromPair(p.c, p.s);
   const tx = stepsFromMm(p.x);
@@ -56,7 +56,7 @@ export function placedLoops(part: Part, p: Placement): Point[][] {
   );
 }
 
-/// Box of a placed part in doubles: for drawing and culling, never for a decision.
+/** The box of a placed part in doubles: for drawing and culling, never for a decision. */
 export function placedBox(part: Part, p: Placement): Box {
   const flip = p.mirrored ? -1 : 1;
   return boxOf(
@@ -64,7 +64,7 @@ export function placedBox(part: Part, p: Placement): Box {
   );
 }
 
-/// Even-odd rule in doubles: for picking with the mouse.
+/** Says whether a point lies in loops by the even-odd rule, in doubles: for picking with the mouse. */
 export function contains(loops: readonly Point[][], x: number, y: number): boolean {
   let inside = false;
   for (const loop of loops) {
@@ -77,7 +77,12 @@ export function contains(loops: readonly Point[][], x: number, y: number): boole
   return inside;
 }
 
-/// A point well within, for captions: of a lattice over the box one far from every edge and not far from the middle.
+/**
+ * A point well within loops, for captions. Of a lattice over their box it takes a point far from every edge and not far
+ * from the middle.
+ *
+ * @param within loops in which the point lies, too; none: the first alone count
+ */
 export function innerPoint(loops: readonly Point[][], within: readonly Point[][] = []): Point {
   const box = boxOf(loops[0]!);
   if (within.length > 0) {
@@ -107,7 +112,7 @@ export function innerPoint(loops: readonly Point[][], within: readonly Point[][]
         }
       }
       const good = Math.sqrt(near) - 0.12 * Math.hypot(x - middle[0], y - middle[1]);
-      // Of points as good as each other the first: the slack keeps roundings from choosing.
+      // The first of equally good points is taken: the slack keeps roundings from choosing.
       if (good > most + 1e-6) {
         most = good;
         best = [x, y];
@@ -123,7 +128,7 @@ export class Model {
   readonly placements = new Map<number, Placement>();
   sheets: Sheet[] = [];
   nextId: number;
-  /// Counts changes of defects and zones.
+  /** Counts the changes of defects and zones. */
   features = 0;
   private readonly boxes = new Map<number, { of: Placement; box: Box }>();
   private sheetOf = new Map<string, Sheet>();
@@ -142,7 +147,7 @@ export class Model {
     return part;
   }
 
-  /// Box in the frame of the placement's sheet.
+  /** The box of a placement in the frame of its sheet. */
   box(p: Placement): Box {
     const known = this.boxes.get(p.id);
     if (known?.of === p) return known.box;
@@ -197,7 +202,9 @@ export class Model {
     this.features += 1;
   }
 
-  /// Sheets in use, and one empty copy of each stock that has one left; side by side, left to right.
+  /**
+   * Lays out the sheets in use, and one empty copy of each stock that has one left, side by side from left to right.
+   */
   private arrangeSheets(): void {
     const used = new Map<string, number>();
     const reach = new Map<string, number>();
@@ -229,7 +236,7 @@ export class Model {
     }
   }
 
-  /// How many of a part lie on sheets: upright and mirrored.
+  /** The number of each part on the sheets, upright and mirrored. */
   counts(): Map<string, { upright: number; mirrored: number }> {
     const counts = new Map<string, { upright: number; mirrored: number }>();
     for (const id of this.parts.keys()) counts.set(id, { upright: 0, mirrored: 0 });
@@ -240,7 +247,7 @@ export class Model {
     return counts;
   }
 
-  /// How many of a part are wanted: by itself and in kits.
+  /** The number of a part that is wanted, by itself and in kits. */
   wanted(part: string): number {
     let sum = this.parts.get(part)?.demand ?? 0;
     for (const kit of this.document.kits ?? []) {

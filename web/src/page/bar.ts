@@ -14,7 +14,7 @@ export interface BarEvents {
   copyLayout(): void;
   nameLayout(): void;
   save(form: string): void;
-  /// A form with choices.
+  /** Exports a form that leaves something to choose. */
   choose(form: ChosenForm): void;
   print(): void;
   fit(): void;
@@ -24,7 +24,7 @@ export interface BarEvents {
   help(): void;
 }
 
-/// What the server exports, with the name people know it by.
+/** The forms without choices that the server exports, with the names people know them by. */
 const FORMS: readonly [string, string][] = [
   ['layout', 'lekalo JSON'],
   ['placements', 'Placements JSON'],
@@ -111,7 +111,7 @@ export function showBar(
         'data-action': `show.${k}`,
         change: (e) => {
           editor.show[k] = (e.target as HTMLInputElement).checked;
-          editor.tell('moving'); // the picture alone: the menu stays open
+          editor.tell('moving'); // 'show' would make the bar anew and close the menu
           editor.tell('selection');
         },
       }),
@@ -130,7 +130,7 @@ export function showBar(
       if (file) events.photo(file);
     },
   });
-  // Who worked by the keyboard stays where he was.
+  // The buttons are new: the focus goes back to the one that had it.
   const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
   bar.replaceChildren(
     h(

@@ -1,4 +1,4 @@
-// How quick the page is on the layout that it shows. Opened with `benchmark` in its address it prints the figures;
+// How quick the page is on the layout that it shows. Opened with `benchmark` in its address, it prints the figures;
 // bench/speed.mjs does so for layouts of its own, with processor times.
 
 import type { Picture } from '../picture/draw';
@@ -13,7 +13,7 @@ export interface Timed {
   p99: number;
   worst: number;
 }
-/// What the benchmark works on.
+/** The parts of the page that the benchmark works on. */
 export interface Bench {
   editor: Editor;
   view: View;
@@ -25,7 +25,7 @@ export interface Bench {
   sliceMs: number;
 }
 
-/// Each time of `work`, ms.
+/** Times `work` n times, each by itself, ms. */
 function timed(n: number, work: (i: number) => void): Timed {
   const times = Array.from({ length: n }, (_, i) => {
     const begin = performance.now();
@@ -35,7 +35,7 @@ function timed(n: number, work: (i: number) => void): Timed {
   return { median: times[n >> 1]!, p99: times[Math.min(n - 1, Math.floor(n * 0.99))]!, worst: times[n - 1]! };
 }
 
-/// Reading a pixel waits until it is painted.
+/** Reading a pixel waits until it is painted. */
 const painted = (canvas: HTMLCanvasElement): void => void canvas.getContext('2d')!.getImageData(0, 0, 1, 1);
 
 export function paintAll({ drawing, view, picture, scene }: Bench): void {
@@ -43,11 +43,11 @@ export function paintAll({ drawing, view, picture, scene }: Bench): void {
   drawing.backdrop.draw(scene());
 }
 
-/// Every one is to be called with how often. The layout has a part that lies somewhere.
+/** The timed work by name; each takes how often it is done. One part at least lies on the layout. */
 export function benchmark(bench: Bench) {
   const { editor, view, drawing, picture, base, top, scene, sliceMs } = bench;
   return {
-    /// Frames of an opening, a resizing or another theme.
+    /** The frames after the layout was opened, the picture resized or the theme changed. */
     frames: (n: number) => {
       let whole = true;
       return timed(n, () => {
@@ -58,13 +58,13 @@ export function benchmark(bench: Bench) {
         painted(base);
       });
     },
-    /// All of it at once.
+    /** The whole picture at once. */
     whole: (n: number) =>
       timed(n, () => {
         paintAll(bench);
         painted(base);
       }),
-    /// Slices of the sharp picture after zooming.
+    /** The slices in which the picture turns sharp after zooming. */
     sharpen: (n: number) => {
       let whole = true;
       return timed(n, (i) => {
@@ -75,14 +75,14 @@ export function benchmark(bench: Bench) {
         painted(base);
       });
     },
-    /// The frame after a part is chosen or let go.
+    /** The frame after a part is chosen or let go. */
     choose: (n: number) =>
       timed(n, (i) => {
         editor.selection = new Set([[...editor.model.placements.keys()][(i * 7) % editor.model.placements.size]!]);
         drawing.backdrop.draw(scene());
         painted(base);
       }),
-    /// Frames while the view moves a few pixels, or is zoomed.
+    /** The frames while the view moves a few pixels. */
     pan: (n: number) =>
       timed(n, (i) => {
         view.pan(i % 40 < 20 ? 7 : -7, i % 40 < 20 ? 4 : -4);
@@ -95,9 +95,9 @@ export function benchmark(bench: Bench) {
         drawing.backdrop.follow(scene());
         painted(base);
       }),
-    /// The check of the whole layout, after each change.
+    /** The check of the whole layout, after each change. */
     check: (n: number) => timed(n, () => void editor.kernel.check()),
-    /// One part in hand at n places across the sheet: the check, the drawing.
+    /** The check of one part in hand at n places across the sheet. */
     dragCheck: (n: number) => {
       const p = editor.placementsOf([...editor.model.placements.keys()].slice(0, 1));
       const made = timed(n, (i) => editor.hold(movedBy(p, (i * 37) % 900, (i * 53) % 700), ''));
@@ -114,7 +114,7 @@ export function benchmark(bench: Bench) {
       editor.release();
       return made;
     },
-    /// What the machine itself does to such figures.
+    /** A loop that never changes: its spread is what the machine itself does to such figures. */
     loop: (n: number) =>
       timed(n, () => {
         let sum = 0;
@@ -125,7 +125,7 @@ export function benchmark(bench: Bench) {
 }
 
 type Work = ReturnType<typeof benchmark>;
-/// What is timed, and how often.
+/** Every work with its name for people, and how often it is timed. */
 export const ROWS: readonly (readonly [keyof Work, string, number])[] = [
   ['loop', 'a loop that never changes, for comparison', 1000],
   ['dragCheck', 'check while dragging', 1000],
@@ -139,7 +139,7 @@ export const ROWS: readonly (readonly [keyof Work, string, number])[] = [
   ['check', 'whole layout checked', 20],
 ];
 
-/// Runs all rows, a breath between two, and shows them as a table as it goes.
+/** Runs all rows, with a pause for the browser between two, and shows them as a table as it goes. */
 export async function printFigures(bench: Bench): Promise<void> {
   const work = benchmark(bench);
   const firstView = performance.getEntriesByName('first view')[0]?.startTime ?? NaN;

@@ -99,7 +99,11 @@ export class Layouts {
     }
   }
 
-  /** Makes a layout of a file and opens it. \return a string: why not; null: cancelled */
+  /**
+   * Makes a layout of a file and opens it.
+   *
+   * @returns a string: the reason why not; null: it was cancelled
+   */
   private async take(file: File, sheet: Record<string, string> = {}): Promise<Made | string | null> {
     const { editor } = this;
     try {

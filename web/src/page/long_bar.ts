@@ -1,19 +1,19 @@
-// What takes its time, over the picture: a row each, with the share done, the time left, and a button that ends it.
+// A row over the picture for everything that takes its time: the share done, the time left, a button that ends it.
 
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';
 import { t } from '../i18n';
 
-/// What is done before says nothing, ms.
+/** Work that is done before shows no row, ms. */
 const PATIENCE = 300;
 
-/// Something on its way.
+/** Work that has a row. */
 export interface Work {
-  /// The same while it lasts.
+  /** The object that stands for this work as long as it lasts. */
   of: object;
   kind: string;
   name: string;
-  /// Share done; null: nobody can tell.
+  /** The share done; null: nobody can tell. */
   fraction: number | null;
   secondsLeft: number | null;
   says: string[];
@@ -27,7 +27,7 @@ export function timeLeft(seconds: number | null): string {
     : t('long.minutes', { m: Math.ceil(seconds / 60) });
 }
 
-/// Everything of an editor that takes its time.
+/** The work that an editor is at. */
 function worksOf(editor: Editor): Work[] {
   const { long, queued, checking, transfers } = editor;
   const works: Work[] = [];
@@ -124,7 +124,7 @@ export class LongBar {
   readonly element = h('div', { class: 'works' });
   private readonly rows = new Map<object, Row>();
 
-  /// \param leave where the focus goes when a row with it goes
+  /** @param leave takes the focus when a row that has it goes */
   constructor(
     private readonly editor: Editor,
     private readonly leave: () => void,

@@ -1,4 +1,4 @@
-// Find a part by its name or number: a row for each that is placed.
+// Finds placed parts by name or number, and shows a row for each.
 
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';

@@ -1,4 +1,4 @@
-// Every change there was; any state can be made the newest one again.
+// The list of all changes. Any state can be made the newest one again.
 
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';

@@ -1,4 +1,5 @@
-// Complete kits and what the others miss, as the kernel counts: pieces go where they are worth most.
+// The table of kits: how many are complete, and which pieces the others miss. The kernel counts: pieces go to the kit
+// that is worth most.
 
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';

@@ -1,4 +1,4 @@
-// The right-hand side: one of its panels at a time.
+// The right-hand side, which shows one of its panels at a time.
 
 import * as line from '../layout/commands';
 import type { Violation } from '../layout/document';
@@ -99,7 +99,9 @@ function sheets(editor: Editor, events: SideEvents): HTMLElement {
   );
 }
 
-/// Defects and zones of every stock: their grade, and away with them. New ones are drawn with the tools.
+/**
+ * The defects and zones of every stock, with their grades and a button that takes each away. The tools draw new ones.
+ */
 function features(editor: Editor): HTMLElement[] {
   return (['defect', 'zone'] as const).map((kind) =>
     h(
@@ -157,7 +159,7 @@ function features(editor: Editor): HTMLElement[] {
   );
 }
 
-/// Of each stock that has one: to begin the scale anew, and away with it.
+/** The photographs of the stocks, each with a button that begins its scale anew and one that takes it away. */
 function photos(editor: Editor): HTMLElement[] {
   if (editor.photos.size === 0) return [];
   return [

@@ -1,4 +1,4 @@
-// Parts still to place: a thumbnail, how many are left, a button that puts one where it fits.
+// The parts, each with a thumbnail, the number still to place, and a button that puts one where it fits.
 
 import * as line from '../layout/commands';
 import type { Part } from '../layout/document';

@@ -1,4 +1,4 @@
-// Rules that are broken; each entry shows its place.
+// The list of broken rules. A press on one shows its place.
 
 import type { Violation } from '../layout/document';
 import { isGap } from '../layout/document';
@@ -6,7 +6,7 @@ import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';
 import { t, type Key } from '../i18n';
 
-/// The same for the same violation while the layout changes elsewhere.
+/** The name of a violation, which stays the same while the layout changes elsewhere. */
 export const violationId = (v: Violation): string => `violation-${v.kind}-${v.a}-${v.b ?? v.feature ?? 0}`;
 
 const MOST_SHOWN = 500;

@@ -1,6 +1,6 @@
-// The lower canvas, the layout at rest, without painting more of it than has changed: parts that look otherwise
-// than before are painted anew, a picture that is moved is moved along, one that is zoomed is stretched, and what has
-// to be painted whole is painted aside in slices that leave a frame its time.
+// The lower canvas, the layout at rest. No more of it is painted than has changed: parts that look otherwise than
+// before are painted anew, a picture that moves is moved along, one that is zoomed is stretched, and a whole picture
+// is painted aside in slices that leave a frame its time.
 
 import { isGap, type Placement, type Violation } from '../layout/document';
 import type { Scene } from './scene';
@@ -13,13 +13,13 @@ export interface Painter {
   drawViolation(ctx: CanvasRenderingContext2D, scene: Scene, v: Violation): void;
 }
 
-/// Pixels that captions and tags may stand out from what they belong to.
+/** Captions and tags stand out from their part or mark by so many pixels at most. */
 const OUT = 60;
-/// More rectangles than that are painted as one picture.
+/** More rectangles than these are painted as one picture. */
 const MOST_RECTANGLES = 48;
-/// Parts between two looks at the clock.
+/** Parts between two looks at the clock. */
 const AT_A_TIME = 32;
-/// Where changes come faster than it can be painted, it is painted at once after so long, ms.
+/** Where changes come faster than the picture can be painted, it is painted at once after so long, ms. */
 const LONGEST_STALE_MS = 300;
 
 interface Rectangle {
@@ -28,7 +28,7 @@ interface Rectangle {
   right: number;
   bottom: number;
 }
-/// What the canvas shows.
+/** The state that a canvas shows. */
 interface Painted {
   x: number;
   y: number;
@@ -45,9 +45,9 @@ export class Backdrop {
   private readonly ctx: CanvasRenderingContext2D;
   private ratio = 1;
   private painted: Painted | null = null;
-  /// What is shown is old or stretched, since then; null: it is what it should be.
+  /** The canvas has been old or stretched since then; null: it shows what it should. */
   private stale: number | null = null;
-  /// The last sharp picture, while a stretched copy of it is shown.
+  /** The last sharp picture, while a stretched copy of it is shown. */
   private sharp: HTMLCanvasElement | null = null;
   private aside: CanvasRenderingContext2D | null = null;
   private coming: { ctx: CanvasRenderingContext2D; of: Painted; steps: Generator<void> } | null = null;
@@ -59,12 +59,12 @@ export class Backdrop {
     this.ctx = canvas.getContext('2d', { alpha: false })!;
   }
 
-  /// What is shown is what should be.
+  /** Says whether the canvas shows what it should. */
   get isWhole(): boolean {
     return this.stale === null && this.painted !== null;
   }
 
-  /// What was shown stays until draw() has painted what is to be.
+  /** Resizes the canvas. The old picture stays until draw() has painted the new one. */
   resize(width: number, height: number, ratio: number): void {
     const old = this.painted ? copyOf(this.canvas) : null;
     this.ratio = ratio;
@@ -74,7 +74,11 @@ export class Backdrop {
     this.painted = this.sharp = this.coming = null;
   }
 
-  /// Exact, in `ms` or less. \return false: that was too short, and sharpen() has to follow
+  /**
+   * Paints the picture exactly, in `ms` or less.
+   *
+   * @returns false: the time was too short, and sharpen() has to follow
+   */
   draw(scene: Scene, ms = Infinity): boolean {
     this.painter.take(scene.model);
     const now = described(scene);
@@ -92,7 +96,11 @@ export class Backdrop {
     return true;
   }
 
-  /// Follows the view alone. \return false where what is shown is stretched, and sharpen() has to follow
+  /**
+   * Follows the view alone.
+   *
+   * @returns false: the picture is stretched, and sharpen() has to follow
+   */
   follow(scene: Scene, ms = Infinity): boolean {
     const { view } = scene;
     const { ctx, canvas, painted } = this;
@@ -139,8 +147,11 @@ export class Backdrop {
     return false;
   }
 
-  /// Paints the picture aside for some milliseconds and shows it when it is whole.
-  /// \return whether it is; if not, call again at the next frame
+  /**
+   * Paints the picture aside for some milliseconds and shows it when it is whole.
+   *
+   * @returns whether it is; if not, the next frame calls again
+   */
   sharpen(scene: Scene, ms: number): boolean {
     if (this.stale === null) return true;
     const begun = performance.now();
@@ -152,7 +163,7 @@ export class Backdrop {
     }
     do {
       const { done } = this.coming.steps.next();
-      // What was said is done when a pixel is read: else all of it would come with the last slice.
+      // The rasteriser works when a pixel is read: else it would do all of it with the last slice.
       this.coming.ctx.getImageData(0, 0, 1, 1);
       if (!done) continue;
       this.ctx.setTransform(1, 0, 0, 1, 0, 0);
@@ -164,7 +175,7 @@ export class Backdrop {
     return false;
   }
 
-  /// As large as the canvas; the same again and again, as making one takes milliseconds.
+  /** An empty canvas as large as this one. It is always the same one, as making one takes milliseconds. */
   private asideContext(): CanvasRenderingContext2D {
     const { width, height } = this.canvas;
     if (this.aside?.canvas.width !== width || this.aside.canvas.height !== height) {
@@ -185,7 +196,7 @@ export class Backdrop {
     while (!steps.next().done);
   }
 
-  /// Paints a rectangle, in pixels of the canvas, a few parts at a time.
+  /** Paints a rectangle, in pixels of the canvas, a few parts at a time. */
   private *steps(
     ctx: CanvasRenderingContext2D,
     scene: Scene,
@@ -232,7 +243,7 @@ export class Backdrop {
     ctx.restore();
   }
 
-  /// Rectangles that show something else than before; null: paint all.
+  /** The rectangles that have changed; null: all is to be painted. */
   private changed(scene: Scene, was: Painted, now: Painted): Rectangle[] | null {
     if (was.model !== now.model || was.theme !== now.theme || was.show !== now.show || was.sheets !== now.sheets)
       return null;
@@ -295,7 +306,7 @@ function marksOf(scene: Scene): Map<number, 'bad' | 'near'> {
   return marks;
 }
 
-/// Those of parts in hand are not shown: they are no longer there.
+/** The broken rules at rest: those of parts in hand are no longer there. */
 const restingViolations = (scene: Scene): Violation[] =>
   scene.violations.filter((v) => !scene.moving.has(v.a) && !(v.b !== null && scene.moving.has(v.b)));
 

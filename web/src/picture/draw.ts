@@ -110,7 +110,7 @@ export class Picture implements Painter {
   /**
    * Makes the canvas count in mm of a sheet or, with a placement, of its part.
    *
-   * \return mm of a pixel of the page
+   * @returns mm of a pixel of the page
    */
   private frame(ctx: CanvasRenderingContext2D, view: View, sheet: Sheet, p?: Placement): number {
     const k = view.scale * this.ratio;

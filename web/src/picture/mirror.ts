@@ -1,5 +1,5 @@
 // The picture for those who cannot see it, screen readers and tests: every part as an element over its place, with
-// a name, where it lies and what is wrong with it. Boxes are in millimetres; moving the view is one transform.
+// its name, its place and the rules it breaks. Boxes are in millimetres, so that moving the view is one transform.
 
 import { isGap, type Placement, type Violation } from '../layout/document';
 import { h } from '../html/elements';
@@ -7,7 +7,10 @@ import { t, type Key } from '../i18n';
 import { boxesMeet, type Model } from '../layout/model';
 import type { View } from './view';
 
-/// Elements cost; of a larger layout those chosen, those with a broken rule and those in view are there.
+/**
+ * Elements cost time. A larger layout has those of the chosen parts, of the parts with a broken rule and of those in
+ * view.
+ */
 const MOST = 1000;
 
 type Level = 'clear' | 'gap' | 'forbidden' | 'unknown';
@@ -24,12 +27,12 @@ export class Mirror {
   private shown = new Map<number, Shown>();
   private of: Model | null = null;
 
-  /// Follows the view: cheap.
+  /** Follows the view, at the cost of one style. */
   place(view: View): void {
     this.element.style.transform = `matrix(${view.scale}, 0, 0, ${view.scale}, ${view.x}, ${view.y})`;
   }
 
-  /// \param whole  what no violation names breaks no rule
+  /** @param whole all parts have been checked: one that no violation names breaks no rule */
   update(
     model: Model,
     view: View,
@@ -123,7 +126,7 @@ export class Mirror {
     if (item.getAttribute('aria-selected') !== String(chosen)) item.setAttribute('aria-selected', String(chosen));
     const sheet = model.sheet(p.stock, p.copy);
     if (!sheet) return;
-    // Where a sheet stands can change without the placement: the box is written anew where it differs.
+    // A sheet can move while its placements stay: the box is written anew where it differs.
     const b = model.box(p);
     const place = `left:${b.left + sheet.x}px;top:${-(b.top + sheet.y)}px;width:${b.right - b.left}px;height:${b.top - b.bottom}px`;
     if (shown.place !== place) {

@@ -1,4 +1,4 @@
-// Outlines as paths of a canvas.
+// Outlines become paths of a canvas.
 
 import type { Part, Point } from '../layout/document';
 

@@ -1,4 +1,4 @@
-// What is printed: each sheet in use on a page of its own, with the names of its parts and a table of them.
+// The print: each sheet in use on a page of its own, with the names of its parts and a table of them.
 
 import { Picture } from './draw';
 import { LIGHT } from './scene';
@@ -8,7 +8,7 @@ import { t } from '../i18n';
 import type { Sheet } from '../layout/model';
 import { View } from './view';
 
-/// Pixels across a page, 0.25 mm each on A4, and how finely they are painted.
+/** A page is so many pixels wide, 0.25 mm each on A4, and each is painted as FINE x FINE. */
 const ACROSS = 1100;
 const FINE = 2;
 const MARGIN = 26;

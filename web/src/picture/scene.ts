@@ -1,4 +1,4 @@
-// What the picture shows, and in which colours.
+// The contents of the picture, and its colours.
 
 import type { Photos } from '../editor/photos';
 import type { LiveState } from '../kernel/kernel';

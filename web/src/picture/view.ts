@@ -1,16 +1,16 @@
-// From millimetres (y up) to pixels of the page (y down).
+// The way from millimetres (y up) to pixels of the page (y down).
 
 import type { Box } from '../layout/model';
 
 export class View {
-  /// Pixels a millimetre.
+  /** Pixels a millimetre. */
   scale = 1;
-  /// Where the picture's origin is, pixels.
+  /** The place of the picture's origin, pixels. */
   x = 0;
   y = 0;
   width = 1;
   height = 1;
-  /// Pixels of the screen to one of the page.
+  /** Pixels of the screen to one of the page. */
   ratio = 1;
   private rest: [number, number] = [0, 0];
   private fitted = '';
@@ -21,14 +21,17 @@ export class View {
   toWorld(x: number, y: number): [number, number] {
     return [(x - this.x) / this.scale, (this.y - y) / this.scale];
   }
-  /// By whole pixels of the screen, so that what is painted can be moved along; what is left over waits.
+  /**
+   * Moves by whole pixels of the screen, so that the painted picture can be moved along; the rest waits for the next
+   * move.
+   */
   pan(dx: number, dy: number): void {
     const [x, y] = [this.x + dx + this.rest[0], this.y + dy + this.rest[1]];
     const onPixel = (now: number, to: number): number => now + Math.round((to - now) * this.ratio) / this.ratio;
     [this.x, this.y] = [onPixel(this.x, x), onPixel(this.y, y)];
     this.rest = [x - this.x, y - this.y];
   }
-  /// Keeps what is under the cursor there.
+  /** Zooms and keeps the point under the cursor where it is. */
   zoomAt(x: number, y: number, factor: number): void {
     const [wx, wy] = this.toWorld(x, y);
     this.scale = Math.min(2000, Math.max(1e-4, this.scale * factor));
@@ -43,7 +46,7 @@ export class View {
     this.y = (this.height + (box.bottom + box.top) * this.scale) / 2;
     if (whole) this.fitted = `${this.scale} ${this.x} ${this.y}`;
   }
-  /// Nobody has moved it since fit() of everything.
+  /** Says whether nobody has moved the view since fit() of everything. */
   get isFitted(): boolean {
     return this.fitted === `${this.scale} ${this.x} ${this.y}`;
   }

@@ -1,4 +1,4 @@
-// The check while the WebAssembly kernel is not there: the server's preview, one question at a time.
+// The kernel of a page without WebAssembly: it asks the server for a preview.
 
 import type { Placement } from '../layout/document';
 import { isGap } from '../layout/document';

@@ -1,4 +1,4 @@
-// The client's side of docs/protocol.md. Knows messages and order, nothing of drawing.
+// The client's side of docs/protocol.md. It knows messages and their order, nothing of drawing.
 
 import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
 import type { Mode } from '../layout/commands';
@@ -26,12 +26,12 @@ export interface Refusal {
   violations: Violation[];
 }
 export type Answer =
-  /// `placements`: what its change brought, where this client saw it.
+  /** `placements` are the changes of the command, where this client saw them. */
   | { type: 'done'; seq: number; revision: number; nothing?: boolean; stopped?: boolean; placements?: Change[] }
   | ({ type: 'refused'; seq: number } & Refusal)
   | { type: 'preview'; seq: number; placements: Change[]; violations: Violation[] }
   | { type: 'lost' };
-/// What is heard of a long command before its answer.
+/** The messages about a long command before its answer. */
 export interface Course {
   begun(seq: number): void;
   progress(fraction: number, secondsLeft: number | null): void;
@@ -44,12 +44,12 @@ export interface SocketEvents {
   change(message: ChangeMessage): void;
   selections(clients: { client: number; ids: number[] }[]): void;
   name?(name: string): void;
-  /// A photograph of this stock is another, or lies elsewhere.
+  /** The photograph of a stock lies elsewhere or, where `image` is true, is another one. */
   photos?(stock: string, image: boolean): void;
   error(message: string): void;
   connection(state: Connection): void;
 }
-/// What this client uses of a WebSocket: tests bring their own.
+/** The part of a WebSocket that this client uses; tests bring their own. */
 export interface Wire {
   send(text: string): void;
   close(): void;
@@ -106,7 +106,7 @@ export class Client {
     return this.wire !== null && this.revision >= 0;
   }
 
-  /// Always answers: with 'lost' where the connection broke before the server said what became of it.
+  /** Sends a message. There is always an answer: 'lost' where the connection broke before the server gave one. */
   ask(gesture: Gesture, course?: Course): Promise<Answer> {
     if (!this.wire || this.revision < 0) return Promise.resolve({ type: 'lost' });
     const seq = ++this.seq;
@@ -118,7 +118,7 @@ export class Client {
     });
   }
 
-  /// Ends a long command early: its answer tells what came of it.
+  /** Ends a long command early; its answer tells the result. */
   endEarly(seq: number): void {
     if (this.connected && this.courses.has(seq)) this.wire!.send(JSON.stringify({ type: 'stop', seq }));
   }
@@ -165,7 +165,7 @@ export class Client {
         const resolve = this.waiting.get(answer.seq);
         this.waiting.delete(answer.seq);
         this.courses.delete(answer.seq);
-        // The change comes after its `done`: who asked hears of it when the layout is as it says.
+        // The change comes after its `done`: the caller is told when the layout has followed it.
         if (answer.type === 'done' && answer.revision > this.revision) {
           this.ahead.push({
             revision: answer.revision,
@@ -204,7 +204,7 @@ export class Client {
     }
   }
 
-  /// A revision is missing: everything anew.
+  /** Connects anew and reads everything, as a revision is missing. */
   private resync(): void {
     const wire = this.wire;
     this.wire = null;
@@ -228,7 +228,7 @@ export class Client {
   }
 
   private answerAllLost(): void {
-    this.tellAhead(Infinity); // they are durable
+    this.tellAhead(Infinity); // the server had acknowledged them
     const waiting = [...this.waiting.values()];
     this.waiting.clear();
     this.courses.clear();

@@ -1,13 +1,13 @@
-// What buttons and keys do.
+// The actions of buttons and keys.
 
 import * as line from '../layout/commands';
 import type { Editor } from '../editor/editor';
 import { movedBy } from '../editor/editor';
 import { t } from '../i18n';
 
-/// How long the nester looks where nobody stops it.
+/** The nester looks for so long where nobody stops it. */
 const NEST_SECONDS = 60;
-/// Each run tries other things than the one before.
+/** Seeds the nester, so that each run tries other things than the one before. */
 let nestings = 0;
 
 export type Action =
@@ -96,7 +96,7 @@ export async function act(editor: Editor, action: Action): Promise<void> {
   }
 }
 
-/// Each chosen part once more: beside itself in free mode, where one fits in strict mode.
+/** Puts down each chosen part once more: beside itself in free mode, where one fits in strict mode. */
 async function copy(editor: Editor): Promise<void> {
   const made: number[] = [];
   for (const p of editor.placementsOf(editor.chosen())) {

@@ -1,4 +1,5 @@
-// A part out of the tray by hand: it hangs at the pointer with its live state, and is placed where it is dropped.
+// A part is pulled out of the tray by hand: it hangs at the pointer with its live state, and is placed where it is
+// dropped.
 
 import * as line from '../layout/commands';
 import type { Part, Placement } from '../layout/document';
@@ -7,10 +8,10 @@ import { snapToGrid } from '../layout/grid';
 import { placedBox } from '../layout/model';
 import type { View } from '../picture/view';
 
-/// Pixels before a press becomes a drag.
+/** A press becomes a drag after so many pixels. */
 const SLACK = 5;
 
-/// \param onto the picture; \param hand absent: upright
+/** @param onto the picture */
 export function dragFromTray(
   button: HTMLElement,
   onto: HTMLElement,
@@ -71,7 +72,7 @@ export function dragFromTray(
     from = held = turn = null;
     if (dropped) void editor.command(line.place(dropped));
   });
-  // The click that ends a drag would put down one more.
+  // The click that ends a drag would put down one part more.
   button.addEventListener(
     'click',
     (e) => {
@@ -86,7 +87,7 @@ export function dragFromTray(
   });
 }
 
-/// The first of the part's angles, or of the quarter turns, that neither its rotations nor the grain forbid.
+/** The first of the part's angles, or of the quarter turns, that neither its rotations nor the grain forbid. */
 function firstAllowed(
   editor: Editor,
   part: Part,

@@ -1,4 +1,4 @@
-// The keyboard alone: every command, the view, and going from part to part.
+// The keys for every command, for the view, and for going from part to part.
 
 import * as line from '../layout/commands';
 import type { Editor } from '../editor/editor';
@@ -64,7 +64,7 @@ export interface ViewActions {
   reveal(id: number): void;
 }
 
-/// \return whether the key was for the picture
+/** @returns whether the key was for the picture */
 export function key(e: KeyboardEvent, editor: Editor, view: ViewActions): boolean {
   const ctrl = e.ctrlKey || e.metaKey;
   const arrow = ARROWS[e.key];
@@ -119,7 +119,7 @@ export function key(e: KeyboardEvent, editor: Editor, view: ViewActions): boolea
   }
   switch (e.key) {
     case 'Escape':
-      // First what is in hand, then what runs, then what is chosen.
+      // Escape first drops the parts in hand, then stops a long command, then chooses none.
       if (editor.moving.size > 0 || !editor.stopLong()) {
         view.cancel();
         editor.select([]);

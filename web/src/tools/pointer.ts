@@ -14,7 +14,7 @@ export interface Overlay {
   arrow: { from: Point; to: Point } | null;
 }
 
-/// Pixels from the box of the chosen parts to the handle that turns them, and how near a hand must come to it.
+/** Pixels from the box of the chosen parts to the handle that turns them, and those by which a hand may miss it. */
 const HANDLE = 26;
 const NEAR = { mouse: 10, touch: 22 };
 
@@ -25,7 +25,7 @@ export interface Handle {
   ids: number[];
 }
 
-/// Where the chosen parts are turned by hand, in pixels: above their common box.
+/** The handle that turns the chosen parts: it stands above their common box, pixels. */
 export function turningHandle(editor: Editor, view: View): Handle | null {
   const chosen = editor.placementsOf(editor.chosen()).filter((p) => !p.locked);
   const first = chosen[0];
@@ -50,7 +50,7 @@ export function turningHandle(editor: Editor, view: View): Handle | null {
   };
 }
 
-/// The part at a point of the picture; the last drawn of several.
+/** The part at a point of the picture; the last drawn of several. */
 export function pick(editor: Editor, x: number, y: number): Placement | null {
   let found: Placement | null = null;
   for (const p of editor.model.placements.values()) {
@@ -64,7 +64,7 @@ export function pick(editor: Editor, x: number, y: number): Placement | null {
   return found;
 }
 
-/// What is measured is from corner to corner, where the hand is near one: of a part or of the material.
+/** The corner of a part or of the material near a point, or the point itself: measures go from corner to corner. */
 function cornerNear(editor: Editor, view: View, world: Point): Point {
   const { model } = editor;
   const sheet = model.sheetAt(...world);
@@ -90,7 +90,7 @@ function cornerNear(editor: Editor, view: View, world: Point): Point {
   return [found[0] + sheet.x, found[1] + sheet.y];
 }
 
-/// A hand means one of eight directions when it is near it: a hair off, a slide along a border ends at once.
+/** Makes a direction near one of eight that one: a slide along a border that is a hair off would end at once. */
 function straightened(from: Point, to: Point): Point {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const turn = Math.round(Math.atan2(dy, dx) / (Math.PI / 4));
@@ -109,10 +109,10 @@ function straightened(from: Point, to: Point): Point {
   return [from[0] + ux * length, from[1] + uy * length];
 }
 
-/// Half a step: shifts are whole steps.
+/** Shifts are whole steps, so two that differ by less than half a step are the same. */
 const near = (a: number, b: number): boolean => Math.abs(a - b) < 2 ** -21;
 
-/// The command that brings what is in hand where it is shown, from wherever the parts are when its turn comes.
+/** The command that brings the parts in hand where they are shown, from wherever they are when its turn comes. */
 export function droppedLine(editor: Editor, tool: Tool): () => string | null {
   const dropped = [...editor.moving.values()];
   return () => {
@@ -340,7 +340,10 @@ export class PointerTool {
     this.last = at;
   }
 
-  /// Tenths of a degree freely, the step of the toolbar with Shift; a part of few angles turns from one to the next.
+  /**
+   * Rounds a turn to tenths of a degree, or to the step of the toolbar. A part of few angles turns from one to the
+   * next.
+   */
   private turnOf(ids: readonly number[], degrees: number, stepped: boolean): number {
     const whole = ((((degrees + 180) % 360) + 360) % 360) - 180;
     const [first] = this.editor.placementsOf(ids);

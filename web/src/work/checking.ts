@@ -1,28 +1,28 @@
-// The check of the whole layout, a little at a time, so that no hand is held up by it however much there is to do.
+// The check of the whole layout, a little at a time, so that it holds up no hand however much there is to do.
 
 import { VIOLATION_KINDS, type Violation } from '../layout/document';
 import type { Kernel } from '../kernel/kernel';
 import type { Model } from '../layout/model';
 import { TimeLeft } from './time_left';
 
-/// Of a frame's 16 ms.
+/** The time that the check takes of a frame's 16 ms. */
 const SLICE_MS = 8;
-/// Between two looks at the clock: so many that they take about a quarter of a slice.
+/** The most placements between two looks at the clock; as a rule so many that they take a quarter of a slice. */
 const MOST_AT_A_TIME = 512;
 
 export class Checking {
-  /// What is known so far, in the order of `lekalo check`; null: nobody here can tell.
+  /** The broken rules that are known so far, in the order of `lekalo check`; null: nobody here can tell. */
   found: Violation[] | null = null;
-  /// Placements that have not been looked at since they changed.
+  /** The number of placements that have not been looked at since they changed. */
   left = 0;
-  /// By a person: what changes is still looked at.
+  /** A person has stopped the check. Placements that change are looked at all the same. */
   stopped = false;
   private most = 0;
   private atATime = 16;
   private timer: ReturnType<typeof setTimeout> | null = null;
   private time = new TimeLeft();
 
-  /// \param tell  some of it is done; \p whole: all
+  /** @param tell is called when some of it is done; `whole`: all of it */
   constructor(
     private readonly kernel: () => Kernel,
     private readonly model: () => Model,
@@ -36,7 +36,7 @@ export class Checking {
     return this.time.seconds;
   }
 
-  /// A layout was opened.
+  /** Begins with a layout that was opened. */
   begin(): void {
     this.halt();
     this.stopped = false;
@@ -44,17 +44,17 @@ export class Checking {
     this.left = this.model().placements.size;
     this.goOn();
   }
-  /// There is no answer.
+  /** Gives up, as the kernel cannot check. */
   fail(): void {
     this.halt();
     this.found = null;
     this.left = 0;
   }
-  /// These have changed, and the kernel knows. The beginning is made before this returns.
+  /** Looks again at placements that have changed, as the kernel knows. A first slice is done before this returns. */
   changed(ids: readonly number[]): void {
     this.drop(new Set(ids));
     if (!this.stopped) return this.goOn();
-    // The rest waits until it is asked for.
+    // A check that was stopped looks at these alone; the rest waits until a person resumes it.
     const { kernel, model } = { kernel: this.kernel(), model: this.model() };
     const there = ids.map((id) => model.placements.get(id)).filter((p) => p !== undefined);
     const state = there.length > 0 ? kernel.state(there, '', 0, true) : null;

@@ -1,4 +1,4 @@
-// A request that may take a while: how far it is, and its end when nobody wants it any more.
+// A request that may take a while. It tells how far it is, and can be given up.
 
 import { TimeLeft } from './time_left';
 
@@ -9,7 +9,7 @@ export interface Answer {
 }
 
 export class Transfer {
-  /// Of what is sent; null: the other side is at work, and does not say how far it is.
+  /** The share that is sent; null: all of it, and the server at work does not say how far it is. */
   fraction: number | null = null;
   secondsLeft: number | null = null;
   private readonly request = new XMLHttpRequest();
@@ -21,11 +21,15 @@ export class Transfer {
     private readonly changed: () => void,
   ) {}
 
-  /// Whole seconds since it began.
+  /** Whole seconds since it began. */
   get since(): number {
     return Math.floor((performance.now() - this.begun) / 1000);
   }
-  /// \return the answer; null: aborted. Throws where there is none
+  /**
+   * Sends the request. Throws where there is no answer.
+   *
+   * @returns null: it was given up
+   */
   send(method: string, address: string, body?: Blob): Promise<Answer | null> {
     const { request } = this;
     const time = new TimeLeft();
@@ -57,7 +61,7 @@ export class Transfer {
   }
 }
 
-/// What a server says against a request: its sentence, or the number of its answer.
+/** The server's sentence against a request, or the number of its answer. */
 export async function sentenceOf(answer: Answer): Promise<string> {
   try {
     return (JSON.parse(await answer.body.text()) as { error?: string }).error ?? String(answer.status);
