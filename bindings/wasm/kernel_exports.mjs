@@ -1,4 +1,4 @@
-// Makes web/src/kernel/exports.ts, what the page knows of lekalo.wasm, from kernel.hpp:
+// Makes the page's table of the exports of lekalo.wasm, web/src/kernel/exports.ts, from kernel.hpp:
 //
 //   node bindings/wasm/kernel_exports.mjs
 //
@@ -11,7 +11,7 @@ import { fileURLToPath } from 'node:url';
 export const header = fileURLToPath(new URL('kernel.hpp', import.meta.url));
 export const made = fileURLToPath(new URL('../../web/src/kernel/exports.ts', import.meta.url));
 
-/** What a type of C++ is in WebAssembly. */
+/** The type in WebAssembly of a type in C++. */
 function wasmType(cpp) {
   if (cpp.endsWith('*') || cpp === 'std::int32_t' || cpp === 'std::uint32_t') return 'i32';
   if (cpp === 'double') return 'f64';
@@ -58,7 +58,7 @@ export interface KernelExports {
 ${all.map(method).join('\n')}
 }
 
-/** How many parameters each function takes. */
+/** The number of parameters of each function. */
 export const PARAMETERS = {
 ${all.map(({ name, parameters }) => `  ${name}: ${parameters.length},`).join('\n')}
 } as const;

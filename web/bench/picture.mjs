@@ -1,5 +1,5 @@
 // A picture of the editor at work: node bench/picture.mjs LAYOUT OUT.png
-// A part is in hand over another, so that the picture shows what is forbidden, by how much, and where.
+// A part is in hand over another, so that the picture shows the overlap, its depth and its place.
 
 import { newTab, open, serve, startBrowser } from '../test/browser/harness.mjs';
 

@@ -1,9 +1,9 @@
-// How quick the page is on large layouts, against the real server: node bench/speed.mjs [PARTS...]
+// Times the page on large layouts, against the real server: node bench/speed.mjs [PARTS...]
 // LEKALO names the program (build/release/lekalo).
 
 import { newTab, open, serve, startBrowser } from '../test/browser/harness.mjs';
 
-/// Parts of 48 corners side by side on one sheet.
+/** Parts of 48 corners side by side on one sheet. */
 function crowd(n) {
   const side = Math.ceil(Math.sqrt(n));
   const outer = Array.from({ length: 48 }, (_, i) => {

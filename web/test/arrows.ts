@@ -2,7 +2,7 @@
 
 import { dirname, join, normalize } from 'node:path/posix';
 
-/** What each folder may import from; main.ts may import from every folder. */
+/** The folders from which each folder may import; main.ts may import from all of them. */
 export const ARROWS: Record<string, readonly string[]> = {
   html: [],
   i18n: [],

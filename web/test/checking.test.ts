@@ -23,7 +23,7 @@ afterEach(() => {
   vi.restoreAllMocks();
 });
 
-/// A kernel that says that every part lies over the next one, and takes its time.
+/** A kernel that says that every part lies over the next one, and takes its time. */
 class Slow {
   unchecked = new Set<number>();
   constructor(

@@ -1,5 +1,5 @@
 // A stand-in for the server in tests of the page: it keeps placements, moves and removes them, counts revisions.
-// `compact` is long: `onTheWay` says what comes of it, `endLong` ends it.
+// `compact` is long: `onTheWay` tells how far it is, `endLong` ends it.
 // It checks nothing: `refuse` says which commands it refuses, `violations` what a preview answers.
 
 export class ServerDouble {
@@ -57,7 +57,7 @@ export class ServerDouble {
     to.push(step);
     return this.carryOut(m, m.type === 'undo' ? step.before : step.after, m.type);
   }
-  /** What a long command says on its way. */
+  /** The messages of a long command on its way. */
   onTheWay(fraction, secondsLeft, placements) {
     const { seq } = this.long;
     return [

@@ -46,7 +46,7 @@ const two: LayoutDocument = {
 };
 const soon = () => new Promise((resolve) => setTimeout(resolve, 1));
 
-/// An editor on a stand-in that has begun to compact.
+/** An editor on a stand-in that has begun to compact. */
 async function compacting() {
   const double = new ServerDouble(two);
   const editor: Editor = new Editor(new ServerKernel(() => null));

@@ -42,7 +42,7 @@ const square: LayoutDocument = {
   placements: [{ id: 1, part: 'p', stock: 's', c: 1, s: 0, x: 5, y: 5 }],
 };
 
-/// An editor on a stand-in; `wires` are the connections it made.
+/** An editor on a stand-in; `wires` are the connections it made. */
 function setup(options = {}) {
   const double = new ServerDouble(square, options);
   const wires: Wire[] = [];

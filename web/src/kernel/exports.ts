@@ -50,7 +50,7 @@ export interface KernelExports {
   lekalo_degrees(c: number, s: number): number;
 }
 
-/** How many parameters each function takes. */
+/** The number of parameters of each function. */
 export const PARAMETERS = {
   lekalo_input: 1,
   lekalo_text: 0,

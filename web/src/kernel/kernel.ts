@@ -1,4 +1,4 @@
-// Who decides what is allowed while a part is dragged. The WebAssembly kernel answers at once; without it the
+// The kernel decides what is allowed while a part is dragged. The WebAssembly kernel answers at once; without it the
 // server is asked (its `preview`), and until it has answered the state is 'unknown', never 'clear'.
 
 import type { FeatureChange, LayoutDocument, Placement, Point, Violation } from '../layout/document';
@@ -17,14 +17,14 @@ export interface LiveState {
 }
 /** The answer to a look at some placements. */
 export interface Looked {
-  /** How many placements are still to be looked at. */
+  /** The number of placements that are still to be looked at. */
   left: number;
   /** The placements that were looked at. */
   ids: number[];
   /** Every violation that one of them has a part in, but for those with a placement still to be looked at. */
   violations: Violation[];
 }
-/** How many of a kit are complete, and which pieces the wanted ones that are not complete lack. */
+/** The complete kits of one kind, and the pieces that the wanted ones still lack. */
 export interface KitCount {
   kit: string;
   wanted: number;
@@ -50,7 +50,7 @@ export interface Kernel {
   state(placements: readonly Placement[], text: string, reach: number, depths: boolean): LiveState | Promise<LiveState>;
   /** Cosine and sine on the grid; null: this kernel does not know them. */
   rotation(degrees: number): { c: number; s: number } | null;
-  /** Where `rotate` would put these placements; null: this kernel does not know. */
+  /** The places that `rotate` would give these placements; null: this kernel does not know. */
   turned(ids: readonly number[], degrees: number): Placement[] | null;
   /** Every violation of the layout; null: this kernel does not know. */
   check(): Violation[] | null;

@@ -137,7 +137,7 @@ function numbersOf({ partIndex, stockIndex }: OpenLayout, placement: Placement):
   return [id, part, stock, copy, c, s, x, y, Number(mirrored), Number(locked)];
 }
 
-/** What is made of the records of `size` numbers each, from an index on. */
+/** Reads the records of `size` numbers each, from an index on. */
 function recordsFrom<T>(numbers: Float64Array, from: number, size: number, read: (record: Float64Array) => T): T[] {
   const made: T[] = [];
   for (let at = from; at < numbers.length; at += size) made.push(read(numbers.subarray(at, at + size)));

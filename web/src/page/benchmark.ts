@@ -1,4 +1,4 @@
-// How quick the page is on the layout that it shows. Opened with `benchmark` in its address, it prints the figures;
+// The figures of how quick the page is on the layout that it shows. Opened with `benchmark` in its address, it prints the figures;
 // bench/speed.mjs does so for layouts of its own, with processor times.
 
 import type { Picture } from '../picture/draw';

@@ -3,7 +3,7 @@
 import type { Picture } from '../picture/draw';
 import type { Scene } from '../picture/scene';
 
-/** How much a frame paints: nothing, the upper canvas, also the moved view, or everything. Each includes those before. */
+/** A frame paints nothing, the upper canvas, also the moved view, or everything: each includes those before it. */
 const DUTIES = ['none', 'top', 'view', 'all'] as const;
 export type Duty = (typeof DUTIES)[number];
 
@@ -15,11 +15,11 @@ const REST_BEFORE_MIRROR_MS = 60;
 
 export interface FrameEvents {
   scene(): Scene;
-  /** Whether a photograph is in hand; it is followed at every step, whatever that costs. */
+  /** Says whether a photograph is in hand: it is followed at every step, whatever that costs. */
   pulled(): boolean;
-  /** The view may be another. */
+  /** Is called when the view may be another. */
   moved(): void;
-  /** The view has stood still for a while. */
+  /** Is called when the view has stood still for a while. */
   rested(): void;
   painted(duty: Duty): void;
 }

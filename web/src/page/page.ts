@@ -93,7 +93,7 @@ export class Page {
     }
     this.status.show();
   }
-  /** Whether the tool that pulls photographs is to come or to go. */
+  /** Says whether the tool that pulls photographs is to come or to go. */
   private offersPhotoTool(): boolean {
     return this.editor.photos.size > 0 !== (this.tools.querySelector('[data-action="tool.photo"]') !== null);
   }

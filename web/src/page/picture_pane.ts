@@ -27,7 +27,7 @@ export class PicturePane {
   private readonly legend = h('div', { class: 'legend' });
   private readonly mirror = new Mirror();
   private readonly frames: Frames;
-  /** Whether the view has been fitted to the layout that is open. */
+  /** The view has been fitted to the layout that is open. */
   private fitted = false;
 
   /**
@@ -123,7 +123,7 @@ export class PicturePane {
     this.view.zoomAt(this.view.width / 2, this.view.height / 2, factor);
     this.later('view');
   }
-  /** Where a pointer of the screen is, in the picture's mm. */
+  /** The place of a pointer, in the picture's mm. */
   worldAt(e: MouseEvent): Point {
     const box = this.element.getBoundingClientRect();
     return this.view.toWorld(e.clientX - box.left, e.clientY - box.top);

@@ -1,4 +1,4 @@
-// What the browser keeps for the page: choices across visits, and the name of this tab across reloads.
+// The browser's memory of the page: choices across visits, and the name of this tab across reloads.
 
 /** A choice of an earlier visit; null: there is none. */
 export const stored = (name: string): string | null => {

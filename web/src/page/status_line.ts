@@ -44,7 +44,7 @@ export class StatusLine {
   private connection(): string {
     const { editor } = this;
     const others = [...editor.others.keys()].filter((client) => client >= 0).length;
-    // What a long command keeps waiting is not being saved.
+    // Gestures that a long command keeps waiting are not being saved.
     const waiting = editor.long ? 1 + editor.queued.length : 0;
     const state = t(editor.pending > waiting ? 'state.saving' : `state.${editor.connection}`);
     return [others > 0 ? t('others', { n: others }) : '', state].filter(Boolean).join(' · ');

@@ -19,7 +19,7 @@ const OUT = 60;
 const MOST_RECTANGLES = 48;
 /** Parts between two looks at the clock. */
 const AT_A_TIME = 32;
-/** Where changes come faster than the picture can be painted, it is painted at once after so long, ms. */
+/** A picture that changes faster than it can be painted is painted at once after so long, ms. */
 const LONGEST_STALE_MS = 300;
 
 interface Rectangle {

@@ -40,7 +40,7 @@ export function tracedPath(loops: readonly Point[][], apart: number): Path2D {
 export type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };
 export const loopsOf = (o: Outlined): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
 
-/** How far one can go from a point of a part, both ways along a direction of its own frame, without leaving it, mm. */
+/** The way one can go from a point of a part, to either side along a direction, without leaving the part, mm. */
 export function roomAlong(part: Part, [x, y]: Point, [dx, dy]: Point): number {
   let room = Infinity;
   for (const loop of loopsOf(part.outline)) {

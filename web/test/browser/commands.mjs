@@ -1,4 +1,4 @@
-// Every command by mouse and by key: what it does stands in the export, and the program finds nothing against it.
+// Every command by mouse and by key: its effect stands in the export, and the program finds nothing against it.
 
 import assert from 'node:assert/strict';
 import {
@@ -49,7 +49,7 @@ inEditor('flips, settles, snaps and locks by buttons and keys', async (page, ser
   assert.equal((await placementOf(server, 2)).mirrored, true);
   await keys(page, 'g');
   let p = await placementOf(server, 2);
-  // Down to the border's gap of 5, then left to the gap of 2 to the other plate, 90 wide from the left.
+  // It goes down to the border's gap of 5, then left to the gap of 2 to the other plate, 90 wide from the left.
   near(p.y, 30);
   near(p.x, 132);
   await keys(page, 'Control+z', 'ArrowUp', 'ArrowUp', 'ArrowUp');
@@ -57,7 +57,7 @@ inEditor('flips, settles, snaps and locks by buttons and keys', async (page, ser
   await settled(page);
   near((await placementOf(server, 2)).y, 30);
   await keys(page, 'Control+z');
-  // 5 mm from where the left border's gap lets it lie: on to it.
+  // It lies 5 mm from where the left border's gap lets it, and snaps to that.
   await press(page, 1);
   await keys(page, 's');
   near((await placementOf(server, 1)).x, 45);
@@ -109,14 +109,14 @@ inEditor('drops at the nearest valid place', async (page, server) => {
   await drop(page);
   const p = await placementOf(server, 2);
   assert.notEqual(p.x, 200);
-  // Nearer than what sliding along the way there would give, and clear.
+  // The place is nearer than the one that sliding there would give, and clear.
   assert.ok(Math.hypot(p.x - 60, p.y - 43) < 90, JSON.stringify(p));
   assert.equal((await checked(server)).exit, 0);
 });
 
 inEditor('slides in all four directions by buttons', async (page, server) => {
   await press(page, 2);
-  // The border, the border, the bracket, the knot; each with its gap.
+  // The four pushes end at the border, the border, the bracket and the knot, each with its gap.
   for (const [action, x, y] of [
     ['up', 200, 270],
     ['left', 45, 270],

@@ -108,7 +108,7 @@ inEditor('slides to contact by an arrow, by a flick and by a button', async (pag
   await command(page, 'tool.slide');
   await hold(page, 2, 0, 60);
   await drop(page);
-  // Up to the knot: its lower edge at 190, a gap of 1 to it, half a plate.
+  // The plate goes up to the knot, whose lower edge is at 190, less a gap of 1 and half a plate.
   assert.ok(Math.abs((await placementOf(server, 2)).y - 164) <= 2 * step);
   assert.equal((await checked(server)).exit, 0);
 });
@@ -265,7 +265,7 @@ inEditor(
       const p = await placementOf(server, id);
       return (Math.atan2(p.s, p.c) * 180) / Math.PI;
     };
-    /** Turns what is chosen by hand about the middle of a box. */
+    /** Turns the chosen parts by hand about the middle of a box. */
     const turn = async (box, by, key) => {
       const [mx, my] = [box.x + box.width / 2, box.y + box.height / 2];
       const r = box.height / 2 + 26;
@@ -349,7 +349,7 @@ inEditor('paints what changed, moved or was zoomed exactly as if all were painte
   assert.equal(await same(), '');
   const [, , before] = await at(page, 2);
   await page.mouse.wheel(0, -300);
-  // Not by the picture being stretched: that may be over before anyone looks.
+  // The stretched picture itself is no sign: it may be gone before anyone looks.
   await page.waitForFunction(
     (width) => document.querySelector('[data-id="placement-2"]').getBoundingClientRect().width > 1.1 * width,
     before.width,
@@ -374,7 +374,7 @@ inEditor('draws, moves, grades and removes defects and zones, and says what lies
   let made = (await defects()).at(-1);
   assert.deepEqual([made.id, made.severity, made.outline.polygon.outer.length], ['defect 2', 3, 3]);
   assert.ok(Math.hypot(made.outline.polygon.outer[0][0] - 230, made.outline.polygon.outer[0][1] - 140) < 1);
-  // Dragged onto the plate: admitted, and the plate is on a defect from then on, as the program says too.
+  // It is dragged onto the plate and admitted; the plate is on a defect from then on, as the program says, too.
   await page.mouse.move(...to(55, 110));
   await page.mouse.down();
   await page.mouse.move(...to(0, 5), { steps: 4 });
@@ -390,7 +390,7 @@ inEditor('draws, moves, grades and removes defects and zones, and says what lies
   await command(page, 'undo');
   await settled(page);
   assert.equal(await broken(page), 0);
-  // In one stroke.
+  // The next is drawn in one stroke.
   await page.mouse.move(...to(-150, 180));
   await page.mouse.down();
   for (const p of [to(-120, 180), to(-110, 200), to(-140, 210), to(-155, 195)])
@@ -420,7 +420,7 @@ inEditor(
     const picked = join(server.folder, 'hide.png');
     writeFileSync(picked, await page.screenshot({ clip: { x: 300, y: 300, width: 400, height: 300 } }));
     const photos = (tab) => tab.evaluate(() => window.lekaloBench.photos());
-    /** When the tab shows what this function says of the first. */
+    /** Waits until the tab shows a first photograph of which this function says yes. */
     const lies = async (tab, where) => {
       for (let i = 0; !where((await photos(tab))[0]); ++i) {
         assert.ok(i < 500, `${JSON.stringify(await photos(tab))} after ${where}; ${await message(tab)}`);
@@ -444,7 +444,7 @@ inEditor(
     const [x, y] = await at(page, 1);
     await pull([x, y], [x + 20 * k, y]);
     assert.ok(Math.abs((await photos(page))[0].x - before.x - 20) < 0.5);
-    // The pin is at x + 20; what is 100 mm to the right of it goes to 150 mm: half as large again, the pin stays.
+    // The pin is at x + 20. A point 100 mm to its right goes to 150 mm: the photograph is half as large again.
     await pull([x + 120 * k, y], [x + 170 * k, y]);
     const [after] = await photos(page);
     assert.ok(Math.abs(after.a - 1.5) < 0.01 && Math.abs(after.b) < 0.01, JSON.stringify(after));
@@ -627,7 +627,7 @@ inEditor(
       );
     const before = await stateOf();
     assert.equal(before.length, 2);
-    // Started on the whole layout and watched: what is wanted appears before it is carried out.
+    // It is started on the whole layout and watched: the better places appear before it is carried out.
     await command(page, 'nest');
     await says('parts better placed');
     assert.deepEqual(await stateOf(), before);
@@ -645,7 +645,7 @@ inEditor(
     await command(page, 'redo');
     await settled(page);
     assert.deepEqual(await stateOf(), nested);
-    // Corrected by hand: the uppermost is moved to the far end of the sheet, where nothing is in its way; two are locked.
+    // A hand corrects it: the uppermost is moved to the far end of the sheet, where nothing is in its way; two are locked.
     const tops = await Promise.all(nested.map(async (p) => [(await at(page, p.id))[2].top, p.id]));
     const moved = tops.sort((a, b) => a[0] - b[0])[0][1];
     const [first, second] = nested.map((p) => p.id).filter((id) => id !== moved);
@@ -668,7 +668,7 @@ inEditor(
       corrected.find((p) => p.id === moved),
       nested.find((p) => p.id === moved),
     );
-    // Improved again: the locked ones stay, the others keep their ids.
+    // It is improved again: the locked ones stay, the others keep their ids.
     await keys(page, 'Escape');
     await command(page, 'nest');
     await says('parts? better placed');
@@ -704,7 +704,7 @@ inEditor(
     };
     const saved = async (notes) => {
       const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
-      // G-code comes with what was proved of it; the dialog stays until that is read.
+      // G-code comes with the notes of its proof; the dialog stays until they are read.
       if (notes) {
         await page.waitForFunction(
           (p) => new RegExp(p).test(document.querySelector('dialog .notes').textContent),
@@ -749,7 +749,8 @@ inEditor(
     assert.match(file, /\.nc$/);
     assert.match(text, /G21/);
     assert.match(text, /F2000/);
-    // The plate of the second sheet alone, 80 x 50 about 200, 150; half a kerf outside, the lead at most 2 further out.
+    // The program holds the plate of the second sheet alone, 80 x 50 about 200, 150: half a kerf outside, and a lead of
+    // at most 2 further out.
     const [right, upper] = [Math.max(...numbers(text, 'X')), Math.max(...numbers(text, 'Y'))];
     assert.ok(right >= 240.1 - 1e-3 && right <= 242.2 && upper >= 175.1 - 1e-3 && upper <= 177.2, `${right} ${upper}`);
     await begin('gcode');

@@ -32,7 +32,7 @@ export async function serve(layout) {
     folder,
     url: '',
     page: '',
-    /** Again on the same store and port. */
+    /** Starts it, the second time on the same store and port. */
     async start() {
       const port = server.url ? new URL(server.url).port : '0';
       child = spawn(lekalo, ['serve', file, '--store', join(folder, 'store.sqlite'), '--port', port], {
@@ -50,7 +50,7 @@ export async function serve(layout) {
       server.url = await said('listening');
       server.page = await said('layout');
     },
-    /** SIGKILL, as it may come: what was acknowledged is on the disk. */
+    /** Kills it as it may happen at any time: every acknowledged change is on the disk. */
     async kill() {
       child.kill('SIGKILL');
       await ended;

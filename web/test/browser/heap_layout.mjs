@@ -1,4 +1,4 @@
-// Combs in a heap: every one lies over its neighbours, and how deep takes long to find out.
+// Combs in a heap: every one lies over its neighbours, and measuring how deep takes long.
 
 const teeth = 40;
 const top = Array.from({ length: teeth }, (_, i) => [
@@ -9,7 +9,7 @@ const top = Array.from({ length: teeth }, (_, i) => [
   .reverse();
 const comb = { polygon: { outer: [[0, 0], [2 * teeth, 0], ...top] } };
 
-/** \return a layout of n of them, 40 a row */
+/** @returns a layout of n of them, 40 a row */
 export function heapLayout(n) {
   const rows = Math.ceil(n / 40);
   return {

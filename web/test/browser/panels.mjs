@@ -1,4 +1,4 @@
-// What stands around the picture: tray, lists, measure, view, files, and what is said of all of it.
+// The surroundings of the picture: tray, lists, measure, view, files, and the messages about all of it.
 
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';

@@ -1,14 +1,14 @@
-// Pictures are compared as a person at arm's length would: averaged over cells of 10 pixels, so that another font
+// Pictures are compared as a person at arm's length would compare them: averaged over cells of 10 pixels, so that another font
 // or another rasteriser does not matter and a part that is missing, moved or of another colour does.
 
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 
 const folder = new URL('./pictures/', import.meta.url).pathname;
-/// LEKALO_PICTURES=FOLDER keeps what was seen, whole and as reference.
+/** LEKALO_PICTURES=FOLDER keeps every picture, whole and as a reference. */
 const kept = process.env.LEKALO_PICTURES;
 const CELL = 10;
-/// Of 255: how far a cell may be off, and which share of cells may be further.
+/** A cell may be off by so much of 255, and this share of cells by more. */
 const OFF = 28;
 const SHARE = 0.004;
 
@@ -54,7 +54,7 @@ function differing(page, a, b) {
   );
 }
 
-/** \return how much differs from the picture of that name, as a share of its cells */
+/** @returns how much differs from the picture of that name, as a share of its cells */
 export async function differenceFrom(page, name, keep) {
   const { shot, small } = await coarse(page);
   if (kept && keep) {
@@ -77,7 +77,7 @@ export async function comparePicture(page, name) {
     `picture "${name}": ${(100 * share).toFixed(2)} % of its cells differ, ${100 * SHARE} % may`,
   );
 }
-/** That the comparison sees a change: what cannot fail says nothing. */
+/** Shows that the comparison sees a change: a comparison that cannot fail would say nothing. */
 export async function assertPictureDiffers(page, name) {
   const share = await differenceFrom(page, name, false);
   assert.ok(

@@ -1,4 +1,4 @@
-// What the tests do in the editor: the steps of a person, and what is to be seen afterwards.
+// The steps of the tests in the editor, as a person does them, and the looks at the result.
 
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { smallLayout } from './small_layout.mjs';
 
 const wide = { timeout: 60_000 };
 let browser;
-/** Of all tests that need no other: every server is an origin of its own, so nothing is left from the one before. */
+/** The page of all tests that need no other. Every server is an origin of its own, so nothing is left from the last. */
 let usual;
 before(async () => {
   browser = await startBrowser();
@@ -67,7 +67,7 @@ export const export_ = async (server, form = 'layout') => {
   return answer.text();
 };
 export const placementOf = async (server, id) => JSON.parse(await export_(server)).placements.find((p) => p.id === id);
-/** What the program on its own says of the layout as it stands. */
+/** The answer of `lekalo check` about the layout as it stands. */
 export async function checked(server) {
   const file = join(server.folder, 'exported.json');
   writeFileSync(file, await export_(server));
