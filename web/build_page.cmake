@@ -3,9 +3,9 @@
 #   cmake -DNPM=npm -DSOURCES=web -DPLACE=build/shared -DPAGE=FOLDER -DKERNEL=lekalo.wasm -DMISSING=page.html
 #         -P build_page.cmake
 #
-# npm fetches the packages of package-lock.json, tsc checks the types, Vite makes the page, and the kernel is laid beside
-# it. Where the packages cannot be fetched the page says so and the build goes on; without the stamp the next build
-# tries again. A page that does not compile is an error.
+# npm fetches the packages of package-lock.json, tsc checks the types, Vite makes the page, and the kernel is laid
+# beside it. Where the packages cannot be fetched the page says so and the build goes on; without the stamp the next
+# build tries again. A page that does not compile is an error.
 cmake_minimum_required(VERSION 3.25)
 
 # run(RESULT COMMAND...): its output is shown only where it fails.

@@ -1,5 +1,5 @@
-// {fmt} for lekalo.wasm, compiled once: Debian's library is native, and as headers alone it would be compiled anew
-// with every source that formats a text.
+// {fmt} for lekalo.wasm, compiled once: Debian's library is native, and as headers alone it would be compiled
+// anew with every source that formats a text.
 
 #include <fmt/format-inl.h>
 

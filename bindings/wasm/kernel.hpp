@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// The layout kernel behind a C interface, for WebAssembly (docs/design/wasm.md). It is built natively too, so
-/// that tests compare both. The page's side of it, web/src/kernel/exports.ts, is made from this file by
+/// The layout kernel behind a C interface, for WebAssembly (docs/design/wasm.md). It is built natively too,
+/// so that tests compare both. The page's side of it, web/src/kernel/exports.ts, is made from this file by
 /// kernel_exports.mjs, which reads each LEKALO_EXPORT with its declaration and the sizes below.
 ///
 /// A call takes numbers, and bytes or an array of doubles that the caller has written to lekalo_input(). It
@@ -16,11 +16,11 @@
 #define LEKALO_EXPORT(name)
 #endif
 
-/// The doubles of a PLACEMENT: id, part, stock (indices), copy, c, s (cosine and sine), x, y, mirrored, locked
-/// (0 or 1).
+/// The doubles of a PLACEMENT: id, part, stock (indices), copy, c, s (cosine and sine), x, y, mirrored,
+/// locked (0 or 1).
 constexpr std::uint32_t kPlacementSize = 10;
-/// The doubles of a VIOLATION: kind (layout::ViolationKind), a, b, stock, copy, feature, amount, x and y of the
-/// place, x and y of the direction.
+/// The doubles of a VIOLATION: kind (layout::ViolationKind), a, b, stock, copy, feature, amount, x and y of
+/// the place, x and y of the direction.
 constexpr std::uint32_t kViolationSize = 11;
 /// The doubles of a NEAREST: distance (-1: nothing within reach, or not asked for because something is
 /// forbidden), what it is to (0 a part, 1 the border, 2 a defect), id of the other placement or index of the
@@ -49,9 +49,9 @@ LEKALO_EXPORT(lekalo_set) std::int32_t lekalo_set(std::int32_t handle);
 LEKALO_EXPORT(lekalo_erase) std::int32_t lekalo_erase(std::int32_t handle, double id);
 LEKALO_EXPORT(lekalo_set_next_id) std::int32_t lekalo_set_next_id(std::int32_t handle, double id);
 
-/// Adds or replaces a defect (kind 0) or a zone (kind 1) of a stock, as change messages do (docs/protocol.md).
-/// The input is JSON of `bytes`, as layout files have it. A new one comes to lie at `index` of its list, or at
-/// the end of a shorter one.
+/// Adds or replaces a defect (kind 0) or a zone (kind 1) of a stock, as change messages do
+/// (docs/protocol.md). The input is JSON of `bytes`, as layout files have it. A new one comes to lie at
+/// `index` of its list, or at the end of a shorter one.
 LEKALO_EXPORT(lekalo_set_feature)
 std::int32_t lekalo_set_feature(std::int32_t handle, double stock, std::int32_t kind, double index,
                                 std::uint32_t bytes);
@@ -65,9 +65,10 @@ LEKALO_EXPORT(lekalo_violations_with)
 std::int32_t lekalo_violations_with(std::int32_t handle, double stock, std::int32_t kind, double index,
                                     std::int32_t depths);
 
-/// Tells what would be so if these `count` placements (input: ids) were turned about the middle of their box by
-/// `degrees` and then moved by (dx, dy). Numbers: the NEAREST, then every VIOLATION in the order of check().
-/// \param depths  0: amounts and directions of overlap, outside, defect and quality are left out, which makes
+/// Tells what would be so if these `count` placements (input: ids) were turned about the middle of their box
+/// by `degrees` and then moved by (dx, dy). Numbers: the NEAREST, then every VIOLATION in the order of
+/// check(). \param depths  0: amounts and directions of overlap, outside, defect and quality are left out,
+/// which makes
 ///                the call quick enough for every move of a hand (layout::Depths)
 /// \return 0 clear, 1 closer than a gap, 2 forbidden otherwise
 LEKALO_EXPORT(lekalo_state)
@@ -79,19 +80,18 @@ std::int32_t lekalo_state_of(std::int32_t handle, std::uint32_t count, double re
 /// Numbers: every VIOLATION of the document.
 /// \return how many there are
 LEKALO_EXPORT(lekalo_check) std::int32_t lekalo_check(std::int32_t handle);
-/// Checks the same bit by bit. All placements are unchecked at first, and again when they are set or a feature
-/// near them changes. The call looks at up to `most` of the unchecked, lowest ids first. Numbers: how many are
-/// left, how many were looked at, their ids, then every VIOLATION that one of these has a part in, but for
-/// those with an unchecked one, which come when its turn does. A caller who drops the violations of what was
-/// set, erased and looked at, and adds these, has those of lekalo_check once nothing is left.
+/// Checks the same bit by bit. All placements are unchecked at first, and again when they are set or a
+/// feature near them changes. The call looks at up to `most` of the unchecked, lowest ids first. Numbers: how
+/// many are left, how many were looked at, their ids, then every VIOLATION that one of these has a part in,
+/// but for those with an unchecked one, which come when its turn does. A caller who drops the violations of
+/// what was set, erased and looked at, and adds these, has those of lekalo_check once nothing is left.
 /// \return how many VIOLATIONs there are
 LEKALO_EXPORT(lekalo_check_some)
 std::int32_t lekalo_check_some(std::int32_t handle, std::uint32_t most);
 
 /// Plans a command line (`bytes` of input) without carrying it out. Numbers: the next id after it, then a
-/// PLACEMENT for each that changes; its part is -1 where it goes. Text: the list "features" of change messages,
-/// or nothing where no defect or zone changes.
-/// \return 1, or 0 when nothing would change
+/// PLACEMENT for each that changes; its part is -1 where it goes. Text: the list "features" of change
+/// messages, or nothing where no defect or zone changes. \return 1, or 0 when nothing would change
 LEKALO_EXPORT(lekalo_plan)
 std::int32_t lekalo_plan(std::int32_t handle, std::uint32_t bytes, std::int32_t strict);
 
@@ -110,9 +110,9 @@ std::int32_t lekalo_fits_where(std::int32_t handle, double part, double stock, d
 
 /// Numbers: all PLACEMENTs, ascending by id.
 LEKALO_EXPORT(lekalo_placements) std::int32_t lekalo_placements(std::int32_t handle);
-/// Gives an outline in its own frame, not placed. Numbers: the count of its loops, the index of the point with
-/// which each begins, the number of points, then x and y of every point.
-/// \param kind  0 part `a`, 1 stock `a`, 2 defect `b` of stock `a`, 3 zone `b` of stock `a`, 4 area `b` of
+/// Gives an outline in its own frame, not placed. Numbers: the count of its loops, the index of the point
+/// with which each begins, the number of points, then x and y of every point. \param kind  0 part `a`, 1
+/// stock `a`, 2 defect `b` of stock `a`, 3 zone `b` of stock `a`, 4 area `b` of
 ///              part `a`
 LEKALO_EXPORT(lekalo_outline)
 std::int32_t lekalo_outline(std::int32_t handle, std::int32_t kind, double a, double b);

@@ -147,7 +147,8 @@ void drag(std::int32_t handle, const Workspace& workspace, Random& random) {
   const auto violations = workspace.violations_of(moved);
   require(numbers.size() == kNearestSize + kViolationSize * violations.size(), "how many violations");
   for (std::size_t i = 0; i < violations.size(); ++i)
-    require(same(violations[i], std::span(numbers).subspan(kNearestSize + kViolationSize * i)), "a violation");
+    require(same(violations[i], std::span(numbers).subspan(kNearestSize + kViolationSize * i)),
+            "a violation");
   if (random.below(3) == 0)
     CALL(lekalo_state, bytes_of(ids), handle, count, dx, dy, random.uniform(-180, 180), 25, 1);
   require(CALL(lekalo_state, bytes_of(ids), handle, count, dx, dy, 0, 0, 0) == level, "without depths");
@@ -224,7 +225,8 @@ void session(std::size_t index) {
     if (step % 20 == 3) {
       CALL(lekalo_fits_where, "", handle, 0, 0, 0, 3, -1);
       std::vector<double> found = answer();
-      if (!found.empty()) CALL(lekalo_state_of, bytes_of(std::span(found).first(kPlacementSize)), handle, 1, 10, 1);
+      if (!found.empty())
+        CALL(lekalo_state_of, bytes_of(std::span(found).first(kPlacementSize)), handle, 1, 10, 1);
     }
   }
   CALL(lekalo_close, "", handle);
