@@ -67,10 +67,11 @@ std::int32_t lekalo_violations_with(std::int32_t handle, double stock, std::int3
 
 /// Tells what would be so if these `count` placements (input: ids) were turned about the middle of their box
 /// by `degrees` and then moved by (dx, dy). Numbers: the NEAREST, then every VIOLATION in the order of
-/// check(). \param depths  0: amounts and directions of overlap, outside, defect and quality are left out,
-/// which makes
-///                the call quick enough for every move of a hand (layout::Depths)
-/// \return 0 clear, 1 closer than a gap, 2 forbidden otherwise
+/// check().
+///
+/// \param depths  0: amounts and directions of overlap, outside, defect and quality are left out. That makes
+///                the call quick enough for every move of a hand (layout::Depths).
+/// \return        0 clear, 1 closer than a gap, 2 forbidden otherwise
 LEKALO_EXPORT(lekalo_state)
 std::int32_t lekalo_state(std::int32_t handle, std::uint32_t count, double dx, double dy, double degrees,
                           double reach, std::int32_t depths);
@@ -91,7 +92,9 @@ std::int32_t lekalo_check_some(std::int32_t handle, std::uint32_t most);
 
 /// Plans a command line (`bytes` of input) without carrying it out. Numbers: the next id after it, then a
 /// PLACEMENT for each that changes; its part is -1 where it goes. Text: the list "features" of change
-/// messages, or nothing where no defect or zone changes. \return 1, or 0 when nothing would change
+/// messages, or nothing where no defect or zone changes.
+///
+/// \return  1, or 0 when nothing would change
 LEKALO_EXPORT(lekalo_plan)
 std::int32_t lekalo_plan(std::int32_t handle, std::uint32_t bytes, std::int32_t strict);
 
@@ -111,8 +114,9 @@ std::int32_t lekalo_fits_where(std::int32_t handle, double part, double stock, d
 /// Numbers: all PLACEMENTs, ascending by id.
 LEKALO_EXPORT(lekalo_placements) std::int32_t lekalo_placements(std::int32_t handle);
 /// Gives an outline in its own frame, not placed. Numbers: the count of its loops, the index of the point
-/// with which each begins, the number of points, then x and y of every point. \param kind  0 part `a`, 1
-/// stock `a`, 2 defect `b` of stock `a`, 3 zone `b` of stock `a`, 4 area `b` of
+/// with which each begins, the number of points, then x and y of every point.
+///
+/// \param kind  0 part `a`, 1 stock `a`, 2 defect `b` of stock `a`, 3 zone `b` of stock `a`, 4 area `b` of
 ///              part `a`
 LEKALO_EXPORT(lekalo_outline)
 std::int32_t lekalo_outline(std::int32_t handle, std::int32_t kind, double a, double b);
