@@ -4,7 +4,7 @@
 import { isGap, type Placement, type Violation } from '../layout/document';
 import { h } from '../html/elements';
 import { t, type Key } from '../i18n';
-import { boxesMeet, type Model } from '../layout/model';
+import { boxesMeet, placedAt, type Model } from '../layout/model';
 import type { View } from './view';
 
 /**
@@ -77,14 +77,7 @@ export class Mirror {
       if (wanted.size === MOST) break;
       const sheet = model.sheet(p.stock, p.copy);
       const b = model.box(p);
-      if (
-        sheet &&
-        boxesMeet(
-          { left: b.left + sheet.x, right: b.right + sheet.x, bottom: b.bottom + sheet.y, top: b.top + sheet.y },
-          seen,
-        )
-      )
-        take(p);
+      if (sheet && boxesMeet(placedAt(b, sheet), seen)) take(p);
     }
     return wanted;
   }

@@ -5,7 +5,7 @@ import { LIGHT } from './scene';
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';
 import { t } from '../i18n';
-import type { Sheet } from '../layout/model';
+import { placedAt, type Sheet } from '../layout/model';
 import { View } from './view';
 
 /** A page is so many pixels wide, 0.25 mm each on A4, and each is painted as FINE x FINE. */
@@ -60,10 +60,7 @@ function picture(editor: Editor, sheet: Sheet): HTMLCanvasElement {
   const scale = (ACROSS - 2 * MARGIN) / (box.right - box.left);
   const drawing = new Picture(canvas, h('canvas', {}));
   drawing.resize(view, ACROSS, Math.min(4 * ACROSS, (box.top - box.bottom) * scale + 2 * MARGIN), FINE);
-  view.fit(
-    { left: box.left + sheet.x, right: box.right + sheet.x, bottom: box.bottom + sheet.y, top: box.top + sheet.y },
-    MARGIN,
-  );
+  view.fit(placedAt(box, sheet), MARGIN);
   drawing.backdrop.draw({
     model: editor.model,
     view,

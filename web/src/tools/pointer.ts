@@ -4,7 +4,7 @@ import * as line from '../layout/commands';
 import type { Placement, Point } from '../layout/document';
 import { movedBy, type Editor, type Tool } from '../editor/editor';
 import { FeatureTool } from './features';
-import { boxesMeet, boxOf, contains, placedLoops, type Box, type Sheet } from '../layout/model';
+import { boxesMeet, boxOf, contains, placedAt, placedLoops, type Box, type Sheet } from '../layout/model';
 import type { View } from '../picture/view';
 
 export interface Overlay {
@@ -394,10 +394,7 @@ export class PointerTool {
         const sheet = this.editor.model.sheet(p.stock, p.copy);
         if (!sheet) return false;
         const b = this.editor.model.box(p);
-        return boxesMeet(
-          { left: b.left + sheet.x, right: b.right + sheet.x, bottom: b.bottom + sheet.y, top: b.top + sheet.y },
-          band,
-        );
+        return boxesMeet(placedAt(b, sheet), band);
       });
       this.editor.select([...(e.shiftKey ? this.editor.selection : []), ...inside.map((p) => p.id)]);
     }
