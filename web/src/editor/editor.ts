@@ -13,17 +13,7 @@ import { Transfer, type Answer } from '../work/transfer';
 
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
 export type Topic =
-  | 'layout'
-  | 'selection'
-  | 'moving'
-  | 'mode'
-  | 'connection'
-  | 'message'
-  | 'show'
-  | 'photo'
-  | 'long'
-  | 'check'
-  | 'transfer';
+  'layout' | 'selection' | 'moving' | 'mode' | 'connection' | 'message' | 'photo' | 'long' | 'check' | 'transfer';
 export interface Feature {
   stock: string;
   kind: 'defect' | 'zone';

@@ -33,43 +33,69 @@ const FORMS: readonly [string, string][] = [
   ['png', 'PNG'],
 ];
 
+const button = (label: Key, run: () => void, pressed?: boolean): HTMLButtonElement =>
+  h(
+    'button',
+    {
+      class: 'icon',
+      title: t(label),
+      'aria-label': t(label),
+      'aria-pressed': pressed === undefined ? undefined : String(pressed),
+      'data-action': label,
+      click: run,
+    },
+    icon(label),
+  );
+const space = (): HTMLElement => h('span', { class: 'gap' });
+/** A line of a menu; a choice closes the menu. */
+const item = (name: string, text: string, run: () => void): HTMLButtonElement => {
+  const click = (e: Event): void => {
+    (e.currentTarget as HTMLElement).closest('details')!.open = false;
+    run();
+  };
+  return h('button', { 'data-action': name, click }, text);
+};
+
+type Layouts = readonly { id: number; name: string }[];
+
+/** Shows the bar and the tools anew. */
 export function showBar(
   bar: HTMLElement,
   tools: HTMLElement,
   editor: Editor,
-  layouts: readonly { id: number; name: string }[],
+  layouts: Layouts,
   events: BarEvents,
 ): void {
-  const button = (label: Key, run: () => void, pressed?: boolean): HTMLButtonElement =>
+  // The buttons are new: the focus goes back to the one that had it.
+  const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
+  bar.replaceChildren(
+    files(editor, layouts, events),
+    commands(editor),
+    h('span', { class: 'push' }),
     h(
-      'button',
-      {
-        class: 'icon',
-        title: t(label),
-        'aria-label': t(label),
-        'aria-pressed': pressed === undefined ? undefined : String(pressed),
-        'data-action': label,
-        click: run,
-      },
-      icon(label),
-    );
-  const action = (name: Action): HTMLButtonElement => button(name, () => void act(editor, name));
-  const tool = (name: Tool): HTMLButtonElement =>
-    button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name);
-  const space = (): HTMLElement => h('span', { class: 'gap' });
-  const item = (name: string, text: string, run: () => void): HTMLButtonElement =>
-    h(
-      'button',
-      {
-        'data-action': name,
-        click: (e) => {
-          (e.currentTarget as HTMLElement).closest('details')!.open = false;
-          run();
-        },
-      },
-      text,
-    );
+      'span',
+      { class: 'ends' },
+      button('fit', events.fit),
+      viewMenu(editor, events),
+      exportMenu(events),
+      h(
+        'button',
+        { 'aria-label': t('language'), 'data-action': 'language', click: events.language },
+        currentLanguage() === 'en' ? 'УКР' : 'ENG',
+      ),
+      button('help', events.help),
+    ),
+  );
+  const names: Tool[] = ['select', 'slide', 'push', 'nearest', 'measure', 'pan', 'defect', 'zone'];
+  if (editor.photos.size > 0) names.push('photo');
+  tools.setAttribute('aria-label', t('tools'));
+  tools.replaceChildren(
+    ...names.map((name) => button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name)),
+  );
+  if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
+}
 
+function files(editor: Editor, layouts: Layouts, events: BarEvents): HTMLElement {
   const choice = h(
     'select',
     {
@@ -86,6 +112,32 @@ export function showBar(
     'aria-label': t('open.file'),
     change: (e) => events.takeFiles((e.target as HTMLInputElement).files),
   });
+  return h(
+    'span',
+    { class: 'files' },
+    h('span', { class: 'brand' }, 'lekalo'),
+    choice,
+    button('open.file', () => file.click()),
+    file,
+    button('copy.layout', events.copyLayout),
+    button('name.layout', events.nameLayout),
+  );
+}
+
+function commands(editor: Editor): HTMLElement {
+  const actions = (...names: Action[]): HTMLButtonElement[] =>
+    names.map((name) => button(name, () => void act(editor, name)));
+  const modes = (['strict', 'free'] as const).map((mode) =>
+    h(
+      'button',
+      {
+        'aria-pressed': String(editor.mode === mode),
+        'data-action': `mode.${mode}`,
+        click: () => editor.setMode(mode),
+      },
+      t(mode),
+    ),
+  );
   const step = h('input', {
     type: 'number',
     class: 'step',
@@ -101,24 +153,35 @@ export function showBar(
       if (value > 0 && value <= 180) editor.rotateStep = value;
     },
   });
-  const shown = (['labels', 'grain', 'gap', 'zones'] as const).map((k) =>
-    h(
-      'label',
-      {},
-      h('input', {
-        type: 'checkbox',
-        checked: editor.show[k],
-        'data-action': `show.${k}`,
-        change: (e) => {
-          editor.show[k] = (e.target as HTMLInputElement).checked;
-          editor.tell('moving'); // 'show' would make the bar anew and close the menu
-          editor.tell('selection');
-        },
-      }),
-      t(k),
-    ),
+  return h(
+    'span',
+    { class: 'commands' },
+    space(),
+    h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...modes),
+    space(),
+    ...actions('undo', 'redo'),
+    space(),
+    ...actions('rotate.left'),
+    step,
+    ...actions('rotate.right', 'flip'),
+    space(),
+    ...actions('slide.left', 'slide.right', 'slide.up', 'slide.down', 'settle', 'snap', 'compact', 'nest'),
+    space(),
+    ...actions('lock', 'swap', 'copy', 'remove'),
   );
+}
 
+function viewMenu(editor: Editor, events: BarEvents): HTMLElement {
+  const shown = (['labels', 'grain', 'gap', 'zones'] as const).map((name) => {
+    const change = (e: Event): void => {
+      editor.show[name] = (e.target as HTMLInputElement).checked;
+      // The picture is painted anew; the bar stays, as its menu is open.
+      editor.tell('moving');
+      editor.tell('selection');
+    };
+    const box = h('input', { type: 'checkbox', checked: editor.show[name], 'data-action': `show.${name}`, change });
+    return h('label', {}, box, t(name));
+  });
   const picked = h('input', {
     type: 'file',
     accept: 'image/*',
@@ -130,98 +193,24 @@ export function showBar(
       if (file) events.photo(file);
     },
   });
-  // The buttons are new: the focus goes back to the one that had it.
-  const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
-  bar.replaceChildren(
-    h(
-      'span',
-      { class: 'files' },
-      h('span', { class: 'brand' }, 'lekalo'),
-      choice,
-      button('open.file', () => file.click()),
-      file,
-      button('copy.layout', events.copyLayout),
-      button('name.layout', events.nameLayout),
-    ),
-    h(
-      'span',
-      { class: 'commands' },
-      space(),
-      h(
-        'span',
-        { class: 'segment', role: 'group', title: t('mode.hint') },
-        ...(['strict', 'free'] as const).map((m) =>
-          h(
-            'button',
-            { 'aria-pressed': String(editor.mode === m), 'data-action': `mode.${m}`, click: () => editor.setMode(m) },
-            t(m),
-          ),
-        ),
-      ),
-      space(),
-      action('undo'),
-      action('redo'),
-      space(),
-      action('rotate.left'),
-      step,
-      action('rotate.right'),
-      action('flip'),
-      space(),
-      action('slide.left'),
-      action('slide.right'),
-      action('slide.up'),
-      action('slide.down'),
-      action('settle'),
-      action('snap'),
-      action('compact'),
-      action('nest'),
-      space(),
-      action('lock'),
-      action('swap'),
-      action('copy'),
-      action('remove'),
-    ),
-    h('span', { class: 'push' }),
-    h(
-      'span',
-      { class: 'ends' },
-      button('fit', events.fit),
-      menu(
-        'view',
-        t('view'),
-        ...shown,
-        picked,
-        item('photo', t('photo'), () => picked.click()),
-        item('theme', t('theme'), events.theme),
-      ),
-      menu(
-        'export',
-        t('export'),
-        ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))),
-        ...(Object.keys(CHOICES) as ChosenForm[]).map((form) =>
-          item(`export.${form}`, `${CHOICES[form].name}…`, () => events.choose(form)),
-        ),
-        item('print', t('print'), events.print),
-      ),
-      h(
-        'button',
-        { 'aria-label': t('language'), 'data-action': 'language', click: events.language },
-        currentLanguage() === 'en' ? 'УКР' : 'ENG',
-      ),
-      button('help', events.help),
-    ),
+  return menu(
+    'view',
+    t('view'),
+    ...shown,
+    picked,
+    item('photo', t('photo'), () => picked.click()),
+    item('theme', t('theme'), events.theme),
   );
-  tools.setAttribute('aria-label', t('tools'));
-  tools.replaceChildren(
-    tool('select'),
-    tool('slide'),
-    tool('push'),
-    tool('nearest'),
-    tool('measure'),
-    tool('pan'),
-    tool('defect'),
-    tool('zone'),
-    ...(editor.photos.size > 0 ? [tool('photo')] : []),
+}
+
+function exportMenu(events: BarEvents): HTMLElement {
+  return menu(
+    'export',
+    t('export'),
+    ...FORMS.map(([form, name]) => item(`export.${form}`, name, () => events.save(form))),
+    ...(Object.keys(CHOICES) as ChosenForm[]).map((form) =>
+      item(`export.${form}`, `${CHOICES[form].name}…`, () => events.choose(form)),
+    ),
+    item('print', t('print'), events.print),
   );
-  if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
 }

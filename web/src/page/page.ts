@@ -87,7 +87,7 @@ export class Page {
     if (topic === 'check' || topic === 'transfer') return;
     if (topic === 'long' || (topic === 'moving' && wasMoving === isMoving)) pane.later('top');
     else if (topic !== 'message' && topic !== 'connection') pane.later('all');
-    if (topic === 'mode' || topic === 'show' || (topic === 'photo' && this.offersPhotoTool())) this.showBar();
+    if (topic === 'mode' || (topic === 'photo' && this.offersPhotoTool())) this.showBar();
     if (topic === 'layout' || topic === 'selection' || (topic === 'photo' && this.listsPhotosAtRest())) {
       this.showPanelsLater(topic);
     }
