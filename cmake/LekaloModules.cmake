@@ -16,7 +16,7 @@ target_compile_options(lekalo_options INTERFACE
 # among them are the arrows of ARCHITECTURE.md; there is no other list of them.
 function(lekalo_module NAME)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${NAME}/*.cpp)
   if(NOT sources)
     set(sources ${PROJECT_BINARY_DIR}/empty_${NAME}.cpp)
     file(CONFIGURE OUTPUT ${sources} CONTENT "")
@@ -27,6 +27,7 @@ function(lekalo_module NAME)
   target_include_directories(lekalo_${NAME} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(lekalo_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_features(lekalo_${NAME} PUBLIC cxx_std_20)
   target_link_libraries(lekalo_${NAME}
     PUBLIC ${ARG_PUBLIC}

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "lekalo/phi/outline_relation.hpp"
-#include "nest/convex_pieces.hpp"
-#include "nest/nofit.hpp"
+#include "nest/table/convex_pieces.hpp"
+#include "nest/table/nofit.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 

@@ -7,8 +7,8 @@
 #include "lekalo/io/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
-#include "nest/builder.hpp"
-#include "nest/settle.hpp"
+#include "nest/exact/builder.hpp"
+#include "nest/exact/settle.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 

@@ -1,9 +1,9 @@
-#include "nest/settle.hpp"
+#include "nest/exact/settle.hpp"
 
 #include <gtest/gtest.h>
 
 #include "lekalo/layout/check.hpp"
-#include "nest/builder.hpp"
+#include "nest/exact/builder.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::nest {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nofit.hpp"
+#include "nest/table/nofit.hpp"
 
 namespace lekalo::nest {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "separator.hpp"
+#include "nest/separator/separator.hpp"
 
 namespace lekalo::nest {
 

@@ -1,4 +1,4 @@
-#include "lattice.hpp"
+#include "lattice_unit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "attempt.hpp"
-#include "merit.hpp"
-#include "separator.hpp"
+#include "nest/moves/attempt.hpp"
+#include "nest/moves/merit.hpp"
+#include "nest/separator/separator.hpp"
 
 namespace lekalo::nest {
 

@@ -9,12 +9,12 @@
 #include <memory>
 #include <thread>
 
-#include "builder.hpp"
-#include "lane.hpp"
 #include "lekalo/layout/check.hpp"
-#include "reason.hpp"
-#include "settle.hpp"
-#include "sheet_lane.hpp"
+#include "nest/exact/builder.hpp"
+#include "nest/exact/reason.hpp"
+#include "nest/exact/settle.hpp"
+#include "nest/strand/lane.hpp"
+#include "nest/strand/sheet_lane.hpp"
 
 namespace lekalo::nest {
 namespace {
@@ -458,7 +458,7 @@ class Run {
   const RunControl& control_;
   std::vector<std::unique_ptr<Strand>> lanes_;
   std::vector<Begun> begun_;
-  std::vector<int> alone_;      ///< merges since a strand gained or led
+  std::vector<int> alone_;     ///< merges since a strand gained or led
   std::vector<Merit> merits_;  ///< of the strands at the last merge
   Merit merit_;
   State state_;  ///< what best_ shows, on the grid

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "lekalo/nest/nest.hpp"
-#include "problem.hpp"
+#include "nest/table/problem.hpp"
 
 namespace lekalo::nest {
 

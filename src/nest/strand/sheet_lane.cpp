@@ -5,8 +5,8 @@
 #include <numeric>
 #include <set>
 
-#include "builder.hpp"
 #include "lekalo/layout/completeness.hpp"
+#include "nest/exact/builder.hpp"
 
 namespace lekalo::nest {
 namespace {

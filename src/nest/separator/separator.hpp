@@ -12,7 +12,7 @@
 #include "cost_sums.hpp"
 #include "lekalo/base/random.hpp"
 #include "neighbour_grid.hpp"
-#include "problem.hpp"
+#include "nest/table/problem.hpp"
 
 namespace lekalo::nest {
 

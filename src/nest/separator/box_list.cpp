@@ -35,8 +35,8 @@ void BoxList::set(std::uint32_t item, std::uint32_t bin, const Box& box) noexcep
 
 void BoxList::find(std::uint32_t bin, const Box& box, std::vector<std::uint32_t>& into) {
   const std::size_t items = bins_.size();
-  mark(x0_.data(), y0_.data(), x1_.data(), y1_.data(), bins_.data(), items, bin, below(box.x0),
-       below(box.y0), above(box.x1), above(box.y1), meets_.data());
+  mark(x0_.data(), y0_.data(), x1_.data(), y1_.data(), bins_.data(), items, bin, below(box.x0), below(box.y0),
+       above(box.x1), above(box.y1), meets_.data());
   into.resize(items);
   std::size_t count = 0;
   for (std::size_t i = 0; i < items; ++i) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lattice.hpp"
+#include "nest/separator/lattice_unit.hpp"
 
 namespace lekalo::nest {
 namespace {

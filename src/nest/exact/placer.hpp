@@ -6,7 +6,7 @@
 
 #include "lekalo/base/random.hpp"
 #include "lekalo/phi/scene.hpp"
-#include "separator.hpp"
+#include "nest/separator/separator.hpp"
 
 namespace lekalo::nest {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "problem.hpp"
+#include "nest/table/problem.hpp"
 
 namespace lekalo::nest {
 

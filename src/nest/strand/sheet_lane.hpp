@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "attempt.hpp"
-#include "merit.hpp"
-#include "separator.hpp"
+#include "nest/moves/attempt.hpp"
+#include "nest/moves/merit.hpp"
+#include "nest/separator/separator.hpp"
 
 namespace lekalo::nest {
 
