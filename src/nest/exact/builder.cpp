@@ -7,9 +7,6 @@
 namespace lekalo::nest {
 namespace {
 
-/// Places tried of one piece on one stock: so many of all pieces together, within limits.
-constexpr std::size_t kTries = 2'000'000, kLeastTries = 200, kMostTries = 10'000;
-
 /// Cheap stock first, large of equals.
 std::vector<std::uint32_t> cheapest_first(const Problem& problem) {
   const auto& bins = problem.bins();
@@ -54,13 +51,13 @@ State empty_state(const Problem& problem, const Items& items) {
 State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
             const std::vector<std::uint32_t>& order, const std::function<bool()>& enough) {
   const auto& bins = problem.bins();
-  const bool strip = bins.size() == 1 && bins[0].open;
+  const bool strip = problem.is_strip();
   double widest = 0;
   for (const Forms& forms : items.forms)
     for (std::uint32_t f = forms.first; f < forms.last; ++f)
       widest = std::max(widest, problem.forms()[f].box.x1 - problem.forms()[f].box.x0);
-  const std::size_t tries =
-      std::clamp(kTries / std::max<std::size_t>(1, items.movable()), kLeastTries, kMostTries);
+  const std::size_t tries = std::clamp(tuning::kBuildTries / std::max<std::size_t>(1, items.movable()),
+                                       tuning::kLeastBuildTries, tuning::kMostBuildTries);
   State state = from;
   if (strip) {
     double end = std::max(bins[0].locked_reach, bins[0].box.x0), area = 0;
@@ -114,7 +111,7 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
       tried.push_back(bins[bin].stock);
       if (!placer.can_hold(bin, i)) continue;
       placer.open_bin(bin);
-      placed = placer.place_low(i, bin, kMostTries);
+      placed = placer.place_low(i, bin, tuning::kMostBuildTries);
       if (!placed) placer.close_bin(bin);
     }
     if (!placed && alike) hopeless.push_back(items.forms[i]);

@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::uint32_t kPart = 1, kBorder = 2, kDefect = 4, kZone = 8;  ///< layers of a scene
 constexpr phi::ShapeIndex kNone = ~phi::ShapeIndex{0};
-/// How much less far right a place further down may be to count as much.
-constexpr double kDown = 0.05;
-/// Steps of sliding left and down, as shares of the item's narrow side.
-constexpr double kFirstSlide = 0.5, kLastSlide = 1e-4;
 
 std::int64_t in_steps(double mm) { return std::llround(mm * static_cast<double>(geom::kGridPerMm)); }
 
@@ -163,7 +159,7 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;
     const geom::GridBox& box = in.scene.box(in.shapes[form]);
     const auto cost_of = [&](geom::GridPoint at) {
-      return static_cast<double>(at.x + box.high.x) + kDown * static_cast<double>(at.y + box.high.y);
+      return static_cast<double>(at.x + box.high.x) + tuning::kDown * static_cast<double>(at.y + box.high.y);
     };
     if (has_partner) {
       const Spot& other = state_.spots[partner];
@@ -186,7 +182,7 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
     at.y = between(r.y0, r.y1);
     if (cost_of(at) >= best_cost || !is_free(i, form, bin, at)) continue;
     const auto side = static_cast<double>(std::min(box.high.x - box.low.x, box.high.y - box.low.y));
-    for (double step = kFirstSlide * side; step > kLastSlide * side && step >= 1;) {
+    for (double step = tuning::kFirstSlide * side; step > tuning::kLastSlide * side && step >= 1;) {
       bool moved = false;
       for (const bool left : {true, false}) {
         geom::GridPoint to = at;

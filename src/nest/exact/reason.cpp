@@ -7,8 +7,6 @@
 namespace lekalo::nest {
 namespace {
 
-constexpr std::size_t kTries = 4000;
-
 /// Whether a place was found on stock with nothing on it but what counts.
 bool has_place(const Problem& problem, std::uint32_t part, Placer::Counts counts) {
   const auto& bins = problem.bins();
@@ -19,7 +17,7 @@ bool has_place(const Problem& problem, std::uint32_t part, Placer::Counts counts
   placer.load(empty_state(problem, items));
   for (std::uint32_t b = 0; b < bins.size(); ++b) {
     const bool is_first = b == 0 || bins[b].stock != bins[b - 1].stock;
-    if (is_first && placer.can_hold(b, 0) && placer.place_low(0, b, kTries)) return true;
+    if (is_first && placer.can_hold(b, 0) && placer.place_low(0, b, tuning::kReasonTries)) return true;
   }
   return false;
 }

@@ -1,15 +1,12 @@
 #pragma once
 
 #include "nest/separator/separator.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 
-/// How long an attempt goes on: passes without 2 % less overlap that are a strike, and strikes that end it.
-struct Patience {
-  int passes, strikes;
-};
-
-/// One attempt to end all overlaps: the least there was, and whether it is worth going on.
+/// One attempt to end all overlaps: it remembers the state with the least overlap and says whether it is
+/// worth going on.
 class Attempt {
  public:
   enum class Next { on, from_least, stuck };

@@ -8,7 +8,6 @@
 namespace lekalo::nest {
 namespace {
 
-constexpr double kMostNodes = 16e6;        ///< of all rasters
 constexpr float kCostsPerUnit = 1u << 14;  ///< costs are multiples of one over this
 
 constexpr std::uint32_t kBlock = CostGrid::kBlock;
@@ -77,14 +76,14 @@ Box CostGrid::shifts(const Form& fixed, const Form& moved) const {
 
 bool CostGrid::pays(const Problem& problem, double pitch, bool parts_only) {
   const auto& forms = problem.forms();
-  if (forms.size() > 4000) return false;
+  if (forms.size() > tuning::kMostRasterForms) return false;
   double sum_w = 0, sum_h = 0;
   for (const Form& f : forms) {
     if (parts_only && problem.kind_of(f) != SearchShape::Kind::part) continue;
     sum_w += (f.box.x1 - f.box.x0) / pitch + 1;
     sum_h += (f.box.y1 - f.box.y0) / pitch + 1;
   }
-  return 4 * sum_w * sum_h <= kMostNodes;
+  return 4 * sum_w * sum_h <= tuning::kMostRasterNodes;
 }
 
 CostGrid::CostGrid(const Problem& problem, double pitch, PairCost cost)
@@ -109,7 +108,7 @@ const CostGrid::Raster& CostGrid::raster(std::uint32_t fixed, std::uint32_t move
       made.values[std::size_t{r} * made.stride + c] =
           rounded(cost_(a, b, (made.column + static_cast<std::int32_t>(c)) * pitch_,
                         (made.row + static_cast<std::int32_t>(r)) * pitch_));
-  added_ += std::uint64_t{made.columns} * made.rows * 128;
+  added_ += std::uint64_t{made.columns} * made.rows * tuning::kMadeNode;
   return made;
 }
 
@@ -120,7 +119,7 @@ void CostGrid::add_obstacles(NodeGrid& to, const std::vector<Obstacle>& obstacle
       for (std::uint32_t c = 0; c < to.columns; ++c)
         to.sums[std::size_t{r} * to.stride + c] += rounded(
             cost_(problem_.forms()[o.form], form, to.x0 + c * pitch_ - o.x, to.y0 + r * pitch_ - o.y));
-  added_ += std::uint64_t{to.columns} * to.rows * obstacles.size() * 128;
+  added_ += std::uint64_t{to.columns} * to.rows * obstacles.size() * tuning::kMadeNode;
 }
 
 void CostGrid::add(NodeGrid& to, std::uint32_t fixed, std::uint32_t moved, double x, double y, float weight) {

@@ -7,11 +7,6 @@
 #include "lekalo/layout/check.hpp"
 
 namespace lekalo::nest {
-namespace {
-
-constexpr double kFewest = 100, kMost = 20'000;  ///< places on a bin
-
-}  // namespace
 
 double lattice_unit(const Problem& problem, const Items& items) {
   if (!items.fixed.empty()) return 0;
@@ -33,7 +28,7 @@ double lattice_unit(const Problem& problem, const Items& items) {
     const double length =
         bin.open ? std::min(bin.box.x1 - bin.box.x0, 1.5 * area / height) : bin.box.x1 - bin.box.x0;
     const double places = height * length / (unit * unit);
-    if (!(places >= kFewest && places <= kMost)) return 0;
+    if (!(places >= tuning::kFewestLatticePlaces && places <= tuning::kMostLatticePlaces)) return 0;
   }
   return unit;
 }

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nest/tuning.hpp"
+
 namespace lekalo::nest {
-namespace {
-
-/// Of one bin: a strip of open length has cells up to here, and what lies beyond shares the last ones.
-constexpr double kMostCells = 100'000;
-
-}  // namespace
 
 NeighbourGrid::NeighbourGrid(std::size_t items, std::vector<Box> bins, double cell)
     : per_mm_(1 / cell), items_(items) {
@@ -19,8 +15,8 @@ NeighbourGrid::NeighbourGrid(std::size_t items, std::vector<Box> bins, double ce
     const auto count = [&](double length, double most) {
       return static_cast<std::uint32_t>(std::clamp(std::ceil(length * per_mm_), 1.0, most));
     };
-    bin.rows = count(box.y1 - box.y0, std::sqrt(kMostCells));
-    bin.columns = count(box.x1 - box.x0, kMostCells / bin.rows);
+    bin.rows = count(box.y1 - box.y0, std::sqrt(tuning::kMostCells));
+    bin.columns = count(box.x1 - box.x0, tuning::kMostCells / bin.rows);
     bin.cells.resize(std::size_t{bin.columns} * bin.rows);
     bins_.push_back(std::move(bin));
   }

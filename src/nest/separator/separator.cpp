@@ -7,17 +7,6 @@ namespace lekalo::nest {
 
 namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// What an overlap costs at least, as a share of the middling part's size: many small ones are then not
-/// cheaper than one.
-constexpr double kLeastValue = 0.003;
-/// The depth of a long thin overlap says little: the root of its area counts beside it.
-constexpr double kAreaShare = 0.3;
-constexpr int kFocused = 10, kAnywhere = 40;  ///< candidate places of a move
-constexpr int kNear = 400;                    ///< places looked at around a point
-constexpr std::size_t kManyItems = 512;       ///< from which on neighbours are looked up in cells
-/// Steps as shares of the item's narrow side.
-constexpr double kFirstStep = 0.25, kCoarse = 0.02, kFine = 0.001;
-constexpr double kDecay = 0.95, kLeastGrowth = 1.2, kMostGrowth = 2.0;  ///< of weights
 }  // namespace
 
 Separator::Separator(const Problem& problem, const Items& items, Random random)
@@ -34,7 +23,7 @@ Separator::Separator(const Problem& problem, const Items& items, Random random)
   }
   size_.resize(total_, 1);
   for (const double size : size_) root_.push_back(std::sqrt(size));
-  if (total_ > kManyItems) {
+  if (total_ > tuning::kManyItems) {
     std::vector<Box> bins;
     for (const Bin& bin : problem_.bins()) bins.push_back(bin.box);
     cells_.emplace(total_, std::move(bins), unit_);
@@ -86,7 +75,7 @@ double Separator::value_of(std::size_t i, std::size_t j, double depth, double ar
 }
 
 double Separator::cost_of(double depth, double area) const noexcept {
-  return (depth + kAreaShare * std::sqrt(area)) / unit_ + kLeastValue;
+  return (depth + tuning::kAreaShare * std::sqrt(area)) / unit_ + tuning::kLeastValue;
 }
 
 double Separator::area_of(const Spot& a, const Spot& b) const {
@@ -209,7 +198,7 @@ void Separator::descend(std::size_t i, Candidate& best, double step, double unti
         break;
       }
     }
-    const double factor = better ? 1.1 : 0.5;
+    const double factor = better ? tuning::kStepGrowth : tuning::kStepShrink;
     if (axis == 0) {
       sx *= factor;
     } else if (axis == 1) {
@@ -232,7 +221,7 @@ void Separator::push_out(std::size_t i, Candidate& best) {
   const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
   Spot spot = best.spot;
   const Form& form = problem_.forms()[spot.form];
-  for (int round = 0; round < 12 && best.loss > 0; ++round) {
+  for (int round = 0; round < tuning::kPushRounds && best.loss > 0; ++round) {
     for (const std::uint32_t j : near_) {
       const Box& o = boxes_[j];
       if (o.x0 >= spot.x + form.box.x1 + problem_.widest_gap() ||
@@ -252,7 +241,7 @@ void Separator::push_out(std::size_t i, Candidate& best) {
     if (loss < best.loss) {
       best.loss = loss;
       best.spot = spot;
-    } else if (round >= 6) {
+    } else if (round >= tuning::kLeastPushRounds) {
       break;
     }
   }
@@ -287,7 +276,7 @@ void Separator::move(std::size_t i) {
   const Box& size = problem_.forms()[now.form].box;
   const double w = size.x1 - size.x0, h = size.y1 - size.y0;
   gather({now.x + size.x0 - w, now.y + size.y0 - h, now.x + size.x1 + w, now.y + size.y1 + h}, now.bin, i);
-  for (int k = 0; k < kFocused; ++k) {
+  for (int k = 0; k < tuning::kFocused; ++k) {
     Spot spot = now;
     spot.form = any_form();
     const Range r = range_of(spot.form, spot.bin, part);
@@ -307,11 +296,11 @@ void Separator::move(std::size_t i) {
     choose_on_grid(i, any_bin(), choice);
     choice.offer(best);
     for (std::size_t k = 0; k < choice.count; ++k) {
-      descend(i, choice.places[k], kFirstStep * scale, kCoarse * scale);
+      descend(i, choice.places[k], tuning::kFirstStep * scale, tuning::kCoarseStep * scale);
       offer(choice.places[k]);
     }
   } else {
-    for (int k = 0; k < kAnywhere; ++k) {
+    for (int k = 0; k < tuning::kAnywhere; ++k) {
       Spot spot;
       spot.form = any_form();
       spot.bin = any_bin();
@@ -321,9 +310,9 @@ void Separator::move(std::size_t i) {
       spot.y = random_.uniform(r.y0, r.y1);
       offer({spot, evaluate_all(i, spot, best.loss)});
     }
-    descend(i, best, kFirstStep * scale, kCoarse * scale);
+    descend(i, best, tuning::kFirstStep * scale, tuning::kCoarseStep * scale);
   }
-  descend(i, best, 0.5 * kCoarse * scale, kFine * scale);
+  descend(i, best, 0.5 * tuning::kCoarseStep * scale, tuning::kFineStep * scale);
   push_out(i, best);
   if (best.loss < current.loss) set_spot(i, best.spot);
 }
@@ -398,12 +387,13 @@ double Separator::pass() {
     most = std::max(most, c.depth);
   }
   std::erase_if(raised_, [&](std::size_t k) {
-    weights_[k] = std::max(1.0f, static_cast<float>(kDecay) * weights_[k]);
+    weights_[k] = std::max(1.0f, static_cast<float>(tuning::kDecay) * weights_[k]);
     return weights_[k] == 1.0f;
   });
   for (const Conflict& c : conflicts_) {
-    const float factor =
-        static_cast<float>((kLeastGrowth + (kMostGrowth - kLeastGrowth) * c.depth / most) / kDecay);
+    const float factor = static_cast<float>(
+        (tuning::kLeastGrowth + (tuning::kMostGrowth - tuning::kLeastGrowth) * c.depth / most) /
+        tuning::kDecay);
     const auto raise = [&](std::size_t i, std::size_t j) {
       float& w = weight(i, j);
       if (w == 1.0f) raised_.push_back(i * total_ + j);
@@ -438,7 +428,7 @@ double Separator::least_side(std::uint32_t bin, int axis) const {
 void Separator::put_anywhere(std::size_t i) {
   const std::uint32_t part = items_.parts[i];
   const Forms& forms = items_.forms[i];
-  for (int tries = 0; tries < 1000; ++tries) {
+  for (int tries = 0; tries < tuning::kPlaceTries; ++tries) {
     Spot spot;
     spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
     spot.bin = state_.open_bins[random_.below(state_.open_bins.size())];
@@ -453,7 +443,7 @@ void Separator::put_anywhere(std::size_t i) {
 void Separator::put_near(std::size_t i, std::uint32_t bin, geom::Point at) {
   const Forms& forms = items_.forms[i];
   Choice choice;
-  for (int k = 0; k < kNear; ++k) {
+  for (int k = 0; k < tuning::kNear; ++k) {
     Spot spot;
     spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
     spot.bin = bin;
@@ -467,7 +457,7 @@ void Separator::put_near(std::size_t i, std::uint32_t bin, geom::Point at) {
   }
   if (choice.count == 0) return put_anywhere(i);
   for (std::size_t k = 0; k < choice.count; ++k)
-    descend(i, choice.places[k], kFirstStep * min_dim_[i], kCoarse * min_dim_[i]);
+    descend(i, choice.places[k], tuning::kFirstStep * min_dim_[i], tuning::kCoarseStep * min_dim_[i]);
   const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.loss < b.loss; };
   set_spot(i, std::min_element(choice.places.begin(),
                                choice.places.begin() + static_cast<std::ptrdiff_t>(choice.count), cheaper)

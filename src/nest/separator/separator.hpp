@@ -67,6 +67,8 @@ class Separator {
   /// From now on every item lies at multiples of `unit` from the first corner of its bin, and moves to one of
   /// the cheapest of them all; 0: anywhere again. False where the tables of that would be too large.
   bool use_lattice(double unit);
+  /// mm; 0: items lie anywhere.
+  double lattice() const noexcept { return lattice_; }
   /// Puts every item on the lattice in use, valid or not.
   void to_lattice();
   /// Puts every item on the multiples of `unit` nearest to it; takes it back where that is not valid.

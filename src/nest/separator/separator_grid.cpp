@@ -4,18 +4,6 @@
 #include "separator.hpp"
 
 namespace lekalo::nest {
-namespace {
-
-/// The grid's pitch as a share of the middling part's size, the largest window, and forms looked at in a
-/// move.
-constexpr double kPitch = 1.0 / 16, kCoarsePitch = 1.0 / 8;
-constexpr std::uint32_t kMostRows = 256, kMostNodes = 20'000, kFormsOnGrid = 4;
-constexpr std::uint64_t kNodesAsPlace = 2000;  ///< nodes added up in the time of one place
-/// Of sums that are kept: of one form, and of all.
-constexpr std::uint32_t kMostKept = 80'000, kMostKeptInAll = 8'000'000;
-constexpr double kMostMerged = 8e6;  ///< nodes of what obstacles cost together
-
-}  // namespace
 
 bool Separator::make_grid(double pitch) {
   grid_.reset();
@@ -25,7 +13,7 @@ bool Separator::make_grid(double pitch) {
   for (const Bin& bin : problem_.bins())
     nodes += (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) / (pitch * pitch);
   const bool merged =
-      !items_.fixed.empty() && nodes * static_cast<double>(problem_.forms().size()) <= kMostMerged;
+      !items_.fixed.empty() && nodes * static_cast<double>(problem_.forms().size()) <= tuning::kMostMerged;
   if (!CostGrid::pays(problem_, pitch, merged)) return false;
   if (merged) fixed_costs_.resize(problem_.bins().size() * problem_.forms().size());
   std::vector<double> root_of_form(problem_.forms().size(), 1);
@@ -50,14 +38,14 @@ bool Separator::make_grid(double pitch) {
 bool Separator::sums_pay() const {
   const std::size_t forms = problem_.forms().size();
   double looked_at = 0;
-  for (const Forms& f : items_.forms) looked_at += std::min(f.last - f.first, kFormsOnGrid);
+  for (const Forms& f : items_.forms) looked_at += std::min(f.last - f.first, tuning::kFormsOnGrid);
   looked_at /= static_cast<double>(items_.movable());
   if (2.0 * static_cast<double>(forms) > looked_at * static_cast<double>(total_)) return false;
   double nodes = 0;
   for (const Bin& bin : problem_.bins())
-    nodes += std::min<double>(
-        kMostKept, (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) / (grid_->pitch() * grid_->pitch()));
-  return nodes * static_cast<double>(forms) <= kMostKeptInAll;
+    nodes += std::min<double>(tuning::kMostKept, (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) /
+                                                     (grid_->pitch() * grid_->pitch()));
+  return nodes * static_cast<double>(forms) <= tuning::kMostKeptInAll;
 }
 
 bool Separator::use_lattice(double unit) {
@@ -66,7 +54,7 @@ bool Separator::use_lattice(double unit) {
     lattice_ = unit;
     return true;
   }
-  if (!make_grid(kPitch * unit_)) make_grid(kCoarsePitch * unit_);
+  if (!make_grid(tuning::kPitch * unit_)) make_grid(tuning::kCoarsePitch * unit_);
   return unit == 0;
 }
 
@@ -114,7 +102,7 @@ void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, 
   const std::uint64_t before = grid_->added();
   const NodeGrid* fixed = fixed_costs(form, bin);
   const std::size_t rastered = fixed_costs_.empty() ? total_ : items_.movable();
-  if (sums_ && std::uint64_t{columns} * rows <= kMostKept) {
+  if (sums_ && std::uint64_t{columns} * rows <= tuning::kMostKept) {
     nodes_ = sums_->now(*grid_, form, bin, range.x0, range.y0, columns, rows,
                         std::span(state_.spots).first(rastered), fixed);
     add_raised(i, form, bin);
@@ -129,8 +117,8 @@ void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, 
       count = most;
       return skipped;
     };
-    const std::uint32_t row = cut(y0, rows, kMostRows);
-    const std::uint32_t column = cut(x0, columns, kMostNodes / rows);
+    const std::uint32_t row = cut(y0, rows, tuning::kMostRows);
+    const std::uint32_t column = cut(x0, columns, tuning::kMostWindow / rows);
     nodes_.begin(x0, y0, columns, rows);
     const Form& f = problem_.forms()[form];
     const double pitch = grid_->pitch();
@@ -142,7 +130,7 @@ void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, 
       if (j < rastered)
         grid_->add(nodes_, state_.spots[j].form, form, state_.spots[j].x, state_.spots[j].y, weights[j]);
   }
-  work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / kNodesAsPlace;
+  work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / tuning::kNodesAsPlace;
 }
 
 /// Of what everything on a bin costs, what item i pays for alone: its raised weights, and itself not at all.
@@ -185,7 +173,7 @@ void Separator::move_on_lattice(std::size_t i) {
 /// The deepest of the hollows of the cost over a bin, in all forms or some of many.
 void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice) {
   const Forms& forms = items_.forms[i];
-  const std::uint32_t count = forms.last - forms.first, tried = std::min(count, kFormsOnGrid);
+  const std::uint32_t count = forms.last - forms.first, tried = std::min(count, tuning::kFormsOnGrid);
   const double pitch = grid_->pitch();
   Choice rough;
   for (std::uint32_t k = 0; k < tried; ++k) {

@@ -5,13 +5,6 @@
 #include "separator.hpp"
 
 namespace lekalo::nest {
-namespace {
-
-constexpr double kMargin = 0.2;  ///< pairs whose boxes are so near may meet, in sizes of the middling part
-constexpr int kStalled = 20;     ///< rounds without 1 % less that end it
-constexpr std::uint64_t kPairsAsPlace = 8;
-
-}  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> Separator::close_pairs(double margin) const {
   std::vector<std::uint32_t> order;
@@ -40,10 +33,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Separator::close_pairs(doub
 bool Separator::relax(int rounds) {
   const std::vector<Spot> before = state_.spots;
   const double gap = problem_.widest_gap();
-  const auto pairs = close_pairs(gap + kMargin * unit_);
+  const auto pairs = close_pairs(gap + tuning::kCloseMargin * unit_);
   double first = 0, least = std::numeric_limits<double>::infinity();
   int stalled = 0;
-  for (int round = 0; round < rounds && stalled <= kStalled && !is_stopped(); ++round) {
+  for (int round = 0; round < rounds && stalled <= tuning::kStalledRounds && !is_stopped(); ++round) {
     double sum = 0;
     for (const auto& [i, j] : pairs) {
       const Box &a = boxes_[i], &b = boxes_[j];
@@ -68,7 +61,7 @@ bool Separator::relax(int rounds) {
       }
       shift(i, s, (share - 1) * by);
     }
-    work_ += pairs.size() / kPairsAsPlace + 1;
+    work_ += pairs.size() / tuning::kPairsAsPlace + 1;
     if (sum <= 0 && overlap() <= 0) return true;
     if (round == 0) first = sum;
     if (sum > 2 * first) break;

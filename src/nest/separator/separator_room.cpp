@@ -6,12 +6,8 @@
 namespace lekalo::nest {
 namespace {
 
-/// Steps of a slide, as shares of the item's narrow side.
-constexpr double kFirstSlide = 0.5, kLastSlide = 1e-3;
-/// Aslant: how far from the straight way.
+/// The cosine of 45 degrees, for the two ways aslant.
 constexpr double kAslant = 0.7071;
-/// A step that gets no further than this share of itself, as the border is in the way, is none.
-constexpr double kLeastGain = 0.1;
 
 }  // namespace
 
@@ -51,9 +47,9 @@ void Separator::make_room(std::uint32_t bin, geom::Point at) {
         way, geom::Point{kAslant * (way.x - way.y), kAslant * (way.x + way.y)},
         geom::Point{kAslant * (way.x + way.y), kAslant * (way.y - way.x)}};
     const Range r = range_of(spot.form, bin, items_.parts[i]);
-    double step = kFirstSlide * min_dim_[i];
+    double step = tuning::kFirstRoomSlide * min_dim_[i];
     double reach = 0, ax = spot.x, ay = spot.y;
-    while (step > kLastSlide * min_dim_[i]) {
+    while (step > tuning::kLastRoomSlide * min_dim_[i]) {
       if (std::hypot(spot.x - ax, spot.y - ay) + step > reach) {
         ax = spot.x;
         ay = spot.y;
@@ -66,7 +62,7 @@ void Separator::make_room(std::uint32_t bin, geom::Point at) {
         to.x = std::clamp(to.x + step * d.x, r.x0, std::max(r.x0, r.x1));
         to.y = std::clamp(to.y + step * d.y, r.y0, std::max(r.y0, r.y1));
         if ((to.x == spot.x && to.y == spot.y) || !is_free(i, to)) return false;
-        if ((to.x - spot.x) * way.x + (to.y - spot.y) * way.y < kLeastGain * step) return false;
+        if ((to.x - spot.x) * way.x + (to.y - spot.y) * way.y < tuning::kLeastSlideGain * step) return false;
         spot = to;
         return true;
       });

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "nest/tuning.hpp"
+
 namespace lekalo::nest {
 namespace {
 
 using geom::Point;
-
-constexpr double kAreaCell = 2;  ///< cells of the raster of depths along a side of one of areas
 
 struct Bounds {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -239,9 +239,9 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, cons
   for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<std::uint16_t>(k);
   if (!every.empty()) fill(0, 0, square, every);
   if (!with_areas) return;
-  area_columns_ = static_cast<std::uint32_t>(std::ceil(w * per_mm_ / kAreaCell)) + 1;
-  const auto area_rows = static_cast<std::uint32_t>(std::ceil(h * per_mm_ / kAreaCell)) + 1;
-  area_per_mm_ = per_mm_ / kAreaCell;
+  area_columns_ = static_cast<std::uint32_t>(std::ceil(w * per_mm_ / tuning::kAreaCell)) + 1;
+  const auto area_rows = static_cast<std::uint32_t>(std::ceil(h * per_mm_ / tuning::kAreaCell)) + 1;
+  area_per_mm_ = per_mm_ / tuning::kAreaCell;
   area_width_ = area_columns_;
   area_height_ = area_rows;
   areas_.assign(std::size_t{area_columns_ + 1} * (area_rows + 1), 0);

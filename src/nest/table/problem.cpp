@@ -17,15 +17,6 @@ namespace {
 using geom::GridRegion;
 using geom::Point;
 
-/// Outlines with more corners are simplified outwards by up to this share of their size; what is placed at
-/// the end are the outlines themselves.
-constexpr double kSimplify = 0.0005;
-constexpr std::size_t kEnoughCorners = 48;
-/// Angles of given placements beside the usual ones: every pair of angles may need a table.
-constexpr int kMostGivenAngles = 64;
-constexpr double kManyTables = 4000;
-constexpr std::size_t kStockCells = 4;  ///< so many times those of a pair of parts
-
 Shape shape_of(const GridRegion& region) {
   Shape shape;
   for (std::size_t l = 0; l < region.loops(); ++l) {
@@ -172,12 +163,12 @@ Problem::Problem(const layout::Document& document, const SearchOptions& options)
   // Where every table serves few looks, coarse ones: what decides validity is exact in any.
   const double parts = static_cast<double>(by_part_.size());
   const double tables = 0.5 * parts * parts * static_cast<double>(relative_count_);
-  cells_ = tables > kManyTables ? options_.cells / 4 : options_.cells;
+  cells_ = tables > tuning::kManyTables ? options_.cells / 4 : options_.cells;
 }
 
 void Problem::add_parts() {
   const layout::Document& document = *document_;
-  int given_left = kMostGivenAngles;
+  int given_left = tuning::kMostGivenAngles;
   std::vector<int> qualities;
   for (const layout::Stock& stock : document.stocks)
     for (const layout::QualityZone& zone : stock.zones) qualities.push_back(zone.quality);
@@ -223,7 +214,7 @@ void Problem::add_parts() {
       shape.part = p;
       shape.whole =
           shape_of(simplified(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
-                              kSimplify * std::sqrt(hull_areas_.back()), kEnoughCorners));
+                              tuning::kSimplify * std::sqrt(hull_areas_.back()), tuning::kEnoughCorners));
       for (const int quality : qualities)
         shape.demanding.emplace_back(quality, demanding_more(part, quality, mirrored == 1));
       shapes_.push_back(std::move(shape));
@@ -280,7 +271,8 @@ void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   }
   std::map<int, Shape> defects, zones;
   for (const layout::Defect& defect : stock.defects)
-    add(defects[defect.severity], shape_of(simplified(defect.outline.polygon, 0.1, kEnoughCorners)));
+    add(defects[defect.severity],
+        shape_of(simplified(defect.outline.polygon, tuning::kSimplifyDefect, tuning::kEnoughCorners)));
   for (const layout::QualityZone& zone : stock.zones)
     add(zones[zone.quality], shape_of(zone.outline.polygon));
   const auto put = [&](Kind kind, int level, Shape shape) {
@@ -515,7 +507,7 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
   const bool of_parts = p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part;
   // What belongs to the stock is as large as the stock.
   const Box window = p.kind == SearchShape::Kind::part ? Box{} : p.window;
-  const std::size_t cells = of_parts ? cells_ : kStockCells * cells_;
+  const std::size_t cells = of_parts ? cells_ : tuning::kStockCells * cells_;
   auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, cells, is_free, window, of_parts);
   const std::lock_guard lock(making_);
   Row* row = rows_[pair].load(std::memory_order_acquire);

@@ -10,6 +10,7 @@
 
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
+#include "nest/tuning.hpp"
 #include "nofit.hpp"
 
 namespace lekalo::nest {
@@ -68,8 +69,11 @@ struct SearchOptions {
   std::size_t angles_of_any = 24;  ///< of a part that may be turned anyhow
   /// Also the angles at which unlocked placements lie, as far as their parts may have them.
   bool given_angles = false;
-  std::size_t cells = 2048;  ///< of a raster
+  std::size_t cells = tuning::kRasterCells;  ///< of a raster
 };
+
+/// The only bin of a problem that is one strip.
+inline constexpr std::uint32_t kStrip = 0;
 
 class Problem {
  public:
@@ -85,6 +89,8 @@ class Problem {
   std::uint32_t part_of(const Form& form) const noexcept { return shapes_[form.shape].part; }
   SearchShape::Kind kind_of(const Form& form) const noexcept { return shapes_[form.shape].kind; }
   const std::vector<Bin>& bins() const noexcept { return bins_; }
+  /// One strip is all the stock, and its length is what is sought.
+  bool is_strip() const noexcept { return bins_.size() == 1 && bins_[kStrip].open; }
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
   double hull_area_of(std::uint32_t part) const noexcept { return hull_areas_[part]; }
   double border_gap_of(std::uint32_t part) const noexcept { return border_gaps_[part]; }
