@@ -6,7 +6,7 @@
 #include "nest/separator/cost_sums.hpp"
 #include "nest/separator/lattice_unit.hpp"
 #include "nest/separator/separator.hpp"
-#include "nest/strand/sheet_lane.hpp"
+#include "nest/strand/strand.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -225,7 +225,7 @@ TEST(MakeRoom, GathersWhatIsMissingForOneMore) {
 }
 
 /// A full row with a little room between all: places thrown at random hardly ever close it.
-TEST(SheetLane, MakesRoomForTheLastPiece) {
+TEST(Strand, MakesRoomForTheLastPiece) {
   constexpr std::size_t kSquares = 13;
   layout::Document document = whole_millimetres(std::vector(kSquares, cases::box_loop(0, 0, 10, 10)), 10);
   document.stocks[0].kind = layout::StockKind::sheet;
@@ -240,11 +240,11 @@ TEST(SheetLane, MakesRoomForTheLastPiece) {
   state.tops = {10};
   state.open_bins = {0};
   for (const std::uint64_t seed : {1, 2, 3}) {
-    SheetLane lane(problem, items, seed, 0);
-    lane.start(state);
-    EXPECT_GT(lane.merit().unplaced, 0);
-    lane.run(20'000);
-    EXPECT_EQ(lane.merit().unplaced, 0) << "seed " << seed;
+    Strand strand(problem, items, seed, 0);
+    strand.start(state);
+    EXPECT_GT(strand.merit().unplaced, 0);
+    strand.run(20'000);
+    EXPECT_EQ(strand.merit().unplaced, 0) << "seed " << seed;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "nest/tuning.hpp"
 
@@ -96,6 +97,8 @@ double area_in_common(const ConvexPiece& p, const ConvexPiece& q, Point t) {
   return 0.5 * twice;
 }
 
+using Intervals = std::vector<std::pair<double, double>>;  ///< along a segment, mm
+
 struct Contact {
   Point from, to;
 };
@@ -126,6 +129,70 @@ void add_contacts(const Shape& edges_of, const Shape& corners_of, bool edges_mov
   }
 }
 
+/// Intervals of a segment that lie inside the sums, sorted.
+void cover(const std::vector<Sum>& sums, Point start, Point direction, double length, double reserve,
+           Intervals& into) {
+  into.clear();
+  Bounds box;
+  box.add(start);
+  box.add(start + length * direction);
+  for (const Sum& sum : sums) {
+    // A segment along an axis has a flat box: it may run inside a sum that its box only touches.
+    if (sum.box.low.x > box.high.x || sum.box.high.x < box.low.x || sum.box.low.y > box.high.y ||
+        sum.box.high.y < box.low.y)
+      continue;
+    const auto [from, to] = inside_of(sum.corners, start, direction, length, reserve);
+    if (from < to) into.emplace_back(from, to);
+  }
+  std::sort(into.begin(), into.end());
+}
+
+/// Visits what intervals leave of a segment, without gaps that are rounding.
+template <class Visit>
+void visit_gaps(const Intervals& intervals, double length, double rounding, Visit visit) {
+  double at = 0;
+  for (const auto& [from, to] : intervals) {
+    if (from > at + rounding) visit(at, from);
+    at = std::max(at, to);
+  }
+  if (length > at + rounding) visit(at, length);
+}
+
+/// The border of the region of shifts at which two shapes overlap: the contacts, less what lies inside a sum.
+std::vector<NoFit::Segment> border_of(const Shape& a, const Shape& b, const std::vector<Sum>& sums,
+                                      double size, const NoFit::IsFree& is_free) {
+  const double outward = 1e-10 * size, reserve = 1e-11 * size;
+  std::vector<Contact> contacts;
+  add_contacts(a, b, false, contacts);
+  add_contacts(b, a, true, contacts);
+  std::vector<NoFit::Segment> border;
+  Intervals covered, at_all;
+  for (const Contact& contact : contacts) {
+    const double length = norm(contact.to - contact.from);
+    if (!(length > 0)) continue;
+    const Point direction = (1 / length) * (contact.to - contact.from);
+    const Point out = {direction.y, -direction.x};
+    cover(sums, contact.from + outward * out, direction, length, reserve, covered);
+    visit_gaps(covered, length, 4 * outward, [&](double from, double to) {
+      border.push_back({contact.from + from * direction, direction, to - from, false});
+    });
+    // Where both sides of a contact are forbidden the contact itself may be free: a slot just wide enough.
+    if (!is_free) continue;
+    cover(sums, contact.from, direction, length, reserve, at_all);
+    visit_gaps(at_all, length, 4 * outward, [&](double from, double to) {
+      double at = from;
+      for (const auto& [low, high] : covered) {
+        const double begin = std::max(at, low), end = std::min(to, high);
+        if (begin >= end) continue;
+        at = end;
+        if (is_free(contact.from + 0.5 * (begin + end) * direction))
+          border.push_back({contact.from + begin * direction, direction, end - begin, true});
+      }
+    });
+  }
+  return border;
+}
+
 }  // namespace
 
 Shape turned(const Shape& shape, double c, double s) {
@@ -139,7 +206,7 @@ Shape turned(const Shape& shape, double c, double s) {
 }
 
 NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free,
-             const Box& window, bool with_areas)
+             const Box& window, bool with_areas, std::size_t most_narrow)
     : gap_(gap) {
   std::vector<Sum> sums;
   Bounds all;
@@ -151,66 +218,8 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, cons
     }
   if (sums.empty()) return;
   const double size = std::max(all.high.x - all.low.x, all.high.y - all.low.y);
-  const double outward = 1e-10 * size, reserve = 1e-11 * size;
   tie_ = 1e-8 * size;
-
-  std::vector<Contact> contacts;
-  add_contacts(a, b, false, contacts);
-  add_contacts(b, a, true, contacts);
-  std::vector<std::pair<double, double>> covered, at_all;
-  const auto covered_by = [&](Point start, Point direction, double length,
-                              std::vector<std::pair<double, double>>& into) {
-    into.clear();
-    Bounds box;
-    box.add(start);
-    box.add(start + length * direction);
-    for (const Sum& sum : sums) {
-      if (sum.box.low.x >= box.high.x || sum.box.high.x <= box.low.x || sum.box.low.y >= box.high.y ||
-          sum.box.high.y <= box.low.y) {
-        // A segment along an axis has a flat box: it may still run inside.
-        if (sum.box.low.x > box.high.x || sum.box.high.x < box.low.x || sum.box.low.y > box.high.y ||
-            sum.box.high.y < box.low.y)
-          continue;
-      }
-      const auto [from, to] = inside_of(sum.corners, start, direction, length, reserve);
-      if (from < to) into.emplace_back(from, to);
-    }
-    std::sort(into.begin(), into.end());
-  };
-  const auto gaps_of = [&](const std::vector<std::pair<double, double>>& intervals, double length,
-                           auto&& visit) {
-    double at = 0;
-    for (const auto& [from, to] : intervals) {
-      if (from > at + 4 * outward) visit(at, from);
-      at = std::max(at, to);
-    }
-    if (length > at + 4 * outward) visit(at, length);
-  };
-  for (const Contact& contact : contacts) {
-    const double length = norm(contact.to - contact.from);
-    if (!(length > 0)) continue;
-    const Point direction = (1 / length) * (contact.to - contact.from);
-    const Point out = {direction.y, -direction.x};
-    covered_by(contact.from + outward * out, direction, length, covered);
-    gaps_of(covered, length, [&](double from, double to) {
-      segments_.push_back({contact.from + from * direction, direction, to - from, false});
-    });
-    // Where the outer side is forbidden too but the contact itself is not: a slot just wide enough.
-    if (!is_free) continue;
-    covered_by(contact.from, direction, length, at_all);
-    gaps_of(at_all, length, [&](double from, double to) {
-      double at = from;
-      for (const auto& [low, high] : covered) {
-        const double begin = std::max(at, low), end = std::min(to, high);
-        if (begin < end) {
-          at = end;
-          if (!is_free(contact.from + 0.5 * (begin + end) * direction)) continue;
-          segments_.push_back({contact.from + begin * direction, direction, end - begin, true});
-        }
-      }
-    });
-  }
-  if (segments_.size() > 65'000) segments_.resize(65'000);
+  segments_ = border_of(a, b, sums, size, is_free);
 
   const double margin = gap_ + 1e-9 * size;
   all.low = all.low - Point{margin, margin};
@@ -233,11 +242,10 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, cons
   height_ = rows_;
   cells_.assign(std::size_t{columns_} * rows_, kClear);
   nodes_.assign(std::size_t{columns_ + 1} * (rows_ + 1), 0);
-  std::uint32_t square = 1;
-  while (square < columns_ || square < rows_) square *= 2;
-  std::vector<std::uint16_t> every(segments_.size());
-  for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<std::uint16_t>(k);
-  if (!every.empty()) fill(0, 0, square, every);
+  if (segments_.size() <= most_narrow)
+    fill_all(lists_);
+  else
+    fill_all(wide_lists_);
   if (!with_areas) return;
   area_columns_ = static_cast<std::uint32_t>(std::ceil(w * per_mm_ / tuning::kAreaCell)) + 1;
   const auto area_rows = static_cast<std::uint32_t>(std::ceil(h * per_mm_ / tuning::kAreaCell)) + 1;
@@ -260,35 +268,46 @@ NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, cons
     }
 }
 
-/// Cells of a block: segments that are the nearest of no point in it are left out on the way down.
-void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
-                 const std::vector<std::uint16_t>& candidates) {
+template <class Index>
+void NoFit::fill_all(std::vector<Index>& lists) {
+  std::uint32_t square = 1;
+  while (square < columns_ || square < rows_) square *= 2;
+  std::vector<Index> every(segments_.size());
+  std::iota(every.begin(), every.end(), Index{0});
+  if (!every.empty()) fill(0, 0, square, every, lists);
+}
+
+/// Fills the cells of a square block, by quarters. Segments that are nearest to no point of a block are left
+/// out on the way down.
+template <class Index>
+void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size, const std::vector<Index>& candidates,
+                 std::vector<Index>& lists) {
   if (x >= columns_ || y >= rows_) return;
   const double side = 1 / per_mm_;
   const double radius = 0.5 * size * side * 1.4142136 + tie_;
   const Point centre = {x0_ + (x + 0.5 * size) * side, y0_ + (y + 0.5 * size) * side};
   std::vector<double> distances;
   double least = std::numeric_limits<double>::infinity();
-  for (const std::uint16_t k : candidates) {
+  for (const Index k : candidates) {
     const Segment& s = segments_[k];
     const Point d = centre - s.from;
     const double along = std::clamp(dot(d, s.direction), 0.0, s.length);
     distances.push_back(norm(d - along * s.direction));
     least = std::min(least, distances.back());
   }
-  std::vector<std::uint16_t> kept;
+  std::vector<Index> kept;
   for (std::size_t k = 0; k < candidates.size(); ++k)
     if (distances[k] <= least + 2 * radius) kept.push_back(candidates[k]);
   if (size > 1) {
     const std::uint32_t half = size / 2;
-    fill(x, y, half, kept);
-    fill(x + half, y, half, kept);
-    fill(x, y + half, half, kept);
-    fill(x + half, y + half, half, kept);
+    fill(x, y, half, kept, lists);
+    fill(x + half, y, half, kept, lists);
+    fill(x, y + half, half, kept, lists);
+    fill(x + half, y + half, half, kept, lists);
     return;
   }
-  const std::uint16_t* begin = kept.data();
-  const std::uint16_t* end = begin + kept.size();
+  const Index* begin = kept.data();
+  const Index* end = begin + kept.size();
   const double middle = signed_distance(begin, end, centre.x, centre.y).distance + gap_;
   std::uint32_t& cell = cells_[std::size_t{y} * columns_ + x];
   if (middle < -radius) {
@@ -296,9 +315,9 @@ void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
   } else if (middle > radius) {
     cell = kDeep;
   } else {
-    cell = static_cast<std::uint32_t>(lists_.size()) + 2;
-    lists_.push_back(static_cast<std::uint16_t>(kept.size()));
-    lists_.insert(lists_.end(), kept.begin(), kept.end());
+    cell = static_cast<std::uint32_t>(lists.size()) + 2;
+    lists.push_back(static_cast<Index>(kept.size()));
+    lists.insert(lists.end(), kept.begin(), kept.end());
   }
   for (std::uint32_t j = 0; j < 2; ++j)
     for (std::uint32_t i = 0; i < 2; ++i) {
@@ -308,12 +327,13 @@ void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
     }
 }
 
-NoFit::Signed NoFit::signed_distance(const std::uint16_t* begin, const std::uint16_t* end, double x,
+template <class Index>
+NoFit::Signed NoFit::signed_distance(const Index* begin, const Index* end, double x,
                                      double y) const noexcept {
   double best = std::numeric_limits<double>::infinity(), best_side = 0;
   Point nearest;
   bool two_sided = false;
-  for (const std::uint16_t* k = begin; k != end; ++k) {
+  for (const Index* k = begin; k != end; ++k) {
     const Segment& s = segments_[*k];
     const double dx = x - s.from.x, dy = y - s.from.y;
     double along = dx * s.direction.x + dy * s.direction.y;
@@ -336,9 +356,20 @@ NoFit::Signed NoFit::signed_distance(const std::uint16_t* begin, const std::uint
   return {best_side > 0 || two_sided ? best : -best, nearest};
 }
 
+template <class Visit>
+auto NoFit::near_border(std::uint32_t cell, Visit visit) const noexcept {
+  if (wide_lists_.empty()) {
+    const std::uint16_t* list = &lists_[cell - 2];
+    return visit(list + 1, list + 1 + *list);
+  }
+  const std::uint32_t* list = &wide_lists_[cell - 2];
+  return visit(list + 1, list + 1 + *list);
+}
+
 double NoFit::depth_near(std::uint32_t cell, double x, double y) const noexcept {
-  const std::uint16_t* list = &lists_[cell - 2];
-  const double distance = signed_distance(list + 1, list + 1 + *list, x, y).distance + gap_;
+  const double distance = near_border(cell, [&](const auto* begin, const auto* end) {
+    return signed_distance(begin, end, x, y).distance + gap_;
+  });
   return distance > 0 ? distance : 0;
 }
 
@@ -359,25 +390,28 @@ NoFit::Way NoFit::way_out(double x, double y) const noexcept {
     if (!(length > 0)) return {value, {1, 0}};
     return {value, (-1 / length) * up};
   }
-  const std::uint16_t* list = &lists_[cell - 2];
-  const Signed at = signed_distance(list + 1, list + 1 + *list, x, y);
+  return near_border(cell, [&](const auto* begin, const auto* end) { return way_near(begin, end, {x, y}); });
+}
+
+template <class Index>
+NoFit::Way NoFit::way_near(const Index* begin, const Index* end, Point p) const noexcept {
+  const Signed at = signed_distance(begin, end, p.x, p.y);
   if (!(at.distance + gap_ > 0)) return {};
-  const Point to = at.distance >= 0 ? at.nearest - Point{x, y} : Point{x, y} - at.nearest;
+  const Point to = at.distance >= 0 ? at.nearest - p : p - at.nearest;
   const double length = norm(to);
-  if (!(length > 1e-12)) {  // on the border: across the nearest edge
-    double best = std::numeric_limits<double>::infinity();
-    Point direction;
-    for (const std::uint16_t* k = list + 1; k != list + 1 + *list; ++k) {
-      const Segment& s = segments_[*k];
-      const double side = std::abs(cross(s.direction, Point{x, y} - s.from));
-      if (side < best) {
-        best = side;
-        direction = {s.direction.y, -s.direction.x};
-      }
+  if (length > 1e-12) return {at.distance + gap_, (1 / length) * to};
+  // On the border the way out leads across the nearest edge.
+  double best = std::numeric_limits<double>::infinity();
+  Point direction;
+  for (const Index* k = begin; k != end; ++k) {
+    const Segment& s = segments_[*k];
+    const double side = std::abs(cross(s.direction, p - s.from));
+    if (side < best) {
+      best = side;
+      direction = {s.direction.y, -s.direction.x};
     }
-    return {at.distance + gap_, direction};
   }
-  return {at.distance + gap_, (1 / length) * to};
+  return {at.distance + gap_, direction};
 }
 
 }  // namespace lekalo::nest

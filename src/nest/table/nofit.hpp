@@ -10,8 +10,8 @@
 
 namespace lekalo::nest {
 
-/// An outline as the search sees it: its loops and convex pieces that cover it. Loops counter-clockwise,
-/// those of holes clockwise.
+/// An outline as the search sees it: its loops, and convex pieces that cover it. Outer loops run
+/// counter-clockwise, those of holes clockwise.
 struct Shape {
   std::vector<std::vector<geom::Point>> loops;
   std::vector<ConvexPiece> pieces;
@@ -19,22 +19,30 @@ struct Shape {
 struct Box {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
+/// The shape turned about the origin by an angle of this cosine and sine.
 [[nodiscard]] Shape turned(const Shape& shape, double c, double s);
 
-/// How deep an outline b, moved by t, lies in an outline a: the shifts at which they overlap (or come nearer
-/// than a gap) form a region, and the depth is the distance of t from its border. In doubles: exact to their
-/// rounding near the border, interpolated from a raster further in. docs/design/nest.md
+/// A table that says how deep an outline b, moved by t, lies in an outline a. The shifts at which they
+/// overlap, or come nearer than a gap, form a region; the depth is the distance of t from the region's
+/// border. It is exact to the rounding of doubles near the border and interpolated from a raster further in.
+/// docs/design/nest.md, step 1.
+///
+/// Cost of making one: O(contacts x pairs of convex pieces), then O(border edges) for each cell near them.
+/// There is no limit on the edges of a border: beyond kMostNarrow of them the table takes twice the memory.
 class NoFit {
  public:
   using IsFree = std::function<bool(geom::Point)>;
+  /// Edges of a border up to which cells list them by two bytes each.
+  static constexpr std::size_t kMostNarrow = 65'535;
   /// \param cells    about how many cells the raster has
-  /// \param is_free  decides whether a shift at which edges fit exactly is free; absent: it is not
-  /// \param with_areas  common_area() is wanted
-  /// \param window   b is never asked about where it reaches out of it; empty: anywhere
+  /// \param is_free  decides whether a shift at which edges fit exactly is free; without it such a shift is
+  /// not \param window   nobody asks about places where b reaches out of this; empty: b may be anywhere
+  /// \param with_areas  makes common_area() answer
+  /// \param most_narrow  for tests: at most kMostNarrow
   NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free = {},
-        const Box& window = {}, bool with_areas = false);
+        const Box& window = {}, bool with_areas = false, std::size_t most_narrow = kMostNarrow);
 
-  /// mm; 0 where they do not overlap.
+  /// The depth at a shift, mm; 0 where the two do not overlap.
   [[nodiscard]] double depth(double x, double y) const noexcept {
     const double fx = (x - x0_) * per_mm_, fy = (y - y0_) * per_mm_;
     if (!(fx >= 0 && fy >= 0 && fx < width_ && fy < height_)) return 0;
@@ -49,7 +57,7 @@ class NoFit {
     const float high = node[columns_ + 1] + u * (node[columns_ + 2] - node[columns_ + 1]);
     return static_cast<double>(low + v * (high - low));
   }
-  /// Material that both have in common, interpolated from a coarser raster, mm^2; 0 without areas.
+  /// The area that both have in common, interpolated from a coarser raster, mm^2; 0 for tables without areas.
   double common_area(double x, double y) const noexcept {
     const double fx = (x - x0_) * area_per_mm_, fy = (y - y0_) * area_per_mm_;
     if (!(fx >= 0 && fy >= 0 && fx < area_width_ && fy < area_height_)) return 0;
@@ -68,10 +76,11 @@ class NoFit {
   };
   [[nodiscard]] Way way_out(double x, double y) const noexcept;
 
+  /// An edge of the border. Shifts on its left are forbidden.
   struct Segment {
-    geom::Point from, direction;  ///< forbidden on the left
+    geom::Point from, direction;
     double length = 0;
-    bool two_sided = false;  ///< forbidden on both sides: a slot just wide enough
+    bool two_sided = false;  ///< its right is forbidden too: b fits a slot of a exactly
   };
   [[nodiscard]] const std::vector<Segment>& border() const noexcept { return segments_; }
 
@@ -82,11 +91,20 @@ class NoFit {
     double distance = 0;
     geom::Point nearest;
   };
-  [[nodiscard]] Signed signed_distance(const std::uint16_t* begin, const std::uint16_t* end, double x,
+  template <class Index>
+  [[nodiscard]] Signed signed_distance(const Index* begin, const Index* end, double x,
                                        double y) const noexcept;
+  template <class Index>
+  [[nodiscard]] Way way_near(const Index* begin, const Index* end, geom::Point p) const noexcept;
   [[nodiscard]] double depth_near(std::uint32_t cell, double x, double y) const noexcept;
-  void fill(std::uint32_t x, std::uint32_t y, std::uint32_t size,
-            const std::vector<std::uint16_t>& candidates);
+  /// Visits the list of edges of a cell near the border.
+  template <class Visit>
+  auto near_border(std::uint32_t cell, Visit visit) const noexcept;
+  template <class Index>
+  void fill_all(std::vector<Index>& lists);
+  template <class Index>
+  void fill(std::uint32_t x, std::uint32_t y, std::uint32_t size, const std::vector<Index>& candidates,
+            std::vector<Index>& lists);
 
   double x0_ = 0, y0_ = 0, per_mm_ = 0, width_ = 0, height_ = 0, gap_ = 0, tie_ = 0;
   std::uint32_t columns_ = 0, rows_ = 0;
@@ -95,7 +113,9 @@ class NoFit {
   std::vector<float> areas_;
   std::vector<std::uint32_t> cells_;
   std::vector<float> nodes_;
-  std::vector<std::uint16_t> lists_;  ///< a count, then segments
+  /// By cell near the border: a count, then the edges that can be nearest. One of the two is empty.
+  std::vector<std::uint16_t> lists_;
+  std::vector<std::uint32_t> wide_lists_;
   std::vector<Segment> segments_;
 };
 
