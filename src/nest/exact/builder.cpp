@@ -7,7 +7,7 @@
 namespace lekalo::nest {
 namespace {
 
-/// Cheap stock first, large of equals.
+/// Bins by price of their area, the cheapest first; of equal ones the larger first.
 std::vector<std::uint32_t> cheapest_first(const Problem& problem) {
   const auto& bins = problem.bins();
   const auto price = [&](std::uint32_t b) {
@@ -48,6 +48,7 @@ State empty_state(const Problem& problem, const Items& items) {
   return state;
 }
 
+/// nest.md, step 11.
 State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
             const std::vector<std::uint32_t>& order, const std::function<bool()>& enough) {
   const auto& bins = problem.bins();
@@ -78,11 +79,11 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
     return std::find(all.begin(), all.end(), bin) != all.end();
   };
   const std::vector<std::uint32_t> stock_order = cheapest_first(problem);
-  // Pieces with partners are not alike: each has to lie near its own.
+  // Pieces with partners are not alike, because each has to lie near its own.
   const bool alike = items.partners.empty();
-  // Stock on which a piece of these forms found no place.
+  // Bin and first form of pieces that found no place there.
   std::set<std::pair<std::uint32_t, std::uint32_t>> full;
-  std::vector<Forms> hopeless;  // pieces like these found no place on any
+  std::vector<Forms> hopeless;  // forms of pieces that found no place on any bin
   for (const std::uint32_t i : order) {
     if (placer.state().spots[i].bin != kNowhere) continue;
     if (std::find(hopeless.begin(), hopeless.end(), items.forms[i]) != hopeless.end()) continue;
@@ -103,7 +104,7 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
       else
         placer.set_end(0, std::min(bins[0].box.x1, placer.state().ends[0] + widest));
     }
-    // Of each stock one more copy: others of it are the same.
+    // One more copy of each stock is tried, because the others are the same.
     std::vector<std::uint32_t> tried;
     for (std::size_t k = 0; !placed && !strip && k < stock_order.size(); ++k) {
       const std::uint32_t bin = stock_order[k];

@@ -8,13 +8,14 @@
 
 namespace lekalo::nest {
 
-/// Everything nowhere, the obstacles in their places, stock with locked parts open.
+/// The state in which every item lies nowhere. Obstacles are in their places, and bins with locked parts
+/// are open.
 [[nodiscard]] State empty_state(const Problem& problem, const Items& items);
 
-/// Puts the items that lie nowhere one after the other, in this order, to the free place found furthest left:
-/// on stock that is open, else on the cheapest that can hold them; a strip gets longer. Those for which no
-/// place is found stay nowhere. What lies somewhere stays there. Ends early, between two items, where
-/// `enough` says so. What it gives is settled: it breaks no rule.
+/// Puts the items that lie nowhere, in this order, each to the free place found furthest left: on a bin
+/// that is open, else on the cheapest that can hold it, while a strip gets longer. Items for which no place
+/// is found stay nowhere, and items that lie somewhere stay there. It ends early, between two items, when
+/// `enough` says so. The result breaks no rule.
 [[nodiscard]] State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
                           const std::vector<std::uint32_t>& order, const std::function<bool()>& enough);
 

@@ -29,7 +29,7 @@ Placer::Sheet& Placer::sheet(std::uint32_t b) {
   const Bin& bin = problem_.bins()[b];
   const layout::Stock& stock = document.stocks[bin.stock];
   geom::GridBox world = geom::bounds(stock.outline.polygon);
-  if (bin.open) {  // as long as what lies on it may get
+  if (bin.open) {  // the scene is only as long as the items may get
     double area = 0;
     for (std::size_t i = 0; i < items_.movable(); ++i) area += problem_.hull_area_of(items_.parts[i]);
     const double length = std::max(state_.ends[b] - bin.box.x0, 2 * area / (bin.box.y1 - bin.box.y0));
@@ -170,7 +170,7 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
       r = {std::max(r.x0, x - reach), std::min(r.x1, x + reach), std::max(r.y0, y - reach),
            std::min(r.y1, y + reach)};
     }
-    // Further right than the best nothing is better.
+    // No place further right than the best one is better.
     if (found) r.x1 = std::min(r.x1, static_cast<std::int64_t>(best_cost - cost_of({0, r.y0})));
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;
     const auto between = [&](std::int64_t low, std::int64_t high) {

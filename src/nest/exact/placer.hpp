@@ -10,38 +10,39 @@
 
 namespace lekalo::nest {
 
-/// Free places for one item after the other, by the exact collision engine: on the grid, without a table of a
-/// pair, so that there is a layout at once. What it says is free is so by layout::check().
+/// Finds free places for one item after the other by the exact collision engine, on the grid. It needs no
+/// tables of pairs, so there is a layout at once. A place that it calls free is free by layout::check().
+/// docs/design/nest.md, step 11.
 class Placer {
  public:
-  /// What lies on the stock already and counts.
+  /// Which of the things that lie on the stock already count.
   enum class Counts : std::uint8_t {
     all,
-    features,  ///< of the stock: its border, defects and zones, no locked parts
-    border     ///< that alone
+    features,  ///< the border, defects and zones of the stock, but no locked parts
+    border     ///< the border of the stock alone
   };
   Placer(const Problem& problem, const Items& items, Random random, Counts counts = Counts::all);
 
-  /// What lies somewhere stays there. \pre breaks no rule
+  /// Begins with a state, whose items stay where they lie. \pre it breaks no rule
   void load(const State& state);
   const State& state() const noexcept { return state_; }
-  /// Places asked about.
+  /// Work so far: places asked about.
   std::uint64_t work() const noexcept { return work_; }
-  /// Puts item i, which lies nowhere, to the free place on a bin found furthest left among so many; false if
-  /// none was free.
+  /// Puts item i, which lies nowhere, to the free place on a bin found furthest left among so many; false
+  /// if none was free.
   bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
   /// Whether the box of item i fits in some form.
   bool can_hold(std::uint32_t bin, std::size_t i);
   void open_bin(std::uint32_t bin);
   void close_bin(std::uint32_t bin);
-  /// Of a strip: x up to which items may lie, mm.
+  /// Sets how far a strip may be used: x, mm.
   void set_end(std::uint32_t bin, double x1) { state_.ends[bin] = x1; }
 
  private:
   struct Sheet {
     phi::Scene scene;
     std::vector<phi::ShapeIndex> shapes;  ///< by form
-    std::vector<std::uint32_t> zones;     ///< by body: index of the zone
+    std::vector<std::uint32_t> zones;     ///< by body: the index of its zone
   };
   struct Range {
     std::int64_t x0, x1, y0, y1;
@@ -57,7 +58,7 @@ class Placer {
   Random random_;
   Counts counts_;
   State state_;
-  std::vector<std::optional<Sheet>> sheets_;  ///< by bin; made when first asked about
+  std::vector<std::optional<Sheet>> sheets_;  ///< by bin, made when first asked about
   std::uint64_t work_ = 0;
 };
 

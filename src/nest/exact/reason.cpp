@@ -7,7 +7,7 @@
 namespace lekalo::nest {
 namespace {
 
-/// Whether a place was found on stock with nothing on it but what counts.
+/// Whether a place for one piece was found on stock that holds only what counts.
 bool has_place(const Problem& problem, std::uint32_t part, Placer::Counts counts) {
   const auto& bins = problem.bins();
   Items items;

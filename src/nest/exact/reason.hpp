@@ -7,8 +7,8 @@
 
 namespace lekalo::nest {
 
-/// Why a part that has an angle and whose box fits is not placed, judged by trying it alone on stock with
-/// nothing on it: too_large, no_zone, or no_stock.
+/// Says why a part is not placed although it has an angle and its box fits: too_large, no_zone or no_stock.
+/// It tries the part alone on empty stock. docs/design/nest-sheets.md, step 10.
 [[nodiscard]] Reason reason_alone(const Problem& problem, std::uint32_t part);
 
 }  // namespace lekalo::nest

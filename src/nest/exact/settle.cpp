@@ -9,8 +9,7 @@
 namespace lekalo::nest {
 namespace {
 
-constexpr int kRounds = 60;
-/// Beyond what is missing, steps: two roundings.
+/// Steps beyond what is missing: two pieces are rounded, by half a step each along both axes.
 constexpr double kReserve = 2.0;
 
 struct Steps {
@@ -40,10 +39,10 @@ layout::Document placed(const Problem& problem, const Items& items, const State&
   return document;
 }
 
-/// Whether a shift can end it.
+/// Whether a shift can end this violation.
 bool can_be_shifted(const layout::Violation& v) { return v.direction.x != 0 || v.direction.y != 0; }
 
-/// Shifts both by what is missing.
+/// Shifts both pieces of a violation apart by what is missing.
 void shift(const layout::Violation& v, std::uint64_t first, std::vector<Steps>& at) {
   const double by = v.amount_mm * static_cast<double>(geom::kGridPerMm) + kReserve;
   const auto move = [&](std::uint64_t id, double share) {
@@ -53,7 +52,7 @@ void shift(const layout::Violation& v, std::uint64_t first, std::vector<Steps>& 
     if (!s.keeps_y) s.y += share * by * v.direction.y;
   };
   const bool one = v.b == 0 || v.b < first || v.a < first;
-  // Rightwards there is room on a strip: whoever lies there gives way.
+  // On a strip there is room on the right, so the piece on that side gives way further.
   if (one) {
     move(v.a, 1);
     move(v.b, -1);
@@ -66,7 +65,7 @@ void shift(const layout::Violation& v, std::uint64_t first, std::vector<Steps>& 
   }
 }
 
-/// The item that breaks most rules; of equals the smallest.
+/// The item that breaks most rules; of equal ones the smallest.
 std::size_t worst_of(const Problem& problem, const Items& items, std::uint64_t first,
                      const std::vector<layout::Violation>& violations) {
   std::vector<int> broken(items.movable(), 0);
@@ -81,12 +80,12 @@ std::size_t worst_of(const Problem& problem, const Items& items, std::uint64_t f
   return worst;
 }
 
-/// Shifts what breaks a rule by what is missing, over and over; none where that does not end. `at_first` is
-/// what was broken before.
+/// Shifts pieces that break a rule by what is missing, over and over; nothing where that does not end.
+/// `at_first` gets the violations of the first round.
 std::optional<Settled> mended(const Problem& problem, const Items& items, const State& state,
                               std::vector<Steps> at, std::vector<layout::Violation>& at_first) {
   const std::uint64_t first = problem.document().next_id;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < tuning::kSettleRounds; ++round) {
     layout::Document document = placed(problem, items, state, at);
     std::vector<layout::Violation> violations = layout::check(document);
     if (violations.empty()) {
@@ -108,13 +107,14 @@ std::optional<Settled> mended(const Problem& problem, const Items& items, const 
 
 }  // namespace
 
+/// nest.md, step 12.
 Settled settled(const Problem& problem, const Items& items, State state) {
   std::vector<Steps> at(items.movable());
   for (std::size_t i = 0; i < items.movable(); ++i)
     at[i] = {state.spots[i].x * static_cast<double>(geom::kGridPerMm),
              state.spots[i].y * static_cast<double>(geom::kGridPerMm), false, false};
   std::vector<layout::Violation> broken;
-  // Drawings in whole units fit one another in whole units.
+  // Drawings in whole units fit one another in whole units, so these are tried first.
   if (problem.unit() > 0) {
     std::vector<Steps> snapped = at;
     const double unit = problem.unit() * static_cast<double>(geom::kGridPerMm);

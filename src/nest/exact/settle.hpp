@@ -4,14 +4,15 @@
 
 namespace lekalo::nest {
 
+/// A state that has become an exact layout.
 struct Settled {
-  layout::Document document;  ///< breaks no rule, the locked placements among them
-  State state;                ///< the same: items on the grid, those that were taken out nowhere
-  bool is_whole = true;       ///< none was
+  layout::Document document;  ///< breaks no rule; the locked placements are in it
+  State state;                ///< the same layout; items that were taken out lie nowhere
+  bool is_whole = true;       ///< no item was taken out
 };
-/// The state as placements on the grid: what rounding left is set right by small shifts, and what cannot be
-/// is taken out, as few items as it goes. New ids follow the document's in the order of the items. \pre the
-/// locked placements break no rule
+/// Makes placements on the grid of a state. Small shifts end what rounding has left; items that no shift
+/// can help are taken out, as few as it goes. New ids follow the document's in the order of the items. \pre
+/// the locked placements break no rule
 [[nodiscard]] Settled settled(const Problem& problem, const Items& items, State state);
 
 }  // namespace lekalo::nest

@@ -23,6 +23,7 @@ bool SmallerBox::begin(Search& search) {
   return can_be_smaller || best.open_bins.size() > 1 || !search.nowhere(best).empty();
 }
 
+/// nest-sheets.md, step 6.
 SmallerBox::Size SmallerBox::wanted(Search& search, Size now) const {
   Random& random = search.random();
   const Bin& bin = search.problem.bins()[bin_];

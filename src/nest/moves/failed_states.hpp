@@ -10,7 +10,8 @@ namespace lekalo::nest {
 class FailedStates {
  public:
   void clear() { states_.clear(); }
-  /// Remembers the least state of the attempt; the oldest one is forgotten where there are more than so many.
+  /// Remembers the least state of the attempt; the oldest one is forgotten where there are more than so
+  /// many.
   void add(const Attempt& attempt, std::size_t most);
   /// Loads one of the better states and lets two large items change places in it, with what lies in them.
   void load_disrupted(Search& search);

@@ -47,8 +47,8 @@ State without_conflicts(Search& search, State state) {
   return state;
 }
 
-/// The state with missing pieces put where there is room as it is: even a rearrangement in vain may have made
-/// some.
+/// The state with missing pieces put where there is room as it is: even a rearrangement in vain may have
+/// made some.
 State refilled(Search& search, const State& state) {
   const Items& items = search.items;
   Placer placer(search.problem, items, Random(search.random().bits()));
@@ -118,6 +118,7 @@ Outcome Fill::attempt(Search& search) {
   return Outcome::under_way;
 }
 
+/// nest-sheets.md, step 3 while rooms are left, then step 4.
 Outcome Fill::step(Search& search) {
   if (!rooms_.are_left()) return search.after_pass(search.separator.pass(), tuning::kFillPatience);
   if (rooms_.try_one(search)) {
@@ -128,6 +129,7 @@ Outcome Fill::step(Search& search) {
   return Outcome::under_way;
 }
 
+/// nest-sheets.md, step 4.
 void Fill::throw_in(Search& search) {
   search.separator.load(search.current.state);
   std::vector<std::uint32_t> missing = search.nowhere(search.current.state);

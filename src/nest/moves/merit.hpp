@@ -22,8 +22,8 @@ struct Merit {
 
 /// How far along a strip its items reach, border gaps included, mm.
 [[nodiscard]] double strip_length(const Problem& problem, const Items& items, const State& state);
-/// How far from the lower left corner the items on a bin reach, border gaps included, mm: along x for axis 0,
-/// along y for axis 1.
+/// How far from the lower left corner the items on a bin reach, border gaps included, mm: along x for axis
+/// 0, along y for axis 1.
 [[nodiscard]] double reach_of(const Problem& problem, const Items& items, const State& state,
                               std::uint32_t bin, int axis);
 /// Area of a bin outside the box, from its lower left corner, that holds what lies on it, mm^2.

@@ -14,9 +14,9 @@ namespace lekalo::nest {
 ///   on_valid   or on_failure; then attempt again, until one of them says that the turn is over
 ///
 /// A strand looks at its budget between two steps only, so a step does about one pass of the separator.
-/// Whatever a move decides by chance it draws from search.random(): that makes a run repeatable. Work outside
-/// the separator is added to search.other_work, in candidate places. docs/design/nest.md says how a move is
-/// added.
+/// Whatever a move decides by chance it draws from search.random(): that makes a run repeatable. Work
+/// outside the separator is added to search.other_work, in candidate places. docs/design/nest.md says how a
+/// move is added.
 class Move {
  public:
   virtual ~Move() = default;
@@ -26,7 +26,8 @@ class Move {
 
   /// A turn is offered, search.current is the best. False: the move has nothing to gain now.
   virtual bool begin(Search& search) = 0;
-  /// \return under_way; failed where there is nothing to separate, which counts as a failure; over; finished
+  /// \return under_way; failed where there is nothing to separate, which counts as a failure; over;
+  /// finished
   virtual Outcome attempt(Search& search) = 0;
   /// \return under_way, valid, failed or over
   virtual Outcome step(Search& search) = 0;

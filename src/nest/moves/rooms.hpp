@@ -4,8 +4,8 @@
 
 namespace lekalo::nest {
 
-/// The first part of an attempt of fill and reduce: it gathers the small gaps of a bin at one point and puts
-/// a missing piece there. docs/design/nest-sheets.md, step 3.
+/// The first part of an attempt of fill and reduce: it gathers the small gaps of a bin at one point and
+/// puts a missing piece there. docs/design/nest-sheets.md, step 3.
 class Rooms {
  public:
   /// Rooms to be tried in this attempt; fewer where many items would have to slide.

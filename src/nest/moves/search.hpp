@@ -23,8 +23,8 @@ struct Valid {
   Merit merit;
 };
 
-/// What a strand and its moves share: the problem, the separator with the state being worked on and the only
-/// source of chance, the best state, and the attempt under way.
+/// What a strand and its moves share: the problem, the separator with the state being worked on and the
+/// only source of chance, the best state, and the attempt under way.
 struct Search {
   Search(const Problem& problem, const Items& items, Random random);
 
@@ -39,8 +39,8 @@ struct Search {
   /// Share of the length by which explore asks for a shorter strip; insert sets it back to the first one.
   double shorter = tuning::kFirstShorter;
   int turns = 0;  ///< turns since the strand went on from another state, this one included
-  /// How often the best got cheaper, and how often more pieces came in, restarts included: moves that gave up
-  /// try again when these have changed.
+  /// How often the best got cheaper, and how often more pieces came in, restarts included: moves that gave
+  /// up try again when these have changed.
   int cheaper = 0, fuller = 0;
   /// Work outside the separator, in candidate places.
   std::uint64_t other_work = 0;

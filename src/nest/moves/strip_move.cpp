@@ -36,6 +36,7 @@ void StripMove::begin_separation(Search& search) {
   passes_ = relax_after_ = 0;
 }
 
+/// nest.md, steps 2 and 4.
 Outcome StripMove::step(Search& search) {
   Separator& separator = search.separator;
   if (passes_++ == 0 && !search.is_on_lattice() && separator.relax(2 * tuning::kRelaxRounds))
@@ -95,6 +96,7 @@ bool StripMove::take(Search& search) {
   return true;
 }
 
+/// nest.md, step 4.
 void StripMove::compact(Search& search) {
   Separator& separator = search.separator;
   for (double share = tuning::kCompactFrom; share > tuning::kCompactTo && !separator.is_stopped();) {

@@ -17,8 +17,8 @@ class StripMove : public Move {
   virtual bool fits_wider(Search& search);
 
   void begin_separation(Search& search);
-  /// Asks for a strip that is shorter than the best by a share of its length. What lies beyond the middle, or
-  /// beyond a place chosen by chance, moves along.
+  /// Asks for a strip that is shorter than the best by a share of its length. What lies beyond the middle,
+  /// or beyond a place chosen by chance, moves along.
   Outcome shorten(Search& search, double share, bool at_random);
   /// Makes the valid state in the separator the best if it is better, and pushes it together.
   bool take(Search& search);

@@ -50,8 +50,8 @@ class Run {
     while (!is_over() &&
            std::any_of(strands_.begin(), strands_.end(), [](const auto& l) { return !l->is_done(); })) {
       each_strand([](Strand& strand, std::size_t) { strand.run(tuning::kSegment); });
-      // Work since the last merge that a stop ended in the middle does not count, so that the same work gives
-      // the same result again.
+      // Work since the last merge that a stop ended in the middle does not count, so that the same work
+      // gives the same result again.
       if (control_.stop_requested()) break;
       merge();
     }
@@ -126,8 +126,8 @@ class Run {
     if (options_.improved) options_.improved(best_);
   }
 
-  /// Shows a state of which the exact check took something out: that gets another place, and the strand goes
-  /// on from the best layout, whether this one was better or not.
+  /// Shows a state of which the exact check took something out: that gets another place, and the strand
+  /// goes on from the best layout, whether this one was better or not.
   void show_mended(Strand& strand, const State& rest) {
     Placer placer(problem_, wanted_.items, Random(options_.seed, kMendingStreams + best_.merges));
     const State mended = built(problem_, wanted_.items, placer, rest, by_size(problem_, wanted_.items), {});

@@ -35,8 +35,8 @@ std::vector<Hands> hands_of(const layout::Document& document) {
   return wanted;
 }
 
-/// The pieces that are wanted beside the locked ones. A locked piece that no kit wants of its hand serves one
-/// that may be of either.
+/// The pieces that are wanted beside the locked ones. A locked piece that no kit wants of its hand serves
+/// one that may be of either.
 std::vector<Hands> hands_wanted(const layout::Document& document) {
   std::vector<Hands> wanted = hands_of(document);
   for (const layout::Placement& p : document.placements)
@@ -63,8 +63,8 @@ std::uint32_t nearest_form(const Problem& problem, const layout::Placement& p) {
   return best;
 }
 
-/// Placements that are not locked and break no rule among themselves or against locked ones. Those that break
-/// most rules are left out first.
+/// Placements that are not locked and break no rule among themselves or against locked ones. Those that
+/// break most rules are left out first.
 std::vector<layout::Placement> sound_placements(const layout::Document& document) {
   std::vector<layout::Violation> violations =
       layout::check_some(document, document.placements, {}, layout::Depths::left_out);

@@ -7,7 +7,7 @@
 namespace lekalo::nest {
 namespace {
 
-/// Wide enough that rounding a bound near this one, and this one, to a float hides no meeting.
+/// A bound so much wider that no meeting is hidden when it, and a bound near it, are rounded to floats.
 float below(double v) noexcept { return static_cast<float>(v - 1e-6 * std::abs(v)); }
 float above(double v) noexcept { return static_cast<float>(v + 1e-6 * std::abs(v)); }
 

@@ -7,15 +7,16 @@
 
 namespace lekalo::nest {
 
-/// Boxes one after the other, in floats: with up to some hundred items all are looked
-/// at sooner than cells are found (NeighbourGrid).
+/// Boxes one after the other, in floats. With up to some hundred items a look at all of them is quicker
+/// than finding cells (NeighbourGrid).
 class BoxList {
  public:
   explicit BoxList(std::size_t items);
 
   /// Puts an item there in place of where it was.
   void set(std::uint32_t item, std::uint32_t bin, const Box& box) noexcept;
-  /// Items of a bin whose boxes meet this one, ascending; and maybe some that miss it by a millionth.
+  /// Finds the items of a bin whose boxes meet this one, ascending, and maybe some that miss it by a
+  /// millionth.
   void find(std::uint32_t bin, const Box& box, std::vector<std::uint32_t>& into);
 
  private:

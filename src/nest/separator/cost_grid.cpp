@@ -19,8 +19,8 @@ LEKALO_WIDE void add_scaled(float* to, std::size_t to_stride, const float* from,
       for (std::size_t n = k; n < k + kBlock; ++n) to[n] += weight * from[n];
 }
 
-/// The first of so many blocks with a number below the limit. Eight blocks are looked at together first, as
-/// most have none.
+/// The first of so many blocks with a number below the limit. Eight blocks are looked at together first,
+/// because most have none.
 LEKALO_WIDE std::uint32_t first_below(const float* row, std::uint32_t block, std::uint32_t blocks,
                                       float limit) {
   constexpr std::uint32_t kTogether = 8;

@@ -53,7 +53,7 @@ void NeighbourGrid::find(std::uint32_t bin, const Box& box, std::vector<std::uin
   for (std::uint32_t y = cells.y0; y <= cells.y1; ++y)
     for (std::uint32_t x = cells.x0; x <= cells.x1; ++x)
       for (const std::uint32_t item : bins_[bin].cells[std::size_t{y} * bins_[bin].columns + x]) {
-        // Told in the first of the cells that both meet.
+        // An item is listed once, in the first of the cells that both boxes meet.
         const Cells& own = items_[item].cells;
         if (std::max(own.x0, cells.x0) == x && std::max(own.y0, cells.y0) == y) into.push_back(item);
       }

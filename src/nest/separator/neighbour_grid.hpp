@@ -7,8 +7,8 @@
 
 namespace lekalo::nest {
 
-/// Boxes in square cells, so that those near a place are found without a look at all others. Items lie on
-/// bins; what lies on another one is never near.
+/// Boxes in square cells, so that those near a place are found without a look at all others. Items on
+/// another bin are never near.
 class NeighbourGrid {
  public:
   /// \param cell  side of a cell, mm
@@ -16,12 +16,13 @@ class NeighbourGrid {
 
   /// Puts an item there, or nowhere (a bin that is none), in place of where it was.
   void set(std::uint32_t item, std::uint32_t bin, const Box& box);
-  /// Items whose cells the box meets, each once; their order follows from what was set before.
+  /// Finds the items whose cells the box meets, each once. Their order follows from what was set before.
   void find(std::uint32_t bin, const Box& box, std::vector<std::uint32_t>& into) const;
 
  private:
   struct Cells {
-    std::uint32_t x0 = 1, y0 = 1, x1 = 0, y1 = 0;  ///< last ones included; none: x1 < x0
+    std::uint32_t x0 = 1, y0 = 1, x1 = 0,
+                  y1 = 0;  ///< the last ones are included; x1 < x0 where there are none
     friend bool operator==(const Cells&, const Cells&) = default;
   };
   struct Bin {
@@ -35,7 +36,7 @@ class NeighbourGrid {
   };
   Cells cells_of(const Bin& bin, const Box& box) const noexcept;
 
-  double per_mm_;  ///< cells
+  double per_mm_;  ///< cells a millimetre
   std::vector<Bin> bins_;
   std::vector<Item> items_;
 };

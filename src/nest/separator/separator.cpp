@@ -54,7 +54,7 @@ void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
     Spot spot = state_.spots[i];
     if (spot.bin != bin) continue;
     Range r = range_of(spot.form, bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) {  // another angle may be narrower
+    if (r.x1 < r.x0 || r.y1 < r.y0) {  // the item may be narrower at another angle
       const Forms& forms = items_.forms[i];
       for (std::uint32_t f = forms.first; f < forms.last; ++f) {
         const Range other = range_of(f, bin, items_.parts[i]);
@@ -90,7 +90,7 @@ double too_far_from_partner(const Problem& problem, const Items& items, const St
   const Box &a = problem.forms()[spot.form].box, &b = problem.forms()[other.form].box;
   const double dx = spot.x - other.x + 0.5 * (a.x0 + a.x1 - b.x0 - b.x1),
                dy = spot.y - other.y + 0.5 * (a.y0 + a.y1 - b.y0 - b.y1);
-  // On another sheet it is further away than anywhere on this one.
+  // A piece on another sheet counts as further away than anywhere on the partner's.
   const Box& sheet = problem.bins()[other.bin].box;
   if (spot.bin != other.bin) return std::hypot(sheet.x1 - sheet.x0, sheet.y1 - sheet.y0);
   return std::max(0.0, std::hypot(dx, dy) - items.pair_reach);
@@ -112,7 +112,7 @@ Separator::Range Separator::range_of(std::uint32_t form, std::uint32_t bin, std:
   const double gap = problem_.border_gap_of(part);
   Range r = {in.x0 + gap - b.x0, state_.ends[bin] - gap - b.x1, in.y0 + gap - b.y0,
              state_.tops[bin] - gap - b.y1};
-  // What fits exactly fits: rounding does not decide.
+  // An item that fits exactly fits, and rounding must not decide otherwise.
   if (r.x1 < r.x0 && r.x0 - r.x1 < 1e-6) r.x0 = r.x1 = 0.5 * (r.x0 + r.x1);
   if (r.y1 < r.y0 && r.y0 - r.y1 < 1e-6) r.y0 = r.y1 = 0.5 * (r.y0 + r.y1);
   return r;
@@ -134,7 +134,7 @@ void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
   near_.resize(count);
 }
 
-/// With the items gathered around.
+/// The weighted cost of item i there, with the items gathered around; it ends early above the limit.
 double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
   ++work_;
   const Form& form = problem_.forms()[spot.form];
@@ -215,8 +215,8 @@ void Separator::descend(std::size_t i, Candidate& best, double step, double unti
   }
 }
 
-/// Along the ways out of what it still overlaps, one after the other: the corner between two comes out
-/// exactly.
+/// Pushes item i out along the depths that are left, one after the other. That ends exactly in the corner
+/// between two neighbours, which a descent by steps never reaches.
 void Separator::push_out(std::size_t i, Candidate& best) {
   const Range r = range_of(best.spot.form, best.spot.bin, items_.parts[i]);
   Spot spot = best.spot;
@@ -259,6 +259,7 @@ std::uint32_t Separator::any_bin() {
                                       : state_.open_bins[random_.below(state_.open_bins.size())];
 }
 
+/// Moves one item to a cheaper place (nest.md, step 2).
 void Separator::move(std::size_t i) {
   if (lattice_ > 0) return move_on_lattice(i);
   const std::uint32_t part = items_.parts[i];
@@ -282,7 +283,7 @@ void Separator::move(std::size_t i) {
     const Range r = range_of(spot.form, spot.bin, part);
     if (r.x1 < r.x0 || r.y1 < r.y0) continue;
     const Box& b = problem_.forms()[spot.form].box;
-    // Middles of the boxes near one another.
+    // In another form the middle of the box stays where it was, or near it.
     const double cx = now.x + 0.5 * (size.x0 + size.x1), cy = now.y + 0.5 * (size.y0 + size.y1);
     spot.x = cx - 0.5 * (b.x0 + b.x1) + random_.uniform(-0.5, 0.5) * w;
     spot.y = cy - 0.5 * (b.y0 + b.y1) + random_.uniform(-0.5, 0.5) * h;
@@ -291,6 +292,7 @@ void Separator::move(std::size_t i) {
     offer({spot, evaluate_all(i, spot, best.loss)});
   }
   const double scale = min_dim_[i];
+  // The places of step 3, or random ones where there is no grid; then down to the nearest hollow, and out.
   if (grid_) {
     Choice choice;
     choose_on_grid(i, any_bin(), choice);
@@ -369,6 +371,7 @@ bool Separator::snap(double unit) {
   return false;
 }
 
+/// nest.md, step 2.
 double Separator::pass() {
   ++work_;
   if (conflicts_.empty() && overlap() <= 0) return 0;

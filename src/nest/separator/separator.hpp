@@ -16,22 +16,23 @@
 
 namespace lekalo::nest {
 
-/// All items and the end of the strip.
+/// Where all items lie, and how far each bin may be used.
 struct State {
-  std::vector<Spot> spots;               ///< by item that is moved, then what stays
+  std::vector<Spot> spots;               ///< by item; those that move come before the fixed ones
   std::vector<double> ends;              ///< by bin: x up to which items may lie
-  std::vector<double> tops;              ///< likewise y
-  std::vector<std::uint32_t> open_bins;  ///< those that may be used
+  std::vector<double> tops;              ///< by bin: y up to which items may lie
+  std::vector<std::uint32_t> open_bins;  ///< the bins that may be used
 };
 
-/// What is moved, and after that what stays.
+/// The items: those that move, and after them those that stay.
 struct Items {
-  std::vector<std::uint32_t> parts;  ///< by item that is moved
-  std::vector<Forms> forms;          ///< likewise: those it may have
+  std::vector<std::uint32_t> parts;  ///< by item that moves: its part
+  std::vector<Forms> forms;          ///< by item that moves: the forms it may have
   std::vector<Spot> fixed;           ///< obstacles of all bins
-  /// By item: the one that it has to lie near, moved or fixed, kNowhere for most; empty where there are none.
-  /// The middles of their boxes are no further apart than that, mm, on one bin.
+  /// By item that moves: the item that it has to lie near, kNowhere for most; empty where no item has a
+  /// partner.
   std::vector<std::uint32_t> partners;
+  /// How far apart the middles of the boxes of partners may be, mm; they have to lie on one bin.
   double pair_reach = 0;
   std::size_t movable() const noexcept { return parts.size(); }
   std::size_t total() const noexcept { return parts.size() + fixed.size(); }
@@ -39,10 +40,10 @@ struct Items {
 /// How much further from its partner item i would lie there than it may, mm.
 [[nodiscard]] double too_far_from_partner(const Problem& problem, const Items& items, const State& state,
                                           std::size_t i, const Spot& spot);
-/// Depths up to this are rounding, mm: what is left of them is set right on the grid.
+/// mm. Depths up to this count as rounding, and settled() ends what is left of them on the grid.
 inline constexpr double kTolerance = 3e-6;
 
-/// Overlap minimisation with guided local search. docs/design/nest.md
+/// Ends overlaps by guided local search. docs/design/nest.md, steps 2 to 4.
 class Separator {
  public:
   Separator(const Problem& problem, const Items& items, Random random);
@@ -50,43 +51,47 @@ class Separator {
   void load(const State& state);
   const State& state() const noexcept { return state_; }
   Random& random() noexcept { return random_; }
-  /// Where this flag is set pass(), relax() and overlap() end in the middle: nothing is worth anything then.
+  /// When this flag gets set, pass(), relax() and overlap() end in the middle, and their results mean
+  /// nothing.
   void watch(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
   bool is_stopped() const noexcept { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
-  /// Weights as at the beginning.
+  /// Sets all weights back to 1.
   void forget_weights();
-  /// Sum of all depths now. 0: valid but for rounding.
+  /// The sum of all depths now, mm; 0 where the state is valid but for rounding.
   double overlap();
-  /// Moves every item in conflict once, in random order, then raises the weights of what is still in
-  /// conflict. Returns overlap().
+  /// Moves every item in conflict once, in random order, then raises the weights of pairs still in
+  /// conflict.
+  /// \return overlap()
   double pass();
-  /// Shifts all pairs that overlap apart by what each lacks, over and over, at most so many rounds. Whether
+  /// Shifts all pairs that overlap apart by their depths, over and over, at most so many rounds. True if
   /// nothing overlaps any more; else everything is back where it was.
   bool relax(int rounds);
-  /// From now on every item lies at multiples of `unit` from the first corner of its bin, and moves to one of
-  /// the cheapest of them all; 0: anywhere again. False where the tables of that would be too large.
+  /// From now on every item lies at multiples of `unit` from the first corner of its bin, and moves to one
+  /// of the cheapest of all these places. 0: items lie anywhere again. False where the grid for that would
+  /// be too large.
   bool use_lattice(double unit);
-  /// mm; 0: items lie anywhere.
+  /// The unit of the lattice in use, mm; 0 where items lie anywhere.
   double lattice() const noexcept { return lattice_; }
   /// Puts every item on the lattice in use, valid or not.
   void to_lattice();
-  /// Puts every item on the multiples of `unit` nearest to it; takes it back where that is not valid.
+  /// Puts every item on the multiples of `unit` nearest to it. False, and nothing moved, where that is not
+  /// valid.
   bool snap(double unit);
   /// The largest depth that the last overlap() found, mm.
   double deepest() const noexcept { return deepest_; }
-  /// Candidate places looked at; grids of them and relaxing count as many as would take that long.
+  /// Work so far: candidate places looked at. Grids and relaxing count as the places that take as long.
   std::uint64_t work() const noexcept { return work_; }
-  /// Anywhere on the open bins.
+  /// Puts item i anywhere on the open bins.
   void put_anywhere(std::size_t i);
-  /// Slides what lies on a bin away from a point as far as it goes, what is furthest from it first: the room
-  /// between all gathers there. \pre nothing overlaps
+  /// Slides every item on a bin away from a point as far as it goes, the furthest first, so that the room
+  /// between all of them gathers there. \pre nothing overlaps
   void make_room(std::uint32_t bin, geom::Point at);
-  /// The cheapest place found around a point, whatever overlaps there.
+  /// Puts item i to the cheapest place found around a point, whatever it overlaps there.
   void put_near(std::size_t i, std::uint32_t bin, geom::Point at);
-  /// The length (axis 0) or height (axis 1) that the widest item on it needs.
+  /// The length (axis 0) or height (axis 1) that the widest item on a bin needs, mm.
   double least_side(std::uint32_t bin, int axis) const;
-  /// Items beyond are pushed back.
+  /// Sets how far a bin may be used, and pushes items beyond that back.
   void set_limits(std::uint32_t bin, double x1, double y1);
   void set_spot(std::size_t i, const Spot& spot);
   bool is_in_conflict(std::size_t i);
@@ -128,12 +133,12 @@ class Separator {
   float heaviest_obstacle(std::size_t i, std::uint32_t bin) const;
   void add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> close_pairs(double margin) const;
-  /// What an overlap costs before its weight.
+  /// What an overlap of two items costs before its weight.
   double value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept;
   double cost_of(double depth, double area) const noexcept;
   std::uint32_t any_bin();
   double area_of(const Spot& a, const Spot& b) const;
-  /// How much too far from its partner item i would lie there, mm.
+  /// too_far_from_partner() in this state.
   double distance_too_far(std::size_t i, const Spot& spot) const;
   float& weight(std::size_t i, std::size_t j) { return weights_[i * total_ + j]; }
 
@@ -146,7 +151,7 @@ class Separator {
   std::vector<float> weights_;
   std::vector<std::size_t> raised_;  ///< indices of weights above 1
   BoxList list_;
-  std::optional<NeighbourGrid> cells_;  ///< instead of the list where there are many items
+  std::optional<NeighbourGrid> cells_;  ///< used instead of the list where there are many items
   const std::atomic<bool>* stop_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> order_;
@@ -160,14 +165,15 @@ class Separator {
   double deepest_ = 0;
   std::uint64_t work_ = 0;
   std::optional<CostGrid> grid_;
-  NodeGrid nodes_;  ///< of the item being moved, in one form
-  /// By bin and form: what the obstacles there cost, made when first asked for; empty: each has rasters.
+  NodeGrid nodes_;  ///< the costs of the item being moved, in one form
+  /// By bin and form: what the obstacles there cost, made when first asked for. Empty where each obstacle
+  /// has rasters of its own.
   std::vector<std::optional<NodeGrid>> fixed_costs_;
-  std::optional<CostSums> sums_;  ///< not where adding up anew is cheaper
-  double lattice_ = 0;            ///< 0: anywhere
-  double unit_ = 0;               ///< mm: the middling part's size
-  std::vector<double> size_;      ///< in units; 1 for what stays
-  std::vector<double> root_;      ///< of the sizes
+  std::optional<CostSums> sums_;  ///< none where adding up anew is cheaper
+  double lattice_ = 0;            ///< unit of the lattice, mm; 0 where items lie anywhere
+  double unit_ = 0;               ///< the middling part's size, mm
+  std::vector<double> size_;      ///< by item, in units; 1 for fixed ones
+  std::vector<double> root_;      ///< by item: the root of its size
 };
 
 }  // namespace lekalo::nest

@@ -33,8 +33,8 @@ bool Separator::make_grid(double pitch) {
   return true;
 }
 
-/// A move changes two rasters in the sums of every form; without them it adds up all that lies there, in the
-/// forms it looks at.
+/// Whether kept sums are quicker. With them a move changes two rasters in the sums of every form; without
+/// them it adds up everything that lies there, in the forms it looks at.
 bool Separator::sums_pay() const {
   const std::size_t forms = problem_.forms().size();
   double looked_at = 0;
@@ -71,7 +71,7 @@ void Separator::to_lattice() {
   }
 }
 
-/// What a form costs with the obstacles of a bin, everywhere there; null where each of them has rasters.
+/// The costs of a form with all obstacles of a bin, everywhere there; null where each obstacle has rasters.
 const NodeGrid* Separator::fixed_costs(std::uint32_t form, std::uint32_t bin) {
   const Bin& on = problem_.bins()[bin];
   if (fixed_costs_.empty() || on.obstacles.empty()) return nullptr;
@@ -88,7 +88,7 @@ const NodeGrid* Separator::fixed_costs(std::uint32_t form, std::uint32_t bin) {
   return &*made;
 }
 
-/// What item i pays for an obstacle of the bin with, at most.
+/// The heaviest weight that item i has for an obstacle of the bin.
 float Separator::heaviest_obstacle(std::size_t i, std::uint32_t bin) const {
   float most = 1;
   for (std::size_t j = items_.movable(); j < total_; ++j)
@@ -96,7 +96,8 @@ float Separator::heaviest_obstacle(std::size_t i, std::uint32_t bin) const {
   return most;
 }
 
-/// What item i would cost in a form everywhere in the range, or in a window of it where that is large.
+/// Fills the nodes with what item i would cost in a form everywhere in the range, or in a window of it
+/// where the range is large (nest.md, step 3).
 void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, const Range& range) {
   std::uint32_t columns = grid_->nodes(range.x1 - range.x0), rows = grid_->nodes(range.y1 - range.y0);
   const std::uint64_t before = grid_->added();
@@ -133,7 +134,8 @@ void Separator::fill_grid(std::size_t i, std::uint32_t form, std::uint32_t bin, 
   work_ += (grid_->added() - before + std::uint64_t{columns} * rows) / tuning::kNodesAsPlace;
 }
 
-/// Of what everything on a bin costs, what item i pays for alone: its raised weights, and itself not at all.
+/// Corrects the sums of everything on a bin for item i: adds its raised weights, and takes away the item
+/// itself.
 void Separator::add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin) {
   const float* weights = &weights_[i * total_];
   const std::size_t rastered = fixed_costs_.empty() ? total_ : items_.movable();
@@ -170,7 +172,7 @@ void Separator::move_on_lattice(std::size_t i) {
   if (ties > 0) set_spot(i, best);
 }
 
-/// The deepest of the hollows of the cost over a bin, in all forms or some of many.
+/// Offers the deepest hollows of the cost over a bin, in all forms of item i or in some of many.
 void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice) {
   const Forms& forms = items_.forms[i];
   const std::uint32_t count = forms.last - forms.first, tried = std::min(count, tuning::kFormsOnGrid);

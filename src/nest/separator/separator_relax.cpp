@@ -30,6 +30,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Separator::close_pairs(doub
   return pairs;
 }
 
+/// nest.md, step 4.
 bool Separator::relax(int rounds) {
   const std::vector<Spot> before = state_.spots;
   const double gap = problem_.widest_gap();
@@ -53,7 +54,7 @@ bool Separator::relax(int rounds) {
         spot.y = std::max(r.y0, std::min(r.y1, spot.y + amount * way.direction.y));
         set_spot(k, spot);
       };
-      // The smaller one goes further; what is fixed stays.
+      // The smaller item goes further, and a fixed one stays.
       double share = 0;
       if (j < items_.movable()) {
         share = size_[i] * size_[i] / (size_[i] * size_[i] + size_[j] * size_[j]);

@@ -6,12 +6,12 @@
 namespace lekalo::nest {
 namespace {
 
-/// The cosine of 45 degrees, for the two ways aslant.
+/// The cosine of 45 degrees, which the two ways aslant have to the straight one.
 constexpr double kAslant = 0.7071;
 
 }  // namespace
 
-/// Whether item i may lie there, with the items gathered around.
+/// Whether item i overlaps none of the items gathered around when it lies there.
 bool Separator::is_free(std::size_t i, const Spot& spot) {
   ++work_;
   if (distance_too_far(i, spot) > 0.5 * kTolerance) return false;
@@ -28,6 +28,7 @@ bool Separator::is_free(std::size_t i, const Spot& spot) {
   });
 }
 
+/// nest-sheets.md, step 3.
 void Separator::make_room(std::uint32_t bin, geom::Point at) {
   std::vector<std::pair<double, std::uint32_t>> order;
   const auto middle = [&](std::size_t i) {

@@ -12,8 +12,8 @@ namespace lekalo::nest {
 class Strand {
  public:
   /// A strand with the usual schedule of the problem's stock.
-  /// \param stream  its number, which decides its stream of chance; strand 1 of a strip looks on the lattice
-  /// too
+  /// \param stream  its number, which decides its stream of chance; strand 1 of a strip looks on the
+  /// lattice too
   Strand(const Problem& problem, const Items& items, std::uint64_t seed, std::uint64_t stream);
   Strand(const Problem& problem, const Items& items, Random random, Schedule schedule);
 

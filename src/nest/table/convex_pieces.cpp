@@ -11,7 +11,7 @@ namespace {
 using geom::GridPoint;
 using Loop = std::vector<std::uint32_t>;
 
-/// In the closed triangle, corners counter-clockwise.
+/// Whether p lies in the closed triangle abc, corners counter-clockwise.
 bool holds(GridPoint a, GridPoint b, GridPoint c, GridPoint p) {
   return geom::turn(a, b, p) >= 0 && geom::turn(b, c, p) >= 0 && geom::turn(c, a, p) >= 0;
 }
@@ -32,7 +32,7 @@ bool crosses(GridPoint p, GridPoint q, GridPoint a, GridPoint b) {
          (aq == 0 && pa * pb < 0 && !(q == a) && !(q == b));
 }
 
-/// One loop that runs into every hole and back along the same way.
+/// The region as one loop, which runs into every hole and back along the same way.
 Loop joined_loops(const geom::GridRegion& region) {
   const auto& points = region.points;
   const auto loop_of = [&](std::size_t l) {
@@ -65,7 +65,7 @@ Loop joined_loops(const geom::GridRegion& region) {
         if (meets(holes[other])) return false;
       return true;
     };
-    // Nearest first; the way into the material at both ends.
+    // The nearest corner is tried first. At both ends the way has to lead into the material.
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < joined.size(); ++k) {
       const GridPoint d = points[joined[k]] - from;
@@ -98,12 +98,12 @@ std::vector<Loop> triangles_of(const std::vector<GridPoint>& points, Loop loop) 
   while (loop.size() > 3) {
     const std::size_t n = loop.size();
     std::size_t ear = n;
-    // The fattest ear: thin ones make many pieces.
+    // The fattest ear goes first, because thin ones make many pieces.
     double best = -1;
     for (std::size_t k = 0; k < n; ++k) {
       const GridPoint a = points[loop[(k + n - 1) % n]], b = points[loop[k]], c = points[loop[(k + 1) % n]];
       const int side = geom::turn(a, b, c);
-      if (side == 0) {  // on the line: nothing to cut off
+      if (side == 0) {  // the corner lies on a line, and there is nothing to cut off
         ear = k;
         best = -1;
         break;
@@ -126,7 +126,7 @@ std::vector<Loop> triangles_of(const std::vector<GridPoint>& points, Loop loop) 
         ear = k;
       }
     }
-    if (ear == n) {  // cannot be in a simple loop; the triangle that turns left covers more, never less
+    if (ear == n) {  // this cannot be in a simple loop; a triangle that turns left covers more, never less
       for (std::size_t k = 0; k < n && ear == n; ++k)
         if (geom::turn(points[loop[(k + n - 1) % n]], points[loop[k]], points[loop[(k + 1) % n]]) > 0)
           ear = k;
@@ -141,7 +141,7 @@ std::vector<Loop> triangles_of(const std::vector<GridPoint>& points, Loop loop) 
   return triangles;
 }
 
-/// Joins two pieces along an edge that both have where the result is convex.
+/// Joins two pieces along an edge that both have, if the result is convex.
 bool join(const std::vector<GridPoint>& points, Loop& a, const Loop& b) {
   const std::size_t n = a.size(), m = b.size();
   for (std::size_t i = 0; i < n; ++i) {

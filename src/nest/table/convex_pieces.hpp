@@ -7,11 +7,11 @@
 
 namespace lekalo::nest {
 
-/// Corners counter-clockwise, mm.
+/// The corners of a convex polygon, counter-clockwise, mm.
 using ConvexPiece = std::vector<geom::Point>;
 
-/// Pieces without common interior whose union is the region: ears cut off, then joined again across the cuts
-/// as long as they stay convex. Cost: O(n^2), with holes O(n^2 holes).
+/// Convex pieces without common interior whose union is the region. Ears are cut off, then joined again
+/// across the cuts as long as they stay convex. Cost: O(n^2), with holes O(n^2 holes).
 [[nodiscard]] std::vector<ConvexPiece> convex_pieces(const geom::GridRegion& region);
 
 }  // namespace lekalo::nest

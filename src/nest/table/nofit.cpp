@@ -26,7 +26,8 @@ struct Sum {
   Bounds box;
 };
 
-/// The shifts of b at which two convex pieces overlap: a less b.
+/// The shifts of b at which two convex pieces overlap: the Minkowski sum of a and b turned about the
+/// origin.
 Sum difference_of(const ConvexPiece& a, const ConvexPiece& b) {
   const auto lowest = [](const ConvexPiece& p, double sign) {
     std::size_t best = 0;
@@ -76,7 +77,7 @@ std::pair<double, double> inside_of(const ConvexPiece& polygon, Point start, Poi
   return {from, to};
 }
 
-/// Of p and q moved by t.
+/// The area that p and q moved by t have in common.
 double area_in_common(const ConvexPiece& p, const ConvexPiece& q, Point t) {
   ConvexPiece at, next;
   for (const Point c : q) at.push_back(c + t);
@@ -103,7 +104,8 @@ struct Contact {
   Point from, to;
 };
 
-/// Shifts at which a corner of one that is no dent lies on an edge of the other, on its outer side.
+/// Adds the shifts at which a corner of one shape, that is no dent, lies on an edge of the other from
+/// outside.
 void add_contacts(const Shape& edges_of, const Shape& corners_of, bool edges_move, std::vector<Contact>& to) {
   for (const auto& loop : edges_of.loops) {
     for (std::size_t e = 0; e < loop.size(); ++e) {
@@ -158,7 +160,8 @@ void visit_gaps(const Intervals& intervals, double length, double rounding, Visi
   if (length > at + rounding) visit(at, length);
 }
 
-/// The border of the region of shifts at which two shapes overlap: the contacts, less what lies inside a sum.
+/// The border of the region of shifts at which two shapes overlap: the contacts, less what lies inside a
+/// sum.
 std::vector<NoFit::Segment> border_of(const Shape& a, const Shape& b, const std::vector<Sum>& sums,
                                       double size, const NoFit::IsFree& is_free) {
   const double outward = 1e-10 * size, reserve = 1e-11 * size;
@@ -208,6 +211,7 @@ Shape turned(const Shape& shape, double c, double s) {
 NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free,
              const Box& window, bool with_areas, std::size_t most_narrow)
     : gap_(gap) {
+  // nest.md, step 1: the sums of convex pieces, the border, and the raster over both.
   std::vector<Sum> sums;
   Bounds all;
   for (const ConvexPiece& p : a.pieces)
@@ -277,8 +281,8 @@ void NoFit::fill_all(std::vector<Index>& lists) {
   if (!every.empty()) fill(0, 0, square, every, lists);
 }
 
-/// Fills the cells of a square block, by quarters. Segments that are nearest to no point of a block are left
-/// out on the way down.
+/// Fills the cells of a square block, by quarters. Segments that are nearest to no point of a block are
+/// left out on the way down.
 template <class Index>
 void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size, const std::vector<Index>& candidates,
                  std::vector<Index>& lists) {
@@ -341,7 +345,7 @@ NoFit::Signed NoFit::signed_distance(const Index* begin, const Index* end, doubl
     along = along < 0 ? 0 : along > s.length ? s.length : along;
     const double ex = dx - along * s.direction.x, ey = dy - along * s.direction.y;
     const double distance = std::sqrt(ex * ex + ey * ey);
-    // At a corner two are equally near: the one whose line is further away knows the side.
+    // At a corner two edges are equally near, and the one whose line is further away knows the side.
     if (distance < best - tie_ ||
         (distance < best + tie_ && (distance < best ? std::abs(side) >= std::abs(best_side) - tie_
                                                     : std::abs(side) > std::abs(best_side) + tie_))) {

@@ -24,8 +24,8 @@ struct Box {
 
 /// A table that says how deep an outline b, moved by t, lies in an outline a. The shifts at which they
 /// overlap, or come nearer than a gap, form a region; the depth is the distance of t from the region's
-/// border. It is exact to the rounding of doubles near the border and interpolated from a raster further in.
-/// docs/design/nest.md, step 1.
+/// border. It is exact to the rounding of doubles near the border and interpolated from a raster further
+/// in. docs/design/nest.md, step 1.
 ///
 /// Cost of making one: O(contacts x pairs of convex pieces), then O(border edges) for each cell near them.
 /// There is no limit on the edges of a border: beyond kMostNarrow of them the table takes twice the memory.
@@ -57,7 +57,8 @@ class NoFit {
     const float high = node[columns_ + 1] + u * (node[columns_ + 2] - node[columns_ + 1]);
     return static_cast<double>(low + v * (high - low));
   }
-  /// The area that both have in common, interpolated from a coarser raster, mm^2; 0 for tables without areas.
+  /// The area that both have in common, interpolated from a coarser raster, mm^2; 0 for tables without
+  /// areas.
   double common_area(double x, double y) const noexcept {
     const double fx = (x - x0_) * area_per_mm_, fy = (y - y0_) * area_per_mm_;
     if (!(fx >= 0 && fy >= 0 && fx < area_width_ && fy < area_height_)) return 0;

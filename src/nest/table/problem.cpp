@@ -48,7 +48,7 @@ double hull_area(std::vector<Point> points) {
   return 0.5 * twice;
 }
 
-/// The frame around a loop, a region with one hole.
+/// A frame around a loop: a region whose only hole it is.
 Shape frame_around(const std::vector<geom::GridPoint>& loop, std::int64_t width) {
   geom::GridPoint low = loop[0], high = loop[0];
   for (const geom::GridPoint p : loop) {
@@ -104,7 +104,8 @@ geom::Region drawn(const GridRegion& region) {
   return result;
 }
 
-/// What of a part needs more than a quality. All of it where that cannot be told: the safe side.
+/// The areas of a part that need more than a quality. It is the whole part where that cannot be told, which
+/// is the safe side.
 Shape demanding_more(const layout::Part& part, int than, bool mirrored) {
   std::vector<geom::Region> content, strict;
   for (const layout::PartArea& area : part.areas)
@@ -153,14 +154,15 @@ Shape demanding_more(const layout::Part& part, int than, bool mirrored) {
 
 Problem::Problem(const layout::Document& document, const SearchOptions& options)
     : document_(&document), options_(options) {
-  // Obstacles first: tables are in the frame of the first of two shapes, and a border's window is upright.
+  // Obstacles come first, because a table is in the frame of the first of two shapes, and a border's window
+  // is upright.
   add_bins();
   add_parts();
   add_locked();
   add_relative_angles();
   find_unit();
   find_grain();
-  // Where every table serves few looks, coarse ones: what decides validity is exact in any.
+  // Where every table serves few looks, coarse ones do: depths near a border are exact in any.
   const double parts = static_cast<double>(by_part_.size());
   const double tables = 0.5 * parts * parts * static_cast<double>(relative_count_);
   cells_ = tables > tuning::kManyTables ? options_.cells / 4 : options_.cells;
@@ -192,7 +194,8 @@ void Problem::add_parts() {
           angles.push_back(step * static_cast<double>(k));
         return;
       }
-      // Multiples of the step as far as they lie in it: parts then share differences of angles.
+      // Angles are multiples of the step where the range holds some, so that parts share differences of
+      // angles.
       bool any = false;
       for (double k = std::ceil(from / step); k * step <= to; ++k) {
         angles.push_back(k * step);
@@ -202,7 +205,7 @@ void Problem::add_parts() {
     };
     if (part.rotations.empty()) add_range(0, 360);
     for (const layout::AngleRange& range : part.rotations) add_range(range.from, range.to);
-    if (part.grain)  // where the lattice misses the grain's narrow turn
+    if (part.grain)  // the steps may miss the few angles that the grain allows
       for (const layout::Stock& stock : document.stocks)
         if (stock.grain_degrees)
           for (const double grain : {part.grain->degrees, 180.0 - part.grain->degrees})
@@ -254,7 +257,8 @@ std::uint32_t Problem::obstacle_form(SearchShape::Kind kind, int level, Shape sh
   return static_cast<std::uint32_t>(forms_.size() - 1);
 }
 
-/// One obstacle of a kind and level each, so that a part needs few tables for all of a stock.
+/// Adds one obstacle of each kind and level, so that a part needs few tables for all of a stock
+/// (nest-sheets.md, step 7).
 void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   using Kind = SearchShape::Kind;
   const layout::Stock& stock = document_->stocks[s];
@@ -414,7 +418,7 @@ void Problem::find_unit() {
         common = std::gcd(common, p.y);
       else
         common = std::gcd(std::gcd(common, p.x), p.y);
-  constexpr std::int64_t kLeast = 1024;  // a micrometre: finer ones say nothing
+  constexpr std::int64_t kLeast = 1024;  // steps, about a micrometre: finer units say nothing
   if (common >= kLeast) unit_ = geom::mm_from_grid(common);
 }
 
@@ -489,7 +493,7 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
     of_q = against(q, p);
   else
     of_p = &nothing;
-  // A slot just wide enough is one only if the outlines themselves say so.
+  // Only the outlines themselves can tell that a slot is just wide enough.
   GridRegion region_p, region_q;
   NoFit::IsFree is_free;
   if (p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part) {
@@ -505,7 +509,7 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
   }
   const Shape turned_q = turned(*of_q, c, s);
   const bool of_parts = p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part;
-  // What belongs to the stock is as large as the stock.
+  // A table of something that belongs to the stock covers the stock, not only the part.
   const Box window = p.kind == SearchShape::Kind::part ? Box{} : p.window;
   const std::size_t cells = of_parts ? cells_ : tuning::kStockCells * cells_;
   auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, cells, is_free, window, of_parts);

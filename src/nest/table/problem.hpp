@@ -15,18 +15,18 @@
 
 namespace lekalo::nest {
 
-/// A layout document as the search sees it: numbers in doubles, mm, and what can be looked up.
+/// A layout document as the search sees it, in doubles and mm.
 
-/// A part, mirrored or not, or something of the stock that forbids.
+/// A part, mirrored or not, or something of the stock where parts may not lie.
 struct SearchShape {
   enum class Kind : std::uint8_t { part, border, defect, zone };
   Kind kind = Kind::part;
   Shape whole;
-  std::uint32_t part = 0;  ///< of parts
+  std::uint32_t part = 0;  ///< index, for shapes of parts
   int level = 0;           ///< severity of a defect, quality of a zone
-  /// Of parts: what needs more than a zone of a quality has, by quality.
+  /// For shapes of parts, by quality: the areas that need more than a zone of that quality has.
   std::vector<std::pair<int, Shape>> demanding;
-  Box window;  ///< of what belongs to the stock: where parts can be at all
+  Box window;  ///< for shapes of the stock: the box within which parts can be at all
 };
 
 /// A shape at an angle.
@@ -35,29 +35,29 @@ struct Form {
   double c = 1, s = 0;
   geom::GridRotation rotation;
   bool mirrored = false;
-  Box box;  ///< around the origin
+  Box box;  ///< of the form with its origin at (0, 0)
 };
 
-/// Forms that one part may have: [first, last). Upright ones come first.
+/// Forms that one part may have: the indices [first, last). Upright ones come before mirrored ones.
 struct Forms {
   std::uint32_t first = 0, last = 0;
   friend bool operator==(const Forms&, const Forms&) = default;
 };
 
-/// What lies where it lies: locked parts, borders that are no rectangle, holes, defects, zones.
+/// Something that does not move: a locked part, a border that is no rectangle, holes, defects or zones.
 struct Obstacle {
   std::uint32_t form = 0;
   double x = 0, y = 0;
 };
 
-/// A rectangle that parts lie in, and what else forbids there. Hides: the rectangle around them, and their
-/// border as an obstacle.
+/// One strip, sheet or hide: a rectangle that parts lie in, and obstacles there. A hide has the rectangle
+/// around it, and its border is an obstacle.
 struct Bin {
   std::uint32_t stock = 0;
   std::int64_t copy = 0;
   Box box;
-  bool open = false;  ///< a strip: x1 is what is sought
-  double area = 0;    ///< material, mm^2
+  bool open = false;  ///< a strip, whose used length is what is sought
+  double area = 0;    ///< of its material, mm^2
   bool holds_locked = false;
   /// x and y up to which locked parts reach.
   double locked_reach = -std::numeric_limits<double>::infinity();
@@ -66,10 +66,10 @@ struct Bin {
 };
 
 struct SearchOptions {
-  std::size_t angles_of_any = 24;  ///< of a part that may be turned anyhow
-  /// Also the angles at which unlocked placements lie, as far as their parts may have them.
+  std::size_t angles_of_any = 24;  ///< of a part that may be turned by any angle
+  /// Gives parts the angles at which unlocked placements lie too, if they may have them.
   bool given_angles = false;
-  std::size_t cells = tuning::kRasterCells;  ///< of a raster
+  std::size_t cells = tuning::kRasterCells;  ///< about so many in the raster of a table
 };
 
 /// The only bin of a problem that is one strip.
@@ -82,9 +82,9 @@ class Problem {
 
   const layout::Document& document() const noexcept { return *document_; }
   const std::vector<Form>& forms() const noexcept { return forms_; }
-  /// Of part \p part at this rotation, where it is among the forms.
+  /// The form of a part at this rotation; the number of forms where it has none.
   std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
-  /// Those of one hand, or all.
+  /// The forms of a part: of one hand, or all.
   Forms forms_of(std::uint32_t part, std::optional<bool> mirrored = std::nullopt) const noexcept;
   std::uint32_t part_of(const Form& form) const noexcept { return shapes_[form.shape].part; }
   SearchShape::Kind kind_of(const Form& form) const noexcept { return shapes_[form.shape].kind; }
@@ -94,8 +94,8 @@ class Problem {
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
   double hull_area_of(std::uint32_t part) const noexcept { return hull_areas_[part]; }
   double border_gap_of(std::uint32_t part) const noexcept { return border_gaps_[part]; }
-  /// Every corner of parts, at every angle they may have, and of the stock lies on multiples of this, mm; 0
-  /// where there is no such length worth speaking of.
+  /// A length, mm, of which all corners of the stock, and of all parts at every angle they may have, are
+  /// multiples; 0 where there is none above a micrometre.
   double unit() const noexcept { return unit_; }
   /// Whether the grain of a part's form follows that of a bin's stock.
   bool follows_grain(std::uint32_t form, std::uint32_t bin) const noexcept {
@@ -103,9 +103,9 @@ class Problem {
   }
   /// Whether the part's box fits on some stock in one of these forms.
   bool fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept;
-  /// Locked ones, by part.
+  /// How many pieces are locked, by part.
   const std::vector<layout::PieceCount>& locked_pieces() const noexcept { return locked_pieces_; }
-  /// The widest gap that may count between any two.
+  /// The widest gap that may count between any two shapes, mm.
   double widest_gap() const noexcept { return widest_gap_; }
 
   /// How deep form b at a shift of (dx, dy) from form a lies in it.
@@ -113,17 +113,17 @@ class Problem {
     if (a.shape <= b.shape) return table(a, b).depth(a.c * dx + a.s * dy, a.c * dy - a.s * dx);
     return table(b, a).depth(-(b.c * dx + b.s * dy), b.s * dx - b.c * dy);
   }
-  /// Material that both have in common, roughly, mm^2; 0 for what is no part.
+  /// Roughly the area that both have in common, mm^2; 0 unless both are parts.
   double common_area(const Form& a, const Form& b, double dx, double dy) const {
     if (a.shape <= b.shape) return table(a, b).common_area(a.c * dx + a.s * dy, a.c * dy - a.s * dx);
     return table(b, a).common_area(-(b.c * dx + b.s * dy), b.s * dx - b.c * dy);
   }
-  /// The same, and the direction in which b gets free.
+  /// The depth as of depth(), and the direction in which b gets free.
   NoFit::Way way_out(const Form& a, const Form& b, double dx, double dy) const;
   std::size_t tables() const noexcept { return made_.load(); }
 
  private:
-  /// Tables of a pair of shapes, by difference of angles; only of pairs that meet.
+  /// The tables of a pair of shapes, by difference of angles. Each is made when it is first asked for.
   using Row = std::vector<std::atomic<const NoFit*>>;
   const NoFit& table(const Form& a, const Form& b) const {
     const std::size_t pair = std::size_t{a.shape} * shapes_.size() + b.shape;

@@ -19,7 +19,7 @@ Point between(GridPoint a, GridPoint b) {
 /// One change of a loop: corner k goes, or k and the one after become `to`.
 struct Change {
   std::size_t k = 0;
-  double cost = std::numeric_limits<double>::infinity();  ///< area
+  double cost = std::numeric_limits<double>::infinity();  ///< area that is added
   bool fills = false;
   GridPoint to;
 };
@@ -36,7 +36,7 @@ Change cheapest(const std::vector<GridPoint>& loop, double reach) {
       if (area / length <= reach && area < best.cost) best = {k, area, true, {}};
     }
     if (geom::turn(a, b, c) > 0 && geom::turn(b, c, d) > 0) {
-      // Where the edges before and after this one meet.
+      // The tip is the point where the edges before and after this one meet.
       const Point before = between(a, b), after = between(d, c), edge = between(b, c);
       const double side = cross(before, after);
       if (!(side < 0)) continue;  // they run apart

@@ -4,10 +4,10 @@
 
 namespace lekalo::nest {
 
-/// A region with fewer corners that holds the given one but for some steps of rounding: dents no deeper than
-/// `tolerance` mm are filled, edges between two corners that stick out are replaced by the point where their
-/// neighbours meet, where that is no further out. Down to `enough` corners; the given region where the result
-/// would not be simple. Cost: O(n^2).
+/// A region with fewer corners that holds the given one, but for some steps of rounding. Dents no deeper
+/// than `tolerance` mm are filled. An edge between two corners that stick out gives way to the point where
+/// its neighbours meet, if that is no further out. It ends at `enough` corners. The given region comes back
+/// where the result would not be simple. Cost: O(n^2).
 [[nodiscard]] geom::GridRegion simplified(const geom::GridRegion& region, double tolerance,
                                           std::size_t enough);
 
