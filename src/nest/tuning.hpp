@@ -138,7 +138,7 @@ inline constexpr double kFirstShorter = 0.02, kExploreShorter = 0.001;
 inline constexpr Patience kHastyPatience = {50, 1}, kExplorePatience = {200, 3};
 /// explore: attempts in vain at the smallest share before compressing. 12: 0.2 points less on swim. 4: up
 /// to half a point less on shirts.
-inline constexpr int kFailuresToCompress = 6;
+inline constexpr std::size_t kFailuresToCompress = 6;
 /// Share of all hulls. Parts that make up so much of them, largest first, count as large and change places.
 inline constexpr double kLargeShare = 0.75;
 /// Standard deviation, as a share of the pool, of the rank of the failed state that is gone on from.

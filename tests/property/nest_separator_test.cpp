@@ -152,7 +152,7 @@ TEST(CostGrid, AddsObstaclesTogetherAndWindowsOfThem) {
   EXPECT_GT(costly, 0u);
 }
 
-/// What slides away from a point stays valid, comes no nearer to it, and leaves room there.
+/// Items that slide away from a point stay valid, come no nearer to it, and leave room there.
 TEST(MakeRoom, SlidesEverythingAwayFromAPoint) {
   layout::Document document =
       whole_millimetres({cases::box_loop(0, 0, 4, 4), cases::box_loop(0, 0, 4, 4), l_shape(5),

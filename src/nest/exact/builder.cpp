@@ -4,6 +4,8 @@
 #include <numeric>
 #include <set>
 
+#include "nest/tuning.hpp"
+
 namespace lekalo::nest {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/layout/check.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

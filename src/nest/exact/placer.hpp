@@ -31,7 +31,7 @@ class Placer {
   /// Puts item i, which lies nowhere, to the free place on a bin found furthest left among so many; false
   /// if none was free.
   bool place_low(std::size_t i, std::uint32_t bin, std::size_t samples);
-  /// Whether the box of item i fits in some form.
+  /// True if the box of item i fits on the bin in some form.
   bool can_hold(std::uint32_t bin, std::size_t i);
   void open_bin(std::uint32_t bin);
   void close_bin(std::uint32_t bin);

@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "builder.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {
 
-/// Whether a place for one piece was found on stock that holds only what counts.
+/// True if a place for one piece is found on stock that holds only what counts.
 bool has_place(const Problem& problem, std::uint32_t part, Placer::Counts counts) {
   const auto& bins = problem.bins();
   Items items;

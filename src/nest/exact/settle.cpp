@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lekalo/layout/check.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {
@@ -39,7 +40,7 @@ layout::Document placed(const Problem& problem, const Items& items, const State&
   return document;
 }
 
-/// Whether a shift can end this violation.
+/// True if a shift can end this violation.
 bool can_be_shifted(const layout::Violation& v) { return v.direction.x != 0 || v.direction.y != 0; }
 
 /// Shifts both pieces of a violation apart by what is missing.

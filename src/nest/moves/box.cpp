@@ -50,7 +50,7 @@ SmallerBox::Size SmallerBox::wanted(Search& search, Size now) const {
     size.w = now.w * std::exp(share * log_ratio);
   }
   size.h = area / size.w;
-  // What one side cannot do the other has to.
+  // The other side has to do what one cannot.
   if (size.w < least.w || size.w > most.w) {
     size.w = std::clamp(size.w, std::min(least.w, most.w), most.w);
     size.h = area / size.w;

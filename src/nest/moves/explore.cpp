@@ -6,13 +6,11 @@ namespace lekalo::nest {
 
 bool Explore::begin(Search& search) {
   failed_.clear();
-  failures_ = 0;
-  disrupts_ = false;
   return used_area(search.problem, search.items, search.best.state, kStrip) > 0;
 }
 
 Outcome Explore::attempt(Search& search) {
-  if (!disrupts_) return shorten(search, search.shorter, false);
+  if (failed_.count() == 0) return shorten(search, search.shorter, false);
   failed_.load_disrupted(search);
   begin_separation(search);
   return Outcome::under_way;
@@ -25,23 +23,17 @@ Patience Explore::patience(const Search& search) const {
 Outcome Explore::on_valid(Search& search) {
   if (!take(search)) return Outcome::failed;
   failed_.clear();
-  failures_ = 0;
-  disrupts_ = false;
   return Outcome::under_way;
 }
 
 Outcome Explore::on_failure(Search& search) {
-  ++failures_;
   if (search.shorter > tuning::kExploreShorter) {
     search.shorter = std::max(tuning::kExploreShorter, 0.5 * search.shorter);
-    failures_ = 0;
-    disrupts_ = false;
     return Outcome::under_way;
   }
   // On the lattice the turn is ended by the lattice's own budget.
-  if (!search.is_on_lattice() && failures_ >= tuning::kFailuresToCompress) return Outcome::over;
+  if (!search.is_on_lattice() && failed_.count() + 1 >= tuning::kFailuresToCompress) return Outcome::over;
   failed_.add(search.attempt, tuning::kFailuresToCompress);
-  disrupts_ = true;
   return Outcome::under_way;
 }
 

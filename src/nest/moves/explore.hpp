@@ -18,9 +18,7 @@ class Explore final : public StripMove {
   Patience patience(const Search& search) const override;
 
  private:
-  FailedStates failed_;
-  int failures_ = 0;
-  bool disrupts_ = false;  ///< the next attempt is a rearrangement of one that failed
+  FailedStates failed_;  ///< at the smallest share; the next attempt is a rearrangement of one of these
 };
 
 }  // namespace lekalo::nest

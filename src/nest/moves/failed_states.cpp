@@ -14,7 +14,7 @@ double about_normal(Random& random) {
   return sum - 6;
 }
 
-/// Whether item i is much smaller than another one and its middle lies within that one's box.
+/// True if item i is much smaller than another one and its middle lies within that one's box.
 bool lies_in(const Search& search, const State& state, std::uint32_t i, std::uint32_t other) {
   const Spot& s = state.spots[other];
   const Box& box = search.problem.forms()[s.form].box;

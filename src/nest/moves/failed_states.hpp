@@ -9,6 +9,7 @@ namespace lekalo::nest {
 /// States of attempts that failed, from which another arrangement is tried. docs/design/nest.md, step 6.
 class FailedStates {
  public:
+  std::size_t count() const noexcept { return states_.size(); }
   void clear() { states_.clear(); }
   /// Remembers the least state of the attempt; the oldest one is forgotten where there are more than so
   /// many.

@@ -18,7 +18,7 @@ class Fill : public Move {
  protected:
   /// Begins a turn with so many pieces missing.
   void begin_with(std::size_t missing);
-  /// Whether rooms are worth their time now.
+  /// True if rooms are worth their time now.
   virtual bool tries_rooms(const Search&) const { return true; }
   virtual int most_failures() const { return tuning::kFailuresToFill; }
 

@@ -8,7 +8,7 @@
 
 namespace lekalo::nest {
 
-/// What a move says after each of its acts (Move).
+/// A move gives one of these after each of its acts (Move).
 enum class Outcome : std::uint8_t {
   under_way,  ///< its turn goes on
   valid,      ///< no overlaps are left in the separator
@@ -23,7 +23,7 @@ struct Valid {
   Merit merit;
 };
 
-/// What a strand and its moves share: the problem, the separator with the state being worked on and the
+/// A strand and its moves share this: the problem, the separator with the state being worked on and the
 /// only source of chance, the best state, and the attempt under way.
 struct Search {
   Search(const Problem& problem, const Items& items, Random random);

@@ -4,7 +4,7 @@
 
 namespace lekalo::nest {
 
-/// What the moves on a strip share: how overlaps are ended there, and how the strip gets shorter.
+/// The moves on a strip share this: how overlaps are ended there, and how the strip gets shorter.
 /// docs/design/nest.md, steps 4 to 7.
 class StripMove : public Move {
  public:
@@ -13,7 +13,7 @@ class StripMove : public Move {
 
  protected:
   virtual Patience patience(const Search& search) const = 0;
-  /// Whether relaxing ends the overlaps, maybe in a little more length that is still a gain.
+  /// True if relaxing ends the overlaps, maybe in a little more length that is still a gain.
   virtual bool fits_wider(Search& search);
 
   void begin_separation(Search& search);

@@ -11,6 +11,7 @@
 #include "nest/exact/reason.hpp"
 #include "nest/exact/settle.hpp"
 #include "nest/strand/strand.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {
@@ -193,7 +194,7 @@ class Run {
   }
 
   Reason reason_of(std::uint32_t part) {
-    // Where another piece of the part has a place, room is what this one lacks.
+    // If another piece of the part has a place, this one lacks room.
     for (const layout::Placement& p : best_.document.placements)
       if (p.part == part) return Reason::no_stock;
     const auto known = reasons_.find(part);

@@ -8,7 +8,7 @@
 
 namespace lekalo::nest {
 
-/// What a run has to place, and from where it begins.
+/// The items that a run has to place, and the state it begins from.
 struct Wanted {
   Items items;
   std::vector<Unplaced> unplaced;  ///< pieces that no stock can hold or no angle suits; they are no items

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/wide.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

@@ -31,10 +31,10 @@ struct NodeGrid {
 class CostGrid {
  public:
   static constexpr std::uint32_t kBlock = 8;  ///< floats added at a time
-  /// What two forms cost at this shift of the moved one; 0 where they do not overlap.
+  /// The cost of two forms at this shift of the moved one; 0 where they do not overlap.
   using PairCost = std::function<float(const Form& fixed, const Form& moved, double dx, double dy)>;
 
-  /// Whether rasters of all pairs of forms take little enough memory. \param parts_only  shapes of the
+  /// True if rasters of all pairs of forms take little enough memory. \param parts_only  shapes of the
   /// stock need none
   static bool pays(const Problem& problem, double pitch, bool parts_only);
   CostGrid(const Problem& problem, double pitch, PairCost cost);

@@ -14,7 +14,7 @@ class CostSums {
  public:
   CostSums(std::size_t bins, std::size_t forms) : forms_(forms), sums_(bins * forms) {}
 
-  /// What everything that lies on a bin costs at these nodes, each item with weight 1. \param spots  of the
+  /// The cost of everything that lies on a bin at these nodes, each item with weight 1. \param spots  of the
   /// items that move \param fixed  what the rest costs, from the same node on; null where there is no rest
   const NodeGrid& now(CostGrid& grid, std::uint32_t form, std::uint32_t bin, double x0, double y0,
                       std::uint32_t columns, std::uint32_t rows, std::span<const Spot> spots,

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "lekalo/layout/check.hpp"
+#include "nest/tuning.hpp"
 
 namespace lekalo::nest {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nest/tuning.hpp"
+
 namespace lekalo::nest {
 
 namespace {
@@ -38,8 +40,7 @@ void Separator::load(const State& state) {
 
 void Separator::set_spot(std::size_t i, const Spot& spot) {
   state_.spots[i] = spot;
-  const Box& b = problem_.forms()[spot.form].box;
-  boxes_[i] = {spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1};
+  boxes_[i] = problem_.forms()[spot.form].box.at(spot.x, spot.y);
   const auto item = static_cast<std::uint32_t>(i);
   if (cells_)
     cells_->set(item, spot.bin, boxes_[i]);
@@ -54,19 +55,17 @@ void Separator::set_limits(std::uint32_t bin, double x1, double y1) {
     Spot spot = state_.spots[i];
     if (spot.bin != bin) continue;
     Range r = range_of(spot.form, bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) {  // the item may be narrower at another angle
+    if (r.is_empty()) {  // the item may be narrower at another angle
       const Forms& forms = items_.forms[i];
       for (std::uint32_t f = forms.first; f < forms.last; ++f) {
         const Range other = range_of(f, bin, items_.parts[i]);
-        if (other.x1 < other.x0 || other.y1 < other.y0) continue;
+        if (other.is_empty()) continue;
         spot.form = f;
         r = other;
         break;
       }
     }
-    spot.x = std::max(r.x0, std::min(r.x1, spot.x));
-    spot.y = std::max(r.y0, std::min(r.y1, spot.y));
-    set_spot(i, spot);
+    set_spot(i, r.clamped(spot, spot.x, spot.y));
   }
 }
 
@@ -138,10 +137,7 @@ void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
 double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
   ++work_;
   const Form& form = problem_.forms()[spot.form];
-  const Box& b = form.box;
-  const double gap = problem_.widest_gap();
-  const double x0 = spot.x + b.x0 - gap, x1 = spot.x + b.x1 + gap, y0 = spot.y + b.y0 - gap,
-               y1 = spot.y + b.y1 + gap;
+  const Box around = form.box.at(spot.x, spot.y, problem_.widest_gap());
   double sum = 0;
   const float* weights = &weights_[i * total_];
   if (const double far = distance_too_far(i, spot); far > 0) {
@@ -150,8 +146,7 @@ double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
     if (sum >= limit) return sum;
   }
   for (const std::uint32_t j : near_) {
-    const Box& o = boxes_[j];
-    if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) continue;
+    if (!boxes_[j].meets(around)) continue;
     const Spot& other = state_.spots[j];
     const double depth =
         problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y);
@@ -164,8 +159,7 @@ double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
 }
 
 double Separator::evaluate_all(std::size_t i, const Spot& spot, double limit) {
-  const Box& b = problem_.forms()[spot.form].box;
-  gather({spot.x + b.x0, spot.y + b.y0, spot.x + b.x1, spot.y + b.y1}, spot.bin, i);
+  gather(problem_.forms()[spot.form].box.at(spot.x, spot.y), spot.bin, i);
   return evaluate(i, spot, limit);
 }
 
@@ -177,7 +171,7 @@ void Separator::descend(std::size_t i, Candidate& best, double step, double unti
   const auto gather_here = [&] {
     ax = best.spot.x;
     ay = best.spot.y;
-    gather({ax + b.x0 - reach, ay + b.y0 - reach, ax + b.x1 + reach, ay + b.y1 + reach}, best.spot.bin, i);
+    gather(b.at(ax, ay, reach), best.spot.bin, i);
   };
   gather_here();
   double sx = step, sy = step;
@@ -187,9 +181,7 @@ void Separator::descend(std::size_t i, Candidate& best, double step, double unti
     const double dy = axis == 0 ? 0 : axis == 1 ? sy : axis == 2 ? 0.7071 * sy : -0.7071 * sy;
     bool better = false;
     for (const double sign : {1.0, -1.0}) {
-      Spot spot = best.spot;
-      spot.x = std::max(r.x0, std::min(r.x1, spot.x + sign * dx));
-      spot.y = std::max(r.y0, std::min(r.y1, spot.y + sign * dy));
+      const Spot spot = r.clamped(best.spot, best.spot.x + sign * dx, best.spot.y + sign * dy);
       const double loss = evaluate(i, spot, best.loss);
       if (loss < best.loss) {
         best.loss = loss;
@@ -223,19 +215,13 @@ void Separator::push_out(std::size_t i, Candidate& best) {
   const Form& form = problem_.forms()[spot.form];
   for (int round = 0; round < tuning::kPushRounds && best.loss > 0; ++round) {
     for (const std::uint32_t j : near_) {
-      const Box& o = boxes_[j];
-      if (o.x0 >= spot.x + form.box.x1 + problem_.widest_gap() ||
-          o.x1 <= spot.x + form.box.x0 - problem_.widest_gap() ||
-          o.y0 >= spot.y + form.box.y1 + problem_.widest_gap() ||
-          o.y1 <= spot.y + form.box.y0 - problem_.widest_gap())
-        continue;
+      if (!boxes_[j].meets(form.box.at(spot.x, spot.y, problem_.widest_gap()))) continue;
       const Spot& other = state_.spots[j];
       const NoFit::Way way =
           problem_.way_out(problem_.forms()[other.form], form, spot.x - other.x, spot.y - other.y);
       if (way.depth <= 0) continue;
       const double by = way.depth + 0.25 * kTolerance;
-      spot.x = std::max(r.x0, std::min(r.x1, spot.x + by * way.direction.x));
-      spot.y = std::max(r.y0, std::min(r.y1, spot.y + by * way.direction.y));
+      spot = r.clamped(spot, spot.x + by * way.direction.x, spot.y + by * way.direction.y);
     }
     const double loss = evaluate(i, spot, best.loss);
     if (loss < best.loss) {
@@ -254,6 +240,11 @@ void Separator::Choice::offer(const Candidate& candidate) {
   places[at] = candidate;
 }
 
+std::uint32_t Separator::any_form(std::size_t i) {
+  const Forms& forms = items_.forms[i];
+  return forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+}
+
 std::uint32_t Separator::any_bin() {
   return state_.open_bins.size() == 1 ? state_.open_bins[0]
                                       : state_.open_bins[random_.below(state_.open_bins.size())];
@@ -263,7 +254,6 @@ std::uint32_t Separator::any_bin() {
 void Separator::move(std::size_t i) {
   if (lattice_ > 0) return move_on_lattice(i);
   const std::uint32_t part = items_.parts[i];
-  const Forms& forms = items_.forms[i];
   const Spot now = state_.spots[i];
   const Candidate current{now, evaluate_all(i, now, kFar)};
   if (current.loss <= 0) return;
@@ -271,24 +261,20 @@ void Separator::move(std::size_t i) {
   const auto offer = [&](const Candidate& c) {
     if (c.loss < best.loss) best = c;
   };
-  const auto any_form = [&] {
-    return forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
-  };
   const Box& size = problem_.forms()[now.form].box;
   const double w = size.x1 - size.x0, h = size.y1 - size.y0;
   gather({now.x + size.x0 - w, now.y + size.y0 - h, now.x + size.x1 + w, now.y + size.y1 + h}, now.bin, i);
   for (int k = 0; k < tuning::kFocused; ++k) {
     Spot spot = now;
-    spot.form = any_form();
+    spot.form = any_form(i);
     const Range r = range_of(spot.form, spot.bin, part);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    if (r.is_empty()) continue;
     const Box& b = problem_.forms()[spot.form].box;
     // In another form the middle of the box stays where it was, or near it.
     const double cx = now.x + 0.5 * (size.x0 + size.x1), cy = now.y + 0.5 * (size.y0 + size.y1);
     spot.x = cx - 0.5 * (b.x0 + b.x1) + random_.uniform(-0.5, 0.5) * w;
     spot.y = cy - 0.5 * (b.y0 + b.y1) + random_.uniform(-0.5, 0.5) * h;
-    spot.x = std::max(r.x0, std::min(r.x1, spot.x));
-    spot.y = std::max(r.y0, std::min(r.y1, spot.y));
+    spot = r.clamped(spot, spot.x, spot.y);
     offer({spot, evaluate_all(i, spot, best.loss)});
   }
   const double scale = min_dim_[i];
@@ -304,10 +290,10 @@ void Separator::move(std::size_t i) {
   } else {
     for (int k = 0; k < tuning::kAnywhere; ++k) {
       Spot spot;
-      spot.form = any_form();
+      spot.form = any_form(i);
       spot.bin = any_bin();
       const Range r = range_of(spot.form, spot.bin, part);
-      if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+      if (r.is_empty()) continue;
       spot.x = random_.uniform(r.x0, r.x1);
       spot.y = random_.uniform(r.y0, r.y1);
       offer({spot, evaluate_all(i, spot, best.loss)});
@@ -430,13 +416,12 @@ double Separator::least_side(std::uint32_t bin, int axis) const {
 
 void Separator::put_anywhere(std::size_t i) {
   const std::uint32_t part = items_.parts[i];
-  const Forms& forms = items_.forms[i];
   for (int tries = 0; tries < tuning::kPlaceTries; ++tries) {
     Spot spot;
-    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    spot.form = any_form(i);
     spot.bin = state_.open_bins[random_.below(state_.open_bins.size())];
     const Range r = range_of(spot.form, spot.bin, part);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    if (r.is_empty()) continue;
     spot.x = random_.uniform(r.x0, r.x1);
     spot.y = random_.uniform(r.y0, r.y1);
     return set_spot(i, spot);
@@ -444,14 +429,13 @@ void Separator::put_anywhere(std::size_t i) {
 }
 
 void Separator::put_near(std::size_t i, std::uint32_t bin, geom::Point at) {
-  const Forms& forms = items_.forms[i];
   Choice choice;
   for (int k = 0; k < tuning::kNear; ++k) {
     Spot spot;
-    spot.form = forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
+    spot.form = any_form(i);
     spot.bin = bin;
     const Range r = range_of(spot.form, spot.bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    if (r.is_empty()) continue;
     const Box& b = problem_.forms()[spot.form].box;
     const double far = size_[i] * unit_;
     spot.x = std::clamp(at.x - 0.5 * (b.x0 + b.x1) + random_.uniform(-far, far), r.x0, r.x1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace lekalo::nest {
 
-/// Where all items lie, and how far each bin may be used.
+/// The spots of all items, and how far each bin may be used.
 struct State {
   std::vector<Spot> spots;               ///< by item; those that move come before the fixed ones
   std::vector<double> ends;              ///< by bin: x up to which items may lie
@@ -95,12 +96,16 @@ class Separator {
   void set_limits(std::uint32_t bin, double x1, double y1);
   void set_spot(std::size_t i, const Spot& spot);
   bool is_in_conflict(std::size_t i);
-  /// The depths of item i with all others, unweighted.
-  double loss_of(std::size_t i);
 
  private:
+  /// The places where the origin of a form may lie on a bin, mm; empty where the form does not fit.
   struct Range {
     double x0, x1, y0, y1;
+    bool is_empty() const noexcept { return x1 < x0 || y1 < y0; }
+    /// A spot of the same form at the place nearest to (x, y).
+    Spot clamped(const Spot& spot, double x, double y) const noexcept {
+      return {std::max(x0, std::min(x1, x)), std::max(y0, std::min(y1, y)), spot.form, spot.bin};
+    }
   };
   struct Candidate {
     Spot spot;
@@ -116,6 +121,7 @@ class Separator {
     }
     void offer(const Candidate& candidate);
   };
+  std::uint32_t any_form(std::size_t i);
   Range range_of(std::uint32_t form, std::uint32_t bin, std::uint32_t part) const;
   void gather(const Box& box, std::uint32_t bin, std::size_t but);
   double evaluate(std::size_t i, const Spot& spot, double limit);
@@ -133,7 +139,7 @@ class Separator {
   float heaviest_obstacle(std::size_t i, std::uint32_t bin) const;
   void add_raised(std::size_t i, std::uint32_t form, std::uint32_t bin);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> close_pairs(double margin) const;
-  /// What an overlap of two items costs before its weight.
+  /// The cost of an overlap of two items before its weight.
   double value_of(std::size_t i, std::size_t j, double depth, double area) const noexcept;
   double cost_of(double depth, double area) const noexcept;
   std::uint32_t any_bin();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nest/tuning.hpp"
 #include "separator.hpp"
 
 namespace lekalo::nest {
@@ -33,7 +34,7 @@ bool Separator::make_grid(double pitch) {
   return true;
 }
 
-/// Whether kept sums are quicker. With them a move changes two rasters in the sums of every form; without
+/// True if kept sums are quicker. With them a move changes two rasters in the sums of every form; without
 /// them it adds up everything that lies there, in the forms it looks at.
 bool Separator::sums_pay() const {
   const std::size_t forms = problem_.forms().size();
@@ -155,7 +156,7 @@ void Separator::move_on_lattice(std::size_t i) {
   std::uint64_t ties = 0;
   for (std::uint32_t form = forms.first; form < forms.last; ++form) {
     const Range r = range_of(form, bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    if (r.is_empty()) continue;
     fill_grid(i, form, bin, r);
     for (std::uint32_t row = 0; row < nodes_.rows; ++row) {
       const float* values = nodes_.row(row);
@@ -182,7 +183,7 @@ void Separator::choose_on_grid(std::size_t i, std::uint32_t bin, Choice& choice)
     const std::uint32_t form =
         forms.first + (tried == count ? k : static_cast<std::uint32_t>(random_.below(count)));
     const Range r = range_of(form, bin, items_.parts[i]);
-    if (r.x1 < r.x0 || r.y1 < r.y0) continue;
+    if (r.is_empty()) continue;
     fill_grid(i, form, bin, r);
     const std::uint32_t columns = nodes_.columns, rows = nodes_.rows;
     for (std::uint32_t row = 0; row < rows; ++row) {

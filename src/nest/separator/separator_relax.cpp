@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "nest/tuning.hpp"
 #include "separator.hpp"
 
 namespace lekalo::nest {
@@ -41,18 +42,16 @@ bool Separator::relax(int rounds) {
     double sum = 0;
     for (const auto& [i, j] : pairs) {
       const Box &a = boxes_[i], &b = boxes_[j];
-      if (b.x0 >= a.x1 + gap || b.x1 <= a.x0 - gap || b.y0 >= a.y1 + gap || b.y1 <= a.y0 - gap) continue;
+      if (!b.meets(a.at(0, 0, gap))) continue;
       const Spot s = state_.spots[i], t = state_.spots[j];
       const NoFit::Way way =
           problem_.way_out(problem_.forms()[s.form], problem_.forms()[t.form], t.x - s.x, t.y - s.y);
       if (way.depth <= 0.5 * kTolerance) continue;
       if (way.depth > kTolerance) sum += way.depth;
       const double by = way.depth + 0.5 * kTolerance;
-      const auto shift = [&](std::size_t k, Spot spot, double amount) {
+      const auto shift = [&](std::size_t k, const Spot& spot, double amount) {
         const Range r = range_of(spot.form, spot.bin, items_.parts[k]);
-        spot.x = std::max(r.x0, std::min(r.x1, spot.x + amount * way.direction.x));
-        spot.y = std::max(r.y0, std::min(r.y1, spot.y + amount * way.direction.y));
-        set_spot(k, spot);
+        set_spot(k, r.clamped(spot, spot.x + amount * way.direction.x, spot.y + amount * way.direction.y));
       };
       // The smaller item goes further, and a fixed one stays.
       double share = 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nest/tuning.hpp"
 #include "separator.hpp"
 
 namespace lekalo::nest {
@@ -11,17 +12,14 @@ constexpr double kAslant = 0.7071;
 
 }  // namespace
 
-/// Whether item i overlaps none of the items gathered around when it lies there.
+/// True if item i overlaps none of the items gathered around when it lies there.
 bool Separator::is_free(std::size_t i, const Spot& spot) {
   ++work_;
   if (distance_too_far(i, spot) > 0.5 * kTolerance) return false;
   const Form& form = problem_.forms()[spot.form];
-  const double gap = problem_.widest_gap();
-  const double x0 = spot.x + form.box.x0 - gap, x1 = spot.x + form.box.x1 + gap,
-               y0 = spot.y + form.box.y0 - gap, y1 = spot.y + form.box.y1 + gap;
+  const Box around = form.box.at(spot.x, spot.y, problem_.widest_gap());
   return std::none_of(near_.begin(), near_.end(), [&](std::uint32_t j) {
-    const Box& o = boxes_[j];
-    if (o.x0 >= x1 || o.x1 <= x0 || o.y0 >= y1 || o.y1 <= y0) return false;
+    if (!boxes_[j].meets(around)) return false;
     const Spot& other = state_.spots[j];
     return problem_.depth(form, problem_.forms()[other.form], other.x - spot.x, other.y - spot.y) >
            0.5 * kTolerance;
@@ -55,13 +53,10 @@ void Separator::make_room(std::uint32_t bin, geom::Point at) {
         ax = spot.x;
         ay = spot.y;
         reach = 3 * step;
-        const Box& b = problem_.forms()[spot.form].box;
-        gather({ax + b.x0 - reach, ay + b.y0 - reach, ax + b.x1 + reach, ay + b.y1 + reach}, bin, i);
+        gather(problem_.forms()[spot.form].box.at(ax, ay, reach), bin, i);
       }
       const bool moved = std::any_of(ways.begin(), ways.end(), [&](geom::Point d) {
-        Spot to = spot;
-        to.x = std::clamp(to.x + step * d.x, r.x0, std::max(r.x0, r.x1));
-        to.y = std::clamp(to.y + step * d.y, r.y0, std::max(r.y0, r.y1));
+        const Spot to = r.clamped(spot, spot.x + step * d.x, spot.y + step * d.y);
         if ((to.x == spot.x && to.y == spot.y) || !is_free(i, to)) return false;
         if ((to.x - spot.x) * way.x + (to.y - spot.y) * way.y < tuning::kLeastSlideGain * step) return false;
         spot = to;

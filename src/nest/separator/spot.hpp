@@ -4,7 +4,7 @@
 
 namespace lekalo::nest {
 
-/// Where an item lies.
+/// The place of an item.
 struct Spot {
   double x = 0, y = 0;  ///< of its origin, mm
   std::uint32_t form = 0;

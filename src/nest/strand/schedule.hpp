@@ -11,7 +11,7 @@ namespace lekalo::nest {
 /// Which move has the next turn: the first in a list that may have one and has something to gain.
 class Schedule {
  public:
-  /// Whether a move may have the turn after this one; null: the strand goes on from another state.
+  /// True if a move may have the turn after this one; null: the strand goes on from another state.
   using When = std::function<bool(const Move* last)>;
 
   /// Adds a move at the end of the list. Without a condition it may have any turn.

@@ -24,7 +24,7 @@ class Strand {
   void go_on_from(const State& state);
   /// Runs until about so much more work is done; less where nothing is left to be gained.
   void run(std::uint64_t work);
-  /// Where this flag is set run() ends in the middle, and what the strand has is worth nothing.
+  /// When this flag gets set, run() ends in the middle, and what the strand has is worth nothing.
   void watch(const std::atomic<bool>* stop) noexcept { search_.separator.watch(stop); }
 
   const State& best() const noexcept { return search_.best.state; }

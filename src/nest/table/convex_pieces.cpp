@@ -11,12 +11,12 @@ namespace {
 using geom::GridPoint;
 using Loop = std::vector<std::uint32_t>;
 
-/// Whether p lies in the closed triangle abc, corners counter-clockwise.
+/// True if p lies in the closed triangle abc, corners counter-clockwise.
 bool holds(GridPoint a, GridPoint b, GridPoint c, GridPoint p) {
   return geom::turn(a, b, p) >= 0 && geom::turn(b, c, p) >= 0 && geom::turn(c, a, p) >= 0;
 }
 
-/// Whether the open segment pq and the segment ab have a point in common that is no end of pq.
+/// True if the open segment pq and the segment ab have a point in common that is no end of pq.
 bool crosses(GridPoint p, GridPoint q, GridPoint a, GridPoint b) {
   const auto at_end = [&](GridPoint x) { return x == p || x == q; };
   if (at_end(a) && at_end(b)) return false;

@@ -179,7 +179,7 @@ std::vector<NoFit::Segment> border_of(const Shape& a, const Shape& b, const std:
     visit_gaps(covered, length, 4 * outward, [&](double from, double to) {
       border.push_back({contact.from + from * direction, direction, to - from, false});
     });
-    // Where both sides of a contact are forbidden the contact itself may be free: a slot just wide enough.
+    // If both sides of a contact are forbidden, the contact itself may be free: a slot just wide enough.
     if (!is_free) continue;
     cover(sums, contact.from, direction, length, reserve, at_all);
     visit_gaps(at_all, length, 4 * outward, [&](double from, double to) {

@@ -16,8 +16,16 @@ struct Shape {
   std::vector<std::vector<geom::Point>> loops;
   std::vector<ConvexPiece> pieces;
 };
+/// A rectangle along the axes, mm.
 struct Box {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  /// This box moved by (x, y), and larger by a margin on every side.
+  Box at(double x, double y, double margin = 0) const noexcept {
+    return {x + x0 - margin, y + y0 - margin, x + x1 + margin, y + y1 + margin};
+  }
+  bool meets(const Box& other) const noexcept {
+    return x0 < other.x1 && x1 > other.x0 && y0 < other.y1 && y1 > other.y0;
+  }
 };
 /// The shape turned about the origin by an angle of this cosine and sine.
 [[nodiscard]] Shape turned(const Shape& shape, double c, double s);
@@ -50,12 +58,7 @@ class NoFit {
     const std::uint32_t cell = cells_[iy * columns_ + ix];
     if (cell == kClear) return 0;
     if (cell != kDeep) return depth_near(cell, x, y);
-    const float* node = &nodes_[iy * (columns_ + 1) + ix];
-    const float u = static_cast<float>(fx) - static_cast<float>(ix),
-                v = static_cast<float>(fy) - static_cast<float>(iy);
-    const float low = node[0] + u * (node[1] - node[0]);
-    const float high = node[columns_ + 1] + u * (node[columns_ + 2] - node[columns_ + 1]);
-    return static_cast<double>(low + v * (high - low));
+    return between(&nodes_[iy * (columns_ + 1) + ix], columns_ + 1, fx, fy);
   }
   /// The area that both have in common, interpolated from a coarser raster, mm^2; 0 for tables without
   /// areas.
@@ -63,12 +66,7 @@ class NoFit {
     const double fx = (x - x0_) * area_per_mm_, fy = (y - y0_) * area_per_mm_;
     if (!(fx >= 0 && fy >= 0 && fx < area_width_ && fy < area_height_)) return 0;
     const auto ix = static_cast<std::uint32_t>(fx), iy = static_cast<std::uint32_t>(fy);
-    const float* node = &areas_[iy * (area_columns_ + 1) + ix];
-    const float u = static_cast<float>(fx) - static_cast<float>(ix),
-                v = static_cast<float>(fy) - static_cast<float>(iy);
-    const float low = node[0] + u * (node[1] - node[0]);
-    const float high = node[area_columns_ + 1] + u * (node[area_columns_ + 2] - node[area_columns_ + 1]);
-    return static_cast<double>(low + v * (high - low));
+    return between(&areas_[iy * (area_columns_ + 1) + ix], area_columns_ + 1, fx, fy);
   }
   /// The depth and the direction, unit, in which b gets free.
   struct Way {
@@ -92,6 +90,14 @@ class NoFit {
     double distance = 0;
     geom::Point nearest;
   };
+  /// Interpolates between four nodes of a raster with rows of this length, at (fx, fy) cells.
+  static double between(const float* node, std::uint32_t row, double fx, double fy) noexcept {
+    const float u = static_cast<float>(fx) - static_cast<float>(static_cast<std::uint32_t>(fx)),
+                v = static_cast<float>(fy) - static_cast<float>(static_cast<std::uint32_t>(fy));
+    const float low = node[0] + u * (node[1] - node[0]);
+    const float high = node[row] + u * (node[row + 1] - node[row]);
+    return static_cast<double>(low + v * (high - low));
+  }
   template <class Index>
   [[nodiscard]] Signed signed_distance(const Index* begin, const Index* end, double x,
                                        double y) const noexcept;

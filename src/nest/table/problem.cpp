@@ -9,6 +9,7 @@
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/phi/outline_relation.hpp"
+#include "nest/tuning.hpp"
 #include "simplify.hpp"
 
 namespace lekalo::nest {
@@ -162,7 +163,7 @@ Problem::Problem(const layout::Document& document, const SearchOptions& options)
   add_relative_angles();
   find_unit();
   find_grain();
-  // Where every table serves few looks, coarse ones do: depths near a border are exact in any.
+  // If every table serves few looks, coarse ones do: depths near a border are exact in any.
   const double parts = static_cast<double>(by_part_.size());
   const double tables = 0.5 * parts * parts * static_cast<double>(relative_count_);
   cells_ = tables > tuning::kManyTables ? options_.cells / 4 : options_.cells;
@@ -523,7 +524,6 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
   std::atomic<const NoFit*>& entry = (*row)[relative];
   if (const NoFit* other = entry.load(std::memory_order_acquire)) return *other;
   entry.store(made.get(), std::memory_order_release);
-  made_.fetch_add(1);
   owned_.push_back(std::move(made));
   return *owned_.back();
 }

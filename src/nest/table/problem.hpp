@@ -97,11 +97,11 @@ class Problem {
   /// A length, mm, of which all corners of the stock, and of all parts at every angle they may have, are
   /// multiples; 0 where there is none above a micrometre.
   double unit() const noexcept { return unit_; }
-  /// Whether the grain of a part's form follows that of a bin's stock.
+  /// True if the grain of a part's form follows that of a bin's stock.
   bool follows_grain(std::uint32_t form, std::uint32_t bin) const noexcept {
     return follows_grain_.empty() || follows_grain_[form * document_->stocks.size() + bins_[bin].stock] != 0;
   }
-  /// Whether the part's box fits on some stock in one of these forms.
+  /// True if the part's box fits on some stock in one of these forms.
   bool fits_somewhere(std::uint32_t part, const Forms& forms) const noexcept;
   /// How many pieces are locked, by part.
   const std::vector<layout::PieceCount>& locked_pieces() const noexcept { return locked_pieces_; }
@@ -120,7 +120,6 @@ class Problem {
   }
   /// The depth as of depth(), and the direction in which b gets free.
   NoFit::Way way_out(const Form& a, const Form& b, double dx, double dy) const;
-  std::size_t tables() const noexcept { return made_.load(); }
 
  private:
   /// The tables of a pair of shapes, by difference of angles. Each is made when it is first asked for.
@@ -162,7 +161,6 @@ class Problem {
   mutable std::vector<std::unique_ptr<Row>> owned_rows_;
   mutable std::vector<std::unique_ptr<NoFit>> owned_;
   mutable std::mutex making_;
-  mutable std::atomic<std::size_t> made_{0};
 };
 
 }  // namespace lekalo::nest
