@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "builder.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

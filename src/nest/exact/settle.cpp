@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "lekalo/layout/check.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

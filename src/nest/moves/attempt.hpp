@@ -1,7 +1,7 @@
 #pragma once
 
 #include "nest/separator/separator.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 

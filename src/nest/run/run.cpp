@@ -11,7 +11,7 @@
 #include "nest/exact/reason.hpp"
 #include "nest/exact/settle.hpp"
 #include "nest/strand/strand.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

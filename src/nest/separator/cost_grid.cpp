@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/wide.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

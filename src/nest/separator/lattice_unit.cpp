@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "lekalo/layout/check.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 

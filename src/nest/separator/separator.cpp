@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 #include "separator.hpp"
 
 namespace lekalo::nest {

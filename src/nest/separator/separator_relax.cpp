@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 #include "separator.hpp"
 
 namespace lekalo::nest {

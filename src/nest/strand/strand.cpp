@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "nest/separator/lattice_unit.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {

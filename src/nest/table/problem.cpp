@@ -9,7 +9,7 @@
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/phi/outline_relation.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 #include "simplify.hpp"
 
 namespace lekalo::nest {

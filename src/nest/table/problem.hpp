@@ -10,7 +10,7 @@
 
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
-#include "nest/tuning.hpp"
+#include "nest/tuning/tuning.hpp"
 #include "nofit.hpp"
 
 namespace lekalo::nest {
