@@ -43,25 +43,21 @@ Result<int> write_for_machines(const ExportOptions& o, const LayoutInput& input)
                      fmt::format("{} sheets are in use and each is a file of its own: name the files with "
                                  "--output, or one sheet with --sheet, for example --sheet {}",
                                  count, made->files.front().sheet));
-    if (Result<void> done = print(made->files.front().bytes); !done) return tl::unexpected(done.error());
+    LEKALO_CHECK(print(made->files.front().bytes));
     tell(said);
     return 0;
   }
   std::vector<NamedPath> paths;
   for (std::size_t i = 0; i < count; ++i)
     paths.push_back({"--output", count == 1 ? o.output : numbered(o.output, i + 1)});
-  if (Result<void> fine =
-          check_outputs(paths, {{"the layout", o.source.path}, {"--instance", o.source.instance}});
-      !fine)
-    return tl::unexpected(fine.error());
+  LEKALO_CHECK(check_outputs(paths, {{"the layout", o.source.path}, {"--instance", o.source.instance}}));
   disk::AtomicFiles files;
   for (std::size_t i = 0; i < count; ++i) {
-    if (Result<void> added = files.add(paths[i].path, made->files[i].bytes); !added)
-      return tl::unexpected(added.error());
+    LEKALO_CHECK(files.add(paths[i].path, made->files[i].bytes));
     said += fmt::format("Written: {}", paths[i].path);
     said += count == 1 ? "\n" : fmt::format(", sheet {}\n", made->files[i].sheet);
   }
-  if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
+  LEKALO_CHECK(files.commit());
   tell(said);
   return 0;
 }
@@ -75,27 +71,22 @@ Result<std::string> pdf_bytes(const LayoutInput& input) {
 }  // namespace
 
 Result<int> run_export(const ExportOptions& o) {
-  const Result<LayoutInput> input = read_layout_input(o.source, {{"--output", o.output}});
-  if (!input) return tl::unexpected(input.error());
-  if (o.format == ExportFormat::machine) return write_for_machines(o, *input);
-  std::string text = input->text, warning;
+  LEKALO_TRY(const LayoutInput input, read_layout_input(o.source, {{"--output", o.output}}));
+  if (o.format == ExportFormat::machine) return write_for_machines(o, input);
+  std::string text = input.text, warning;
   if (o.format == ExportFormat::placements) {
-    const Result<std::size_t> stock = io::strip_in_use(input->document);
+    const Result<std::size_t> stock = io::strip_in_use(input.document);
     if (!stock)
       return failure(stock.error().code, fmt::format("{}: {}", o.source.path, stock.error().message));
-    const std::string& instance = o.instance_name.empty() ? input->instance_name : o.instance_name;
+    const std::string& instance = o.instance_name.empty() ? input.instance_name : o.instance_name;
     if (instance.empty())
       warning = "note: the placements do not say where their items stand; --instance-name does\n";
-    Result<std::string> written = io::write_placements(input->document, *stock, instance);
-    if (!written) return tl::unexpected(written.error());
-    text = std::move(*written);
+    LEKALO_TRY(text, io::write_placements(input.document, *stock, instance));
   } else if (o.format == ExportFormat::pdf) {
-    Result<std::string> drawn = pdf_bytes(*input);
-    if (!drawn) return tl::unexpected(drawn.error());
-    text = std::move(*drawn);
+    LEKALO_TRY(text, pdf_bytes(input));
   }
-  if (Result<void> done = deliver(o.output, text); !done) return tl::unexpected(done.error());
-  std::string said = warning + notes(input->notices);
+  LEKALO_CHECK(deliver(o.output, text));
+  std::string said = warning + notes(input.notices);
   if (!o.output.empty()) said += fmt::format("Written: {}\n", o.output);
   tell(said);
   return 0;

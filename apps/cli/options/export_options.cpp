@@ -15,7 +15,7 @@ constexpr std::array kExportFormats{Word<ExportFormat>{"layout", ExportFormat::l
                                     Word<ExportFormat>{"hpgl", ExportFormat::machine},
                                     Word<ExportFormat>{"gcode", ExportFormat::machine}};
 
-/// As typed.
+/// The words as they were typed.
 struct ExportWords {
   LayoutWords layout;
   std::string format, output, instance_name;
@@ -40,9 +40,7 @@ Result<Command> to_export(const ExportWords& w) {
   for (const io::ExportWord& word : w.machine)
     if (!word.second.empty()) given.push_back(word);
   if (format == ExportFormat::machine) {
-    auto read = io::read_export_words(*io::export_form(w.format), given, "--");
-    if (!read) return tl::unexpected(read.error());
-    request = *std::move(read);
+    LEKALO_TRY(request, io::read_export_words(*io::export_form(w.format), given, "--"));
   } else if (!given.empty()) {
     return failure(ErrorCode::usage, fmt::format("--{} has no meaning for the form {}", given.front().first,
                                                  w.format.empty() ? "layout" : w.format));
