@@ -49,7 +49,7 @@ class WordTaker {
     return profile_number(word);
   }
 
-  /// What has to be given but was not.
+  /// The words that have to be given but were not.
   Result<void> complete() {
     const auto needs = [&](const char* name, const char* why) -> Result<void> {
       if (std::find(given_.begin(), given_.end(), name) != given_.end()) return {};
@@ -198,9 +198,8 @@ Result<ExportRequest> read_export_words(ExportForm form, const std::vector<Expor
   ExportRequest request;
   request.form = form;
   WordTaker taker(request, prefix);
-  for (const ExportWord& word : words)
-    if (auto fine = taker.take(word); !fine) return tl::unexpected(fine.error());
-  if (auto fine = taker.complete(); !fine) return tl::unexpected(fine.error());
+  for (const ExportWord& word : words) LEKALO_CHECK(taker.take(word));
+  LEKALO_CHECK(taker.complete());
   request.profile.unit = request.unit;
   return request;
 }
