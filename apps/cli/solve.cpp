@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "interrupt.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/phi/convex.hpp"
 
@@ -20,10 +20,9 @@ constexpr double kConvexGap = 1e-9;  ///< mm
 /// one.
 locate::AngleWindow window_of(const LocateOptions& options) {
   if (options.window_from_deg == 0 && options.window_to_deg == 360) return {};
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   constexpr double kBound = 0x1p-51;
-  const double from = options.window_from_deg * kRadiansPerDegree;
-  const double to = options.window_to_deg * kRadiansPerDegree;
+  const double from = options.window_from_deg * kDegree;
+  const double to = options.window_to_deg * kDegree;
   return {from - kBound * std::abs(from), to + kBound * std::abs(to)};
 }
 

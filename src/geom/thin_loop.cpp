@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -14,8 +14,6 @@ namespace {
 
 using Interval = std::pair<double, double>;
 using Intervals = std::vector<Interval>;
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Centres of discs that touch one piece or corner: a line, or the circle's part from an angle on
 /// counter-clockwise. Places along it are lengths or angles.
@@ -186,7 +184,7 @@ class Probe {
     track.round = true;
     track.centre = piece.centre;
     track.radius = std::max(std::abs(from_centre), 1e-3 * blur_);
-    track.first = direction_angle(first.x, first.y) + (from_centre < 0 ? std::numbers::pi : 0);
+    track.first = direction_angle(first.x, first.y) + (from_centre < 0 ? kPi : 0);
     track.length = direction_angle(dot(first, last), cross(first, last));
     if (track.length < 0) track.length += kTurn;
     track.scale = piece.radius;

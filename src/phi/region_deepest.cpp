@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/phi/region.hpp"
 
@@ -91,9 +92,8 @@ class Deepest {
   void add(const Curve& curve, std::uint32_t edge) {
     if (curve.edge.kind == EdgeKind::line)
       return look(Piece{curve.edge.from, curve.edge.to, {}, 0, edge, 0}, true);
-    constexpr double kQuarter = 1.5707963267948966;
     const double sweep = geom::arc_sweep(curve.edge);
-    const auto parts = static_cast<int>(std::ceil(sweep / kQuarter - 1e-9));
+    const auto parts = static_cast<int>(std::ceil(sweep / (kPi / 2) - 1e-9));
     const double step = (curve.edge.kind == EdgeKind::arc_ccw ? sweep : -sweep) / parts;
     const Point centre = curve.edge.centre, out = curve.edge.from - centre;
     Point from = curve.edge.from;

@@ -3,20 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include "../../src/verify/edge_triple.hpp"
-#include "../../src/verify/exact.hpp"
-#include "../../src/verify/interval.hpp"
-#include "../../src/verify/json.hpp"
-#include "../../src/verify/outline.hpp"
-#include "../../src/verify/span.hpp"
 #include "support/verify_cases.hpp"
+#include "verify/locate/edge_triple.hpp"
+#include "verify/locate/outline.hpp"
+#include "verify/number/exact.hpp"
+#include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
+#include "verify/read/json.hpp"
 
 namespace {
 
 using namespace lekalo::verify;
 using lekalo::verify_cases::Random;
 
-TEST(VerifyArithmetic, decimals_are_read_exactly) {
+TEST(VerifyArithmetic, DecimalsAreReadExactly) {
   const auto expect = [](const char* text, const char* digits, long exponent) {
     const auto value = parse_decimal(text);
     ASSERT_TRUE(value) << text;
@@ -37,7 +37,7 @@ TEST(VerifyArithmetic, decimals_are_read_exactly) {
   }
 }
 
-TEST(VerifyArithmetic, decimals_compare_and_subtract_exactly) {
+TEST(VerifyArithmetic, DecimalsCompareAndSubtractExactly) {
   const auto d = [](const char* text) { return *parse_decimal(text); };
   EXPECT_EQ(compare(d("0.1"), d("0.10000000000000000000000000001")), -1);
   EXPECT_EQ(compare(d("1e300"), d("-1e-300")), 1);
@@ -70,7 +70,7 @@ bool holds(const Span& span, const Integer& exact) {
   return mpz_cmp_d(exact.get_mpz_t(), span.low) >= 0 && mpz_cmp_d(exact.get_mpz_t(), span.high) <= 0;
 }
 
-TEST(VerifyArithmetic, every_operation_encloses_the_exact_result) {
+TEST(VerifyArithmetic, EveryOperationEnclosesTheExactResult) {
   Random random(1);
   for (int i = 0; i < 20'000; ++i) {
     const Sample a = sample(random), b = sample(random);
@@ -90,7 +90,7 @@ TEST(VerifyArithmetic, every_operation_encloses_the_exact_result) {
   }
 }
 
-TEST(VerifyArithmetic, intervals_across_zero_multiply_and_square_to_their_extremes) {
+TEST(VerifyArithmetic, IntervalsAcrossZeroMultiplyAndSquareToTheirExtremes) {
   const Interval across = hull(Interval(Integer(-3), 64), Interval(Integer(2), 64));
   const Interval product = across * across, squared = square(across);
   EXPECT_EQ(mpfr_get_d(product.low(), MPFR_RNDN), -6);
@@ -100,7 +100,7 @@ TEST(VerifyArithmetic, intervals_across_zero_multiply_and_square_to_their_extrem
   EXPECT_EQ(mpfr_get_d((across / Interval(Integer(2), 64)).low(), MPFR_RNDN), -1.5);
 }
 
-TEST(VerifyArithmetic, turns_enclose_sine_and_cosine_of_every_angle_in_the_interval) {
+TEST(VerifyArithmetic, TurnsEncloseSineAndCosineOfEveryAngleInTheInterval) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const double low = random.uniform(-10, 10), high = low + random.uniform(0, 1e-3);
@@ -125,7 +125,7 @@ TEST(VerifyArithmetic, turns_enclose_sine_and_cosine_of_every_angle_in_the_inter
   EXPECT_TRUE(mpfr_zero_p(none.sine.low()) != 0 && mpfr_zero_p(none.sine.high()) != 0);
 }
 
-TEST(VerifyArithmetic, printed_ends_enclose) {
+TEST(VerifyArithmetic, PrintedEndsEnclose) {
   const Interval third = Interval(Integer(1), 300) / Interval(Integer(3), 300);
   EXPECT_EQ(third.low_text(), "0.333333333333333333333333333333");
   EXPECT_EQ(third.high_text(), "0.333333333333333333333333333334");
@@ -147,7 +147,7 @@ Ring random_ring(Random& random, long size) {
   return ring;
 }
 
-TEST(VerifyArithmetic, hull_dents_and_lowest_corner_agree_with_their_definitions) {
+TEST(VerifyArithmetic, HullDentsAndLowestCornerAgreeWithTheirDefinitions) {
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const auto made = make_outline(random_ring(random, i % 3 == 0 ? 12 : 1'000'000), "ring");
@@ -174,7 +174,7 @@ TEST(VerifyArithmetic, hull_dents_and_lowest_corner_agree_with_their_definitions
   }
 }
 
-TEST(VerifyArithmetic, an_edge_line_measures_what_lies_outside_it) {
+TEST(VerifyArithmetic, AnEdgeLineMeasuresWhatLiesOutsideIt) {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
     const auto made = make_outline(random_ring(random, 1000), "ring");
@@ -224,7 +224,7 @@ long winding(const std::vector<Small>& ring, Small p) {
   return count;
 }
 
-TEST(VerifyArithmetic, containment_agrees_with_a_grid_of_points) {
+TEST(VerifyArithmetic, ContainmentAgreesWithAGridOfPoints) {
   Random random(5);
   int inside = 0, outside = 0;
   // Coordinates times four: the grid also has points between the corners.
@@ -258,7 +258,7 @@ TEST(VerifyArithmetic, containment_agrees_with_a_grid_of_points) {
   EXPECT_GT(outside, 20);
 }
 
-TEST(VerifyArithmetic, json_pieces_keep_their_text) {
+TEST(VerifyArithmetic, JsonPiecesKeepTheirText) {
   const auto root =
       parse_json("\xEF\xBB\xBF { \"a\" : [ 1.50 , -0e0, true,null , \"x\\\"]\" ] , \"b\\n\" : {} } ", "j");
   ASSERT_TRUE(root) << root.error().message;
@@ -282,7 +282,7 @@ TEST(VerifyArithmetic, json_pieces_keep_their_text) {
   }
 }
 
-TEST(VerifyArithmetic, json_nests_64_deep_and_no_deeper) {
+TEST(VerifyArithmetic, JsonNests64DeepAndNoDeeper) {
   EXPECT_TRUE(parse_json(std::string(64, '[') + std::string(64, ']'), "j"));
   EXPECT_TRUE(parse_json(std::string(64, '[') + "1" + std::string(64, ']'), "j"));
   EXPECT_FALSE(parse_json(std::string(66, '[') + std::string(66, ']'), "j"));

@@ -15,7 +15,7 @@ constexpr std::array kExportFormats{Word<jobs::LayoutForm>{"layout", jobs::Layou
                                     Word<jobs::LayoutForm>{"hpgl", jobs::LayoutForm::machine},
                                     Word<jobs::LayoutForm>{"gcode", jobs::LayoutForm::machine}};
 
-/// As typed.
+/// The words as they were typed.
 struct ExportWords {
   LayoutWords layout;
   std::string format, output, instance_name;

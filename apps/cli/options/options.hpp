@@ -13,12 +13,11 @@
 #include "lekalo/io/scan/scan_file.hpp"
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/nest.hpp"
+#include "lekalo/jobs/pocket.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/guaranteed_blank.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/locate/region.hpp"
-#include "lekalo/mill/pocket.hpp"
-#include "lekalo/mill/program.hpp"
 #include "lekalo/nc/rewrite.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -101,19 +100,14 @@ struct SimulateOptions {
   bool json = false;
 };
 
-struct PocketOptions {
+/// The files and words of the command, and with them how the pocket is to be cleared.
+struct PocketOptions : jobs::PocketOptions {
   std::string pocket, output;      ///< output may be empty: stdout
   std::string picture, animation;  ///< may be empty
   std::string images;              ///< prefix of the M-images of the source's methods; may be empty
   bool json = false;
   ShapeOptions shape;
-  std::vector<std::string> island_layers, open_layers;
   std::vector<EarlierFile> after;
-  double rest_of =
-      0;  ///< mm: a tool of this diameter is taken to have cut all that this program cuts with it
-  mill::PocketOptions path;
-  mill::ProgramOptions program;
-  std::optional<double> most_feed;  ///< mm/min: feeds follow the engagement
 };
 
 struct CheckOptions {

@@ -6,6 +6,7 @@
 
 #include "angle_search.hpp"
 #include "contact_program.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "locate/search/search_limits.hpp"
@@ -228,7 +229,6 @@ class Localiser {
 
   /// Both searches close in on a maximum to within the gap; at the same maximum their angles agree closely.
   [[nodiscard]] bool same_peak(double a, double b) const {
-    constexpr double kTurn = 6.283185307179586;
     const double difference = std::abs(a - b);
     const double apart =
         problem_.window.full_circle() ? std::min(difference, kTurn - difference) : difference;

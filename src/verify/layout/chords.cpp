@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid_number.hpp"
+#include "lekalo/base/angle.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -81,7 +82,6 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
     }
     turned += angle(chain[i] - arc.centre, chain[i + 1] - arc.centre);
   }
-  constexpr double kTurn = 6.283185307179586;
   double sweep = arc.full ? kTurn : angle(arc.from - arc.centre, arc.to - arc.centre) * (arc.ccw ? 1 : -1);
   if (sweep < 0) sweep += kTurn;
   // Chords that go around another time, or the other way, are off by a turn; a rounding is far below half of

@@ -3,13 +3,13 @@
 #include <map>
 
 #include "cut_path.hpp"
+#include "lekalo/base/angle.hpp"
 #include "rim_cover.hpp"
 
 namespace lekalo::verify {
 namespace {
 
 constexpr double kAirDegrees = 3, kLasting = 0.2;
-constexpr double kDegrees = 180 / kPi;
 constexpr double kSameLevel = 1e-6;       // mm of Z that no machine tells
 constexpr double kTooShortToSink = 0.01;  // mm of a ramp, on which no written digit of Z changes
 constexpr double kLayerError = 1e-3;      // mm
@@ -192,8 +192,8 @@ class Engagement {
       if (add(near_[k])) found_.push_back(near_[k]);
     useful_.swap(found_);
     if (!air_.empty()) rim_.add_air(air_);
-    sample.engagement = rim_.open_angle() * kDegrees;
-    sample.left = rim_.open_left() * kDegrees;
+    sample.engagement = rim_.open_angle() * kDegreesPerRadian;
+    sample.left = rim_.open_left() * kDegreesPerRadian;
     width_ = rim_.open_width();
     if (sample.engagement < kAirDegrees) return;
     if (cut.to_z < cut.from_z) {
@@ -206,7 +206,7 @@ class Engagement {
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
         rim_.add(earlier.stroke, earlier.radius);
     }
-    sample.entry = rim_.open_angle() * kDegrees < sample.engagement - 1e-6;
+    sample.entry = rim_.open_angle() * kDegreesPerRadian < sample.engagement - 1e-6;
   }
 
   /// Whether the rim meets material at a depth at or above the tip's.
@@ -217,7 +217,7 @@ class Engagement {
       if (highest(earlier) <= z + kSameLevel) rim_.add(earlier.stroke, earlier.radius);
     }
     if (!air_.empty()) rim_.add_air(air_);
-    return rim_.open_angle() * kDegrees >= kAirDegrees;
+    return rim_.open_angle() * kDegreesPerRadian >= kAirDegrees;
   }
 
   /// How thick a layer an entry's rim meets, where that is more than so far: what is cut down to a depth is

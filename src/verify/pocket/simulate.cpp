@@ -6,6 +6,7 @@
 #include <future>
 
 #include "cut_path.hpp"
+#include "lekalo/base/angle.hpp"
 
 namespace lekalo::verify {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lekalo/base/angle.hpp"
+
 namespace lekalo::verify {
 namespace {
 

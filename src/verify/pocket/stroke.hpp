@@ -19,8 +19,6 @@ struct Place {
 [[nodiscard]] inline Place unit(Place a) { return (1 / length(a)) * a; }
 [[nodiscard]] inline Place left_of(Place a) { return {-a.y, a.x}; }
 
-inline constexpr double kPi = 3.141592653589793;
-
 /// Angle from a counter-clockwise to b in (-pi, pi], within 1e-15; our own, so that every build gives the
 /// same.
 [[nodiscard]] double angle_between(Place a, Place b);
