@@ -29,6 +29,11 @@ WebSocket::WebSocket(boost::asio::ip::tcp::socket&& socket, const Limits& limits
 
 WebSocket::~WebSocket() = default;
 
+void WebSocket::accept(const Upgrade& request, Done done) {
+  stream_->socket.async_accept(request,
+                               [done = std::move(done)](boost::system::error_code error) { done(!error); });
+}
+
 WebSocket::Message WebSocket::message() {
   Message message{beast::buffers_to_string(stream_->incoming.data()), stream_->socket.got_text()};
   stream_->incoming.consume(stream_->incoming.size());

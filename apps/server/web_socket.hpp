@@ -16,8 +16,8 @@ namespace lekalo::server {
 using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
 /// One WebSocket, text frames of messages that are read and written one at a time. Beast's stream stands
-/// behind it: the compiler needs long for each of its operations, so each has a file of its own and nobody
-/// else sees them.
+/// behind it: the compiler needs long for its operations, so they stand in files of their own
+/// (web_socket.cpp, web_socket_read.cpp, web_socket_write.cpp) and nobody else sees them.
 ///
 /// On the network's thread alone. Each operation calls back once, later, with whether it was done; what it
 /// uses has to live until then.

@@ -9,6 +9,7 @@
 #include "layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/verify/layout.hpp"
+#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -76,7 +77,7 @@ std::string check_json(const Layout& layout, const Checked& checked) {
   json["disagreements"] = checked.disagreements;
   json["violations"] = Json::parse(io::violations_json(layout.document, checked.violations));
   json["run"] = Json::object();
-  return dumped(json);
+  return document_text(json);
 }
 
 Result<void> confirm_layout(const layout::Document& document, std::string_view bytes) {

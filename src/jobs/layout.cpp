@@ -41,8 +41,4 @@ Json begin_layout_json(const char* format, const std::string& status, const Layo
           {"version", kVersion}};
 }
 
-std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace lekalo::jobs

@@ -9,6 +9,7 @@
 #include "layout_json.hpp"
 #include "lekalo/jobs/check.hpp"
 #include "nest_checked.hpp"
+#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -178,7 +179,7 @@ std::string nest_json(const Layout& given, const NestOptions& options, const Nes
   json["kits"] = kits_of(nested);
   json["unplaced"] = unplaced_of(nested);
   json["run"] = {{"cpu_seconds", cpu_seconds}, {"threads", options.threads}};
-  return dumped(json);
+  return document_text(json);
 }
 
 }  // namespace lekalo::jobs

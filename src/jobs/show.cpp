@@ -4,6 +4,7 @@
 #include "lekalo/draw/layout_picture.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "report_document.hpp"
 
 namespace lekalo::jobs {
 
@@ -16,7 +17,7 @@ std::string show_json(const Layout& layout, const Shown& shown) {
   json.update(Json::parse(io::completeness_json(layout.document, shown.completeness)));
   json["violations"] = shown.violations.size();
   json["run"] = Json::object();
-  return dumped(json);
+  return document_text(json);
 }
 
 std::optional<PictureForm> picture_form(std::string_view name) noexcept {
