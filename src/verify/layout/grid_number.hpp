@@ -10,9 +10,6 @@ namespace lekalo::verify {
 
 /// Written numbers on the grid of docs/design/layout.md.
 
-/// The double nearest to what is written. \pre parse_decimal takes it, and it is finite as a double
-[[nodiscard]] double nearest_double(std::string_view decimal);
-
 enum class ToStep {
   nearest,  ///< ties to even
   up        ///< gaps

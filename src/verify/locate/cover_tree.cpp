@@ -28,7 +28,7 @@ Span enclosed(const Decimal& value) {
 
 /// A degree in radians.
 Span radians(const Decimal& degrees) {
-  const mpfr_prec_t wide = 128 + angle_bits(degrees);
+  const Precision wide = 128 + angle_bits(degrees);
   const Interval angle = Interval(degrees, wide) * Interval::pi(wide) / Interval(Integer(180), wide);
   return {angle.low_double(), angle.high_double()};
 }

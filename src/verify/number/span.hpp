@@ -23,16 +23,9 @@ struct Span {
 /// Exactly this number.
 [[nodiscard]] inline Span just(double value) { return {value, value}; }
 
-/// Bits before the binary point.
-[[nodiscard]] inline long bits_of(const Integer& value) {
-  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
-}
-
-/// value / 2^scale. GMP cuts towards zero, by less than one step.
+/// value / 2^scale
 [[nodiscard]] inline Span to_span(const Integer& value, long scale) {
-  long exponent = 0;
-  const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
-  const double cut = std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+  const double cut = scaled_down(value, scale);
   return outwards(cut, cut);
 }
 
