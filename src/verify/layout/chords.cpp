@@ -121,7 +121,8 @@ std::optional<std::size_t> steps_to(const Walk& walk, const DrawnEdge& edge) {
     if (is_near &&
         (!found || length(walk.point(i) - edge.to).low <= length(walk.point(*found) - edge.to).low))
       found = i;
-    // What is near at once may be the beginning of a short arc that returns; one farther on counts more.
+    // A vertex that is near at once may be the beginning of a short arc that returns; one farther on counts
+    // more.
     if (!is_near && found && *found > 0) break;
   }
   return found;

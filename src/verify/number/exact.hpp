@@ -35,7 +35,7 @@ inline constexpr long kMaxMagnitude = 400;
 /// for numbers beyond the limits above.
 [[nodiscard]] std::optional<Decimal> parse_decimal(std::string_view text);
 
-/// What parse_decimal accepts, for error messages.
+/// Error messages say with these words which numbers parse_decimal accepts.
 inline constexpr const char* kDecimalRule = "a decimal number of at most 800 digits between 1e-400 and 1e400";
 
 /// For messages: the text, cut when it is long.

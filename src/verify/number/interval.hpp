@@ -39,7 +39,7 @@ class Interval {
   friend Interval operator*(const Interval& a, const Interval& b);
   /// \pre b is certainly positive
   friend Interval operator/(const Interval& a, const Interval& b);
-  /// Of the part that is not negative; [0, 0] when there is none.
+  /// The square roots of the part that is not negative; [0, 0] when there is none.
   friend Interval square_root(const Interval& a);
   friend Interval square(const Interval& a);
   friend struct Turn turn_by(const Interval& angle);

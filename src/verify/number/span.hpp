@@ -23,7 +23,7 @@ struct Span {
 /// Exactly this number.
 [[nodiscard]] inline Span just(double value) { return {value, value}; }
 
-/// value / 2^scale
+/// Encloses value / 2^scale.
 [[nodiscard]] inline Span to_span(const Integer& value, long scale) {
   const double cut = scaled_down(value, scale);
   return outwards(cut, cut);
@@ -41,7 +41,7 @@ struct Span {
   }
   return outwards(std::min(std::min(ll, lh), std::min(hl, hh)), std::max(std::max(ll, lh), std::max(hl, hh)));
 }
-/// Of what may be 0 or less nothing is known.
+/// Nothing is known of a quotient whose divisor may be 0 or less.
 [[nodiscard]] inline Span operator/(Span a, Span b) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!(b.low > 0)) return {-kInfinity, kInfinity};

@@ -37,7 +37,7 @@ Decimal exactly(double value) {
   return made;
 }
 
-/// What sticking out is enclosed to, mm.
+/// The width, mm, to which sticking out is enclosed.
 constexpr double kSticksOutTolerance = 1e-9;
 
 }  // namespace

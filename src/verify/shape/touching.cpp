@@ -70,8 +70,8 @@ ExactSide exact_side(const WrittenSide& written, const ExactShift& shift) {
   return side;
 }
 
-/// Where a point of the line or circle that carries a side stands: -1 beyond, 0 at an end, 1 between the
-/// ends.
+/// The standing of a point of the line or circle that carries a side stands: -1 beyond, 0 at an end, 1
+/// between the ends.
 int standing(const ExactSide& side, const RootSpot& p) {
   const auto sign_of = [&](auto&& linear) {
     return sign(linear(p.rational - (side.arc ? side.centre : side.from)), linear(p.irrational), p.root);
