@@ -19,7 +19,8 @@ namespace lekalo::geom {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
-/// Of an arc's sweep: direction_angle's 1e-15, and rounding of the dot and cross product before it.
+/// The error of an arc's sweep is direction_angle's 1e-15, and rounding of the dot and cross product before
+/// it.
 constexpr double kSweepError = 4e-15;
 
 bool is_arc(const Edge& edge) { return edge.kind != EdgeKind::line; }

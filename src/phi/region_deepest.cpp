@@ -120,8 +120,8 @@ class Deepest {
     return open_.empty() ? best_ : std::max(best_, open_.top().most);
   }
 
-  /// Of each edge where its pieces begin, their middles, and its deepest place; those near the deepest of
-  /// all.
+  /// Each edge gives the beginnings and middles of its pieces and its deepest place; those near the deepest
+  /// of all are kept.
   [[nodiscard]] std::vector<Place> places() {
     std::vector<Place> kept;
     for (const std::vector<Place>* const list : {&first_, &later_})

@@ -15,11 +15,13 @@
 #       either: the same input gives the same bytes;
 #   (7) apps may include any module, but only through public headers; the command line may include the server;
 #   (8) no folder of the product holds more than 40 files of its own;
-#   (9) test names are sentences in CamelCase.
+#   (9) only src/verify/number includes GMP and MPFR: a target without them replaces that room alone;
+#   (10) test names are sentences in CamelCase.
 cmake_minimum_required(VERSION 3.25)
 
 set(forbidden_below_disk fstream iostream filesystem chrono ctime time.h random)
 set(forbidden_below_io unordered_map unordered_set)
+set(number_headers gmp.h gmpxx.h mpfr.h)
 set(most_files 40)
 
 set(violations "")
@@ -127,6 +129,8 @@ function(check_file FILE MODULE)
       violation("${FILE} includes <${path}>: below disk nothing may depend on files, clocks or chance")
     elseif(path IN_LIST forbidden_below_io AND NOT MODULE MATCHES "^(io|draw|disk|apps)$")
       violation("${FILE} includes <${path}>: below io nothing may depend on the order of a hash")
+    elseif(path IN_LIST number_headers AND NOT FILE MATCHES "^src/verify/number/")
+      violation("${FILE} includes <${path}>: only src/verify/number may use GMP and MPFR")
     endif()
   endforeach()
   math(EXPR checked "${checked} + 1")

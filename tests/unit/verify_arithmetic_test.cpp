@@ -2,6 +2,7 @@
 // outside.
 
 #include <gtest/gtest.h>
+#include <mpfr.h>
 
 #include "support/verify_cases.hpp"
 #include "verify/locate/edge_triple.hpp"
@@ -63,8 +64,8 @@ Sample sample(Random& random) {
 }
 
 bool holds(const Interval& interval, const Integer& exact) {
-  return mpfr_cmp_z(interval.low(), exact.get_mpz_t()) <= 0 &&
-         mpfr_cmp_z(interval.high(), exact.get_mpz_t()) >= 0;
+  const Interval point(exact, bits_of(exact) + 1);
+  return !certainly_above(interval, point) && !certainly_above(point, interval);
 }
 bool holds(const Span& span, const Integer& exact) {
   return mpz_cmp_d(exact.get_mpz_t(), span.low) >= 0 && mpz_cmp_d(exact.get_mpz_t(), span.high) <= 0;
@@ -93,11 +94,19 @@ TEST(VerifyArithmetic, EveryOperationEnclosesTheExactResult) {
 TEST(VerifyArithmetic, IntervalsAcrossZeroMultiplyAndSquareToTheirExtremes) {
   const Interval across = hull(Interval(Integer(-3), 64), Interval(Integer(2), 64));
   const Interval product = across * across, squared = square(across);
-  EXPECT_EQ(mpfr_get_d(product.low(), MPFR_RNDN), -6);
-  EXPECT_EQ(mpfr_get_d(product.high(), MPFR_RNDN), 9);
-  EXPECT_EQ(mpfr_get_d(squared.low(), MPFR_RNDN), 0);
-  EXPECT_EQ(mpfr_get_d(squared.high(), MPFR_RNDN), 9);
-  EXPECT_EQ(mpfr_get_d((across / Interval(Integer(2), 64)).low(), MPFR_RNDN), -1.5);
+  EXPECT_EQ(product.low_double(), -6);
+  EXPECT_EQ(product.high_double(), 9);
+  EXPECT_EQ(squared.low_double(), 0);
+  EXPECT_EQ(squared.high_double(), 9);
+  EXPECT_EQ((across / Interval(Integer(2), 64)).low_double(), -1.5);
+}
+
+/// value 2^1000, which is whole for every sine or cosine here.
+Integer scaled(mpfr_ptr value) {
+  Integer whole;
+  mpfr_mul_2si(value, value, 1000, MPFR_RNDN);
+  mpfr_get_z(whole.get_mpz_t(), value, MPFR_RNDN);
+  return whole;
 }
 
 TEST(VerifyArithmetic, TurnsEncloseSineAndCosineOfEveryAngleInTheInterval) {
@@ -108,21 +117,21 @@ TEST(VerifyArithmetic, TurnsEncloseSineAndCosineOfEveryAngleInTheInterval) {
       return Interval(*parse_decimal(fmt::format("{:.30f}", value)), 40);
     };
     const Turn turn = turn_by(hull(interval_of(low), interval_of(high)));
+    const Interval unit(Integer(Integer(1) << 1000), 40);
     for (const double t : {0.0, 0.3, 1.0}) {
       mpfr_t angle, sine, cosine;
       mpfr_inits2(200, angle, sine, cosine, static_cast<mpfr_ptr>(nullptr));
       mpfr_set_d(angle, low + t * (high - low), MPFR_RNDN);
       mpfr_sin_cos(sine, cosine, angle, MPFR_RNDN);
-      EXPECT_TRUE(mpfr_lessequal_p(turn.sine.low(), sine) && mpfr_lessequal_p(sine, turn.sine.high()));
-      EXPECT_TRUE(mpfr_lessequal_p(turn.cosine.low(), cosine) &&
-                  mpfr_lessequal_p(cosine, turn.cosine.high()));
+      EXPECT_TRUE(holds(turn.sine * unit, scaled(sine)));
+      EXPECT_TRUE(holds(turn.cosine * unit, scaled(cosine)));
       mpfr_clears(angle, sine, cosine, static_cast<mpfr_ptr>(nullptr));
     }
   }
   const Turn none = turn_by(Interval(64));
-  EXPECT_EQ(mpfr_get_d(none.cosine.low(), MPFR_RNDN), 1);
-  EXPECT_EQ(mpfr_get_d(none.cosine.high(), MPFR_RNDN), 1);
-  EXPECT_TRUE(mpfr_zero_p(none.sine.low()) != 0 && mpfr_zero_p(none.sine.high()) != 0);
+  EXPECT_EQ(none.cosine.low_double(), 1);
+  EXPECT_EQ(none.cosine.high_double(), 1);
+  EXPECT_TRUE(certainly_zero(none.sine));
 }
 
 TEST(VerifyArithmetic, PrintedEndsEnclose) {

@@ -4,7 +4,8 @@
 
 namespace lekalo::verify {
 
-/// Whether the document is the result of a localisation of regions, which says what shapes it used.
+/// The answer says whether the document is the result of a localisation of regions, which says what shapes it
+/// used.
 [[nodiscard]] bool has_regions(Json result);
 
 /// Rechecks a result of `lekalo locate` for regions (docs/formats.md): clearance, contacts and certificate,

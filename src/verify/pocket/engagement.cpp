@@ -154,8 +154,8 @@ class Engagement {
     if (cut.rapid) report_.rapid_cut_mm += drop;
   }
 
-  /// Whether of the squares of kSpeck mm this one is made of none with its middle in the disc has it in
-  /// material at depth z.
+  /// A square is cut when none of the squares of kSpeck mm that it is made of, with its middle in the disc,
+  /// has that middle in material at depth z.
   bool is_cut(const Disc& disc, Place middle, double side, const std::vector<std::uint32_t>& near,
               double z) const {
     const double half = side * 0.7071067811865476, off = length(middle - disc.middle) - disc.radius;
@@ -184,7 +184,7 @@ class Engagement {
       return rim_.may_meet(discs_[i].middle, discs_[i].radius) && as_deep(i) &&
              rim_.add(cuts_[i].stroke, cuts_[i].radius);
     };
-    // What covered much a moment ago comes first, then what is newest.
+    // Strokes that covered much a moment ago come first, then the newest.
     found_.clear();
     for (const std::uint32_t i : useful_)
       if (add(i)) found_.push_back(i);
@@ -209,7 +209,7 @@ class Engagement {
     sample.entry = rim_.open_angle() * kDegreesPerRadian < sample.engagement - 1e-6;
   }
 
-  /// Whether the rim meets material at a depth at or above the tip's.
+  /// The answer says whether the rim meets material at a depth at or above the tip's.
   bool meets(double z, const Stroke& so_far) {
     rim_.begin(so_far.to, radius_, so_far);
     for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();) {
