@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include "../src/io/drawn_shapes.hpp"
+#include "io/drawing/drawn_shapes.hpp"
 #include "io_contour_check.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/io/drawing/drawing.hpp"
 
@@ -28,7 +29,7 @@ inline void check_edge(const geom::Edge& edge) {
 inline void check_ellipse(const io::EllipseArc& arc) {
   must(in_range(arc.from) && in_range(arc.to) && in_range(arc.centre) && in_range(arc.u) && in_range(arc.v));
   must(geom::cross(arc.u, arc.v) != 0);
-  must(arc.begin < arc.end && arc.end <= arc.begin + 2 * io::kPi && std::abs(arc.begin) <= 100);
+  must(arc.begin < arc.end && arc.end <= arc.begin + 2 * kPi && std::abs(arc.begin) <= 100);
 }
 
 inline void check_spline(const io::Spline& spline) {

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 namespace lekalo::cli {
 namespace {
@@ -82,6 +83,13 @@ void ProgressLine::show(const Progress& progress, const std::string& says) {
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
   shown_ = true;
+}
+
+jobs::PhaseListener progress_lines() {
+  return [](const char* phase) -> ProgressListener {
+    const auto line = std::make_shared<ProgressLine>(phase, "Ctrl-C ends it, nothing is written");
+    return [line](const Progress& progress) { line->show(progress); };
+  };
 }
 
 }  // namespace lekalo::cli

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lekalo/base/run_control.hpp"
+#include "lekalo/jobs/phases.hpp"
 
 namespace lekalo::cli {
 
@@ -38,5 +39,8 @@ class ProgressLine {
   std::chrono::steady_clock::time_point start_, next_;
   bool shown_ = false;
 };
+
+/// A progress line for each phase of a job that a Ctrl-C ends, with nothing written.
+[[nodiscard]] jobs::PhaseListener progress_lines();
 
 }  // namespace lekalo::cli

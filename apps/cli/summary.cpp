@@ -5,7 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+
+#include "lekalo/base/angle.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -42,7 +43,7 @@ std::string mm_up(double value) {
   return (tiny(value) ? tiny_up(value) : decimals_up(value, kLengthDecimals)) + " mm";
 }
 
-double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+double degrees(double radians) { return radians * kDegreesPerRadian; }
 
 std::string headline(const io::LocateDocument& d) {
   if (d.scan && !d.scan->proved)

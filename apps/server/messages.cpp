@@ -15,7 +15,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Takes one flat object as the parser meets its parts. No tree is built: what does not belong stops at once.
+/// Takes one flat object as the parser meets its parts. It stands beside the reader of io on purpose:
+/// messages come from strangers, so no tree is built and the first thing that does not belong ends the
+/// reading; and its sentences name fields, as the protocol has it, where those of io name the lines of a
+/// file.
 class MessageReader : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return wrong_type(); }

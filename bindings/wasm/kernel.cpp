@@ -27,10 +27,9 @@ using namespace lekalo::layout;
 
 constexpr double kMostMm = 0x1p19;  ///< of places and shifts, as in layout files
 constexpr double kLargestId = 0x1p53 - 1;
-constexpr std::size_t kPlacementSize = 10;
 constexpr int kClear = 0, kTooClose = 1, kForbidden = 2, kFailed = -1;
 
-// One module is one kernel for one thread: what calls leave behind for their caller.
+// One module is one kernel for one thread, so calls leave their answers in these for their caller.
 std::vector<double> input;
 std::string text;
 std::vector<double> numbers;
@@ -93,7 +92,7 @@ void put(const Violation& v) {
                   v.amount_mm, v.at.x, v.at.y, v.direction.x, v.direction.y});
 }
 
-/// The PLACEMENT at n of the input; the sentence is written where it is none.
+/// The PLACEMENT at n of the input; nothing, and the text says why, where it is none.
 std::optional<Placement> placement(const Workspace& layout, std::size_t n) {
   const std::span<const double> from(input.data() + n * kPlacementSize, kPlacementSize);
   const Document& document = layout.document();
@@ -130,7 +129,7 @@ bool only_gaps(const std::vector<Violation>& violations) {
   });
 }
 
-/// What a part comes nearest to.
+/// The nearest thing to a part.
 struct Nearest {
   double distance_mm = -1;
   double what = 0, other = 0, id = 0;
@@ -271,7 +270,7 @@ std::int32_t lekalo_set_next_id(std::int32_t handle, double id) {
 }
 
 namespace {
-/// The stock of a call about features; the sentence is written where it is none.
+/// The stock of a call about features; nothing, and the text says why, where there is none.
 std::optional<std::uint32_t> stock_of(const Workspace& layout, double stock, std::int32_t kind) {
   const auto which = index(stock, static_cast<double>(layout.document().stocks.size()));
   if (which && (kind == 0 || kind == 1)) return which;
@@ -280,7 +279,7 @@ std::optional<std::uint32_t> stock_of(const Workspace& layout, double stock, std
 }
 FeatureKind feature_kind(std::int32_t kind) { return kind == 0 ? FeatureKind::defect : FeatureKind::zone; }
 
-/// What a feature may concern is looked at again.
+/// Unchecks every part that a feature may concern.
 void uncheck_near(Open& open, std::uint32_t stock, FeatureKind kind, std::string_view id) {
   const Document& document = open.layout.document();
   const Stock& of = document.stocks[stock];

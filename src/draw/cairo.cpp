@@ -1,5 +1,6 @@
 #include "cairo.hpp"
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
 
@@ -19,7 +20,7 @@ class Painter {
   }
   void operator()(const DotItem& item) const {
     cairo_new_path(canvas_);
-    cairo_arc(canvas_, item.centre.x, item.centre.y, item.radius, 0, 6.283185307179586);
+    cairo_arc(canvas_, item.centre.x, item.centre.y, item.radius, 0, kTurn);
     cairo_close_path(canvas_);
     paint(item.paint);
   }

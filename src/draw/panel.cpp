@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "colour.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
@@ -142,7 +142,7 @@ class Panel {
     row("x", length(result.x), "x");
     row("y", length(result.y), "y");
     // As many digits as move the rim of the part by less than the last digit of x.
-    row("angle", decimal(result.theta * (180 / std::numbers::pi), 7) + "°", "theta-deg");
+    row("angle", decimal(result.theta * kDegreesPerRadian, 7) + "°", "theta-deg");
   }
 
   void rule() {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "colour.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -172,7 +172,7 @@ class RegionComposer {
     y_ += 7;
     line("x", decimal(p.x, decimals) + " mm");
     line("y", decimal(p.y, decimals) + " mm");
-    line("angle", decimal(p.theta * 180 / std::numbers::pi, decimals) + "°");
+    line("angle", decimal(p.theta * 180 / kPi, decimals) + "°");
     if (picture_.mirrored) line("mirrored", "in x, before turning");
     y_ += 2;
     line("minimum allowance", decimal(p.clearance, decimals, Rounding::down) + " mm");

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "report_page.hpp"
@@ -97,7 +97,7 @@ double draw_numbers(const Report& report, const ReportLook& look, const Rect& co
   rows.add("x", length_text(p.x, look.decimals), "x");
   rows.add("y", length_text(p.y, look.decimals), "y");
   // As many digits as move the rim of the part by less than the last digit of x.
-  rows.add("angle", decimal(p.theta * (180 / std::numbers::pi), 7) + "°", "theta-deg");
+  rows.add("angle", decimal(p.theta * kDegreesPerRadian, 7) + "°", "theta-deg");
   if (report.document.mirrored) rows.add("mirrored", "in x, before turning", "mirrored");
   return rows.end();
 }

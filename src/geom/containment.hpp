@@ -10,7 +10,8 @@
 
 namespace lekalo::geom::detail {
 
-/// Which of many contours hold a point. An index of a contour's edges is made when its box first holds one.
+/// Finds those of many contours that hold a point. An index of a contour's edges is made when its box first
+/// holds one.
 class Containment {
  public:
   /// \pre the contours outlive this

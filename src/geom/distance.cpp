@@ -10,8 +10,7 @@ namespace lekalo::geom {
 
 namespace {
 
-/// Where the foot of the perpendicular from p falls: along ab, as dot products, so that nothing is divided
-/// yet.
+/// The foot of the perpendicular from p, as dot products along ab, so that nothing is divided yet.
 struct Projection {
   Point along, to_p;
   double dot_p, dot_along;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/trig.hpp"
 
@@ -64,9 +65,8 @@ GridRotation rotation_from_degrees(double degrees) noexcept {
 }
 
 double degrees_of(GridRotation rotation) noexcept {
-  constexpr double kDegrees = 0x1.ca5dc1a63c1f8p+5;
   const double angle =
-      direction_angle(static_cast<double>(rotation.c), static_cast<double>(rotation.s)) * kDegrees;
+      direction_angle(static_cast<double>(rotation.c), static_cast<double>(rotation.s)) * kDegreesPerRadian;
   double scale = 1;
   for (int decimals = 0; decimals <= 9; ++decimals, scale *= 10) {
     const double rounded = std::nearbyint(angle * scale) / scale;

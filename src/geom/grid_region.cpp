@@ -34,7 +34,7 @@ bool nearer_than_resolution(GridPoint a, GridPoint b) noexcept {
   return dot(d, d) < kGridResolution * kGridResolution;
 }
 
-/// Whether p is nearer to the segment a b than the resolution: exact.
+/// The answer says, exactly, whether p is nearer to the segment a b than the resolution.
 bool nearer_than_resolution(GridPoint p, GridPoint a, GridPoint b) noexcept {
   const GridPoint along = b - a, to = p - a;
   const Int128 at = dot(to, along), length = dot(along, along);
@@ -200,9 +200,9 @@ class ArcChords {
     return at_radius({turn.cosine * out.x - turn.sine * out.y, turn.sine * out.x + turn.cosine * out.y},
                      outside_ ? radius_ / sincos(step_ / 2).cosine : radius_);
   }
-  /// Where an end that is not on the circle of the chords is joined to it, straight along its direction: the
-  /// arc may run on the other end's radius from there on. Only where the radii differ by more than the
-  /// margin.
+  /// An end that is not on the circle of the chords is joined to it at this point, straight along its
+  /// direction, because the arc may run on the other end's radius from there on. Only where the radii differ
+  /// by more than the margin.
   [[nodiscard]] std::optional<Point> join(Point end) const noexcept {
     const Point out = end - arc_.centre;
     if (std::abs(norm(out) - radius_) <= 2 * kMargin) return std::nullopt;

@@ -57,7 +57,8 @@ Contour with_joints(const Contour& contour) {
 /// snapped together.
 constexpr double kNoRadius = kBooleanSnap;
 
-/// What a disc's centre sweeps on the right of contours, as counter-clockwise contours that cover it.
+/// The area that a disc's centre sweeps on the right of contours, as counter-clockwise contours
+/// that cover it.
 class Brush {
  public:
   Brush(double radius, std::uint8_t operand, Outlines& outlines)
@@ -102,7 +103,8 @@ class Brush {
     strip(edge, line(edge.from + out, edge.to + out));
   }
 
-  /// Where the brush leads to the centre and the arc's radius is no larger, nothing remains but the sector.
+  /// The brush reaches the centre of an arc whose radius is no larger than its own, so nothing remains but
+  /// the sector.
   [[nodiscard]] bool reaches_centre(const Edge& arc) const {
     const double r = arc_radius(arc);
     return arc.kind == EdgeKind::arc_cw && !(r - radius_ > kNoRadius * r);

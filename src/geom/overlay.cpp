@@ -65,7 +65,7 @@ std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep,
   }
   auto regions = regions_of(groups, std::move(contours));
   if (!regions) return std::nullopt;
-  // What is so thin that rounding could turn it is no region; further apart points may tell.
+  // A loop so thin that rounding could turn it is no region; points further apart may tell.
   for (const Region& region : *regions) {
     const auto again = make_region(region.outer, region.holes);
     if (!again || !(*again == region)) return std::nullopt;

@@ -9,8 +9,8 @@
 
 namespace lekalo::geom::detail {
 
-/// What edges are cut into before they are intersected: a line, or an arc of a quarter turn at most between
-/// two axis directions, so that it runs in one direction in x and in y.
+/// Edges are cut into pieces before they are intersected. A piece is a line, or an arc of a quarter turn at
+/// most between two axis directions, so that it runs in one direction in x and in y.
 struct Piece {
   EdgeKind kind = EdgeKind::line;
   Point from, to, centre;
@@ -36,16 +36,17 @@ void append_pieces(const Edge& edge, std::uint32_t origin, double slack, std::ve
 }
 [[nodiscard]] inline double length_squared(const Piece& piece) noexcept { return along(piece, piece.to); }
 
-/// Whether a ray from p to the right crosses the piece; an end counts as above the ray where it is on it, so
-/// that pieces that share an end count it once. Exact for lines; an arc's crossing is rounded.
+/// The answer says whether a ray from p to the right crosses the piece; an end counts as above the ray where
+/// it is on it, so that pieces that share an end count it once. Exact for lines; an arc's crossing is
+/// rounded.
 [[nodiscard]] bool crosses_ray(const Piece& piece, Point p) noexcept;
 
 struct Crossings {
   std::array<Point, 2> points;
   int count = 0;
 };
-/// Where two pieces cross in points that are ends of neither, or touch; each point is within rounding of
-/// both, also at the smallest angle. Points up to `slack` beyond the end of an arc may come too.
+/// The places where two pieces cross in points that are ends of neither, or touch; each point is within
+/// rounding of both, also at the smallest angle. Points up to `slack` beyond the end of an arc may come too.
 [[nodiscard]] Crossings crossings(const Piece& a, const Piece& b, double slack) noexcept;
 
 }  // namespace lekalo::geom::detail

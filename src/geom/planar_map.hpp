@@ -26,11 +26,11 @@ class PlanarMap {
     std::vector<std::uint32_t> half_edges;
     std::uint32_t group = 0;  ///< loops of one group bound one connected piece of material
   };
-  /// Of faces that are thin, those are turned over that are enclosed by others: what is left of edges that
-  /// were drawn apart by less than snapping tells.
+  /// Thin faces that others enclose are turned over, for they are what is left of edges that were drawn apart
+  /// by less than snapping tells.
   [[nodiscard]] std::vector<Loop> loops(KeepRule keep) const;
 
-  /// Whether all points inside the loop are within kEdgeErrorInSnaps of its edges. A no may be wrong.
+  /// A loop is thin when all points inside it are within kEdgeErrorInSnaps of its edges. A no may be wrong.
   [[nodiscard]] static bool is_thin(const Arrangement& arrangement, const Loop& loop);
 
  private:

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
@@ -17,9 +18,9 @@ namespace lekalo::geom {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kUnitRoundoff = 0x1p-53;
-/// Of an arc's sweep: direction_angle's 1e-15, and rounding of the dot and cross product before it.
+/// The error of an arc's sweep is direction_angle's 1e-15, and rounding of the dot and cross product before
+/// it.
 constexpr double kSweepError = 4e-15;
 
 bool is_arc(const Edge& edge) { return edge.kind != EdgeKind::line; }

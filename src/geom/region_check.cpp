@@ -14,7 +14,7 @@
 namespace lekalo::geom {
 namespace {
 
-/// Where an edge stands, in words.
+/// Names the place of an edge in words.
 class Names {
  public:
   explicit Names(const std::vector<Region>& regions) : several_(regions.size() > 1) {
@@ -38,8 +38,9 @@ class Names {
   bool several_;
 };
 
-/// Whether two neighbours of which one is an arc cross again away from the end they share, by more than
-/// kArcConsistency allows the ends of arcs: smooth joints in drawings do, by what their digits leave.
+/// The answer says whether two neighbours, one of them an arc, cross again away from the end they share, by
+/// more than kArcConsistency allows the ends of arcs: smooth joints in drawings do, by what their digits
+/// leave.
 bool cross_again(const Curve& a, const Curve& b, Point shared) {
   if (a.edge.kind == EdgeKind::line) return cross_again(b, a, shared);
   const bool line = b.edge.kind == EdgeKind::line;
@@ -117,7 +118,8 @@ class Checker {
     if (end - begin < 3) return true;
     if (a.kind == EdgeKind::line && b.kind == EdgeKind::line)
       return segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::overlap;
-    // Of three, the other ends are joined by the third, which is a neighbour of both and asked about neither.
+    // In a contour of three edges the other ends of two neighbours are joined by the third, which is a
+    // neighbour of both and asked about neither.
     const bool in_order = j == i + 1;
     if (end - begin == 3 &&
         (is_near(i, in_order ? b.to : b.from, limit) || is_near(j, in_order ? a.from : a.to, limit)))

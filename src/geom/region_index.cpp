@@ -20,7 +20,7 @@ int crosses_line(const Edge& line, Point p) {
   return side == (line.from.y < line.to.y ? 1 : -1) ? 1 : 0;  // p on the left of the upward line
 }
 
-/// Where a stretch of an arc, on the right or the left half of its circle, is at height y.
+/// The x at which a stretch of an arc, on the right or the left half of its circle, is at height y.
 ///
 /// An end may miss the circle by half the difference of the radii, and where the circle is nearly level the
 /// circle at the end's height is much further off along the ray. So no further than this quarter of the

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -14,8 +14,6 @@ namespace {
 
 using Interval = std::pair<double, double>;
 using Intervals = std::vector<Interval>;
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Centres of discs that touch one piece or corner: a line, or the circle's part from an angle on
 /// counter-clockwise. Places along it are lengths or angles.
@@ -37,7 +35,7 @@ struct Track {
   }
 };
 
-/// Where the track is within `reach` of c.
+/// The intervals in which the track is within `reach` of c.
 Intervals in_disc(const Track& track, Point c, double reach) {
   if (!(reach > 0)) return {};
   if (!track.round) {
@@ -60,7 +58,7 @@ Intervals in_disc(const Track& track, Point c, double reach) {
   return {{low, low + 2 * half}, {low - kTurn, low + 2 * half - kTurn}};
 }
 
-/// Where normal . (y - through) > 0 on the track.
+/// The intervals of the track on which normal . (y - through) > 0.
 Intervals in_half_plane(const Track& track, Point through, Point normal) {
   if (!track.round) {
     const double slope = dot(normal, track.direction), begin = dot(normal, track.from - through);
@@ -87,7 +85,7 @@ Intervals both(const Intervals& a, const Intervals& b) {
   return found;
 }
 
-/// What is left of [-kTurn, 2 kTurn] or of a line without some intervals.
+/// The rest of [-kTurn, 2 kTurn] or of a line without some intervals.
 Intervals without(const Track& track, Intervals taken) {
   std::sort(taken.begin(), taken.end());
   Intervals left;
@@ -103,7 +101,7 @@ Intervals without(const Track& track, Intervals taken) {
 
 void append(Intervals& to, const Intervals& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// Where the track is within `reach` of the piece.
+/// Appends the intervals in which the track is within `reach` of the piece.
 void append_near(const Track& track, const Piece& piece, double reach, Intervals& found) {
   append(found, in_disc(track, piece.from, reach));
   append(found, in_disc(track, piece.to, reach));
@@ -130,8 +128,8 @@ Point tangent(const Piece& piece, Point at) {
   return piece.kind == EdgeKind::arc_ccw ? left : -left;
 }
 
-/// Whether the chain turns right from one piece to the next. At a tip the directions alone do not tell: there
-/// the end of the shorter decides on which side of the longer it is.
+/// The answer says whether the chain turns right from one piece to the next. At a tip the directions alone do
+/// not tell: there the end of the shorter decides on which side of the longer it is.
 bool points_inwards(const Piece& in, const Piece& out, Point arriving, Point leaving) {
   const double turn = cross(arriving, leaving);
   constexpr double kTip = 1e-4;
@@ -186,7 +184,7 @@ class Probe {
     track.round = true;
     track.centre = piece.centre;
     track.radius = std::max(std::abs(from_centre), 1e-3 * blur_);
-    track.first = direction_angle(first.x, first.y) + (from_centre < 0 ? std::numbers::pi : 0);
+    track.first = direction_angle(first.x, first.y) + (from_centre < 0 ? kPi : 0);
     track.length = direction_angle(dot(first, last), cross(first, last));
     if (track.length < 0) track.length += kTurn;
     track.scale = piece.radius;
@@ -205,7 +203,8 @@ class Probe {
     return track;
   }
 
-  /// Whether some stretch of the track, longer than rounding makes, is near no piece but its own.
+  /// The track is free when some stretch of the track, longer than rounding makes, is near no piece but its
+  /// own.
   [[nodiscard]] bool is_free(const Track& track, std::uint32_t own) const {
     const double reach = radius_ + blur_ / 256;
     Intervals taken;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 #include "lekalo/geom/double_double.hpp"
 
@@ -92,8 +93,6 @@ SinCosPair sincos_double_double(double theta) noexcept {
 }
 
 double direction_angle(double x, double y) noexcept {
-  constexpr double kHalfPiRounded = 0x1.921fb54442d18p+0;
-  constexpr double kPi = 0x1.921fb54442d18p+1;
   if (x == 0 && y == 0) return 0;
   const double ax = x < 0 ? -x : x, ay = y < 0 ? -y : y;
   const bool steep = ay > ax;
@@ -108,7 +107,7 @@ double direction_angle(double x, double y) noexcept {
   double series = 0;
   for (int n = 19; n >= 3; n -= 2) series = (1.0 / n - series) * square;  // u^2/3 - u^4/5 + ...
   double angle = kAtanOfQuarter[quarter] + (u - u * series);
-  if (steep) angle = kHalfPiRounded - angle;
+  if (steep) angle = kPi / 2 - angle;
   if (x < 0) angle = kPi - angle;
   return y < 0 ? -angle : angle;
 }

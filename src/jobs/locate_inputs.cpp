@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/locate/feature_file.hpp"
 
@@ -19,10 +19,9 @@ constexpr double kFarthestPose = 1e9;
 /// one.
 locate::AngleWindow window_of(const LocateOptions& options) {
   if (options.window_from_deg == 0 && options.window_to_deg == 360) return {};
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   constexpr double kBound = 0x1p-51;
-  const double from = options.window_from_deg * kRadiansPerDegree;
-  const double to = options.window_to_deg * kRadiansPerDegree;
+  const double from = options.window_from_deg * kDegree;
+  const double to = options.window_to_deg * kDegree;
   return {from - kBound * std::abs(from), to + kBound * std::abs(to)};
 }
 

@@ -9,98 +9,69 @@
 #include <optional>
 
 #include "lekalo/geom/trig.hpp"
-#include "lekalo/nc/decimal.hpp"
+#include "lekalo/nc/program_writer.hpp"
 
 namespace lekalo::mill {
 namespace {
 
 using geom::EdgeKind;
 using geom::Point;
-using nc::Post;
+using Count = nc::WrittenPoint;
 
-/// Whole units of the last decimal.
-struct Count {
-  std::int64_t x = 0, y = 0;
-  friend bool operator==(const Count&, const Count&) = default;
-};
+/// Ends rounded to a ten thousandth of an inch are up to 1.8 um off, more than kWritingError.
+constexpr int kLeastInchDecimals = 5;
 
-std::string plain(const std::string& words) {
-  constexpr std::size_t kLongest = 60;
-  std::string text;
-  for (const char c : words) {
-    const bool lower = c >= 'a' && c <= 'z';
-    const bool kept = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
-    const char put = lower ? static_cast<char>(c - 'a' + 'A') : kept ? c : ' ';
-    if ((put == ' ' && (text.empty() || text.back() == ' ')) || text.size() >= kLongest) continue;
-    text += put;
-  }
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
+int decimals_of(const ProgramOptions& o) {
+  const int decimals = o.post.decimals.of(o.unit);
+  return o.unit == LengthUnit::inch ? std::max(decimals, kLeastInchDecimals) : decimals;
 }
 
+/// Step 6 of docs/design/pocket-program.md, whose numbers stand below.
 class Writer {
  public:
-  explicit Writer(const ProgramOptions& o) : o_(o), inch_(o.unit == LengthUnit::inch) {
-    decimals_ = inch_ ? 5 : o.post == Post::fanuc ? 3 : 4;
-    unit_ = inch_ ? kMillimetresPerInch : 1;
-    step_ = unit_;
-    for (int i = 0; i < decimals_; ++i) step_ /= 10;
+  explicit Writer(const ProgramOptions& o)
+      : o_(o), out_(o.post, o.unit, decimals_of(o)), step_(millimetres_per(o.unit)) {
+    for (int i = 0; i < decimals_of(o); ++i) step_ /= 10;
   }
 
   std::string write(const PocketPath& path, std::vector<std::size_t>* move_of_line) {
-    move_of_line_ = move_of_line;
+    const auto lines_are_of = [&](std::size_t move) {
+      if (move_of_line != nullptr) move_of_line->resize(out_.line_count(), move);
+    };
+    if (move_of_line != nullptr) move_of_line->clear();
     begin();
-    for (const PathMove& move : path.moves) {
-      move_ = static_cast<std::size_t>(&move - path.moves.data());
-      if (!at_)
-        first(move);
+    lines_are_of(kNoMove);
+    for (std::size_t i = 0; i < path.moves.size(); ++i) {
+      if (at_)
+        follow(path.moves[i]);
       else
-        follow(move);
+        first(path.moves[i]);
+      lines_are_of(i);
     }
-    move_ = kNoMove;
-    end();
-    return std::move(text_);
+    std::string text = end();
+    lines_are_of(kNoMove);
+    return text;
   }
 
  private:
-  void line(const std::string& words) {
-    text_ += words;
-    text_ += '\n';
-    if (move_of_line_ != nullptr) move_of_line_->push_back(move_);
-  }
-  void comment(const std::string& words) {
-    const std::string text = plain(words);
-    if (!text.empty()) line("(" + text + ")");
-  }
-
+  /// Step 6.1.
   void begin() {
-    const bool fanuc = o_.post == Post::fanuc, grbl = o_.post == Post::grbl;
-    if (fanuc) line("%"), line("O0001");
-    for (const std::string& words : o_.comments) comment(words);
-    line(fmt::format("{} G17 G90 G40 G49 G80 G94", inch_ ? "G20" : "G21"));
-    if (!fanuc) line("G91.1");
-    line(fmt::format("G{}", 53 + o_.work_offset));
-    // Exact path: blending would leave the path that was judged.
-    if (o_.post == Post::linuxcnc) line("G61");
-    if (o_.tool_number > 0) {
-      if (grbl) {
-        comment(fmt::format("tool {}", o_.tool_number));
-      } else {
-        line(fmt::format("T{} M6", o_.tool_number));
-        line(fmt::format("G43 H{}", o_.tool_number));
-      }
-    }
-    if (o_.spindle > 0) line(fmt::format("S{:.0f} M3", o_.spindle));
-    if (o_.coolant != Coolant::off) line(o_.coolant == Coolant::mist ? "M7" : "M8");
+    out_.begin();
+    for (const std::string& words : o_.comments) out_.comment(words);
+    out_.lines(o_.post.pocket.modes, {{"{offset}", fmt::format("G{}", 53 + o_.work_offset)}});
+    if (o_.tool_number > 0) out_.lines(o_.post.tool_change, {{"{tool}", std::to_string(o_.tool_number)}});
+    if (o_.spindle > 0) out_.line(fmt::format("S{:.0f} M3", o_.spindle));
+    if (o_.coolant != Coolant::off) out_.line(o_.coolant == Coolant::mist ? "M7" : "M8");
   }
 
-  void end() {
-    if (o_.coolant != Coolant::off) line("M9");
-    if (o_.spindle > 0) line("M5");
-    line("M30");
-    if (o_.post == Post::fanuc) line("%");
+  /// Step 6.6.
+  std::string end() {
+    if (o_.coolant != Coolant::off) out_.line("M9");
+    if (o_.spindle > 0) out_.line("M5");
+    return out_.finish(o_.post.pocket.end);
   }
 
+  /// Step 6.3.
   [[nodiscard]] std::int64_t count(double mm) const {
     return static_cast<std::int64_t>(std::floor(mm / step_ + 0.5));
   }
@@ -108,20 +79,19 @@ class Writer {
   [[nodiscard]] Point place(Count c) const {
     return {static_cast<double>(c.x) * step_, static_cast<double>(c.y) * step_};
   }
-  [[nodiscard]] std::string number(std::int64_t n) const { return nc::format_decimal(n, decimals_); }
   [[nodiscard]] std::string place_words(Count c) const {
     std::string words;
-    if (!at_ || c.x != at_->x) words += " X" + number(c.x);
-    if (!at_ || c.y != at_->y) words += " Y" + number(c.y);
+    if (!at_ || c.x != at_->x) words += " X" + out_.number(c.x);
+    if (!at_ || c.y != at_->y) words += " Y" + out_.number(c.y);
     return words;
   }
 
-  /// Up before across.
+  /// Step 6.2: the tool goes up before it goes across, because nobody knows where it stands.
   void first(const PathMove& move) {
     z_ = count(move.z);
-    line("G0 Z" + number(z_));
+    out_.line("G0 Z" + out_.number(z_));
     const Count to = count(move.to);
-    line("G0" + place_words(to));
+    out_.line("G0" + place_words(to));
     at_ = to, exact_ = move.to;
   }
 
@@ -136,13 +106,14 @@ class Writer {
     exact_ = move.to;
   }
 
+  /// Step 6.2: the tool goes up, across, down.
   void rapid(const PathMove& move) {
     const std::int64_t z = count(move.z);
     const Count to = count(move.to);
     const std::string across = place_words(to);
-    if (z > z_) line("G0 Z" + number(z));
-    if (!across.empty()) line("G0" + across);
-    if (z < z_) line("G0 Z" + number(z));
+    if (z > z_) out_.line("G0 Z" + out_.number(z));
+    if (!across.empty()) out_.line("G0" + across);
+    if (z < z_) out_.line("G0 Z" + out_.number(z));
     z_ = z, at_ = to;
   }
 
@@ -155,20 +126,21 @@ class Writer {
                           : o_.feed_mm_per_min;
     if (mm == feed_) return {};
     feed_ = mm;
-    return inch_ ? fmt::format(" F{:.3f}", mm / unit_) : fmt::format(" F{:.1f}", mm);
+    return out_.feed(mm, 3);
   }
 
   void straight(Point to, double z, const PathMove& move) {
     const Count rounded = count(to);
     const std::int64_t depth = count(z);
     std::string words = place_words(rounded);
-    if (depth != z_) words += " Z" + number(depth);
+    if (depth != z_) words += " Z" + out_.number(depth);
     if (words.empty()) return;
-    line("G1" + words + feed_words(move));
+    out_.line("G1" + words + feed_words(move));
     at_ = rounded, z_ = depth;
   }
 
-  /// In equal parts of less than half a turn, so that rounding can make no full circle of a short one.
+  /// The arc is written in equal parts of about half a turn at most, so that rounding can make no full circle
+  /// of a short one.
   void arcs(Point from, const PathMove& move) {
     const geom::Edge arc = arc_of(move, from);
     const double sweep = arc_sweep(arc), pieces = std::max(1.0, std::ceil(sweep / 3.2));
@@ -180,7 +152,7 @@ class Writer {
 
   struct Arc {
     geom::Edge edge;
-    double turn = 0;  ///< the sweep, negative clockwise
+    double turn = 0;  ///< rad, the sweep; negative clockwise
     double from_z = 0;
     const PathMove* move = nullptr;
 
@@ -193,8 +165,8 @@ class Writer {
     }
   };
 
-  /// The arc between two shares of its sweep. Of the centres on the grid near its own the one whose circle,
-  /// as the control draws it between the written ends, keeps nearest to the arc.
+  /// Steps 6.4 and 6.5: the arc between two shares of its sweep. Of the centres on the grid near its own it
+  /// gets the one whose circle, as the control draws it between the written ends, keeps nearest to the arc.
   void part_of_arc(const Arc& arc, double begin, double end, int halved) {
     const Point to = arc.at(end);
     const double z = end >= 1 ? arc.move->z : arc.from_z + end * (arc.move->z - arc.from_z);
@@ -220,35 +192,32 @@ class Writer {
         double fault = std::abs(radius - other);
         for (const Point p : meant)
           fault = std::max({fault, std::abs(norm(p - centre) - radius), std::abs(norm(p - centre) - other)});
-        // Rounding may have swapped the ends of a small one, which would make it nearly a circle.
+        // Rounding may have swapped the ends of a small arc, which would make it nearly a circle.
         const double swept = geom::arc_sweep({arc.edge.kind, first, last, centre});
         if (fault < least && swept < sweep + 1) least = fault, best = offset;
       }
     if (!(least <= 0.8 * kWritingError)) {
-      // No circle on this grid: shorter arcs, whose ends bind it less, or lines where it is that small.
+      // No circle on this grid keeps to the arc. Shorter arcs bind it less by their ends.
       if (sagitta < 0.7 * kWritingError || halved > 8) return straight(to, z, *arc.move);
       part_of_arc(arc, begin, middle, halved + 1);
       return part_of_arc(arc, middle, end, halved + 1);
     }
     std::string words = arc.turn > 0 ? "G3" : "G2";
-    words += fmt::format(" X{} Y{}", number(stop.x), number(stop.y));
+    words += out_.pair('X', 'Y', stop);
     const std::int64_t depth = count(z);
-    if (depth != z_) words += " Z" + number(depth);
-    words += fmt::format(" I{} J{}", number(best.x), number(best.y));
-    line(words + feed_words(*arc.move));
+    if (depth != z_) words += " Z" + out_.number(depth);
+    words += out_.pair('I', 'J', best);
+    out_.line(words + feed_words(*arc.move));
     at_ = stop, z_ = depth;
   }
 
   const ProgramOptions& o_;
-  bool inch_;
-  int decimals_ = 4;
-  double unit_ = 1, step_ = 1e-4, feed_ = 0;
+  nc::ProgramWriter out_;
+  double step_;      ///< mm, a unit of the last decimal
+  double feed_ = 0;  ///< mm/min, the last one written
   std::optional<Count> at_;
   Point exact_;
   std::int64_t z_ = 0;
-  std::string text_;
-  std::size_t move_ = kNoMove;
-  std::vector<std::size_t>* move_of_line_ = nullptr;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::nc {
@@ -15,7 +16,7 @@ double sweep_between(const Vector& from, const Vector& to, bool clockwise) noexc
   const double first = geom::direction_angle(from.x.hi, from.y.hi);
   const double last = geom::direction_angle(to.x.hi, to.y.hi);
   const double sweep = clockwise ? first - last : last - first;
-  return sweep > 0 ? sweep : sweep + kFullTurn;
+  return sweep > 0 ? sweep : sweep + kTurn;
 }
 
 double half_chord_over_radius(const Vector& start, const Vector& end,
@@ -33,7 +34,7 @@ Arc arc_by_centre(const Vector& start, const Vector& end, const Vector& centre, 
   Arc arc{start, end, centre};
   arc.start_radius = millimetres(start - centre);
   arc.end_radius = millimetres(end - centre);
-  arc.sweep = end_is_start ? kFullTurn : sweep_between(start - centre, end - centre, clockwise);
+  arc.sweep = end_is_start ? kTurn : sweep_between(start - centre, end - centre, clockwise);
   return arc;
 }
 

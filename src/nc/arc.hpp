@@ -13,9 +13,8 @@ struct Arc {
   double sweep = 0;                         ///< radians in (0, 2 pi], without whole turns by P
 };
 
-inline constexpr double kFullTurn = 6.283185307179586;
-/// Smallest sweep that is an arc and not the full circle: LinuxCNC takes ends closer than 1e-6 rad for one
-/// point.
+/// A smaller sweep, in rad, is refused: LinuxCNC takes ends closer than 1e-6 rad for one point, and such an
+/// arc for a full circle.
 inline constexpr double kSmallestSweep = 2e-6;
 
 /// \param end_is_start  the end is the same point as the start: a full circle.
@@ -27,23 +26,24 @@ inline constexpr double kSmallestSweep = 2e-6;
 [[nodiscard]] Arc arc_by_radius(const Vector& start, const Vector& end, const geom::DoubleDouble& radius,
                                 bool clockwise) noexcept;
 
-/// Whether the ends are at least the diameter apart, within the 1e-12 that controls grant.
+/// True when the ends are at least the diameter apart, within the 1e-12 that controls grant.
 [[nodiscard]] bool spans_diameter(const Vector& start, const Vector& end,
                                   const geom::DoubleDouble& radius) noexcept;
 
-/// Whether LinuxCNC's defaults accept the arc: the radii at the ends agree within 0.002 sqrt(2) inch (0.02
+/// True when LinuxCNC's defaults accept the arc: the radii at the ends agree within 0.002 sqrt(2) inch (0.02
 /// sqrt(2) mm in G21), or within 0.1 %, and are not zero.
 [[nodiscard]] bool radii_agree(const Arc& arc, LengthUnit unit) noexcept;
-/// The same for an arc by radius: the ends are no more than the diameter and 0.0001 inch apart.
+/// True when LinuxCNC accepts an arc by radius: its ends are no more than the diameter and 0.0001 inch apart.
 [[nodiscard]] bool radius_reaches(const Vector& start, const Vector& end,
                                   const geom::DoubleDouble& radius) noexcept;
 
 /// The arc of a motion of kind arc_by_centre or arc_by_radius, in the program's frame.
 [[nodiscard]] Arc motion_arc(const Motion& motion) noexcept;
 
-/// Largest distance in mm between points of the two arcs at equal fractions of their length, where `exact` is
-/// the image of the program's arc and `written` what the control makes of the written words. Nothing when
-/// they do not run the same way round, or are too far apart to say. Derived in docs/design/nc-rewrite.md.
+/// The largest distance in mm between points of the two arcs at equal fractions of their length. `exact` is
+/// the image of the program's arc, and `written` is what the control makes of the written words. There is no
+/// value when the two do not run the same way round or are too far apart to say. docs/design/nc-rewrite.md,
+/// "Bounds", derives it.
 [[nodiscard]] std::optional<double> arc_deviation(const Arc& exact, const Arc& written) noexcept;
 
 }  // namespace lekalo::nc

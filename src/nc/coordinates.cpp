@@ -12,7 +12,7 @@ namespace {
 
 /// An arc that needs finer numbers than this to keep its shape is refused.
 constexpr int kMostDecimals = 12;
-/// How far rounding may move the centre of an arc by radius, in units of the fifth decimal: short arcs and
+/// Rounding may move the centre of an arc by radius this far, in units of the fifth decimal. Short arcs and
 /// near half circles get more decimals, because their centre hangs on the difference of the ends.
 constexpr double kCentreSteps = 2;
 
@@ -35,13 +35,14 @@ bool is_multiple(GridPoint p, Grains step) { return p.x % step == 0 && p.y % ste
 struct Pair {
   const Word *first = nullptr, *second = nullptr;
   char first_letter = 'X', second_letter = 'Y';
-  bool write_first = false, write_second = false;  ///< else its bytes stay
+  bool write_first = false, write_second = false;  ///< false: the bytes of the word stay
   GridPoint value;
   int decimals = kLeastDecimals;
 };
 
-/// One pass over the motions with a given number of decimals for each. The machine's position is followed as
-/// the control will know it, from the written words, so that under G91 no rounding adds up.
+/// Step 5a of docs/design/nc-rewrite.md: one pass over the motions, with a given number of decimals for each.
+/// The machine's position is followed as the control will know it, from the written words, so that no
+/// rounding adds up under G91.
 class CoordinatePass {
  public:
   CoordinatePass(const RewriteJob& job, const std::vector<int>& extra_decimals)
@@ -107,7 +108,7 @@ class CoordinatePass {
     }
     const Vector exact = motion_(motion.end);
     if (motion.incremental) {
-      // All repeats make the same step, so its rounding counts as often.
+      // All repeats make one step, so the rounding of that step counts as often.
       for (std::int64_t power = 1; power < motion.repeats && decimals < kMaxDecimals; power *= 10) ++decimals;
       const geom::DoubleDouble repeats{static_cast<double>(motion.repeats)};
       const Vector way = exact - to_vector(start);
@@ -121,7 +122,7 @@ class CoordinatePass {
     return end;
   }
 
-  /// Under a pure shift an axis without a word does not move, and one that is not shifted keeps its bytes.
+  /// An axis without a word does not move under a pure shift, and one that is not shifted keeps its bytes.
   void keep_missing_axes(const Motion& motion, GridPoint start, GridPoint& end) const {
     if (motion.x == nullptr) end.x = start.x;
     if (motion.y == nullptr) end.y = start.y;
@@ -129,8 +130,8 @@ class CoordinatePass {
     if (motion.y != nullptr && motion_.shift().y.hi == 0) end.y = motion.end.y;
   }
 
-  /// The half circle by radius: with ends a hair nearer than the diameter its centre would leave the chord by
-  /// the root of that hair. So the end is taken from the neighbours at which the chord still spans the
+  /// With ends a hair nearer than the diameter, the centre of a half circle by radius would leave the chord
+  /// by the root of that hair. So the end is taken from the neighbours at which the chord still spans the
   /// diameter.
   GridPoint kept_half_circle(const Motion& motion, GridPoint start, GridPoint end, Grains step) const {
     const geom::DoubleDouble radius = to_double_double(motion.radius);
@@ -167,7 +168,7 @@ class CoordinatePass {
       emit(motion, pair);
       return pair.value;
     }
-    // Counted from the written start, so that the start's rounding does not move the centre.
+    // The centre counts from the written start, so that the start's rounding does not move the centre.
     pair.value = nearest(exact - to_vector(start), step);
     emit(motion, pair);
     return start + pair.value;
@@ -219,8 +220,8 @@ class CoordinatePass {
     const bool spaced =
         sister.letter_at == block.begin ? blank_at(sister.number_end) : blank_at(sister.letter_at - 1);
     const char* gap = spaced ? " " : "";
-    if (before)  // with the sister's letter, so that a word supplied after the word before them stays with
-                 // that one
+    // The edit covers the sister's letter, so that it comes after what was supplied behind the word before.
+    if (before)
       edits.push_back({sister.letter_at, 1, fmt::format("{}{}{}{}", cased, number, gap, written)});
     else
       edits.push_back({sister.number_end, 0, fmt::format("{}{}{}", gap, cased, number)});
@@ -232,15 +233,15 @@ class CoordinatePass {
   GridPoint here_;
 };
 
-/// Whether the words of a motion decide where it ends; else it carries on from its start.
+/// True when the words of a motion decide where it ends; otherwise it carries on from its start.
 bool sets_end(const Motion& motion, bool turns) {
   const bool stays = motion.start_known && motion.end == motion.start;
   return (motion.x != nullptr || motion.y != nullptr) && !stays && (turns || !motion.incremental);
 }
 
-/// One more decimal for the words that shape the distorted arcs: their own, and those of the motions before,
-/// back to the one that decided where the arc starts. The first arc of which all have what they may have,
-/// else nothing.
+/// Gives one more decimal to the words that shape the distorted arcs: their own, and those of the motions
+/// before, back to the one that decided where the arc starts. Returns the first arc all of whose words have
+/// as many as they may have; it cannot be kept.
 std::optional<std::size_t> refine(const std::vector<Motion>& motions, bool turns,
                                   const std::vector<std::size_t>& distorted, std::vector<int>& extra) {
   const auto may_grow = [&](std::size_t k) {
@@ -256,7 +257,7 @@ std::optional<std::size_t> refine(const std::vector<Motion>& motions, bool turns
     if (!may_grow(k) && !start_may_grow[k]) return k;
     growing[k] = true;
     for (std::size_t j = k; j-- > 0;) {
-      const bool known = growing[j];  // then what stands before it is growing too
+      const bool known = growing[j];  // what stands before it is then growing too
       growing[j] = true;
       if (sets_end(motions[j], turns) || known) break;
     }
@@ -266,7 +267,7 @@ std::optional<std::size_t> refine(const std::vector<Motion>& motions, bool turns
   return std::nullopt;
 }
 
-/// The first line that became too long for a control, else nothing.
+/// The first line that became too long for a control.
 std::optional<std::size_t> overlong_line(std::string_view text) {
   std::size_t line = 1;
   for (std::size_t begin = 0; begin < text.size(); ++line) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arc.hpp"
+#include "lekalo/base/angle.hpp"
 #include "modes.hpp"
 #include "white_list.hpp"
 
@@ -12,12 +13,12 @@ namespace {
 
 using geom::DoubleDouble;
 
-constexpr DoubleDouble kPi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
-/// LinuxCNC reads an angle in double precision: nine decimals of a degree are 2e-11 rad.
+constexpr DoubleDouble kExactPi{kPi, 0x1.1a62633145c07p-53};
+/// LinuxCNC reads an angle in double precision, and nine decimals of a degree are 2e-11 rad.
 constexpr int kOffsetAngleDecimals = 9;
 
-/// Smallest box with sides along X and Y that holds the programmed path, in grains; arcs with their full
-/// circle.
+/// The smallest box with sides along X and Y that holds the programmed path, and the full circles of its
+/// arcs. In grains.
 struct Extent {
   bool empty = true;
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0;
@@ -36,7 +37,7 @@ struct Extent {
   [[nodiscard]] Vector middle() const {
     return {DoubleDouble{(low_x + high_x) / 2}, DoubleDouble{(low_y + high_y) / 2}};
   }
-  /// From the middle to a corner, mm.
+  /// The distance from the middle to a corner, mm.
   [[nodiscard]] double reach_mm() const {
     return millimetres({DoubleDouble{(high_x - low_x) / 2}, DoubleDouble{(high_y - low_y) / 2}});
   }
@@ -54,22 +55,22 @@ Extent extent_of(const std::vector<Motion>& motions) {
   return extent;
 }
 
-/// The rigid motion in the numbers that the inserted words can say.
+/// The rigid motion, rounded to the numbers that the inserted words can say.
 struct RoundedMotion {
   std::string degrees, x, y;
   double rounding_mm = 0;
 };
 
 /// The angle is rounded first; then the shift is chosen so that the middle of the program lands where it
-/// should, and is rounded in its turn. What the angle's rounding does so grows from the middle of the
-/// program, not from its origin.
+/// should, and is rounded in its turn. So the error of the angle grows from the middle of the program, and
+/// not from its origin, which may be far away.
 RoundedMotion round_motion(const RewriteJob& job, int angle_decimals, LengthUnit unit) {
-  const DoubleDouble exact_degrees = DoubleDouble{job.theta} * DoubleDouble{180.0} / kPi;
+  const DoubleDouble exact_degrees = DoubleDouble{job.theta} * DoubleDouble{180.0} / kExactPi;
   double power = 1;
   for (int k = 0; k < angle_decimals; ++k) power *= 10;
   const Wide turn = static_cast<Wide>(360 * power);
   Wide steps = steps_nearest(DoubleDouble{power} * exact_degrees, 1);
-  const DoubleDouble written_theta = to_double_double(steps) * kPi / DoubleDouble{180.0 * power};
+  const DoubleDouble written_theta = to_double_double(steps) * kExactPi / DoubleDouble{180.0 * power};
   steps %= turn;
   if (2 * steps > turn) steps -= turn;
   if (2 * steps <= -turn) steps += turn;
@@ -98,8 +99,8 @@ RoundedMotion round_motion(const RewriteJob& job, int angle_decimals, LengthUnit
           rounded_up(millimetres(lost) + std::abs(change.hi) * extent.reach_mm())};
 }
 
-/// Modal words that the inserted line needs and the program states only later, or not at all. They say what
-/// is in force at the first motion, so they change nothing for the program.
+/// Modal words that the inserted line needs, where the program states them only later or not at all. They say
+/// what is in force at the first motion, so they change nothing for the program.
 std::string modal_prefix(const Interpretation& program, int work_offset, bool for_g68) {
   std::string words;
   if (!program.unit_stated) words += program.unit_at_first == LengthUnit::inch ? "G20 " : "G21 ";
@@ -123,6 +124,7 @@ std::string reach_note(double rounding_mm) {
 
 }  // namespace
 
+/// Step 5b of docs/design/nc-rewrite.md.
 Result<Rewritten> insert_offset(const RewriteJob& job) {
   if (job.options.scan_frame != ScanFrame::machine)
     return failure(
@@ -160,6 +162,7 @@ Result<Rewritten> insert_offset(const RewriteJob& job) {
   return result;
 }
 
+/// Step 5c.
 Result<Rewritten> insert_g68(const RewriteJob& job) {
   const Interpretation& program = job.interpretation;
   const std::string offset = work_offset_name(job.options.work_offset);

@@ -7,16 +7,17 @@
 #include <string_view>
 
 #include "arc.hpp"
+#include "lekalo/base/angle.hpp"
 #include "white_list.hpp"
 
 namespace lekalo::nc {
 namespace {
 
-/// What is wrong with a block; nothing when all is well.
+/// The fault of a block, as words that complete `name:line:`; none when all is well.
 using Fault = std::optional<std::string>;
 
 constexpr int kNone = -1;
-/// Coordinates beyond this many millimetres or inches are taken for a slip, and would not fit a control.
+/// A coordinate beyond this many millimetres or inches is taken for a slip, and would not fit a control.
 constexpr std::int64_t kLargestCoordinate = 1'000'000;
 constexpr std::int64_t kLargestRepeat = 10'000;
 
@@ -117,8 +118,8 @@ class Interpreter {
  private:
   std::size_t line() const { return program_.blocks[index_].line; }
 
-  /// Whether a block that begins with / runs is decided at the machine: it may hold only what nothing depends
-  /// on.
+  /// The machine decides whether a block that begins with / runs, so it may hold only what no later block
+  /// depends on.
   Fault check_skippable(const Block& block) const {
     for (const Word& word : block.words) {
       const bool dwell = word.letter == 'G' && tenths_of(word.value) == 40;
@@ -215,7 +216,7 @@ class Interpreter {
         work_offset_name(number), work_offset_name(options_.work_offset), number);
   }
 
-  /// Words that mean something only beside another one.
+  /// Refuses words that mean something only beside another one.
   Fault check_companions(const Words& words) const {
     const bool arc = modal_.motion == kClockwise || modal_.motion == kCounterClockwise;
     const bool cycle = is_cycle(modal_.motion);
@@ -300,7 +301,7 @@ class Interpreter {
     return motion;
   }
 
-  /// Where the X and Y words lead; afterwards both coordinates are known.
+  /// Follows the X and Y words to the end of the motion; afterwards both coordinates are known.
   Fault reach(const Words& words, Motion& motion) {
     const auto apply = [&](const Word* word, Grains& coordinate, bool& known) {
       if (word == nullptr) return;
@@ -387,7 +388,7 @@ class Interpreter {
     return {};
   }
 
-  /// What controls refuse, and what they read in two ways.
+  /// Refuses arcs that controls refuse, and those that they read in two ways.
   static Fault check_arc(const Motion& motion) {
     if (motion.kind == MotionKind::arc_by_radius) {
       if (motion.end == motion.start) return "an arc by radius that ends where it starts";
@@ -399,7 +400,7 @@ class Interpreter {
     if (!radii_agree(arc, motion.unit))
       return fmt::format("the centre is {:.5f} mm from the start but {:.5f} mm from the end of the arc",
                          arc.start_radius, arc.end_radius);
-    const double apart = std::min(arc.sweep, kFullTurn - arc.sweep);
+    const double apart = std::min(arc.sweep, kTurn - arc.sweep);
     if (motion.end != motion.start && apart < kSmallestSweep)
       return fmt::format(
           "the ends of the arc differ, but seen from its centre by {:.1e} rad only: a control may run a "

@@ -25,23 +25,23 @@ struct Motion {
   MotionKind kind = MotionKind::line;
   LengthUnit unit = LengthUnit::millimetre;
   bool incremental = false;      ///< G91
-  bool start_known = false;      ///< else the machine may stand anywhere
+  bool start_known = false;      ///< false: the machine may stand anywhere
   GridPoint start, end;          ///< `end` after all repeats
   std::int64_t repeats = 1;      ///< L of a cycle under G91
   bool clockwise = false;        ///< arcs
   bool absolute_centre = false;  ///< G90.1
-  GridPoint centre;              ///< of an arc by centre
-  Grains radius = 0;             ///< of an arc by radius; negative: the long way round
+  GridPoint centre;              ///< arcs by centre only
+  Grains radius = 0;             ///< arcs by radius only; negative: the long way round
   std::int64_t turns = 1;        ///< P of an arc
   const Word *x = nullptr, *y = nullptr, *i = nullptr, *j = nullptr;  ///< into the program
 };
 
-/// What a program does, as far as a motion in the plane is concerned.
+/// A program's effect, as far as a motion in the plane is concerned.
 struct Interpretation {
   std::vector<Motion> motions;
   std::optional<std::size_t> first_axis_block;  ///< first block with X Y Z, or with G41 G42
   LengthUnit unit_at_first =
-      LengthUnit::millimetre;  ///< in force before it, or said by it for the first time
+      LengthUnit::millimetre;  ///< the one in force before it, or the first one said, if it says it itself
   bool incremental_at_first = false;
   bool unit_stated = false, distance_stated = false, plane_stated = false,
        offset_stated = false;            ///< before it
@@ -55,7 +55,8 @@ struct Interpretation {
   std::vector<std::string> notes;
 };
 
-/// Runs the program on the white list. \param program  must outlive the result.
+/// Step 3 of docs/design/nc-rewrite.md: runs the program on the white list.
+/// \param program  must outlive the result
 [[nodiscard]] Result<Interpretation> interpret(const Program& program, const std::string& name,
                                                const RewriteOptions& options);
 

@@ -10,10 +10,10 @@
 
 namespace lekalo::nc {
 
-/// Fewest decimals of a rewritten number, in millimetres and inches alike.
+/// A rewritten number has this many decimals at least, in millimetres and inches alike.
 inline constexpr int kLeastDecimals = 5;
 
-/// Everything a mode needs to know.
+/// The program, its meaning and the pose, for each mode (steps 5a to 5c of docs/design/nc-rewrite.md).
 struct RewriteJob {
   std::string_view text;
   const std::string& name;
@@ -38,7 +38,7 @@ struct Edit {
 /// there.
 [[nodiscard]] std::string apply_edits(std::string_view text, std::vector<Edit> edits);
 
-/// A bound that stays one after the few roundings of its own computation.
+/// Raises a bound, so that it stays one after the few roundings of its own computation.
 [[nodiscard]] constexpr double rounded_up(double bound) noexcept { return bound * (1 + 1e-12); }
 
 }  // namespace lekalo::nc

@@ -5,8 +5,8 @@
 
 namespace lekalo::nc {
 
-/// Vectors in grains with 32 digits: the rotation is computed as if exactly, so that what is measured against
-/// it is the rounding of the written numbers and nothing else.
+/// Vectors in grains with 32 digits. The rotation is as good as exact, so that a difference from it is the
+/// rounding of the written numbers and nothing else.
 struct Vector {
   geom::DoubleDouble x, y;
 };

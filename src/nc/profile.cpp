@@ -49,22 +49,22 @@ Result<void> check_options(const ProfileOptions& o) {
       {"plunge in mm/min", o.plunge_mm_per_min, 0.1, 1e6, router},
   };
   for (const Range& range : ranges)
-    if (range.needed)
-      if (auto fine = check_range(range.what, range.value, range.low, range.high); !fine) return fine;
-  if (auto fine = check_range("tolerance in mm (less than a quarter of the kerf)", o.tolerance_mm, 1e-4,
-                              0.25 * o.kerf_mm);
-      !fine)
-    return fine;
+    if (range.needed) LEKALO_CHECK(check_range(range.what, range.value, range.low, range.high));
+  LEKALO_CHECK(check_range("tolerance in mm (less than a quarter of the kerf)", o.tolerance_mm, 1e-4,
+                           0.25 * o.kerf_mm));
   if (router && !(o.speed >= 1))
     return failure(ErrorCode::usage, "a router needs the speed of its spindle, the S word");
-  if (o.post == Post::grbl && o.process == Process::laser && !(o.speed >= 1))
-    return failure(ErrorCode::usage,
-                   "a GRBL laser needs the power of its beam, the S word: without it the beam stays dark");
+  if (o.post.laser_needs_power && o.process == Process::laser && !(o.speed >= 1))
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a {} laser needs the power of its beam, the S word: without it the beam stays dark",
+                    o.post.control));
   if (router && o.pierce_s > 0)
     return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
   return {};
 }
 
+/// The refusal of a cut whose kerf would enter a part.
 tl::unexpected<Error> entered(const std::vector<ProfilePart>& parts, const Cut& cut,
                               const KerfProof::Finding& finding, const ProfileOptions& options) {
   const ProfilePart &own = parts[cut.part], &other = parts[finding.part];
@@ -85,6 +85,16 @@ tl::unexpected<Error> entered(const std::vector<ProfilePart>& parts, const Cut& 
                   other.id, finding.deepest_mm, options.tolerance_mm));
 }
 
+/// Step 7: how deep the kerf enters any part along the path, or the refusal beyond the tolerance.
+Result<double> proved_depth(const std::vector<ProfilePart>& parts, const Cut& cut,
+                            const std::vector<WrittenEdge>& path, const KerfProof& proof,
+                            const ProfileOptions& options) {
+  const KerfProof::Finding finding = proof.look(path);
+  if (finding.inside || !(finding.deepest_mm <= options.tolerance_mm))
+    return entered(parts, cut, finding, options);
+  return finding.deepest_mm;
+}
+
 double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolution) {
   double sum = 0;
   for (const WrittenEdge& edge : edges) {
@@ -95,7 +105,7 @@ double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolu
   return sum;
 }
 
-/// How far a corner of the contour lies from the kerf at most.
+/// The distance from the kerf of that corner of the contour which is farthest from it.
 double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& path,
                  const Resolution& resolution, double half_kerf) {
   std::vector<geom::Curve> curves;
@@ -106,7 +116,7 @@ double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& p
   double most = 0;
   for (const geom::Edge& edge : contour) {
     double least = std::numeric_limits<double>::infinity();
-    // A corner is seldom far away: the search grows until what it has found cannot be beaten.
+    // A corner is seldom far away, so the search begins near it and grows until nothing nearer can be left.
     for (double reach = 2 * half_kerf; !(least <= reach) && reach < 1e9; reach *= 4)
       tree.visit_meeting(
           {edge.from - Point{reach, reach}, edge.from + Point{reach, reach}}, [&](std::uint32_t i) {
@@ -117,7 +127,7 @@ double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& p
   return most;
 }
 
-/// The path begun at another of its edges.
+/// The closed path, begun at another of its edges.
 std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edge) {
   std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(edge), path.end());
   return path;
@@ -127,41 +137,38 @@ std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edg
 
 Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, const std::string& name,
                                        const ProfileOptions& options) {
-  if (auto fine = check_options(options); !fine) return tl::unexpected(fine.error());
+  LEKALO_CHECK(check_options(options));
   if (parts.empty()) return failure(ErrorCode::bad_input, "there is no part to cut");
   const Resolution resolution = resolution_of(options);
-  Result<std::vector<Cut>> cuts = compensated_cuts(parts, options);
-  if (!cuts) return tl::unexpected(cuts.error());
+  LEKALO_TRY(std::vector<Cut> cuts, compensated_cuts(parts, options));  // steps 3 and 4
 
+  // Step 5. The path is proved as it will be written, after starts_of has begun new edges in it.
   const KerfProof proof(parts, options);
   ProfileProgram program;
   std::vector<Starts> starts;
-  for (Cut& cut : *cuts) {
+  for (Cut& cut : cuts) {
     starts.push_back(starts_of(cut.path, proof, options));
-    // The path is looked at as it will be written, after starts_of has begun new edges in it.
-    const KerfProof::Finding finding = proof.look(cut.path);
-    if (finding.inside || !(finding.deepest_mm <= options.tolerance_mm))
-      return entered(parts, cut, finding, options);
+    LEKALO_CHECK(proved_depth(parts, cut, cut.path, proof, options));
     const ProfilePart& part = parts[cut.part];
     const double left = left_over(cut.outline ? part.region.outer : part.region.holes[cut.hole], cut.path,
                                   resolution, 0.5 * options.kerf_mm);
     if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
   }
-  const std::vector<OrderedCut> order = ordered_cuts(starts, enclosing_cuts(parts, *cuts, resolution));
+  const std::vector<OrderedCut> order =
+      ordered_cuts(starts, enclosing_cuts(parts, cuts, resolution));  // step 6
 
+  // Steps 7 and 8.
   ProfileWriter writer(name, options);
   Point here;
   for (const OrderedCut& ordered : order) {
-    const Cut& cut = (*cuts)[ordered.cut];
+    const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
     const Start& start = its.choices[ordered.start];
     const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);
     std::vector<WrittenEdge> all = start.lead;
     all.insert(all.end(), path.begin(), path.end());
-    const KerfProof::Finding finding = proof.look(all);
-    if (finding.inside || !(finding.deepest_mm <= options.tolerance_mm))
-      return entered(parts, cut, finding, options);
-    program.deepest_mm = std::max(program.deepest_mm, finding.deepest_mm);
+    LEKALO_TRY(const double deepest_mm, proved_depth(parts, cut, all, proof, options));
+    program.deepest_mm = std::max(program.deepest_mm, deepest_mm);
     writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
                                cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
     writer.cut(start.lead, path);

@@ -64,8 +64,9 @@ Starts starts_of(std::vector<WrittenEdge>& path, const KerfProof& proof, const P
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t edge = edge_at(k);
       const WrittenPoint at = path[edge].from;
-      // The middle of a smooth stretch and the end of a corner's arc alike: the path is smooth, so that both
-      // edges at a start go one way, except in corners that point inwards, where the proof decides.
+      // Both edges at a start go one way, because the path is smooth, in the middle of a stretch and at the
+      // end of a corner's arc alike. Corners that point inwards are no exception that matters: the proof
+      // decides.
       auto lead = lead_to(at, direction_at_start(edge_mm(path[edge], resolution)), found.lead_mm,
                           options.lead, resolution);
       if (lead.size() != 1 || lead.back().to != at || !proof.stays_out(lead)) continue;

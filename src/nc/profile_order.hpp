@@ -13,15 +13,16 @@ struct OrderedCut {
   std::size_t cut = 0, start = 0;
 };
 
-/// For each cut the one that must come after it and in whose waste or part it lies: a hole's is its part's
-/// outline, an outline's the innermost hole it lies in; its own index where there is none.
+/// Each cut's enclosing cut, which must come after it: for a hole its part's outline, for an outline the
+/// innermost hole in which it lies. A cut that nothing encloses has its own index.
 [[nodiscard]] std::vector<std::size_t> enclosing_cuts(const std::vector<ProfilePart>& parts,
                                                       const std::vector<Cut>& cuts,
                                                       const Resolution& resolution);
 
-/// What is enclosed first and together with what encloses it, otherwise short travels: the nearest next, then
-/// pairs of travels exchanged while that shortens (2-opt), then the best start of each. From and back to
-/// (0, 0). The same for the same input; a budget of work, not of time.
+/// Step 6 of docs/design/export.md: what is enclosed comes first, together with what encloses it. Otherwise
+/// travels are made short: the nearest is next, then pairs of travels are exchanged while that shortens
+/// (2-opt), then each cut takes its best start. The tour begins and ends at (0, 0). A budget of work, not of
+/// time, ends the exchange, so that one input has one order.
 [[nodiscard]] std::vector<OrderedCut> ordered_cuts(const std::vector<Starts>& starts,
                                                    const std::vector<std::size_t>& enclosing);
 

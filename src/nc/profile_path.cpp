@@ -62,7 +62,7 @@ void append_written(const Edge& edge, const Resolution& resolution, WrittenPoint
   at = written.to;
 }
 
-/// Clockwise from its contour counter-clockwise, and the other way round.
+/// Outlines are counter-clockwise and cut clockwise, so that the part is on the right; holes the other way.
 std::vector<WrittenEdge> cut_along(const geom::Contour& contour, const Resolution& resolution) {
   return written_edges(geom::reversed(contour), resolution);
 }
@@ -77,24 +77,22 @@ tl::unexpected<Error> too_narrow(const ProfilePart& part, const std::string& wha
 Result<Cut> hole_cut(const ProfilePart& part, std::size_t index, std::size_t hole,
                      const ProfileOptions& options, const Resolution& resolution) {
   const geom::Region inside{geom::reversed(part.region.holes[hole]), {}};
-  const auto shrunk = geom::offset({inside}, -0.5 * options.kerf_mm);
-  if (!shrunk) return tl::unexpected(shrunk.error());
+  LEKALO_TRY(const auto shrunk, geom::offset({inside}, -0.5 * options.kerf_mm));
   const std::string what = fmt::format("hole {}", hole + 1);
-  if (shrunk->regions.empty()) return too_narrow(part, what, options.kerf_mm);
-  if (shrunk->regions.size() > 1) return too_narrow(part, "a neck of " + what, options.kerf_mm);
-  // Counter-clockwise, as the outer contour of a region is.
-  Cut cut{index, false, hole, written_edges(shrunk->regions.front().outer, resolution)};
+  if (shrunk.regions.empty()) return too_narrow(part, what, options.kerf_mm);
+  if (shrunk.regions.size() > 1) return too_narrow(part, "a neck of " + what, options.kerf_mm);
+  // The outer contour of a region runs counter-clockwise, as the cut of a hole should.
+  Cut cut{index, false, hole, written_edges(shrunk.regions.front().outer, resolution)};
   if (cut.path.size() < 2) return too_narrow(part, what, options.kerf_mm);
   return cut;
 }
 
 Result<Cut> outline_cut(const ProfilePart& part, std::size_t index, const ProfileOptions& options,
                         const Resolution& resolution) {
-  const auto grown = geom::offset({{part.region.outer, {}}}, 0.5 * options.kerf_mm);
-  if (!grown) return tl::unexpected(grown.error());
-  if (grown->regions.size() != 1 || !grown->regions.front().holes.empty())
+  LEKALO_TRY(const auto grown, geom::offset({{part.region.outer, {}}}, 0.5 * options.kerf_mm));
+  if (grown.regions.size() != 1 || !grown.regions.front().holes.empty())
     return too_narrow(part, "the mouth of a notch", options.kerf_mm);
-  return Cut{index, true, 0, cut_along(grown->regions.front().outer, resolution)};
+  return Cut{index, true, 0, cut_along(grown.regions.front().outer, resolution)};
 }
 
 }  // namespace
@@ -112,8 +110,7 @@ Point Resolution::mm(WrittenPoint p) const noexcept {
 }
 
 Resolution resolution_of(const ProfileOptions& options) noexcept {
-  const int fewer = options.post == Post::fanuc ? 1 : 0;  // increment system IS-B drops what is finer
-  return {(options.unit == LengthUnit::inch ? 5 : 4) - fewer, options.unit};
+  return {options.post.decimals.of(options.unit), options.unit};
 }
 
 Edge edge_mm(const WrittenEdge& edge, const Resolution& resolution) noexcept {
@@ -135,13 +132,11 @@ Result<std::vector<Cut>> compensated_cuts(const std::vector<ProfilePart>& parts,
   std::vector<Cut> cuts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t hole = 0; hole < parts[i].region.holes.size(); ++hole) {
-      auto cut = hole_cut(parts[i], i, hole, options, resolution);
-      if (!cut) return tl::unexpected(cut.error());
-      cuts.push_back(*std::move(cut));
+      LEKALO_TRY(Cut cut, hole_cut(parts[i], i, hole, options, resolution));
+      cuts.push_back(std::move(cut));
     }
-    auto cut = outline_cut(parts[i], i, options, resolution);
-    if (!cut) return tl::unexpected(cut.error());
-    cuts.push_back(*std::move(cut));
+    LEKALO_TRY(Cut cut, outline_cut(parts[i], i, options, resolution));
+    cuts.push_back(std::move(cut));
   }
   return cuts;
 }

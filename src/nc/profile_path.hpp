@@ -6,16 +6,11 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/nc/profile.hpp"
+#include "lekalo/nc/program_writer.hpp"
 
 namespace lekalo::nc {
 
-/// A point as the program writes it: whole units of the last decimal.
-struct WrittenPoint {
-  std::int64_t x = 0, y = 0;
-  friend bool operator==(const WrittenPoint&, const WrittenPoint&) = default;
-};
-
-/// The words' last decimal.
+/// The grid of the last decimal of a program's words.
 struct Resolution {
   int decimals = 4;
   LengthUnit unit = LengthUnit::millimetre;
@@ -31,11 +26,11 @@ struct WrittenEdge {
   geom::EdgeKind kind = geom::EdgeKind::line;
   WrittenPoint from, to, centre;
 };
-/// In mm, within rounding of a double.
+/// The edge in mm, within rounding of a double.
 [[nodiscard]] geom::Edge edge_mm(const WrittenEdge& edge, const Resolution& resolution) noexcept;
 
-/// Edges as written: arcs of at most half a turn, those that are lines to the resolution as lines, nothing of
-/// no length.
+/// Edges as they are written (step 4 of docs/design/export.md): arcs of at most half a turn, arcs that are
+/// lines to the resolution as lines, and no edge of no length.
 [[nodiscard]] std::vector<WrittenEdge> written_edges(const std::vector<geom::Edge>& edges,
                                                      const Resolution& resolution);
 
@@ -47,8 +42,8 @@ struct Cut {
   std::vector<WrittenEdge> path;
 };
 
-/// All cuts of all parts, in their order, holes of a part before its outline. Fails as profile_program for
-/// what the kerf closes.
+/// Steps 3 and 4: the cuts of all parts in their order, holes of a part before its outline. Fails like
+/// profile_program where the kerf closes something.
 [[nodiscard]] Result<std::vector<Cut>> compensated_cuts(const std::vector<ProfilePart>& parts,
                                                         const ProfileOptions& options);
 

@@ -91,7 +91,7 @@ KerfProof::Finding KerfProof::look(const std::vector<WrittenEdge>& path) const {
     });
   }
   finding.deepest_mm = std::nextafter(finding.deepest_mm, 1e300);
-  // Only where the path keeps its distance does the answer for one point hold for all.
+  // One point answers for the whole path that keeps its distance; a path that does not is refused anyway.
   std::size_t part = 0;
   if (in_material(resolution_.mm(path.front().from), part)) {
     finding.inside = true;

@@ -10,12 +10,13 @@
 
 namespace lekalo::nc {
 
-/// Whether the kerf along written paths stays out of parts. It sees rounded numbers alone.
+/// Step 7 of docs/design/export.md: the proof that the kerf along written paths stays out of parts. It sees
+/// rounded numbers alone.
 ///
-/// Why distances are enough: let a path keep d >= kerf / 2 - t > 0 from the edges of a part and have a point
-/// outside of it. Then all of it lies outside. The way from a point of the path to a point x deep in the part
-/// crosses its boundary: d at least before, x after. So what is within kerf / 2 of the path is at most t
-/// deep.
+/// Distances are enough for it. Let a path keep d >= kerf / 2 - t > 0 from the edges of a part and have a
+/// point outside of it. Then all of it lies outside. The way from a point of the path to a point x deep in
+/// the part crosses its boundary: d at least before, x after. So what is within kerf / 2 of the path is at
+/// most t deep.
 class KerfProof {
  public:
   KerfProof(const std::vector<ProfilePart>& parts, const ProfileOptions& options);
@@ -24,11 +25,11 @@ class KerfProof {
   struct Finding {
     double deepest_mm = 0;  ///< over all parts, rounded up; 0 where it enters none
     std::size_t part = 0;   ///< the one that is entered deepest
-    bool inside = false;    ///< the path runs in the part's very material, or may
+    bool inside = false;    ///< the path itself runs in the part's material, or may
   };
   /// \param path  connected, not empty
   [[nodiscard]] Finding look(const std::vector<WrittenEdge>& path) const;
-  /// look() finds nothing beyond the tolerance.
+  /// True when look() finds nothing beyond the tolerance.
   [[nodiscard]] bool stays_out(const std::vector<WrittenEdge>& path) const;
 
  private:

@@ -8,29 +8,27 @@
 
 namespace lekalo::nc {
 
-/// Writes motions as the words of one post. Positions are the rounded ones, digit by digit.
+/// Writes cuts as a program. Positions are the rounded ones, digit by digit.
 class ProfileWriter {
  public:
   ProfileWriter(const std::string& name, const ProfileOptions& options);
 
-  /// Text for the operator, letters and digits alone; everything else becomes a blank.
-  void comment(const std::string& words);
+  void comment(const std::string& words) { out_.comment(words); }
   /// A contour from its pierce: the lead, perhaps, and the closed path.
   void cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
   [[nodiscard]] std::string finish();
-  [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return out_.size(); }
 
  private:
-  void line(const std::string& words);
-  void rapid_to(WrittenPoint p);
+  void cut_by_beam(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
+  void cut_by_router(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
+  void rapid_to(WrittenPoint p) { out_.line("G0" + out_.pair('X', 'Y', p)); }
   void follow(const std::vector<WrittenEdge>& edges, bool feed_changed);
   [[nodiscard]] std::string length(double mm) const;
-  [[nodiscard]] std::string feed(double mm_per_min) const;
-  [[nodiscard]] std::string count(std::int64_t units) const;
 
   const ProfileOptions& options_;
   Resolution resolution_;
-  std::string text_;
+  ProgramWriter out_;
 };
 
 }  // namespace lekalo::nc

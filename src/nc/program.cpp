@@ -18,10 +18,10 @@ bool in_number(char c) noexcept { return is_digit(c) || c == '.' || c == '+' || 
 constexpr const char* kSubprograms =
     "O words (subprograms, branches) cannot be rewritten; let the CAM system write them out";
 
-/// What is wrong with a line; nothing when all is well.
+/// The fault of a line, as words that complete `name:line:`; none when all is well.
 using Fault = std::optional<std::string>;
 
-/// LinuxCNC executes some comments. Those that only show a text pass; those that run code, open files, stop
+/// LinuxCNC executes some comments. Those that only show a text pass. Those that run code, open files, stop
 /// the program or read variables do not.
 Fault comment_fault(std::string_view body) {
   std::string keyword;
@@ -175,8 +175,8 @@ class LineReader {
   std::size_t at_;
 };
 
-/// Between the tape marks stands the program; a control ignores what follows the last one, so it may hold
-/// nothing.
+/// The program stands between the tape marks. A control ignores what follows the last one, so nothing may
+/// stand there.
 Fault tape_mark_fault(const Block& block, bool& seen_words, int& marks) {
   if (marks == 2 && (block.tape_mark || !block.words.empty())) return "words after the final %";
   if (block.tape_mark) marks = seen_words ? 2 : marks + 1;

@@ -59,18 +59,15 @@ std::string apply_edits(std::string_view text, std::vector<Edit> edits) {
 
 Result<Rewritten> rewrite_program(std::string_view text, const std::string& name, double x, double y,
                                   double theta, const RewriteOptions& options) {
-  if (auto request = check_request(name, x, y, theta, options); !request)
-    return tl::unexpected(request.error());
-  const Result<Program> program = parse_program(text, name);
-  if (!program) return tl::unexpected(program.error());
-  const Result<Interpretation> interpretation = interpret(*program, name, options);
-  if (!interpretation) return tl::unexpected(interpretation.error());
-
-  const RigidMotion machine_from_part(x, y, theta);
-  Result<Rewritten> result =
-      run_mode({text, name, *program, *interpretation, machine_from_part, theta, options});
-  if (result)
-    result->notes.insert(result->notes.end(), interpretation->notes.begin(), interpretation->notes.end());
+  // The steps of docs/design/nc-rewrite.md.
+  LEKALO_CHECK(check_request(name, x, y, theta, options));                             // 1
+  LEKALO_TRY(const Program program, parse_program(text, name));                        // 2
+  LEKALO_TRY(const Interpretation interpretation, interpret(program, name, options));  // 3
+  const RigidMotion machine_from_part(x, y, theta);                                    // 4
+  const RewriteJob job{text, name, program, interpretation, machine_from_part, theta, options};
+  LEKALO_TRY(Rewritten result, run_mode(job));  // 5
+  // 6. What the mode has to say comes first.
+  result.notes.insert(result.notes.end(), interpretation.notes.begin(), interpretation.notes.end());
   return result;
 }
 

@@ -48,16 +48,16 @@ inline constexpr int kRapid = 0, kFeed = 10, kClockwise = 20, kCounterClockwise 
 /// Tenths of a G word's number; nothing when it has more than one decimal or is out of range.
 [[nodiscard]] std::optional<int> tenths_of(Decimal value) noexcept;
 
-/// Why a G word that is not on the list is refused.
+/// The reason to refuse a G word that is not on the list.
 [[nodiscard]] std::string refused_g(Decimal value);
 
 [[nodiscard]] bool m_on_list(int number) noexcept;
-/// Those of the list that change nothing of which a later block depends: allowed in a block that may be
-/// skipped.
+/// True for M words of the list that change nothing that a later block depends on: a block that may be
+/// skipped may hold them.
 [[nodiscard]] bool m_may_be_skipped(int number) noexcept;
 [[nodiscard]] std::string refused_m(Decimal value);
 
-/// Why a letter is refused; nothing for a letter that can stand in a program on the list.
+/// The reason to refuse a letter; none for a letter that can stand in a program on the list.
 [[nodiscard]] std::optional<std::string> refused_letter(char letter);
 
 }  // namespace lekalo::nc

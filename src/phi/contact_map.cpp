@@ -152,7 +152,7 @@ void ContactMap::visit_touched(const Contact& c, double corner_x, double corner_
     const double y0 = corner_y + high * y, y1 = y0 + high;
     double left = low_x, right = high_x;
     if (gap_ <= 0 && c.dy != 0) {
-      // Where the segment is while it passes the row.
+      // The segment passes the row between these two shares of its length.
       const double a = std::clamp((y0 - kMargin - c.y) / c.dy, 0.0, 1.0),
                    b = std::clamp((y1 + kMargin - c.y) / c.dy, 0.0, 1.0);
       const double xa = c.x + a * c.dx, xb = c.x + b * c.dx;

@@ -20,14 +20,14 @@ struct OutlinePair {
   [[nodiscard]] bool forbidden(geom::GridPoint shift) const;
 };
 
-/// Where one outline may lie beside another: a raster over their relative shifts, filled as it is asked.
-/// What it says is exact; docs/design/scene.md has the reasons. Two levels: 32 x 32 cells, those that
-/// matter divided by 16 x 16; in one of these the few contact lines that pass it are asked.
+/// A map of the places where one outline may lie beside another: a raster over their relative shifts, filled
+/// as it is asked. What it says is exact; docs/design/scene.md has the reasons. Two levels: 32 x 32 cells,
+/// those that matter divided by 16 x 16; in one of these the few contact lines that pass it are asked.
 class ContactMap {
  public:
   /// \pre suits(pair)
   explicit ContactMap(const OutlinePair& pair);
-  /// Whether the cells are wider than a few steps, and the edges not too many.
+  /// A pair suits when the cells are wider than a few steps and the edges not too many.
   [[nodiscard]] static bool suits(const OutlinePair& pair) noexcept;
 
   /// \pre the map's own pair; the boxes come nearer than the gap (or, in a container, the moving box lies in
@@ -47,8 +47,8 @@ class ContactMap {
   static constexpr int kCoarse = 32, kFine = 16, kAll = kCoarse * kFine;
   static constexpr std::size_t kLines = 5;
   static constexpr std::size_t kMostPairs = 1 << 20;  ///< of edges
-  /// Of a cell, two bits. `touched`: a contact line comes near it. Others are the same everywhere in them,
-  /// and `open` ones have not been asked yet.
+  /// The state of a cell takes two bits. `touched`: a contact line comes near it. Others are the same
+  /// everywhere in them, and `open` ones have not been asked yet.
   enum State : unsigned { clear = 0, hit = 1, touched = 2, open = 3 };
   /// Shifts where a vertex of one may come to rest on an edge of the other: from `at` along `way`.
   struct Contact {

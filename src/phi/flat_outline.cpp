@@ -150,7 +150,7 @@ std::vector<FlatOutline::Span> covered_spans(const FlatOutline& outline, double 
                  high = (static_cast<double>(j) + 1) * row + kMargin;
     FlatOutline::Span best;
     if (low >= 0 && high <= static_cast<double>(outline.height)) {
-      // What edges take of the band; between two of them all is material or nothing.
+      // `taken` holds the parts of the band that edges pass; between two of them all is material or nothing.
       taken.clear();
       visit_edges(outline.region, [&](GridPoint from, GridPoint to) {
         const double x = static_cast<double>(from.x), y = static_cast<double>(from.y);

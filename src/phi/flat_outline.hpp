@@ -25,10 +25,10 @@ struct FlatOutline {
   };
 };
 
-/// What a quick look says of two outlines.
+/// The answer of a quick look at two outlines.
 enum class Overlap { no, yes, unsure };
-/// Whether interiors meet, `b` moved by `shift`; unsure where the outlines touch, nearly, or are long. Never
-/// wrong. Cost: O(a + b + pairs of edges whose boxes meet), without memory.
+/// The answer says whether interiors meet, `b` moved by `shift`; unsure where the outlines touch, nearly, or
+/// are long. Never wrong. Cost: O(a + b + pairs of edges whose boxes meet), without memory.
 [[nodiscard]] Overlap quick_overlap(const FlatOutline& a, const FlatOutline& b,
                                     geom::GridPoint shift) noexcept;
 

@@ -82,9 +82,9 @@ bool between_ends(GridPoint p, const Edge& edge) noexcept {
   return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
 }
 
-/// Whether the material beside two edges meets at a point both have: where they cross, or where a vertex of
-/// one lies on the other and the directions into the material have some in common. Every vertex begins one
-/// edge, so that looking at beginnings looks at all of them.
+/// The answer says whether the material beside two edges meets at a point both have: where they cross, or
+/// where a vertex of one lies on the other and the directions into the material have some in common. Every
+/// vertex begins one edge, so that looking at beginnings looks at all of them.
 bool material_meets(const Edge& a, const Edge& b, bool outside_of_a) noexcept {
   const int b_from = geom::turn(a.from, a.to, b.from), b_to = geom::turn(a.from, a.to, b.to);
   if (b_from * b_to > 0) return false;
@@ -98,7 +98,8 @@ bool material_meets(const Edge& a, const Edge& b, bool outside_of_a) noexcept {
   return a_from == 0 && a.from != b.to && between_ends(a.from, b) && meet(in_a(at_vertex(a)), along(b));
 }
 
-/// Whether two closed outlines have such a point. \param outside_of_a  a's material is what lies outside it
+/// The answer says whether two closed outlines have such a point. \param outside_of_a  a's material is what
+/// lies outside it
 bool boundaries_mix(const GridRegion& a, const GridRegion& b, GridPoint shift, bool outside_of_a) {
   const GridBox box_a = bounds(a), box_b = moved(bounds(b), shift);
   if (!boxes_meet(box_a, box_b)) return false;
@@ -235,7 +236,7 @@ EdgeDistance edge_distance(const GridRegion& a, const GridRegion& b, GridPoint s
       consider(foot(edge.from, other), edge.from, true);
       consider(foot(other.from, edge), other.from, false);
       if (!(squared > 0) || !have_common_point(edge, other)) continue;
-      // Where edges on one line meet, a vertex of one is on the other: found when its turn comes.
+      // When edges on one line meet, a vertex of one is on the other, and it is found when its turn comes.
       const Int128 parallel = cross(edge.to - edge.from, other.to - other.from);
       if (parallel == 0) continue;
       const Int128 to_crossing = cross(other.from - edge.from, other.to - other.from);

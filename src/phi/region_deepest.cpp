@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/phi/region.hpp"
 
@@ -91,9 +92,8 @@ class Deepest {
   void add(const Curve& curve, std::uint32_t edge) {
     if (curve.edge.kind == EdgeKind::line)
       return look(Piece{curve.edge.from, curve.edge.to, {}, 0, edge, 0}, true);
-    constexpr double kQuarter = 1.5707963267948966;
     const double sweep = geom::arc_sweep(curve.edge);
-    const auto parts = static_cast<int>(std::ceil(sweep / kQuarter - 1e-9));
+    const auto parts = static_cast<int>(std::ceil(sweep / (kPi / 2) - 1e-9));
     const double step = (curve.edge.kind == EdgeKind::arc_ccw ? sweep : -sweep) / parts;
     const Point centre = curve.edge.centre, out = curve.edge.from - centre;
     Point from = curve.edge.from;
@@ -120,8 +120,8 @@ class Deepest {
     return open_.empty() ? best_ : std::max(best_, open_.top().most);
   }
 
-  /// Of each edge where its pieces begin, their middles, and its deepest place; those near the deepest of
-  /// all.
+  /// Each edge gives the beginnings and middles of its pieces and its deepest place; those near the deepest
+  /// of all are kept.
   [[nodiscard]] std::vector<Place> places() {
     std::vector<Place> kept;
     for (const std::vector<Place>* const list : {&first_, &later_})

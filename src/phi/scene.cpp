@@ -62,7 +62,8 @@ std::size_t direction(GridPoint way) noexcept {
 }
 
 constexpr std::size_t kMostGaps = 255;
-/// Of the cells asked for, so many make one of the index: few lists to visit count more than short ones.
+/// One cell of the index is as wide as so many of the cells asked for, because few lists to visit count more
+/// than short ones.
 constexpr std::size_t kCellsInOne = 4;
 /// Small cells along the side of one.
 constexpr std::int32_t kSmall = 12;

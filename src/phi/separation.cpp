@@ -39,7 +39,7 @@ GridPoint box_shift_out(const GridBox& a, const GridBox& b) noexcept {
                            [](GridPoint p, GridPoint q) { return dot(p, p) < dot(q, q); });
 }
 
-/// What brings a box into another; where it is larger, nothing does.
+/// The shift that brings a box into another; a larger box is not moved.
 GridPoint box_shift_in(const GridBox& a, const GridBox& outer) noexcept {
   const auto axis = [](std::int64_t low, std::int64_t high, std::int64_t to_low, std::int64_t to_high) {
     if (low < to_low) return to_low - low;
@@ -86,7 +86,8 @@ class Search {
       }
     }
   }
-  /// Where two contacts hinder at once the best direction is across neither: halving steps around it.
+  /// When two contacts hinder at once, the best direction is across neither of them, so steps around it are
+  /// halved.
   void between_contacts() {
     if (stops_.empty() || is_across(shortest())) return;
     Point best = shortest().direction, step = kFineStep;

@@ -15,7 +15,7 @@ using geom::Point;
 
 Point in_doubles(GridPoint p) noexcept { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
-/// Where p + s u passes what lies within `gap` of a segment, for s in [0, length].
+/// The intervals of s in which p + s u passes what lies within `gap` of a segment, for s in [0, length].
 class Crossings {
  public:
   Crossings(Point direction, double length, double gap, std::vector<double>& events)
@@ -73,7 +73,7 @@ struct Window {
   }
 };
 
-/// What a box sweeps on its way, and `reach` around it.
+/// The window that a box sweeps on its way, and `reach` around it.
 Window swept(const GridBox& box, Point from, Point way, double reach) noexcept {
   const Point low = in_doubles(box.low) + from, high = in_doubles(box.high) + from;
   return {{low.x + std::min(0.0, way.x) - reach, low.y + std::min(0.0, way.y) - reach},

@@ -52,6 +52,12 @@ run(${WORK}/place/place ${example}/plate.json ${example}/casting.json)
 if(NOT output MATCHES "clearance 2\\.[0-9]+ mm, and no placement has more than 2\\.")
   message(FATAL_ERROR "examples/library/place does not find the placement:\n${output}")
 endif()
+run(${WORK}/place/nest ${example}/../layouts/shoes.json ${WORK}/nested.json)
+run(${prefix}/bin/lekalo check ${WORK}/nested.json)
+run(${WORK}/place/pocket ${example}/../pockets/cover.json)
+if(NOT output MATCHES "M30.*cut: (99\\.99|100)")
+  message(FATAL_ERROR "examples/library/pocket does not write a judged program:\n${output}")
+endif()
 file(REMOVE_RECURSE ${WORK})
 
 # The README shows just these lines.

@@ -68,9 +68,9 @@ Sums sums_of(const layout::Document& d) {
 }
 
 Result<LayoutFile> open(const fs::path& path, bool inches = false) {
-  OpenOptions options;
+  disk::OpenOptions options;
   if (inches) options.parts.unit = LengthUnit::inch;
-  return open_layout(path.string(), options);
+  return disk::open_layout(path.string(), options);
 }
 
 class Nesting : public testing::Test {

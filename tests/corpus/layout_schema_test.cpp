@@ -59,7 +59,7 @@ std::vector<std::string> verdicts(const std::vector<std::string>& texts) {
 TEST(LayoutSchema, AcceptsWhatIsWrittenAndTheExample) {
   ASSERT_NE(python_with_jsonschema(), "")
       << "python3-jsonschema is not installed (tools/setup.sh installs it)";
-  std::vector<std::string> texts{read_file(kExample).value()};
+  std::vector<std::string> texts{disk::read_file(kExample).value()};
   const auto example = read_layout(texts[0], "order.json");
   ASSERT_TRUE(example.has_value()) << example.error().message;
   EXPECT_EQ(example->document.parts.size(), 2u);
@@ -77,7 +77,7 @@ TEST(LayoutSchema, AcceptsWhatIsWrittenAndTheExample) {
 TEST(LayoutSchema, RefusesWhatTheReaderRefuses) {
   ASSERT_NE(python_with_jsonschema(), "")
       << "python3-jsonschema is not installed (tools/setup.sh installs it)";
-  const Json example = Json::parse(read_file(kExample).value());
+  const Json example = Json::parse(disk::read_file(kExample).value());
   struct Wrong {
     const char *place, *value;
   };

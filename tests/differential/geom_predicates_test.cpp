@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../src/geom/turn_tiers.hpp"
+#include "geom/turn_tiers.hpp"
 #include "support/cases.hpp"
 #include "support/exact_geometry.hpp"
 #include "support/near_degenerate.hpp"

@@ -54,7 +54,7 @@ struct WrittenFile {
                fmt::format("lekalo_drawing_writer_oracle_{}", getpid())),
         path((folder / name).string()) {
     std::filesystem::create_directories(folder);
-    AtomicFiles files;
+    disk::AtomicFiles files;
     EXPECT_TRUE(files.add(path, text).has_value());
     EXPECT_TRUE(files.commit().has_value());
   }

@@ -55,7 +55,7 @@ double area_as_listed(const geom::Region& region) {
   return area;
 }
 
-TEST(LayoutExportOracle, ezdxf_finds_the_outlines_on_their_layers) {
+TEST(LayoutExportOracle, EzdxfFindsTheOutlinesOnTheirLayers) {
   const std::string interpreter = python();
   ASSERT_FALSE(interpreter.empty()) << "python3-ezdxf is not installed (tools/setup.sh installs it)";
   std::size_t compared = 0, with_arcs = 0;

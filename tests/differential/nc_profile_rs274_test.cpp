@@ -69,7 +69,7 @@ Swept swept(const std::vector<rs274::Call>& calls, const std::vector<ProfilePart
   return sum;
 }
 
-TEST(NcProfileRs274, the_interpreter_cuts_beside_every_part) {
+TEST(NcProfileRs274, TheInterpreterCutsBesideEveryPart) {
   std::size_t arcs = 0;
   for (std::size_t index = 0; index < cases::case_count(6); ++index) {
     SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));

@@ -51,12 +51,12 @@ void expect_agreement(const std::string& program) {
     }
 }
 
-TEST(NcRs274, the_oracle_refuses_what_it_should) {
+TEST(NcRs274, TheOracleRefusesWhatItShould) {
   EXPECT_FALSE(oracle().run("G21 F100\nG0 X0 Y0\nG2 X10 Y0 I4 J0\nM2\n").accepted);
   EXPECT_TRUE(oracle().run("G21 F100\nG0 X0 Y0\nG2 X10 Y0 I5 J0\nM2\n").accepted);
 }
 
-TEST(NcRs274, the_comparison_notices_a_small_error) {
+TEST(NcRs274, TheComparisonNoticesASmallError) {
   const std::string program = "G21 F100\nG0 X0 Y0\nG2 X10 Y0 I5 J0\nG1 X20 Y1\nM2\n";
   const rs274::Run original = oracle().run(program);
   const auto result = rewrite_program(program, "p", 1, 2, 0.5, {});
@@ -68,7 +68,7 @@ TEST(NcRs274, the_comparison_notices_a_small_error) {
   EXPECT_NE(rs274::Comparison({1, 2, 0.5}, kTolerance, false).difference(original, original), "");
 }
 
-TEST(NcRs274, lines_arcs_and_helices_agree) {
+TEST(NcRs274, LinesArcsAndHelicesAgree) {
   expect_agreement(R"(%
 (lines, arcs both ways, both formats)
 N10 G21 G90 G17 G40 G49 G80 G94
@@ -99,7 +99,7 @@ M30
 )");
 }
 
-TEST(NcRs274, arcs_pass_exactly_when_linuxcnc_takes_them) {
+TEST(NcRs274, ArcsPassExactlyWhenLinuxcncTakesThem) {
   for (const char* arc : {"G21 F9\nG0 X0 Y0\nG2 X20.028 I10", "G21 F9\nG0 X0 Y0\nG2 X20.029 I10",
                           "G21 F9\nG0 X0 Y0\nG2 X200.1 I100", "G21 F9\nG0 X0 Y0\nG2 X200.11 I100",
                           "G20 F9\nG0 X0 Y0\nG2 X2.0028 I1", "G20 F9\nG0 X0 Y0\nG2 X2.0029 I1",
@@ -114,7 +114,7 @@ TEST(NcRs274, arcs_pass_exactly_when_linuxcnc_takes_them) {
   }
 }
 
-TEST(NcRs274, incremental_moves_and_cycles_agree) {
+TEST(NcRs274, IncrementalMovesAndCyclesAgree) {
   expect_agreement(R"(G21 G90 G17 G40 G80 G94 F150
 G0 X5 Y5 Z10
 G91 G1 X1.1
@@ -144,7 +144,7 @@ M2
 )");
 }
 
-TEST(NcRs274, inches_and_a_change_of_unit_agree) {
+TEST(NcRs274, InchesAndAChangeOfUnitAgree) {
   expect_agreement(R"(G20 G90 G17 F10
 G0 Z1
 G0 X1 Y1
@@ -167,7 +167,7 @@ M2
 )");
 }
 
-TEST(NcRs274, cutter_compensation_agrees) {
+TEST(NcRs274, CutterCompensationAgrees) {
   expect_agreement(R"(G21 G90 G17 G40 F100
 T1 M6
 G0 X-20 Y-20 Z5
@@ -190,13 +190,13 @@ M2
 )");
 }
 
-TEST(NcRs274, a_modal_word_missing_at_the_top_is_set_by_the_offset_line) {
+TEST(NcRs274, AModalWordMissingAtTheTopIsSetByTheOffsetLine) {
   // The program leaves unit and work offset to the control.
   expect_agreement("G0 X1. Y2.\nG1 X30. F100\nM2\n");
   expect_agreement("G0 Z5.\nG20\nG54 G0 X1. Y2.\nG1 X3. F10\nM2\n");
 }
 
-TEST(NcRs274, random_programs_agree) {
+TEST(NcRs274, RandomProgramsAgree) {
   const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(100), 1500);
   std::size_t compared = 0;
   for (std::size_t k = 1; k <= count; ++k) {
@@ -218,7 +218,7 @@ TEST(NcRs274, random_programs_agree) {
 
 /// LinuxCNC's own samples, files nobody here wrote: each is rewritten and agrees, or is refused with line and
 /// reason. The table of the verdicts is part of the documentation; LEKALO_WRITE_NC_SAMPLES=1 writes it anew.
-TEST(NcRs274, samples_of_linuxcnc_are_rewritten_or_refused_as_the_table_says) {
+TEST(NcRs274, SamplesOfLinuxcncAreRewrittenOrRefusedAsTheTableSays) {
   const std::filesystem::path folder = oracle().root() / "usr/share/linuxcnc/ncfiles";
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))

@@ -122,11 +122,11 @@ Case random_case(Random& random, const Family& family) {
   return c;
 }
 
-TEST(VerifyRecheck, the_stranger_agrees_on_the_published_examples) {
+TEST(VerifyRecheck, TheStrangerAgreesOnThePublishedExamples) {
   for (const Case& c : examples()) compare_opinions(write(c), c.name);
 }
 
-TEST(VerifyRecheck, the_stranger_agrees_on_random_cases_true_and_falsified) {
+TEST(VerifyRecheck, TheStrangerAgreesOnRandomCasesTrueAndFalsified) {
   Random random(20);
   for (const Family& family : kFamilies) {
     for (int i = 0; i < 4; ++i) {
@@ -154,7 +154,7 @@ TEST(VerifyRecheck, the_stranger_agrees_on_random_cases_true_and_falsified) {
   }
 }
 
-TEST(VerifyRecheck, the_stranger_agrees_on_windows) {
+TEST(VerifyRecheck, TheStrangerAgreesOnWindows) {
   for (const auto& [from, to] : {std::pair{10.0, 50.0}, std::pair{-30.0, 30.0}, std::pair{350.0, 370.0}}) {
     const Case c = examples()[2];
     const double low = std::nextafter(from * std::numbers::pi / 180, -100),
@@ -169,7 +169,7 @@ TEST(VerifyRecheck, the_stranger_agrees_on_windows) {
   }
 }
 
-TEST(VerifyRecheck, the_definition_in_long_double_agrees) {
+TEST(VerifyRecheck, TheDefinitionInLongDoubleAgrees) {
   Random random(7);
   for (const Family& family : kFamilies) {
     for (int i = 0; i < 200; ++i) {

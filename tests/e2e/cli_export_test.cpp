@@ -29,7 +29,7 @@ LayoutJson plates() {
 
 const Words kCut{"--format", "gcode", "--kerf", "0.3", "--feed", "2000", "--lead-in", "1"};
 
-TEST(CliExport, every_form_is_written_and_the_same_twice) {
+TEST(CliExport, EveryFormIsWrittenAndTheSameTwice) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates().dump());
   const std::vector<std::pair<Words, std::string>> forms{
@@ -50,7 +50,7 @@ TEST(CliExport, every_form_is_written_and_the_same_twice) {
   }
 }
 
-TEST(CliExport, sheets_are_files_of_their_own_all_or_none) {
+TEST(CliExport, SheetsAreFilesOfTheirOwnAllOrNone) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates().dump());
   const Ran ran = run(folder.path(), Words{"export", "plates.json", "-o", "cut.nc"} + kCut);
@@ -77,7 +77,7 @@ TEST(CliExport, sheets_are_files_of_their_own_all_or_none) {
   EXPECT_EQ(read_bytes(folder / "plates-1.json"), plates().dump());
 }
 
-TEST(CliExport, what_cannot_be_cut_writes_nothing_and_names_both) {
+TEST(CliExport, WhatCannotBeCutWritesNothingAndNamesBoth) {
   const TemporaryFolder folder;
   LayoutJson layout = plates();
   place(layout, "plate", 10, 30.2);
@@ -91,7 +91,7 @@ TEST(CliExport, what_cannot_be_cut_writes_nothing_and_names_both) {
   EXPECT_EQ(folder.files().size(), 1U);
 }
 
-TEST(CliExport, wrong_command_lines_are_refused_in_one_sentence) {
+TEST(CliExport, WrongCommandLinesAreRefusedInOneSentence) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates().dump());
   const std::vector<std::pair<Words, std::string>> wrong{
@@ -112,7 +112,7 @@ TEST(CliExport, wrong_command_lines_are_refused_in_one_sentence) {
   }
 }
 
-TEST(CliExport, the_program_passes_our_own_reader_and_locate) {
+TEST(CliExport, TheProgramPassesOurOwnReaderAndLocate) {
   const TemporaryFolder folder;
   write_plate(folder);
   LayoutJson layout = cases::empty_layout();

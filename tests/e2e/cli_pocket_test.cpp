@@ -28,7 +28,7 @@ std::string dxf(const std::string& entities) {
   return "0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
 }
 
-TEST(CliPocket, a_program_for_every_post_is_judged_alike) {
+TEST(CliPocket, AProgramForEveryPostIsJudgedAlike) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   Json first;
@@ -62,7 +62,7 @@ TEST(CliPocket, a_program_for_every_post_is_judged_alike) {
   }
 }
 
-TEST(CliPocket, a_corridor_with_no_room_for_a_loop_is_cut_in_ramps_and_said_with_its_place) {
+TEST(CliPocket, ACorridorWithNoRoomForALoopIsCutInRampsAndSaidWithItsPlace) {
   const TemporaryFolder folder;
   const auto rooms = [&](double low, double high) {
     return fmt::format(
@@ -97,7 +97,7 @@ TEST(CliPocket, a_corridor_with_no_room_for_a_loop_is_cut_in_ramps_and_said_with
 }
 
 /// 1.25 straight passes over 0.2 mm, everywhere but on entries, which are thin, whatever is asked.
-TEST(CliPocket, random_pockets_hold_the_angle_whatever_is_asked) {
+TEST(CliPocket, RandomPocketsHoldTheAngleWhateverIsAsked) {
   const TemporaryFolder folder;
   for (std::size_t i = 0; i < cases::case_count(8); ++i) {
     Random random(cases::seed(), 2700 + i);
@@ -137,7 +137,7 @@ TEST(CliPocket, random_pockets_hold_the_angle_whatever_is_asked) {
   }
 }
 
-TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
+TEST(CliPocket, DrawingsHoldSeveralPocketsIslandsAndOpenEdgesByLayer) {
   const TemporaryFolder folder;
   const std::string entities = dxf_rectangle("POCKET", 0, 0, 30, 20) + dxf_rectangle("ISLAND", 12, 8, 5, 4) +
                                dxf_line("POCKET", 40, 0, 60, 0) + dxf_line("OPEN", 60, 0, 60, 20) +
@@ -160,7 +160,7 @@ TEST(CliPocket, drawings_hold_several_pockets_islands_and_open_edges_by_layer) {
   EXPECT_NE(read_bytes(folder / "p.html").find("<canvas"), std::string::npos);
 }
 
-TEST(CliPocket, spots_out_of_reach_that_nobody_sees_are_counted_in_one_row) {
+TEST(CliPocket, SpotsOutOfReachThatNobodySeesAreCountedInOneRow) {
   const TemporaryFolder folder;
   // Four corners of about 90 degrees, and one of 171 whose tip is 0.003 mm from a node of the raster.
   write_bytes(
@@ -180,7 +180,7 @@ TEST(CliPocket, spots_out_of_reach_that_nobody_sees_are_counted_in_one_row) {
   EXPECT_EQ(run(folder.path(), words + Words{"--json"}).json()["unreachable"].size(), 5U);
 }
 
-TEST(CliPocket, open_edges_of_a_region_file_are_known_to_path_and_checker) {
+TEST(CliPocket, OpenEdgesOfARegionFileAreKnownToPathAndChecker) {
   const TemporaryFolder folder;
   Json plate = Json::parse(kPlate);
   plate["outer"][1]["open"] = true;
@@ -207,7 +207,7 @@ TEST(CliPocket, open_edges_of_a_region_file_are_known_to_path_and_checker) {
 }
 
 /// The pair is proved: what the first program left is cut by the second, entered where nothing stands.
-TEST(CliPocket, what_a_program_before_left_is_cut_and_the_pair_is_judged) {
+TEST(CliPocket, WhatAProgramBeforeLeftIsCutAndThePairIsJudged) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   const Words levels{"--depth", "4", "--stepdown", "2"};
@@ -243,7 +243,7 @@ TEST(CliPocket, what_a_program_before_left_is_cut_and_the_pair_is_judged) {
   EXPECT_NEAR(alone.json()["engagement_max_deg"].get<double>(), 180, 1);
 }
 
-TEST(CliPocket, a_larger_tool_before_may_be_supposed) {
+TEST(CliPocket, ALargerToolBeforeMayBeSupposed) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   const Ran rest = run(folder.path(), {"pocket", "plate.json", "--tool", "3", "--depth", "2", "--rest", "10",
@@ -256,7 +256,7 @@ TEST(CliPocket, a_larger_tool_before_may_be_supposed) {
   EXPECT_LT(rest.json()["length_mm"].get<double>(), 250);
 }
 
-TEST(CliPocket, feeds_follow_the_engagement_in_few_steps) {
+TEST(CliPocket, FeedsFollowTheEngagementInFewSteps) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   const Words words{"pocket", "plate.json", "--tool", "6", "--depth", "2", "-o", "p.ngc", "--json"};
@@ -274,7 +274,7 @@ TEST(CliPocket, feeds_follow_the_engagement_in_few_steps) {
   EXPECT_TRUE(feeds.count(" F1200.0")) << program.substr(0, 400);
 }
 
-TEST(CliPocket, the_sources_spirals_can_be_compared) {
+TEST(CliPocket, TheSourcesSpiralsCanBeCompared) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   for (const std::string method : {"floz-linear", "floz-quadratic"}) {
@@ -286,7 +286,7 @@ TEST(CliPocket, the_sources_spirals_can_be_compared) {
   }
 }
 
-TEST(CliPocket, a_spiral_begins_at_the_chosen_start) {
+TEST(CliPocket, ASpiralBeginsAtTheChosenStart) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   const Words words{"pocket", "plate.json", "--tool", "6", "--depth", "2", "--method", "floz-quadratic"};
@@ -306,7 +306,7 @@ TEST(CliPocket, a_spiral_begins_at_the_chosen_start) {
   EXPECT_NE(left.out.find("X-20.7500 Y11.5000"), std::string::npos);
 }
 
-TEST(CliPocket, a_located_part_has_its_pocket_cut_where_it_lies) {
+TEST(CliPocket, ALocatedPartHasItsPocketCutWhereItLies) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   write_bytes(folder / "part.csv", "-10 -10\n40 -10\n40 30\n-10 30\n");
@@ -339,7 +339,7 @@ TEST(CliPocket, a_located_part_has_its_pocket_cut_where_it_lies) {
   EXPECT_EQ(after["retracts"], before["retracts"]);
 }
 
-TEST(CliPocket, bad_input_is_one_sentence) {
+TEST(CliPocket, BadInputIsOneSentence) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);
   write_bytes(folder / "open.dxf", dxf(dxf_line("0", 0, 0, 30, 0) + dxf_line("0", 30, 0, 30, 20)));

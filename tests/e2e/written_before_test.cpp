@@ -2,11 +2,12 @@
 #include <sstream>
 
 #include "cli_run.hpp"
-#include "lekalo/io/drawing_regions.hpp"
-#include "lekalo/io/layout_json.hpp"
-#include "lekalo/io/open_layout.hpp"
-#include "lekalo/io/result_json.hpp"
-#include "lekalo/io/svg.hpp"
+#include "lekalo/disk/open_layout.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/svg/svg.hpp"
 #include "server/store.hpp"
 
 /// What lekalo 0.1 wrote (tests/corpus/data/written-0.1) is read, confirmed and opened as it was then.
@@ -94,7 +95,7 @@ TEST_F(WrittenBefore, EveryLayoutIsReadAndWrittenAgainToTheSameBytes) {
 
 TEST_F(WrittenBefore, ExportsAreReadBack) {
   const auto opened = [&](const std::string& name) {
-    Result<io::LayoutFile> layout = io::open_layout((folder_ / name).string());
+    Result<io::LayoutFile> layout = disk::open_layout((folder_ / name).string());
     EXPECT_TRUE(layout) << layout.error().message;
     return layout ? std::move(layout->document) : layout::Document{};
   };
@@ -111,7 +112,7 @@ TEST_F(WrittenBefore, ExportsAreReadBack) {
     ASSERT_TRUE(drawing) << drawing.error().message;
     for (const std::string layer : {"PART", "BLANK"}) {
       io::DrawingOptions only;
-      only.layers = {layer};
+      only.take = {layer};
       const Result<io::DrawnRegions> regions = io::make_regions(*drawing, only);
       ASSERT_TRUE(regions) << regions.error().message;
       EXPECT_EQ(regions->regions.size(), 1U) << name << ' ' << layer;

@@ -14,11 +14,14 @@
 #   (6) below disk no files, clocks, threads of output or standard randomness, below io no unordered containers
 #       either: the same input gives the same bytes;
 #   (7) apps may include any module, but only through public headers; the command line may include the server;
-#   (8) no folder of the product holds more than 40 files of its own.
+#   (8) no folder of the product holds more than 40 files of its own;
+#   (9) only src/verify/number includes GMP and MPFR: a target without them replaces that room alone;
+#   (10) test names are sentences in CamelCase.
 cmake_minimum_required(VERSION 3.25)
 
 set(forbidden_below_disk fstream iostream filesystem chrono ctime time.h random)
 set(forbidden_below_io unordered_map unordered_set)
+set(number_headers gmp.h gmpxx.h mpfr.h)
 set(most_files 40)
 
 set(violations "")
@@ -126,6 +129,8 @@ function(check_file FILE MODULE)
       violation("${FILE} includes <${path}>: below disk nothing may depend on files, clocks or chance")
     elseif(path IN_LIST forbidden_below_io AND NOT MODULE MATCHES "^(io|draw|disk|apps)$")
       violation("${FILE} includes <${path}>: below io nothing may depend on the order of a hash")
+    elseif(path IN_LIST number_headers AND NOT FILE MATCHES "^src/verify/number/")
+      violation("${FILE} includes <${path}>: only src/verify/number may use GMP and MPFR")
     endif()
   endforeach()
   math(EXPR checked "${checked} + 1")
@@ -185,6 +190,17 @@ foreach(entry IN LISTS entries)
       violation("${entry} holds ${count} files of its own; more than ${most_files} are a drawer, name its rooms")
     endif()
   endif()
+endforeach()
+
+# ---- one case style for test names -----------------------------------------------------------------------
+file(GLOB_RECURSE tests RELATIVE ${ROOT} ${ROOT}/tests/*.cpp ${ROOT}/tests/*.hpp)
+foreach(test IN LISTS tests)
+  file(STRINGS ${ROOT}/${test} named REGEX "^(TYPED_)?TEST(_F|_P)?\\([A-Za-z0-9_]+, [A-Za-z0-9_]+")
+  foreach(line IN LISTS named)
+    if(NOT line MATCHES "TEST(_F|_P)?\\([A-Z][A-Za-z0-9]*, [A-Z][A-Za-z0-9]*\\)")
+      violation("${test}: '${line}' is not a name in CamelCase")
+    endif()
+  endforeach()
 endforeach()
 
 if(checked EQUAL 0)

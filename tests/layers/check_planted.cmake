@@ -6,6 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(layers "module base\nPUBLIC base: \nPRIVATE base: \nmodule geom\nPUBLIC geom: base\nPRIVATE geom: \n"
   "module phi\nPUBLIC phi: geom\nPRIVATE phi: \nmodule verify\nPUBLIC verify: base\nPRIVATE verify: \n"
+  "ROOM verify/number: \n"
   "module io\nPUBLIC io: phi\nPRIVATE io: verify\nROOM io/text: \nROOM io/dxf: text\n"
   "module disk\nPUBLIC disk: io\nPRIVATE disk: \n")
 string(CONCAT layers ${layers})
@@ -24,6 +25,8 @@ function(plant_clean_tree)
   file(WRITE ${WORK}/src/phi/convex.cpp "#include \"bound.hpp\"\n  #  include <lekalo/base/error.hpp>\n")
   file(WRITE ${WORK}/src/phi/bound.hpp "#pragma once\n")
   file(WRITE ${WORK}/src/verify/verify.cpp "#include \"lekalo/base/error.hpp\"\n")
+  file(WRITE ${WORK}/src/verify/number/exact.hpp "#include <gmpxx.h>\n")
+  file(WRITE ${WORK}/tests/unit/convex_test.cpp "TEST(Convex, FindsTheHull) {}\n")
   file(WRITE ${WORK}/include/lekalo/verify/verify.hpp "#pragma once\n")
   file(WRITE ${WORK}/src/disk/files.cpp "#include <fstream>\n#include \"lekalo/io/dxf/dxf.hpp\"\n")
   file(WRITE ${WORK}/apps/cli/options/words.hpp "#pragma once\n")
@@ -70,6 +73,9 @@ must_catch(src/phi/convex.cpp "#include \"io/text/decimal.hpp\"" "neither lekalo
 must_catch(apps/cli/main.cpp "#include \"options/../main.hpp\"" "neither lekalo/MODULE/... nor a file beside it")
 must_catch(src/verify/verify.cpp "#include \"lekalo/geom/point.hpp\"" "verify has no arrow to geom")
 must_catch(apps/cli/main.cpp "#include \"lekalo/nest/strip.hpp\"" "apps has no arrow to nest")
+must_catch(src/verify/verify.cpp "#include <gmpxx.h>" "only src/verify/number may use GMP and MPFR")
+must_catch(src/phi/convex.cpp "#include <mpfr.h>" "only src/verify/number may use GMP and MPFR")
+must_catch(tests/unit/convex_test.cpp "TEST_F(Convex, finds_the_hull) {}" "is not a name in CamelCase")
 must_catch(src/stray/new.cpp "#include <string>" "src/stray belongs to no module")
 string(REPLACE "ROOM io/text: " "ROOM io/text: dxf" circle "${layers}")
 set(straight "${layers}")

@@ -75,19 +75,19 @@ bool same(const Violation& v, std::span<const double> n) {
 
 /// A violation whose defect or zone is named, as indices shift.
 struct Held {
-  std::array<double, 11> numbers;
+  std::array<double, kViolationSize> numbers;
   std::string feature;
   friend auto operator<=>(const Held&, const Held&) = default;
 };
 std::vector<Held> held_from(std::span<const double> numbers, const Document& document) {
   std::vector<Held> made;
-  for (; !numbers.empty(); numbers = numbers.subspan(11)) {
+  for (; !numbers.empty(); numbers = numbers.subspan(kViolationSize)) {
     Violation v;
     v.kind = static_cast<ViolationKind>(numbers[0]);
     v.stock = static_cast<std::uint32_t>(numbers[3]);
     v.feature = static_cast<std::uint32_t>(numbers[5]);
     Held& one = made.emplace_back();
-    std::copy_n(numbers.begin(), 11, one.numbers.begin());
+    std::copy_n(numbers.begin(), kViolationSize, one.numbers.begin());
     one.numbers[5] = 0;
     one.feature = feature_id(document, v);
   }
@@ -145,15 +145,16 @@ void drag(std::int32_t handle, const Workspace& workspace, Random& random) {
   const std::vector<double> numbers = answer();
   require((level == 0) == workspace.is_clear(moved), "clear");
   const auto violations = workspace.violations_of(moved);
-  require(numbers.size() == 8 + 11 * violations.size(), "how many violations");
+  require(numbers.size() == kNearestSize + kViolationSize * violations.size(), "how many violations");
   for (std::size_t i = 0; i < violations.size(); ++i)
-    require(same(violations[i], std::span(numbers).subspan(8 + 11 * i)), "a violation");
+    require(same(violations[i], std::span(numbers).subspan(kNearestSize + kViolationSize * i)),
+            "a violation");
   if (random.below(3) == 0)
     CALL(lekalo_state, bytes_of(ids), handle, count, dx, dy, random.uniform(-180, 180), 25, 1);
   require(CALL(lekalo_state, bytes_of(ids), handle, count, dx, dy, 0, 0, 0) == level, "without depths");
   const std::vector<double> quick = answer();
   require(quick.size() == numbers.size(), "how many violations without depths");
-  for (std::size_t i = 8; i < quick.size(); i += 11)
+  for (std::size_t i = kNearestSize; i < quick.size(); i += kViolationSize)
     for (std::size_t j = 0; j < 6; ++j) require(quick[i + j] == numbers[i + j], "a violation without depth");
 }
 
@@ -181,10 +182,10 @@ void session(std::size_t index) {
     const auto change = plan(workspace, command_from_text(line, workspace.document()).value(), mode);
     require((done < 0) == !change.has_value(), "refusal");
     if (!change) continue;
-    require(numbers.size() == 1 + 10 * change->placements.size(), "how many placements");
+    require(numbers.size() == 1 + kPlacementSize * change->placements.size(), "how many placements");
     // As a page follows a server: placement by placement.
     for (std::size_t i = 0; i < change->placements.size(); ++i) {
-      const std::span<const double> one = std::span(numbers).subspan(1 + 10 * i, 10);
+      const std::span<const double> one = std::span(numbers).subspan(1 + kPlacementSize * i, kPlacementSize);
       bits.forget(static_cast<std::uint64_t>(one[0]));
       if (one[1] < 0)
         CALL(lekalo_erase, "", handle, one[0]);
@@ -224,7 +225,8 @@ void session(std::size_t index) {
     if (step % 20 == 3) {
       CALL(lekalo_fits_where, "", handle, 0, 0, 0, 3, -1);
       std::vector<double> found = answer();
-      if (!found.empty()) CALL(lekalo_state_of, bytes_of(std::span(found).first(10)), handle, 1, 10, 1);
+      if (!found.empty())
+        CALL(lekalo_state_of, bytes_of(std::span(found).first(kPlacementSize)), handle, 1, 10, 1);
     }
   }
   CALL(lekalo_close, "", handle);

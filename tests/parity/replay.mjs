@@ -10,7 +10,8 @@ const [wasmPath, program] = process.argv.slice(2);
 const kernel = await loadKernel(readFileSync(wasmPath));
 
 const counts = new Map();
-let calls = 0, bytes = 0;
+let calls = 0,
+  bytes = 0;
 
 function replay(head, input, text, numbers) {
   const { result, text: ourText, numbers: ourNumbers } = kernel.call(head.f, head.a, input);

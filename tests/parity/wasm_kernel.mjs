@@ -3,8 +3,7 @@
 export async function loadKernel(bytes) {
   const module = await WebAssembly.compile(bytes);
   const imports = {};
-  for (const { module: from, name } of WebAssembly.Module.imports(module))
-    (imports[from] ??= {})[name] = () => 8; // EBADF: there is nothing to write to
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) (imports[from] ??= {})[name] = () => 8; // EBADF: there is nothing to write to
   let exports;
   const textAt = (at) => {
     const all = new Uint8Array(exports.memory.buffer);

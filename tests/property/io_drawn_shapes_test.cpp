@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/drawing/drawn_shapes.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 

@@ -139,10 +139,10 @@ TEST(MillProgram, EveryPostReadBackIsThePathThatWasMeant) {
   for (std::size_t index = 0; index < cases::case_count(8); ++index) {
     Random random(cases::seed(), 91000 + index);
     const PocketPath path = random_path(random);
-    for (const nc::Post post : {nc::Post::linuxcnc, nc::Post::grbl, nc::Post::fanuc})
+    for (const nc::Dialect& post : nc::posts())
       for (const LengthUnit unit : {LengthUnit::millimetre, LengthUnit::inch}) {
-        SCOPED_TRACE(fmt::format("seed {} case {} post {} unit {}", cases::seed(), index,
-                                 static_cast<int>(post), static_cast<int>(unit)));
+        SCOPED_TRACE(fmt::format("seed {} case {} post {} unit {}", cases::seed(), index, post.name,
+                                 static_cast<int>(unit)));
         ProgramOptions options;
         options.post = post, options.unit = unit;
         const std::string program = program_of(path, options);

@@ -63,7 +63,7 @@ Real distance_to_step(rs274::Point p, const rs274::Step& step) {
 
 ProfileOptions random_options(Random& random) {
   ProfileOptions o;
-  o.post = static_cast<Post>(random.below(3));
+  o.post = posts()[random.below(3)];
   o.process = random.below(2) == 0 ? Process::laser : Process::plasma;
   o.unit = random.below(3) == 0 ? LengthUnit::inch : LengthUnit::millimetre;
   o.kerf_mm = random.uniform(0.1, 1.5);
@@ -75,7 +75,7 @@ ProfileOptions random_options(Random& random) {
   return o;
 }
 
-TEST(NcProfile, the_kerf_of_the_printed_program_stays_out_of_every_part) {
+TEST(NcProfile, TheKerfOfThePrintedProgramStaysOutOfEveryPart) {
   const std::size_t count = cases::case_count(25);
   std::size_t leads = 0, bare = 0, looked_at = 0;
   for (std::size_t index = 0; index < count; ++index) {
@@ -112,7 +112,7 @@ TEST(NcProfile, the_kerf_of_the_printed_program_stays_out_of_every_part) {
   EXPECT_GT(bare, 0U);  // leads of 12 mm in holes of 2 mm
 }
 
-TEST(NcProfile, what_is_cut_goes_round_its_part_at_half_the_kerf) {
+TEST(NcProfile, WhatIsCutGoesRoundItsPartAtHalfTheKerf) {
   for (std::size_t index = 0; index < cases::case_count(40); ++index) {
     SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
     const std::vector<ProfilePart> parts = cases::random_parts(cases::seed(), index);
@@ -171,7 +171,7 @@ TEST(NcProfile, what_is_cut_goes_round_its_part_at_half_the_kerf) {
   }
 }
 
-TEST(NcProfile, two_parts_a_kerf_apart_are_cut_and_nearer_ones_refused_with_both_names) {
+TEST(NcProfile, TwoPartsAKerfApartAreCutAndNearerOnesRefusedWithBothNames) {
   const double kerf = 0.3;
   for (std::size_t index = 0; index < cases::case_count(200); ++index) {
     Random random(cases::seed(), 99000 + index);
@@ -197,7 +197,7 @@ TEST(NcProfile, two_parts_a_kerf_apart_are_cut_and_nearer_ones_refused_with_both
   }
 }
 
-TEST(NcProfile, our_own_reader_passes_every_program_unchanged) {
+TEST(NcProfile, OurOwnReaderPassesEveryProgramUnchanged) {
   for (std::size_t index = 0; index < cases::case_count(30); ++index) {
     const std::vector<ProfilePart> parts = cases::random_parts(cases::seed(), index);
     Random random(cases::seed(), 66000 + index);

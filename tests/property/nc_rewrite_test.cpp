@@ -75,7 +75,7 @@ class NcRewrite : public testing::Test {
 
 const rs274::Real kReading = 1e-10L;  // what the readers' own arithmetic can add, mm
 
-TEST_F(NcRewrite, moves_every_point_of_the_path_by_the_pose_within_the_bound) {
+TEST_F(NcRewrite, MovesEveryPointOfThePathByThePoseWithinTheBound) {
   for_each_case(1500, [](const std::string& program, Random& random) {
     const Pose pose = random_pose(random);
     const auto result = rewrite_program(program, "p", pose.x, pose.y, pose.theta, {});
@@ -89,7 +89,7 @@ TEST_F(NcRewrite, moves_every_point_of_the_path_by_the_pose_within_the_bound) {
   });
 }
 
-TEST_F(NcRewrite, leaves_everything_but_the_plane_words_alone) {
+TEST_F(NcRewrite, LeavesEverythingButThePlaneWordsAlone) {
   for_each_case(500, [](const std::string& program, Random& random) {
     const Pose pose = random_pose(random);
     const auto result = rewrite_program(program, "p", pose.x, pose.y, pose.theta, {});
@@ -100,7 +100,7 @@ TEST_F(NcRewrite, leaves_everything_but_the_plane_words_alone) {
   });
 }
 
-TEST_F(NcRewrite, changes_no_byte_under_the_identity) {
+TEST_F(NcRewrite, ChangesNoByteUnderTheIdentity) {
   for_each_case(500, [](const std::string& program, Random&) {
     const auto result = rewrite_program(program, "p", 0, 0, 0, {});
     if (!result) return false;
@@ -110,7 +110,7 @@ TEST_F(NcRewrite, changes_no_byte_under_the_identity) {
   });
 }
 
-TEST_F(NcRewrite, comes_back_under_the_inverse_pose) {
+TEST_F(NcRewrite, ComesBackUnderTheInversePose) {
   for_each_case(500, [](const std::string& program, Random& random) {
     const Pose pose = random_pose(random);
     const auto there = rewrite_program(program, "p", pose.x, pose.y, pose.theta, {});
@@ -129,7 +129,7 @@ TEST_F(NcRewrite, comes_back_under_the_inverse_pose) {
   });
 }
 
-TEST_F(NcRewrite, writes_the_frame_of_mode_offset_within_the_bound) {
+TEST_F(NcRewrite, WritesTheFrameOfModeOffsetWithinTheBound) {
   for_each_case(500, [](const std::string& program, Random& random) {
     const Pose pose = random_pose(random);
     const auto result =
@@ -146,7 +146,7 @@ TEST_F(NcRewrite, writes_the_frame_of_mode_offset_within_the_bound) {
   });
 }
 
-TEST_F(NcRewrite, writes_the_frame_of_mode_g68_within_the_bound) {
+TEST_F(NcRewrite, WritesTheFrameOfModeG68WithinTheBound) {
   for_each_case(500, [](const std::string& program, Random& random) {
     const Pose pose = random_pose(random);
     const auto result = rewrite_program(program, "p", pose.x, pose.y, pose.theta,

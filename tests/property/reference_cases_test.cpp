@@ -12,7 +12,7 @@
 namespace lekalo {
 namespace {
 
-TEST(Cases, the_known_pose_has_the_promised_allowance) {
+TEST(Cases, TheKnownPoseHasThePromisedAllowance) {
   const std::size_t count = cases::case_count(1000);
   for (std::size_t index = 0; index < count; ++index) {
     const auto c = cases::random_case(cases::seed(), index);
@@ -26,7 +26,7 @@ TEST(Cases, the_known_pose_has_the_promised_allowance) {
   }
 }
 
-TEST(Cases, are_the_same_for_the_same_seed_and_index) {
+TEST(Cases, AreTheSameForTheSameSeedAndIndex) {
   for (std::size_t index = 0; index < 2 * cases::kKinds.size(); ++index) {
     const auto a = cases::random_case(5, index), b = cases::random_case(5, index),
                c = cases::random_case(6, index);
@@ -37,7 +37,7 @@ TEST(Cases, are_the_same_for_the_same_seed_and_index) {
   }
 }
 
-TEST(Cases, cover_what_their_kinds_say) {
+TEST(Cases, CoverWhatTheirKindsSay) {
   std::size_t most = 0, least = 1000;
   double longest = 0;
   for (std::size_t index = 0; index < 1000; ++index) {
@@ -73,7 +73,7 @@ TEST(Cases, cover_what_their_kinds_say) {
   EXPECT_GE(longest, 1e4);
 }
 
-TEST(Cases, near_parallel_edges_are_there) {
+TEST(Cases, NearParallelEdgesAreThere) {
   double smallest = 1;
   for (std::size_t index = 0; index < 100; ++index) {
     const auto c = cases::random_case(cases::seed(), index, cases::Kind::near_parallel);
@@ -86,7 +86,7 @@ TEST(Cases, near_parallel_edges_are_there) {
   EXPECT_LT(smallest, 1e-10);
 }
 
-TEST(ReferenceMethods, icp_never_reports_more_than_the_exact_clearance) {
+TEST(ReferenceMethods, IcpNeverReportsMoreThanTheExactClearance) {
   const std::size_t count = cases::case_count(300);
   for (std::size_t index = 0; index < count; ++index) {
     const auto c = cases::random_case(cases::seed(), index);
@@ -97,7 +97,7 @@ TEST(ReferenceMethods, icp_never_reports_more_than_the_exact_clearance) {
 }
 
 #ifdef LEKALO_WITH_IPOPT
-TEST(ReferenceMethods, ipopt_never_reports_more_than_the_exact_clearance) {
+TEST(ReferenceMethods, IpoptNeverReportsMoreThanTheExactClearance) {
   const std::size_t count = std::min<std::size_t>(cases::case_count(40), 400);  // 20 ms a start
   for (std::size_t index = 0; index < count; ++index) {
     const auto c = cases::random_case(cases::seed(), index);

@@ -69,7 +69,7 @@ verify::LocateReport report_of(const Files& files) {
   return report ? *report : verify::LocateReport{};
 }
 
-TEST(VerifyLaws, the_written_clearance_may_reach_the_exact_one_and_no_further) {
+TEST(VerifyLaws, TheWrittenClearanceMayReachTheExactOneAndNoFurther) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     Files f = files_of(sample(random));
@@ -84,7 +84,7 @@ TEST(VerifyLaws, the_written_clearance_may_reach_the_exact_one_and_no_further) {
   }
 }
 
-TEST(VerifyLaws, powers_of_ten_scale_the_clearance_exactly) {
+TEST(VerifyLaws, PowersOfTenScaleTheClearanceExactly) {
   Random random(2);
   for (int i = 0; i < 60; ++i) {
     const Sample s = sample(random);
@@ -103,7 +103,7 @@ TEST(VerifyLaws, powers_of_ten_scale_the_clearance_exactly) {
   }
 }
 
-TEST(VerifyLaws, a_blank_moved_with_the_pose_keeps_the_clearance) {
+TEST(VerifyLaws, ABlankMovedWithThePoseKeepsTheClearance) {
   Random random(3);
   for (int i = 0; i < 100; ++i) {
     Sample s = sample(random);
@@ -118,7 +118,7 @@ TEST(VerifyLaws, a_blank_moved_with_the_pose_keeps_the_clearance) {
   }
 }
 
-TEST(VerifyLaws, first_point_direction_and_repeated_points_do_not_matter) {
+TEST(VerifyLaws, FirstPointDirectionAndRepeatedPointsDoNotMatter) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     Sample s = sample(random);
@@ -138,7 +138,7 @@ TEST(VerifyLaws, first_point_direction_and_repeated_points_do_not_matter) {
   }
 }
 
-TEST(VerifyLaws, a_mirrored_world_has_the_same_clearance) {
+TEST(VerifyLaws, AMirroredWorldHasTheSameClearance) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {
     Sample s = sample(random);
@@ -152,7 +152,7 @@ TEST(VerifyLaws, a_mirrored_world_has_the_same_clearance) {
   }
 }
 
-TEST(VerifyLaws, a_dent_never_gives_and_takes_at_most_its_depth) {
+TEST(VerifyLaws, ADentNeverGivesAndTakesAtMostItsDepth) {
   Random random(6);
   for (int i = 0; i < 100; ++i) {
     Sample s = sample(random);

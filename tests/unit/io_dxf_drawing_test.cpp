@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/drawing/drawn_shapes.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/drawing/drawing.hpp"
 #include "lekalo/io/dxf/dxf.hpp"
@@ -142,7 +143,7 @@ TEST(IoDxfDrawing, WholeEllipsesCloseHoweverManyDigitsTheirTurnHas) {
         read(file_of(std::string("0 ELLIPSE 8 0 10 1 20 2 11 4 21 0 40 0.5 41 0.0 42 ") + end));
     const auto& arc = std::get<io::EllipseArc>(drawing.curves.at(0).shape);
     EXPECT_EQ(arc.from, arc.to) << end;
-    EXPECT_EQ(arc.end - arc.begin, 2 * io::kPi) << end;
+    EXPECT_EQ(arc.end - arc.begin, 2 * kPi) << end;
   }
 }
 

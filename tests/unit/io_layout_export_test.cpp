@@ -117,7 +117,7 @@ void expect_sample(const std::map<std::string, LayerSum>& sums) {
   EXPECT_NEAR(sums.at("AREA").area, 50, kOff);
 }
 
-TEST(LayoutExport, a_drawing_opened_again_gives_the_parts_and_the_sheets_alone) {
+TEST(LayoutExport, ADrawingOpenedAgainGivesThePartsAndTheSheetsAlone) {
   const layout::Document document = document_of(sample());
   for (const ExportForm form : {ExportForm::dxf, ExportForm::svg}) {
     const Exported made = exported(document, form, {});
@@ -143,7 +143,7 @@ TEST(LayoutExport, a_drawing_opened_again_gives_the_parts_and_the_sheets_alone) 
   }
 }
 
-TEST(LayoutExport, dxf_read_again_has_every_layer_with_true_arcs) {
+TEST(LayoutExport, DxfReadAgainHasEveryLayerWithTrueArcs) {
   const layout::Document document = document_of(sample());
   for (const char* unit : {"mm", "inch"}) {
     const Exported made = exported(document, ExportForm::dxf, {{"unit", unit}});
@@ -159,7 +159,7 @@ TEST(LayoutExport, dxf_read_again_has_every_layer_with_true_arcs) {
   }
 }
 
-TEST(LayoutExport, svg_read_again_is_the_same) {
+TEST(LayoutExport, SvgReadAgainIsTheSame) {
   const Exported made = exported(document_of(sample()), ExportForm::svg, {});
   const auto drawing = parse_svg(made.files[0].bytes, "out.svg");
   ASSERT_TRUE(drawing) << drawing.error().message;
@@ -167,7 +167,7 @@ TEST(LayoutExport, svg_read_again_is_the_same) {
   EXPECT_NE(made.files[0].bytes.find("Диск 2"), std::string::npos);
 }
 
-TEST(LayoutExport, placed_arcs_lie_within_their_tolerance_of_the_checked_outline_and_polygons_are_it) {
+TEST(LayoutExport, PlacedArcsLieWithinTheirToleranceOfTheCheckedOutlineAndPolygonsAreIt) {
   const layout::Document document = document_of(sample());
   const Exported made = exported(document, ExportForm::dxf, {{"sheet", "s#1"}, {"only", "CUT"}});
   const auto drawing = parse_dxf(made.files[0].bytes, "out.dxf");
@@ -208,7 +208,7 @@ TEST(LayoutExport, placed_arcs_lie_within_their_tolerance_of_the_checked_outline
   }
 }
 
-TEST(LayoutExport, curves_that_are_not_what_the_polygon_says_are_not_written) {
+TEST(LayoutExport, CurvesThatAreNotWhatThePolygonSaysAreNotWritten) {
   layout::Document document = document_of(sample());
   document.parts[1].outline.curves[0].outer = cases::circle_contour({0.001, 0}, 8);
   const Exported made = exported(document, ExportForm::dxf, {{"only", "CUT"}});
@@ -267,7 +267,7 @@ Plot read_plot(const std::string& text) {
   return plot;
 }
 
-TEST(LayoutExport, hpgl_read_again_has_the_areas_within_its_bound) {
+TEST(LayoutExport, HpglReadAgainHasTheAreasWithinItsBound) {
   const Exported made = exported(document_of(sample()), ExportForm::hpgl, {{"tolerance", "0.05"}});
   ASSERT_EQ(made.files.size(), 2U);
   EXPECT_EQ(made.files[0].sheet, "s#1");
@@ -300,7 +300,7 @@ TEST(LayoutExport, hpgl_read_again_has_the_areas_within_its_bound) {
   EXPECT_LT(made.files[0].bytes.find("LB???? 2"), made.files[0].bytes.find("LBwasher 1"));
 }
 
-TEST(LayoutExport, gcode_of_each_sheet_names_its_placements) {
+TEST(LayoutExport, GcodeOfEachSheetNamesItsPlacements) {
   const Exported made = exported(document_of(sample()), ExportForm::gcode,
                                  {{"kerf", "0.2"}, {"feed", "900"}, {"lead-in", "1"}});
   ASSERT_EQ(made.files.size(), 2U);
@@ -315,7 +315,7 @@ TEST(LayoutExport, gcode_of_each_sheet_names_its_placements) {
   EXPECT_NE(made.files[1].bytes.find("PLACEMENT 5"), std::string::npos);
 }
 
-TEST(LayoutExport, a_strip_is_as_long_as_it_is_used) {
+TEST(LayoutExport, AStripIsAsLongAsItIsUsed) {
   LayoutJson layout = cases::empty_layout();
   layout["stocks"][0] = {{"id", "s"}, {"kind", "strip"}, {"height", 50}};
   add_part(layout, "p", outline_json(rectangle(0, 0, 30, 20)));
@@ -324,7 +324,7 @@ TEST(LayoutExport, a_strip_is_as_long_as_it_is_used) {
   EXPECT_NEAR(by_layer(*parse_dxf(made.files[0].bytes, "out.dxf")).at("SHEET").area, 42 * 50, 1e-9);
 }
 
-TEST(LayoutExport, words_that_will_not_do_are_refused_in_one_sentence) {
+TEST(LayoutExport, WordsThatWillNotDoAreRefusedInOneSentence) {
   struct Case {
     ExportForm form;
     std::vector<ExportWord> words;
@@ -362,7 +362,7 @@ TEST(LayoutExport, words_that_will_not_do_are_refused_in_one_sentence) {
   }
 }
 
-TEST(LayoutExport, layouts_that_will_not_do_are_refused_in_one_sentence) {
+TEST(LayoutExport, LayoutsThatWillNotDoAreRefusedInOneSentence) {
   const auto trouble = [](const LayoutJson& layout, ExportForm form, const std::vector<ExportWord>& words) {
     const auto request = read_export_words(form, words, "--");
     if (!request) return request.error().message;

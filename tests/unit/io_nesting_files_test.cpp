@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::string kJobs = cases::source_dir() + "/fuzz/corpus/nesting_files/";
 
 Result<LayoutFile> job(const std::string& name, std::optional<LengthUnit> unit = std::nullopt) {
-  return read_nesting(read_file(kJobs + name).value(), name, unit);
+  return read_nesting(disk::read_file(kJobs + name).value(), name, unit);
 }
 
 /// A strip of one item with this outline.
@@ -132,7 +132,7 @@ TEST(NestingFiles, RefusesWithPlaceAndWayOut) {
 TEST(NestingFiles, PlacementsComeBackWithinAStep) {
   const auto items = job("strip.json");
   const auto placed =
-      read_placements(read_file(kJobs + "placements.json").value(), "p.json", items->document);
+      read_placements(disk::read_file(kJobs + "placements.json").value(), "p.json", items->document);
   ASSERT_TRUE(placed.has_value()) << placed.error().message;
   layout::Document d = placed->document;
   ASSERT_EQ(d.placements.size(), 2u);
@@ -181,22 +181,22 @@ TEST(OpenLayout, TellsFilesApartByWhatIsInThem) {
     return (folder / name).string();
   };
   const auto opened = [&](const std::string& name, const std::string& text) {
-    const auto file = open_layout(put(name, text));
+    const auto file = disk::open_layout(put(name, text));
     EXPECT_TRUE(file.has_value()) << (file ? "" : file.error().message);
     return file ? file->document : layout::Document{};
   };
   for (const char* name : {"strip.json", "sheets.json", "hides.json"}) {
-    const std::string text = read_file(kJobs + name).value();
+    const std::string text = disk::read_file(kJobs + name).value();
     EXPECT_EQ(opened("job.txt", text), read_nesting(text, "job")->document);
     EXPECT_EQ(opened("layout.dat", write_layout(read_nesting(text, "job")->document)),
               read_nesting(text, "job")->document);
   }
-  put("items.json", read_file(kJobs + "strip.json").value());
-  const std::string placements = read_file(kJobs + "placements.json").value();
+  put("items.json", disk::read_file(kJobs + "strip.json").value());
+  const std::string placements = disk::read_file(kJobs + "placements.json").value();
   EXPECT_EQ(opened("p.json", placements).placements.size(), 2u);
   EXPECT_EQ(opened("sub/p.json", placements).placements.size(), 2u);  // its items are in the folder above
   fs::remove(folder / "items.json");
-  const auto lost = open_layout((folder / "p.json").string());
+  const auto lost = disk::open_layout((folder / "p.json").string());
   ASSERT_FALSE(lost.has_value());
   EXPECT_NE(lost.error().message.find("the file of its items, 'items.json', is neither"), std::string::npos);
 
@@ -222,7 +222,7 @@ TEST(OpenLayout, TellsFilesApartByWhatIsInThem) {
   EXPECT_EQ(svg.parts[0].id, "left");
   EXPECT_EQ(svg.parts[1].id, "soles");
   EXPECT_EQ(svg.parts[0].demand, 1);
-  const auto other = open_layout(put("o.json", "{\"a\": 1}"));
+  const auto other = disk::open_layout(put("o.json", "{\"a\": 1}"));
   ASSERT_FALSE(other.has_value());
   EXPECT_NE(other.error().message.find("no layout; known are"), std::string::npos);
   fs::remove_all(folder);

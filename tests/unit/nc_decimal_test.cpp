@@ -12,7 +12,7 @@ std::string round_trip(std::string_view text) {
   return parsed ? format_decimal(parsed->digits, parsed->decimals) : "none";
 }
 
-TEST(NcDecimal, reads_plain_numbers_with_their_decimals) {
+TEST(NcDecimal, ReadsPlainNumbersWithTheirDecimals) {
   EXPECT_EQ(round_trip("0"), "0");
   EXPECT_EQ(round_trip("12.50"), "12.50");
   EXPECT_EQ(round_trip("+.5"), "0.5");
@@ -22,7 +22,7 @@ TEST(NcDecimal, reads_plain_numbers_with_their_decimals) {
   EXPECT_EQ(round_trip("999999999999999999"), "999999999999999999");
 }
 
-TEST(NcDecimal, refuses_what_is_no_number) {
+TEST(NcDecimal, RefusesWhatIsNoNumber) {
   for (const char* text : {"", "+", "-", ".", "1.2.3", "1e5", "--1", "1-", "1 2"})
     EXPECT_EQ(round_trip(text), "none") << text;
   EXPECT_EQ(parse_decimal("1.2.3").fault, DecimalFault::malformed);
@@ -30,13 +30,13 @@ TEST(NcDecimal, refuses_what_is_no_number) {
   EXPECT_EQ(parse_decimal("0.0000000000000000001").fault, DecimalFault::too_long);
 }
 
-TEST(NcDecimal, knows_whole_numbers) {
+TEST(NcDecimal, KnowsWholeNumbers) {
   EXPECT_EQ(parse_decimal("54.0").value->whole(), 54);
   EXPECT_EQ(parse_decimal("-3").value->whole(), -3);
   EXPECT_FALSE(parse_decimal("59.3").value->whole().has_value());
 }
 
-TEST(NcDecimal, measures_lengths_exactly) {
+TEST(NcDecimal, MeasuresLengthsExactly) {
   const Grains millimetre = quantum(LengthUnit::millimetre, 0);
   EXPECT_EQ(to_grains(*parse_decimal("25.4").value, LengthUnit::millimetre),
             to_grains(*parse_decimal("1").value, LengthUnit::inch));
@@ -46,7 +46,7 @@ TEST(NcDecimal, measures_lengths_exactly) {
   EXPECT_EQ(static_cast<double>(millimetre), kGrainsPerMillimetre);
 }
 
-TEST(NcDecimal, writes_fixed_decimals_and_no_negative_zero) {
+TEST(NcDecimal, WritesFixedDecimalsAndNoNegativeZero) {
   EXPECT_EQ(format_decimal(0, 5), "0.00000");
   EXPECT_EQ(format_decimal(-5, 5), "-0.00005");
   EXPECT_EQ(format_decimal(-1234567, 5), "-12.34567");

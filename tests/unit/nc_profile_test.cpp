@@ -22,7 +22,7 @@ ProfilePart square(std::uint64_t id, double x, double y, double side = 10) {
   return {id, region_of_contours(box_contour(x, y, side, side))};
 }
 
-TEST(NcProfile, a_square_with_a_hole_is_these_lines) {
+TEST(NcProfile, ASquareWithAHoleIsTheseLines) {
   ProfileOptions options = plain();
   options.lead_in_mm = 2, options.speed = 80;
   const auto made = profile_program(
@@ -70,7 +70,7 @@ struct Wrong {
   const char* says;
 };
 
-TEST(NcProfile, options_out_of_range_are_refused_by_name) {
+TEST(NcProfile, OptionsOutOfRangeAreRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinite = std::numeric_limits<double>::infinity();
   const auto refused = [](const ProfileOptions& options) {
@@ -101,7 +101,7 @@ TEST(NcProfile, options_out_of_range_are_refused_by_name) {
          o.pass_mm = 0.01;
        },
        "pass"},
-      {"dark beam", [](ProfileOptions& o) { o.post = Post::grbl; }, "beam stays dark"},
+      {"dark beam", [](ProfileOptions& o) { o.post = *post_named("grbl"); }, "beam stays dark"},
   };
   for (const Wrong& wrong : wrongs) {
     ProfileOptions options = plain();
@@ -110,7 +110,7 @@ TEST(NcProfile, options_out_of_range_are_refused_by_name) {
   }
 }
 
-TEST(NcProfile, what_the_kerf_cannot_cut_is_refused_by_name) {
+TEST(NcProfile, WhatTheKerfCannotCutIsRefusedByName) {
   struct Case {
     std::vector<ProfilePart> parts;
     const char* says;
@@ -158,7 +158,7 @@ TEST(NcProfile, what_the_kerf_cannot_cut_is_refused_by_name) {
   }
 }
 
-TEST(NcProfile, a_narrow_slot_stays_and_is_reported) {
+TEST(NcProfile, ANarrowSlotStaysAndIsReported) {
   // 0.6 wide, open at the top: the kerf of 1 passes by. The slot's end is 8 from the cut below the part.
   const auto made = profile_program(
       {{1, region_of_contours(cases::ring_contour(
@@ -169,7 +169,7 @@ TEST(NcProfile, a_narrow_slot_stays_and_is_reported) {
   EXPECT_EQ(made->left_over_of, 1U);
 }
 
-TEST(NcProfile, leads_are_shortened_and_left_out_where_there_is_no_room) {
+TEST(NcProfile, LeadsAreShortenedAndLeftOutWhereThereIsNoRoom) {
   ProfileOptions options = plain();
   options.lead_in_mm = 4;
   const auto lead = [&](double hole_radius) {
@@ -184,7 +184,7 @@ TEST(NcProfile, leads_are_shortened_and_left_out_where_there_is_no_room) {
   EXPECT_EQ(lead(0.55), std::pair(0UL, 1UL));
 }
 
-TEST(NcProfile, the_posts_write_their_own_words) {
+TEST(NcProfile, ThePostsWriteTheirOwnWords) {
   ProfileOptions options = plain();
   options.speed = 700, options.pierce_s = 0.5;
   const auto text = [&] {
@@ -195,12 +195,12 @@ TEST(NcProfile, the_posts_write_their_own_words) {
   const auto has = [](const std::string& all, const char* part) {
     return all.find(part) != std::string::npos;
   };
-  options.post = Post::grbl;
+  options.post = *post_named("grbl");
   EXPECT_TRUE(has(text(), "M4 S700\nG4 P0.500\n"));
   EXPECT_FALSE(has(text(), "G80"));
   options.process = Process::plasma;
   EXPECT_TRUE(has(text(), "M3 S700\n"));
-  options.post = Post::fanuc;
+  options.post = *post_named("fanuc");
   EXPECT_EQ(text().rfind("%\nO0001 (X)\n", 0), 0U);
   EXPECT_TRUE(has(text(), "G4 P500\n"));
   EXPECT_TRUE(has(text(), "X4.500"));
@@ -209,7 +209,7 @@ TEST(NcProfile, the_posts_write_their_own_words) {
   options.unit = LengthUnit::inch;
   EXPECT_TRUE(has(text(), "G20 G17 G90"));
   EXPECT_TRUE(has(text(), "F23.62"));
-  options.pierce_s = 0, options.process = Process::router, options.post = Post::linuxcnc,
+  options.pierce_s = 0, options.process = Process::router, options.post = *post_named("linuxcnc"),
   options.unit = LengthUnit::millimetre;
   options.depth_mm = 5, options.pass_mm = 2, options.plunge_mm_per_min = 90;
   EXPECT_TRUE(has(text(), "G0 Z5.0000\nM3 S700\n"));

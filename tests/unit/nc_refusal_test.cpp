@@ -29,7 +29,7 @@ void expect_refusals(const std::vector<Case>& cases) {
   }
 }
 
-TEST(NcRefusal, of_words_that_mean_another_frame) {
+TEST(NcRefusal, OfWordsThatMeanAnotherFrame) {
   expect_refusals({
       {"G21\nG53 G0 X0 Y0\n", "2: G53: it moves in machine coordinates, which do not turn with the part"},
       {"G28\n", "1: G28: it moves to a point of the machine, which does not turn with the part"},
@@ -52,7 +52,7 @@ TEST(NcRefusal, of_words_that_mean_another_frame) {
   });
 }
 
-TEST(NcRefusal, of_what_is_no_plain_number) {
+TEST(NcRefusal, OfWhatIsNoPlainNumber) {
   expect_refusals({
       {"G0 X[1+2] Y0\n",
        "1: expressions ([...]) cannot be rewritten; let the CAM system write plain numbers"},
@@ -71,7 +71,7 @@ TEST(NcRefusal, of_what_is_no_plain_number) {
   });
 }
 
-TEST(NcRefusal, of_subprograms_and_hidden_state) {
+TEST(NcRefusal, OfSubprogramsAndHiddenState) {
   const std::string subprograms =
       "O words (subprograms, branches) cannot be rewritten; let the CAM system write them out";
   const std::string named = "1: " + subprograms, later = "2: " + subprograms;
@@ -103,7 +103,7 @@ TEST(NcRefusal, of_subprograms_and_hidden_state) {
   });
 }
 
-TEST(NcRefusal, of_words_off_the_list) {
+TEST(NcRefusal, OfWordsOffTheList) {
   expect_refusals({
       {"G5 X1 Y1 I0 J0\n", "1: G5: splines are not rewritten; let the CAM system write lines and arcs"},
       {"G5.2\n", "1: G5.2: splines are not rewritten; let the CAM system write lines and arcs"},
@@ -130,7 +130,7 @@ TEST(NcRefusal, of_words_off_the_list) {
   });
 }
 
-TEST(NcRefusal, of_motion_that_is_not_known) {
+TEST(NcRefusal, OfMotionThatIsNotKnown) {
   const char* x_first =
       "2: moves in X while Y is not known; give both X and Y in the first move, and in the first one after a "
       "tool change";
@@ -162,7 +162,7 @@ TEST(NcRefusal, of_motion_that_is_not_known) {
   });
 }
 
-TEST(NcRefusal, of_arcs_and_cycles_that_cannot_be_kept) {
+TEST(NcRefusal, OfArcsAndCyclesThatCannotBeKept) {
   expect_refusals({
       {"G0 X0 Y0\nG18 G2 X1 I5\n",
        "2: an arc outside the XY plane (G18, G19) does not stay in its plane when turned"},
@@ -200,7 +200,7 @@ TEST(NcRefusal, of_arcs_and_cycles_that_cannot_be_kept) {
   });
 }
 
-TEST(NcRefusal, of_blocks_that_say_two_things) {
+TEST(NcRefusal, OfBlocksThatSayTwoThings) {
   expect_refusals({
       {"G0 X0 X1 Y0\n", "1: two X words in one block"},
       {"N1 N2 M3\n", "1: two N words in one block"},
@@ -219,7 +219,7 @@ TEST(NcRefusal, of_blocks_that_say_two_things) {
   });
 }
 
-TEST(NcRefusal, of_bytes_that_do_not_belong_there) {
+TEST(NcRefusal, OfBytesThatDoNotBelongThere) {
   const std::string long_line = "G21 (" + std::string(251, 'x') + ")\n";
   const std::string grows = "G21\nG0 X0 Y0 Z1 (" + std::string(238, 'x') + ")\n";
   expect_refusals({
@@ -242,7 +242,7 @@ TEST(NcRefusal, of_bytes_that_do_not_belong_there) {
   });
 }
 
-TEST(NcRefusal, of_what_one_mode_cannot_do) {
+TEST(NcRefusal, OfWhatOneModeCannotDo) {
   const RewriteMode g68 = RewriteMode::g68, offset = RewriteMode::offset;
   expect_refusals({
       {"O1\nG0 X0 Y0\n", "1: LinuxCNC, for which mode offset is, has no program numbers (O)", offset},

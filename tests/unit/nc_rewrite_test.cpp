@@ -35,59 +35,59 @@ std::string body(const std::string& program, std::string (*rewrite)(const std::s
   return result.substr(head.size());
 }
 
-TEST(NcRewrite, turns_and_shifts_x_and_y) {
+TEST(NcRewrite, TurnsAndShiftsXAndY) {
   EXPECT_EQ(body("G0 X1 Y2\n", turned), "G0 X8.00000 Y21.00000\n");
   EXPECT_EQ(body("G0 X1 Y2\nG1 X3 Y-4 Z-5 F100\n", turned),
             "G0 X8.00000 Y21.00000\nG1 X14.00000 Y23.00000 Z-5 F100\n");
 }
 
-TEST(NcRewrite, supplies_the_missing_axis_beside_its_sister) {
+TEST(NcRewrite, SuppliesTheMissingAxisBesideItsSister) {
   EXPECT_EQ(body("G0 X1 Y2\nX5\n", turned), "G0 X8.00000 Y21.00000\nX8.00000 Y25.00000\n");
   EXPECT_EQ(body("G0 X1 Y2\nY5\n", turned), "G0 X8.00000 Y21.00000\nX5.00000 Y21.00000\n");
   EXPECT_EQ(body("G0 X1 Y2\nN7 G1 Y5 Z1\n", turned), "G0 X8.00000 Y21.00000\nN7 G1 X5.00000 Y21.00000 Z1\n");
 }
 
-TEST(NcRewrite, supplies_two_words_at_one_place_in_order) {
+TEST(NcRewrite, SuppliesTwoWordsAtOnePlaceInOrder) {
   EXPECT_EQ(body("G0X0Y0\nG2I2Y0\n", turned), "G0X10.00000Y20.00000\nG2I0.00000J2.00000X10.00000Y20.00000\n");
 }
 
-TEST(NcRewrite, keeps_case_and_spacing) {
+TEST(NcRewrite, KeepsCaseAndSpacing) {
   EXPECT_EQ(body("g0x1y2z3\ng1y5z1(c)\n\tx 1.5 ; tail X9\n", turned),
             "g0x8.00000y21.00000z3\ng1x5.00000y21.00000z1(c)\n\tx 5.00000 y21.50000 ; tail X9\n");
 }
 
-TEST(NcRewrite, keeps_comments_block_numbers_tape_marks_and_line_ends) {
+TEST(NcRewrite, KeepsCommentsBlockNumbersTapeMarksAndLineEnds) {
   const std::string program =
       "%\r\nO0012\r\n(X1 Y1)\r\nN1 G21 (MSG,X9)\r\n\r\n/M8\r\nN2 G0 X0 Y0\r\nM30\r\n%";
   EXPECT_EQ(turned(program),
             "%\r\nO0012\r\n(X1 Y1)\r\nN1 G21 (MSG,X9)\r\n\r\n/M8\r\nN2 G0 X10.00000 Y20.00000\r\nM30\r\n%");
 }
 
-TEST(NcRewrite, keeps_bytes_outside_ascii_in_comments) {
+TEST(NcRewrite, KeepsBytesOutsideAsciiInComments) {
   const std::string program = "G21 (\xD0\xB4\xD0\xB5\xD1\x82\xD0\xB0\xD0\xBB\xD1\x8C)\nG0 X0 Y0 ; \xE9\n";
   EXPECT_EQ(turned(program),
             "G21 (\xD0\xB4\xD0\xB5\xD1\x82\xD0\xB0\xD0\xBB\xD1\x8C)\nG0 X10.00000 Y20.00000 ; \xE9\n");
 }
 
-TEST(NcRewrite, writes_as_many_decimals_as_the_word_and_at_least_five) {
+TEST(NcRewrite, WritesAsManyDecimalsAsTheWordAndAtLeastFive) {
   EXPECT_EQ(body("G0 X1.1234567 Y2\n", shifted), "G0 X11.1234567 Y-18.0000000\n");
   EXPECT_EQ(body("G0 X1.12345678901234567 Y0\n", shifted).substr(0, 23), "G0 X11.1234567890123456");
   EXPECT_EQ(body("G20 G0 X1 Y2\n", shifted), "G20 G0 X1.39370 Y1.21260\n");
 }
 
-TEST(NcRewrite, never_writes_a_negative_zero) {
+TEST(NcRewrite, NeverWritesANegativeZero) {
   EXPECT_EQ(body("G0 X-10.000001 Y20.000001\n", shifted), "G0 X-0.000001 Y0.000001\n");
   EXPECT_EQ(rewritten("G21\nG0 X-1.000001 Y1\n", 1, -1.000001, 0).program, "G21\nG0 X-0.000001 Y-0.000001\n");
   EXPECT_EQ(rewritten("G21\nG0 X0 Y0\n", -0.000001, -0.000004, 0).program, "G21\nG0 X0.00000 Y0.00000\n");
 }
 
-TEST(NcRewrite, a_pure_shift_leaves_what_it_does_not_change) {
+TEST(NcRewrite, APureShiftLeavesWhatItDoesNotChange) {
   EXPECT_EQ(body("G0 X1 Y2\nX5\nG2 X7 I1\nG91 G1 X1\nG3 I.5\n", shifted),
             "G0 X11.00000 Y-18.00000\nX15.00000\nG2 X17.00000 I1\nG91 G1 X1\nG3 I.5\n");
   EXPECT_EQ(rewritten("G21\nG0 X1 Y2\n", 10, 0, 0).program, "G21\nG0 X11.00000 Y2\n");
 }
 
-TEST(NcRewrite, turns_arcs_by_centre) {
+TEST(NcRewrite, TurnsArcsByCentre) {
   EXPECT_EQ(body("G0 X0 Y0\nG2 X2 I1\nG3 X4 Y0 I1. J0\n", turned),
             "G0 X10.00000 Y20.00000\nG2 X10.00000 Y22.00000 I0.00000 J1.00000\n"
             "G3 X10.00000 Y24.00000 I0.00000 J1.00000\n");
@@ -95,13 +95,13 @@ TEST(NcRewrite, turns_arcs_by_centre) {
             "G0 X10.00000 Y20.00000\nG2 X11.00000 Y21.00000 I1.00000 J0.00000\n");
 }
 
-TEST(NcRewrite, turns_full_circles_and_helices) {
+TEST(NcRewrite, TurnsFullCirclesAndHelices) {
   EXPECT_EQ(body("G0 X0 Y0\nG2 I1\nG3 J2 Z-3 P4\nG2 X0 Y0 I1.\n", turned),
             "G0 X10.00000 Y20.00000\nG2 I0.00000 J1.00000\nG3 I-2.00000 J0.00000 Z-3 P4\n"
             "G2 X10.00000 Y20.00000 I0.00000 J1.00000\n");
 }
 
-TEST(NcRewrite, passes_radii_that_differ_by_what_cam_systems_round) {
+TEST(NcRewrite, PassesRadiiThatDifferByWhatCamSystemsRound) {
   const auto passes = [](const std::string& program) {
     return rewrite_program(program, "p", 1, 2, 0.5, {}).has_value();
   };
@@ -113,19 +113,19 @@ TEST(NcRewrite, passes_radii_that_differ_by_what_cam_systems_round) {
   EXPECT_FALSE(passes("G20\nG0 X0 Y0\nG2 X2.0029 I1\n"));
 }
 
-TEST(NcRewrite, turns_absolute_arc_centres) {
+TEST(NcRewrite, TurnsAbsoluteArcCentres) {
   EXPECT_EQ(body("G0 X1 Y0\nG90.1 G2 X3 Y0 I2 J0\n", turned),
             "G0 X10.00000 Y21.00000\nG90.1 G2 X10.00000 Y23.00000 I10.00000 J22.00000\n");
   EXPECT_EQ(body("G0 X1 Y0\nG90.1 G2 X3 I2 J0\nG91.1 G2 X5 I1\n", shifted),
             "G0 X11.00000 Y-20.00000\nG90.1 G2 X13.00000 I12.00000 J-20.00000\nG91.1 G2 X15.00000 I1\n");
 }
 
-TEST(NcRewrite, keeps_arcs_by_radius) {
+TEST(NcRewrite, KeepsArcsByRadius) {
   EXPECT_EQ(body("G0 X0 Y0\nG2 X2 R1.\nG3 Y3 R-4\n", turned),
             "G0 X10.00000 Y20.00000\nG2 X10.00000 Y22.00000 R1.\nG3 X7.00000 Y22.00000 R-4\n");
 }
 
-TEST(NcRewrite, gives_short_arcs_by_radius_the_decimals_that_hold_their_centre) {
+TEST(NcRewrite, GivesShortArcsByRadiusTheDecimalsThatHoldTheirCentre) {
   // 0.1 mm of chord under R 100: one unit of the fifth decimal would turn the chord by 1e-4 and move the
   // centre 0.01.
   const auto result = rewritten("G21\nG0 X0 Y0\nG2 X0.1 Y0 R100\n", 0.1234567, 0.7654321, 0.3);
@@ -133,7 +133,7 @@ TEST(NcRewrite, gives_short_arcs_by_radius_the_decimals_that_hold_their_centre) 
   EXPECT_LT(result.rounding_mm, 1e-4);
 }
 
-TEST(NcRewrite, more_decimals_go_to_the_block_that_decided_where_the_arc_starts) {
+TEST(NcRewrite, MoreDecimalsGoToTheBlockThatDecidedWhereTheArcStarts) {
   // A full circle in between ends where it starts; so does, under a pure shift, an incremental move keep its
   // bytes.
   const auto after_circle =
@@ -146,7 +146,7 @@ TEST(NcRewrite, more_decimals_go_to_the_block_that_decided_where_the_arc_starts)
             "G21\nG0 X0.1234567 Y0.7654321\nG91 G1 X1\nG90 G2 X1.22346070 Y0.76543210 R100\n");
 }
 
-TEST(NcRewrite, a_very_short_arc_does_not_become_a_full_turn_nor_a_full_turn_less_a_hair_a_short_arc) {
+TEST(NcRewrite, AVeryShortArcDoesNotBecomeAFullTurnNorAFullTurnLessAHairAShortArc) {
   for (const char* way : {"G2", "G3"})
     for (int k = 0; k < 100; ++k) {
       const std::string program = std::string("G21\nG0 X1.5 Y0.\n") + way + " X1.5 Y-0.000005 I-1.5\n";
@@ -157,7 +157,7 @@ TEST(NcRewrite, a_very_short_arc_does_not_become_a_full_turn_nor_a_full_turn_les
     }
 }
 
-TEST(NcRewrite, keeps_the_half_circle_by_radius_a_half_circle) {
+TEST(NcRewrite, KeepsTheHalfCircleByRadiusAHalfCircle) {
   for (int k = 0; k < 50; ++k) {
     const auto result = rewritten("G21\nG0 X-7 Y3\nG3 X13 Y3 R10\n", 0.1 * k, 0.2, 0.13 * k);
     EXPECT_LT(result.rounding_mm, 1e-4) << k;
@@ -165,7 +165,7 @@ TEST(NcRewrite, keeps_the_half_circle_by_radius_a_half_circle) {
   }
 }
 
-TEST(NcRewrite, an_end_that_is_the_start_stays_it_to_the_last_digit) {
+TEST(NcRewrite, AnEndThatIsTheStartStaysItToTheLastDigit) {
   // Written with other decimals the end would miss the start, and the full circle become an arc of no length.
   EXPECT_EQ(rewritten("G21\nG0 X0.1234567 Y0\nG2 X0.1234567 Y0 I1\n", 0, 0, 0.3).program,
             "G21\nG0 X0.1179427 Y0.0364839\nG2 X0.1179427 Y0.0364839 I0.95534 J0.29552\n");
@@ -173,12 +173,12 @@ TEST(NcRewrite, an_end_that_is_the_start_stays_it_to_the_last_digit) {
             "G21\nG0 X0.1179427 Y0.0364839\nG91 G2 X0.00000 Y0.00000 I0.95534 J0.29552\n");
 }
 
-TEST(NcRewrite, an_end_that_is_the_start_stays_it_when_its_word_has_more_decimals) {
+TEST(NcRewrite, AnEndThatIsTheStartStaysItWhenItsWordHasMoreDecimals) {
   EXPECT_EQ(rewritten("G21\nG0 X0.5 Y0.25\nG2 X0.5000000 Y0.25 I1\n", 0, 0, 0.3).program,
             "G21\nG0 X0.40379 Y0.38659\nG2 X0.4037900 Y0.3865900 I0.95533 J0.29552\n");
 }
 
-TEST(NcRewrite, counts_the_centre_from_the_written_start) {
+TEST(NcRewrite, CountsTheCentreFromTheWrittenStart) {
   // From the exact start the rounding of start and centre would add up.
   const std::string program = "G21\nG0 X1.7 Y2.3\nG2 I3.1 J4.7\n";
   const rs274::Step original = rs274::Reader().read(program).back();
@@ -189,7 +189,7 @@ TEST(NcRewrite, counts_the_centre_from_the_written_start) {
   }
 }
 
-TEST(NcRewrite, incremental_moves_do_not_add_up_their_rounding) {
+TEST(NcRewrite, IncrementalMovesDoNotAddUpTheirRounding) {
   std::string program = "G21\nG0 X0 Y0\nG91\n";
   for (int k = 0; k < 1000; ++k) program += "G1 X.1\n";
   const auto result = rewritten(program, 0, 0, 30 * kDegree);
@@ -197,37 +197,37 @@ TEST(NcRewrite, incremental_moves_do_not_add_up_their_rounding) {
   EXPECT_GT(result.rounding_mm, 1e-6);
 }
 
-TEST(NcRewrite, repeats_of_a_cycle_get_the_decimals_that_keep_the_last_hole) {
+TEST(NcRewrite, RepeatsOfACycleGetTheDecimalsThatKeepTheLastHole) {
   const auto result = rewritten("G21\nG0 X0 Y0\nG91 G81 X1 Y1 Z-1 R-1 L100\n", 0, 0, 0.3);
   EXPECT_EQ(result.program, "G21\nG0 X0.00000 Y0.00000\nG91 G81 X0.6598163 Y1.2508567 Z-1 R-1 L100\n");
   EXPECT_LT(result.rounding_mm, 1e-5);
 }
 
-TEST(NcRewrite, turns_cycles_and_leaves_their_other_words) {
+TEST(NcRewrite, TurnsCyclesAndLeavesTheirOtherWords) {
   EXPECT_EQ(body("G0 X0 Y0 Z9\nG98 G81 X1 Y1 Z-3 R2\nX2\nG80\nG83 Y5 Z-3 R2 Q1\nG80 G0 X0\n", turned),
             "G0 X10.00000 Y20.00000 Z9\nG98 G81 X9.00000 Y21.00000 Z-3 R2\nX9.00000 Y22.00000\nG80\n"
             "G83 X5.00000 Y22.00000 Z-3 R2 Q1\nG80 G0 X5.00000 Y20.00000\n");
 }
 
-TEST(NcRewrite, reads_inches_as_25_4_mm) {
+TEST(NcRewrite, ReadsInchesAs25Point4Mm) {
   EXPECT_EQ(rewritten("G20\nG0 X1 Y2\nG21 X25.4\n", 25.4, 0, 0).program,
             "G20\nG0 X2.00000 Y2\nG21 X50.80000\n");
   EXPECT_EQ(rewritten("G0 X1 Y2\n", 25.4, 0, 0, {.start_unit = lekalo::LengthUnit::inch}).program,
             "G0 X2.00000 Y2\n");
 }
 
-TEST(NcRewrite, leaves_z_and_machine_words_before_the_first_point_alone) {
+TEST(NcRewrite, LeavesZAndMachineWordsBeforeTheFirstPointAlone) {
   const std::string head = "G17 G40 G49 G64 P0.01\nT1 M6\nG43 H1\nS900 M3 M8\nG0 Z5.\nG4 P.5\n";
   EXPECT_EQ(turned("G21\n" + head + "G0 X0 Y0\n"), "G21\n" + head + "G0 X10.00000 Y20.00000\n");
 }
 
-TEST(NcRewrite, counts_the_blocks_and_states_the_bound) {
+TEST(NcRewrite, CountsTheBlocksAndStatesTheBound) {
   const auto result = rewritten("G21\nG0 X0 Y0\nG1 X1 F9\nG1 Z1\n", 0, 0, 30 * kDegree);
   EXPECT_EQ(result.motions, 2U);
   EXPECT_NEAR(result.rounding_mm, std::abs(std::cos(30 * kDegree) - 0.86603), 1e-15);
 }
 
-TEST(NcRewrite, says_in_which_frame_the_program_must_run) {
+TEST(NcRewrite, SaysInWhichFrameTheProgramMustRun) {
   const auto note_of = [](RewriteMode mode, ScanFrame frame) {
     return rewritten("G21\nG90 G17\nG55\nG0 X0. Y0.\nM2\n", 1, 2, 0.5,
                      {.mode = mode, .scan_frame = frame, .work_offset = 2})
@@ -253,7 +253,7 @@ TEST(NcRewrite, says_in_which_frame_the_program_must_run) {
             "shift or G68 rotation may be active");
 }
 
-TEST(NcRewrite, says_what_it_had_to_assume) {
+TEST(NcRewrite, SaysWhatItHadToAssume) {
   const auto notes = rewritten("G1 Z5 F100\nG0 X1 Y2.\nG41 D1 X5.\n", 1, 2, 0.5).notes;
   ASSERT_EQ(notes.size(), 6U);
   EXPECT_EQ(notes[1], "rewritten numbers have 5 decimals; a control that reads fewer adds its own rounding");
@@ -273,43 +273,43 @@ std::string with_offset(const std::string& program, double theta = 30 * kDegree,
   return rewritten(program, 12.5, -7.25, theta, options).program;
 }
 
-TEST(NcOffset, writes_one_line_before_the_first_motion) {
+TEST(NcOffset, WritesOneLineBeforeTheFirstMotion) {
   EXPECT_EQ(with_offset("%\n(c)\nG21 G54\nT1 M6\nG0 Z5\nG0 X0 Y0\nM2\n%\n"),
             "%\n(c)\nG21 G54\nT1 M6\nG10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG0 Z5\nG0 X0 Y0\nM2\n%\n");
   EXPECT_EQ(with_offset("G21 G55\r\nG0 X0 Y0\r\n", 0, {.work_offset = 2}),
             "G21 G55\r\nG10 L2 P2 X12.50000 Y-7.25000 R0.000000000\r\nG0 X0 Y0\r\n");
 }
 
-TEST(NcOffset, says_unit_and_work_offset_itself_when_the_program_does_not_yet) {
+TEST(NcOffset, SaysUnitAndWorkOffsetItselfWhenTheProgramDoesNotYet) {
   EXPECT_EQ(with_offset("G20 G0 X0 Y0\n"),
             "G20 G54 G10 L2 P1 X0.49213 Y-0.28543 R30.000000000\nG20 G0 X0 Y0\n");
   EXPECT_EQ(with_offset("G0 X0 Y0\n"), "G21 G54 G10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG0 X0 Y0\n");
 }
 
-TEST(NcOffset, is_written_in_the_unit_in_force_before_the_first_motion) {
+TEST(NcOffset, IsWrittenInTheUnitInForceBeforeTheFirstMotion) {
   EXPECT_EQ(with_offset("G21 G54\nG20 G0 X0 Y0\n"),
             "G21 G54\nG10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG20 G0 X0 Y0\n");
 }
 
-TEST(NcOffset, stands_before_cutter_compensation) {
+TEST(NcOffset, StandsBeforeCutterCompensation) {
   EXPECT_EQ(with_offset("G21 G54\nG41 D1\nG0 X0 Y0\n"),
             "G21 G54\nG10 L2 P1 X12.50000 Y-7.25000 R30.000000000\nG41 D1\nG0 X0 Y0\n");
 }
 
-TEST(NcOffset, writes_the_angle_within_half_a_turn) {
+TEST(NcOffset, WritesTheAngleWithinHalfATurn) {
   EXPECT_NE(with_offset("G21 G54\nG0 X0 Y0\n", -170 * kDegree).find(" R-170.000000000\n"), std::string::npos);
   EXPECT_NE(with_offset("G21 G54\nG0 X0 Y0\n", 350 * kDegree).find(" R-10.000000000\n"), std::string::npos);
   EXPECT_NE(with_offset("G21 G54\nG0 X0 Y0\n", 740 * kDegree).find(" R20.000000000\n"), std::string::npos);
 }
 
-TEST(NcOffset, leaves_a_program_without_motion_alone) {
+TEST(NcOffset, LeavesAProgramWithoutMotionAlone) {
   const auto result = rewritten("G21\nM3 S100\nM2\n", 1, 2, 3, {.mode = RewriteMode::offset});
   EXPECT_EQ(result.program, "G21\nM3 S100\nM2\n");
   EXPECT_EQ(result.motions, 0U);
   EXPECT_EQ(result.rounding_mm, 0);
 }
 
-TEST(NcOffset, bounds_what_rounding_the_angle_does_far_from_the_origin) {
+TEST(NcOffset, BoundsWhatRoundingTheAngleDoesFarFromTheOrigin) {
   const auto result =
       rewritten("G21 G54\nG0 X100000. Y0\nX99000. Y5\n", 0, 0, 1.0, {.mode = RewriteMode::offset});
   EXPECT_GT(result.rounding_mm, 0);
@@ -325,24 +325,24 @@ std::string with_g68(const std::string& program, RewriteOptions options = {}) {
   return rewritten(program, 12.5, -7.25, 30 * kDegree, options).program;
 }
 
-TEST(NcG68, stands_round_the_program) {
+TEST(NcG68, StandsRoundTheProgram) {
   EXPECT_EQ(with_g68("%\nO1\nG21 G90 G17 G54\nG0 X0 Y0\nG1 X10. F100\nM30\n%\n"),
             "%\nO1\nG21 G90 G17 G54\nG52 X12.50000 Y-7.25000\nG68 X0 Y0 R30.000\nG0 X0 Y0\nG1 X10. F100\n"
             "G69\nG52 X0 Y0\nM30\n%\n");
 }
 
-TEST(NcG68, says_the_modes_it_needs) {
+TEST(NcG68, SaysTheModesItNeeds) {
   EXPECT_EQ(with_g68("G0 X0 Y0\nM30\n"),
             "G21 G17 G90 G52 X12.50000 Y-7.25000\nG68 X0 Y0 R30.000\nG0 X0 Y0\nG69\nG52 X0 Y0\nM30\n");
 }
 
-TEST(NcG68, is_given_in_g90_before_a_block_that_says_g91) {
+TEST(NcG68, IsGivenInG90BeforeABlockThatSaysG91) {
   EXPECT_EQ(
       with_g68("G21 G17\nG91 G0 Z5\nG90 X0 Y0\nM2\n"),
       "G21 G17\nG90 G52 X12.50000 Y-7.25000\nG68 X0 Y0 R30.000\nG91 G0 Z5\nG90 X0 Y0\nG69\nG52 X0 Y0\nM2\n");
 }
 
-TEST(NcG68, is_cancelled_where_the_text_ends) {
+TEST(NcG68, IsCancelledWhereTheTextEnds) {
   const std::string head = "G21 G90 G17\nG52 X12.50000 Y-7.25000\nG68 X0 Y0 R30.000\n";
   EXPECT_EQ(with_g68("G21 G90 G17\nG0 X0 Y0\n"), head + "G0 X0 Y0\nG69\nG52 X0 Y0\n");
   EXPECT_EQ(with_g68("G21 G90 G17\nG0 X0 Y0"), head + "G0 X0 Y0\nG69\nG52 X0 Y0");
@@ -351,7 +351,7 @@ TEST(NcG68, is_cancelled_where_the_text_ends) {
             head + "G0 X0 Y0\nG81 X1 Y1 Z-1 R1\nG80 G69\nG52 X0 Y0\nM2\n");
 }
 
-TEST(NcG68, rounds_the_angle_about_the_middle_of_the_program) {
+TEST(NcG68, RoundsTheAngleAboutTheMiddleOfTheProgram) {
   // 0.0004 degrees lost are 7e-6 rad: 0.7 mm at the origin's distance of 100 m, 70 nm within the part.
   const RewriteOptions options{.mode = RewriteMode::g68, .scan_frame = ScanFrame::wcs};
   const auto result = rewritten("G21 G90 G17\nG0 X100000. Y0.\nX100020.\n", 0, 0, 30.0004 * kDegree, options);
@@ -366,7 +366,7 @@ TEST(NcG68, rounds_the_angle_about_the_middle_of_the_program) {
 // --------------------------------------------------------------------------------------------------------------
 // requests that make no sense
 
-TEST(NcRequest, is_checked) {
+TEST(NcRequest, IsChecked) {
   const auto code_of = [](double x, double y, double theta, RewriteOptions options) {
     const auto result = rewrite_program("G21\nG0 X0 Y0\n", "p", x, y, theta, options);
     return result ? std::string("accepted")

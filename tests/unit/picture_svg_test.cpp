@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "../../src/io/picture_colour.hpp"
-#include "../../src/io/picture_text.hpp"
+#include "draw/colour.hpp"
 #include "lekalo/draw/picture.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
@@ -84,7 +84,7 @@ Ring points_of(const XmlElement& path) {
   return points;
 }
 
-std::string hex(io::detail::Colour c) {
+std::string hex(draw::Colour c) {
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
   return text;
@@ -155,7 +155,7 @@ TEST_P(Published, PaintsTheThinPlacesInTheThinColourAndTheThickestInTheThick) {
   const LocatePicture picture = example(GetParam());
   const XmlDocument svg(picture_svg(picture));
   const auto pieces = svg.of("path", "allowance");
-  const std::string thin = hex(io::detail::scale_colour(0));
+  const std::string thin = hex(draw::scale_colour(0));
   for (const XmlElement& line : svg.of("path", "contact")) {
     const Point vertex = points_of(line)[0];
     const bool painted = std::any_of(pieces.begin(), pieces.end(), [&](const XmlElement& piece) {
@@ -165,10 +165,10 @@ TEST_P(Published, PaintsTheThinPlacesInTheThinColourAndTheThickestInTheThick) {
     });
     EXPECT_TRUE(painted) << svg.child_text(line, "title");
   }
-  const std::string thick = hex(io::detail::scale_colour(io::detail::kColourSteps - 1));
+  const std::string thick = hex(draw::scale_colour(draw::kColourSteps - 1));
   EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [&](const auto& p) { return p["stroke"] == thick; }));
   EXPECT_TRUE(svg.of("path", "allowance-outside").empty());
-  EXPECT_EQ(svg.of("path", "scale").size(), static_cast<std::size_t>(io::detail::kColourSteps));
+  EXPECT_EQ(svg.of("path", "scale").size(), static_cast<std::size_t>(draw::kColourSteps));
   EXPECT_GE(svg.of("text", "tick-label").size(), 3u);
   EXPECT_NE(svg.of("text", "scale-title").at(0).text.find("mm"), std::string::npos);
 }
@@ -185,7 +185,7 @@ struct TextBox {
 
 TextBox box_of(const XmlElement& text) {
   const double size = std::stod(text["font-size"]), x = std::stod(text["x"]), y = std::stod(text["y"]);
-  const double width = size * io::detail::text_width(text.text);
+  const double width = size * io::text_width(text.text);
   const double left = text["text-anchor"] == "middle" ? x - width / 2
                       : text["text-anchor"] == "end"  ? x - width
                                                       : x;
@@ -263,8 +263,8 @@ TEST(PictureSvg, WhatSticksOutIsDashedAndOfAColourOutsideTheScale) {
   ASSERT_FALSE(outside.empty());
   for (const XmlElement& piece : outside) {
     EXPECT_NE(piece["stroke-dasharray"], "");
-    for (int i = 0; i < io::detail::kColourSteps; ++i) {
-      EXPECT_NE(piece["stroke"], hex(io::detail::scale_colour(i)));
+    for (int i = 0; i < draw::kColourSteps; ++i) {
+      EXPECT_NE(piece["stroke"], hex(draw::scale_colour(i)));
     }
   }
   EXPECT_EQ(svg.of("path", "part-outside").size(), 1u);

@@ -1,4 +1,5 @@
-#include "../../src/io/picture_text.hpp"
+#include "draw/printed_number.hpp"
+#include "lekalo/io/text/words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +8,12 @@
 #include <limits>
 #include <string>
 
-#include "../../src/io/picture_colour.hpp"
+#include "draw/colour.hpp"
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::io::detail {
+namespace lekalo::draw {
+using namespace io;
 namespace {
 
 double parsed(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
@@ -124,4 +126,4 @@ TEST(PictureColour, StepsCoverTheRangeEvenlyAndClamp) {
 }
 
 }  // namespace
-}  // namespace lekalo::io::detail
+}  // namespace lekalo::draw

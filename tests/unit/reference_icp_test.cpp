@@ -26,7 +26,7 @@ IcpOptions starting_at(double x, double y, double theta) {
   return options;
 }
 
-TEST(LocateIcp, finds_a_copy_of_the_part_exactly) {
+TEST(LocateIcp, FindsACopyOfThePartExactly) {
   const auto pose = geom::BlankFromPart::from_angle(0.7, {300, -20});
   for (const IcpOptions& options : {starting_at(303, -18, 0.65), IcpOptions{}}) {
     const auto result = locate_icp(cases::convex(kWedge), placed(kWedge, pose), options).value();
@@ -38,7 +38,7 @@ TEST(LocateIcp, finds_a_copy_of_the_part_exactly) {
   }
 }
 
-TEST(LocateIcp, converges_to_the_known_pose_where_the_stock_is_even_all_round) {
+TEST(LocateIcp, ConvergesToTheKnownPoseWhereTheStockIsEvenAllRound) {
   // Symmetric about its centre, so that the even stock pulls evenly.
   const geom::Ring hexagon{{-50, -10}, {10, -30}, {45, -20}, {50, 10}, {-10, 30}, {-45, 20}};
   const auto pose = geom::BlankFromPart::from_angle(0.3, {40, 70});
@@ -60,7 +60,7 @@ TEST(LocateIcp, converges_to_the_known_pose_where_the_stock_is_even_all_round) {
   EXPECT_NEAR(result.residual, 1, 0.01);
 }
 
-TEST(LocateIcp, cuts_into_the_part_where_the_stock_is_locally_thin) {
+TEST(LocateIcp, CutsIntoThePartWhereTheStockIsLocallyThin) {
   // Every one of these blanks holds its part with 0.1 mm to spare; least squares does not see on which side
   // it is.
   int gouges = 0;
@@ -75,7 +75,7 @@ TEST(LocateIcp, cuts_into_the_part_where_the_stock_is_locally_thin) {
   EXPECT_LT(gouges, kCases);
 }
 
-TEST(LocateIcp, reports_the_true_clearance_of_its_pose) {
+TEST(LocateIcp, ReportsTheTrueClearanceOfItsPose) {
   for (std::uint64_t index = 0; index < 20; ++index) {
     const auto c = cases::random_case(cases::seed(), index);
     const auto result = locate_icp(c.part, c.blank, {}).value();
@@ -86,7 +86,7 @@ TEST(LocateIcp, reports_the_true_clearance_of_its_pose) {
   }
 }
 
-TEST(LocateIcp, keeps_the_angle_in_the_window) {
+TEST(LocateIcp, KeepsTheAngleInTheWindow) {
   const auto pose = geom::BlankFromPart::from_angle(0.7, {300, -20});
   IcpOptions options;
   options.window = {0.1, 0.4};
@@ -94,7 +94,7 @@ TEST(LocateIcp, keeps_the_angle_in_the_window) {
   EXPECT_EQ(result.best.theta, 0.4) << "the end nearest to the true angle";
 }
 
-TEST(LocateIcp, does_not_turn_what_the_points_do_not_see_turning) {
+TEST(LocateIcp, DoesNotTurnWhatThePointsDoNotSeeTurning) {
   const auto result =
       locate_icp(cases::regular_ngon(1000, 49), cases::regular_ngon(1000, 50, {5, 5}), {}).value();
   EXPECT_NEAR(result.best.x, 5, 0.05);
@@ -102,7 +102,7 @@ TEST(LocateIcp, does_not_turn_what_the_points_do_not_see_turning) {
   EXPECT_NEAR(result.best.clearance, 1, 0.1);
 }
 
-TEST(LocateIcp, refuses_options_that_mean_nothing) {
+TEST(LocateIcp, RefusesOptionsThatMeanNothing) {
   const auto square = cases::regular_ngon(4, 10);
   IcpOptions options;
   options.max_iterations = 0;

@@ -28,7 +28,7 @@ class NonlinearModelDerivatives : public testing::TestWithParam<Stage> {
   const Variables z_{0.11, -0.07, 0.83, 0.6};
 };
 
-TEST_P(NonlinearModelDerivatives, jacobian_agrees_with_finite_differences) {
+TEST_P(NonlinearModelDerivatives, JacobianAgreesWithFiniteDifferences) {
   std::vector<double> jacobian(4 * model_.rows()), above(model_.rows()), below(model_.rows());
   model_.jacobian(GetParam(), z_, jacobian.data());
   for (std::size_t variable = 0; variable < 4; ++variable) {
@@ -41,7 +41,7 @@ TEST_P(NonlinearModelDerivatives, jacobian_agrees_with_finite_differences) {
   }
 }
 
-TEST_P(NonlinearModelDerivatives, hessian_agrees_with_finite_differences_of_the_jacobian) {
+TEST_P(NonlinearModelDerivatives, HessianAgreesWithFiniteDifferencesOfTheJacobian) {
   Random random(2);
   std::vector<double> multipliers;
   for (std::size_t row = 0; row < model_.rows(); ++row) multipliers.push_back(random.uniform(-1, 1));
@@ -65,7 +65,7 @@ TEST_P(NonlinearModelDerivatives, hessian_agrees_with_finite_differences_of_the_
 INSTANTIATE_TEST_SUITE_P(BothStages, NonlinearModelDerivatives,
                          testing::Values(Stage::homothety, Stage::clearance));
 
-TEST(NonlinearModel, holds_the_phi_function_in_its_own_units) {
+TEST(NonlinearModel, HoldsThePhiFunctionInItsOwnUnits) {
   const auto c = cases::random_case(cases::seed(), 3, cases::Kind::far);
   const NonlinearModel model(c.part, c.blank);
   const geom::Box box = geom::bounds(c.blank.vertices());
@@ -84,7 +84,7 @@ TEST(NonlinearModel, holds_the_phi_function_in_its_own_units) {
 
 #ifdef LEKALO_WITH_IPOPT
 
-TEST(LocateIpopt, ends_on_a_local_optimum_of_every_published_example) {
+TEST(LocateIpopt, EndsOnALocalOptimumOfEveryPublishedExample) {
   // The certified search knows all local optima. On examples 2, 3 and 5 the starts that the homothety stage
   // gives all lead to the lower of two peaks (docs/design/reference-methods.md).
   for (const auto& example : cases::published_examples()) {
@@ -107,7 +107,7 @@ TEST(LocateIpopt, ends_on_a_local_optimum_of_every_published_example) {
   }
 }
 
-TEST(LocateIpopt, gives_the_same_bytes_for_the_same_seed_and_other_starts_for_another) {
+TEST(LocateIpopt, GivesTheSameBytesForTheSameSeedAndOtherStartsForAnother) {
   const auto example = cases::published_examples()[2];
   IpoptOptions options;
   options.starts = 2;
@@ -123,7 +123,7 @@ TEST(LocateIpopt, gives_the_same_bytes_for_the_same_seed_and_other_starts_for_an
   EXPECT_NE(first.iterations, other.iterations);
 }
 
-TEST(LocateIpopt, keeps_the_angle_in_the_window) {
+TEST(LocateIpopt, KeepsTheAngleInTheWindow) {
   const auto example = cases::published_examples()[0];
   for (const AngleWindow window : {AngleWindow{0.02, 0.2}, AngleWindow{0.05, 0.05}}) {
     IpoptOptions options;
@@ -137,7 +137,7 @@ TEST(LocateIpopt, keeps_the_angle_in_the_window) {
   }
 }
 
-TEST(LocateIpopt, starts_from_aligned_outlines) {
+TEST(LocateIpopt, StartsFromAlignedOutlines) {
   const auto example = cases::published_examples()[0];
   IpoptOptions options;
   options.start_rule = StartRule::principal_axes;
@@ -149,7 +149,7 @@ TEST(LocateIpopt, starts_from_aligned_outlines) {
               1e-6);
 }
 
-TEST(LocateIpopt, says_that_nothing_was_found_when_the_part_is_too_large) {
+TEST(LocateIpopt, SaysThatNothingWasFoundWhenThePartIsTooLarge) {
   const auto part = cases::regular_ngon(5, 11), blank = cases::regular_ngon(4, 10);
   IpoptOptions options;
   options.starts = 2;
@@ -163,7 +163,7 @@ TEST(LocateIpopt, says_that_nothing_was_found_when_the_part_is_too_large) {
   EXPECT_EQ(best.clearance, phi::clearance_enclosure(part, blank, best.x, best.y, best.theta).low);
 }
 
-TEST(LocateIpopt, stops_when_told_and_keeps_to_its_budget) {
+TEST(LocateIpopt, StopsWhenToldAndKeepsToItsBudget) {
   const auto example = cases::published_examples()[0];
   IpoptOptions options;
   const std::atomic<bool> stop{true};
@@ -189,7 +189,7 @@ TEST(LocateIpopt, stops_when_told_and_keeps_to_its_budget) {
   EXPECT_EQ(fraction, 1);
 }
 
-TEST(LocateIpopt, refuses_what_it_cannot_do_in_one_sentence) {
+TEST(LocateIpopt, RefusesWhatItCannotDoInOneSentence) {
   const auto square = cases::regular_ngon(4, 10);
   IpoptOptions options;
   options.starts = 0;

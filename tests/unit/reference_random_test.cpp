@@ -9,7 +9,7 @@
 namespace lekalo {
 namespace {
 
-TEST(Random, gives_the_published_outputs_of_splitmix64) {
+TEST(Random, GivesThePublishedOutputsOfSplitmix64) {
   Random random(1234567);
   const std::array<std::uint64_t, 5> expected{6457827717110365317u, 3203168211198807973u,
                                               9817491932198370423u, 4593380528125082431u,
@@ -17,7 +17,7 @@ TEST(Random, gives_the_published_outputs_of_splitmix64) {
   for (const std::uint64_t value : expected) EXPECT_EQ(random.bits(), value);
 }
 
-TEST(Random, streams_of_one_seed_differ_from_each_other_and_from_other_seeds) {
+TEST(Random, StreamsOfOneSeedDifferFromEachOtherAndFromOtherSeeds) {
   std::vector<std::uint64_t> firsts;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     for (std::uint64_t stream = 0; stream < 100; ++stream) firsts.push_back(Random(seed, stream).bits());
@@ -26,7 +26,7 @@ TEST(Random, streams_of_one_seed_differ_from_each_other_and_from_other_seeds) {
   EXPECT_EQ(std::adjacent_find(firsts.begin(), firsts.end()), firsts.end());
 }
 
-TEST(Random, uniform_stays_in_its_interval_and_fills_it) {
+TEST(Random, UniformStaysInItsIntervalAndFillsIt) {
   Random random(7);
   double low = 1, high = 0, sum = 0;
   constexpr int kDraws = 100'000;
@@ -49,7 +49,7 @@ TEST(Random, uniform_stays_in_its_interval_and_fills_it) {
   EXPECT_EQ(random.uniform(3, 3), 3);
 }
 
-TEST(Random, below_gives_every_number_about_as_often) {
+TEST(Random, BelowGivesEveryNumberAboutAsOften) {
   Random random(11);
   std::array<int, 7> counts{};
   for (int i = 0; i < 70'000; ++i) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(OutlineMoments, of_a_rectangle_are_its_middle_and_its_long_side) {
+TEST(OutlineMoments, OfARectangleAreItsMiddleAndItsLongSide) {
   const auto rectangle = cases::convex({{10, 20}, {14, 20}, {14, 22}, {10, 22}});
   const OutlineMoments moments = outline_moments(rectangle);
   EXPECT_NEAR(moments.centroid.x, 12, 1e-12);
@@ -22,14 +22,14 @@ TEST(OutlineMoments, of_a_rectangle_are_its_middle_and_its_long_side) {
   EXPECT_NEAR(moments.axis, 0, 1e-12);
 }
 
-TEST(OutlineMoments, are_those_of_the_outline_not_of_the_area_or_the_vertices) {
+TEST(OutlineMoments, AreThoseOfTheOutlineNotOfTheAreaOrTheVertices) {
   // Sides 3, 4, 5 weigh by length: (3*(1.5,0) + 5*(1.5,2) + 4*(0,2)) / 12.
   const OutlineMoments moments = outline_moments(cases::convex({{0, 0}, {3, 0}, {0, 4}}));
   EXPECT_NEAR(moments.centroid.x, 1.0, 1e-12);
   EXPECT_NEAR(moments.centroid.y, 1.5, 1e-12);
 }
 
-TEST(OutlineMoments, turn_and_move_with_the_polygon) {
+TEST(OutlineMoments, TurnAndMoveWithThePolygon) {
   Random random(cases::seed());
   for (int i = 0; i < 100; ++i) {
     const auto c = cases::random_case(cases::seed(), static_cast<std::uint64_t>(i), cases::Kind::plain);
@@ -46,14 +46,14 @@ TEST(OutlineMoments, turn_and_move_with_the_polygon) {
   }
 }
 
-TEST(OutlineMoments, keep_their_digits_far_from_the_origin) {
+TEST(OutlineMoments, KeepTheirDigitsFarFromTheOrigin) {
   const auto far = cases::convex({{1e9, 1e9}, {1e9 + 4, 1e9}, {1e9 + 4, 1e9 + 2}, {1e9, 1e9 + 2}});
   const OutlineMoments moments = outline_moments(far);
   EXPECT_NEAR(moments.centroid.x - 1e9, 2, 1e-6);
   EXPECT_NEAR(moments.axis, 0, 1e-12);
 }
 
-TEST(RandomPoint, lies_in_the_polygon_and_spreads_by_area) {
+TEST(RandomPoint, LiesInThePolygonAndSpreadsByArea) {
   const auto polygon = cases::convex({{0, 0}, {8, 0}, {8, 1}, {4, 4}, {0, 1}});
   Random random(3);
   geom::Point sum;
@@ -68,7 +68,7 @@ TEST(RandomPoint, lies_in_the_polygon_and_spreads_by_area) {
   EXPECT_NEAR(sum.y / kDraws, 1.4, 0.05);
 }
 
-TEST(AngleFolding, adds_whole_turns_until_the_angle_lies_in_the_window) {
+TEST(AngleFolding, AddsWholeTurnsUntilTheAngleLiesInTheWindow) {
   const AngleWindow window{-0.5, 0.5};
   EXPECT_NEAR(fold_into(window, 2 * kPi + 0.25).value(), 0.25, 1e-14);
   EXPECT_NEAR(fold_into(window, -6 * kPi - 0.25).value(), -0.25, 1e-13);
@@ -78,7 +78,7 @@ TEST(AngleFolding, adds_whole_turns_until_the_angle_lies_in_the_window) {
   EXPECT_EQ(nearest_in(window, 2 * kPi - 1.0), -0.5);
 }
 
-TEST(AngleFolding, never_leaves_the_full_circle) {
+TEST(AngleFolding, NeverLeavesTheFullCircle) {
   const AngleWindow circle;
   Random random(5);
   for (int i = 0; i < 100'000; ++i) {
@@ -93,7 +93,7 @@ TEST(AngleFolding, never_leaves_the_full_circle) {
   }
 }
 
-TEST(AngleWindow, is_refused_when_it_runs_backwards_or_is_not_finite) {
+TEST(AngleWindow, IsRefusedWhenItRunsBackwardsOrIsNotFinite) {
   EXPECT_TRUE(check_window({}));
   EXPECT_TRUE(check_window({1, 1}));
   for (const AngleWindow& window :

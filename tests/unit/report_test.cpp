@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "../../src/io/picture_text.hpp"
 #include "lekalo/draw/report.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "lekalo/locate/convex.hpp"
 #include "support/region_cases.hpp"
 #include "support/xml.hpp"
@@ -270,7 +270,7 @@ void expect_clear_page(const Report& report, const std::string& what) {
   std::vector<TextBox> boxes;
   for (const XmlElement& text : page.of("text")) {
     const double size = std::stod(text["font-size"]), x = std::stod(text["x"]), y = std::stod(text["y"]);
-    const double width = size * io::detail::text_width(text.text) * (text["font-weight"] == "bold" ? 1.1 : 1);
+    const double width = size * io::text_width(text.text) * (text["font-weight"] == "bold" ? 1.1 : 1);
     const double left = text["text-anchor"] == "middle" ? x - width / 2
                         : text["text-anchor"] == "end"  ? x - width
                                                         : x;
@@ -353,23 +353,23 @@ TEST(Report, IsTheSameBytesEveryTimeAndPdfHasNoDate) {
 }
 
 TEST(WrappedText, BreaksAtBlanksFitsEveryLineAndEndsInAnEllipsisWhereRoomEnds) {
-  const auto lines = io::detail::wrapped("no placement leaves more than this everywhere", 12, 9);
+  const auto lines = io::wrapped("no placement leaves more than this everywhere", 12, 9);
   ASSERT_GT(lines.size(), 2U);
   std::string joined;
   for (const std::string& line : lines) {
-    EXPECT_LE(io::detail::text_width(line), 12) << line;
+    EXPECT_LE(io::text_width(line), 12) << line;
     joined += (joined.empty() ? "" : " ") + line;
   }
   EXPECT_EQ(joined, "no placement leaves more than this everywhere");
-  const auto cut = io::detail::wrapped("no placement leaves more than this everywhere", 12, 2);
+  const auto cut = io::wrapped("no placement leaves more than this everywhere", 12, 2);
   ASSERT_EQ(cut.size(), 2U);
   EXPECT_TRUE(cut[1].ends_with("…"));
-  EXPECT_LE(io::detail::text_width(cut[1]), 12);
-  const auto digest = io::detail::wrapped(std::string(64, 'a'), 20, 9);
+  EXPECT_LE(io::text_width(cut[1]), 12);
+  const auto digest = io::wrapped(std::string(64, 'a'), 20, 9);
   ASSERT_GT(digest.size(), 1U);
-  for (const std::string& line : digest) EXPECT_LE(io::detail::text_width(line), 20);
-  EXPECT_TRUE(io::detail::wrapped("", 20, 9).empty());
-  EXPECT_TRUE(io::detail::wrapped("   ", 20, 9).empty());
+  for (const std::string& line : digest) EXPECT_LE(io::text_width(line), 20);
+  EXPECT_TRUE(io::wrapped("", 20, 9).empty());
+  EXPECT_TRUE(io::wrapped("   ", 20, 9).empty());
 }
 
 }  // namespace

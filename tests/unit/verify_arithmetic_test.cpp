@@ -2,21 +2,22 @@
 // outside.
 
 #include <gtest/gtest.h>
+#include <mpfr.h>
 
-#include "../../src/verify/edge_triple.hpp"
-#include "../../src/verify/exact.hpp"
-#include "../../src/verify/interval.hpp"
-#include "../../src/verify/json.hpp"
-#include "../../src/verify/outline.hpp"
-#include "../../src/verify/span.hpp"
 #include "support/verify_cases.hpp"
+#include "verify/locate/edge_triple.hpp"
+#include "verify/locate/outline.hpp"
+#include "verify/number/exact.hpp"
+#include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
+#include "verify/read/json.hpp"
 
 namespace {
 
 using namespace lekalo::verify;
 using lekalo::verify_cases::Random;
 
-TEST(VerifyArithmetic, decimals_are_read_exactly) {
+TEST(VerifyArithmetic, DecimalsAreReadExactly) {
   const auto expect = [](const char* text, const char* digits, long exponent) {
     const auto value = parse_decimal(text);
     ASSERT_TRUE(value) << text;
@@ -37,7 +38,7 @@ TEST(VerifyArithmetic, decimals_are_read_exactly) {
   }
 }
 
-TEST(VerifyArithmetic, decimals_compare_and_subtract_exactly) {
+TEST(VerifyArithmetic, DecimalsCompareAndSubtractExactly) {
   const auto d = [](const char* text) { return *parse_decimal(text); };
   EXPECT_EQ(compare(d("0.1"), d("0.10000000000000000000000000001")), -1);
   EXPECT_EQ(compare(d("1e300"), d("-1e-300")), 1);
@@ -63,14 +64,14 @@ Sample sample(Random& random) {
 }
 
 bool holds(const Interval& interval, const Integer& exact) {
-  return mpfr_cmp_z(interval.low(), exact.get_mpz_t()) <= 0 &&
-         mpfr_cmp_z(interval.high(), exact.get_mpz_t()) >= 0;
+  const Interval point(exact, bits_of(exact) + 1);
+  return !certainly_above(interval, point) && !certainly_above(point, interval);
 }
 bool holds(const Span& span, const Integer& exact) {
   return mpz_cmp_d(exact.get_mpz_t(), span.low) >= 0 && mpz_cmp_d(exact.get_mpz_t(), span.high) <= 0;
 }
 
-TEST(VerifyArithmetic, every_operation_encloses_the_exact_result) {
+TEST(VerifyArithmetic, EveryOperationEnclosesTheExactResult) {
   Random random(1);
   for (int i = 0; i < 20'000; ++i) {
     const Sample a = sample(random), b = sample(random);
@@ -90,17 +91,25 @@ TEST(VerifyArithmetic, every_operation_encloses_the_exact_result) {
   }
 }
 
-TEST(VerifyArithmetic, intervals_across_zero_multiply_and_square_to_their_extremes) {
+TEST(VerifyArithmetic, IntervalsAcrossZeroMultiplyAndSquareToTheirExtremes) {
   const Interval across = hull(Interval(Integer(-3), 64), Interval(Integer(2), 64));
   const Interval product = across * across, squared = square(across);
-  EXPECT_EQ(mpfr_get_d(product.low(), MPFR_RNDN), -6);
-  EXPECT_EQ(mpfr_get_d(product.high(), MPFR_RNDN), 9);
-  EXPECT_EQ(mpfr_get_d(squared.low(), MPFR_RNDN), 0);
-  EXPECT_EQ(mpfr_get_d(squared.high(), MPFR_RNDN), 9);
-  EXPECT_EQ(mpfr_get_d((across / Interval(Integer(2), 64)).low(), MPFR_RNDN), -1.5);
+  EXPECT_EQ(product.low_double(), -6);
+  EXPECT_EQ(product.high_double(), 9);
+  EXPECT_EQ(squared.low_double(), 0);
+  EXPECT_EQ(squared.high_double(), 9);
+  EXPECT_EQ((across / Interval(Integer(2), 64)).low_double(), -1.5);
 }
 
-TEST(VerifyArithmetic, turns_enclose_sine_and_cosine_of_every_angle_in_the_interval) {
+/// value 2^1000, which is whole for every sine or cosine here.
+Integer scaled(mpfr_ptr value) {
+  Integer whole;
+  mpfr_mul_2si(value, value, 1000, MPFR_RNDN);
+  mpfr_get_z(whole.get_mpz_t(), value, MPFR_RNDN);
+  return whole;
+}
+
+TEST(VerifyArithmetic, TurnsEncloseSineAndCosineOfEveryAngleInTheInterval) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const double low = random.uniform(-10, 10), high = low + random.uniform(0, 1e-3);
@@ -108,24 +117,24 @@ TEST(VerifyArithmetic, turns_enclose_sine_and_cosine_of_every_angle_in_the_inter
       return Interval(*parse_decimal(fmt::format("{:.30f}", value)), 40);
     };
     const Turn turn = turn_by(hull(interval_of(low), interval_of(high)));
+    const Interval unit(Integer(Integer(1) << 1000), 40);
     for (const double t : {0.0, 0.3, 1.0}) {
       mpfr_t angle, sine, cosine;
       mpfr_inits2(200, angle, sine, cosine, static_cast<mpfr_ptr>(nullptr));
       mpfr_set_d(angle, low + t * (high - low), MPFR_RNDN);
       mpfr_sin_cos(sine, cosine, angle, MPFR_RNDN);
-      EXPECT_TRUE(mpfr_lessequal_p(turn.sine.low(), sine) && mpfr_lessequal_p(sine, turn.sine.high()));
-      EXPECT_TRUE(mpfr_lessequal_p(turn.cosine.low(), cosine) &&
-                  mpfr_lessequal_p(cosine, turn.cosine.high()));
+      EXPECT_TRUE(holds(turn.sine * unit, scaled(sine)));
+      EXPECT_TRUE(holds(turn.cosine * unit, scaled(cosine)));
       mpfr_clears(angle, sine, cosine, static_cast<mpfr_ptr>(nullptr));
     }
   }
   const Turn none = turn_by(Interval(64));
-  EXPECT_EQ(mpfr_get_d(none.cosine.low(), MPFR_RNDN), 1);
-  EXPECT_EQ(mpfr_get_d(none.cosine.high(), MPFR_RNDN), 1);
-  EXPECT_TRUE(mpfr_zero_p(none.sine.low()) != 0 && mpfr_zero_p(none.sine.high()) != 0);
+  EXPECT_EQ(none.cosine.low_double(), 1);
+  EXPECT_EQ(none.cosine.high_double(), 1);
+  EXPECT_TRUE(certainly_zero(none.sine));
 }
 
-TEST(VerifyArithmetic, printed_ends_enclose) {
+TEST(VerifyArithmetic, PrintedEndsEnclose) {
   const Interval third = Interval(Integer(1), 300) / Interval(Integer(3), 300);
   EXPECT_EQ(third.low_text(), "0.333333333333333333333333333333");
   EXPECT_EQ(third.high_text(), "0.333333333333333333333333333334");
@@ -147,7 +156,7 @@ Ring random_ring(Random& random, long size) {
   return ring;
 }
 
-TEST(VerifyArithmetic, hull_dents_and_lowest_corner_agree_with_their_definitions) {
+TEST(VerifyArithmetic, HullDentsAndLowestCornerAgreeWithTheirDefinitions) {
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const auto made = make_outline(random_ring(random, i % 3 == 0 ? 12 : 1'000'000), "ring");
@@ -174,7 +183,7 @@ TEST(VerifyArithmetic, hull_dents_and_lowest_corner_agree_with_their_definitions
   }
 }
 
-TEST(VerifyArithmetic, an_edge_line_measures_what_lies_outside_it) {
+TEST(VerifyArithmetic, AnEdgeLineMeasuresWhatLiesOutsideIt) {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
     const auto made = make_outline(random_ring(random, 1000), "ring");
@@ -224,7 +233,7 @@ long winding(const std::vector<Small>& ring, Small p) {
   return count;
 }
 
-TEST(VerifyArithmetic, containment_agrees_with_a_grid_of_points) {
+TEST(VerifyArithmetic, ContainmentAgreesWithAGridOfPoints) {
   Random random(5);
   int inside = 0, outside = 0;
   // Coordinates times four: the grid also has points between the corners.
@@ -258,7 +267,7 @@ TEST(VerifyArithmetic, containment_agrees_with_a_grid_of_points) {
   EXPECT_GT(outside, 20);
 }
 
-TEST(VerifyArithmetic, json_pieces_keep_their_text) {
+TEST(VerifyArithmetic, JsonPiecesKeepTheirText) {
   const auto root =
       parse_json("\xEF\xBB\xBF { \"a\" : [ 1.50 , -0e0, true,null , \"x\\\"]\" ] , \"b\\n\" : {} } ", "j");
   ASSERT_TRUE(root) << root.error().message;
@@ -282,7 +291,7 @@ TEST(VerifyArithmetic, json_pieces_keep_their_text) {
   }
 }
 
-TEST(VerifyArithmetic, json_nests_64_deep_and_no_deeper) {
+TEST(VerifyArithmetic, JsonNests64DeepAndNoDeeper) {
   EXPECT_TRUE(parse_json(std::string(64, '[') + std::string(64, ']'), "j"));
   EXPECT_TRUE(parse_json(std::string(64, '[') + "1" + std::string(64, ']'), "j"));
   EXPECT_FALSE(parse_json(std::string(66, '[') + std::string(66, ']'), "j"));

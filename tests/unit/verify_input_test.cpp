@@ -64,7 +64,7 @@ std::string scrambled_lines(const Points& points) {
   return text;
 }
 
-TEST(VerifyInput, every_way_to_write_a_contour_gives_the_same_numbers) {
+TEST(VerifyInput, EveryWayToWriteAContourGivesTheSameNumbers) {
   const Points& points = example().blank;
   const std::string expected = check(honest())->clearance_low;
   Points closed = points;
@@ -99,7 +99,7 @@ TEST(VerifyInput, every_way_to_write_a_contour_gives_the_same_numbers) {
   }
 }
 
-TEST(VerifyInput, a_closing_point_and_collinear_points_change_nothing_when_listed_as_dropped) {
+TEST(VerifyInput, AClosingPointAndCollinearPointsChangeNothingWhenListedAsDropped) {
   const std::string expected = check(honest())->clearance_low;
   Files files = honest();
   Points more = example().blank;
@@ -117,7 +117,7 @@ TEST(VerifyInput, a_closing_point_and_collinear_points_change_nothing_when_liste
       << findings(check(files));
 }
 
-TEST(VerifyInput, the_same_outline_from_any_point_and_either_way_round_is_confirmed) {
+TEST(VerifyInput, TheSameOutlineFromAnyPointAndEitherWayRoundIsConfirmed) {
   for (Case c : examples()) {
     for (int turn = 0; turn < 3; ++turn) {
       std::rotate(c.blank.begin(), c.blank.begin() + 3, c.blank.end());
@@ -131,7 +131,7 @@ TEST(VerifyInput, the_same_outline_from_any_point_and_either_way_round_is_confir
   }
 }
 
-TEST(VerifyInput, inches_are_exactly_25_4_mm) {
+TEST(VerifyInput, InchesAreExactly25Point4Mm) {
   const auto square = [](double a, double b) { return Points{{a, a}, {b, a}, {b, b}, {a, b}}; };
   Files files = write({"", square(0, 12 * 25.4), square(0, 10 * 25.4), 25.4}, {}, 0, 360);
   files["inputs"] = inputs_json(4, 4, "[]", "[]", "inch");
@@ -184,7 +184,7 @@ BadInput field(const char* what, const char* words, const char* key, std::string
   return {what, words, [key, value = std::move(value)](Files& f) { f[key] = value; }};
 }
 
-TEST(VerifyInput, what_cannot_be_read_is_refused_in_one_sentence) {
+TEST(VerifyInput, WhatCannotBeReadIsRefusedInOneSentence) {
   const Points& points = example().blank;
   const Points open_end{{0, 0}, {5, 0}, {5, 5}};
   const std::vector<BadInput> table{
@@ -289,7 +289,7 @@ TEST(VerifyInput, what_cannot_be_read_is_refused_in_one_sentence) {
   for (const BadInput& bad : table) expect_bad_input(bad);
 }
 
-TEST(VerifyInput, a_missing_field_is_named) {
+TEST(VerifyInput, AMissingFieldIsNamed) {
   for (const char* key : {"format", "status", "units", "inputs", "mirrored", "x", "y", "theta", "theta_deg",
                           "clearance", "upper_bound", "gap", "min_allowance", "shortfall", "window_deg",
                           "contacts", "alternatives", "trim", "nc"}) {
@@ -297,7 +297,7 @@ TEST(VerifyInput, a_missing_field_is_named) {
   }
 }
 
-TEST(VerifyInput, a_result_cut_off_anywhere_is_refused_or_refuted) {
+TEST(VerifyInput, AResultCutOffAnywhereIsRefusedOrRefuted) {
   const std::string whole = honest().result();
   for (std::size_t length = 0; length < whole.size(); length += 97) {
     const std::string part = whole.substr(0, length);
@@ -308,7 +308,7 @@ TEST(VerifyInput, a_result_cut_off_anywhere_is_refused_or_refuted) {
   }
 }
 
-TEST(VerifyInput, numbers_of_very_different_size_are_refused_before_they_eat_the_memory) {
+TEST(VerifyInput, NumbersOfVeryDifferentSizeAreRefusedBeforeTheyEatTheMemory) {
   Files files = honest();
   std::string many = "1e-390 0\n";
   for (int i = 0; i < 80'000; ++i) many += "1e390 1e390\n";
@@ -320,7 +320,7 @@ TEST(VerifyInput, numbers_of_very_different_size_are_refused_before_they_eat_the
       << report.error().message;
 }
 
-TEST(VerifyInput, a_certificate_in_a_file_counts_as_one_in_the_result) {
+TEST(VerifyInput, ACertificateInAFileCountsAsOneInTheResult) {
   Files files = honest();
   files.inline_certificate = false;
   auto report = check(files);
@@ -335,7 +335,7 @@ TEST(VerifyInput, a_certificate_in_a_file_counts_as_one_in_the_result) {
   EXPECT_TRUE(report->bound_high.empty());
 }
 
-TEST(VerifyInput, a_certificate_file_must_be_one_and_as_long_as_the_result_says) {
+TEST(VerifyInput, ACertificateFileMustBeOneAndAsLongAsTheResultSays) {
   Files files = honest();
   files.inline_certificate = false;
   const std::string result = files.result();

@@ -32,7 +32,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-TEST(VerifyLocate, confirms_the_six_published_examples) {
+TEST(VerifyLocate, ConfirmsTheSixPublishedExamples) {
   for (const Case& c : examples()) {
     const auto report = check(write(c));
     ASSERT_TRUE(report) << c.name << ": " << report.error().message;
@@ -44,7 +44,7 @@ TEST(VerifyLocate, confirms_the_six_published_examples) {
   }
 }
 
-TEST(VerifyLocate, knows_the_exact_clearance_to_the_thirtieth_digit) {
+TEST(VerifyLocate, KnowsTheExactClearanceToTheThirtiethDigit) {
   for (const Case& c : examples()) {
     Files files = write(c);
     const auto report = check(files);
@@ -58,7 +58,7 @@ TEST(VerifyLocate, knows_the_exact_clearance_to_the_thirtieth_digit) {
   }
 }
 
-TEST(VerifyLocate, finds_no_more_clearance_at_a_published_pose_than_the_article_claims) {
+TEST(VerifyLocate, FindsNoMoreClearanceAtAPublishedPoseThanTheArticleClaims) {
   // The article prints phi* above what its printed pose has.
   Files files = write(examples()[1]);
   set_pose(files, -60.768149, 62.430262, -4.189957);
@@ -214,7 +214,7 @@ const std::vector<Tampering>& tamperings() {
   return table;
 }
 
-TEST(VerifyLocate, finds_every_falsified_digit) {
+TEST(VerifyLocate, FindsEveryFalsifiedDigit) {
   ASSERT_GE(tamperings().size(), 25U);
   const std::vector<Case> cases = examples();
   for (const std::size_t which : {0U, 1U, 4U}) {  // ten-cornered blanks; parts either way round

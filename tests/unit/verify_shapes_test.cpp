@@ -56,7 +56,7 @@ Files upright_squares() {
   return f;
 }
 
-TEST(VerifyShapes, an_exact_tie_is_true) {
+TEST(VerifyShapes, AnExactTieIsTrue) {
   const auto report = check(upright_squares());
   ASSERT_TRUE(report);
   EXPECT_EQ(report->verdict, Verdict::confirmed) << findings(report);
@@ -65,7 +65,7 @@ TEST(VerifyShapes, an_exact_tie_is_true) {
   EXPECT_EQ(report->bound_high, "1");
 }
 
-TEST(VerifyShapes, an_exact_tie_is_missed_by_the_fiftieth_digit) {
+TEST(VerifyShapes, AnExactTieIsMissedByTheFiftiethDigit) {
   Files f = upright_squares();
   f["clearance"] = "1.0000000000000000000000000000000000000000000000001";
   EXPECT_EQ(verdict_of(f), Verdict::refuted);
@@ -74,7 +74,7 @@ TEST(VerifyShapes, an_exact_tie_is_missed_by_the_fiftieth_digit) {
   EXPECT_EQ(verdict_of(f), Verdict::refuted);
 }
 
-TEST(VerifyShapes, numbers_of_any_size_are_told_apart) {
+TEST(VerifyShapes, NumbersOfAnySizeAreToldApart) {
   for (const int exponent : {-320, -150, 150, 300}) {
     const auto scaled = [exponent](const std::string& digits) {
       return fmt::format("{}e{}", digits, exponent);
@@ -98,7 +98,7 @@ TEST(VerifyShapes, numbers_of_any_size_are_told_apart) {
 
 // ---- wide intervals ---------------------------------------------------------------------------------------
 
-TEST(VerifyShapes, an_interval_of_any_width_is_bounded_by_the_largest_value_in_it) {
+TEST(VerifyShapes, AnIntervalOfAnyWidthIsBoundedByTheLargestValueInIt) {
   const Case c = examples()[3];
   const std::vector<Line> blank_lines = lines_of(c.blank);
   Random random(3);
@@ -127,7 +127,7 @@ TEST(VerifyShapes, an_interval_of_any_width_is_bounded_by_the_largest_value_in_i
   }
 }
 
-TEST(VerifyShapes, intervals_may_overlap_but_not_leave_a_hole) {
+TEST(VerifyShapes, IntervalsMayOverlapButNotLeaveAHole) {
   Files f = write(examples()[0]);
   const std::string inside = f.certificate[3].from;
   f.certificate[2].to = f.certificate[3].to;
@@ -145,7 +145,7 @@ std::string dented(const std::string& depth) {
   return "[[0, 0], [10, " + depth + "], [20, 0], [20, 20], [0, 20]]";
 }
 
-TEST(VerifyShapes, a_dent_counts_where_it_is_and_no_further) {
+TEST(VerifyShapes, ADentCountsWhereItIsAndNoFurther) {
   // The part's lower side is 1 above the blank's, so 0.99 above the tip of the dent.
   Files f = pose_only(dented("0.01"), 5, square(1, 19), 0, 0, 0, "0.99");
   EXPECT_EQ(verdict_of(f), Verdict::unproved) << findings(check(f));
@@ -161,7 +161,7 @@ TEST(VerifyShapes, a_dent_counts_where_it_is_and_no_further) {
   }
 }
 
-TEST(VerifyShapes, a_part_that_sticks_out_of_a_dented_blank_is_judged_with_the_dent_cut_off) {
+TEST(VerifyShapes, APartThatSticksOutOfADentedBlankIsJudgedWithTheDentCutOff) {
   // 1 below the lower side: between -1 (hull) and -1.01 (dent cut off); only what both have is confirmed.
   Files f = pose_only(dented("0.01"), 5, square(1, 10), 0, -2, 0, "-1.01");
   EXPECT_EQ(verdict_of(f), Verdict::unproved) << findings(check(f));
@@ -232,7 +232,7 @@ Files noisy_result(double width, double height, double turn, int pieces, bool re
   return f;
 }
 
-TEST(VerifyShapes, points_that_miss_their_line_by_the_last_digit_do_no_harm) {
+TEST(VerifyShapes, PointsThatMissTheirLineByTheLastDigitDoNoHarm) {
   for (const bool reversed : {false, true}) {
     for (const double turn : {0.1, 0.3, 1.1, 2.0, 4.0}) {
       for (const int pieces : {2, 7}) {
@@ -243,7 +243,7 @@ TEST(VerifyShapes, points_that_miss_their_line_by_the_last_digit_do_no_harm) {
   }
 }
 
-TEST(VerifyShapes, a_blank_that_is_too_small_is_proved_so_although_its_points_miss_their_lines) {
+TEST(VerifyShapes, ABlankThatIsTooSmallIsProvedSoAlthoughItsPointsMissTheirLines) {
   for (const bool reversed : {false, true}) {
     Files f = noisy_result(5, 4, 0.3, 7, reversed);
     ASSERT_LT(std::stod(f["upper_bound"]), -0.5);
@@ -253,7 +253,7 @@ TEST(VerifyShapes, a_blank_that_is_too_small_is_proved_so_although_its_points_mi
   }
 }
 
-TEST(VerifyShapes, an_edge_that_cuts_a_corner_off_is_moved_out_to_it) {
+TEST(VerifyShapes, AnEdgeThatCutsACornerOffIsMovedOutToIt) {
   // Point 1 listed as dropped: edge 0 is the chord from (0, 0) to (10, 10), with the corner (10, 0) beyond it
   // by 10 / sqrt 2. The bound over the chord must grow by that much.
   Files f = upright_squares();
@@ -263,7 +263,7 @@ TEST(VerifyShapes, an_edge_that_cuts_a_corner_off_is_moved_out_to_it) {
   EXPECT_NE(words.find("upper_bound"), std::string::npos) << words;
 }
 
-TEST(VerifyShapes, nearly_opposite_edges_whose_third_weighs_less_than_nothing_still_prove) {
+TEST(VerifyShapes, NearlyOppositeEdgesWhoseThirdWeighsLessThanNothingStillProve) {
   // Lower and upper side miss being parallel by 1e-15, to the side where the left edge would need a negative
   // weight; the right one does not.
   for (const char* tilt : {"12.000000000000001", "11.999999999999999"}) {
@@ -279,7 +279,7 @@ TEST(VerifyShapes, nearly_opposite_edges_whose_third_weighs_less_than_nothing_st
   }
 }
 
-TEST(VerifyShapes, a_third_edge_along_an_opposite_pair_is_no_obstacle_while_it_weighs_nothing) {
+TEST(VerifyShapes, AThirdEdgeAlongAnOppositePairIsNoObstacleWhileItWeighsNothing) {
   // The lower side has a corner of 1e-15 in its middle, and the written third edge is its other half: all
   // three edges are parallel but for that, and their exact weights are whatever the last digits say.
   Files f = upright_squares();
@@ -313,7 +313,7 @@ Files trimmed(const std::string& contour) {
   return f;
 }
 
-TEST(VerifyShapes, a_trimmed_blank_is_checked_in_its_own_numbers) {
+TEST(VerifyShapes, ATrimmedBlankIsCheckedInItsOwnNumbers) {
   const auto report = check(trimmed("[[0, 0.25], [12, 0.25], [12, 12], [0, 12]]"));
   ASSERT_TRUE(report);
   EXPECT_EQ(report->verdict, Verdict::confirmed) << findings(report);
@@ -322,7 +322,7 @@ TEST(VerifyShapes, a_trimmed_blank_is_checked_in_its_own_numbers) {
       << "the edges of the certificate count the other way round";
 }
 
-TEST(VerifyShapes, a_trimmed_contour_must_be_convex_and_inside_the_blank) {
+TEST(VerifyShapes, ATrimmedContourMustBeConvexAndInsideTheBlank) {
   const auto expect = [](const std::string& contour, const std::string& words) {
     const Files f = trimmed(contour);
     EXPECT_EQ(verdict_of(f), Verdict::refuted) << contour;
@@ -338,14 +338,14 @@ TEST(VerifyShapes, a_trimmed_contour_must_be_convex_and_inside_the_blank) {
   expect("[[0, 0], [12, 0], [12, 12], [0, 12]]", "reaches outside the blank");
 }
 
-TEST(VerifyShapes, a_trimmed_contour_around_the_whole_blank_is_not_inside_it) {
+TEST(VerifyShapes, ATrimmedContourAroundTheWholeBlankIsNotInsideIt) {
   {
     const Files f = trimmed("[[-5, -5], [17, -5], [17, 17], [-5, 17]]");
     EXPECT_NE(findings(check(f)).find("reaches outside the blank"), std::string::npos) << findings(check(f));
   }
 }
 
-TEST(VerifyShapes, a_trim_that_loses_more_than_it_may_is_refuted) {
+TEST(VerifyShapes, ATrimThatLosesMoreThanItMayIsRefuted) {
   Files f = trimmed("[[0, 0.25], [12, 0.25], [12, 12], [0, 12]]");
   f["trim"] = R"({"tolerance": 0.2, "loss": 0.25, "contour": [[0, 0.25], [12, 0.25], [12, 12], [0, 12]]})";
   EXPECT_NE(findings(check(f)).find("loss 0.25 is above its tolerance 0.2"), std::string::npos);
@@ -353,7 +353,7 @@ TEST(VerifyShapes, a_trim_that_loses_more_than_it_may_is_refuted) {
 
 // ---- results that say less --------------------------------------------------------------------------------
 
-TEST(VerifyShapes, a_result_without_a_certificate_is_unproved) {
+TEST(VerifyShapes, AResultWithoutACertificateIsUnproved) {
   Files f = write(examples()[2]);
   f.inline_certificate = f.give_certificate = false;
   EXPECT_EQ(verdict_of(f), Verdict::unproved) << findings(check(f));
@@ -365,7 +365,7 @@ TEST(VerifyShapes, a_result_without_a_certificate_is_unproved) {
   EXPECT_EQ(verdict_of(f), Verdict::unproved) << findings(check(f));
 }
 
-TEST(VerifyShapes, an_infeasible_demand_is_confirmed_with_its_shortfall) {
+TEST(VerifyShapes, AnInfeasibleDemandIsConfirmedWithItsShortfall) {
   const Case c = examples()[4];
   const Solution s = solve(c);
   Files f = write(c, s, 0, 360, 1.5);
@@ -373,7 +373,7 @@ TEST(VerifyShapes, an_infeasible_demand_is_confirmed_with_its_shortfall) {
   EXPECT_EQ(verdict_of(f), Verdict::confirmed) << findings(check(f));
 }
 
-TEST(VerifyShapes, alternatives_are_checked_like_the_best) {
+TEST(VerifyShapes, AlternativesAreCheckedLikeTheBest) {
   Files f = upright_squares();
   f["alternatives"] =
       R"([{"x": 11, "y": 1, "theta": 1.5707963267948966, "theta_deg": 90, "clearance": 0.999999999}])";

@@ -1,5 +1,5 @@
 // A picture of the editor at work: node bench/picture.mjs LAYOUT OUT.png
-// A part is in hand over another, so that the picture shows what is forbidden, by how much, and where.
+// A part is in hand over another, so that the picture shows the overlap, its depth and its place.
 
 import { newTab, open, serve, startBrowser } from '../test/browser/harness.mjs';
 
@@ -16,7 +16,9 @@ try {
   await page.waitForFunction(() => document.querySelectorAll('.mirror li').length > 1);
   await page.click('[data-action="side.kits"]');
   const box = (id) => page.locator(`[data-id="placement-${id}"]`).evaluate((e) => e.getBoundingClientRect().toJSON());
-  const ids = await page.locator('.mirror li').evaluateAll((items) => items.map((e) => Number(e.dataset.id.split('-')[1])));
+  const ids = await page
+    .locator('.mirror li')
+    .evaluateAll((items) => items.map((e) => Number(e.dataset.id.split('-')[1])));
   const [held, under] = [await box(ids.at(-1)), await box(ids[0])];
   const [x, y] = [held.x + held.width / 2, held.y + held.height / 2];
   await page.mouse.move(x, y);

@@ -1,5 +1,5 @@
 // A stand-in for the server in tests of the page: it keeps placements, moves and removes them, counts revisions.
-// `compact` is long: `onTheWay` says what comes of it, `endLong` ends it.
+// `compact` is long: `onTheWay` tells how far it is, `endLong` ends it.
 // It checks nothing: `refuse` says which commands it refuses, `violations` what a preview answers.
 
 export class ServerDouble {
@@ -19,8 +19,13 @@ export class ServerDouble {
     return Math.max(0, ...this.placements.keys()) + 1;
   }
   hello() {
-    return { type: 'layout', client: 2, revision: this.revision, name: this.document.name ?? 'test',
-      document: { ...this.document, placements: [...this.placements.values()], next_id: this.nextId } };
+    return {
+      type: 'layout',
+      client: 2,
+      revision: this.revision,
+      name: this.document.name ?? 'test',
+      document: { ...this.document, placements: [...this.placements.values()], next_id: this.nextId },
+    };
   }
   /** Answers to a message, in order. */
   answer(text) {
@@ -30,7 +35,8 @@ export class ServerDouble {
       this.stopped.push(m.seq);
       return [];
     }
-    if (m.type === 'preview') return [{ type: 'preview', seq: m.seq, placements: this.plan(m.text), violations: this.violations(m.text) }];
+    if (m.type === 'preview')
+      return [{ type: 'preview', seq: m.seq, placements: this.plan(m.text), violations: this.violations(m.text) }];
     this.lines.push(m.text ?? m.type);
     if (m.type === 'command') {
       if (m.text.startsWith('compact ')) {
@@ -51,10 +57,13 @@ export class ServerDouble {
     to.push(step);
     return this.carryOut(m, m.type === 'undo' ? step.before : step.after, m.type);
   }
-  /** What a long command says on its way. */
+  /** The messages of a long command on its way. */
   onTheWay(fraction, secondsLeft, placements) {
     const { seq } = this.long;
-    return [{ type: 'progress', seq, fraction, seconds_left: secondsLeft }, ...(placements ? [{ type: 'improved', seq, placements }] : [])];
+    return [
+      { type: 'progress', seq, fraction, seconds_left: secondsLeft },
+      ...(placements ? [{ type: 'improved', seq, placements }] : []),
+    ];
   }
   /** The long command has ended with these changes, early if it was stopped. */
   endLong(changes) {
@@ -70,14 +79,28 @@ export class ServerDouble {
       else this.placements.delete(id);
     }
     this.revision += 1;
-    return [{ type: 'done', seq: m.seq, revision: this.revision },
-      { type: 'change', revision: this.revision, client: 2, text: m.text ?? '', kind, placements: changes, next_id: this.nextId }];
+    return [
+      { type: 'done', seq: m.seq, revision: this.revision },
+      {
+        type: 'change',
+        revision: this.revision,
+        client: 2,
+        text: m.text ?? '',
+        kind,
+        placements: changes,
+        next_id: this.nextId,
+      },
+    ];
   }
   plan(line) {
     const [verb, ids, ...rest] = line.split(' ');
-    const chosen = (ids ?? '').split(',').map((id) => this.placements.get(Number(id))).filter(Boolean);
+    const chosen = (ids ?? '')
+      .split(',')
+      .map((id) => this.placements.get(Number(id)))
+      .filter(Boolean);
     if (verb === 'remove') return chosen.map((p) => ({ id: p.id, after: null }));
-    if (verb === 'move') return chosen.map((p) => ({ id: p.id, after: { ...p, x: p.x + Number(rest[1]), y: p.y + Number(rest[2]) } }));
+    if (verb === 'move')
+      return chosen.map((p) => ({ id: p.id, after: { ...p, x: p.x + Number(rest[1]), y: p.y + Number(rest[2]) } }));
     return [];
   }
 }

@@ -7,7 +7,8 @@ describe('words', () => {
     expect(Object.keys(uk).sort()).toEqual(Object.keys(en).sort());
     const holes = (text: string) => [...text.matchAll(/\{\w+\}/g)].map(String).sort();
     for (const key of Object.keys(en)) {
-      const forms = (entry: string | Record<string, string>) => (typeof entry === 'string' ? [entry] : Object.values(entry));
+      const forms = (entry: string | Record<string, string>) =>
+        typeof entry === 'string' ? [entry] : Object.values(entry);
       const expected = holes(forms(en[key]!)[0]!);
       for (const form of [...forms(en[key]!), ...forms(uk[key]!)]) expect(holes(form), key).toEqual(expected);
     }
@@ -16,14 +17,21 @@ describe('words', () => {
     for (const [language, words] of Object.entries(dictionaries)) {
       const wanted = new Intl.PluralRules(language as Language).resolvedOptions().pluralCategories;
       for (const [key, entry] of Object.entries(words)) {
-        if (typeof entry !== 'string') for (const form of wanted) expect(entry[form], `${language} ${key} ${form}`).toBeTruthy();
+        if (typeof entry !== 'string')
+          for (const form of wanted) expect(entry[form], `${language} ${key} ${form}`).toBeTruthy();
       }
     }
   });
   it('count in Ukrainian', () => {
     setLanguage('uk');
-    expect([1, 2, 5, 11, 21, 22].map((n) => t('sheets.parts', { n }))).toEqual(
-      ['1 деталь', '2 деталі', '5 деталей', '11 деталей', '21 деталь', '22 деталі']);
+    expect([1, 2, 5, 11, 21, 22].map((n) => t('sheets.parts', { n }))).toEqual([
+      '1 деталь',
+      '2 деталі',
+      '5 деталей',
+      '11 деталей',
+      '21 деталь',
+      '22 деталі',
+    ]);
     setLanguage('en');
   });
 });

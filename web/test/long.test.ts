@@ -1,38 +1,77 @@
 import { describe, expect, it } from 'vitest';
-import type { LayoutDocument, Placement } from '../src/document';
-import { Editor } from '../src/editor';
-import { timeLeft } from '../src/long_bar';
-import { Client, type Wire } from '../src/socket';
-import { ServerKernel } from '../src/server_kernel';
+import type { LayoutDocument, Placement } from '../src/layout/document';
+import { Editor } from '../src/editor/editor';
+import { timeLeft } from '../src/page/long_bar';
+import { Client, type Wire } from '../src/server/socket';
+import { ServerKernel } from '../src/server/server_kernel';
 import { droppedLine } from '../src/tools/pointer';
 import { ServerDouble } from './double.mjs';
 
 const at = (id: number, x: number, y: number): Placement => ({ id, part: 'p', stock: 's', c: 1, s: 0, x, y });
 const two: LayoutDocument = {
-  format: 'lekalo-layout/1', units: 'mm',
-  stocks: [{ id: 's', kind: 'sheet', outline: { polygon: { outer: [[0, 0], [100, 0], [100, 100], [0, 100]] } } }],
-  parts: [{ id: 'p', outline: { polygon: { outer: [[0, 0], [10, 0], [10, 10], [0, 10]] } } }],
+  format: 'lekalo-layout/1',
+  units: 'mm',
+  stocks: [
+    {
+      id: 's',
+      kind: 'sheet',
+      outline: {
+        polygon: {
+          outer: [
+            [0, 0],
+            [100, 0],
+            [100, 100],
+            [0, 100],
+          ],
+        },
+      },
+    },
+  ],
+  parts: [
+    {
+      id: 'p',
+      outline: {
+        polygon: {
+          outer: [
+            [0, 0],
+            [10, 0],
+            [10, 10],
+            [0, 10],
+          ],
+        },
+      },
+    },
+  ],
   placements: [at(1, 5, 5), at(2, 50, 50)],
 };
 const soon = () => new Promise((resolve) => setTimeout(resolve, 1));
 
-/// An editor on a stand-in that has begun to compact.
+/** An editor on a stand-in that has begun to compact. */
 async function compacting() {
   const double = new ServerDouble(two);
   const editor: Editor = new Editor(new ServerKernel(() => null));
   const wires: Wire[] = [];
-  editor.client = new Client(() => {
-    const wire: Wire = {
-      onopen: null, onmessage: null, onclose: null, close: () => undefined,
-      send: (text) => queueMicrotask(() => hear(double.answer(text))),
-    };
-    wires.push(wire);
-    queueMicrotask(() => hear([double.hello()]));
-    return wire;
-  }, {
-    layout: (m) => editor.open(m.document, m.name), change: (m) => editor.apply(m.placements, m.next_id),
-    selections: () => undefined, error: (m) => editor.say(m), connection: (s) => (editor.connection = s),
-  });
+  editor.client = new Client(
+    () => {
+      const wire: Wire = {
+        onopen: null,
+        onmessage: null,
+        onclose: null,
+        close: () => undefined,
+        send: (text) => queueMicrotask(() => hear(double.answer(text))),
+      };
+      wires.push(wire);
+      queueMicrotask(() => hear([double.hello()]));
+      return wire;
+    },
+    {
+      layout: (m) => editor.open(m.document, m.name),
+      change: (m) => editor.apply(m.placements, m.next_id),
+      selections: () => undefined,
+      error: (m) => editor.say(m),
+      connection: (s) => (editor.connection = s),
+    },
+  );
   const hear = (messages: object[]) => {
     for (const m of messages) wires.at(-1)!.onmessage?.({ data: JSON.stringify(m) });
   };
@@ -97,7 +136,12 @@ describe('a long command', () => {
   it('does not move what has been turned or taken away meanwhile', async () => {
     const { double, editor, hear, compact, drop } = await compacting();
     const dropped = [drop(at(2, 70, 80)), drop(at(1, 40, 5))];
-    hear(double.endLong([{ id: 2, after: null }, { id: 1, after: { ...at(1, 5, 5), c: 0, s: 1 } }]));
+    hear(
+      double.endLong([
+        { id: 2, after: null },
+        { id: 1, after: { ...at(1, 5, 5), c: 0, s: 1 } },
+      ]),
+    );
     await compact;
     expect(await Promise.all(dropped)).toEqual([false, false]);
     expect(double.lines).toEqual(['compact towards -1 0']);
@@ -139,6 +183,13 @@ describe('a long command', () => {
 
 describe('the time left', () => {
   it('is rounded up, in seconds or minutes, and nothing where it is not known', () => {
-    expect([null, 0, 3.2, 89, 90, 200].map(timeLeft)).toEqual(['', '0 s left', '4 s left', '89 s left', '2 min left', '4 min left']);
+    expect([null, 0, 3.2, 89, 90, 200].map(timeLeft)).toEqual([
+      '',
+      '0 s left',
+      '4 s left',
+      '89 s left',
+      '2 min left',
+      '4 min left',
+    ]);
   });
 });

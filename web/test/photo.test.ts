@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import { Photo, type PhotoScale } from '../src/photo';
+import { Photo, type PhotoScale } from '../src/editor/photo';
 
 const image = { width: 400, height: 300 } as ImageBitmap;
-/// Where a pixel lies.
+/** The place of a pixel. */
 const at = ({ a, b, x, y }: Photo, u: number, v: number): [number, number] => [x + a * u + b * v, y + b * u - a * v];
 const near = (p: readonly number[], q: readonly number[]) => p.forEach((v, i) => expect(v).toBeCloseTo(q[i]!, 9));
 

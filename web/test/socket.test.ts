@@ -1,32 +1,69 @@
 import { describe, expect, it, vi } from 'vitest';
-import type { LayoutDocument } from '../src/document';
-import { Editor } from '../src/editor';
-import { Client, type SocketEvents, type Wire } from '../src/socket';
-import { ServerKernel } from '../src/server_kernel';
+import type { LayoutDocument } from '../src/layout/document';
+import { Editor } from '../src/editor/editor';
+import { Client, type SocketEvents, type Wire } from '../src/server/socket';
+import { ServerKernel } from '../src/server/server_kernel';
 import { ServerDouble } from './double.mjs';
 
 const square: LayoutDocument = {
-  format: 'lekalo-layout/1', units: 'mm',
-  stocks: [{ id: 's', kind: 'sheet', outline: { polygon: { outer: [[0, 0], [100, 0], [100, 100], [0, 100]] } } }],
-  parts: [{ id: 'p', outline: { polygon: { outer: [[0, 0], [10, 0], [10, 10], [0, 10]] } } }],
+  format: 'lekalo-layout/1',
+  units: 'mm',
+  stocks: [
+    {
+      id: 's',
+      kind: 'sheet',
+      outline: {
+        polygon: {
+          outer: [
+            [0, 0],
+            [100, 0],
+            [100, 100],
+            [0, 100],
+          ],
+        },
+      },
+    },
+  ],
+  parts: [
+    {
+      id: 'p',
+      outline: {
+        polygon: {
+          outer: [
+            [0, 0],
+            [10, 0],
+            [10, 10],
+            [0, 10],
+          ],
+        },
+      },
+    },
+  ],
   placements: [{ id: 1, part: 'p', stock: 's', c: 1, s: 0, x: 5, y: 5 }],
 };
 
-/// An editor on a stand-in; `wires` are the connections it made.
+/** An editor on a stand-in; `wires` are the connections it made. */
 function setup(options = {}) {
   const double = new ServerDouble(square, options);
   const wires: Wire[] = [];
   const editor: Editor = new Editor(new ServerKernel(() => editor.client));
   const events: SocketEvents = {
-    layout: (m) => editor.open(m.document, m.name), change: (m) => editor.apply(m.placements, m.next_id),
-    selections: () => undefined, error: (m) => editor.say(m), connection: (s) => (editor.connection = s),
+    layout: (m) => editor.open(m.document, m.name),
+    change: (m) => editor.apply(m.placements, m.next_id),
+    selections: () => undefined,
+    error: (m) => editor.say(m),
+    connection: (s) => (editor.connection = s),
   };
   editor.client = new Client(() => {
     const wire: Wire = {
-      onopen: null, onmessage: null, onclose: null, close: () => wire.onclose?.(),
-      send: (text) => queueMicrotask(() => {
-        for (const m of double.answer(text)) wire.onmessage?.({ data: JSON.stringify(m) });
-      }),
+      onopen: null,
+      onmessage: null,
+      onclose: null,
+      close: () => wire.onclose?.(),
+      send: (text) =>
+        queueMicrotask(() => {
+          for (const m of double.answer(text)) wire.onmessage?.({ data: JSON.stringify(m) });
+        }),
     };
     wires.push(wire);
     queueMicrotask(() => wire.onmessage?.({ data: JSON.stringify(double.hello()) }));
@@ -57,7 +94,9 @@ describe('the client', () => {
     expect(editor.moving.size).toBe(0);
   });
   it('never says clear before the server has answered', async () => {
-    const { editor } = setup({ violations: () => [{ kind: 'outside', a: 1, b: null, stock: 's', copy: 0, amount_mm: 1, at: [0, 0] }] });
+    const { editor } = setup({
+      violations: () => [{ kind: 'outside', a: 1, b: null, stock: 's', copy: 0, amount_mm: 1, at: [0, 0] }],
+    });
     await soon();
     editor.hold([{ ...square.placements![0]!, x: -1 }], 'move 1 by -6 0');
     expect(editor.live?.level).toBe('unknown');
@@ -70,7 +109,17 @@ describe('the client', () => {
     const { editor, wires, double } = setup();
     await vi.advanceTimersByTimeAsync(1);
     double.revision = 9;
-    wires[0]!.onmessage?.({ data: JSON.stringify({ type: 'change', revision: 9, client: 5, text: '', kind: 'command', placements: [{ id: 1, after: null }], next_id: 2 }) });
+    wires[0]!.onmessage?.({
+      data: JSON.stringify({
+        type: 'change',
+        revision: 9,
+        client: 5,
+        text: '',
+        kind: 'command',
+        placements: [{ id: 1, after: null }],
+        next_id: 2,
+      }),
+    });
     expect(editor.model.placements.has(1)).toBe(true);
     await vi.advanceTimersByTimeAsync(300);
     expect(wires.length).toBe(2);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { contains, innerPoint } from '../src/model';
-import type { Point } from '../src/document';
-import { View } from '../src/view';
+import { contains, innerPoint } from '../src/layout/model';
+import type { Point } from '../src/layout/document';
+import { View } from '../src/picture/view';
 
 describe('the view', () => {
   it('moves by whole pixels of the screen and loses nothing of what is left over', () => {
@@ -26,15 +26,54 @@ describe('the view', () => {
 
 describe('where a caption stands', () => {
   it('is the middle of a rectangle, and within what has a notch or a hole', () => {
-    expect(innerPoint([[[0, 0], [100, 0], [100, 40], [0, 40]]])).toEqual([50, 20]);
-    const ell: Point[] = [[0, 0], [90, 0], [90, 30], [30, 30], [30, 80], [0, 80]];
+    expect(
+      innerPoint([
+        [
+          [0, 0],
+          [100, 0],
+          [100, 40],
+          [0, 40],
+        ],
+      ]),
+    ).toEqual([50, 20]);
+    const ell: Point[] = [
+      [0, 0],
+      [90, 0],
+      [90, 30],
+      [30, 30],
+      [30, 80],
+      [0, 80],
+    ];
     expect(contains([ell], ...innerPoint([ell]))).toBe(true);
-    const ring: Point[][] = [[[0, 0], [100, 0], [100, 100], [0, 100]], [[20, 20], [80, 20], [80, 80], [20, 80]]];
+    const ring: Point[][] = [
+      [
+        [0, 0],
+        [100, 0],
+        [100, 100],
+        [0, 100],
+      ],
+      [
+        [20, 20],
+        [80, 20],
+        [80, 80],
+        [20, 80],
+      ],
+    ];
     expect(contains(ring, ...innerPoint(ring))).toBe(true);
   });
   it('is in what two outlines have in common', () => {
-    const zone: Point[] = [[-500, -500], [500, -500], [500, 10], [-500, 10]];
-    const hide: Point[] = [[0, 0], [100, 0], [100, 80], [0, 80]];
+    const zone: Point[] = [
+      [-500, -500],
+      [500, -500],
+      [500, 10],
+      [-500, 10],
+    ];
+    const hide: Point[] = [
+      [0, 0],
+      [100, 0],
+      [100, 80],
+      [0, 80],
+    ];
     const at = innerPoint([zone], [hide]);
     expect(contains([zone], ...at) && contains([hide], ...at)).toBe(true);
   });

@@ -7,6 +7,6 @@ namespace lekalo::cli {
 
 /// Runs `lekalo pocket`: the path that clears pockets, as an NC program. Returns the
 /// exit status.
-[[nodiscard]] Result<int> run_pocket(PocketOptions options);
+[[nodiscard]] Result<int> run_pocket(const PocketOptions& options);
 
 }  // namespace lekalo::cli

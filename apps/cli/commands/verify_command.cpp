@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "lekalo/base/version.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/locate/result_json.hpp"
-#include "lekalo/io/text/sha256.hpp"
-#include "lekalo/verify/verify.hpp"
+#include "lekalo/jobs/verify.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
@@ -17,22 +15,8 @@ namespace lekalo::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-/// A file that a result names, as it is now.
-struct FoundFile {
-  std::string role, path, bytes, sha256;
-};
-
-struct Evidence {
-  std::string result_bytes;
-  io::WrittenResult result;
-  FoundFile part, blank;
-  std::optional<FoundFile> certificate;
-  std::vector<std::string> mismatches, notes;
-};
-
-/// As written, from the current folder; else from the folder of the result.
+/// The path as written, from the current folder; else from the folder of the result.
 std::string where_is(const std::string& path, const std::string& result_path) {
   std::error_code error;
   if (fs::exists(path, error)) return path;
@@ -40,85 +24,29 @@ std::string where_is(const std::string& path, const std::string& result_path) {
   return fs::exists(beside, error) ? beside.string() : path;
 }
 
-Result<FoundFile> load(const std::string& role, const io::FileRecord& written, const std::string& instead,
-                       const std::string& result_path, Evidence& evidence) {
-  FoundFile file;
-  file.role = role;
-  file.path = instead.empty() ? where_is(written.path, result_path) : instead;
-  Result<std::string> bytes = disk::read_file(file.path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  file.bytes = std::move(*bytes);
-  file.sha256 = io::sha256(file.bytes);
-  if (file.sha256 != written.sha256) {
-    evidence.mismatches.push_back(
-        fmt::format("{} is not the {} file of this result: its SHA-256 is {}, not {}", file.path, role,
-                    file.sha256, written.sha256));
-  }
-  return file;
+std::string given_instead(const VerifyOptions& o, const std::string& role) {
+  return role == "part" ? o.part : role == "blank" ? o.blank : role == "certificate" ? o.certificate : "";
 }
 
-Result<FoundFile> load_input(const std::string& role, const std::string& instead,
-                             const std::string& result_path, Evidence& evidence) {
-  const io::InputRecord* record = evidence.result.input(role);
-  if (record == nullptr) {
-    return failure(ErrorCode::bad_input,
-                   fmt::format("{}: \"inputs\" names no file with the role \"{}\"", result_path, role));
-  }
-  return load(role, record->file, instead, result_path, evidence);
-}
-
-/// The program is no evidence for the placement, but a result that names other bytes than stand there is not
-/// true. One that is not there may have gone to the machine.
-void check_program(const VerifyOptions& o, Evidence& evidence) {
-  if (!evidence.result.nc_output) return;
-  const io::FileRecord& written = *evidence.result.nc_output;
+/// A file of the result, where an option says or where the result does. A program that is not there may have
+/// gone to the machine; another file that is not there cannot be read.
+Result<std::optional<jobs::File>> find(const VerifyOptions& o, const std::string& role,
+                                       const std::string& path) {
+  const std::string instead = given_instead(o, role);
+  const std::string place = instead.empty() ? where_is(path, o.result) : instead;
   std::error_code error;
-  if (!fs::exists(where_is(written.path, o.result), error)) {
-    evidence.notes.push_back(
-        fmt::format("the NC program {} is not there, so it was not compared", written.path));
-    return;
-  }
-  const Result<FoundFile> program = load("NC program", written, "", o.result, evidence);
-  if (!program) evidence.notes.push_back(program.error().message);
+  if (role == "NC program" && !fs::exists(place, error)) return std::nullopt;
+  LEKALO_TRY(std::string bytes, disk::read_file(place));
+  return jobs::File{place, std::move(bytes)};
 }
 
-Result<Evidence> gather(const VerifyOptions& o) {
-  Evidence evidence;
-  Result<std::string> bytes = disk::read_file(o.result);
-  if (!bytes) return tl::unexpected(bytes.error());
-  evidence.result_bytes = std::move(*bytes);
-  Result<io::WrittenResult> result = io::read_result(evidence.result_bytes, o.result);
-  if (!result) return tl::unexpected(result.error());
-  evidence.result = std::move(*result);
-  Result<FoundFile> part = load_input("part", o.part, o.result, evidence);
-  if (!part) return tl::unexpected(part.error());
-  evidence.part = std::move(*part);
-  Result<FoundFile> blank = load_input("blank", o.blank, o.result, evidence);
-  if (!blank) return tl::unexpected(blank.error());
-  evidence.blank = std::move(*blank);
-  if (evidence.result.certificate_file) {
-    Result<FoundFile> certificate =
-        load("certificate", *evidence.result.certificate_file, o.certificate, o.result, evidence);
-    if (!certificate) return tl::unexpected(certificate.error());
-    evidence.certificate = std::move(*certificate);
-  } else if (!o.certificate.empty()) {
-    return failure(ErrorCode::usage,
-                   fmt::format("--certificate: the result {} names no certificate file", o.result));
-  }
-  check_program(o, evidence);
-  return evidence;
-}
-
-const char* name_of(verify::Verdict verdict) {
-  switch (verdict) {
-    case verify::Verdict::confirmed:
-      return "confirmed";
-    case verify::Verdict::unproved:
-      return "unproved";
-    case verify::Verdict::refuted:
-      return "refuted";
-  }
-  return "";
+/// Refuses an option for a file that the result does not name.
+Result<void> check_words(const VerifyOptions& o, const std::string& result_bytes) {
+  if (o.certificate.empty()) return {};
+  LEKALO_TRY(const io::WrittenResult result, io::read_result(result_bytes, o.result));
+  if (result.certificate_file) return {};
+  return failure(ErrorCode::usage,
+                 fmt::format("--certificate: the result {} names no certificate file", o.result));
 }
 
 int exit_status_of(verify::Verdict verdict) {
@@ -133,83 +61,43 @@ int exit_status_of(verify::Verdict verdict) {
   return 4;
 }
 
-Json file_json(const char* role, const std::string& path, const std::string& sha256) {
-  return {{"role", role}, {"path", path}, {"sha256", sha256}};
-}
-
-std::string report_json(const VerifyOptions& o, const Evidence& evidence,
-                        const verify::LocateReport& report) {
-  Json inputs = Json::array();
-  inputs.push_back(file_json("result", o.result, io::sha256(evidence.result_bytes)));
-  inputs.push_back(file_json("part", evidence.part.path, evidence.part.sha256));
-  inputs.push_back(file_json("blank", evidence.blank.path, evidence.blank.sha256));
-  if (evidence.certificate) {
-    inputs.push_back(file_json("certificate", evidence.certificate->path, evidence.certificate->sha256));
-  }
-  Json json{{"format", {{"name", "lekalo-verify"}, {"version", 1}}},
-            {"status", name_of(report.verdict)},
-            {"units", "mm"},
-            {"inputs", std::move(inputs)},
-            {"warnings", evidence.notes},
-            {"seed", 0},
-            {"work", report.intervals},
-            {"version", kVersion},
-            {"clearance_low", report.clearance_low},
-            {"clearance_high", report.clearance_high},
-            {"bound_high", report.bound_high.empty() ? Json(nullptr) : Json(report.bound_high)},
-            {"intervals", report.intervals},
-            {"findings", report.findings},
-            {"run", Json::object()}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string report_text(const Evidence& evidence, const verify::LocateReport& report) {
-  std::string text;
-  switch (report.verdict) {
+const char* sentence_of(verify::Verdict verdict) {
+  switch (verdict) {
     case verify::Verdict::confirmed:
-      text = "Confirmed: the clearance and the bound hold.\n";
-      break;
+      return "Confirmed: the clearance and the bound hold.\n";
     case verify::Verdict::unproved:
-      text = "Unproved: the clearance holds, but there is no certificate for a bound.\n";
-      break;
+      return "Unproved: the clearance holds, but there is no certificate for a bound.\n";
     case verify::Verdict::refuted:
-      text = "Refuted: something in this result is not true.\n";
-      break;
+      return "Refuted: something in this result is not true.\n";
   }
+  return "";
+}
+
+std::string words(const verify::LocateReport& report) {
+  std::string text = sentence_of(report.verdict);
   for (const std::string& finding : report.findings) text += "  not true           " + finding + "\n";
-  if (!report.clearance_low.empty()) {
+  if (!report.clearance_low.empty())
     text += fmt::format("  exact allowance    between {} and {} mm\n", report.clearance_low,
                         report.clearance_high);
-  }
-  if (!report.bound_high.empty()) {
+  if (!report.bound_high.empty())
     text += fmt::format("  bound              at most {} mm by {} certificate intervals\n", report.bound_high,
                         report.intervals);
-  }
-  for (const std::string& note : evidence.notes) text += "  note               " + note + "\n";
+  for (const std::string& note : report.notes) text += "  note               " + note + "\n";
   return text;
 }
 
 }  // namespace
 
 Result<int> run_verify(const VerifyOptions& o) {
-  Result<Evidence> evidence = gather(o);
-  if (!evidence) return tl::unexpected(evidence.error());
-  verify::LocateInputs inputs{{o.result, evidence->result_bytes},
-                              {evidence->part.path, evidence->part.bytes},
-                              {evidence->blank.path, evidence->blank.bytes},
-                              {}};
-  if (evidence->certificate) inputs.certificate = {evidence->certificate->path, evidence->certificate->bytes};
-  Result<verify::LocateReport> report = verify::verify_locate(inputs);
-  if (!report) return tl::unexpected(report.error());
-  evidence->notes.insert(evidence->notes.begin(), report->notes.begin(), report->notes.end());
-  report->findings.insert(report->findings.begin(), evidence->mismatches.begin(), evidence->mismatches.end());
-  if (!report->findings.empty()) report->verdict = verify::Verdict::refuted;
-  if (o.json) {
-    if (Result<void> done = print(report_json(o, *evidence, *report)); !done)
-      return tl::unexpected(done.error());
-  }
-  tell(report_text(*evidence, *report));
-  return exit_status_of(report->verdict);
+  LEKALO_TRY(const std::string bytes, disk::read_file(o.result));
+  LEKALO_CHECK(check_words(o, bytes));
+  LEKALO_TRY(const jobs::Verified verified,
+             jobs::verify({o.result, bytes}, [&](const std::string& role, const std::string& path) {
+               return find(o, role, path);
+             }));
+  if (o.json) LEKALO_CHECK(print(verified.json));
+  tell(words(verified.report));
+  return exit_status_of(verified.report.verdict);
 }
 
 }  // namespace lekalo::cli

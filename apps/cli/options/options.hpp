@@ -9,10 +9,11 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
-#include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/io/formats/part_file.hpp"
+#include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/locate.hpp"
-#include "lekalo/mill/pocket.hpp"
-#include "lekalo/mill/program.hpp"
+#include "lekalo/jobs/nest.hpp"
+#include "lekalo/jobs/pocket.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::cli {
@@ -42,9 +43,7 @@ struct VerifyOptions {
 struct LayoutSource {
   std::string path;
   std::string instance;  ///< of placements: the file of the items; empty: where they say
-  std::optional<LengthUnit> units;
-  std::optional<double> chord_tolerance, join;  ///< mm
-  std::vector<std::string> layers;              ///< of drawings; empty: all that are shown
+  io::PartOptions parts;
 };
 
 /// A program that ran before with a tool of its own.
@@ -61,19 +60,14 @@ struct SimulateOptions {
   bool json = false;
 };
 
-struct PocketOptions {
+/// The files and words of the command, and with them how the pocket is to be cleared.
+struct PocketOptions : jobs::PocketOptions {
   std::string pocket, output;      ///< output may be empty: stdout
   std::string picture, animation;  ///< may be empty
   std::string images;              ///< prefix of the M-images of the source's methods; may be empty
   bool json = false;
   ShapeOptions shape;
-  std::vector<std::string> island_layers, open_layers;
   std::vector<EarlierFile> after;
-  double rest_of =
-      0;  ///< mm: a tool of this diameter is taken to have cut all that this program cuts with it
-  mill::PocketOptions path;
-  mill::ProgramOptions program;
-  std::optional<double> most_feed;  ///< mm/min: feeds follow the engagement
 };
 
 struct CheckOptions {
@@ -88,14 +82,10 @@ struct ShowOptions {
   bool json = false;
 };
 
-enum class ExportFormat { layout, placements, pdf, machine };
-
 struct ExportOptions {
   LayoutSource source;
-  ExportFormat format = ExportFormat::layout;
-  std::string output;         ///< empty: stdout
-  std::string instance_name;  ///< what placements name as their instance; empty: as the input does
-  io::ExportRequest request;  ///< of ExportFormat::machine: DXF, SVG, HPGL, G-code
+  std::string output;  ///< empty: stdout
+  jobs::ExportOptions form;
 };
 
 struct EditOptions {
@@ -107,13 +97,9 @@ struct NestOptions {
   LayoutSource source;
   std::string output, picture;  ///< may be empty; output: stdout, unless the report goes there
   std::string stream;           ///< every better layout; may be empty
-  double pair_distance = 0;     ///< mm; 0: pairs lie anywhere
-  bool from_scratch = false;    ///< what lies there and is not locked is dropped, not improved
+  jobs::NestOptions search;
   std::optional<double> seconds;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t seed = 0;
-  unsigned threads = 2;
-  std::size_t angles = 24;  ///< of parts that may be turned anyhow
   bool json = false;
 };
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "after_words.hpp"
+#include "lekalo/base/angle.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
@@ -10,10 +11,6 @@
 namespace lekalo::cli {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
-
-constexpr std::array kPosts{Word<nc::Post>{"linuxcnc", nc::Post::linuxcnc},
-                            Word<nc::Post>{"fanuc", nc::Post::fanuc}, Word<nc::Post>{"grbl", nc::Post::grbl}};
 constexpr std::array kCoolants{Word<mill::Coolant>{"off", mill::Coolant::off},
                                Word<mill::Coolant>{"mist", mill::Coolant::mist},
                                Word<mill::Coolant>{"flood", mill::Coolant::flood}};
@@ -26,7 +23,7 @@ constexpr std::array kMethods{Word<mill::Method>{"fronts", mill::Method::fronts}
 constexpr std::array kWorkOffsets{Word<int>{"G54", 1}, Word<int>{"G55", 2}, Word<int>{"G56", 3},
                                   Word<int>{"G57", 4}, Word<int>{"G58", 5}, Word<int>{"G59", 6}};
 
-/// As typed.
+/// The words as they were typed.
 struct PocketWords {
   std::string pocket, tool, step_over, stock_to_leave, floor_stock, depth, step_down, rest, direction,
       ramp_angle, safe_height, tolerance;
@@ -57,6 +54,14 @@ void read_feed(WordReader& read, const PocketWords& w, mill::ProgramOptions& pro
   program.feed_mm_per_min = per_tooth * teeth * program.spindle;
   read.require(program.feed_mm_per_min >= 1e-3 && program.feed_mm_per_min <= 1e6,
                "--feed-per-tooth: the feed it makes is not from 0.001 to 1,000,000 mm/min");
+}
+
+void read_post(WordReader& read, const std::string& word, nc::Dialect& post) {
+  if (word.empty()) return;
+  const nc::Dialect* const known = nc::post_named(word);
+  read.require(known != nullptr,
+               fmt::format("--post: \"{}\" is not one of {}", word, nc::post_names(", ", ", ")));
+  if (known != nullptr) post = *known;
 }
 
 /// `X,Y`
@@ -117,7 +122,7 @@ Result<Command> to_pocket(const PocketWords& w) {
                              o.program.feed_mm_per_min));
     o.most_feed = most;
   }
-  read.choice("--post", w.post, kPosts, o.program.post);
+  read_post(read, w.post, o.program.post);
   read.choice("--output-units", w.output_units, kUnits, o.program.unit);
   read.choice("--work-offset", w.work_offset, kWorkOffsets, o.program.work_offset);
   read.choice("--coolant", w.coolant, kCoolants, o.program.coolant);
@@ -177,7 +182,8 @@ Typed add_pocket_form(CLI::App& app) {
   feeds("--plunge-feed", w.plunge_feed, "MM/MIN", "Straight down [300]");
   feeds("--link-feed", w.link_feed, "MM/MIN", "At depth through what is cut already [5000]");
   const WordAdder program(app, "Program");
-  program("--post", w.post, "WORD", "linuxcnc, fanuc or grbl [linuxcnc]");
+  program("--post", w.post, "WORD",
+          fmt::format("{} [{}]", nc::post_names(", ", " or "), nc::posts().front().name).c_str());
   program("--output-units", w.output_units, "WORD", "Of the program: mm or inch [mm]");
   program("--work-offset", w.work_offset, "WORD", "G54 to G59 [G54]");
   program("--tool-number", w.tool_number, "N", "Change to this tool first, with its length");

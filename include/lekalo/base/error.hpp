@@ -6,7 +6,7 @@
 
 namespace lekalo {
 
-/// What went wrong, as a stable code. Each code has one exit status of the command line (see exit_status).
+/// The stable code of a failure. Each code has one exit status of the command line (see exit_status).
 enum class ErrorCode {
   usage,            ///< the caller asked for something that does not exist or contradicts itself
   bad_input,        ///< a file or value is not what it should be

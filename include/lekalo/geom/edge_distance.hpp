@@ -31,7 +31,7 @@ struct ClosestPoints {
   Point a, b;  ///< on the first and the second edge
 };
 
-/// Whether the arc has a point in this direction from its centre. \pre an arc
+/// The answer says whether the arc has a point in this direction from its centre. \pre an arc
 [[nodiscard]] bool faces(const Curve& arc, Point direction) noexcept;
 
 /// The point of an edge nearest to p; any of several.

@@ -85,8 +85,9 @@ struct GridRotation {
 /// exactly. Equal ends: that direction alone.
 [[nodiscard]] bool is_between(GridRotation rotation, GridRotation from, GridRotation to) noexcept;
 
-/// Where a vertex of a part comes to lie: x is negated first when mirrored, then (c x - s y, s x + c y), each
-/// rounded to the nearest step, ties to even. Placing adds a translation to it, which is exact.
+/// The place to which a placement turns a part's vertex: x is negated first when mirrored, then (c x - s y, s
+/// x + c y), each rounded to the nearest step, ties to even. Placing adds a translation to it, which is
+/// exact.
 /// \pre |p| <= kGridLimit
 [[nodiscard]] GridPoint turned(GridPoint p, GridRotation rotation, bool mirrored) noexcept;
 

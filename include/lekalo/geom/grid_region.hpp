@@ -65,7 +65,7 @@ enum class ChordSide {
 /// Every point turned (grid.hpp); mirrored loops are reversed, so that material stays on the left.
 [[nodiscard]] GridRegion turned(const GridRegion& region, GridRotation rotation, bool mirrored);
 [[nodiscard]] GridRegion moved(GridRegion region, GridPoint by) noexcept;
-/// Where p lies: inside the material, on an edge, or outside. Exact. Cost: O(n).
+/// The answer says where p lies: inside the material, on an edge, or outside. Exact. Cost: O(n).
 [[nodiscard]] PointLocation locate_point(const GridRegion& region, GridPoint p) noexcept;
 
 }  // namespace lekalo::geom

@@ -29,7 +29,7 @@ struct Pose {
     const SinCos sc = sincos(theta);
     return {sc.cosine, sc.sine, t, mirror};
   }
-  /// Where a direction goes: the motion without its translation.
+  /// A direction is moved by the motion without its translation.
   [[nodiscard]] constexpr Point rotate(Point v) const noexcept {
     const double x = mirrored ? -v.x : v.x;
     return {cosine * x - sine * v.y, sine * x + cosine * v.y};

@@ -70,9 +70,9 @@ inline constexpr int kUndecided = 2;
 
 enum class PointLocation { outside, boundary, inside };
 
-/// Where p lies in the closed polygon with n vertices (x0, y0, x1, y1, ...) in either direction, simple or
-/// not (even-odd rule). No vertices: outside; one or two: boundary or outside. Cost: O(n). Source: crossing
-/// number with the half-open rule, exact signs.
+/// The answer says where p lies in the closed polygon with n vertices (x0, y0, x1, y1, ...) in either
+/// direction, simple or not (even-odd rule). No vertices: outside; one or two: boundary or outside. Cost:
+/// O(n). Source: crossing number with the half-open rule, exact signs.
 [[nodiscard]] PointLocation locate_point(const double* xy, std::size_t n, Point p) noexcept;
 
 enum class SegmentRelation {

@@ -65,8 +65,7 @@ struct Region {
 /// Area inside the edges (lines and the arcs' curves), positive when counter-clockwise. Square millimetres.
 ///
 /// \return within 2 u |area| + n 2^-98 c^2 of the exact area, u = 2^-53, n edges, c the largest coordinate;
-/// each
-///         arc of radius r and sweep phi adds 4e-15 r^2 min(1, phi^2 / 4) and 8 u of the area beside its
+///         each arc of radius r and sweep phi adds 4e-15 r^2 min(1, phi^2 / 4) and 8 u of the area beside its
 ///         chord.
 /// Laws (tests/property/geom_region_test.cpp): signed_area(reversed(c)) == -signed_area(c), and equal for
 /// every first edge, exactly for lines on a grid, within the bound elsewhere. Cost: O(n). Source: shoelace

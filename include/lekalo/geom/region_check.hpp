@@ -9,10 +9,10 @@
 
 namespace lekalo::geom {
 
-/// What is wrong with regions whose contours are each in order (make_region), if something is: contours that
-/// cross or touch themselves or each other, holes that lie outside their outline or in another hole, pieces
-/// inside the material of another piece. One sentence that names piece, contour and edge (0-based) and the
-/// place in millimetres.
+/// The first fault of regions whose contours are each in order (make_region), if there is one. Faults are
+/// contours that cross or touch themselves or each other, holes that lie outside their outline or in another
+/// hole, pieces inside the material of another piece. One sentence that names piece, contour and edge
+/// (0-based) and the place in millimetres.
 ///
 /// Outlines that come closer than kEdgeDistanceError times the largest coordinate count as touching. Two
 /// neighbouring edges meet at the end they share; that one of two lines runs back along the other is decided

@@ -34,9 +34,9 @@ class RegionIndex {
   /// The same, begun at an edge that is likely near.
   [[nodiscard]] Nearest nearest(Point p, std::uint32_t likely) const;
 
-  /// Whether the material holds p. Within kEdgeDistanceError of the boundary, and half the difference of an
-  /// arc's radii where it is one, either answer may come.
-  /// O(log n + edges that a ray to the right meets).
+  /// The answer says whether the material holds p. Within kEdgeDistanceError of the boundary, and half the
+  /// difference of an arc's radii where it is one, either answer may come. O(log n + edges that a ray to the
+  /// right meets).
   [[nodiscard]] bool contains(Point p) const;
 
   /// Calls visit(edge) for every edge whose box comes within limit of the disc about centre, nearest boxes

@@ -5,6 +5,8 @@
 
 #include "lekalo/geom/point.hpp"
 
+#include "lekalo/base/angle.hpp"
+
 namespace lekalo::locate {
 
 /// Where the part lies: part coordinates p go to R(theta) p + (x, y) in blank coordinates.
@@ -36,8 +38,8 @@ struct Touch {
 
 /// Angles from `from` to `to` >= `from`, radians. The default is every angle.
 struct AngleWindow {
-  double from = 0, to = 6.283185307179587;  ///< the double just above 2 pi
-  [[nodiscard]] constexpr bool full_circle() const noexcept { return to - from >= 6.283185307179586; }
+  double from = 0, to = kTurnAbove;
+  [[nodiscard]] constexpr bool full_circle() const noexcept { return to - from >= kTurn; }
 };
 
 enum class Status {

@@ -6,32 +6,32 @@
 
 #include "lekalo/base/units.hpp"
 #include "lekalo/mill/path.hpp"
-#include "lekalo/nc/profile.hpp"
+#include "lekalo/nc/dialect.hpp"
 
 namespace lekalo::mill {
 
 enum class Coolant { off, mist, flood };
 
 struct ProgramOptions {
-  nc::Post post = nc::Post::linuxcnc;
-  LengthUnit unit = LengthUnit::millimetre;  ///< of the program's words: G21 or G20
+  nc::Dialect post = nc::posts().front();
+  LengthUnit unit = LengthUnit::millimetre;  ///< the program's words are in it: G21 or G20
   int work_offset = 1;                       ///< 1 to 6: G54 to G59
-  int tool_number = 0;  ///< 1 to 9999: T, M6 and G43; 0: the tool in the spindle. GRBL: a note
+  int tool_number = 0;  ///< 1 to 9999: the post's change to this tool; 0: the one in the spindle
   double spindle = 0;   ///< rev/min, the S word with M3; 0: left alone
   Coolant coolant = Coolant::off;
-  double feed_mm_per_min = 1500;  ///< in the cut; helices run at half of it
+  double feed_mm_per_min = 1500;  ///< feed of the cut; helices run at half of it
   double link_feed_mm_per_min = 5000;
   double plunge_feed_mm_per_min = 300;
   std::vector<std::string> comments;  ///< at the beginning; letters, digits, points and dashes stay
 };
 
 /// The path as a program: a block that sets all modes it depends on, lines and arcs (G1 G2 G3, centres as
-/// I J, at most half a turn), an end that stops spindle and coolant above the stock. Four decimals of a
-/// millimetre (Fanuc three), five of an inch; the centre of an arc is the one on that grid whose circle comes
-/// nearest to the arc through the rounded ends. No point of the written path is further than kWritingError
-/// from the path. The tool's radius is in the path: no G41 or G42. \pre options in range, the path of
-/// arcs up to 1 m radius (fitted).
-/// \param move_of_line  if given, gets the number of the move that each line is of, kNoMove for others
+/// I J, at most half a turn), an end that stops spindle and coolant above the stock. Coordinates have the
+/// decimals of the post, of an inch at least five. The centre of an arc is the one on that grid whose circle
+/// comes nearest to the arc through the rounded ends. No point of the written path is further than
+/// kWritingError from the path, if the post has three decimals or more. The tool's radius is in the path: no
+/// G41 or G42. \pre options in range, the path of arcs up to 1 m radius (fitted). Cost: O(moves).
+/// \param move_of_line  if given, gets for each line the number of the move it was written for, or kNoMove
 [[nodiscard]] std::string program_of(const PocketPath& path, const ProgramOptions& options,
                                      std::vector<std::size_t>* move_of_line = nullptr);
 

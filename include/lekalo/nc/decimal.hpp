@@ -9,8 +9,8 @@
 
 namespace lekalo::nc {
 
-/// Numbers of an NC program as the exact decimals they are written as, so that "the same point" is a question
-/// of equality and not of a tolerance.
+/// Numbers of an NC program are kept as the exact decimals they are written as, so that "the same point" is a
+/// question of equality and not of a tolerance.
 
 __extension__ typedef __int128 Wide;  ///< GNU and Clang; 128 bits hold every coordinate in grains
 
@@ -26,7 +26,7 @@ struct Decimal {
   std::int64_t digits = 0;
   int decimals = 0;
 
-  /// Nothing when the value is not whole.
+  /// The value where it is a whole number.
   [[nodiscard]] std::optional<std::int64_t> whole() const noexcept;
 };
 
@@ -34,7 +34,7 @@ enum class DecimalFault { malformed, too_long };
 
 struct ParsedDecimal {
   std::optional<Decimal> value;
-  DecimalFault fault = DecimalFault::malformed;  ///< why there is no value
+  DecimalFault fault = DecimalFault::malformed;  ///< the reason why there is no value
 };
 
 /// Reads `[+-] digits [. digits]`, at least one digit; no blanks, no exponent.

@@ -8,11 +8,12 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
+#include "lekalo/nc/dialect.hpp"
 
 namespace lekalo::nc {
 
-/// Profile cuts: every contour of every placed part, compensated by half the kerf, as one NC program.
-/// docs/design/export.md.
+/// Profile cuts: every contour of every placed part, compensated by half the kerf, as one NC program. Numbers
+/// of steps are those of docs/design/export.md.
 
 /// A part where it is cut, in the sheet's frame, mm.
 struct ProfilePart {
@@ -20,11 +21,10 @@ struct ProfilePart {
   geom::Region region;   ///< made by make_region
 };
 
-enum class Post { linuxcnc, grbl, fanuc };
 enum class Process {
-  laser,   ///< the beam on with M3 (GRBL: M4, whose power follows the speed), off with M5
-  plasma,  ///< the same with M3 and a wait for the pierce
-  router   ///< Z: depth in passes, plunge feed, safe height
+  laser,   ///< the beam goes on with the dialect's word and off with M5
+  plasma,  ///< the beam goes on with M3 and off with M5
+  router   ///< the spindle moves in Z: depth in passes, plunge feed, safe height
 };
 enum class LeadShape {
   line,  ///< at a right angle to the contour
@@ -32,19 +32,19 @@ enum class LeadShape {
 };
 
 struct ProfileOptions {
-  Post post = Post::linuxcnc;
+  Dialect post = posts().front();
   Process process = Process::laser;
-  LengthUnit unit = LengthUnit::millimetre;  ///< of the program's words: G21 or G20
+  LengthUnit unit = LengthUnit::millimetre;  ///< the program's words are in it: G21 or G20
   double kerf_mm = 0;                        ///< width of the cut, 0.01 to 100
-  double tolerance_mm = 0.01;  ///< how far the cut may enter a part: 1e-4 and more, less than a quarter kerf
+  double tolerance_mm = 0.01;  ///< the cut may enter a part this far: from 1e-4 to a quarter of the kerf
   LeadShape lead = LeadShape::line;
   double lead_in_mm = 0;       ///< length of the line, radius of the arc; 0: none; up to 1000
   double feed_mm_per_min = 0;  ///< above 0 to 1e6
-  double speed = 0;            ///< the S word, spindle or beam; 0: none. Needed for routers and GRBL lasers
-  double pierce_s = 0;         ///< wait after the beam is on, 0 to 100; not for routers
-  double depth_mm = 0, pass_mm = 0;  ///< of routers: below Z 0, 0.01 to 1000; of one pass, 0: all at once
-  double safe_height_mm = 5;         ///< of routers: Z of travels, 0.1 to 1000
-  double plunge_mm_per_min = 0;      ///< of routers: downwards, above 0 to 1e6
+  double speed = 0;     ///< the S word, spindle or beam; 0: none. Routers and some posts' lasers need it
+  double pierce_s = 0;  ///< wait after the beam is on, 0 to 100; not for routers
+  double depth_mm = 0, pass_mm = 0;  ///< routers only: below Z 0, 0.01 to 1000; of one pass, 0: all at once
+  double safe_height_mm = 5;         ///< routers only: Z of travels, 0.1 to 1000
+  double plunge_mm_per_min = 0;      ///< routers only: downwards, above 0 to 1e6
 };
 
 struct ProfileProgram {
@@ -55,21 +55,23 @@ struct ProfileProgram {
   std::size_t cuts = 0, shortened_leads = 0,
               bare_starts = 0;  ///< bare: pierced on the contour for want of room
   double cut_mm = 0, travel_mm = 0;
-  /// How far a corner of a contour lies from the kerf at most, and whose. Material stays there: little in
-  /// corners that point inwards, which the kerf rounds; all of a slot that is narrower than the kerf.
+  /// The corner of a contour farthest from the kerf lies this far from it, in this placement. Material stays
+  /// there: little in corners that point inwards, which the kerf rounds; all of a slot that is narrower than
+  /// the kerf.
   double left_over_mm = 0;
   std::uint64_t left_over_of = 0;
 };
 
 /// \pre parts do not overlap (of two in the same place neither's kerf enters the other)
+///
 /// Outlines are followed clockwise, holes counter-clockwise: the part on the right (climb milling, and the
 /// square side of a plasma). Inner contours come before the outline of their part, parts that lie in a hole
-/// before that hole. Words have four decimals of a millimetre (Fanuc: three), of an inch five (four).
+/// before that hole. Words have the decimals of the post.
 ///
 /// Fails with ErrorCode::usage for options out of their ranges, and with ErrorCode::bad_input where the parts
 /// cannot be cut with this kerf: a hole or the mouth of a notch narrower than the kerf (naming the part), or
-/// a cut that would enter a part by more than the tolerance (naming both). Nothing of the kind is left to the
-/// operator.
+/// a cut that would enter a part by more than the tolerance (naming both). The operator gets no program in
+/// which such a cut is left.
 ///
 /// The proof (deepest_mm) knows nothing of how the paths were made: it reads the rounded numbers. Every edge
 /// of a path keeps kerf / 2 - tolerance from every edge of every part (geom/edge_distance.hpp, its error and

@@ -43,17 +43,16 @@ struct Rewritten {
   /// written decimals can do. Take it off the clearance.
   double rounding_mm = 0;
   std::size_t motions = 0;         ///< blocks whose coordinates were rewritten, or stand under the rotation
-  std::vector<std::string> notes;  ///< what the operator must know: frame, offset to set, decimals
+  std::vector<std::string> notes;  ///< sentences for the operator: frame, offset to set, decimals
 };
 
 /// The pose is `p -> R(theta) p + (x, y)`, its shift in mm; theta, x and y count as exact.
 ///
 /// \param name  of the program, for messages.
-/// \return      passes only words on the white list; anything else, and anything whose meaning would change
-/// under
-///              the motion, is ErrorCode::program_refused with `name:line: reason`. ErrorCode::usage when the
-///              pose is not finite or beyond 10^6 mm or geom::kMaxAngle, an option is out of range, or the
-///              mode cannot serve the scan frame.
+/// \return      passes only words on the white list. Anything else, and anything whose meaning would change
+///              under the motion, is ErrorCode::program_refused with `name:line: reason`. ErrorCode::usage
+///              when the pose is not finite or beyond 10^6 mm or geom::kMaxAngle, an option is out of range,
+///              or the mode cannot serve the scan frame.
 ///
 /// Properties (tests/property/nc_rewrite_test.cpp):
 ///   (1) coordinates: as many lines as before, and what is neither X Y I J of a motion nor supplied for one

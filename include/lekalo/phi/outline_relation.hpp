@@ -6,10 +6,10 @@
 
 namespace lekalo::phi {
 
-/// What two outlines on the grid are to each other, decided exactly: no tolerances, touching is not
-/// overlapping. How and why it is complete: docs/design/layout-check.md. `b` always counts as moved by
-/// `shift`. \pre regions made by make_grid_region or turned() from one; |shift| <= 2 kGridLimit Cost: O(a + b
-/// + pairs of edges whose boxes meet). No exceptions, threads or library mathematics.
+/// The relation of two outlines on the grid is decided exactly: no tolerances, touching is not overlapping.
+/// How and why it is complete: docs/design/layout-check.md. `b` always counts as moved by `shift`. \pre
+/// regions made by make_grid_region or turned() from one; |shift| <= 2 kGridLimit Cost: O(a + b + pairs of
+/// edges whose boxes meet). No exceptions, threads or library mathematics.
 
 /// Some disc lies in the material of both.
 [[nodiscard]] bool interiors_meet(const geom::GridRegion& a, const geom::GridRegion& b,

@@ -11,10 +11,10 @@ namespace lekalo::phi {
 /// moved by whole steps. Known faults and how often they show: docs/design/layout-check.md. Signs are exact,
 /// so what is wrong is the method's.
 
-/// Where a point lies by the source's ray method: a horizontal ray to the left; a vertex on it counts once
-/// when its neighbours lie on opposite sides and twice when on the same; an edge on it counts once when its
-/// neighbours lie on opposite sides and twice when on the same (the source prints it the other way round,
-/// `printed_rule`, which is the wrong parity). A point on the outline counts as outside.
+/// The source's ray method decides whether a loop holds a point: a horizontal ray to the left; a vertex on it
+/// counts once when its neighbours lie on opposite sides and twice when on the same; an edge on it counts
+/// once when its neighbours lie on opposite sides and twice when on the same (the source prints it the other
+/// way round, `printed_rule`, which is the wrong parity). A point on the outline counts as outside.
 [[nodiscard]] bool ray_holds(const std::vector<geom::GridPoint>& loop, geom::GridPoint p,
                              bool printed_rule = false) noexcept;
 

@@ -8,7 +8,7 @@
 
 namespace lekalo::phi {
 
-/// Where the boundaries of a placed part and of its blank come close.
+/// A place where the boundaries of a placed part and of its blank come close.
 struct RegionContact {
   std::uint32_t part_edge = 0, blank_edge = 0;  ///< numbered as in RegionIndex
   geom::Point part, blank;                      ///< the two points, each in its own frame
@@ -29,7 +29,7 @@ class RegionClearance {
     /// Least distance between the boundaries, within kEdgeDistanceError * size of the exact one; 0 where they
     /// cross.
     double distance = 0;
-    /// Whether the part lies in the blank's material; then `distance` is the clearance.
+    /// This is true when the part lies in the blank's material; then `distance` is the clearance.
     bool inside = false;
   };
   /// \param contacts  if given, filled with the pairs of points at most `margin` further apart than the
@@ -44,17 +44,17 @@ class RegionClearance {
   /// rounding) too large.
   [[nodiscard]] double depth(const geom::BlankFromPart& pose, double tolerance) const;
 
-  /// Where one edge of the part, placed, is nearest to the blank's boundary; distance 0 where it crosses it.
-  /// Error as at().
+  /// The place where one edge of the part, placed, is nearest to the blank's boundary; distance 0 where it
+  /// crosses it. Error as at().
   [[nodiscard]] RegionContact nearest(const geom::BlankFromPart& pose, std::uint32_t part_edge) const;
 
   /// How deep the points of some edges, moved as the part is, lie in the blank at most: their largest
   /// distance from its boundary inside its material, 0 where none is inside. Never too small, too large by at
   /// most `tolerance` (and rounding); if that takes more than kMostPieces pieces of edges, by more.
   ///
-  /// \param points  filled with one point for each place that may be within `margin` of the deepest;
-  /// `distance`
-  ///                is that from `blank`, the nearest boundary point, `part_edge` counted in `edges`
+  /// \param points  filled with one point for each place that may be within `margin` of the deepest; its
+  ///                `distance` is that from `blank`, the nearest boundary point, and `part_edge` counts in
+  ///                `edges`
   /// Cost: O(log m) a piece; a few pieces an edge, more where the boundary runs like the edge but for arcs.
   double deepest(const geom::BlankFromPart& pose, const std::vector<geom::Curve>& edges, double tolerance,
                  double margin, std::vector<RegionContact>& points) const;

@@ -31,7 +31,7 @@ struct Body {
   bool container = false;    ///< the complement of the outline is what is forbidden
 };
 
-/// What a question asks about: a shape at a place.
+/// A question asks about a probe: a shape at a place.
 struct Probe {
   ShapeIndex shape = 0;
   geom::GridPoint at = {};
@@ -74,7 +74,7 @@ class Scene {
   /// The largest gap of all bodies ever put, in steps.
   [[nodiscard]] std::int64_t widest_gap() const noexcept { return widest_gap_; }
 
-  /// Whether anything forbids the probe's place.
+  /// The answer says whether anything forbids the probe's place.
   [[nodiscard]] bool forbidden(const Probe& probe) const;
   /// Everything that does, ascending.
   [[nodiscard]] std::vector<BodyIndex> forbidding(const Probe& probe) const;
@@ -125,7 +125,8 @@ class Scene {
   using Blockers = std::array<BodyIndex, 16>;
 
   [[nodiscard]] Question question(const Probe& probe) const;
-  /// Whether it is one the question is about, and not further from the probe's box than all gaps.
+  /// A body is in reach when the question is about it and it is not further from the probe's box than all
+  /// gaps.
   [[nodiscard]] static bool is_in_reach(const Placed& body, const Question& question) noexcept;
   [[nodiscard]] bool forbids(const Placed& body, const Question& question) const;
   [[nodiscard]] bool container_forbids(BodyIndex index, const Question& question) const;
@@ -138,7 +139,8 @@ class Scene {
   template <class Accept, class Visit>
   bool visit_cell(std::size_t cell, std::uint32_t question, Accept&& accept, Visit&& visit) const;
   [[nodiscard]] std::uint32_t next_question() const;
-  /// Whether a point inside the probe lies in a cell that a body covers, and that body forbids.
+  /// The answer says whether a point inside the probe lies in a cell that a body covers, and that body
+  /// forbids.
   [[nodiscard]] bool lies_on_covered(const Question& question) const;
   void cover(BodyIndex index, BodyIndex from, BodyIndex to);
   /// The cells a box meets; what lies outside the world counts to the cells at its edge.

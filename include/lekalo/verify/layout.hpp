@@ -11,7 +11,7 @@
 
 namespace lekalo::verify {
 
-/// What a layout can break; the names are those of the words in docs/formats.md.
+/// The rules that a layout can break; their names are those of the words in docs/formats.md.
 enum class LayoutRule : std::uint8_t {
   overlap,
   gap,

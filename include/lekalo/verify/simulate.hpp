@@ -11,8 +11,8 @@
 
 namespace lekalo::verify {
 
-/// What an NC program cuts, judged from its bytes alone: it reads program and pocket itself and shares no
-/// code with any path maker. How, and what each figure means: docs/design/simulate.md.
+/// The simulator judges what an NC program cuts from the program's bytes alone: it reads program and pocket
+/// itself and shares no code with any path maker. How, and what each figure means: docs/design/simulate.md.
 
 struct SimulateOptions {
   double tool_diameter = 0;   ///< mm, above 0
@@ -114,7 +114,8 @@ struct CutStretch {
   double high_z = 0;  ///< all of it is at least this deep
 };
 
-/// What a path maker may know of a program that ran before: as simulate reads it. Errors as there.
+/// The cuts of a program that ran before, as simulate reads them: a path maker may know no more of it. Errors
+/// as there.
 [[nodiscard]] Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top);
 
 }  // namespace lekalo::verify

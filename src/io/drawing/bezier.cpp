@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "io/text/decimal.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::io {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 WeightedPoint between(const WeightedPoint& a, const WeightedPoint& b, double t) noexcept {
   const double s = 1 - t;

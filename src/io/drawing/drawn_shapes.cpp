@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
@@ -18,7 +19,6 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-constexpr double kTurn = 2 * kPi;
 /// Bounds are themselves computed in doubles; this covers their rounding, and the length of a vector whose
 /// coordinates are below 1.
 constexpr double kRoundingUp = 1 + 0x1p-40;
@@ -183,7 +183,7 @@ Direction direction_of_degrees(double degrees) noexcept {
   const double within = std::fmod(degrees, 360);
   const double quarters = std::nearbyint(within / 90);
   const double rest = within - 90 * quarters;  // exact: the two are within a factor of 2 of each other
-  const auto [sine, cosine] = geom::sincos(rest * (kPi / 180));
+  const auto [sine, cosine] = geom::sincos(rest * kDegree);
   const bool exact = rest == 0;
   switch ((static_cast<int>(quarters) + 4) % 4) {
     case 0:

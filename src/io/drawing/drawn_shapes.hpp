@@ -11,7 +11,6 @@ namespace lekalo::io {
 /// did to it (docs/design/drawing.md, "Errors").
 
 inline constexpr double kUnitRoundoff = 0x1p-53;
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// A shape and how far the exact one may be from it, mm (as DrawnCurve::error).
 struct BoundedShape {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/predicates.hpp"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drawn_shapes.hpp"
+#include "lekalo/base/angle.hpp"
 
 namespace lekalo::io::detail {
 

@@ -5,6 +5,7 @@
 
 #include "entities.hpp"
 #include "io/text/refusal.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
 
 // CIRCLE, ARC and ELLIPSE.
@@ -14,7 +15,6 @@ namespace {
 
 using geom::Point;
 
-constexpr double kTurn = 2 * kPi;
 /// Programs write the whole turn of an ellipse with 6 digits or more.
 constexpr double kTurnSlack = 1e-6;
 
@@ -32,7 +32,7 @@ BoundedPoint end_of_arc(const BoundedPoint& centre, const Millimetres& radius, c
   const Direction direction = direction_of_degrees(degrees.value);
   const Millimetres x = along(centre.at.x, radius.value, direction.unit.x);
   const Millimetres y = along(centre.at.y, radius.value, direction.unit.y);
-  const double turned = (direction.exact ? 0 : kDegreesError) + degrees.error * (kPi / 180);
+  const double turned = (direction.exact ? 0 : kDegreesError) + degrees.error * kDegree;
   const double error = centre.error + radius.error + turned * radius.value + std::max(x.error, y.error);
   return {{x.value, y.value}, error * (1 + 0x1p-40)};
 }
@@ -80,7 +80,7 @@ Result<void> DxfEntities::read_arc(DxfBlock& into) {
   const Point to = sweep == 360 ? from.at : last.at;
   const geom::Edge edge{geom::EdgeKind::arc_ccw, from.at, to, centre.at};
   return add(into, *world,
-             circle_arc(edge, sweep * (kPi / 180), std::max({from.error, last.error, centre.error})));
+             circle_arc(edge, sweep * kDegree, std::max({from.error, last.error, centre.error})));
 }
 
 Result<void> DxfEntities::read_ellipse(DxfBlock& into) {

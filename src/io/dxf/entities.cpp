@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/text/refusal.hpp"
+#include "lekalo/base/angle.hpp"
 #include "text.hpp"
 
 namespace lekalo::io {
@@ -260,7 +261,7 @@ Result<void> DxfEntities::read_insert(DxfBlock& into) {
   insertion.at = numbers.point(10, 20);
   const Millimetres degrees = numbers.get(50);
   insertion.rotation = direction_of_degrees(degrees.value);
-  insertion.rotation_error = degrees.error * (kPi / 180) * (1 + 0x1p-40);
+  insertion.rotation_error = degrees.error * kDegree * (1 + 0x1p-40);
   insertion.column_step = numbers.get(44);
   insertion.row_step = numbers.get(45);
   into.insertions.push_back(insertion);

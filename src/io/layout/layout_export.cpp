@@ -24,7 +24,8 @@ bool wanted(const ExportRequest& request, const char* layer) {
          std::find(request.only.begin(), request.only.end(), layer) != request.only.end();
 }
 
-/// Regions, lines and texts in the file's unit, from the stock up to the labels.
+/// Regions, lines and texts in the file's unit, in the order in which they are drawn: the stock first, labels
+/// last.
 struct Drawn {
   std::vector<LayeredRegion> regions;
   DrawingExtras extras;
@@ -78,7 +79,7 @@ class Drawer {
       drawn_.extras.texts.push_back({part.label, scaled(part.label_at), scale_ * part.label_height, "LABEL"});
   }
 
-  /// Above the sheet.
+  /// Several sheets stand side by side, so each has its name above it.
   void add_title(const SheetShapes& sheet) {
     if (!wanted(request_, "LABEL")) return;
     const geom::Box box = geom::bounds(sheet.material.outer);
@@ -97,18 +98,16 @@ Result<Exported> drawing(const std::vector<SheetShapes>& sheets, const ExportReq
   const Drawn drawn = Drawer(request, dxf ? millimetres_per(request.unit) : 1).draw(sheets);
   if (drawn.regions.empty() && drawn.extras.lines.empty() && drawn.extras.texts.empty())
     return failure(ErrorCode::bad_input, "there is nothing to write on the layers asked for");
-  auto text =
-      dxf ? dxf_drawing(drawn.regions, drawn.extras, request.unit) : svg_drawing(drawn.regions, drawn.extras);
-  if (!text) return tl::unexpected(text.error());
-  return Exported{{{sheets.size() == 1 ? sheets.front().name : "", *std::move(text)}}, {}};
+  LEKALO_TRY(std::string text, dxf ? dxf_drawing(drawn.regions, drawn.extras, request.unit)
+                                   : svg_drawing(drawn.regions, drawn.extras));
+  return Exported{{{sheets.size() == 1 ? sheets.front().name : "", std::move(text)}}, {}};
 }
 
 Result<Exported> plotted(const std::vector<SheetShapes>& sheets, const ExportRequest& request) {
   Exported made;
   for (const SheetShapes& sheet : sheets) {
-    auto text = detail::hpgl_text(sheet, request.only, request.chord_tolerance_mm);
-    if (!text) return tl::unexpected(text.error());
-    made.files.push_back({sheet.name, *std::move(text)});
+    LEKALO_TRY(std::string text, detail::hpgl_text(sheet, request.only, request.chord_tolerance_mm));
+    made.files.push_back({sheet.name, std::move(text)});
   }
   made.notes.push_back(
       fmt::format("corners lie within {:.3f} mm of where they are (plotter units of {:g} mm), chords within "
@@ -157,29 +156,28 @@ std::optional<ExportForm> export_form(std::string_view word) noexcept {
 
 Result<Exported> export_layout(const layout::Document& document, const std::string& name,
                                const ExportRequest& request) {
-  const auto sheets = detail::sheets_to_write(document, request.sheet);
-  if (!sheets) return tl::unexpected(sheets.error());
+  LEKALO_TRY(const auto sheets, detail::sheets_to_write(document, request.sheet));
+  // Steps 1 and 2 of docs/design/export.md.
   const bool together = request.form == ExportForm::dxf || request.form == ExportForm::svg;
   std::vector<std::string> notes;
-  const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, *sheets, together, notes);
+  const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, sheets, together, notes);
   const std::vector<layout::Violation> broken = layout::check(document);
   if (request.form == ExportForm::gcode)
     for (const layout::Violation& violation : broken)
       if (violation.kind == layout::ViolationKind::overlap &&
-          std::find(sheets->begin(), sheets->end(), layout::Sheet{violation.stock, violation.copy}) !=
-              sheets->end())
+          std::find(sheets.begin(), sheets.end(), layout::Sheet{violation.stock, violation.copy}) !=
+              sheets.end())
         return failure(
             ErrorCode::bad_input,
             fmt::format("placements {} and {} overlap, so they cannot both be cut; lekalo check says how to "
                         "move them apart",
                         violation.a, violation.b));
-  Result<Exported> made = request.form == ExportForm::hpgl    ? plotted(shapes, request)
-                          : request.form == ExportForm::gcode ? programmed(shapes, name, request)
-                                                              : drawing(shapes, request);
-  if (!made) return made;
+  LEKALO_TRY(Exported made, request.form == ExportForm::hpgl    ? plotted(shapes, request)
+                            : request.form == ExportForm::gcode ? programmed(shapes, name, request)
+                                                                : drawing(shapes, request));
   if (!broken.empty())
     notes.push_back(fmt::format("the layout breaks {} of its rules; lekalo check says which", broken.size()));
-  made->notes.insert(made->notes.begin(), notes.begin(), notes.end());
+  made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
   return made;
 }
 

@@ -10,7 +10,8 @@
 namespace lekalo::io {
 namespace {
 
-/// One word: which forms take it, and what it sets. The value is not empty.
+/// Takes words one after the other into a request, and at the end asks for those that are missing.
+/// \pre values are not empty
 class WordTaker {
  public:
   WordTaker(ExportRequest& request, const std::string& prefix) : request_(request), prefix_(prefix) {}
@@ -33,10 +34,7 @@ class WordTaker {
     if (name == "only") return layers(value);
     if (name == "unit")
       return choice(word, {{"mm", LengthUnit::millimetre}, {"inch", LengthUnit::inch}}, request_.unit);
-    if (name == "post")
-      return choice(word,
-                    {{"linuxcnc", nc::Post::linuxcnc}, {"grbl", nc::Post::grbl}, {"fanuc", nc::Post::fanuc}},
-                    p.post);
+    if (name == "post") return post(word);
     if (name == "process")
       return choice(
           word,
@@ -49,7 +47,7 @@ class WordTaker {
     return profile_number(word);
   }
 
-  /// What has to be given but was not.
+  /// Fails for words that have to be given but were not, and for those that contradict each other.
   Result<void> complete() {
     const auto needs = [&](const char* name, const char* why) -> Result<void> {
       if (std::find(given_.begin(), given_.end(), name) != given_.end()) return {};
@@ -57,18 +55,16 @@ class WordTaker {
     };
     nc::ProfileOptions& p = request_.profile;
     if (request_.form != ExportForm::gcode) return {};
-    if (auto fine = needs("kerf", "the width of the cut in mm"); !fine) return fine;
-    if (auto fine = needs("feed", "the speed of the cut in mm/min"); !fine) return fine;
+    LEKALO_CHECK(needs("kerf", "the width of the cut in mm"));
+    LEKALO_CHECK(needs("feed", "the speed of the cut in mm/min"));
     const bool router = p.process == nc::Process::router;
-    if (router || (p.post == nc::Post::grbl && p.process == nc::Process::laser))
-      if (auto fine =
-              needs("speed", router ? "the speed of the spindle, the S word"
-                                    : "the power of the beam, the S word; without it the beam stays dark");
-          !fine)
-        return fine;
+    if (router || (p.post.laser_needs_power && p.process == nc::Process::laser))
+      LEKALO_CHECK(needs("speed", router
+                                      ? "the speed of the spindle, the S word"
+                                      : "the power of the beam, the S word; without it the beam stays dark"));
     if (router) {
-      if (auto fine = needs("depth", "how deep a router cuts, in mm"); !fine) return fine;
-      if (auto fine = needs("plunge", "how fast a router goes down, in mm/min"); !fine) return fine;
+      LEKALO_CHECK(needs("depth", "how deep a router cuts, in mm"));
+      LEKALO_CHECK(needs("plunge", "how fast a router goes down, in mm/min"));
     }
     for (const char* name : {"depth", "pass", "safe-height", "plunge"})
       if (!router && std::find(given_.begin(), given_.end(), name) != given_.end())
@@ -127,6 +123,17 @@ class WordTaker {
       }
       list += (list.empty() ? "" : ", ") + std::string(name);
     }
+    return none_of(word, list);
+  }
+
+  Result<void> post(const ExportWord& word) {
+    const nc::Dialect* const known = nc::post_named(word.second);
+    if (known == nullptr) return none_of(word, nc::post_names(", ", ", "));
+    request_.profile.post = *known;
+    return {};
+  }
+
+  [[nodiscard]] tl::unexpected<Error> none_of(const ExportWord& word, const std::string& list) const {
     return failure(ErrorCode::usage,
                    fmt::format("{}{} {}: has to be one of {}", prefix_, word.first, word.second, list));
   }
@@ -182,7 +189,7 @@ const std::vector<ExportWordHelp>& export_words() {
       {"feed", "MM/MIN", "gcode: speed of the cut"},
       {"lead-in", "MM", "gcode: length of a lead, or radius of an arc [0: none]"},
       {"lead", "line|arc", "gcode: shape of a lead [line]"},
-      {"post", "linuxcnc|grbl|fanuc", "gcode: the control [linuxcnc]"},
+      {"post", nc::post_names("|", "|"), fmt::format("gcode: the control [{}]", nc::posts().front().name)},
       {"process", "laser|plasma|router", "gcode: the tool [laser]"},
       {"speed", "S", "gcode: the S word: speed of a spindle, power of a beam"},
       {"pierce", "S", "gcode: seconds to wait for the pierce [0]"},
@@ -198,9 +205,8 @@ Result<ExportRequest> read_export_words(ExportForm form, const std::vector<Expor
   ExportRequest request;
   request.form = form;
   WordTaker taker(request, prefix);
-  for (const ExportWord& word : words)
-    if (auto fine = taker.take(word); !fine) return tl::unexpected(fine.error());
-  if (auto fine = taker.complete(); !fine) return tl::unexpected(fine.error());
+  for (const ExportWord& word : words) LEKALO_CHECK(taker.take(word));
+  LEKALO_CHECK(taker.complete());
   request.profile.unit = request.unit;
   return request;
 }

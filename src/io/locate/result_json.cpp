@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/version.hpp"
@@ -16,8 +17,6 @@ namespace lekalo::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegreesPerRadian = 57.29577951308232;
 
 void append_number(std::string& out, double value) {
   LEKALO_ASSERT(std::isfinite(value));

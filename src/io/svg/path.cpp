@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::io::detail {
@@ -276,7 +277,7 @@ std::optional<BoundedShape> circle_of(const PathSegment& s) {
 /// As in SVG 1.1, appendix F.6: in the frame where the ellipse is the unit circle.
 std::optional<BoundedShape> ellipse_of(const PathSegment& s) {
   const Direction axis = direction_of_degrees(s.rotation_deg.value);
-  const double turn_error = (axis.exact ? 0 : kDegreesError) + s.rotation_deg.error * (kPi / 180);
+  const double turn_error = (axis.exact ? 0 : kDegreesError) + s.rotation_deg.error * kDegree;
   const Bounded cosine{axis.unit.x, turn_error}, sine{axis.unit.y, turn_error};
   const Bounded dx = minus(x_of(s.to), x_of(s.from)), dy = minus(y_of(s.to), y_of(s.from));
   // The chord in the frame of the axes, y stretched so that both radii are rx.

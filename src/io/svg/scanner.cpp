@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "lekalo/base/angle.hpp"
+
 namespace lekalo::io::detail {
 namespace {
 
@@ -59,7 +61,7 @@ struct Turn {
 };
 Turn turn_by(const Bounded& degrees) {
   const Direction direction = direction_of_degrees(degrees.value);
-  const double error = (direction.exact ? 0 : kDegreesError) + degrees.error * (kPi / 180);
+  const double error = (direction.exact ? 0 : kDegreesError) + degrees.error * kDegree;
   return {{direction.unit.y, error}, {direction.unit.x, error}};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "path.hpp"
 
 namespace lekalo::io::detail {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/phi/convex.hpp"
@@ -44,8 +44,8 @@ std::vector<std::size_t> pieces_of_edges(const Ring& ring, double step) {
 }
 
 double least_turn(double angle) {
-  const double turn = std::remainder(angle, 2 * std::numbers::pi);
-  return turn <= -std::numbers::pi ? std::numbers::pi : turn;
+  const double turn = std::remainder(angle, kTurn);
+  return turn <= -kPi ? kPi : turn;
 }
 
 }  // namespace

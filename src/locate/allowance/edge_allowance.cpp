@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -51,7 +51,7 @@ class Track {
   [[nodiscard]] double along(Point p) const {
     if (!is_arc(curve_)) return std::clamp(dot(p - curve_.edge.from, curve_.unit), 0.0, length_);
     const Point out = p - curve_.edge.centre;
-    const double whole = 2 * std::numbers::pi, sweep = length_ / curve_.radius;
+    const double whole = kTurn, sweep = length_ / curve_.radius;
     double turn = sign_ * (geom::direction_angle(out.x, out.y) - from_angle_);
     if (turn < 0) turn += whole;
     // By rounding a little beyond an end: which one is nearer?

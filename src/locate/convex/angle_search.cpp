@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 
 namespace lekalo::locate {
@@ -84,7 +85,6 @@ void AngleSearch::bound(AngleInterval& interval) {
   for (const Sinusoid* h : {&f, &g}) {
     if (!h->may_crest_within(interval.lo, interval.hi)) continue;
     double crest = h->crest_angle();
-    constexpr double kTurn = 6.283185307179586;
     while (crest < interval.lo.theta) crest += kTurn;
     while (crest > interval.hi.theta) crest -= kTurn;
     if (crest > interval.lo.theta && crest < interval.hi.theta) consider(Angle::of(crest));

@@ -5,14 +5,13 @@
 #include <limits>
 #include <numeric>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 
 namespace lekalo::locate {
 namespace {
 
 using geom::Point;
-
-constexpr double kTwoPi = 6.283185307179586;
 
 /// Up to this many blank edges all stand in the program from the beginning: looking at every one costs less
 /// than finding out which matter.
@@ -27,9 +26,9 @@ constexpr int kMostPivots = 2000;
 
 /// The same direction in [0, 2 pi).
 double wrap(double direction) {
-  direction -= kTwoPi * static_cast<double>(static_cast<int>(direction * (1 / kTwoPi)));
-  if (direction < 0) direction += kTwoPi;
-  return direction >= kTwoPi ? 0.0 : direction;
+  direction -= kTurn * static_cast<double>(static_cast<int>(direction * (1 / kTurn)));
+  if (direction < 0) direction += kTurn;
+  return direction >= kTurn ? 0.0 : direction;
 }
 
 }  // namespace
@@ -90,7 +89,7 @@ void ContactProgram::choose_first_rows() {
     // The first edge beyond each of some directions, and the one before it: no gap between neighbouring
     // normals is larger than in the whole blank, so the chosen ones span the plane positively too.
     for (int d = 0; d < kFirstDirections; ++d) {
-      const std::size_t beyond = edge_beyond(d * kTwoPi / kFirstDirections);
+      const std::size_t beyond = edge_beyond(d * kTurn / kFirstDirections);
       chosen.push_back(static_cast<std::uint32_t>(beyond));
       chosen.push_back(static_cast<std::uint32_t>((beyond + n - 1) % n));
     }
@@ -144,7 +143,7 @@ std::uint32_t ContactProgram::add_row(std::uint32_t edge) {
 std::uint32_t ContactProgram::outermost_by_search(double direction) const {
   // Along the outline n . v falls while the side points away from n and rises afterwards; it is least where
   // the sides' direction passes that of n less a quarter turn.
-  const double target = wrap(direction - 0.25 * kTwoPi);
+  const double target = wrap(direction - 0.25 * kTurn);
   const auto found = std::lower_bound(side_direction_.begin(), side_direction_.end(), target);
   return side_by_direction_[found == side_direction_.end()
                                 ? 0u
@@ -190,13 +189,13 @@ void ContactProgram::change_vertex(std::size_t row, const Angle& angle, std::uin
   // The vertex stays outermost while the normal, in the part's frame, stands between a quarter turn beyond
   // the side before it and a quarter turn beyond the side after it.
   const std::size_t m = side_x_.size();
-  const double now = normal_direction_[edge] - angle.theta - 0.25 * kTwoPi;
+  const double now = normal_direction_[edge] - angle.theta - 0.25 * kTurn;
   const double ahead = wrap(direction_of_side_[vertex] - now);
   const double behind = wrap(now - direction_of_side_[vertex == 0 ? m - 1 : vertex - 1]);
   // Where rounding put the vertex a hair beyond its range the difference wraps to a full turn; then only this
   // angle.
-  row_from_[row] = angle.theta - (ahead < 0.5 * kTwoPi ? ahead : 0.0);
-  row_to_[row] = angle.theta + (behind < 0.5 * kTwoPi ? behind : 0.0);
+  row_from_[row] = angle.theta - (ahead < 0.5 * kTurn ? ahead : 0.0);
+  row_to_[row] = angle.theta + (behind < 0.5 * kTurn ? behind : 0.0);
 }
 
 void ContactProgram::place(const Angle& angle, std::size_t first) {

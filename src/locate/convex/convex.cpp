@@ -6,6 +6,7 @@
 
 #include "angle_search.hpp"
 #include "contact_program.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/phi/convex.hpp"
@@ -229,7 +230,6 @@ class Localiser {
 
   /// Both searches close in on a maximum to within the gap; at the same maximum their angles agree closely.
   [[nodiscard]] bool same_peak(double a, double b) const {
-    constexpr double kTurn = 6.283185307179586;
     const double difference = std::abs(a - b);
     const double apart =
         problem_.window.full_circle() ? std::min(difference, kTurn - difference) : difference;

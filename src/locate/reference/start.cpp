@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/phi/convex.hpp"
@@ -13,7 +13,6 @@ namespace lekalo::locate {
 namespace {
 
 using geom::Point;
-constexpr double kTurn = 2 * std::numbers::pi;
 
 double triangle_area(Point a, Point b, Point c) noexcept { return 0.5 * cross(b - a, c - a); }
 
@@ -95,7 +94,7 @@ Point translation_onto(Point from, Point to, double theta) noexcept {
 
 std::array<double, 2> aligned_axes(const OutlineMoments& part, const OutlineMoments& blank) noexcept {
   const double angle = blank.axis - part.axis;
-  return {angle, angle + std::numbers::pi};
+  return {angle, angle + kPi};
 }
 
 Placement measured_placement(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank, double x,

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "lekalo/base/angle.hpp"
+
 namespace lekalo::locate {
 namespace {
 
@@ -57,7 +59,6 @@ std::size_t deepest_points(const geom::Curve& a, const geom::Curve& b, std::arra
 }
 
 double turn_distance(double far, double half_theta) {
-  constexpr double kPi = 3.141592653589793;
   return 2 * far * std::sin(0.5 * std::min(half_theta, kPi));
 }
 

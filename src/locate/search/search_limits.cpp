@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::locate {
@@ -13,7 +14,7 @@ Result<void> check_limits(const AngleWindow& window, double gap, double min_allo
       !(std::abs(window.to) <= geom::kMaxAngle))
     return failure(ErrorCode::usage, fmt::format("angle window from {} to {} rad is empty or not finite",
                                                  window.from, window.to));
-  if (window.to - window.from > 6.2831853071795872)
+  if (window.to - window.from > kTurnAbove)
     return failure(ErrorCode::usage, "angle window is wider than a full circle");
   if (!(gap > 0) || !std::isfinite(gap))
     return failure(ErrorCode::usage, fmt::format("gap {} mm must be a positive number", gap));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/field/contour_model.hpp"
 #include "lekalo/field/trace.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -13,7 +14,6 @@ namespace {
 
 using geom::Point;
 using Kind = PathMove::Kind;
-constexpr double kPi = 3.141592653589793;
 
 /// The best of a coarse grid, then uphill.
 Point peak(const field::ContourModel& model, const field::Function& f, const geom::Box& box) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/path/edge_path.hpp"
 
@@ -18,7 +18,6 @@ using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kHeld = 1.032;           // of the angle of a straight pass
 constexpr double kLeastLoop = 0.03;       // of the tool's radius: below it the tool goes straight
 constexpr double kLeastInCorner = 0.006;  // of the tool's radius
@@ -42,7 +41,7 @@ Point unit(Point p) { return (1 / norm(p)) * p; }
 /// From -pi to pi.
 double angle_between(Point from, Point to) {
   const double angle = geom::direction_angle(dot(from, to), cross(from, to));
-  return angle > std::numbers::pi ? angle - 2 * std::numbers::pi : angle;
+  return angle > kPi ? angle - kTurn : angle;
 }
 
 class Walker {

@@ -5,6 +5,7 @@
 
 #include "arrival.hpp"
 #include "corridors.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -22,7 +23,6 @@ using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kSpacing = 0.3;    // mm between places at which a boundary is compared with the one before
 constexpr double kOnIt = 2e-4;      // mm: a place nearer to what is cut than this is cut
 constexpr double kLeastGap = 4e-3;  // mm: a stretch that is nowhere farther from it than this is no front

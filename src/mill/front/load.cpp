@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/path/edge_path.hpp"
 
@@ -23,7 +24,7 @@ double degrees_in_material(Point at, Point heading, bool back, const geom::Regio
   const Point side = back ? perpendicular(heading) : -perpendicular(heading);
   double degrees = 0, last = 0;
   for (int i = 0; i <= kLooks; ++i) {
-    const auto [sine, cosine] = geom::sincos(3.141592653589793 * i / kLooks);
+    const auto [sine, cosine] = geom::sincos(kPi * i / kLooks);
     const Point rim = at + r * (cosine * side + sine * heading);
     const auto near = before.nearest(rim, likely);
     likely = near.edge;

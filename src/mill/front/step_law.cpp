@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::mill {
@@ -16,7 +17,7 @@ double straight_pass_angle(double step_over) {
 }
 
 double most_held_degrees(double step_over) {
-  return 1.25 * straight_pass_angle(step_over) * 57.29577951308232;
+  return 1.25 * straight_pass_angle(step_over) * kDegreesPerRadian;
 }
 
 }  // namespace lekalo::mill

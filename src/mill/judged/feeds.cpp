@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/front/step_law.hpp"
 
@@ -14,7 +15,6 @@ namespace {
 using geom::EdgeKind;
 using geom::Point;
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kAround = 1;  // mm of path before and after a load
 
 struct Piece {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/front/step_law.hpp"
 #include "mill/path/allowed_places.hpp"
@@ -20,7 +20,6 @@ using geom::Point;
 
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kLasting = 0.1;     // mm of more than is held that are worth a pass
 constexpr double kTogether = 0.5;    // of the tool's radius: hot stretches so near are one
 constexpr double kRamp = 1;          // of the tool's radius: on the way from the path to the pass beside it
@@ -168,8 +167,9 @@ bool Relief::leave_out(const std::vector<std::vector<MoveLoad>>& loads) {
 void Relief::try_next(Site& site) {
   while (site.trials < static_cast<int>(std::size(kDepths))) {
     // Of a straight stretch: what lies between the two angles.
-    const double depth = kDepths[site.trials++] * radius_ *
-                         (geom::sincos(straight_).cosine - geom::sincos(site.largest / kDegrees).cosine);
+    const double depth =
+        kDepths[site.trials++] * radius_ *
+        (geom::sincos(straight_).cosine - geom::sincos(site.largest / kDegreesPerRadian).cosine);
     site.tried = pass_beside(site, std::min(depth, kMostDepth * radius_));
     if (!site.tried.empty()) return;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/front/step_law.hpp"
@@ -20,7 +21,6 @@ namespace {
 constexpr double kHelix = 0.8;        // of the tool's radius
 constexpr double kLeastHelix = 1e-3;  // mm: below it the tool goes straight down
 constexpr double kLeastDisc = 0.01;   // mm
-constexpr double kTurn = 6.283185307179586;
 
 /// A quarter of a turn about the entry, to `out` off its centre.
 void quarter(ToolMotion& tool, const Entry& entry, Point out, double z, Kind kind) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid_number.hpp"
+#include "lekalo/base/angle.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 constexpr double kStep = 0x1p-20;  // mm
 /// How far rounding to the grid and joining points that are too close take a vertex: below 0.71 + 3 steps.
 constexpr double kCorner = 4 * kStep;
-
-double nearest(const Decimal& value) {
-  return nearest_double(fmt::format("{}e{}", value.digits.get_str(), value.exponent));
-}
 
 /// The doubles that the written numbers stand for, mm.
 struct DrawnEdge {
@@ -33,8 +30,9 @@ std::vector<DrawnEdge> edges_of(const Shape& shape, std::size_t contour) {
     if (!shape.sides[k].arc && !shape.sides[k].written) continue;
     const WrittenSide& e = shape.exact[k];
     edges.push_back({e.arc, e.ccw, e.arc && shape.sides[k].sweep == Sweep::full,
-                     vector(nearest(e.from_x), nearest(e.from_y)), vector(nearest(e.to_x), nearest(e.to_y)),
-                     e.arc ? vector(nearest(e.centre_x), nearest(e.centre_y)) : Vec{}});
+                     vector(approximate(e.from_x), approximate(e.from_y)),
+                     vector(approximate(e.to_x), approximate(e.to_y)),
+                     e.arc ? vector(approximate(e.centre_x), approximate(e.centre_y)) : Vec{}});
   }
   return edges;
 }
@@ -81,7 +79,6 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
     }
     turned += angle(chain[i] - arc.centre, chain[i + 1] - arc.centre);
   }
-  constexpr double kTurn = 6.283185307179586;
   double sweep = arc.full ? kTurn : angle(arc.from - arc.centre, arc.to - arc.centre) * (arc.ccw ? 1 : -1);
   if (sweep < 0) sweep += kTurn;
   // Chords that go around another time, or the other way, are off by a turn; a rounding is far below half of
@@ -124,7 +121,8 @@ std::optional<std::size_t> steps_to(const Walk& walk, const DrawnEdge& edge) {
     if (is_near &&
         (!found || length(walk.point(i) - edge.to).low <= length(walk.point(*found) - edge.to).low))
       found = i;
-    // What is near at once may be the beginning of a short arc that returns; one farther on counts more.
+    // A vertex that is near at once may be the beginning of a short arc that returns; one farther on counts
+    // more.
     if (!is_near && found && *found > 0) break;
   }
   return found;

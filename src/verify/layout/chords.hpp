@@ -14,7 +14,7 @@ enum class ChordSide {
   inside    ///< stock
 };
 
-/// What keeps a polygon from being that of a drawing (rule 2 of docs/design/layout.md), for which
+/// The fault that keeps a polygon from being that of a drawing (rule 2 of docs/design/layout.md), for which
 /// docs/design/layout-verify.md has the exact statement: its loops are the contours, in order and in either
 /// direction; each vertex of the drawing has one of the polygon within 4 steps; lines are single edges; the
 /// chords of an arc run around its centre with it, on their side of it. \pre loops are simple. Cost:

@@ -1,44 +1,17 @@
 #include "grid_number.hpp"
 
-#include <gmpxx.h>
-#include <mpfr.h>
-
 #include <cmath>
-#include <string>
 
 #include "verify/number/interval.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr int kRotationBits = 52;
+constexpr int kStepBits = 20, kRotationBits = 52;
 
-/// An mpfr_t that frees itself.
-class Real {
- public:
-  explicit Real(mpfr_prec_t precision) { mpfr_init2(value_, precision); }
-  ~Real() { mpfr_clear(value_); }
-  Real(const Real&) = delete;
-  Real& operator=(const Real&) = delete;
-  [[nodiscard]] mpfr_ptr get() { return value_; }
-
- private:
-  mpfr_t value_;
-};
-
-/// value 2^bits to a whole number. \pre the result fits 62 bits
-std::int64_t scaled_to_whole(mpfr_srcptr value, int bits, mpfr_rnd_t how) {
-  Real whole(std::max<mpfr_prec_t>(mpfr_get_prec(value), 64));
-  mpfr_mul_2si(whole.get(), value, bits, MPFR_RNDN);  // exact
-  mpfr_rint(whole.get(), whole.get(), how);           // RNDN: ties to even
-  return mpfr_get_sj(whole.get(), MPFR_RNDN);
-}
-
-/// The whole number nearest to every number of the interval times 2^52, if there is one.
-std::optional<std::int64_t> nearest_multiple(const Interval& value) {
-  const std::int64_t low = scaled_to_whole(value.low(), kRotationBits, MPFR_RNDN);
-  if (low != scaled_to_whole(value.high(), kRotationBits, MPFR_RNDN)) return std::nullopt;
-  return low;
+/// value 2^bits to a whole number; scaling by a power of two is exact. \pre the result fits 62 bits
+std::int64_t nearest_multiple(double value, int bits) {
+  return static_cast<std::int64_t>(std::nearbyint(std::ldexp(value, bits)));  // ties to even
 }
 
 /// Counter-clockwise angle from `from`, as a vector turned back by it.
@@ -71,27 +44,15 @@ std::int64_t without_rotation_bits(Wide value) {
 
 }  // namespace
 
-double nearest_double(std::string_view decimal) {
-  Real value(53);
-  mpfr_set_str(value.get(), std::string(decimal).c_str(), 10, MPFR_RNDN);
-  return mpfr_get_d(value.get(), MPFR_RNDN);
-}
-
 std::optional<std::int64_t> steps_of(double mm, ToStep how, double most) {
   if (!(std::abs(mm) <= most)) return std::nullopt;
-  Real value(53);
-  mpfr_set_d(value.get(), mm, MPFR_RNDN);
-  return scaled_to_whole(value.get(), 20, how == ToStep::up ? MPFR_RNDU : MPFR_RNDN);
+  if (how == ToStep::nearest) return nearest_multiple(mm, kStepBits);
+  return static_cast<std::int64_t>(std::ceil(std::ldexp(mm, kStepBits)));
 }
 
 std::optional<GridTurn> turn_of_pair(double c, double s) {
   if (!(std::abs(c) <= 2 && std::abs(s) <= 2)) return std::nullopt;
-  Real value(53);
-  mpfr_set_d(value.get(), c, MPFR_RNDN);
-  GridTurn turn;
-  turn.c = scaled_to_whole(value.get(), kRotationBits, MPFR_RNDN);
-  mpfr_set_d(value.get(), s, MPFR_RNDN);
-  turn.s = scaled_to_whole(value.get(), kRotationBits, MPFR_RNDN);
+  const GridTurn turn{nearest_multiple(c, kRotationBits), nearest_multiple(s, kRotationBits)};
   const Wide off = Wide{turn.c} * turn.c + Wide{turn.s} * turn.s - (Wide{1} << 2 * kRotationBits);
   const Wide most = Wide{1} << (2 * kRotationBits - 50);
   if (off < -most || off > most) return std::nullopt;
@@ -101,11 +62,12 @@ std::optional<GridTurn> turn_of_pair(double c, double s) {
 GridTurn turn_of_degrees(double degrees) {
   // Half way between two multiples there is no cosine of a rational number of degrees: where such a cosine is
   // rational it is 0, 1/2 or 1 (Niven), so more digits decide in the end.
-  for (mpfr_prec_t precision = 192;; precision *= 2) {
+  for (Precision precision = 192;; precision *= 2) {
     const Interval angle =
         Interval::exactly(degrees, precision) * Interval::pi(precision) / Interval::exactly(180, precision);
     const Turn turn = turn_by(angle);
-    const auto c = nearest_multiple(turn.cosine), s = nearest_multiple(turn.sine);
+    const auto c = nearest_multiple(turn.cosine, kRotationBits),
+               s = nearest_multiple(turn.sine, kRotationBits);
     if (c && s) return {*c, *s};
   }
 }

@@ -10,9 +10,6 @@ namespace lekalo::verify {
 
 /// Written numbers on the grid of docs/design/layout.md.
 
-/// The double nearest to what is written. \pre parse_decimal takes it, and it is finite as a double
-[[nodiscard]] double nearest_double(std::string_view decimal);
-
 enum class ToStep {
   nearest,  ///< ties to even
   up        ///< gaps
@@ -30,11 +27,11 @@ struct GridTurn {
 [[nodiscard]] std::optional<GridTurn> turn_of_pair(double c, double s);
 /// The multiples nearest to cosine and sine: proved. \pre finite
 [[nodiscard]] GridTurn turn_of_degrees(double degrees);
-/// Whether the direction of `turn` lies counter-clockwise from that of `from` to that of `to`, ends included;
-/// equal ends are one direction.
+/// The answer says whether the direction of `turn` lies counter-clockwise from that of `from` to that of
+/// `to`, ends included; equal ends are one direction.
 [[nodiscard]] bool lies_between(GridTurn turn, GridTurn from, GridTurn to);
 
-/// Where a vertex of a part comes to lie (rule 4).
+/// The place at which a vertex of a part comes to lie (rule 4).
 [[nodiscard]] GridPoint placed(GridPoint p, GridTurn turn, bool mirrored, GridPoint at);
 
 }  // namespace lekalo::verify

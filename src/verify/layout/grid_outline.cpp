@@ -54,7 +54,7 @@ Event crossing(const GridEdge& a, const GridEdge& b) {
   return {a.from.x * w + along.x * share, a.from.y * w + along.y * share, w};
 }
 
-/// Which side of the edge's line the event is on: +1 left.
+/// The side of the edge's line that the event is on: +1 is left.
 int side(const GridEdge& edge, const Event& v) {
   const GridPoint along = edge.to - edge.from;
   const Wide x = v.x - edge.from.x * v.w, y = v.y - edge.from.y * v.w;
@@ -82,7 +82,8 @@ bool before(const Ray& a, const Ray& b) {
   return cross(a.direction, b.direction) > 0;
 }
 
-/// What an outline is at and around an event: rays where an edge passes through it, else inside or not.
+/// Collects an outline's rays at an event where an edge passes through it, and answers else whether it lies
+/// inside.
 bool look_around(const std::vector<GridEdge>& edges, std::size_t of, const Event& v, std::vector<Ray>& rays) {
   bool inside = false;
   for (const GridEdge& edge : edges) {
@@ -117,7 +118,7 @@ class Question {
     for (const auto* list : {&in, &out}) {
       for (const GridOutline* outline : *list) {
         std::vector<GridEdge>& kept = edges_.emplace_back();
-        // Where an event lies is told by the edges on its right.
+        // The edges on the right of an event tell where it lies.
         for (const GridEdge& edge : outline->edges) {
           const GridBox box = box_of(edge);
           if (box.high_x >= window_.low_x && box.low_y <= window_.high_y && box.high_y >= window_.low_y)
@@ -158,7 +159,7 @@ class Question {
     return false;
   }
 
-  /// Whether between two neighbouring directions at the event there is material of all `ins_` and no other.
+  /// A wedge is material of all `ins_` and no other, between two neighbouring directions at the event.
   bool has_wedge(const Event& v) {
     if (!in_box(v, window_)) return false;
     rays_.clear();

@@ -39,18 +39,19 @@ inline constexpr std::int64_t kMostWritten = std::int64_t{1} << 38, kMostPlaced 
 /// The first loop is the outer one; loops may run either way. \pre all_simple has no complaint
 [[nodiscard]] GridOutline make_outline(std::vector<GridLoop> loops);
 
-/// What keeps loops from being an outline: fewer than three points, no area, a vertex less than 3 steps from
-/// an edge that does not end there, edges that cross, a hole that is not inside. Cost: O(n log n + pairs of
-/// edges that overlap in x).
+/// The fault that keeps loops from being an outline: fewer than three points, no area, a vertex less than 3
+/// steps from an edge that does not end there, edges that cross, a hole that is not inside. Cost: O(n log n +
+/// pairs of edges that overlap in x).
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<GridLoop>& loops);
 
-/// Whether some disc lies in the material of all of `in` and in none of `out` (of these too, holes are not
-/// material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: O(edges + (those near the
-/// box common to `in`)^2).
+/// The answer says whether some disc lies in the material of all of `in` and in none of `out` (of these too,
+/// holes are not material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: O(edges +
+/// (those near the box common to `in`)^2).
 [[nodiscard]] bool have_common_disc(const std::vector<const GridOutline*>& in,
                                     const std::vector<const GridOutline*>& out);
 
-/// Whether a point of a's edges and one of b's are less than `gap` steps apart. \pre 0 <= gap <= kMostPlaced
+/// The answer says whether a point of a's edges and one of b's are less than `gap` steps apart. \pre 0 <= gap
+/// <= kMostPlaced
 [[nodiscard]] bool edges_nearer_than(const GridOutline& a, const GridOutline& b, std::int64_t gap);
 
 }  // namespace lekalo::verify

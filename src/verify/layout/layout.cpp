@@ -59,8 +59,8 @@ bool grain_allowed(const WrittenPart& part, const WrittenStock& stock, const Wri
          turned_within(piece.turn, opposite - most, opposite + most);
 }
 
-/// Whether at some point of the part and the zone more is demanded than the zone has: by an area there, or by
-/// the part where there is no area.
+/// The answer says whether at some point of the part and the zone more is demanded than the zone has: by an
+/// area there, or by the part where there is no area.
 bool demands_more(const Placed& placed_part, const WrittenStockFeature& zone) {
   const WrittenPart& part = *placed_part.part;
   std::vector<GridOutline> areas;

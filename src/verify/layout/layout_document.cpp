@@ -42,9 +42,8 @@ class Members {
     return number_of(fields_.get(key), fields_.name(key), least, most);
   }
   [[nodiscard]] double number_of(Json value, const std::string& what, double least, double most) {
-    (void)fields_.number_of(value, what);
+    const double number = approximate(fields_.number_of(value, what));
     if (!complaint_.empty()) return 0;
-    const double number = nearest_double(value.text);
     if (number >= least && number <= most) return number;
     complain(fmt::format("field {} is {}, not from {} to {}", what, excerpt(value.text), least, most));
     return 0;
@@ -59,7 +58,7 @@ class Members {
     const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
     if (number && number->exponent >= 0 && number->exponent < 19) {
       const Integer exact = in_units(*number, 0);
-      if (exact >= static_cast<long>(least) && exact <= static_cast<long>(most)) return exact.get_si();
+      if (exact >= static_cast<long>(least) && exact <= static_cast<long>(most)) return to_long(exact);
     }
     complain(fmt::format("field {} is {}, not a whole number from {} to {}", name(key), excerpt(value.text),
                          least, most));

@@ -12,7 +12,7 @@
 
 namespace lekalo::verify {
 
-/// What of a written layout the rules speak of. Lengths in steps, angles in degrees.
+/// The parts of a written layout that the rules speak of. Lengths in steps, angles in degrees.
 
 struct WrittenArea {
   int quality = 0;

@@ -14,19 +14,19 @@ namespace {
 /// than 60 u; clamping to a segment moves its foot by a few u more. 128 u is stated.
 constexpr double kFilterError = 0x1p-46;
 
-Turn rotation(const Decimal& angle, mpfr_prec_t precision) {
+Turn rotation(const Decimal& angle, Precision precision) {
   return turn_by(Interval(angle, precision + angle_bits(angle)));
 }
 
 /// direction x (R v + t - a), which is the distance times the direction's length.
 Interval scaled_distance(const Point& v, const Point& a, const Point& direction, const Point& shift,
-                         const Turn& turn, mpfr_prec_t precision) {
+                         const Turn& turn, Precision precision) {
   return turn.cosine * Interval(cross(direction, v), precision) +
          turn.sine * Interval(dot(direction, v), precision) +
          Interval(cross(direction, shift - a), precision);
 }
 
-Interval length(const Point& direction, mpfr_prec_t precision) {
+Interval length(const Point& direction, Precision precision) {
   return square_root(Interval(dot(direction, direction), precision));
 }
 
@@ -42,26 +42,11 @@ struct FlatPoint {
 
 FlatPoint operator-(FlatPoint a, FlatPoint b) { return {a.x - b.x, a.y - b.y}; }
 
-/// value / 2^scale, within 2^-52 of it relatively.
-double scaled(const Integer& value, long scale) {
-  long exponent = 0;
-  const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
-  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
-}
-double scaled(mpfr_srcptr value, long scale) {
-  if (mpfr_zero_p(value) != 0) return 0;
-  long exponent = 0;
-  const double digits = mpfr_get_d_2exp(&exponent, value, MPFR_RNDN);
-  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
-}
-long bits(const Integer& value) { return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2)); }
-long bits(mpfr_srcptr value) { return mpfr_zero_p(value) != 0 ? 0 : mpfr_get_exp(value); }
-
 /// Everything seen from one corner of the blank, so that a blank far from the origin keeps its digits; placed
 /// part points as intervals, and both as doubles in units of 2^scale, which makes them smaller than 1.
 class Scene {
  public:
-  Scene(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn, mpfr_prec_t precision)
+  Scene(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn, Precision precision)
       : blank_(blank), precision_(precision), origin_(blank.corner(0)) {
     const Interval tx(pose.shift.x - origin_.x, precision), ty(pose.shift.y - origin_.y, precision);
     for (const Point& v : part.points) {
@@ -69,18 +54,16 @@ class Scene {
       placed_.push_back({turn.cosine * x - turn.sine * y + tx, turn.sine * x + turn.cosine * y + ty});
     }
     for (const IntervalPoint& p : placed_) {
-      for (mpfr_srcptr value : {p.x.low(), p.x.high(), p.y.low(), p.y.high()}) {
-        scale_ = std::max(scale_, bits(value) + 1);
-      }
+      scale_ = std::max({scale_, bits_of(p.x) + 1, bits_of(p.y) + 1});
     }
     for (const Point& q : blank.points) {
-      scale_ = std::max({scale_, bits(q.x - origin_.x), bits(q.y - origin_.y)});
+      scale_ = std::max({scale_, bits_of(q.x - origin_.x), bits_of(q.y - origin_.y)});
     }
     for (const IntervalPoint& p : placed_) {
-      flat_part_.push_back({scaled(p.x.low(), scale_), scaled(p.y.low(), scale_)});
+      flat_part_.push_back({p.x.nearly_low(scale_), p.y.nearly_low(scale_)});
     }
     for (const Point& q : blank.points) {
-      flat_blank_.push_back({scaled(q.x - origin_.x, scale_), scaled(q.y - origin_.y, scale_)});
+      flat_blank_.push_back({scaled_down(q.x - origin_.x, scale_), scaled_down(q.y - origin_.y, scale_)});
     }
   }
 
@@ -95,16 +78,16 @@ class Scene {
   /// Unit normal to the left of hull edge j, and its dent in units of 2^scale.
   void flat_line(std::size_t j, FlatPoint& normal, double& dent) const {
     const Point side = blank_.side(j);
-    const long size = std::max(bits(side.x), bits(side.y));
-    const double x = scaled(side.x, size), y = scaled(side.y, size);
+    const long size = std::max(bits_of(side.x), bits_of(side.y));
+    const double x = scaled_down(side.x, size), y = scaled_down(side.y, size);
     const double side_length = std::sqrt(x * x + y * y);
     normal = {-y / side_length, x / side_length};
-    dent = scaled(blank_.dents[j], size + scale_) / side_length;
+    dent = scaled_down(blank_.dents[j], size + scale_) / side_length;
   }
 
  private:
   const Outline& blank_;
-  mpfr_prec_t precision_;
+  Precision precision_;
   Point origin_;
   std::vector<IntervalPoint> placed_;
   std::vector<FlatPoint> flat_part_, flat_blank_;
@@ -152,7 +135,7 @@ Interval least_of(const std::vector<Interval>& values) {
 
 /// Least signed distance from the hull's edges, each moved in by its dent when `dented`.
 Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
-                      const Scene& scene, bool dented, mpfr_prec_t precision) {
+                      const Scene& scene, bool dented, Precision precision) {
   const auto row_distance = [&](std::size_t j) {
     FlatPoint normal;
     double dent = 0;
@@ -178,7 +161,7 @@ Interval segment_distance(const IntervalPoint& p, const IntervalPoint& a, const 
   const Interval along = w.x * e.x + w.y * e.y, squared = square(e.x) + square(e.y);
   const Interval from_a = square_root(square(w.x) + square(w.y)),
                  from_b = square_root(square(z.x) + square(z.y));
-  if (mpfr_zero_p(squared.high()) != 0 || certainly_negative(along)) return from_a;
+  if (certainly_zero(squared) || certainly_negative(along)) return from_a;
   if (certainly_above(along, squared)) return from_b;
   if (!certainly_positive(squared)) return hull(Interval(p.x.precision()), from_a);
   const Interval cross_product = e.x * w.y - e.y * w.x;
@@ -220,7 +203,7 @@ Interval outline_distance(const Outline& blank, const Outline& part, const Scene
 
 }  // namespace
 
-Interval allowance(const Outline& blank, const Outline& part, const Pose& pose, mpfr_prec_t precision) {
+Interval allowance(const Outline& blank, const Outline& part, const Pose& pose, Precision precision) {
   const Turn turn = rotation(pose.angle, precision);
   const Scene scene(blank, part, pose, turn, precision);
   const Interval outer = line_minimum(blank, part, pose, turn, scene, false, precision);
@@ -230,17 +213,17 @@ Interval allowance(const Outline& blank, const Outline& part, const Pose& pose, 
 }
 
 Interval line_distance(const Point& v, const Point& a, const Point& direction, const Pose& pose,
-                       mpfr_prec_t precision) {
+                       Precision precision) {
   return scaled_distance(v, a, direction, pose.shift, rotation(pose.angle, precision), precision) /
          length(direction, precision);
 }
 
-mpfr_prec_t working_precision(const Outline& blank, const Outline& part) {
+Precision working_precision(const Outline& blank, const Outline& part) {
   long widest = 1;
   for (const Outline* outline : {&blank, &part}) {
-    for (const Point& p : outline->points) widest = std::max({widest, bits(p.x), bits(p.y)});
+    for (const Point& p : outline->points) widest = std::max({widest, bits_of(p.x), bits_of(p.y)});
   }
-  return 256 + 6 * static_cast<mpfr_prec_t>(widest);
+  return 256 + 6 * static_cast<Precision>(widest);
 }
 
 }  // namespace lekalo::verify

@@ -25,14 +25,14 @@ struct Pose {
 /// Cost: (corners of the part) x (corners of the blank), about 1 ns each, and microseconds for each
 /// near-minimal.
 [[nodiscard]] Interval allowance(const Outline& blank, const Outline& part, const Pose& pose,
-                                 mpfr_prec_t precision);
+                                 Precision precision);
 
 /// Encloses the signed distance of part point `v` at the pose from the line through `a` along `direction`
 /// (the blank's material on its left), integer units.
 [[nodiscard]] Interval line_distance(const Point& v, const Point& a, const Point& direction, const Pose& pose,
-                                     mpfr_prec_t precision);
+                                     Precision precision);
 
 /// Bits that hold every product the checker forms of such numbers, and 256 beyond.
-[[nodiscard]] mpfr_prec_t working_precision(const Outline& blank, const Outline& part);
+[[nodiscard]] Precision working_precision(const Outline& blank, const Outline& part);
 
 }  // namespace lekalo::verify

@@ -31,9 +31,6 @@ constexpr unsigned long kRoundoffPlaces = 12;
 /// All coordinates together may take so many digits once they have one exponent: 100 million, about 40 MB.
 constexpr double kMostDigits = 1e8;
 
-/// Enough for what is compared with a tolerance; unlike a double it has room for squares of any length.
-constexpr mpfr_prec_t kRough = 64;
-
 Interval rough(const Integer& value) { return {value, kRough}; }
 Interval rough_length(const Point& p) { return square_root(rough(dot(p, p))); }
 
@@ -66,8 +63,7 @@ class Units {
     if (value.digits == 0) return;
     exponent_ = std::min(exponent_, value.exponent);
     ++count_;
-    const auto digits = static_cast<long>(mpz_sizeinbase(value.digits.get_mpz_t(), 10));
-    magnitude_ = std::max(magnitude_, digits + value.exponent);
+    magnitude_ = std::max(magnitude_, digits_of(value.digits) + value.exponent);
   }
   void add(const Contour& contour) {
     for (const Decimal& value : contour.x) add(value);
@@ -159,7 +155,7 @@ class AngleCheck {
   const ResultDocument& result_;
   LocateReport report_;
   Scene scene_;
-  mpfr_prec_t precision_ = 256;
+  Precision precision_ = 256;
   Interval best_allowance_{256};
 };
 
@@ -294,7 +290,7 @@ Interval AngleCheck::check_clearance(const std::string& what, const WrittenPlace
 
 /// theta_deg says the same as theta, and theta lies in the window.
 void AngleCheck::check_angle(const std::string& what, const WrittenPlacement& placement) {
-  const mpfr_prec_t wide = 256 + angle_bits(placement.theta) + angle_bits(placement.theta_deg);
+  const Precision wide = 256 + angle_bits(placement.theta) + angle_bits(placement.theta_deg);
   const Interval degrees =
       Interval(placement.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
   const double error = (degrees - Interval(placement.theta_deg, wide)).high_double();

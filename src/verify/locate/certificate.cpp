@@ -13,8 +13,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Sentences about single intervals; a certificate may hold a million of them.
 constexpr std::size_t kMostComplaints = 20;
-/// Enough for what is compared with a tolerance.
-constexpr mpfr_prec_t kRough = 64;
 
 /// NaN when the double nearest to the number is not finite or the number is too small for one.
 double nearest_double(std::string_view text) {
@@ -43,7 +41,7 @@ Interval coordinate_roundoff(const Ring& points) {
 
 }  // namespace
 
-CertificateCheck::CertificateCheck(const Outline& part, EdgeLines& edges, mpfr_prec_t precision,
+CertificateCheck::CertificateCheck(const Outline& part, EdgeLines& edges, Precision precision,
                                    std::vector<std::string>& findings)
     : part_(part),
       edges_(edges),
@@ -71,7 +69,7 @@ void CertificateCheck::add(const WrittenInterval& interval) {
 }
 
 bool CertificateCheck::may_raise_bound(const WrittenInterval& interval, const Sinusoid& s) {
-  constexpr mpfr_prec_t kShort = 128;
+  constexpr Precision kShort = 128;
   return !bound_ || (!(flat_bound(interval, s) <= flat_bound_) &&
                      !certainly_not_above(bound_over(interval, s, kShort), *bound_));
 }
@@ -156,16 +154,11 @@ const CertificateCheck::FlatTurn& CertificateCheck::flat_turn(std::string_view a
   turn.nearest = nearest_double(angle);
   turn.cosine = turn.sine = {-1, 1};
   if (!std::isfinite(turn.nearest)) return turn;
-  mpfr_t theta, sine, cosine;
-  mpfr_inits2(53, theta, sine, cosine, static_cast<mpfr_ptr>(nullptr));
-  mpfr_set_d(theta, turn.nearest, MPFR_RNDN);
-  mpfr_sin_cos(sine, cosine, theta, MPFR_RNDN);
+  const RoundedTurn rounded = rounded_turn(turn.nearest);
   // Half a step each for the rounded value and for the angle, doubled.
   const double error = std::nextafter((1 + std::abs(turn.nearest)) * 0x1p-52, kInfinity);
-  const double c = mpfr_get_d(cosine, MPFR_RNDN), n = mpfr_get_d(sine, MPFR_RNDN);
-  turn.cosine = outwards(c - error, c + error);
-  turn.sine = outwards(n - error, n + error);
-  mpfr_clears(theta, sine, cosine, static_cast<mpfr_ptr>(nullptr));
+  turn.cosine = outwards(rounded.cosine - error, rounded.cosine + error);
+  turn.sine = outwards(rounded.sine - error, rounded.sine + error);
   return turn;
 }
 
@@ -196,7 +189,7 @@ double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinus
   return std::nextafter(std::ldexp((sum / divisor).high, static_cast<int>(places)), kInfinity);
 }
 
-Turn CertificateCheck::turn_at(std::string_view angle, mpfr_prec_t precision) {
+Turn CertificateCheck::turn_at(std::string_view angle, Precision precision) {
   if (last_turn_ && last_angle_ == angle && last_turn_->sine.precision() >= precision) return *last_turn_;
   const Decimal exact = *parse_decimal(angle);
   last_turn_ = turn_by(Interval(exact, precision + angle_bits(exact)));
@@ -205,7 +198,7 @@ Turn CertificateCheck::turn_at(std::string_view angle, mpfr_prec_t precision) {
 }
 
 Interval CertificateCheck::bound_over(const WrittenInterval& interval, const Sinusoid& s,
-                                      mpfr_prec_t precision) {
+                                      Precision precision) {
   const Interval a(s.cosine, precision), b(s.sine, precision);
   const Interval crest = square_root(square(a) + square(b));
   // Below pi wide, the crest is inside just when the curve rises at the start and falls at the end.
@@ -220,7 +213,7 @@ Interval CertificateCheck::bound_over(const WrittenInterval& interval, const Sin
   if (compare(width, Decimal{3, 0}) < 0) {
     top = narrow_top(from, to);
   } else if (compare(width, Decimal{9, 0}) < 0) {
-    const mpfr_prec_t wide = precision + angle_bits(begin) + angle_bits(width);
+    const Precision wide = precision + angle_bits(begin) + angle_bits(width);
     const Interval start(begin, wide), third = Interval(width, wide) / Interval(Integer(3), wide);
     const Turn first = turn_by(start + third), second = turn_by(start + third + third);
     top = maximum(narrow_top(from, first), maximum(narrow_top(first, second), narrow_top(second, to)));
@@ -244,7 +237,7 @@ void CertificateCheck::finish(const Window& window) {
     return;
   }
   const Decimal from = *parse_decimal(first_from_), to = *parse_decimal(reach_);
-  const mpfr_prec_t wide =
+  const Precision wide =
       256 + angle_bits(from) + angle_bits(to) + angle_bits(window.from_deg) + angle_bits(window.to_deg);
   const Interval pi = Interval::pi(wide);
   if (window.full_circle()) {

@@ -46,7 +46,7 @@ inline constexpr double kMultiplierTolerance = 1e-6;
 /// to 12 digits.
 class CertificateCheck {
  public:
-  CertificateCheck(const Outline& part, EdgeLines& edges, mpfr_prec_t precision,
+  CertificateCheck(const Outline& part, EdgeLines& edges, Precision precision,
                    std::vector<std::string>& findings);
 
   void add(const WrittenInterval& interval);
@@ -78,13 +78,12 @@ class CertificateCheck {
   [[nodiscard]] double flat_bound(const WrittenInterval& interval, const Sinusoid& s);
   [[nodiscard]] const FlatTurn& flat_turn(std::string_view angle);
   [[nodiscard]] bool may_raise_bound(const WrittenInterval& interval, const Sinusoid& s);
-  [[nodiscard]] Interval bound_over(const WrittenInterval& interval, const Sinusoid& s,
-                                    mpfr_prec_t precision);
-  [[nodiscard]] Turn turn_at(std::string_view angle, mpfr_prec_t precision);
+  [[nodiscard]] Interval bound_over(const WrittenInterval& interval, const Sinusoid& s, Precision precision);
+  [[nodiscard]] Turn turn_at(std::string_view angle, Precision precision);
 
   const Outline& part_;
   EdgeLines& edges_;
-  mpfr_prec_t precision_;
+  Precision precision_;
   std::vector<std::string>& findings_;
   std::size_t count_ = 0, worst_ = 0, complaints_ = 0;
   std::optional<Interval> bound_;

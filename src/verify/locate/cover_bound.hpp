@@ -20,7 +20,8 @@ struct BallTerm {
   bool capped = false;  ///< a cap's term: its ball lies in the blank's material
 };
 
-/// What the terms prove over a cell, and what they prove at its middle: nobody proves less for the cell.
+/// The bound that the terms prove over a cell, and the one at its middle: no division of the cell proves
+/// less.
 struct CellBound {
   double everywhere = 0, in_the_middle = 0;
 };

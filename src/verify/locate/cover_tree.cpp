@@ -28,7 +28,7 @@ Span enclosed(const Decimal& value) {
 
 /// A degree in radians.
 Span radians(const Decimal& degrees) {
-  const mpfr_prec_t wide = 128 + angle_bits(degrees);
+  const Precision wide = 128 + angle_bits(degrees);
   const Interval angle = Interval(degrees, wide) * Interval::pi(wide) / Interval(Integer(180), wide);
   return {angle.low_double(), angle.high_double()};
 }
@@ -176,7 +176,8 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
   return !terms.empty() || complain("its multipliers sum to nothing");
 }
 
-/// What of a ball's radius really lies in the part's material; negative when its centre lies beside it.
+/// The part of a ball's radius that really lies in the part's material; negative when its centre lies beside
+/// it.
 double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = part_radii_.find(key);
@@ -212,7 +213,7 @@ double CoverTree::off_cap(const Vec& point, const Cap& cap) const {
   return off;
 }
 
-/// What of a ball's radius really lies in the blank's material.
+/// The part of a ball's radius that really lies in the blank's material.
 double CoverTree::material_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = material_radii_.find(key);

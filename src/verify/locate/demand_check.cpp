@@ -108,7 +108,7 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
 DemandCheck::DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part,
                          const Shape& blank, Span off, std::vector<std::string>& findings)
     : d_(demands), part_(part), placed_(placed_part), blank_(blank), off_(off), findings_(findings) {
-  // What joins an arc's end to its circle belongs to the edge beside it.
+  // The line that joins an arc's end to its circle belongs to the edge beside it.
   for (std::size_t k = 0; k < part.sides.size(); ++k) {
     if (part.sides[k].written || sides_of_edge_.empty()) sides_of_edge_.emplace_back();
     sides_of_edge_.back().push_back(k);

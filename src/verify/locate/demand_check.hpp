@@ -9,7 +9,7 @@
 
 namespace lekalo::verify {
 
-/// What each feature of a part demands, as written in a result (docs/formats.md, "demands").
+/// The demands of one feature of a part, as written in a result (docs/formats.md, "demands").
 struct WrittenFeature {
   std::string name;
   std::vector<std::size_t> edges;
@@ -17,7 +17,7 @@ struct WrittenFeature {
   std::optional<Span> maximum, finished;
 };
 
-/// What the second criterion is said to have found, with the numbers of its certificate.
+/// The result that the second criterion is said to have found, with the numbers of its certificate.
 struct WrittenSecond {
   Decimal margin, found, bound, gap, kept;
   struct Proof {
@@ -53,23 +53,25 @@ class DemandCheck {
   DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part, const Shape& blank,
               Span off, std::vector<std::string>& findings);
 
-  /// Where the margin is not negative: every minimum, with its share of the margin, every maximum and the
-  /// largest allowance hold at the placement.
+  /// A margin that is not negative promises that every minimum, with its share of the margin, every maximum
+  /// and the largest allowance hold at the placement.
   void check_placement();
 
-  /// What one criterion left to the next one is kept at the placement, as far as the result says so.
+  /// The gap that one criterion left to the next one is kept at the placement, as far as the result says so.
   /// \param optimal  whether the result claims that the gaps are closed
   void check_criteria(bool optimal);
 
-  /// What a certificate is to be checked with: by how much each side of the part is grown for a margin, and
-  /// the caps with `shift` added; for that of largest allowances also one for all that is not finished.
+  /// A certificate is checked with these growths and caps: by how much each side of the part is grown for a
+  /// margin, and the caps with `shift` added; for that of largest allowances also one for all that is not
+  /// finished.
   [[nodiscard]] std::vector<double> growth(Span grown_for) const;
   [[nodiscard]] std::vector<CoverTree::Cap> caps(Span shift, const std::optional<Span>& most = {}) const;
   /// A number that p is no further from the part grown so than.
   [[nodiscard]] double off_grown_part(const Vec& p, Span grown_for) const;
-  /// Whether `bound` of what the certificate bounds makes margin_bound a bound of the margin.
+  /// Checks that the `bound` of the certificate makes margin_bound a bound of the margin.
   void check_bound();
-  /// Whether that of the second certificate makes its `bound` one of largest allowances. \pre there is one
+  /// Checks that the bound of the second certificate makes its `bound` one of largest allowances. \pre there
+  /// is one
   void check_largest_bound();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace lekalo::verify {
 
-EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, mpfr_prec_t precision)
+EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, Precision precision)
     : blank_(blank),
       precision_(precision),
       dropped_(blank.points.size(), false),

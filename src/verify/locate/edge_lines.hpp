@@ -30,7 +30,7 @@ struct EdgeLine {
 /// points is a hint: whatever it says, an EdgeLine tells the truth about its line.
 class EdgeLines {
  public:
-  EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, mpfr_prec_t precision);
+  EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, Precision precision);
 
   /// nullptr, with the reason in `why`, when there is no such edge.
   [[nodiscard]] const EdgeLine* find(std::size_t k, std::string& why);
@@ -47,7 +47,7 @@ class EdgeLines {
   [[nodiscard]] EdgeLine measure(const Point& from, const Point& to, std::size_t near) const;
 
   const Outline& blank_;
-  mpfr_prec_t precision_;
+  Precision precision_;
   long flat_scale_ = 0;
   std::vector<bool> dropped_;
   std::vector<std::size_t> next_kept_;               ///< per file point

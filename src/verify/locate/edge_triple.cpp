@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace lekalo::verify {
-namespace {
-
-constexpr mpfr_prec_t kRough = 64;
-
-}  // namespace
-
 EdgeTriple::EdgeTriple(const std::array<const EdgeLine*, 3>& three) : edges(three) {
   bool positive = false, negative = false;
   for (std::size_t j = 0; j < 3; ++j) {

@@ -21,13 +21,13 @@ struct EdgeTriple {
   explicit EdgeTriple(const std::array<const EdgeLine*, 3>& three);
   /// Largest difference of a share from the multiplier written for it.
   [[nodiscard]] double disagreement(const std::array<double, 3>& multipliers) const;
-  /// What an error of `roundoff` in each coordinate of the edges' ends makes of a share, about.
+  /// The error that a share has, about, when each coordinate of the edges' ends is off by `roundoff`.
   [[nodiscard]] double sensitivity(const Interval& roundoff) const;
 };
 
 /// The triple that a certificate means by its edges and multipliers.
 ///
-/// Where a multiplier is next to nothing, the other two edges are opposite but for the last digits of the
+/// When a multiplier is next to nothing, the other two edges are opposite but for the last digits of the
 /// file, and the third carries what those digits leave: which edge is fit for that, and whether it does not
 /// itself run along the pair, is beyond what its writer could know. Any three edges that balance make a true
 /// bound, so there a hull edge across the pair takes its place when that fits the written multipliers better.

@@ -271,7 +271,7 @@ void PoseCheck::check_clearance() {
 
 void PoseCheck::check_pose() {
   check_allowed("", r_.x, r_.y, r_.theta, r_.mirrored);
-  const mpfr_prec_t wide = 128 + angle_bits(r_.theta);
+  const Precision wide = 128 + angle_bits(r_.theta);
   const Interval degrees = Interval(r_.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
   const double theta = degrees.high_double();
   if (!(std::abs((degrees - Interval(r_.theta_deg, 128 + angle_bits(r_.theta_deg))).high_double()) <=
@@ -286,7 +286,7 @@ void PoseCheck::check_allowed(const std::string& whose, const Decimal& x, const 
     if (*locked && compare(**locked, *is) != 0) find("{}the placement is not where it is locked", whose);
   if (mirrored != (r_.mirror == "yes") && r_.mirror != "either")
     find("{}the placement is {}mirrored, which was not allowed", whose, mirrored ? "" : "not ");
-  const mpfr_prec_t wide = 128 + angle_bits(angle);
+  const Precision wide = 128 + angle_bits(angle);
   const double theta =
       (Interval(angle, wide) * Interval(Integer(180), wide) / Interval::pi(wide)).high_double();
   const double from = approximate(r_.window_from), to = approximate(r_.window_to);

@@ -86,6 +86,13 @@ Integer in_units(const Decimal& value, long exponent) {
   return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent - exponent));
 }
 
+Fraction to_fraction(const Decimal& value) {
+  if (value.exponent >= 0) return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent));
+  Fraction made(value.digits, power_of_ten(static_cast<unsigned long>(-value.exponent)));
+  made.canonicalize();
+  return made;
+}
+
 Decimal operator-(const Decimal& a, const Decimal& b) {
   if (b.digits == 0) return a;
   if (a.digits == 0) return {-b.digits, b.exponent};
@@ -96,8 +103,7 @@ Decimal operator-(const Decimal& a, const Decimal& b) {
 int compare(const Decimal& a, const Decimal& b) { return sgn((a - b).digits); }
 
 long angle_bits(const Decimal& value) {
-  const auto digits = static_cast<long>(mpz_sizeinbase(value.digits.get_mpz_t(), 10));
-  return value.digits == 0 ? 0 : 4 * std::max(0L, digits + value.exponent);
+  return value.digits == 0 ? 0 : 4 * std::max(0L, digits_of(value.digits) + value.exponent);
 }
 
 double approximate(const Decimal& value) {

@@ -2,6 +2,8 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +13,13 @@ namespace lekalo::verify {
 
 /// Exact numbers of the checker. A written decimal is digits * 10^exponent; all lengths of one verification
 /// are brought to one exponent and are plain integers from there on, so cross products and signs are exact.
+///
+/// This header, interval.hpp and their two sources are the only files of the checker that know GMP and MPFR.
+/// A target without them gives Integer and Fraction the same operators (arithmetic, shifts, comparisons, sgn,
+/// abs, cmp, conversion from numbers) and implements the functions declared here anew. The types stand in the
+/// open because a number behind a pointer of its own would cost an allocation more.
 using Integer = mpz_class;
+using Fraction = mpq_class;
 
 struct Decimal {
   Integer digits;  ///< 0, or not a multiple of 10
@@ -27,7 +35,7 @@ inline constexpr long kMaxMagnitude = 400;
 /// for numbers beyond the limits above.
 [[nodiscard]] std::optional<Decimal> parse_decimal(std::string_view text);
 
-/// What parse_decimal accepts, for error messages.
+/// Error messages say with these words which numbers parse_decimal accepts.
 inline constexpr const char* kDecimalRule = "a decimal number of at most 800 digits between 1e-400 and 1e400";
 
 /// For messages: the text, cut when it is long.
@@ -35,8 +43,32 @@ inline constexpr const char* kDecimalRule = "a decimal number of at most 800 dig
 
 [[nodiscard]] Integer power_of_ten(unsigned long exponent);
 
+[[nodiscard]] inline bool is_even(const Integer& value) { return mpz_even_p(value.get_mpz_t()) != 0; }
+/// \pre value fits a long
+[[nodiscard]] inline long to_long(const Integer& value) { return value.get_si(); }
+
+/// The number of bits of |value|; 1 for 0.
+[[nodiscard]] inline long bits_of(const Integer& value) {
+  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
+}
+/// The number of decimal digits of |value|, or one more.
+[[nodiscard]] inline long digits_of(const Integer& value) {
+  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 10));
+}
+
+/// value / 2^scale, cut towards zero by less than one step of a double.
+[[nodiscard]] inline double scaled_down(const Integer& value, long scale) {
+  long exponent = 0;
+  const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+}
+/// The value, cut towards zero by less than one step of a double.
+[[nodiscard]] inline double cut_to_double(const Fraction& value) { return value.get_d(); }
+
 /// value / 10^exponent. \pre exponent <= value.exponent or value is 0.
 [[nodiscard]] Integer in_units(const Decimal& value, long exponent);
+
+[[nodiscard]] Fraction to_fraction(const Decimal& value);
 
 /// Sign of a - b.
 [[nodiscard]] int compare(const Decimal& a, const Decimal& b);
@@ -46,7 +78,7 @@ inline constexpr const char* kDecimalRule = "a decimal number of at most 800 dig
 /// beyond the precision that is wanted.
 [[nodiscard]] long angle_bits(const Decimal& value);
 
-/// The nearest double; for messages and hints only.
+/// The nearest double.
 [[nodiscard]] double approximate(const Decimal& value);
 
 struct Point {

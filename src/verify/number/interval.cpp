@@ -9,7 +9,7 @@
 namespace lekalo::verify {
 namespace {
 
-mpfr_prec_t common_precision(const Interval& a, const Interval& b) {
+Precision common_precision(const Interval& a, const Interval& b) {
   return std::max(a.precision(), b.precision());
 }
 
@@ -21,26 +21,26 @@ std::string decimal_text(mpfr_srcptr value, const char* format) {
 
 }  // namespace
 
-Interval::Interval(mpfr_prec_t precision) {
+Interval::Interval(Precision precision) {
   mpfr_init2(low_, precision);
   mpfr_init2(high_, precision);
   mpfr_set_zero(low_, 1);
   mpfr_set_zero(high_, 1);
 }
 
-Interval::Interval(const Integer& value, mpfr_prec_t precision) : Interval(precision) {
+Interval::Interval(const Integer& value, Precision precision) : Interval(precision) {
   mpfr_set_z(low_, value.get_mpz_t(), MPFR_RNDD);
   mpfr_set_z(high_, value.get_mpz_t(), MPFR_RNDU);
 }
 
-Interval Interval::exactly(double value, mpfr_prec_t precision) {
+Interval Interval::exactly(double value, Precision precision) {
   Interval interval(precision);
   mpfr_set_d(interval.low_, value, MPFR_RNDD);
   mpfr_set_d(interval.high_, value, MPFR_RNDU);
   return interval;
 }
 
-Interval::Interval(const Decimal& value, mpfr_prec_t precision) : Interval(value.digits, precision) {
+Interval::Interval(const Decimal& value, Precision precision) : Interval(value.digits, precision) {
   const Interval power(power_of_ten(static_cast<unsigned long>(std::abs(value.exponent))), precision);
   *this = value.exponent < 0 ? *this / power : *this * power;
 }
@@ -50,7 +50,7 @@ Interval::Interval(const Interval& other) : Interval(other.precision()) {
   mpfr_set(high_, other.high_, MPFR_RNDU);
 }
 
-Interval::Interval(Interval&& other) noexcept : Interval(mpfr_prec_t{MPFR_PREC_MIN}) {
+Interval::Interval(Interval&& other) noexcept : Interval(Precision{MPFR_PREC_MIN}) {
   mpfr_swap(low_, other.low_);
   mpfr_swap(high_, other.high_);
 }
@@ -66,7 +66,7 @@ Interval::~Interval() {
   mpfr_clear(high_);
 }
 
-Interval Interval::pi(mpfr_prec_t precision) {
+Interval Interval::pi(Precision precision) {
   Interval result(precision);
   mpfr_const_pi(result.low_, MPFR_RNDD);
   mpfr_const_pi(result.high_, MPFR_RNDU);
@@ -146,6 +146,17 @@ Turn turn_by(const Interval& angle) {
   return turn;
 }
 
+RoundedTurn rounded_turn(double angle) {
+  constexpr mpfr_prec_t kDoubleBits = 53;
+  mpfr_t theta, sine, cosine;
+  mpfr_inits2(kDoubleBits, theta, sine, cosine, static_cast<mpfr_ptr>(nullptr));
+  mpfr_set_d(theta, angle, MPFR_RNDN);
+  mpfr_sin_cos(sine, cosine, theta, MPFR_RNDN);
+  const RoundedTurn turn{mpfr_get_d(cosine, MPFR_RNDN), mpfr_get_d(sine, MPFR_RNDN)};
+  mpfr_clears(theta, sine, cosine, static_cast<mpfr_ptr>(nullptr));
+  return turn;
+}
+
 Interval minimum(const Interval& a, const Interval& b) {
   Interval result(common_precision(a, b));
   mpfr_min(result.low_, a.low_, b.low_, MPFR_RNDD);
@@ -165,6 +176,30 @@ Interval hull(const Interval& a, const Interval& b) {
   mpfr_min(result.low_, a.low_, b.low_, MPFR_RNDD);
   mpfr_max(result.high_, a.high_, b.high_, MPFR_RNDU);
   return result;
+}
+
+long bits_of(const Interval& a) {
+  const auto bits = [](mpfr_srcptr value) {
+    return mpfr_zero_p(value) != 0 ? 0L : long{mpfr_get_exp(value)};
+  };
+  return std::max(bits(a.low_), bits(a.high_));
+}
+
+std::optional<std::int64_t> nearest_multiple(const Interval& a, int bits) {
+  Interval whole(std::max<Precision>(a.precision(), 64));
+  mpfr_mul_2si(whole.low_, a.low_, bits, MPFR_RNDN);  // exact
+  mpfr_mul_2si(whole.high_, a.high_, bits, MPFR_RNDN);
+  mpfr_rint(whole.low_, whole.low_, MPFR_RNDN);  // ties to even
+  mpfr_rint(whole.high_, whole.high_, MPFR_RNDN);
+  if (mpfr_equal_p(whole.low_, whole.high_) == 0) return std::nullopt;
+  return mpfr_get_sj(whole.low_, MPFR_RNDN);
+}
+
+double Interval::nearly_low(long scale) const {
+  if (mpfr_zero_p(low_) != 0) return 0;
+  long exponent = 0;
+  const double digits = mpfr_get_d_2exp(&exponent, low_, MPFR_RNDN);
+  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
 }
 
 double Interval::high_double(long scale) const {

@@ -23,16 +23,9 @@ struct Span {
 /// Exactly this number.
 [[nodiscard]] inline Span just(double value) { return {value, value}; }
 
-/// Bits before the binary point.
-[[nodiscard]] inline long bits_of(const Integer& value) {
-  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
-}
-
-/// value / 2^scale. GMP cuts towards zero, by less than one step.
+/// Encloses value / 2^scale.
 [[nodiscard]] inline Span to_span(const Integer& value, long scale) {
-  long exponent = 0;
-  const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
-  const double cut = std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+  const double cut = scaled_down(value, scale);
   return outwards(cut, cut);
 }
 
@@ -48,7 +41,7 @@ struct Span {
   }
   return outwards(std::min(std::min(ll, lh), std::min(hl, hh)), std::max(std::max(ll, lh), std::max(hl, hh)));
 }
-/// Of what may be 0 or less nothing is known.
+/// Nothing is known of a quotient whose divisor may be 0 or less.
 [[nodiscard]] inline Span operator/(Span a, Span b) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!(b.low > 0)) return {-kInfinity, kInfinity};

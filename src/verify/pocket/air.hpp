@@ -6,8 +6,8 @@
 
 namespace lekalo::verify {
 
-/// What lies straight out of a pocket's open edges, some way out: no material. Where strips overlap the
-/// pocket as it is drawn, the drawing holds.
+/// The strips straight out of a pocket's open edges, some way out, in which there is no material. Where they
+/// overlap the pocket as it is drawn, the drawing holds.
 class Air {
  public:
   Air() = default;

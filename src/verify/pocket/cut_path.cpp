@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "lekalo/base/angle.hpp"
+
 namespace lekalo::verify {
 namespace {
 

@@ -32,7 +32,7 @@ struct CutPath {
 [[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
                                        double longest, const std::string& name);
 
-/// What the path takes off at one depth, on the level.
+/// The material that the path takes off at one depth, on the level.
 struct Removed {
   double z = 0, mm2 = 0;
 };

@@ -3,13 +3,13 @@
 #include <map>
 
 #include "cut_path.hpp"
+#include "lekalo/base/angle.hpp"
 #include "rim_cover.hpp"
 
 namespace lekalo::verify {
 namespace {
 
 constexpr double kAirDegrees = 3, kLasting = 0.2;
-constexpr double kDegrees = 180 / kPi;
 constexpr double kSameLevel = 1e-6;       // mm of Z that no machine tells
 constexpr double kTooShortToSink = 0.01;  // mm of a ramp, on which no written digit of Z changes
 constexpr double kLayerError = 1e-3;      // mm
@@ -154,8 +154,8 @@ class Engagement {
     if (cut.rapid) report_.rapid_cut_mm += drop;
   }
 
-  /// Whether of the squares of kSpeck mm this one is made of none with its middle in the disc has it in
-  /// material at depth z.
+  /// A square is cut when none of the squares of kSpeck mm that it is made of, with its middle in the disc,
+  /// has that middle in material at depth z.
   bool is_cut(const Disc& disc, Place middle, double side, const std::vector<std::uint32_t>& near,
               double z) const {
     const double half = side * 0.7071067811865476, off = length(middle - disc.middle) - disc.radius;
@@ -184,7 +184,7 @@ class Engagement {
       return rim_.may_meet(discs_[i].middle, discs_[i].radius) && as_deep(i) &&
              rim_.add(cuts_[i].stroke, cuts_[i].radius);
     };
-    // What covered much a moment ago comes first, then what is newest.
+    // Strokes that covered much a moment ago come first, then the newest.
     found_.clear();
     for (const std::uint32_t i : useful_)
       if (add(i)) found_.push_back(i);
@@ -192,8 +192,8 @@ class Engagement {
       if (add(near_[k])) found_.push_back(near_[k]);
     useful_.swap(found_);
     if (!air_.empty()) rim_.add_air(air_);
-    sample.engagement = rim_.open_angle() * kDegrees;
-    sample.left = rim_.open_left() * kDegrees;
+    sample.engagement = rim_.open_angle() * kDegreesPerRadian;
+    sample.left = rim_.open_left() * kDegreesPerRadian;
     width_ = rim_.open_width();
     if (sample.engagement < kAirDegrees) return;
     if (cut.to_z < cut.from_z) {
@@ -206,10 +206,10 @@ class Engagement {
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
         rim_.add(earlier.stroke, earlier.radius);
     }
-    sample.entry = rim_.open_angle() * kDegrees < sample.engagement - 1e-6;
+    sample.entry = rim_.open_angle() * kDegreesPerRadian < sample.engagement - 1e-6;
   }
 
-  /// Whether the rim meets material at a depth at or above the tip's.
+  /// The answer says whether the rim meets material at a depth at or above the tip's.
   bool meets(double z, const Stroke& so_far) {
     rim_.begin(so_far.to, radius_, so_far);
     for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();) {
@@ -217,7 +217,7 @@ class Engagement {
       if (highest(earlier) <= z + kSameLevel) rim_.add(earlier.stroke, earlier.radius);
     }
     if (!air_.empty()) rim_.add_air(air_);
-    return rim_.open_angle() * kDegrees >= kAirDegrees;
+    return rim_.open_angle() * kDegreesPerRadian >= kAirDegrees;
   }
 
   /// How thick a layer an entry's rim meets, where that is more than so far: what is cut down to a depth is

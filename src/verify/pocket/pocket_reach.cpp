@@ -60,7 +60,7 @@ double turning_area(const std::vector<Stroke>& contour) {
   return sum;
 }
 
-/// What lies `by` to the left of a stroke, unless it shrinks to nothing.
+/// Makes the stroke that lies `by` to the left of another, unless it shrinks to nothing.
 bool shifted(const Stroke& s, double by, Stroke& result) {
   result = s;
   if (!s.arc) {
@@ -215,13 +215,14 @@ void PocketReach::find_limit() {
     Stroke moved;
     if (shifted(s, clearance_, moved)) carriers.push_back(moved);
   }
-  // Of a circle about a corner only what faces between the two sides' normals can matter.
+  // Only the arc of a circle about a corner that faces between the two sides' normals can matter.
   for (std::size_t i = 0; i < outline_.size(); ++i) {
     const Place v = outline_[i].to;
     for (std::size_t k = 0; k < outline_.size(); ++k) {
       if (!(std::abs(outline_[k].from.x - v.x) < 1e-9 && std::abs(outline_[k].from.y - v.y) < 1e-9)) continue;
       const Place a = left_of(heading(outline_[i], v)), b = left_of(heading(outline_[k], v));
-      // Where the outline turns back by half a turn there may be a thorn, of an arc and the side of a strip.
+      // An outline that turns back by half a turn may leave a thorn there: there may be a thorn, of an arc
+      // and the side of a strip.
       const bool thorn = std::abs(cross(a, b)) <= 1e-9 && dot(a, b) < 0;
       if (!(cross(a, b) < -1e-12 || thorn)) continue;  // the pocket does not bend round this corner
       add_arc(v + clearance_ * a, v + clearance_ * b, v, false, 1e30, carriers);

@@ -22,7 +22,7 @@ class PocketReach {
   [[nodiscard]] const Air& air() const { return air_; }
   /// Distance from the outline, positive in the pocket.
   [[nodiscard]] double depth(Place p) const;
-  /// Whether the tool's middle may be here: depth(p) >= clearance, but for `slack`.
+  /// The tool's middle may be at p when depth(p) >= clearance, but for `slack`.
   [[nodiscard]] bool allowed(Place p, double slack = 1e-9) const { return depth(p) >= clearance_ - slack; }
   /// Distance from the places where the tool's middle may be, 0 in them.
   [[nodiscard]] double from_allowed(Place p) const;

@@ -7,22 +7,22 @@
 
 namespace lekalo::verify {
 
-/// Which part of the leading half of the tool's rim still meets material. What is left shrinks with every
-/// stroke, and only what is left is looked at, so that strokes that cover much should come first.
+/// Keeps the part of the leading half of the tool's rim that still meets material. What is left shrinks with
+/// every stroke, and only what is left is looked at, so that strokes that cover much should come first.
 class RimCover {
  public:
   /// \param at  middle of the tool, \param radius  its radius, mm
   /// \param came_along  the stroke that ends there; what the tool swept along it is gone
   /// \pre the stroke is of positive length
   void begin(Place at, double radius, const Stroke& came_along);
-  /// Whether what lies in this disc may be at what is left of the rim.
+  /// The answer says whether something in this disc may be at what is left of the rim.
   [[nodiscard]] bool may_meet(Place middle, double radius) const {
     const Place off = bound_middle_ - middle;
     return dot(off, off) < (bound_radius_ + radius) * (bound_radius_ + radius);
   }
-  /// What a tool of this radius, mm, swept along a stroke is gone. Returns whether that made a difference.
+  /// Takes away what a tool of this radius, mm, swept along a stroke. Returns whether that made a difference.
   bool add(const Stroke& stroke, double swept_radius);
-  /// What lies beyond open edges is gone.
+  /// Takes away what lies beyond open edges.
   void add_air(const Air& air);
   [[nodiscard]] bool nothing_left() const { return open_.empty(); }
   /// Angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.

@@ -6,6 +6,7 @@
 #include <future>
 
 #include "cut_path.hpp"
+#include "lekalo/base/angle.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -45,7 +46,7 @@ double turning_of(const CutPath& path) {
   return sum;
 }
 
-/// Of a program that goes below the top; its error says so otherwise.
+/// The path of a program that goes below the top; the error says so if it does not.
 Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves, double diameter,
                         double top) {
   Result<CutPath> path = cut_path(moves, top, diameter / 2, diameter / 4, program.name);
@@ -58,7 +59,7 @@ Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves,
   return path;
 }
 
-/// What can be reached and earlier programs have not cut as deep as this one goes.
+/// The area that can be reached and that earlier programs have not cut as deep as this one goes.
 double left_before(CutPath path, const PocketReach& reach, double radius) {
   path.cuts.clear();
   SimulateReport report;
@@ -86,7 +87,7 @@ double cutting_feed(const std::vector<Move>& moves, const std::vector<Engagement
   return 0;
 }
 
-/// What is judged: the program's moves, the pocket, and the path in the stock with what ran before.
+/// A job is what is judged: the program's moves, the pocket, and the path in the stock with what ran before.
 struct Job {
   std::vector<Move> moves;
   PocketReach reach;

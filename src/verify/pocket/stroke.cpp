@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lekalo/base/angle.hpp"
+
 namespace lekalo::verify {
 namespace {
 
@@ -18,7 +20,7 @@ Place on_circle(const Stroke& arc, Place direction) {
   return arc.centre + (arc.radius / length(direction)) * direction;
 }
 
-/// Whether the direction lies in the cone of the arc. \pre less than half a turn
+/// The answer says whether the direction lies in the cone of the arc. \pre less than half a turn
 bool faces(const Stroke& arc, Place direction) {
   const double a = cross(arc.from - arc.centre, direction), b = cross(direction, arc.to - arc.centre);
   return arc.ccw ? a >= 0 && b >= 0 : a <= 0 && b <= 0;

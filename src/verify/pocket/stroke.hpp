@@ -19,8 +19,6 @@ struct Place {
 [[nodiscard]] inline Place unit(Place a) { return (1 / length(a)) * a; }
 [[nodiscard]] inline Place left_of(Place a) { return {-a.y, a.x}; }
 
-inline constexpr double kPi = 3.141592653589793;
-
 /// Angle from a counter-clockwise to b in (-pi, pi], within 1e-15; our own, so that every build gives the
 /// same.
 [[nodiscard]] double angle_between(Place a, Place b);
@@ -40,9 +38,10 @@ struct Stroke {
 [[nodiscard]] double distance(Place p, const Stroke& stroke);
 /// Least distance of two strokes that do not cross; where they cross it may be larger than 0.
 [[nodiscard]] double distance_apart(const Stroke& a, const Stroke& b);
-/// Where they cross, tangent points with rounding left out; none for strokes on one carrier.
+/// Adds the points where two strokes cross, without tangent points that rounding leaves open; there are none
+/// for strokes on one carrier.
 void add_crossings(const Stroke& a, const Stroke& b, std::vector<Place>& places);
-/// Whether a ray from p to the right meets it; half open in y. \pre monotone in y
+/// The answer says whether a ray from p to the right meets it; half open in y. \pre monotone in y
 [[nodiscard]] bool crosses_ray_to_the_right(const Stroke& stroke, Place p);
 /// The part up to a place on it, and from it on.
 [[nodiscard]] Stroke until(const Stroke& stroke, Place at);

@@ -52,7 +52,7 @@ void StrokeIndex::near(Place p, double reach, std::vector<std::uint32_t>& number
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// What is not looked at is farther than `reach`, so none of it is below reach - widest.
+/// A stroke that is not looked at is farther than `reach`, so none of it is below reach - widest.
 template <class Distance>
 double StrokeIndex::least(Place p, double widest, Distance&& distance_of) const {
   double least = std::numeric_limits<double>::infinity();

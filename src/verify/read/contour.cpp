@@ -271,7 +271,7 @@ class DxfReader {
       }
       const auto value = lines.next();
       if (!value) return complain(line, "the file ends after a group code");
-      const DxfPair pair{static_cast<int>(in_units(*code, 0).get_si()), *value, line + 1};
+      const DxfPair pair{static_cast<int>(to_long(in_units(*code, 0))), *value, line + 1};
       if (pair.code == 0) {
         section_begins = pair.value == "SECTION";
         if (pair.value == "ENDSEC") section = {};

@@ -72,7 +72,7 @@ class Fields {
   [[nodiscard]] std::size_t index_of(Json value, const std::string& what) {
     const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
     if (number && sgn(number->digits) >= 0 && number->exponent >= 0 && compare(*number, Decimal{1, 15}) < 0) {
-      return in_units(*number, 0).get_ui();
+      return static_cast<std::size_t>(to_long(in_units(*number, 0)));
     }
     complain_of(value, what, "a whole number from 0 on");
     return 0;

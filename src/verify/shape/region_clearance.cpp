@@ -28,7 +28,7 @@ Decimal exactly(double value) {
   exponent -= 53;
   if (exponent > 0) made.digits <<= static_cast<unsigned long>(exponent);
   for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {  // m / 2 is 5 m / 10
-    if (mpz_even_p(made.digits.get_mpz_t()) != 0) {
+    if (is_even(made.digits)) {
       made.digits /= 2;
     } else {
       made.digits *= 5, --made.exponent;
@@ -37,7 +37,7 @@ Decimal exactly(double value) {
   return made;
 }
 
-/// What sticking out is enclosed to, mm.
+/// The width, mm, to which sticking out is enclosed.
 constexpr double kSticksOutTolerance = 1e-9;
 
 }  // namespace

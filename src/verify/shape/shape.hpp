@@ -72,8 +72,8 @@ inline constexpr double kLargestCoordinate = 1e9;
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint,
                                bool inch = false);
 
-/// Whether two shapes have the same edges in the same order, each contour in either direction from the same
-/// first point, with coordinates equal to `tolerance` mm.
+/// The answer says whether two shapes have the same edges in the same order, each contour in either direction
+/// from the same first point, with coordinates equal to `tolerance` mm.
 [[nodiscard]] bool same_edges(const Shape& a, const Shape& b, double tolerance);
 
 /// (cosine, sine) of a rotation, a shift, and whether x is mirrored before.

@@ -15,7 +15,7 @@ Sure both(Sure a, Sure b) { return std::min(a, b); }
 Sure either(Sure a, Sure b) { return std::max(a, b); }
 Sure not_negative(Span a) { return a.low >= 0 ? Sure::yes : (a.high < 0 ? Sure::no : Sure::maybe); }
 
-/// Whether an arc has a point in a direction from its centre.
+/// The answer says whether an arc has a point in a direction from its centre.
 Sure faces(const Side& arc, const Vec& d) {
   if (arc.sweep == Sweep::full) return Sure::yes;
   const Sure after = not_negative(cross(arc.first, d)), before = not_negative(cross(d, arc.last));
@@ -40,12 +40,12 @@ class Least {
   double low_ = kInfinity, high_ = kInfinity;
 };
 
-/// Of something joined to a point by no more than `off`.
+/// The distance of something that no more than `off` joins to a point at this distance.
 Span nearer(Span distance, double off) {
   return off > 0 ? Span{std::max(0.0, (distance - just(off)).low), distance.high} : distance;
 }
 
-/// Of a line: the foot of p on it, and whether it lies between the ends.
+/// The foot of p on a line, and whether it lies between the ends.
 struct Foot {
   Span height;  ///< distance from p, signed
   Sure between = Sure::no;
@@ -95,7 +95,7 @@ void add_line_arc(const Side& line, const Side& arc, Least& least) {
     least.add(height - arc.radius, both(outside, both(foot.between, faces(arc, to_foot))));
   }
   if (height.low > arc.radius.high) return;
-  // Where it may cross the circle. An open rounding of the root makes both crossings wide, never lost.
+  // The line may cross the circle here. An open rounding of the root makes both crossings wide, never lost.
   const Span half = square_root((arc.radius - height) * (arc.radius + height));
   for (const Span step : {half, -half}) {
     const Span place = at + step;
@@ -117,8 +117,8 @@ void add_concentric(const Side& a, const Side& b, Span apart, Least& least) {
   least.lower((apart + apart).high);
 }
 
-/// Of the smaller radius: centres this near are taken for one. What it costs is twice the distance, so only
-/// what rounding makes of one centre should be nearer.
+/// Centres are taken for one when they are nearer than this share of the smaller radius. What it costs is
+/// twice the distance, so only what rounding makes of one centre should be nearer.
 constexpr double kOneCentre = 1e-13;
 
 void add_arcs(const Side& a, const Side& b, Least& least) {
@@ -136,7 +136,7 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
   axis(b.radius - apart - a.radius, -between, -between);
   if ((apart - a.radius - b.radius).low > 0) return;
   if ((a.radius - apart - b.radius).low > 0 || (b.radius - apart - a.radius).low > 0) return;
-  // Where the circles may cross.
+  // The circles may cross at this distance along the line of their centres.
   const Span along = (apart + (a.radius - b.radius) * (a.radius + b.radius) / apart) * just(0.5);
   const Span across = square_root((a.radius - along) * (a.radius + along));
   const Vec u = unit(between);

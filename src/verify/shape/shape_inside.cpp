@@ -67,9 +67,9 @@ std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p
   return sum;
 }
 
-/// Whether p is inside a contour. Where one ray grazes an end or a tangent, another does not: the first along
-/// x, the others of Pythagorean triples, whose angles are no fractions of a turn as the corners of regular
-/// shapes are.
+/// The answer says whether p is inside a contour. Where one ray grazes an end or a tangent, another does not:
+/// the first along x, the others of Pythagorean triples, whose angles are no fractions of a turn as the
+/// corners of regular shapes are.
 std::optional<bool> inside(const Shape& shape, std::size_t contour, const Vec& p) {
   constexpr std::array<std::array<double, 3>, 6> kTriples{
       {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
@@ -173,7 +173,7 @@ bool cross_again(const Side& a, const Side& b, const Vec& shared) {
          surely_between(b, other);
 }
 
-/// Of the same decimals.
+/// Two points are the same when their decimals are.
 bool same(const Vec& p, const Vec& q) {
   return p.x.low == q.x.low && p.x.high == q.x.high && p.y.low == q.y.low && p.y.high == q.y.high;
 }
@@ -194,8 +194,8 @@ std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i
   return fmt::format("side {} runs back along side {}", j, i);
 }
 
-/// Of a contour of three the other ends of two neighbours are joined by the third, which is a neighbour of
-/// both and asked about neither.
+/// In a contour of three sides the other ends of two neighbours are joined by the third, which is a neighbour
+/// of both and asked about neither.
 std::optional<std::string> fault_of_three(const Shape& shape, std::size_t i, std::size_t j) {
   const Side &a = shape.sides[i], &b = shape.sides[j];
   if (!(a.arc || b.arc) || !a.written || !b.written) return std::nullopt;

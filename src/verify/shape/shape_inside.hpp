@@ -6,19 +6,19 @@
 
 namespace lekalo::verify {
 
-/// What lies inside what: by winding numbers, which need no contour to be simple or to run one way.
+/// Winding numbers decide what lies inside what, which need no contour to be simple or to run one way.
 /// Nothing is said where rounding leaves it open, or where a contour winds about a point more than once.
 
-/// Whether p is inside the outer contour of a piece and in none of its holes.
+/// The answer says whether p is inside the outer contour of a piece and in none of its holes.
 [[nodiscard]] std::optional<bool> holds(const Shape& shape, const Vec& p);
 
 /// Distance from the outline, positive in the material.
 [[nodiscard]] Span signed_distance(const Vec& p, const Shape& shape);
 
-/// Whether all of `inner`'s material lies in `outer`'s. \pre their outlines do not meet
+/// The answer says whether all of `inner`'s material lies in `outer`'s. \pre their outlines do not meet
 [[nodiscard]] std::optional<bool> lies_within(const Shape& inner, const Shape& outer);
 
-/// What is wrong with a shape: sides that meet (or cannot be told from it) and are not neighbours, a hole
+/// The first fault of a shape: sides that meet (or cannot be told from it) and are not neighbours, a hole
 /// outside its outer contour or in another hole, a piece in the material of another. Then its outline is not
 /// the boundary of its material, and no distance from the one says anything about the other.
 [[nodiscard]] std::optional<std::string> fault_of(const Shape& shape);

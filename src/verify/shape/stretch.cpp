@@ -8,7 +8,7 @@
 namespace lekalo::verify {
 namespace {
 
-/// Whether all corners surely lie where an arc of a blank is nearest to along its radius.
+/// The answer says whether all corners surely lie where an arc of a blank is nearest to along its radius.
 bool all_face(const Side& arc, const Corners& corners) {
   if (arc.sweep == Sweep::full) return true;
   bool after = true, before = true;

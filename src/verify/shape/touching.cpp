@@ -9,8 +9,6 @@
 namespace lekalo::verify {
 namespace {
 
-using Fraction = mpq_class;
-
 struct Spot {
   Fraction x, y;
 };
@@ -21,14 +19,8 @@ bool operator==(const Spot& a, const Spot& b) { return a.x == b.x && a.y == b.y;
 Fraction cross(const Spot& a, const Spot& b) { return a.x * b.y - a.y * b.x; }
 Fraction dot(const Spot& a, const Spot& b) { return a.x * b.x + a.y * b.y; }
 
-Fraction fraction(const Decimal& value) {
-  if (value.exponent >= 0) return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent));
-  Fraction made(value.digits, power_of_ten(static_cast<unsigned long>(-value.exponent)));
-  made.canonicalize();
-  return made;
-}
 Span enclosed(const Fraction& value) {
-  const double cut = value.get_d();  // towards zero, by less than one step
+  const double cut = cut_to_double(value);
   return outwards(cut, cut);
 }
 Vec enclosed(const Spot& spot) { return {enclosed(spot.x), enclosed(spot.y)}; }
@@ -60,8 +52,9 @@ struct ExactSide {
 
 ExactSide exact_side(const WrittenSide& written, const ExactShift& shift) {
   const auto placed = [&](const Decimal& x, const Decimal& y) -> Spot {
-    const Fraction value = fraction(x);
-    return {(shift.mirrored ? Fraction(-value) : value) + fraction(shift.x), fraction(y) + fraction(shift.y)};
+    const Fraction value = to_fraction(x);
+    return {(shift.mirrored ? Fraction(-value) : value) + to_fraction(shift.x),
+            to_fraction(y) + to_fraction(shift.y)};
   };
   ExactSide side;
   side.arc = written.arc;
@@ -77,8 +70,8 @@ ExactSide exact_side(const WrittenSide& written, const ExactShift& shift) {
   return side;
 }
 
-/// Where a point of the line or circle that carries a side stands: -1 beyond, 0 at an end, 1 between the
-/// ends.
+/// The standing of a point of the line or circle that carries a side stands: -1 beyond, 0 at an end, 1
+/// between the ends.
 int standing(const ExactSide& side, const RootSpot& p) {
   const auto sign_of = [&](auto&& linear) {
     return sign(linear(p.rational - (side.arc ? side.centre : side.from)), linear(p.irrational), p.root);
@@ -199,9 +192,10 @@ Middle middle_of(const ExactSide& side, const Spot& from, const Spot& to) {
 class Touching {
  public:
   Touching(const Shape& part, const Shape& blank, const ExactShift& shift)
-      : part_(placed(
-            part,
-            {just(1), just(0), shift.mirrored, {enclosed(fraction(shift.x)), enclosed(fraction(shift.y))}})),
+      : part_(placed(part, {just(1),
+                            just(0),
+                            shift.mirrored,
+                            {enclosed(to_fraction(shift.x)), enclosed(to_fraction(shift.y))}})),
         blank_(blank) {
     for (const WrittenSide& side : part.exact) of_part_.push_back(exact_side(side, shift));
     for (const WrittenSide& side : blank.exact) of_blank_.push_back(exact_side(side, {}));

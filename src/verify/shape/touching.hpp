@@ -16,9 +16,9 @@ struct Touch {
   bool touches = false;  ///< and touches its outline: its clearance is 0 exactly
 };
 
-/// Whether a part that touches its blank's outline surely lies in the blank all the same: its clearance is 0
-/// then, not less. Enclosures cannot tell that from sticking out by next to nothing, so what touches is
-/// computed with fractions of the written decimals, and only what does not touch with enclosures.
+/// The answer says whether a part that touches its blank's outline surely lies in the blank all the same: its
+/// clearance is 0 then, not less. Enclosures cannot tell that from sticking out by next to nothing, so what
+/// touches is computed with fractions of the written decimals, and only what does not touch with enclosures.
 ///
 /// Not inside when it does not lie there, and when that is not shown: where an arc touches whose ends do not
 /// lie on one circle about its centre exactly, or where points next to a stretch in common are too near to

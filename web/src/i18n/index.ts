@@ -1,4 +1,4 @@
-// Words of the page. A plural is an object by the categories of Intl.PluralRules.
+// The words of the page. A plural is an object by the categories of Intl.PluralRules.
 
 import en from './en.json';
 import uk from './uk.json';
@@ -20,6 +20,6 @@ export const currentLanguage = (): Language => language;
 
 export function t(key: Key, values: Record<string, string | number> = {}): string {
   const entry = dictionaries[language][key] ?? dictionaries.en[key] ?? key;
-  const text = typeof entry === 'string' ? entry : entry[plurals.select(Number(values.n ?? 0))] ?? entry.other ?? key;
+  const text = typeof entry === 'string' ? entry : (entry[plurals.select(Number(values.n ?? 0))] ?? entry.other ?? key);
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole));
 }

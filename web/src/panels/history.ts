@@ -1,10 +1,16 @@
-// Every change there was; any state can be made the newest one again.
+// The list of all changes. Any state can be made the newest one again.
 
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 import { t } from '../i18n';
 
-interface Entry { revision: number; at: string; author: string | number; text: string; undone: boolean }
+interface Entry {
+  revision: number;
+  at: string;
+  author: string | number;
+  text: string;
+  undone: boolean;
+}
 
 export function history(editor: Editor): HTMLElement {
   const list = h('ol', { class: 'list', reversed: true });
@@ -13,9 +19,19 @@ export function history(editor: Editor): HTMLElement {
     const body = (await answer.json()) as { entries?: Entry[]; error?: string };
     if (!answer.ok) return editor.say(body.error ?? String(answer.status));
     for (const e of [...(body.entries ?? [])].sort((a, b) => b.revision - a.revision)) {
-      list.append(h('li', { 'data-id': `revision-${e.revision}`, class: e.undone ? 'undone' : '' }, h('div', { class: 'row' },
-        h('b', {}, String(e.revision)), h('span', { title: e.at }, e.text, e.undone ? ` (${t('history.undone')})` : ''),
-        h('button', { class: 'small', click: () => void restore(editor, e.revision) }, t('history.restore')))));
+      list.append(
+        h(
+          'li',
+          { 'data-id': `revision-${e.revision}`, class: e.undone ? 'undone' : '' },
+          h(
+            'div',
+            { class: 'row' },
+            h('b', {}, String(e.revision)),
+            h('span', { title: e.at }, e.text, e.undone ? ` (${t('history.undone')})` : ''),
+            h('button', { class: 'small', click: () => void restore(editor, e.revision) }, t('history.restore')),
+          ),
+        ),
+      );
     }
   })().catch((error: unknown) => editor.say(String(error)));
   return list;

@@ -1,11 +1,11 @@
-// Parts still to place: a thumbnail, how many are left, a button that puts one where it fits.
+// The parts, each with a thumbnail, the number still to place, and a button that puts one where it fits.
 
-import * as line from '../commands';
-import type { Part } from '../document';
-import type { Editor } from '../editor';
-import { h } from '../elements';
+import * as line from '../layout/commands';
+import type { Part } from '../layout/document';
+import type { Editor } from '../editor/editor';
+import { h } from '../html/elements';
 import { t } from '../i18n';
-import { boxOf } from '../model';
+import { boxOf } from '../layout/model';
 
 function thumbnail(part: Part, colour: string): SVGSVGElement {
   const ns = 'http://www.w3.org/2000/svg';
@@ -14,7 +14,10 @@ function thumbnail(part: Part, colour: string): SVGSVGElement {
   const b = boxOf(outer);
   const size = Math.max(b.right - b.left, b.top - b.bottom);
   const m = size * 0.06;
-  svg.setAttribute('viewBox', `${(b.left + b.right - size) / 2 - m} ${-(b.top + b.bottom + size) / 2 - m} ${size + 2 * m} ${size + 2 * m}`);
+  svg.setAttribute(
+    'viewBox',
+    `${(b.left + b.right - size) / 2 - m} ${-(b.top + b.bottom + size) / 2 - m} ${size + 2 * m} ${size + 2 * m}`,
+  );
   svg.setAttribute('aria-hidden', 'true');
   const path = document.createElementNS(ns, 'path');
   path.setAttribute('d', [outer, ...holes].map((l) => `M${l.map(([x, y]) => `${x} ${-y}`).join('L')}Z`).join(''));
@@ -26,7 +29,11 @@ function thumbnail(part: Part, colour: string): SVGSVGElement {
   return svg;
 }
 
-export function tray(editor: Editor, colour: (part: Part) => string, draggable: (button: HTMLElement, part: Part, mirrored: boolean) => void): HTMLElement {
+export function tray(
+  editor: Editor,
+  colour: (part: Part) => string,
+  draggable: (button: HTMLElement, part: Part, mirrored: boolean) => void,
+): HTMLElement {
   const counts = editor.model.counts();
   const sheet = () => {
     const first = editor.placementsOf(editor.chosen())[0];
@@ -36,19 +43,45 @@ export function tray(editor: Editor, colour: (part: Part) => string, draggable: 
     const to = sheet();
     if (to) void editor.command(line.fit(part.id, to, hand));
   };
-  return h('ul', { class: 'tray' }, ...[...editor.model.parts.values()].map((part) => {
-    const n = counts.get(part.id)!;
-    const placed = n.upright + n.mirrored;
-    const wanted = editor.model.wanted(part.id);
-    const left = wanted - placed;
-    const piece = h('button', { class: 'piece', title: t('tray.fit'), click: () => put(part, part.mirror ? 'upright' : undefined) },
+  return h(
+    'ul',
+    { class: 'tray' },
+    ...[...editor.model.parts.values()].map((part) => {
+      const n = counts.get(part.id)!;
+      const placed = n.upright + n.mirrored;
+      const wanted = editor.model.wanted(part.id);
+      const left = wanted - placed;
+      const piece = h(
+        'button',
+        { class: 'piece', title: t('tray.fit'), click: () => put(part, part.mirror ? 'upright' : undefined) },
         thumbnail(part, colour(part)),
-      h('span', { class: 'grow' }, h('b', {}, part.name ?? part.id),
-        h('small', {}, wanted === 0 ? t('tray.any', { n: placed }) : left > 0 ? t('tray.left', { n: left }) : t('tray.done'))),
-      h('span', { class: 'count' }, wanted ? `${placed}/${wanted}` : String(placed)));
-    draggable(piece, part, false);
-    const other = part.mirror ? h('button', { class: 'icon', title: t('tray.fit.mirrored'), 'aria-label': t('tray.fit.mirrored'), click: () => put(part, 'mirrored') }, '⇋') : null;
-    if (other) draggable(other, part, true);
-    return h('li', { 'data-id': `part-${part.id}`, class: left > 0 ? 'open' : 'full' }, piece, other);
-  }));
+        h(
+          'span',
+          { class: 'grow' },
+          h('b', {}, part.name ?? part.id),
+          h(
+            'small',
+            {},
+            wanted === 0 ? t('tray.any', { n: placed }) : left > 0 ? t('tray.left', { n: left }) : t('tray.done'),
+          ),
+        ),
+        h('span', { class: 'count' }, wanted ? `${placed}/${wanted}` : String(placed)),
+      );
+      draggable(piece, part, false);
+      const other = part.mirror
+        ? h(
+            'button',
+            {
+              class: 'icon',
+              title: t('tray.fit.mirrored'),
+              'aria-label': t('tray.fit.mirrored'),
+              click: () => put(part, 'mirrored'),
+            },
+            '⇋',
+          )
+        : null;
+      if (other) draggable(other, part, true);
+      return h('li', { 'data-id': `part-${part.id}`, class: left > 0 ? 'open' : 'full' }, piece, other);
+    }),
+  );
 }

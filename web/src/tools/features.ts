@@ -1,41 +1,49 @@
-// Defects and zones by hand: drawn point by point or in one stroke, moved by dragging; and the photograph of a hide
-// beneath them, brought to scale by two points.
+// Defects and zones by hand: they are drawn point by point or in one stroke, and moved by dragging. The photograph of a
+// hide beneath them is brought to scale by two points.
 
-import * as line from '../commands';
-import type { Point } from '../document';
-import type { Editor, Feature } from '../editor';
-import { contains, type Sheet } from '../model';
-import type { Photo } from '../photo';
-import type { View } from '../view';
+import * as line from '../layout/commands';
+import type { Point } from '../layout/document';
+import type { Editor, Feature } from '../editor/editor';
+import { contains, type Sheet } from '../layout/model';
+import type { Photo } from '../editor/photo';
+import type { View } from '../picture/view';
 
-/// Pixels: between points of a stroke, to the first point that closes an outline, of a stroke that is one.
+/**
+ * Pixels between two points of a stroke; about the first point, where a press closes the outline; of the shortest
+ * movement that is a stroke and no press.
+ */
 const STROKE_STEP = 4;
 const CLOSE = 9;
 const LEAST_STROKE = 24;
 
 export class FeatureTool {
-  /// The outline being drawn, in the picture's mm, and where the pointer is.
+  /** The corners of the outline so far, in the picture's mm. */
   draft: Point[] = [];
   private sheet: Sheet | null = null;
   private stroke: Point[] | null = null;
   private moving: { feature: Feature; from: Point; by: Point } | null = null;
   private pulling: { photo: Photo; sheet: Sheet; from: Point } | null = null;
 
-  constructor(private readonly editor: Editor, private readonly view: View) {}
+  constructor(
+    private readonly editor: Editor,
+    private readonly view: View,
+  ) {}
 
   get draws(): 'defect' | 'zone' | null {
     const { tool } = this.editor;
     return tool === 'defect' || tool === 'zone' ? tool : null;
   }
-  /// The outline in hand moved along, for the picture.
+  /** The feature in hand, and how far it has been moved. */
   get moved(): { feature: Feature; by: Point } | null {
     return this.moving;
   }
 
-  /// \return whether the press is for this tool
+  /** @returns whether the press is for this tool */
   down(world: Point): boolean {
     if (this.editor.tool === 'photo') {
-      const sheet = this.editor.model.sheetAt(...world) ?? this.editor.model.sheets.find((one) => this.editor.photos.get(one.stock.id));
+      const sheet =
+        this.editor.model.sheetAt(...world) ??
+        this.editor.model.sheets.find((one) => this.editor.photos.get(one.stock.id));
       const photo = sheet && this.editor.photos.get(sheet.stock.id);
       if (photo) this.pulling = { photo, sheet, from: [world[0] - sheet.x, world[1] - sheet.y] };
       return true;
@@ -92,7 +100,7 @@ export class FeatureTool {
     this.finish();
   }
 
-  /// What is drawn so far; a stroke under way included.
+  /** The outline so far, with the stroke under way. */
   shown(): Point[] {
     return [...this.draft, ...(this.stroke ?? [])];
   }
@@ -106,7 +114,9 @@ export class FeatureTool {
     let n = list.length + 1;
     while (list.some((f) => f.id === `${kind} ${n}`)) ++n;
     const outline = draft.map(([x, y]): Point => [x - sheet.x, y - sheet.y]);
-    void this.editor.command(line.addFeature({ stock: sheet.stock.id, kind, id: `${kind} ${n}` }, this.editor.grades[kind], outline));
+    void this.editor.command(
+      line.addFeature({ stock: sheet.stock.id, kind, id: `${kind} ${n}` }, this.editor.grades[kind], outline),
+    );
   }
   back(): boolean {
     return this.draft.pop() !== undefined;
@@ -121,8 +131,9 @@ export class FeatureTool {
     const at: Point = [x - sheet.x, y - sheet.y];
     for (const f of [...list].reverse()) {
       const { outer, holes = [] } = f.outline.polygon;
-      // A zone is taken by its edge: within it others are drawn.
-      if (kind === 'defect' ? contains([outer, ...holes], ...at) : this.nearEdge(outer, at)) return { stock: sheet.stock.id, kind, id: f.id };
+      // A zone is taken by its edge, as others are drawn within it.
+      if (kind === 'defect' ? contains([outer, ...holes], ...at) : this.nearEdge(outer, at))
+        return { stock: sheet.stock.id, kind, id: f.id };
     }
     return null;
   }
@@ -139,7 +150,7 @@ export class FeatureTool {
   }
 }
 
-/// A photograph for the stock whose sheet is in the middle of the view.
+/** Lays a photograph beneath the sheet in the middle of the view. */
 export async function photoBeneath(editor: Editor, view: View, file: File): Promise<void> {
   const sheet = editor.model.sheetAt(...view.toWorld(view.width / 2, view.height / 2)) ?? editor.model.sheets[0];
   if (sheet) await editor.photos.add(sheet.stock.id, sheet.box, file);

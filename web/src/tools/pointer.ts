@@ -1,21 +1,31 @@
 // Mouse, pen and fingers on the picture.
 
-import * as line from '../commands';
-import type { Placement, Point } from '../document';
-import { movedBy, type Editor, type Tool } from '../editor';
+import * as line from '../layout/commands';
+import type { Placement, Point } from '../layout/document';
+import { movedBy, type Editor, type Tool } from '../editor/editor';
 import { FeatureTool } from './features';
-import { boxesMeet, boxOf, contains, placedLoops, type Box, type Sheet } from '../model';
-import type { View } from '../view';
+import { boxesMeet, boxOf, contains, placedAt, placedLoops, type Box, type Sheet } from '../layout/model';
+import type { View } from '../picture/view';
 
-export interface Overlay { draft: Point[]; band: Box | null; ruler: { from: Point; to: Point } | null; arrow: { from: Point; to: Point } | null }
+export interface Overlay {
+  draft: Point[];
+  band: Box | null;
+  ruler: { from: Point; to: Point } | null;
+  arrow: { from: Point; to: Point } | null;
+}
 
-/// Pixels from the box of the chosen parts to the handle that turns them, and how near a hand must come to it.
+/** Pixels from the box of the chosen parts to the handle that turns them, and those by which a hand may miss it. */
 const HANDLE = 26;
 const NEAR = { mouse: 10, touch: 22 };
 
-export interface Handle { at: Point; middle: Point; top: Point; ids: number[] }
+export interface Handle {
+  at: Point;
+  middle: Point;
+  top: Point;
+  ids: number[];
+}
 
-/// Where the chosen parts are turned by hand, in pixels: above their common box.
+/** The handle that turns the chosen parts: it stands above their common box, pixels. */
 export function turningHandle(editor: Editor, view: View): Handle | null {
   const chosen = editor.placementsOf(editor.chosen()).filter((p) => !p.locked);
   const first = chosen[0];
@@ -32,10 +42,15 @@ export function turningHandle(editor: Editor, view: View): Handle | null {
   }
   const x = sheet.x + (box.left + box.right) / 2;
   const top = view.toScreen(x, sheet.y + box.top);
-  return { top, at: [top[0], top[1] - HANDLE], middle: view.toScreen(x, sheet.y + (box.bottom + box.top) / 2), ids: chosen.map((p) => p.id) };
+  return {
+    top,
+    at: [top[0], top[1] - HANDLE],
+    middle: view.toScreen(x, sheet.y + (box.bottom + box.top) / 2),
+    ids: chosen.map((p) => p.id),
+  };
 }
 
-/// The part at a point of the picture; the last drawn of several.
+/** The part at a point of the picture; the last drawn of several. */
 export function pick(editor: Editor, x: number, y: number): Placement | null {
   let found: Placement | null = null;
   for (const p of editor.model.placements.values()) {
@@ -49,7 +64,7 @@ export function pick(editor: Editor, x: number, y: number): Placement | null {
   return found;
 }
 
-/// What is measured is from corner to corner, where the hand is near one: of a part or of the material.
+/** The corner of a part or of the material near a point, or the point itself: measures go from corner to corner. */
 function cornerNear(editor: Editor, view: View, world: Point): Point {
   const { model } = editor;
   const sheet = model.sheetAt(...world);
@@ -68,26 +83,36 @@ function cornerNear(editor: Editor, view: View, world: Point): Point {
   };
   const around = { left: at[0] - reach, right: at[0] + reach, bottom: at[1] - reach, top: at[1] + reach };
   for (const p of model.placements.values()) {
-    if (p.stock === sheet.stock.id && (p.copy ?? 0) === sheet.copy && boxesMeet(model.box(p), around)) take(placedLoops(model.part(p), p));
+    if (p.stock === sheet.stock.id && (p.copy ?? 0) === sheet.copy && boxesMeet(model.box(p), around))
+      take(placedLoops(model.part(p), p));
   }
   if (sheet.stock.outline) take([sheet.stock.outline.polygon.outer, ...(sheet.stock.outline.polygon.holes ?? [])]);
   return [found[0] + sheet.x, found[1] + sheet.y];
 }
 
-/// A hand means one of eight directions when it is near it: a hair off, a slide along a border ends at once.
+/** Makes a direction near one of eight that one: a slide along a border that is a hair off would end at once. */
 function straightened(from: Point, to: Point): Point {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const turn = Math.round(Math.atan2(dy, dx) / (Math.PI / 4));
   if (Math.abs(Math.atan2(dy, dx) - (turn * Math.PI) / 4) > 0.14) return to;
-  const [ux, uy] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]][(turn + 8) % 8] as Point;
+  const [ux, uy] = [
+    [1, 0],
+    [1, 1],
+    [0, 1],
+    [-1, 1],
+    [-1, 0],
+    [-1, -1],
+    [0, -1],
+    [1, -1],
+  ][(turn + 8) % 8] as Point;
   const length = (dx * ux + dy * uy) / (ux * ux + uy * uy);
   return [from[0] + ux * length, from[1] + uy * length];
 }
 
-/// Half a step: shifts are whole steps.
+/** Shifts are whole steps, so two that differ by less than half a step are the same. */
 const near = (a: number, b: number): boolean => Math.abs(a - b) < 2 ** -21;
 
-/// The command that brings what is in hand where it is shown, from wherever the parts are when its turn comes.
+/** The command that brings the parts in hand where they are shown, from wherever they are when its turn comes. */
 export function droppedLine(editor: Editor, tool: Tool): () => string | null {
   const dropped = [...editor.moving.values()];
   return () => {
@@ -98,12 +123,26 @@ export function droppedLine(editor: Editor, tool: Tool): () => string | null {
     const [dx, dy] = [to.x - from.x, to.y - from.y];
     const together = now.every((p, i) => {
       const d = dropped[i]!;
-      return near(d.x - p.x, dx) && near(d.y - p.y, dy) && d.c === p.c && d.s === p.s && Boolean(d.mirrored) === Boolean(p.mirrored) &&
-        p.stock === from.stock && (p.copy ?? 0) === (from.copy ?? 0);
+      return (
+        near(d.x - p.x, dx) &&
+        near(d.y - p.y, dy) &&
+        d.c === p.c &&
+        d.s === p.s &&
+        Boolean(d.mirrored) === Boolean(p.mirrored) &&
+        p.stock === from.stock &&
+        (p.copy ?? 0) === (from.copy ?? 0)
+      );
     });
     if (!together) return null;
-    const other = to.stock === from.stock && (to.copy ?? 0) === (from.copy ?? 0) ? undefined : editor.model.sheet(to.stock, to.copy);
-    return tool === 'push' && !other ? line.push(ids, dx, dy) : tool === 'nearest' ? line.nearest(ids, dx, dy, other) : line.move(ids, dx, dy, other);
+    const other =
+      to.stock === from.stock && (to.copy ?? 0) === (from.copy ?? 0)
+        ? undefined
+        : editor.model.sheet(to.stock, to.copy);
+    return tool === 'push' && !other
+      ? line.push(ids, dx, dy)
+      : tool === 'nearest'
+        ? line.nearest(ids, dx, dy, other)
+        : line.move(ids, dx, dy, other);
   };
 }
 
@@ -121,7 +160,12 @@ export class PointerTool {
   private readonly fingers = new Map<number, Point>();
   spaceDown = false;
 
-  constructor(private readonly element: HTMLElement, private readonly editor: Editor, private readonly view: View, private readonly redraw: (what: 'top' | 'view' | 'all') => void) {
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly editor: Editor,
+    private readonly view: View,
+    private readonly redraw: (what: 'top' | 'view' | 'all') => void,
+  ) {
     this.features = new FeatureTool(editor, view);
     element.addEventListener('dblclick', () => this.finishDraft());
     element.addEventListener('pointerdown', (e) => this.down(e));
@@ -131,13 +175,17 @@ export class PointerTool {
       this.fingers.delete(e.pointerId);
       this.cancel();
     });
-    element.addEventListener('wheel', (e) => {
-      e.preventDefault();
-      const [x, y] = this.at(e);
-      if (e.shiftKey) view.pan(-e.deltaY, 0);
-      else view.zoomAt(x, y, Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0016)));
-      redraw('view');
-    }, { passive: false });
+    element.addEventListener(
+      'wheel',
+      (e) => {
+        e.preventDefault();
+        const [x, y] = this.at(e);
+        if (e.shiftKey) view.pan(-e.deltaY, 0);
+        else view.zoomAt(x, y, Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0016)));
+        redraw('view');
+      },
+      { passive: false },
+    );
     element.addEventListener('contextmenu', (e) => e.preventDefault());
   }
 
@@ -148,8 +196,13 @@ export class PointerTool {
   private showDraft(): void {
     const { moved } = this.features;
     const sheet = moved && this.editor.model.sheets.find((s) => s.stock.id === moved.feature.stock);
-    const of = sheet && [...(sheet.stock.defects ?? []), ...(sheet.stock.zones ?? [])].find((f) => f.id === moved!.feature.id);
-    this.overlay.draft = of ? [...of.outline.polygon.outer, of.outline.polygon.outer[0]!].map(([x, y]): Point => [x + sheet.x + moved!.by[0], y + sheet.y + moved!.by[1]])
+    const of =
+      sheet && [...(sheet.stock.defects ?? []), ...(sheet.stock.zones ?? [])].find((f) => f.id === moved.feature.id);
+    this.overlay.draft = of
+      ? [...of.outline.polygon.outer, of.outline.polygon.outer[0]!].map(([x, y]): Point => [
+          x + sheet.x + moved.by[0],
+          y + sheet.y + moved.by[1],
+        ])
       : this.features.shown();
     this.redraw('top');
   }
@@ -188,8 +241,17 @@ export class PointerTool {
       return;
     }
     const handle = turningHandle(this.editor, this.view);
-    if (handle && Math.hypot(at[0] - handle.at[0], at[1] - handle.at[1]) <= NEAR[e.pointerType === 'touch' ? 'touch' : 'mouse']) {
-      this.gesture = { kind: 'turn', about: handle.middle, from: Math.atan2(handle.middle[1] - at[1], at[0] - handle.middle[0]), ids: handle.ids, degrees: 0 };
+    if (
+      handle &&
+      Math.hypot(at[0] - handle.at[0], at[1] - handle.at[1]) <= NEAR[e.pointerType === 'touch' ? 'touch' : 'mouse']
+    ) {
+      this.gesture = {
+        kind: 'turn',
+        about: handle.middle,
+        from: Math.atan2(handle.middle[1] - at[1], at[0] - handle.middle[0]),
+        ids: handle.ids,
+        degrees: 0,
+      };
       return;
     }
     const hit = pick(this.editor, ...world);
@@ -207,10 +269,20 @@ export class PointerTool {
     }
     if (!selection.has(hit.id)) this.editor.select([hit.id]);
     const same = (p: Placement) => p.stock === hit.stock && (p.copy ?? 0) === (hit.copy ?? 0) && !p.locked;
-    const ids = this.editor.placementsOf(this.editor.chosen()).filter(same).map((p) => p.id);
+    const ids = this.editor
+      .placementsOf(this.editor.chosen())
+      .filter(same)
+      .map((p) => p.id);
     if (ids.length === 0) return;
     if (this.editor.tool === 'slide') this.gesture = { kind: 'flick', from: world, ids };
-    else this.gesture = { kind: 'drag', from: world, ids, origin: this.editor.model.sheet(hit.stock, hit.copy)!, moved: false };
+    else
+      this.gesture = {
+        kind: 'drag',
+        from: world,
+        ids,
+        origin: this.editor.model.sheet(hit.stock, hit.copy)!,
+        moved: false,
+      };
   }
 
   private move(e: PointerEvent): void {
@@ -268,14 +340,17 @@ export class PointerTool {
     this.last = at;
   }
 
-  /// Tenths of a degree freely, the step of the toolbar with Shift; a part of few angles turns from one to the next.
+  /**
+   * Rounds a turn to tenths of a degree, or to the step of the toolbar. A part of few angles turns from one to the
+   * next.
+   */
   private turnOf(ids: readonly number[], degrees: number, stepped: boolean): number {
     const whole = ((((degrees + 180) % 360) + 360) % 360) - 180;
     const [first] = this.editor.placementsOf(ids);
     const angles = ids.length === 1 && first ? this.editor.model.part(first).rotations : undefined;
     if (first && angles && angles.every((a) => typeof a === 'number')) {
       const now = (Math.atan2(first.s, first.c) * 180) / Math.PI;
-      const turns = (angles as number[]).map((a) => Math.round(((((a - now + 540) % 360) + 360) % 360 - 180) * 1e6) / 1e6);
+      const turns = angles.map((a) => Math.round((((((a - now + 540) % 360) + 360) % 360) - 180) * 1e6) / 1e6);
       const apart = (turn: number): number => Math.abs(((((turn - whole + 540) % 360) + 360) % 360) - 180);
       return turns.reduce((best, turn) => (apart(turn) < apart(best) ? turn : best), 0);
     }
@@ -319,7 +394,7 @@ export class PointerTool {
         const sheet = this.editor.model.sheet(p.stock, p.copy);
         if (!sheet) return false;
         const b = this.editor.model.box(p);
-        return boxesMeet({ left: b.left + sheet.x, right: b.right + sheet.x, bottom: b.bottom + sheet.y, top: b.top + sheet.y }, band);
+        return boxesMeet(placedAt(b, sheet), band);
       });
       this.editor.select([...(e.shiftKey ? this.editor.selection : []), ...inside.map((p) => p.id)]);
     }

@@ -1,8 +1,21 @@
-// Every command by mouse and by key: what it does stands in the export, and the program finds nothing against it.
+// Every command by mouse and by key: its effect stands in the export, and the program finds nothing against it.
 
 import assert from 'node:assert/strict';
-import { smallLayout } from './small_layout.mjs';
-import { at, checked, command, drop, hold, inEditor, keys, message, placed, placementOf, press, scaleOf, settled } from './steps.mjs';
+import {
+  at,
+  checked,
+  command,
+  drop,
+  hold,
+  inEditor,
+  keys,
+  message,
+  placed,
+  placementOf,
+  press,
+  scaleOf,
+  settled,
+} from './steps.mjs';
 
 const STEP = 2 ** -20;
 const near = (a, b, by = 2 * STEP) => assert.ok(Math.abs(a - b) <= by, `${a} instead of ${b}`);
@@ -36,7 +49,7 @@ inEditor('flips, settles, snaps and locks by buttons and keys', async (page, ser
   assert.equal((await placementOf(server, 2)).mirrored, true);
   await keys(page, 'g');
   let p = await placementOf(server, 2);
-  // Down to the border's gap of 5, then left to the gap of 2 to the other plate, 90 wide from the left.
+  // It goes down to the border's gap of 5, then left to the gap of 2 to the other plate, 90 wide from the left.
   near(p.y, 30);
   near(p.x, 132);
   await keys(page, 'Control+z', 'ArrowUp', 'ArrowUp', 'ArrowUp');
@@ -44,7 +57,7 @@ inEditor('flips, settles, snaps and locks by buttons and keys', async (page, ser
   await settled(page);
   near((await placementOf(server, 2)).y, 30);
   await keys(page, 'Control+z');
-  // 5 mm from where the left border's gap lets it lie: on to it.
+  // It lies 5 mm from where the left border's gap lets it, and snaps to that.
   await press(page, 1);
   await keys(page, 's');
   near((await placementOf(server, 1)).x, 45);
@@ -96,15 +109,20 @@ inEditor('drops at the nearest valid place', async (page, server) => {
   await drop(page);
   const p = await placementOf(server, 2);
   assert.notEqual(p.x, 200);
-  // Nearer than what sliding along the way there would give, and clear.
+  // The place is nearer than the one that sliding there would give, and clear.
   assert.ok(Math.hypot(p.x - 60, p.y - 43) < 90, JSON.stringify(p));
   assert.equal((await checked(server)).exit, 0);
 });
 
 inEditor('slides in all four directions by buttons', async (page, server) => {
   await press(page, 2);
-  // The border, the border, the bracket, the knot; each with its gap.
-  for (const [action, x, y] of [['up', 200, 270], ['left', 45, 270], ['down', 45, 227], ['right', 259, 227]]) {
+  // The four pushes end at the border, the border, the bracket and the knot, each with its gap.
+  for (const [action, x, y] of [
+    ['up', 200, 270],
+    ['left', 45, 270],
+    ['down', 45, 227],
+    ['right', 259, 227],
+  ]) {
     await command(page, `slide.${action}`);
     await settled(page);
     const p = await placementOf(server, 2);
@@ -134,7 +152,11 @@ inEditor('moves a part to another sheet, and several at once', async (page, serv
   await hold(page, 1, sheets + 5, -2);
   await drop(page);
   const after = [await placementOf(server, 1), await placementOf(server, 3)];
-  assert.deepEqual(after.map((q) => q.copy), [1, 1], await message(page));
+  assert.deepEqual(
+    after.map((q) => q.copy),
+    [1, 1],
+    await message(page),
+  );
   near(after[0].x - before[0].x, after[1].x - before[1].x);
   near(after[0].y - before[0].y, after[1].y - before[1].y);
   assert.equal((await checked(server)).exit, 0);
@@ -170,24 +192,34 @@ inEditor('undoes without limit, beyond a reload', async (page, server) => {
   assert.match(await message(page), /nothing to undo/);
 });
 
-inEditor('picks, drags and flicks by touch', async (page, server) => {
-  const cdp = await page.context().newCDPSession(page);
-  const touch = (type, ...points) => cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
-  const stroke = async (from, by) => {
-    await touch('touchStart', from);
-    for (const part of [0.3, 0.7, 1]) await touch('touchMove', [from[0] + by[0] * part, from[1] + by[1] * part]);
-    await touch('touchEnd');
+inEditor(
+  'picks, drags and flicks by touch',
+  async (page, server) => {
+    const cdp = await page.context().newCDPSession(page);
+    const touch = (type, ...points) =>
+      cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const stroke = async (from, by) => {
+      await touch('touchStart', from);
+      for (const part of [0.3, 0.7, 1]) await touch('touchMove', [from[0] + by[0] * part, from[1] + by[1] * part]);
+      await touch('touchEnd');
+      await settled(page);
+    };
+    await page.touchscreen.tap(...(await at(page, 2)).slice(0, 2));
     await settled(page);
-  };
-  await page.touchscreen.tap(...(await at(page, 2)).slice(0, 2));
-  await settled(page);
-  assert.equal(await page.getAttribute('[data-id="placement-2"]', 'aria-selected'), 'true');
-  await page.touchscreen.tap(...(await page.locator('[data-action="tool.slide"]').boundingBox().then((b) => [b.x + 10, b.y + 10])));
-  await stroke((await at(page, 2)).slice(0, 2), [-40, 1]);
-  near((await placementOf(server, 2)).x, 132);
-  // The material beside the parts moves the view.
-  const [x0] = await at(page, 1);
-  await stroke([(await at(page, 2))[2].right + 60, (await at(page, 2))[1]], [30, 0]);
-  near((await at(page, 1))[0], x0 + 30, 1.5);
-  assert.equal((await checked(server)).exit, 0);
-}, { options: { hasTouch: true } });
+    assert.equal(await page.getAttribute('[data-id="placement-2"]', 'aria-selected'), 'true');
+    await page.touchscreen.tap(
+      ...(await page
+        .locator('[data-action="tool.slide"]')
+        .boundingBox()
+        .then((b) => [b.x + 10, b.y + 10])),
+    );
+    await stroke((await at(page, 2)).slice(0, 2), [-40, 1]);
+    near((await placementOf(server, 2)).x, 132);
+    // The material beside the parts moves the view.
+    const [x0] = await at(page, 1);
+    await stroke([(await at(page, 2))[2].right + 60, (await at(page, 2))[1]], [30, 0]);
+    near((await at(page, 1))[0], x0 + 30, 1.5);
+    assert.equal((await checked(server)).exit, 0);
+  },
+  { options: { hasTouch: true } },
+);

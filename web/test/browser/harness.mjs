@@ -32,10 +32,12 @@ export async function serve(layout) {
     folder,
     url: '',
     page: '',
-    /** Again on the same store and port. */
+    /** Starts it, the second time on the same store and port. */
     async start() {
       const port = server.url ? new URL(server.url).port : '0';
-      child = spawn(lekalo, ['serve', file, '--store', join(folder, 'store.sqlite'), '--port', port], { stdio: ['ignore', 'pipe', 'pipe'] });
+      child = spawn(lekalo, ['serve', file, '--store', join(folder, 'store.sqlite'), '--port', port], {
+        stdio: ['ignore', 'pipe', 'pipe'],
+      });
       let complaints = '';
       child.stderr.on('data', (text) => (complaints += text));
       ended = new Promise((resolve) => child.once('exit', resolve));
@@ -48,7 +50,7 @@ export async function serve(layout) {
       server.url = await said('listening');
       server.page = await said('layout');
     },
-    /** SIGKILL, as it may come: what was acknowledged is on the disk. */
+    /** Kills it as it may happen at any time: every acknowledged change is on the disk. */
     async kill() {
       child.kill('SIGKILL');
       await ended;
@@ -63,21 +65,39 @@ export async function serve(layout) {
 }
 
 export async function startBrowser() {
-  if (!existsSync(browserPath)) throw new Error(`${browserPath} is not there: run tools/setup.sh, or name a Chromium in CHROMIUM.`);
+  if (!existsSync(browserPath))
+    throw new Error(`${browserPath} is not there: run tools/setup.sh, or name a Chromium in CHROMIUM.`);
   return chromium.launch({
     executablePath: browserPath,
-    args: ['--no-sandbox', '--disable-gpu', '--disable-backgrounding-occluded-windows', '--disable-renderer-backgrounding', '--disable-features=LocalNetworkAccessChecks', '--force-color-profile=srgb', '--font-render-hinting=none'],
+    args: [
+      '--no-sandbox',
+      '--disable-gpu',
+      '--disable-backgrounding-occluded-windows',
+      '--disable-renderer-backgrounding',
+      '--disable-features=LocalNetworkAccessChecks',
+      '--force-color-profile=srgb',
+      '--font-render-hinting=none',
+    ],
   });
 }
 
 /** A tab; what its page complains about is kept in `problems`. */
 export async function newTab(browser, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 860 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true, ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 860 },
+    locale: 'en-GB',
+    colorScheme: 'light',
+    acceptDownloads: true,
+    ...options,
+  });
   if (pageFolder) {
-    await context.route((url) => existsSync(join(pageFolder, url.pathname)), (route) => {
-      const { pathname } = new URL(route.request().url());
-      return route.fulfill({ path: join(pageFolder, pathname === '/' ? 'index.html' : pathname) });
-    });
+    await context.route(
+      (url) => existsSync(join(pageFolder, url.pathname)),
+      (route) => {
+        const { pathname } = new URL(route.request().url());
+        return route.fulfill({ path: join(pageFolder, pathname === '/' ? 'index.html' : pathname) });
+      },
+    );
   }
   return tabOf(context);
 }

@@ -1,70 +1,139 @@
-// What stands around the picture: tray, lists, measure, view, files, and what is said of all of it.
+// The surroundings of the picture: tray, lists, measure, view, files, and the messages about all of it.
 
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { run } from './harness.mjs';
 import { smallLayout } from './small_layout.mjs';
-import { at, broken, checked, command, drop, export_, hold, inEditor, keys, message, placed, placementOf, press, scaleOf, settled } from './steps.mjs';
+import {
+  at,
+  broken,
+  checked,
+  command,
+  drop,
+  export_,
+  hold,
+  inEditor,
+  keys,
+  message,
+  placed,
+  placementOf,
+  press,
+  scaleOf,
+  settled,
+} from './steps.mjs';
 
 const kits = {
-  ...smallLayout, parts: smallLayout.parts.map(({ demand, ...part }) => part),
-  kits: [{ id: 'box', name: 'Box', demand: 2, pieces: [{ part: 'plate', count: 2 }, { part: 'bracket', count: 1 }] }],
-};
-
-inEditor('counts in the tray and in the table of kits what is placed and what is missing', async (page) => {
-  const tray = (part) => page.textContent(`[data-id="part-${part}"]`);
-  assert.match(await tray('plate'), /Plate.*2 left.*2\/4/);
-  assert.match(await tray('bracket'), /Bracket.*1 left.*1\/2/);
-  assert.equal(await page.locator('[data-id="part-plate"] svg path').first().evaluate((e) => e.getBBox().width), 80);
-  await command(page, 'side.kits');
-  assert.match(await page.textContent('.body table'), /Box.*1 ?\/ ?2/s);
-  await page.click('[data-id="part-plate"] .piece');
-  await settled(page);
-  await page.click('[data-id="part-plate"] .piece');
-  await settled(page);
-  assert.match(await tray('plate'), /all placed.*4\/4/);
-  assert.match(await page.textContent('.body table'), /1 ?\/ ?2.*Bracket/s);
-  await page.click('[data-id="part-bracket"] .piece');
-  await settled(page);
-  assert.match(await page.textContent('.body table'), /2 ?\/ ?2/s);
-}, { layout: kits });
-
-const sharing = {
-  ...smallLayout, parts: kits.parts,
+  ...smallLayout,
+  parts: smallLayout.parts.map(({ demand, ...part }) => part),
   kits: [
-    { id: 'cheap', demand: 2, value: 1, pieces: [{ part: 'plate', count: 2 }] },
-    { id: 'dear', demand: 2, value: 5, pieces: [{ part: 'plate', count: 1 }, { part: 'bracket', count: 1 }] },
+    {
+      id: 'box',
+      name: 'Box',
+      demand: 2,
+      pieces: [
+        { part: 'plate', count: 2 },
+        { part: 'bracket', count: 1 },
+      ],
+    },
   ],
 };
-inEditor('counts kits that share parts as lekalo show does: the dear one takes them, not the first one', async (page, server) => {
-  const agreed = async () => {
-    const file = join(server.folder, 'kits.json');
-    writeFileSync(file, await export_(server));
-    const { kits: counted } = JSON.parse(run('show', file, '--json').stdout);
-    const name = (part) => smallLayout.parts.find(({ id }) => id === part).name;
-    const rows = await page.locator('.body tbody tr').evaluateAll((list) => list.map((row) => [row.dataset.id, row.cells[1].textContent, ...[...row.cells[2].children].map((e) => e.textContent)]));
-    assert.deepEqual(rows, counted.map((k) => [`kit-${k.kit}`, `${k.complete} / ${k.wanted}`, ...k.missing.map((m) => `${m.count} × ${name(m.part)}`)]));
-    return counted.map(({ complete }) => complete);
-  };
-  await command(page, 'side.kits');
-  assert.deepEqual(await agreed(), [0, 1]); // two plates, a bracket: in the document's order 1 and 0
-  await page.click('[data-id="part-plate"] .piece');
-  await settled(page);
-  assert.deepEqual(await agreed(), [1, 1]);
-  await page.click('[data-id="part-bracket"] .piece');
-  await settled(page);
-  assert.deepEqual(await agreed(), [0, 2]);
-}, { layout: sharing });
 
-inEditor('counts no kits by itself where the kernel is missing', async (page) => {
-  await page.route('**/lekalo.wasm', (route) => route.fulfill({ status: 404 }));
-  await page.reload();
-  await page.waitForSelector('.tray li');
-  await command(page, 'side.kits');
-  assert.match(await page.textContent('.body'), /Not counted in this browser/);
-  assert.equal(await page.locator('.body table').count(), 0);
-}, { layout: sharing, options: {}, expected: ['404'] });
+inEditor(
+  'counts in the tray and in the table of kits what is placed and what is missing',
+  async (page) => {
+    const tray = (part) => page.textContent(`[data-id="part-${part}"]`);
+    assert.match(await tray('plate'), /Plate.*2 left.*2\/4/);
+    assert.match(await tray('bracket'), /Bracket.*1 left.*1\/2/);
+    assert.equal(
+      await page
+        .locator('[data-id="part-plate"] svg path')
+        .first()
+        .evaluate((e) => e.getBBox().width),
+      80,
+    );
+    await command(page, 'side.kits');
+    assert.match(await page.textContent('.body table'), /Box.*1 ?\/ ?2/s);
+    await page.click('[data-id="part-plate"] .piece');
+    await settled(page);
+    await page.click('[data-id="part-plate"] .piece');
+    await settled(page);
+    assert.match(await tray('plate'), /all placed.*4\/4/);
+    assert.match(await page.textContent('.body table'), /1 ?\/ ?2.*Bracket/s);
+    await page.click('[data-id="part-bracket"] .piece');
+    await settled(page);
+    assert.match(await page.textContent('.body table'), /2 ?\/ ?2/s);
+  },
+  { layout: kits },
+);
+
+const sharing = {
+  ...smallLayout,
+  parts: kits.parts,
+  kits: [
+    { id: 'cheap', demand: 2, value: 1, pieces: [{ part: 'plate', count: 2 }] },
+    {
+      id: 'dear',
+      demand: 2,
+      value: 5,
+      pieces: [
+        { part: 'plate', count: 1 },
+        { part: 'bracket', count: 1 },
+      ],
+    },
+  ],
+};
+inEditor(
+  'counts kits that share parts as lekalo show does: the dear one takes them, not the first one',
+  async (page, server) => {
+    const agreed = async () => {
+      const file = join(server.folder, 'kits.json');
+      writeFileSync(file, await export_(server));
+      const { kits: counted } = JSON.parse(run('show', file, '--json').stdout);
+      const name = (part) => smallLayout.parts.find(({ id }) => id === part).name;
+      const rows = await page
+        .locator('.body tbody tr')
+        .evaluateAll((list) =>
+          list.map((row) => [
+            row.dataset.id,
+            row.cells[1].textContent,
+            ...[...row.cells[2].children].map((e) => e.textContent),
+          ]),
+        );
+      assert.deepEqual(
+        rows,
+        counted.map((k) => [
+          `kit-${k.kit}`,
+          `${k.complete} / ${k.wanted}`,
+          ...k.missing.map((m) => `${m.count} × ${name(m.part)}`),
+        ]),
+      );
+      return counted.map(({ complete }) => complete);
+    };
+    await command(page, 'side.kits');
+    assert.deepEqual(await agreed(), [0, 1]); // two plates, a bracket: in the document's order 1 and 0
+    await page.click('[data-id="part-plate"] .piece');
+    await settled(page);
+    assert.deepEqual(await agreed(), [1, 1]);
+    await page.click('[data-id="part-bracket"] .piece');
+    await settled(page);
+    assert.deepEqual(await agreed(), [0, 2]);
+  },
+  { layout: sharing },
+);
+
+inEditor(
+  'counts no kits by itself where the kernel is missing',
+  async (page) => {
+    await page.route('**/lekalo.wasm', (route) => route.fulfill({ status: 404 }));
+    await page.reload();
+    await page.waitForSelector('.tray li');
+    await command(page, 'side.kits');
+    assert.match(await page.textContent('.body'), /Not counted in this browser/);
+    assert.equal(await page.locator('.body table').count(), 0);
+  },
+  { layout: sharing, options: {}, expected: ['404'] },
+);
 
 inEditor('puts parts in by the keyboard alone', async (page, server) => {
   await page.focus('[data-id="part-bracket"] .piece');
@@ -97,7 +166,10 @@ inEditor('shows where a rule is broken', async (page) => {
   const view = await page.locator('.picture').boundingBox();
   const [x] = await at(page, 1, 1);
   assert.ok(Math.abs(x - view.x - view.width / 2) < view.width / 4); // the overlap is in the middle
-  assert.deepEqual(await page.locator('.mirror [aria-selected="true"]').evaluateAll((list) => list.map((e) => e.dataset.id).sort()), ['placement-1', 'placement-2']);
+  assert.deepEqual(
+    await page.locator('.mirror [aria-selected="true"]').evaluateAll((list) => list.map((e) => e.dataset.id).sort()),
+    ['placement-1', 'placement-2'],
+  );
 });
 
 inEditor('measures', async (page) => {
@@ -141,7 +213,11 @@ inEditor('zooms at the cursor, pans, and shows all again', async (page) => {
 
 inEditor('shows labels, grain, gaps and zones, or not', async (page) => {
   await press(page, 2);
-  const seen = () => page.locator('.picture canvas').first().evaluate((canvas) => canvas.toDataURL());
+  const seen = () =>
+    page
+      .locator('.picture canvas')
+      .first()
+      .evaluate((canvas) => canvas.toDataURL());
   await command(page, 'menu.view');
   for (const name of ['labels', 'grain', 'gap', 'zones']) {
     const before = await seen();
@@ -159,14 +235,22 @@ inEditor('goes back to any state, and to that before', async (page, server) => {
   await keys(page, 'ArrowUp', 'ArrowUp', 'ArrowUp');
   await command(page, 'side.history');
   await page.click('[data-id="revision-1"] button');
-  await page.waitForFunction(() => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel), null, { polling: 20 });
+  await page.waitForFunction(
+    () => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel),
+    null,
+    { polling: 20 },
+  );
   assert.equal((await placementOf(server, 3)).y, 121);
   await page.waitForSelector('[data-id="revision-4"]');
   await page.click('[data-id="revision-3"] button');
-  await page.waitForFunction(() => /20.00 123.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel), null, { polling: 20 });
+  await page.waitForFunction(
+    () => /20.00 123.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel),
+    null,
+    { polling: 20 },
+  );
 });
 
-inEditor('has several layouts: a copy, another name, another one, none', async (page, server) => {
+inEditor('has several layouts: a copy, another name, another one, none', async (page) => {
   await command(page, 'copy.layout');
   await page.waitForFunction(() => document.querySelectorAll('.layouts option').length === 2);
   await command(page, 'name.layout');
@@ -176,51 +260,77 @@ inEditor('has several layouts: a copy, another name, another one, none', async (
   await press(page, 3);
   await keys(page, 'ArrowUp');
   await page.selectOption('.layouts', { index: 1 });
-  await page.waitForFunction(() => /20.00 120.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel), null, { polling: 20 });
+  await page.waitForFunction(
+    () => /20.00 120.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel),
+    null,
+    { polling: 20 },
+  );
   await page.selectOption('.layouts', { label: 'Second' });
-  await page.waitForFunction(() => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel), null, { polling: 20 });
+  await page.waitForFunction(
+    () => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel),
+    null,
+    { polling: 20 },
+  );
   await command(page, 'name.layout');
   await command(page, 'name.delete');
   await command(page, 'name.delete'); // sure
   await page.waitForFunction(() => document.querySelectorAll('.layouts option').length === 1);
-  await page.waitForFunction(() => /20.00 120.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel), null, { polling: 20 });
+  await page.waitForFunction(
+    () => /20.00 120.00/.test(document.querySelector('[data-id="placement-3"]')?.ariaLabel),
+    null,
+    { polling: 20 },
+  );
 });
 
 /** Drops a file on the page as a hand does. */
 async function dropFile(page, name, text) {
-  const data = await page.evaluateHandle(([n, t]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([t], n));
-    return transfer;
-  }, [name, text]);
+  const data = await page.evaluateHandle(
+    ([n, t]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([t], n));
+      return transfer;
+    },
+    [name, text],
+  );
   await page.dispatchEvent('.picture', 'dragover', { dataTransfer: data });
   assert.ok(await page.locator('.picture.dropping').count());
   await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
 }
 
-inEditor('takes a dropped layout, and a drawing with the sheet that it asks for', async (page, server) => {
-  await dropFile(page, 'again.json', JSON.stringify({ ...smallLayout, name: 'Again', placements: smallLayout.placements.slice(0, 1) }));
-  await page.waitForFunction(() => document.querySelectorAll('.mirror li').length === 1);
-  const svg = '<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100"><rect id="lid" x="5" y="5" width="60" height="30"/><circle id="disc" cx="120" cy="50" r="20"/></svg>';
-  await dropFile(page, 'parts.svg', svg);
-  await page.waitForSelector('dialog [data-field="width"]');
-  await page.fill('dialog [data-field="width"]', 'wide');
-  await command(page, 'sheet.give');
-  await page.waitForFunction(() => /the sheet is WIDTHxHEIGHT/.test(document.querySelector('dialog .trouble').textContent));
-  await page.fill('dialog [data-field="width"]', '300,5');
-  await page.fill('dialog [data-field="height"]', '200');
-  await page.fill('dialog [data-field="count"]', '2');
-  await command(page, 'sheet.give');
-  await page.waitForSelector('dialog', { state: 'detached' });
-  await page.waitForSelector('[data-id="part-disc"]');
-  await page.click('[data-id="part-disc"] .piece');
-  await settled(page);
-  assert.equal(await placed(page), 1);
-  await command(page, 'side.sheets');
-  assert.equal(await page.locator('[data-id^="sheet-sheet-"]').count(), 2);
-  // The layout without a sheet is gone.
-  assert.equal((await (await fetch(new URL('/api/layouts', server.url))).json()).layouts.length, 3);
-}, { expected: ['400'] });
+inEditor(
+  'takes a dropped layout, and a drawing with the sheet that it asks for',
+  async (page, server) => {
+    await dropFile(
+      page,
+      'again.json',
+      JSON.stringify({ ...smallLayout, name: 'Again', placements: smallLayout.placements.slice(0, 1) }),
+    );
+    await page.waitForFunction(() => document.querySelectorAll('.mirror li').length === 1);
+    const svg =
+      '<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100"><rect id="lid" x="5" y="5" width="60" height="30"/><circle id="disc" cx="120" cy="50" r="20"/></svg>';
+    await dropFile(page, 'parts.svg', svg);
+    await page.waitForSelector('dialog [data-field="width"]');
+    await page.fill('dialog [data-field="width"]', 'wide');
+    await command(page, 'sheet.give');
+    await page.waitForFunction(() =>
+      /the sheet is WIDTHxHEIGHT/.test(document.querySelector('dialog .trouble').textContent),
+    );
+    await page.fill('dialog [data-field="width"]', '300,5');
+    await page.fill('dialog [data-field="height"]', '200');
+    await page.fill('dialog [data-field="count"]', '2');
+    await command(page, 'sheet.give');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await page.waitForSelector('[data-id="part-disc"]');
+    await page.click('[data-id="part-disc"] .piece');
+    await settled(page);
+    assert.equal(await placed(page), 1);
+    await command(page, 'side.sheets');
+    assert.equal(await page.locator('[data-id^="sheet-sheet-"]').count(), 2);
+    // The layout without a sheet is gone.
+    assert.equal((await (await fetch(new URL('/api/layouts', server.url))).json()).layouts.length, 3);
+  },
+  { expected: ['400'] },
+);
 
 inEditor('reads the drawing that it has exported: parts and sheets, no labels', async (page, server) => {
   await command(page, 'menu.export');
@@ -243,9 +353,12 @@ inEditor('reads the drawing that it has exported: parts and sheets, no labels', 
 inEditor('prints how quick it is on this layout when asked in the address', async (page, server) => {
   await page.goto(`${server.page}${server.page.includes('?') ? '&' : '?'}benchmark`);
   await page.waitForSelector('dialog.benchmark[data-done]', { timeout: 50_000 });
-  const rows = await page.locator('dialog.benchmark tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const rows = await page
+    .locator('dialog.benchmark tbody tr')
+    .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   assert.equal(rows.length, await page.evaluate(() => window.lekaloBench.rows.length));
-  for (const [what, ...figures] of rows) for (const figure of figures) assert.ok(Number(figure) >= 0, `${what}: ${figure}`);
+  for (const [what, ...figures] of rows)
+    for (const figure of figures) assert.ok(Number(figure) >= 0, `${what}: ${figure}`);
   assert.match(await page.textContent('dialog.benchmark p'), /first view \d+ ms/);
   await page.click('dialog.benchmark button');
   assert.equal(await page.locator('dialog.benchmark').count(), 0);
@@ -262,8 +375,16 @@ inEditor('says every key, and closes again', async (page) => {
 inEditor('has every word in Ukrainian', async (page) => {
   await command(page, 'language');
   await command(page, 'side.sheets');
-  const words = await page.evaluate(() => [...document.querySelectorAll('button, summary, h2, label, th')].flatMap((e) => [e.textContent, e.title, e.ariaLabel]).filter(Boolean));
-  const latin = words.filter((word) => /[A-Za-z]{4}/.test(word) && !/JSON|lekalo|DXF|HPGL|G-code|Plate|Bracket|Small|edge|knot|board|Shift|Enter/.test(word));
+  const words = await page.evaluate(() =>
+    [...document.querySelectorAll('button, summary, h2, label, th')]
+      .flatMap((e) => [e.textContent, e.title, e.ariaLabel])
+      .filter(Boolean),
+  );
+  const latin = words.filter(
+    (word) =>
+      /[A-Za-z]{4}/.test(word) &&
+      !/JSON|lekalo|DXF|HPGL|G-code|Plate|Bracket|Small|edge|knot|board|Shift|Enter/.test(word),
+  );
   assert.deepEqual(latin, []);
   await command(page, 'language');
 });

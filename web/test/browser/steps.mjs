@@ -1,4 +1,4 @@
-// What the tests do in the editor: the steps of a person, and what is to be seen afterwards.
+// The steps of the tests in the editor, as a person does them, and the looks at the result.
 
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { smallLayout } from './small_layout.mjs';
 
 const wide = { timeout: 60_000 };
 let browser;
-/** Of all tests that need no other: every server is an origin of its own, so nothing is left from the one before. */
+/** The page of all tests that need no other. Every server is an origin of its own, so nothing is left from the last. */
 let usual;
 before(async () => {
   browser = await startBrowser();
@@ -30,14 +30,25 @@ export function inEditor(name, work, { layout = smallLayout, options = null, exp
     await open(page, server.page);
     if (whole) await settled(page);
     await work(page, server, t);
-    assert.deepEqual(page.problems.filter((p) => !expected.some((e) => p.includes(e))), []);
+    assert.deepEqual(
+      page.problems.filter((p) => !expected.some((e) => p.includes(e))),
+      [],
+    );
   });
 }
 
 export const picture = (page) => page.locator('.picture');
 export const settled = async (page) => {
-  await page.waitForFunction(() => document.querySelector('.status').dataset.pending === '0' && document.querySelector('.picture').dataset.moving === 'false' &&
-    document.querySelector('.picture').dataset.mirror === 'true' && document.querySelector('.picture').dataset.sharp !== 'false' && document.querySelector('.status').dataset.unchecked === '0', null, { polling: 20 });
+  await page.waitForFunction(
+    () =>
+      document.querySelector('.status').dataset.pending === '0' &&
+      document.querySelector('.picture').dataset.moving === 'false' &&
+      document.querySelector('.picture').dataset.mirror === 'true' &&
+      document.querySelector('.picture').dataset.sharp !== 'false' &&
+      document.querySelector('.status').dataset.unchecked === '0',
+    null,
+    { polling: 20 },
+  );
 };
 export const message = (page) => page.textContent('.status .message');
 export const live = (page) => page.textContent('.status .live');
@@ -56,7 +67,7 @@ export const export_ = async (server, form = 'layout') => {
   return answer.text();
 };
 export const placementOf = async (server, id) => JSON.parse(await export_(server)).placements.find((p) => p.id === id);
-/** What the program on its own says of the layout as it stands. */
+/** The answer of `lekalo check` about the layout as it stands. */
 export async function checked(server) {
   const file = join(server.folder, 'exported.json');
   writeFileSync(file, await export_(server));

@@ -13,8 +13,8 @@
 
 namespace lekalo::io {
 
-/// A layout for machines and for other programs. What is written, and how far it is from the outlines that
-/// were checked: docs/design/export.md, docs/formats.md.
+/// A layout for machines and for other programs. docs/design/export.md says what is written and how far it is
+/// from the outlines that were checked; docs/formats.md has the forms.
 
 enum class ExportForm { dxf, svg, hpgl, gcode };
 [[nodiscard]] std::optional<ExportForm> export_form(std::string_view word) noexcept;
@@ -24,18 +24,18 @@ inline constexpr const char* kExportLayers[] = {"CUT", "MARK", "LABEL", "SHEET",
 
 struct ExportRequest {
   ExportForm form = ExportForm::dxf;
-  std::string sheet;                         ///< STOCK or STOCK#COPY, copies from 1; empty: all in use
-  std::vector<std::string> only;             ///< layers to write, of kExportLayers; empty: all. Not of G-code
-  LengthUnit unit = LengthUnit::millimetre;  ///< of DXF and G-code
-  double chord_tolerance_mm = 0.02;          ///< of HPGL
-  nc::ProfileOptions profile;                ///< of G-code
+  std::string sheet;              ///< STOCK or STOCK#COPY, copies from 1; empty: all in use
+  std::vector<std::string> only;  ///< layers to write, from kExportLayers; empty: all. G-code has none
+  LengthUnit unit = LengthUnit::millimetre;  ///< DXF and G-code only
+  double chord_tolerance_mm = 0.02;          ///< HPGL only
+  nc::ProfileOptions profile;                ///< G-code only
 };
 
 /// A word of a command line ("kerf", "0.2") or of a request.
 using ExportWord = std::pair<std::string, std::string>;
 /// Every word that some form takes, with what stands for its value and what it means.
 struct ExportWordHelp {
-  const char *name, *type, *help;
+  std::string name, type, help;
 };
 [[nodiscard]] const std::vector<ExportWordHelp>& export_words();
 
@@ -45,7 +45,7 @@ struct ExportWordHelp {
                                                       const std::string& prefix);
 
 struct ExportedFile {
-  std::string sheet;  ///< as in `ExportRequest::sheet`; empty where the file holds all sheets
+  std::string sheet;  ///< like `ExportRequest::sheet`; empty if the file holds all sheets
   std::string bytes;
 };
 struct Exported {

@@ -87,6 +87,14 @@ END
 # Programs of pockets, with arcs and ramps.
 "$lekalo" pocket pocket.json --tool 10 --depth 4 --stepdown 2 -o pocket.ngc --json >pocket-report.json
 "$lekalo" pocket pocket.json --tool 4 --depth 4 --stepdown 2 --after pocket.ngc:10 -o rest.ngc --json >rest-report.json
+cat >slotted.json <<'END'
+{"units": "mm", "outer": [
+ {"line": {"from": [0, 0], "to": [14, 0]}}, {"line": {"from": [14, 0], "to": [14, 3.95]}}, {"line": {"from": [14, 3.95], "to": [24, 3.95]}},
+ {"line": {"from": [24, 3.95], "to": [24, 0]}}, {"line": {"from": [24, 0], "to": [38, 0]}}, {"line": {"from": [38, 0], "to": [38, 14]}},
+ {"line": {"from": [38, 14], "to": [24, 14]}}, {"line": {"from": [24, 14], "to": [24, 10.05]}}, {"line": {"from": [24, 10.05], "to": [14, 10.05]}},
+ {"line": {"from": [14, 10.05], "to": [14, 14]}}, {"line": {"from": [14, 14], "to": [0, 14]}}, {"line": {"from": [0, 14], "to": [0, 0]}}]}
+END
+"$lekalo" pocket slotted.json --tool 6 --depth 1 -o slotted.ngc --json >slotted-report.json
 
 # The store of the server.
 python3 fill_store.py "$lekalo" shoes-edited.json store.sqlite

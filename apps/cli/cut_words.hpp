@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lekalo/jobs/pocket.hpp"
+#include "lekalo/verify/simulate.hpp"
+
+namespace lekalo::cli {
+
+/// The form that the ending of a picture's name asks for; none for an empty name.
+[[nodiscard]] jobs::CutPicture picture_form(const std::string& path);
+
+/// What the checker found, for people: a line a figure.
+[[nodiscard]] std::string report_rows(const verify::SimulateReport& report);
+
+/// A line for each of the hottest stretches, and how many more there are.
+[[nodiscard]] std::string hot_cut_notices(std::vector<jobs::ReportedStretch> cuts);
+[[nodiscard]] std::string ramp_notices(std::vector<jobs::ReportedStretch> ramps);
+
+}  // namespace lekalo::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/jobs/file.hpp"
+#include "lekalo/verify/verify.hpp"
+
+namespace lekalo::jobs {
+
+/// Finds a file that a result names: `role` is "part", "blank", "certificate" or "NC program", `path` as it
+/// stands in the result. Without a value: there is no such file. An error: it is there and cannot be read.
+using FileFinder =
+    std::function<Result<std::optional<File>>(const std::string& role, const std::string& path)>;
+
+struct Verified {
+  /// The checker's verdict, findings and notes, and those about the files: one whose bytes are not those that
+  /// the result was made from is a finding, and then the verdict is refuted.
+  verify::LocateReport report;
+  std::string json;  ///< the report as a document, format lekalo-verify (docs/formats.md)
+};
+
+/// Rechecks a result of a localisation against the files that it names: their digests, and everything that
+/// verify::verify_locate proves. The NC program is no evidence for the placement, but a result that names
+/// other bytes than those found is not true; one that is not there may have gone to the machine, and a note
+/// says so.
+/// bad_input where the result, the part, the blank or the certificate is not there or cannot be read.
+[[nodiscard]] Result<Verified> verify(const File& result, const FileFinder& find);
+
+}  // namespace lekalo::jobs

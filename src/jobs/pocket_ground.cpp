@@ -1,0 +1,132 @@
+#include "pocket_ground.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "lekalo/geom/boolean.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using geom::EdgeKind;
+using geom::Point;
+
+bool is_listed(const std::vector<std::string>& layers, const std::string& label) {
+  return std::find(layers.begin(), layers.end(), label) != layers.end();
+}
+
+Result<void> check_known(const PocketOutline& outline, const std::vector<std::string>& layers) {
+  for (const std::string& layer : layers)
+    if (!is_listed(outline.labels, layer))
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: no outline has an edge on the layer \"{}\"", outline.file.name, layer));
+  return {};
+}
+
+/// The edges are the same, in one direction or the other.
+bool are_same(const geom::Edge& a, const geom::Edge& b) {
+  const bool arcs = a.kind != EdgeKind::line;
+  if (arcs != (b.kind != EdgeKind::line) || (arcs && !(a.centre == b.centre))) return false;
+  return (a.kind == b.kind && a.from == b.from && a.to == b.to) ||
+         ((!arcs || a.kind != b.kind) && a.from == b.to && a.to == b.from);
+}
+
+/// The strip that lies straight out of an edge, so wide that the tool may stand on it.
+Result<geom::Region> strip_beyond(const geom::Edge& edge, double width) {
+  if (edge.kind == EdgeKind::line) {
+    const Point way = edge.to - edge.from;
+    const Point out = (-width / geom::norm(way)) * geom::perpendicular(way);
+    return geom::make_region({{EdgeKind::line, edge.from, edge.from + out, {}},
+                              {EdgeKind::line, edge.from + out, edge.to + out, {}},
+                              {EdgeKind::line, edge.to + out, edge.to, {}},
+                              {edge.kind, edge.to, edge.from, {}}});
+  }
+  // The material lies on the left, so the far side of a counter-clockwise arc is farther from its centre.
+  const double radius = geom::arc_radius(edge);
+  const double other = edge.kind == EdgeKind::arc_ccw ? radius + width : std::max(0.0, radius - width);
+  const auto moved = [&](Point p) { return edge.centre + (other / radius) * (p - edge.centre); };
+  geom::Edge back = edge;
+  std::swap(back.from, back.to);
+  back.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+  geom::Contour contour;
+  if (other > 0) {
+    contour = {{EdgeKind::line, edge.from, moved(edge.from), {}},
+               {edge.kind, moved(edge.from), moved(edge.to), edge.centre},
+               {EdgeKind::line, moved(edge.to), edge.to, {}},
+               back};
+  } else {
+    contour = {
+        {EdgeKind::line, edge.from, edge.centre, {}}, {EdgeKind::line, edge.centre, edge.to, {}}, back};
+  }
+  return geom::make_region(std::move(contour));
+}
+
+/// Goes through the edges of an outline in the order of their labels.
+class GroundMaker {
+ public:
+  GroundMaker(const PocketOutline& outline, const PocketOptions& options)
+      : outline_(outline), options_(options), all_(outline.regions) {}
+
+  Result<PocketGround> made() {
+    for (const geom::Region& region : outline_.regions) {
+      LEKALO_CHECK(look_at(region.outer, true));
+      for (const geom::Contour& hole : region.holes) LEKALO_CHECK(look_at(hole, false));
+    }
+    PocketGround ground{outline_.regions, io::regions_json(outline_.regions, open_)};
+    if (open_.empty()) return ground;
+    Result<geom::BooleanResult> whole = geom::united(all_);
+    if (!whole) return failure(whole.error().code, outline_.file.name + ": " + whole.error().message);
+    ground.extended = std::move(whole->regions);
+    return ground;
+  }
+
+ private:
+  Result<void> look_at(const geom::Contour& contour, bool outer) {
+    for (const geom::Edge& edge : contour) {
+      const std::string label = outline_.labels.empty() ? "" : outline_.labels[edge_++];
+      if (outer && is_listed(options_.island_layers, label))
+        return failure(ErrorCode::bad_input,
+                       fmt::format("{}: the island on layer \"{}\" at ({:.6g}, {:.6g}) lies in no pocket",
+                                   outline_.file.name, label, edge.from.x, edge.from.y));
+      if (is_listed(options_.open_layers, label) || is_said_open(edge)) LEKALO_CHECK(open(edge));
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool is_said_open(const geom::Edge& edge) const {
+    return std::any_of(outline_.open.begin(), outline_.open.end(),
+                       [&](const geom::Edge& said) { return are_same(said, edge); });
+  }
+
+  Result<void> open(const geom::Edge& edge) {
+    Result<geom::Region> strip =
+        strip_beyond(edge, options_.path.tool_diameter / 2 + options_.path.stock_to_leave);
+    if (!strip)
+      return failure(strip.error().code,
+                     fmt::format("{}: the open edge at ({:.6g}, {:.6g}): {}", outline_.file.name, edge.from.x,
+                                 edge.from.y, strip.error().message));
+    open_.push_back(edge);
+    all_.push_back(std::move(*strip));
+    return {};
+  }
+
+  const PocketOutline& outline_;
+  const PocketOptions& options_;
+  std::size_t edge_ = 0;
+  std::vector<geom::Region> all_;  ///< the pockets, then the strips beyond open edges
+  std::vector<geom::Edge> open_;
+};
+
+}  // namespace
+
+Result<PocketGround> pocket_ground(const PocketOutline& outline, const PocketOptions& options) {
+  for (const auto* layers : {&options.island_layers, &options.open_layers})
+    LEKALO_CHECK(check_known(outline, *layers));
+  return GroundMaker(outline, options).made();
+}
+
+}  // namespace lekalo::jobs

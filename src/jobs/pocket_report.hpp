@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lekalo/jobs/pocket.hpp"
+#include "lekalo/mill/ramps.hpp"
+#include "lekalo/verify/simulate.hpp"
+
+namespace lekalo::jobs {
+
+/// See Pocketed::hot_cuts.
+[[nodiscard]] std::vector<ReportedStretch> hot_cuts(const verify::SimulateReport& report, double step_over);
+[[nodiscard]] std::vector<ReportedStretch> reported_ramps(const std::vector<mill::Ramp>& ramps);
+
+/// The document of a judged program; `made` has all of it but `json`.
+[[nodiscard]] std::string pocket_json(const PocketJob& job, const Pocketed& made);
+
+}  // namespace lekalo::jobs

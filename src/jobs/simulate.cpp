@@ -1,0 +1,63 @@
+#include "lekalo/jobs/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include "earlier_documents.hpp"
+#include "lekalo/base/version.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+#include "report_document.hpp"
+#include "simulate_picture.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+std::string report_json(const SimulateJob& job, const verify::SimulateReport& r) {
+  using Json = nlohmann::ordered_json;
+  Json json{
+      {"format", {{"name", "lekalo-simulate"}, {"version", 1}}},
+      {"units", "mm"},
+      {"inputs",
+       records_with_earlier(
+           Json::array({file_record("program", job.program), file_record("pocket", job.pocket)}), job.after)},
+      {"tool_mm", job.machining.tool_diameter},
+      {"stock_to_leave_mm", job.machining.stock_to_leave}};
+  json.update(report_fields(r));
+  json["version"] = kVersion;
+  return document_text(json);
+}
+
+std::string samples_csv(const verify::SimulateReport& r) {
+  std::string text = "x,y,z,length,engagement_deg,line,entry\n";
+  for (const verify::EngagementSample& s : r.samples)
+    text += fmt::format("{:.5f},{:.5f},{:.5f},{:.5f},{:.3f},{},{}\n", s.x, s.y, s.z, s.length, s.engagement,
+                        s.line, s.entry ? 1 : 0);
+  return text;
+}
+
+Result<void> add_pictures(const SimulateJob& job, Simulated& done) {
+  if (job.picture == CutPicture::none && !job.animation) return {};
+  std::vector<geom::Edge> open;
+  LEKALO_TRY(const io::RegionFile pocket, io::parse_regions(job.pocket.bytes, job.pocket.name, {}, &open));
+  const draw::PocketPicture picture =
+      cut_picture_of(job.pocket.name, pocket.regions, job.machining.tool_diameter,
+                     job.machining.stock_to_leave, done.report);
+  LEKALO_TRY(done.picture, drawn(picture, job.picture));
+  if (job.animation) done.animation = draw::pocket_animation(picture);
+  return {};
+}
+
+}  // namespace
+
+Result<Simulated> simulate(const SimulateJob& job, const PhaseListener& phases) {
+  Simulated done;
+  LEKALO_TRY(done.report,
+             verify::simulate({job.program.name, job.program.bytes}, {job.pocket.name, job.pocket.bytes},
+                              job.machining, earlier_documents(job.after),
+                              begin_phase(phases, "following the program")));
+  done.json = report_json(job, done.report);
+  if (job.samples) done.samples = samples_csv(done.report);
+  LEKALO_CHECK(add_pictures(job, done));
+  return done;
+}
+
+}  // namespace lekalo::jobs

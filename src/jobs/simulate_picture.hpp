@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lekalo/draw/pocket_picture.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/jobs/simulate.hpp"
+#include "lekalo/verify/simulate.hpp"
+
+namespace lekalo::jobs {
+
+/// A judged program for a picture, named as the last part of the pocket's path.
+[[nodiscard]] draw::PocketPicture cut_picture_of(const std::string& pocket_path,
+                                                 const std::vector<geom::Region>& pockets,
+                                                 double tool_diameter, double stock_to_leave,
+                                                 const verify::SimulateReport& report);
+
+/// The picture's bytes in a form; none for CutPicture::none.
+[[nodiscard]] Result<std::string> drawn(const draw::PocketPicture& picture, CutPicture form);
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,130 @@
+#include "lekalo/jobs/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "lekalo/base/version.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/text/sha256.hpp"
+#include "report_document.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Finds what a result names and compares digests.
+class Evidence {
+ public:
+  Evidence(const File& result, const FileFinder& find) : result_(result), find_(find) {}
+
+  Result<void> gather() {
+    LEKALO_TRY(const io::WrittenResult written, io::read_result(result_.bytes, result_.name));
+    LEKALO_TRY(part_, input(written, "part"));
+    LEKALO_TRY(blank_, input(written, "blank"));
+    if (written.certificate_file) {
+      LEKALO_TRY(certificate_, needed("certificate", *written.certificate_file));
+    }
+    if (written.nc_output) compare_program(*written.nc_output);
+    return {};
+  }
+
+  [[nodiscard]] Result<Verified> judged() const {
+    verify::LocateInputs inputs{document(result_), document(part_), document(blank_), {}};
+    if (certificate_) inputs.certificate = document(*certificate_);
+    Verified verified;
+    LEKALO_TRY(verified.report, verify::verify_locate(inputs));
+    verify::LocateReport& report = verified.report;
+    report.notes.insert(report.notes.end(), notes_.begin(), notes_.end());
+    report.findings.insert(report.findings.begin(), mismatches_.begin(), mismatches_.end());
+    if (!report.findings.empty()) report.verdict = verify::Verdict::refuted;
+    verified.json = report_json(report);
+    return verified;
+  }
+
+ private:
+  static verify::Document document(const File& file) { return {file.name, file.bytes}; }
+
+  Result<std::optional<File>> found(const std::string& role, const io::FileRecord& written) {
+    LEKALO_TRY(std::optional<File> file, find_(role, written.path));
+    if (!file) return file;
+    if (const std::string digest = io::sha256(file->bytes); digest != written.sha256)
+      mismatches_.push_back(fmt::format("{} is not the {} file of this result: its SHA-256 is {}, not {}",
+                                        file->name, role, digest, written.sha256));
+    return file;
+  }
+
+  Result<File> needed(const std::string& role, const io::FileRecord& written) {
+    LEKALO_TRY(std::optional<File> file, found(role, written));
+    if (!file)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: the {} file {} is not there", result_.name, role, written.path));
+    return *std::move(file);
+  }
+
+  Result<File> input(const io::WrittenResult& written, const std::string& role) {
+    const io::InputRecord* const record = written.input(role);
+    if (record == nullptr)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: \"inputs\" names no file with the role \"{}\"", result_.name, role));
+    return needed(role, record->file);
+  }
+
+  void compare_program(const io::FileRecord& written) {
+    const Result<std::optional<File>> program = found("NC program", written);
+    if (!program)
+      notes_.push_back(program.error().message);
+    else if (!*program)
+      notes_.push_back(fmt::format("the NC program {} is not there, so it was not compared", written.path));
+  }
+
+  static const char* name_of(verify::Verdict verdict) {
+    switch (verdict) {
+      case verify::Verdict::confirmed:
+        return "confirmed";
+      case verify::Verdict::unproved:
+        return "unproved";
+      case verify::Verdict::refuted:
+        return "refuted";
+    }
+    return "";
+  }
+
+  [[nodiscard]] std::string report_json(const verify::LocateReport& report) const {
+    Json inputs = Json::array(
+        {file_record("result", result_), file_record("part", part_), file_record("blank", blank_)});
+    if (certificate_) inputs.push_back(file_record("certificate", *certificate_));
+    return document_text({{"format", {{"name", "lekalo-verify"}, {"version", 1}}},
+                          {"status", name_of(report.verdict)},
+                          {"units", "mm"},
+                          {"inputs", std::move(inputs)},
+                          {"warnings", report.notes},
+                          {"seed", 0},
+                          {"work", report.intervals},
+                          {"version", kVersion},
+                          {"clearance_low", report.clearance_low},
+                          {"clearance_high", report.clearance_high},
+                          {"bound_high", report.bound_high.empty() ? Json(nullptr) : Json(report.bound_high)},
+                          {"intervals", report.intervals},
+                          {"findings", report.findings},
+                          {"run", Json::object()}});
+  }
+
+  const File& result_;
+  const FileFinder& find_;
+  File part_, blank_;
+  std::optional<File> certificate_;
+  std::vector<std::string> mismatches_, notes_;
+};
+
+}  // namespace
+
+Result<Verified> verify(const File& result, const FileFinder& find) {
+  Evidence evidence(result, find);
+  LEKALO_CHECK(evidence.gather());
+  return evidence.judged();
+}
+
+}  // namespace lekalo::jobs

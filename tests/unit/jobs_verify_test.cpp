@@ -1,0 +1,66 @@
+#include "lekalo/jobs/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "lekalo/disk/files.hpp"
+#include "support/places.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+/// The files that a result names, without a disk.
+class JobsVerify : public testing::Test {
+ protected:
+  static std::string bytes(const std::string& name) {
+    return disk::read_file(cases::source_dir() + "/tests/corpus/data/written-0.1/" + name).value();
+  }
+  void SetUp() override {
+    for (const char* name : {"example-1-part.csv", "example-1-blank.csv", "convex.nc"})
+      files_[name] = bytes(name);
+  }
+  [[nodiscard]] Result<Verified> verified(const std::string& result) const {
+    return verify({"convex.json", result},
+                  [&](const std::string&, const std::string& path) -> Result<std::optional<File>> {
+                    const auto found = files_.find(path);
+                    if (found == files_.end()) return std::nullopt;
+                    return File{path, found->second};
+                  });
+  }
+  std::map<std::string, std::string> files_;
+};
+
+TEST_F(JobsVerify, AResultIsConfirmedFromWhatTheFinderGives) {
+  const Result<Verified> done = verified(bytes("convex.json"));
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(done->report.verdict, verify::Verdict::confirmed);
+  EXPECT_TRUE(done->report.findings.empty());
+  EXPECT_EQ(nlohmann::json::parse(done->json)["status"], "confirmed");
+}
+
+TEST_F(JobsVerify, OtherBytesThanTheResultNamesAreAFinding) {
+  files_["convex.nc"] += "M0\n";
+  const Result<Verified> done = verified(bytes("convex.json"));
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->report.verdict, verify::Verdict::refuted);
+  ASSERT_EQ(done->report.findings.size(), 1U);
+  EXPECT_NE(done->report.findings[0].find("is not the NC program file of this result"), std::string::npos);
+}
+
+TEST_F(JobsVerify, AProgramThatIsNotThereIsANoteAndAPartIsAnError) {
+  files_.erase("convex.nc");
+  const Result<Verified> done = verified(bytes("convex.json"));
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->report.verdict, verify::Verdict::confirmed);
+  ASSERT_FALSE(done->report.notes.empty());
+  EXPECT_NE(done->report.notes.back().find("is not there, so it was not compared"), std::string::npos);
+  files_.erase("example-1-part.csv");
+  const Result<Verified> none = verified(bytes("convex.json"));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::bad_input);
+}
+
+}  // namespace
+}  // namespace lekalo::jobs

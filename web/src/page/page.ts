@@ -1,0 +1,197 @@
+// The page: its parts, and which of them is shown anew when something changes.
+
+import { helpDialog } from '../dialogs/help_dialog';
+import { Editor, type Topic } from '../editor/editor';
+import { h, showDialog } from '../html/elements';
+import { currentLanguage, setLanguage, t, type Language } from '../i18n';
+import { loadWasmKernel } from '../kernel/wasm_kernel';
+import { showSidePanel, type Side } from '../panels/sides';
+import { tray } from '../panels/tray';
+import { printed } from '../picture/print';
+import { DARK, LIGHT, type Theme } from '../picture/scene';
+import { ServerKernel } from '../server/server_kernel';
+import { photoBeneath } from '../tools/features';
+import { dragFromTray } from '../tools/from_tray';
+import { SHORTCUTS } from '../tools/keys';
+import { showBar } from './bar';
+import { offerBenchmark } from './benchmark';
+import { chooseAndSave, saveAs } from './exports';
+import { listenToKeys } from './keyboard';
+import { Layouts } from './layouts';
+import { LongBar } from './long_bar';
+import { PicturePane } from './picture_pane';
+import { store, stored } from './settings';
+import { StatusLine } from './status_line';
+
+const firstTheme = (): Theme =>
+  (stored('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light')) === 'dark'
+    ? DARK
+    : LIGHT;
+
+export class Page {
+  private readonly editor: Editor = new Editor(new ServerKernel(() => this.editor.client));
+  private readonly bar = h('header', { class: 'bar' });
+  private readonly tools = h('nav', { class: 'tools' });
+  private readonly left = h('aside', { class: 'left' });
+  private readonly right = h('aside', { class: 'right' });
+  private readonly paper = h('div', { class: 'paper' });
+  private readonly pane: PicturePane = new PicturePane(
+    this.editor,
+    () => this.theme,
+    () => this.status.show(),
+  );
+  private readonly status = new StatusLine(this.editor, this.pane.pointer.overlay);
+  private readonly longBar = new LongBar(this.editor, () => this.pane.focus());
+  private readonly layouts = new Layouts(this.editor, {
+    listed: () => this.showBar(),
+    opening: () => this.pane.begin(),
+  });
+  private theme = firstTheme();
+  private side: Side = 'violations';
+  private panelsDue = false;
+
+  constructor(into: HTMLElement) {
+    const { element } = this.pane;
+    setLanguage((stored('language') ?? (navigator.language.startsWith('uk') ? 'uk' : 'en')) as Language);
+    into.append(this.bar, this.left, this.tools, element, this.longBar.element, this.right, this.status.element);
+    document.body.append(this.paper);
+    this.editor.on((topic) => this.changed(topic));
+    element.addEventListener('pointermove', (e) => this.status.showPlace(this.pane.worldAt(e)));
+    listenToKeys(this.editor, this.pane, { find: () => this.find(), help: () => this.showHelp() });
+    this.listenToDrops();
+    window.addEventListener('beforeprint', () => this.paper.replaceChildren(...printed(this.editor)));
+    window.addEventListener('afterprint', () => this.paper.replaceChildren());
+    offerBenchmark(this.pane.bench);
+  }
+
+  async start(): Promise<void> {
+    this.showAll();
+    try {
+      this.editor.kernel = (await loadWasmKernel()) ?? this.editor.kernel;
+    } catch (error) {
+      this.editor.say(error instanceof Error ? error.message : String(error));
+    }
+    await this.layouts.openFirst();
+  }
+
+  /** Shows anew what a change of the editor's state concerns. */
+  private changed(topic: Topic): void {
+    const { editor, pane } = this;
+    if (topic === 'layout') pane.take();
+    const { dataset } = pane.element;
+    const wasMoving = dataset.moving === 'true';
+    const isMoving = editor.moving.size > 0;
+    dataset.moving = String(isMoving);
+    dataset.level = editor.live?.level ?? '';
+    if (topic === 'long' || topic === 'check' || topic === 'transfer' || topic === 'layout') this.longBar.show();
+    if (topic === 'check' || topic === 'transfer') return;
+    if (topic === 'long' || (topic === 'moving' && wasMoving === isMoving)) pane.later('top');
+    else if (topic !== 'message' && topic !== 'connection') pane.later('all');
+    if (topic === 'mode' || (topic === 'photo' && this.offersPhotoTool())) this.showBar();
+    if (topic === 'layout' || topic === 'selection' || (topic === 'photo' && this.listsPhotosAtRest())) {
+      this.showPanelsLater(topic);
+    }
+    this.status.show();
+  }
+  /** Says whether the tool that pulls photographs is to come or to go. */
+  private offersPhotoTool(): boolean {
+    return this.editor.photos.size > 0 !== (this.tools.querySelector('[data-action="tool.photo"]') !== null);
+  }
+  private listsPhotosAtRest(): boolean {
+    return this.side === 'sheets' && ![...this.editor.photos].some((photo) => photo.pulled);
+  }
+  private showPanelsLater(topic: Topic): void {
+    if (this.panelsDue) return;
+    this.panelsDue = true;
+    setTimeout(() => {
+      this.panelsDue = false;
+      if (topic === 'layout') this.showTray();
+      this.showSide();
+    });
+  }
+
+  private showAll(): void {
+    document.documentElement.dataset.theme = this.theme === DARK ? 'dark' : 'light';
+    this.pane.showWords();
+    this.showBar();
+    this.longBar.show();
+    this.pane.later('all');
+    requestAnimationFrame(() => {
+      this.showTray();
+      this.showSide();
+    });
+    this.status.show();
+  }
+  private showBar(): void {
+    const { editor, layouts, pane } = this;
+    showBar(this.bar, this.tools, editor, layouts.known, {
+      openLayout: (id) => layouts.open(id),
+      takeFiles: (files) => void layouts.takeFiles(files),
+      copyLayout: () => void layouts.copy(),
+      nameLayout: () => layouts.name(),
+      save: (form) => void saveAs(editor, form),
+      choose: (form) => chooseAndSave(editor, form),
+      print: () => window.print(),
+      fit: () => pane.fitAll(),
+      photo: (file) => void photoBeneath(editor, pane.view, file).catch((error: unknown) => editor.say(String(error))),
+      theme: () => this.changeTheme(),
+      language: () => this.changeLanguage(),
+      help: () => this.showHelp(),
+    });
+  }
+  private showTray(): void {
+    const { editor, pane } = this;
+    const parts = tray(
+      editor,
+      (part) => pane.drawing.colour(part, this.theme),
+      (button, part, mirrored) => dragFromTray(button, pane.element, editor, pane.view, part, mirrored),
+    );
+    this.left.replaceChildren(h('h2', {}, t('tray')), parts);
+  }
+  private showSide(): void {
+    const { editor, pane, right } = this;
+    const word = right.querySelector('input')?.value ?? '';
+    showSidePanel(right, editor, this.side, word, {
+      choose: (side) => {
+        this.side = side;
+        this.showSide();
+      },
+      violation: (v) => pane.reveal(v),
+      part: (id) => {
+        editor.select([id]);
+        pane.revealPart(id);
+      },
+      sheet: (sheet) => pane.showSheet(sheet),
+    });
+  }
+
+  private changeTheme(): void {
+    this.theme = this.theme === DARK ? LIGHT : DARK;
+    store('theme', this.theme === DARK ? 'dark' : 'light');
+    this.showAll();
+  }
+  private changeLanguage(): void {
+    setLanguage(currentLanguage() === 'en' ? 'uk' : 'en');
+    store('language', currentLanguage());
+    this.showAll();
+  }
+  private find(): void {
+    this.side = 'parts';
+    this.showSide();
+    this.right.querySelector('input')?.focus();
+  }
+  private showHelp(): void {
+    showDialog(helpDialog(SHORTCUTS));
+  }
+
+  /** Files may be dropped anywhere. */
+  private listenToDrops(): void {
+    for (const type of ['dragover', 'dragleave', 'drop'] as const) {
+      document.addEventListener(type, (e) => {
+        e.preventDefault();
+        this.pane.element.classList.toggle('dropping', type === 'dragover');
+        if (type === 'drop') void this.layouts.takeFiles(e.dataTransfer?.files ?? null);
+      });
+    }
+  }
+}

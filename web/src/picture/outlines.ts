@@ -1,0 +1,59 @@
+// Outlines become paths of a canvas.
+
+import type { Part, Point } from '../layout/document';
+
+/** A part's outline by level of detail, in its own frame: level n drops corners nearer than 2^n / 8 mm to the last. */
+export class Shape {
+  /** The distance of the farthest corner from the origin, mm. */
+  readonly reach: number;
+  private readonly levels = new Map<number, Path2D>();
+  constructor(private readonly loops: Point[][]) {
+    this.reach = Math.max(...loops[0]!.map(([x, y]) => Math.hypot(x, y)));
+  }
+  at(mmPerPixel: number): Path2D {
+    const level = Math.max(-1, Math.floor(Math.log2(mmPerPixel * 0.35 * 8)));
+    let path = this.levels.get(level);
+    if (!path) {
+      path = tracedPath(this.loops, level < 0 ? 0 : 2 ** level / 8);
+      this.levels.set(level, path);
+    }
+    return path;
+  }
+}
+
+/** Loops as a path, without the corners that are nearer than `apart` mm to the one before. */
+export function tracedPath(loops: readonly Point[][], apart: number): Path2D {
+  const path = new Path2D();
+  for (const loop of loops) {
+    let [lx, ly] = loop[0]!;
+    path.moveTo(lx, ly);
+    loop.forEach(([x, y], i) => {
+      if (i === 0 || Math.hypot(x - lx, y - ly) < apart) return;
+      path.lineTo(x, y);
+      [lx, ly] = [x, y];
+    });
+    path.closePath();
+  }
+  return path;
+}
+
+export type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };
+export const loopsOf = (o: Outlined): Point[][] => [o.polygon.outer, ...(o.polygon.holes ?? [])];
+
+/** The way one can go from a point of a part, to either side along a direction, without leaving the part, mm. */
+export function roomAlong(part: Part, [x, y]: Point, [dx, dy]: Point): number {
+  let room = Infinity;
+  for (const loop of loopsOf(part.outline)) {
+    let [ax, ay] = loop.at(-1)!;
+    for (const [bx, by] of loop) {
+      // The heights of both ends of the edge over the line.
+      const [ha, hb] = [dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)];
+      if (ha > 0 !== hb > 0) {
+        const k = ha / (ha - hb);
+        room = Math.min(room, Math.abs(dx * (ax + k * (bx - ax) - x) + dy * (ay + k * (by - ay) - y)));
+      }
+      [ax, ay] = [bx, by];
+    }
+  }
+  return room;
+}
