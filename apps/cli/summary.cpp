@@ -129,9 +129,9 @@ std::string contact_lines(const io::LocateDocument& d) {
   std::string text;
   const char* separator = d.convex() ? "  held by            " : "  nearest at         blank ";
   for (const locate::Touch& touch : d.contacts) {
-    text += separator + (d.convex() ? fmt::format("part point {} on blank edge {}", touch.part_edge,
-                                                  touch.blank_edge)
-                                    : fmt::format("({:.3f}, {:.3f})", touch.blank.x, touch.blank.y));
+    text += separator +
+            (d.convex() ? fmt::format("part point {} on blank edge {}", touch.part_edge, touch.blank_edge)
+                        : fmt::format("({:.3f}, {:.3f})", touch.blank.x, touch.blank.y));
     separator = ", ";
   }
   if (d.mirrored) text = "  mirrored           in x, before it is turned\n" + text;

@@ -91,8 +91,10 @@ io::LocateDocument document_of(const LocateJob& job, const LocateInputs& in, Sea
 }
 
 void clear(io::LocateDocument& d) {
-  if (d.convex()) d.proof = locate::AngleProof{};
-  else d.proof = locate::PoseProof{};
+  if (d.convex())
+    d.proof = locate::AngleProof{};
+  else
+    d.proof = locate::PoseProof{};
 }
 
 /// Leaves the proof in the document, or makes it a document of its own.
@@ -137,8 +139,8 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
     inputs.result.bytes = with_proof;
   }
   const Result<verify::LocateReport> report = verify::verify_locate(inputs);
-  const auto wanted = job.options.method == LocateMethod::certified ? verify::Verdict::confirmed
-                                                                    : verify::Verdict::unproved;
+  const auto wanted =
+      job.options.method == LocateMethod::certified ? verify::Verdict::confirmed : verify::Verdict::unproved;
   if (report && report->verdict == wanted) return {};
   const std::string why =
       !report ? "self-check: " + report.error().message
@@ -192,8 +194,8 @@ std::string deviations_csv(const geom::Ring& probed, const std::vector<double>& 
 void add_deviations(const LocateJob& job, const LocateInputs& in, Located& made) {
   if (job.outputs.deviations.empty()) return;
   const geom::Ring& probed = in.blank.contour->points;
-  const std::vector<double> deviations = locate::deviations(
-      probed, in.problem.part.convex->polygon.vertices(), made.document.placement);
+  const std::vector<double> deviations =
+      locate::deviations(probed, in.problem.part.convex->polygon.vertices(), made.document.placement);
   const auto [least, greatest] = std::minmax_element(deviations.begin(), deviations.end());
   made.deviations = deviations_csv(probed, deviations);
   made.document.deviations = io::DeviationsRecord{

@@ -52,10 +52,11 @@ Result<void> read_outlines(const LocateJob& job, LocateInputs& in) {
     return {};
   }
   if (wanted)
-    return failure(ErrorCode::usage,
-                   fmt::format("{} is for convex contours; the part or the blank here is of another shape, or "
-                               "is placed with demands as one",
-                               convex_thing));
+    return failure(
+        ErrorCode::usage,
+        fmt::format("{} is for convex contours; the part or the blank here is of another shape, or "
+                    "is placed with demands as one",
+                    convex_thing));
   for (const auto& [file, to, name] :
        {std::tuple{&part, &in.part, &job.part.name}, {&blank, &in.blank, &job.blank.name}}) {
     LEKALO_TRY(*to, file->as_regions());
@@ -121,7 +122,8 @@ Result<LocateInputs> read_inputs(const LocateJob& job) {
   LEKALO_CHECK(apply_features(job, demands, in));
   const bool plain = demands.features.empty() && !in.part_cut && o.trade_off == 0 &&
                      o.criterion == locate::Criterion::smallest;
-  in.problem = {std::move(in.part.outline), std::move(in.blank.outline), window_of(o), o.mirror, o.locked, {}};
+  in.problem = {
+      std::move(in.part.outline), std::move(in.blank.outline), window_of(o), o.mirror, o.locked, {}};
   if (!plain) in.problem.demands = std::move(demands);
   return in;
 }

@@ -19,8 +19,13 @@ std::uint32_t index_of(const std::vector<std::uint32_t>& numbers, std::uint32_t 
 
 draw::PictureOfRings rings_of(const LocateInputs& in, const io::LocateDocument& d) {
   const locate::ConvexOutline &part = *in.problem.part.convex, &blank = *in.problem.blank.convex;
-  draw::PictureOfRings rings{part.polygon.vertices(), blank.polygon.vertices(), {}, part.vertex_numbers,
-                             blank.edge_numbers,      {},                       true};
+  draw::PictureOfRings rings{part.polygon.vertices(),
+                             blank.polygon.vertices(),
+                             {},
+                             part.vertex_numbers,
+                             blank.edge_numbers,
+                             {},
+                             true};
   if (in.earlier) rings.start = in.earlier->placement;
   for (const locate::Touch& touch : d.contacts)
     rings.contacts.push_back({index_of(part.vertex_numbers, touch.part_edge),
@@ -46,8 +51,10 @@ Result<std::string> picture_of(const LocateJob& job, const LocateInputs& in, con
                               d.upper_bound,
                               d.min_allowance,
                               d.shortfall};
-  if (d.convex()) picture.outlines = rings_of(in, d);
-  else picture.outlines = regions_of(d);
+  if (d.convex())
+    picture.outlines = rings_of(in, d);
+  else
+    picture.outlines = regions_of(d);
   return job.outputs.picture == PictureFormat::svg ? draw::picture_svg(picture) : draw::picture_png(picture);
 }
 
@@ -83,8 +90,7 @@ Result<std::vector<geom::Region>> as_region(const geom::ConvexPolygon& polygon) 
 }
 
 Result<draw::ReportShapes> shapes_of(const LocateInputs& in, const io::LocateDocument& d) {
-  if (!d.convex())
-    return draw::ReportShapes{d.part, d.blank, d.part_tolerance + d.blank_tolerance, {}, {}};
+  if (!d.convex()) return draw::ReportShapes{d.part, d.blank, d.part_tolerance + d.blank_tolerance, {}, {}};
   const locate::ConvexOutline &part = *in.problem.part.convex, &blank = *in.problem.blank.convex;
   LEKALO_TRY(auto part_region, as_region(part.polygon));
   LEKALO_TRY(auto blank_region, as_region(blank.polygon));

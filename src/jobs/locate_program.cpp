@@ -21,8 +21,7 @@ double spare_of_demands(const io::LocateDocument& d) {
 /// Why this placement is none for a program; empty: it is one.
 std::string hindrance(const io::LocateDocument& d) {
   if (d.scan && !d.scan->proved) return "stretches of the blank are unknown";
-  if (d.mirrored)
-    return "the part lies mirrored and a program for it would have to be mirrored too";
+  if (d.mirrored) return "the part lies mirrored and a program for it would have to be mirrored too";
   return d.shortfall > 0 ? "the allowance is not met" : "";
 }
 

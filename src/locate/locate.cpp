@@ -35,10 +35,9 @@ Result<Found> by_angles(const Problem& problem, const Options& options) {
     for (Contact& contact : proof.intervals.back().contacts) contact = numbered(contact, problem);
   };
   search.run = options.run;
-  LEKALO_TRY(ConvexResult r,
-             locate_convex({part.polygon, blank.polygon, problem.window, part.coordinate_error,
-                            blank.coordinate_error},
-                           search));
+  LEKALO_TRY(ConvexResult r, locate_convex({part.polygon, blank.polygon, problem.window,
+                                            part.coordinate_error, blank.coordinate_error},
+                                           search));
   found.status = r.status, found.best = r.best, found.work = r.work;
   found.upper_bound = r.upper_bound, found.shortfall = r.shortfall;
   for (const Contact& contact : r.contacts) {
@@ -62,9 +61,9 @@ Result<Found> by_poses(const RegionProblem& shapes, const RegionOptions& search)
 }
 
 Result<Found> by_demands(const Demands& demands, const RegionProblem& shapes, const RegionOptions& search) {
-  Result<DemandResult> r = locate_demands({shapes, demands.features, demands.minimum, demands.criterion,
-                                           demands.give_up, demands.trade_off},
-                                          search);
+  Result<DemandResult> r = locate_demands(
+      {shapes, demands.features, demands.minimum, demands.criterion, demands.give_up, demands.trade_off},
+      search);
   LEKALO_CHECK(r);
   Found found;
   found.status = r->status, found.best = r->best, found.mirrored = r->mirrored, found.work = r->work;
@@ -86,14 +85,8 @@ Result<Found> locate(const Problem& problem, const Options& options) {
   if (is_convex(problem)) return by_angles(problem, options);
   if (options.alternatives)
     return failure(ErrorCode::usage, "alternatives are listed for convex outlines alone");
-  const RegionProblem shapes{problem.part.regions,
-                             problem.blank.regions,
-                             problem.window,
-                             problem.mirror,
-                             problem.part.tolerance,
-                             problem.blank.tolerance,
-                             problem.locked,
-                             {}};
+  const RegionProblem shapes{problem.part.regions,   problem.blank.regions,   problem.window, problem.mirror,
+                             problem.part.tolerance, problem.blank.tolerance, problem.locked, {}};
   RegionOptions search;
   search.gap = options.gap.value_or(kRegionGap);
   search.min_allowance = options.min_allowance;

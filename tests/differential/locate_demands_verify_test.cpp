@@ -129,13 +129,13 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
       EXPECT_TRUE(refuted([&](auto&, auto& s) { s.proof->shift -= spare, s.proof->most += spare; }));
     }
     // The bound is one for placements with that margin, and not for those with less.
-    EXPECT_TRUE(refuted([&](auto& d, auto& s) {
-      d.demands->give_up += 0.1, s.margin = std::max(0.0, s.margin - 0.1);
-    }));
+    EXPECT_TRUE(refuted(
+        [&](auto& d, auto& s) { d.demands->give_up += 0.1, s.margin = std::max(0.0, s.margin - 0.1); }));
     EXPECT_TRUE(refuted([&](auto&, auto& s) {
       for (locate::CoverTree& tree : s.proof->certificate) tree.nodes = {tree.nodes.back()};
     }));
-    EXPECT_TRUE(refuted([&](auto& d, auto& s) { s.proof->certificate = std::get<locate::PoseProof>(d.proof).trees; }));
+    EXPECT_TRUE(refuted(
+        [&](auto& d, auto& s) { s.proof->certificate = std::get<locate::PoseProof>(d.proof).trees; }));
     EXPECT_TRUE(refuted([&](auto& d, auto& s) { d.demands->largest = s.kept + 0.001; }));
     io::LocateDocument without = document;
     without.demands->second->proof->certificate.clear();

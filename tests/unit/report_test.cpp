@@ -42,8 +42,7 @@ LocateDocument document_of(const std::vector<Region>& part, const std::vector<Re
 }
 
 Report report_of(const LocateDocument& document, std::vector<draw::ReportFeature> features = {}) {
-  auto report = draw::make_report(document, {document.part, document.blank, 0, {}, {}},
-                                  std::move(features));
+  auto report = draw::make_report(document, {document.part, document.blank, 0, {}, {}}, std::move(features));
   EXPECT_TRUE(report.has_value());
   return report ? *std::move(report) : Report{};
 }

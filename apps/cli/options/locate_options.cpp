@@ -82,7 +82,8 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.job.starts);
   read.choice("--start-rule", words.start_rule, kStartRules, o.job.start_rule);
   constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
-  read.number("--seed", words.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.job.seed);
+  read.number("--seed", words.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1",
+              o.job.seed);
   read.number("--work", words.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
   if (!words.alternatives.empty()) {
     read.number("--alternatives", words.alternatives, 0.0, kLargestLength, "a length in mm of 0 or more",
@@ -137,7 +138,8 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
   o.outputs.program = words.nc_out;
   read.require(o.nc.empty() || !o.outputs.program.empty(),
                "--nc: say with --nc-out FILE where the rewritten program goes");
-  read.require(o.outputs.program.empty() || !o.nc.empty(), "--nc-out: say with --nc FILE which program to rewrite");
+  read.require(o.outputs.program.empty() || !o.nc.empty(),
+               "--nc-out: say with --nc FILE which program to rewrite");
   read.require(!o.nc.empty() || (words.nc_mode.empty() && words.wcs.empty() && words.scan_frame.empty()),
                "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
   read.choice("--nc-mode", words.nc_mode, kModes, o.job.rewrite.mode);
@@ -147,7 +149,8 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
   read.require(words.nc_angle_decimals.empty() || o.job.rewrite.mode == nc::RewriteMode::g68,
                "--nc-angle-decimals is for --nc-mode g68 alone");
   if (o.job.part.units) o.job.rewrite.start_unit = *o.job.part.units;
-  read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)", o.job.rewrite.work_offset);
+  read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)",
+              o.job.rewrite.work_offset);
 }
 
 void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) {

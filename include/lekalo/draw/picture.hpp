@@ -29,7 +29,7 @@ struct PictureOfRings {
 
 /// A part in a blank, both of lines and arcs, with holes, in several pieces if need be.
 struct PictureOfRegions {
-  std::vector<geom::Region> part, blank;       ///< mm, each in its own frame
+  std::vector<geom::Region> part, blank;  ///< mm, each in its own frame
   std::vector<locate::Touch> contacts;
   std::optional<double> margin, margin_bound;  ///< of demands by feature
 };

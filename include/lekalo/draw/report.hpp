@@ -48,7 +48,7 @@ struct Report {
   io::LocateDocument document;  ///< without shapes and proof
   ReportShapes shapes;
   std::optional<double> margin, margin_bound;  ///< of demands by feature
-  bool contacts_at_vertices = false;  ///< those of convex outlines
+  bool contacts_at_vertices = false;           ///< those of convex outlines
   std::vector<locate::Touch> contacts;
   std::vector<std::string> proof, assumptions;  ///< sentences
   double step = 0;                              ///< mm along the outline between samples, at most

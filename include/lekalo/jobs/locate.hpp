@@ -54,7 +54,8 @@ struct LocateOutputs {
   PictureFormat picture = PictureFormat::none;
   ReportFormat report = ReportFormat::none;
   bool allowances = false;  ///< the allowance along the outline as CSV
-  DrawingFormat drawing = DrawingFormat::none;  ///< the blank and the part as it lies, on layers BLANK and PART
+  DrawingFormat drawing =
+      DrawingFormat::none;  ///< the blank and the part as it lies, on layers BLANK and PART
 };
 
 struct LocateJob {

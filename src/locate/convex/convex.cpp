@@ -259,8 +259,13 @@ Touch touch_of(const Contact& contact, const geom::ConvexPolygon& part, const ge
   const geom::Point vertex = pose(part[contact.part_vertex]), a = blank[contact.blank_edge];
   const geom::Point along = blank[blank.next(contact.blank_edge)] - a;
   const geom::Point foot = a + (dot(vertex - a, along) / dot(along, along)) * along;
-  return {contact.part_vertex, contact.blank_edge, part[contact.part_vertex], foot, norm(foot - vertex),
-          contact.multiplier,  {}};
+  return {contact.part_vertex,
+          contact.blank_edge,
+          part[contact.part_vertex],
+          foot,
+          norm(foot - vertex),
+          contact.multiplier,
+          {}};
 }
 
 }  // namespace lekalo::locate

@@ -160,7 +160,7 @@ class AngleCheck {
 };
 
 Result<Contour> AngleCheck::read_input(const Document& document, const WrittenInput& written,
-                                        const char* role) {
+                                       const char* role) {
   auto contour = read_contour(document);
   if (!contour) return contour;
   if (contour->unit && *contour->unit != written.unit) {
@@ -207,7 +207,7 @@ Result<void> AngleCheck::read_files() {
 /// Every dropped point lies on the straight line between its kept neighbours, and no kept point repeats the
 /// one before.
 void AngleCheck::check_dropped(const char* role, const Outline& outline,
-                                const std::vector<std::size_t>& dropped) {
+                               const std::vector<std::size_t>& dropped) {
   const std::size_t n = outline.points.size();
   std::vector<bool> is_dropped(n, false);
   for (std::size_t i = 0; i < dropped.size(); ++i) {
@@ -320,7 +320,7 @@ void AngleCheck::check_placements() {
 
 /// written = a - b, but for roundings.
 void AngleCheck::check_difference(const char* field, const Decimal& written, const Decimal& a,
-                                   const Decimal& b) {
+                                  const Decimal& b) {
   const double difference = approximate(a - b);
   const double slack = kDerivedTolerance * std::max(std::abs(approximate(a)), std::abs(approximate(b)));
   if (!(std::abs(approximate(written - (a - b))) <= slack)) {

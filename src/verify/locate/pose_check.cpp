@@ -281,7 +281,7 @@ void PoseCheck::check_pose() {
 
 /// Locked shifts, the window and mirroring.
 void PoseCheck::check_allowed(const std::string& whose, const Decimal& x, const Decimal& y,
-                                const Decimal& angle, bool mirrored) {
+                              const Decimal& angle, bool mirrored) {
   for (const auto& [locked, is] : {std::pair{&r_.locked_x, &x}, {&r_.locked_y, &y}})
     if (*locked && compare(**locked, *is) != 0) find("{}the placement is not where it is locked", whose);
   if (mirrored != (r_.mirror == "yes") && r_.mirror != "either")

@@ -38,8 +38,8 @@ struct ContourRecord {
 };
 
 struct ReadOutline {
-  locate::Outline outline;          ///< with regions, or convex
-  std::vector<geom::Edge> open;     ///< edges that a region file says are no walls, as they are written
+  locate::Outline outline;       ///< with regions, or convex
+  std::vector<geom::Edge> open;  ///< edges that a region file says are no walls, as they are written
   std::vector<std::string> notices;
   std::optional<ScanRecord> scan;        ///< of a blank that was measured
   std::optional<ContourRecord> contour;  ///< of a convex outline

@@ -12,7 +12,7 @@ enum class Format {
   json,    ///< regions, trees of primitives, points, layouts and jobs
   dxf,
   svg,
-  ply,    ///< measured points
+  ply,  ///< measured points
   unknown
 };
 
