@@ -9,7 +9,7 @@ namespace {
 
 using geom::Point;
 
-/// Along the level line with higher values on the left.
+/// The direction along the level line with higher values on the left.
 std::optional<Point> along(const Function& f, Point p) {
   const Point gradient = f(p).gradient;
   const double length = norm(gradient);

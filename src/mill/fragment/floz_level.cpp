@@ -15,7 +15,7 @@ namespace {
 using geom::Point;
 using Kind = PathMove::Kind;
 
-/// The best of a coarse grid, then uphill.
+/// Finds the peak: the best place of a coarse grid, and from there uphill.
 Point peak(const field::ContourModel& model, const field::Function& f, const geom::Box& box) {
   constexpr int kNodes = 48;
   const Point size = box.high - box.low;
@@ -31,7 +31,8 @@ Point peak(const field::ContourModel& model, const field::Function& f, const geo
   return field::peak_of(f, best, std::max(size.x, size.y) / kNodes, 1e-4);
 }
 
-/// How many places, with the lines to them, are in the fragment: the model's chords may lie outside its arcs.
+/// Counts the places that lie in the fragment with the lines to them: chords of the model may lie outside the
+/// fragment's arcs.
 std::size_t inside(const std::vector<Point>& path, const geom::Region& fragment) {
   constexpr double kSlack = 1e-4;  // mm
   constexpr int kPieces = 6;

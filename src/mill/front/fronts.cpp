@@ -33,13 +33,14 @@ constexpr double kPitch = 0.07;  // of the tool's radius
 constexpr double kMostNodes = 6e5;
 constexpr double kLeastShare = 0.3;
 
-// What a layer is to hold, of the angle of a straight pass; the share of its length that may pass it, and how
-// far.
+// Step 5 of docs/design/pocket.md, as shares of the angle of a straight pass: what a layer is to hold, what a
+// part of its length may reach, and what counts as far too much.
 constexpr double kHeld = 1.02, kPeak = 1.185, kFarBeyond = 1.287;
-constexpr double kBeyond = 0.07;
+constexpr double kBeyond = 0.07;    // of the length: how much of it may pass kHeld
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
-/// Of the step: how far from where a pass would leave a wall its arc begins and ends, at most.
+/// A pass leaves a wall on an arc that begins and ends at most this share of the step from where it would
+/// leave without one.
 constexpr double kCorner = 1.2;
 constexpr double kShortRun = 2;          // of the step: a way along a wall that two passes may share
 constexpr double kLeft = 0.75;           // of the step: what a pass may leave at a wall
@@ -57,7 +58,7 @@ bool is_fresh(Point p, const RegionIndex& before) {
   return before.nearest(p).distance > kOnIt && !before.contains(p);
 }
 
-/// Shares of an edge between which it is not cut yet.
+/// The parts of an edge that are not cut yet, as shares of its length.
 std::vector<std::pair<double, double>> fresh_parts(const Edge& edge, const RegionIndex& before) {
   std::vector<std::pair<double, double>> parts;
   const double pieces = std::max(1.0, std::ceil(length_of(edge) / kSpacing));
@@ -68,7 +69,7 @@ std::vector<std::pair<double, double>> fresh_parts(const Edge& edge, const Regio
     }
     return fresh_low ? low : high;
   };
-  // An edge of one piece still shows what its middle is.
+  // An edge that is one piece is looked at in its middle as well.
   const double count = std::max(2.0, pieces);
   bool last = is_fresh(edge.from, before);
   double begin = 0;
@@ -145,7 +146,7 @@ class Grower {
   }
 
  private:
-  /// In the wide, by level lines of the arrival time. Whether there were fronts.
+  /// Grows through the fields by level lines of the arrival time, and says whether there were fronts.
   Result<bool> grow_fields() {
     if (fields_.empty()) return false;
     const std::size_t first = growth_.fronts.size();
@@ -184,7 +185,7 @@ class Grower {
     return growth_.fronts.size() > first;
   }
 
-  /// Corridors hardly wider than the tool, by loops. Whether there were any.
+  /// Grows through corridors hardly wider than the tool by loops, and says whether there were any.
   Result<bool> fill() {
     if (narrow_.empty()) return false;
     std::vector<Front> fronts = corridor_loops(limit_, corridors_, growth_.cut.back(), growth_.fronts, law_);
@@ -212,7 +213,7 @@ class Grower {
     return true;
   }
 
-  /// A ring from its place nearest to what is cut; false where that is nowhere near it.
+  /// Lets a ring begin at its place nearest to what is cut; false where no place is near.
   bool begin_where_it_touches(Front& front, const RegionIndex& before) const {
     double gap = kTouching * r_;
     std::size_t begin = front.edges.size();
@@ -234,7 +235,8 @@ class Grower {
     return true;
   }
 
-  /// Cuts a way along a wall off where it touches what is cut; what is behind, or nothing where it does not.
+  /// Cuts a way along a wall off where it touches what is cut, and returns what lies behind; nothing where it
+  /// does not touch.
   std::vector<Edge> behind_touch(std::vector<Edge>& along, const RegionIndex& before) const {
     double gap = kTouching * r_;
     std::size_t at = along.size();
@@ -254,7 +256,7 @@ class Grower {
     return behind;
   }
 
-  /// Passes that meet a wall on their way end and begin there; rings that touch what is cut begin there.
+  /// Divides passes where they meet a wall on their way, and lets rings begin where they touch what is cut.
   std::vector<Front> split_at_walls(std::vector<Front> given, const RegionIndex& before) const {
     std::vector<Front> fronts;
     for (Front& front : given) {
@@ -311,7 +313,7 @@ class Grower {
     return std::move(all->regions);
   }
 
-  /// The share of the step that would hold the angle; 1 where it is held, cut in either direction.
+  /// The share of the step that would hold the angle; 1 where it is held in both directions.
   [[nodiscard]] double relief(const std::vector<Front>& fronts, const RegionIndex& before) const {
     double length = 0, beyond = 0, largest = 0;
     for (const Front& front : fronts)
@@ -394,8 +396,8 @@ std::vector<Front> fresh_stretches(const std::vector<Region>& cut, const RegionI
   return fronts;
 }
 
-/// Instead of the corner before edges[corner] an arc that begins and ends at the same way from it, tangent
-/// where it begins; nothing where it would not be nearly so at its end.
+/// Replaces the corner before edges[corner] by an arc that begins and ends at the same distance from it, and
+/// is tangent where it begins; nothing where it would not be nearly tangent at its end.
 std::vector<Edge> around_corner(const std::vector<Edge>& edges, std::size_t corner, double reach) {
   double before = reach, after = reach;
   std::size_t leave = corner - 1, meet = corner;

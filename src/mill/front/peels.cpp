@@ -14,8 +14,8 @@ using geom::Region;
 
 namespace {
 
-/// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls. Thinner
-/// peels have others between.
+/// Fillets of the walls' corners, as shares of the tool's radius; the first is that of the pass along the
+/// walls. Thinner peels have others between them.
 constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08, 0.04, 0.02};
 
 }  // namespace

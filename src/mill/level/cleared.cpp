@@ -17,8 +17,8 @@ using geom::Region;
 
 constexpr double kSameLevel = 1e-6;  // mm of depth
 constexpr double kGrain = 1e-6;      // mm: stretches that agree to it are one
-/// mm: holes in what is cut that are narrower than twice this are rounding, and so is what stands thinner
-/// than kThin where the tool came along.
+/// mm: holes in what is cut that are narrower than twice kClosed are rounding, and so is material that stands
+/// thinner than kThin where the tool came along.
 constexpr double kClosed = 4e-3, kThin = 4e-3;
 constexpr double kLeastDepth = 6e-3;  // mm: a piece that is nowhere thicker is left alone
 constexpr std::size_t kTogether = 24;
@@ -28,7 +28,8 @@ Result<Region> disc(Point middle, double radius) {
   return geom::make_region({{EdgeKind::arc_ccw, from, from, middle}});
 }
 
-/// What a disc sweeps along an edge, but for the discs at its ends. \pre an arc of at most half a turn
+/// The region that a disc sweeps along an edge, without the discs at its ends. \pre an arc of at most half a
+/// turn
 Result<Region> body(const Edge& edge, double radius) {
   if (edge.kind == EdgeKind::line) {
     const Point way = edge.to - edge.from;
@@ -55,7 +56,7 @@ Result<Region> body(const Edge& edge, double radius) {
                             {EdgeKind::line, d, a, {}}});
 }
 
-/// Few at a time: what lies inside is gone before the next come.
+/// Unites a few pieces at a time, so that what lies inside is gone before the next pieces come.
 Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
   std::vector<std::vector<Region>> groups;
   for (std::size_t i = 0; i < pieces.size(); i += kTogether) {
@@ -85,7 +86,7 @@ Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
 
 Result<std::vector<Region>> cleared_places(const std::vector<EarlierCut>& cuts, double depth,
                                            double tool_radius) {
-  // Levels one below the other go the same ways.
+  // Levels one below the other go the same ways, so that each stretch is taken once.
   using Key = std::array<long long, 8>;
   std::set<Key> seen;
   std::vector<Region> pieces;

@@ -14,7 +14,7 @@ using geom::Region;
 
 namespace {
 
-// How much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
+// A peel may take this share of the tool's radius: the last, which comes to the corner itself, and others.
 constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr double kHotSpacing = 0.02, kHotMoment = 0.04;  // of the tool's radius
 
@@ -52,7 +52,7 @@ Result<void> Corners::cut(std::size_t zone, ToolMotion& tool) {
   return cut_beyond(roundest_, zones()[zone], back, tool);
 }
 
-/// Whether more than a moment of passes meets too much of the rim.
+/// True when a pass meets too much of the rim for more than a moment.
 bool Corners::is_hot(const std::vector<Front>& passes, const geom::RegionIndex& before) const {
   const double radius = piece_.tool_radius;
   return std::any_of(passes.begin(), passes.end(), [&](const Front& pass) {
@@ -61,7 +61,8 @@ bool Corners::is_hot(const std::vector<Front>& passes, const geom::RegionIndex& 
   });
 }
 
-/// In a zone: the last at once, else halved between what may be and what may not.
+/// Finds the deepest peel that a zone allows: the last round at once, or else by halving between rounds that
+/// are allowed and rounds that are not.
 Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone) {
   const std::size_t last = peels_.last();
   const auto round = peels_.at(outer);
@@ -80,7 +81,7 @@ Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone
       for (const Point p : places_on(front.edges, 0.1 * piece_.tool_radius))
         depth = std::max(depth, before.nearest(p).distance);
     }
-    // At the end of a corridor the other corner is met as well.
+    // The end of a corridor has two corners, which are met at once.
     const double most = thinness_ * (tried == last ? kSharpPeel : kPeel) *
                         (piece_.narrow.index.contains(zone.edges.front().from) ? 0.5 : 1);
     if (tried == outer + 1 || (depth < most * piece_.tool_radius && !is_hot(passes, before)))
@@ -91,7 +92,7 @@ Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone
   return chosen;
 }
 
-/// What a zone holds beyond a round. \param back  whether the next pass begins at the zone's end
+/// Cuts what a zone holds beyond a round. \param back  whether the next pass begins at the zone's end
 Result<void> Corners::cut_beyond(std::size_t outer, const Front& zone, bool& back, ToolMotion& tool) {
   if (outer == peels_.last()) return {};
   auto peel = deepest_peel(outer, zone);

@@ -13,21 +13,22 @@
 #include "walls.hpp"
 
 namespace lekalo::mill {
-// The order of things on one level; each of them has a file of its own.
+// This file has the order of the steps 1 to 8 of docs/design/pocket.md; each step has a file of its own.
 namespace {
 
 using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
-/// Up, for the end of a level; no motion where there was nothing to cut.
+/// Lifts the tool at the end of a level. The path is empty where there was nothing to cut.
 PocketPath finished(ToolMotion& tool, const FrontPasses& passes) {
   if (tool.moves().empty()) return {};
   tool.rise();
   return {tool.moves(), passes.count()};
 }
 
-/// From the solid: an entry and its fronts, again where the tool cannot come to from there, then the walls.
+/// Clears from the solid: an entry and its fronts, again for what cannot be reached from there, then the
+/// walls.
 Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions& o,
                                         const AreaListener& listener) {
   ToolMotion tool(piece, o);
@@ -57,14 +58,14 @@ Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions&
   return finished(tool, passes);
 }
 
-/// A place that other tools have left, and what of each list is cut there.
+/// A place that other tools have left, and the numbers of the fronts, walls and corners that are cut there.
 struct LeftPlace {
   RegionIndex index;
   std::vector<std::size_t> fronts, walls, corners;
   [[nodiscard]] bool is_empty() const { return fronts.empty() && walls.empty() && corners.empty(); }
 };
 
-/// The one a front lies in or is nearest to.
+/// The place that a front lies in or is nearest to.
 LeftPlace& place_of(const Front& front, std::vector<LeftPlace>& places) {
   const Point p = place_at(front.edges[front.edges.size() / 2], 0.5);
   std::size_t best = 0;
@@ -76,7 +77,7 @@ LeftPlace& place_of(const Front& front, std::vector<LeftPlace>& places) {
   return places[best];
 }
 
-/// Corners of a place, the nearest first.
+/// Cuts corners, the nearest first.
 Result<void> cut_corners(ToolMotion& tool, Corners& corners, std::vector<std::size_t> which) {
   const auto far = [&](std::size_t i) { return norm(corners.zones()[i].edges.back().to - tool.at()); };
   while (!which.empty()) {
@@ -88,8 +89,8 @@ Result<void> cut_corners(ToolMotion& tool, Corners& corners, std::vector<std::si
   return {};
 }
 
-/// What other tools have left, place by place: fronts that grow from where they have been, then the walls
-/// they did not come to, then corners.
+/// Clears what other tools have left, place by place: fronts that grow from where they have been, then the
+/// walls that those did not come to, then corners.
 Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions& o,
                                         const std::vector<Region>& cleared, const std::vector<Region>& left,
                                         const AreaListener& listener) {
@@ -124,7 +125,7 @@ Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions&
     if (auto cut = cut_corners(tool, *corners, place->corners); !cut) return tl::unexpected(cut.error());
     places.erase(place);
   }
-  // What the fronts do not come to from there stays for a helix.
+  // Walls that no pass came along are cut last.
   cut_missed_walls(tool, piece, cleared);
   return finished(tool, passes);
 }

@@ -35,7 +35,7 @@ bool line_inside(const geom::RegionIndex& allowed, Point a, Point b) {
   return true;
 }
 
-/// The start of each piece's spiral, if one is chosen.
+/// The starts that are chosen, each for the piece whose spiral begins there.
 Result<std::vector<std::optional<Point>>> starts_of(const std::vector<Region>& pieces,
                                                     const PocketOptions& o) {
   constexpr double kSlack = 1e-6;  // mm: a start on a border is in one of its pieces
@@ -66,7 +66,7 @@ double level_count(const PocketOptions& o) {
   return o.step_down > 0 ? std::ceil((o.depth - o.floor_stock) / o.step_down * (1 - 1e-12)) : 1;
 }
 
-/// One piece of places, level by level.
+/// The path of one piece of places, put together level by level.
 class Levels {
  public:
   /// \param all_cut  a level's plan leaves nothing of the places
@@ -77,8 +77,8 @@ class Levels {
         safe_height_(safe_height),
         tool_radius_(tool_radius) {}
 
-  /// The plan of a level, made for one at the stock's face, `top` below it. From the end of the level above
-  /// to its beginning the tool goes through what that level has cut, if that is all.
+  /// Adds the plan of a level, which is made for one at the stock's face, `top` below it. From the end of the
+  /// level above to the beginning of this one the tool goes at depth if the level above is all cut.
   void add(const PocketPath& plan, double top) {
     const auto first_down = static_cast<std::size_t>(
         std::find_if(plan.moves.begin(), plan.moves.end(), [](const PathMove& m) { return m.z <= 0; }) -
@@ -109,7 +109,7 @@ class Levels {
   [[nodiscard]] const std::vector<PathMove>& moves() const { return path_.moves; }
 
  private:
-  /// Corners of a way among the places, all of which are cut on the level above; none where there is none.
+  /// Corners of a way among the places, all of which are cut on the level above; none where there is no way.
   std::vector<Point> way(Point from, Point to) {
     if (line_inside(limit_, from, to)) return {to};
     if (!grid_) grid_.emplace(Growth{{}, {places_}}, tool_radius_);
@@ -176,7 +176,7 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
       pieces.insert(pieces.end(), part->regions.begin(), part->regions.end());
     }
   }
-  // Of each level; levels that begin alike share a plan.
+  // Each level has its own cleared places; levels that begin alike share a plan.
   std::vector<std::vector<Region>> cleared;
   for (double k = 1; k <= levels; ++k) {
     auto places = cleared_places(before, k * one.depth, o.tool_diameter / 2);
