@@ -14,7 +14,7 @@ Typed add_drawn(CLI::App& app, const char* footer) {
   add_layout_outputs(app, *words);
   app.footer(footer);
   return [words]() -> Result<Command> {
-    if (Result<void> fine = fine_picture(words->picture); !fine) return tl::unexpected(fine.error());
+    LEKALO_CHECK(fine_picture(words->picture));
     return to_layout_source(*words).map([&](LayoutSource&& source) {
       return Command(Options{std::move(source), words->picture, words->json});
     });

@@ -15,11 +15,10 @@ struct NestWords {
 };
 
 Result<Command> to_nest(const NestWords& w) {
-  if (Result<void> fine = fine_picture(w.layout.picture); !fine) return tl::unexpected(fine.error());
-  Result<LayoutSource> source = to_layout_source(w.layout);
-  if (!source) return tl::unexpected(source.error());
+  LEKALO_CHECK(fine_picture(w.layout.picture));
+  LEKALO_TRY(LayoutSource source, to_layout_source(w.layout));
   NestOptions o;
-  o.source = std::move(*source);
+  o.source = std::move(source);
   o.output = w.output;
   o.stream = w.stream;
   o.from_scratch = w.from_scratch;

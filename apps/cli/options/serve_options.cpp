@@ -15,8 +15,7 @@ struct ServeWords {
 };
 
 Result<Command> to_serve(const ServeWords& w) {
-  Result<LayoutSource> source = to_layout_source(w.layout);
-  if (!source) return tl::unexpected(source.error());
+  LEKALO_TRY(LayoutSource source, to_layout_source(w.layout));
   WordReader read;
   std::uint16_t port = 8080;
   read.number("--port", w.port, std::uint16_t{0}, std::uint16_t{65535}, "a whole number from 0 to 65535",
@@ -29,7 +28,7 @@ Result<Command> to_serve(const ServeWords& w) {
   if (!w.token.empty() && (!plain || w.token.size() < kShortest || w.token.size() > kLongest))
     return failure(ErrorCode::usage,
                    fmt::format("--token: has to be {} to {} letters, digits, - or _", kShortest, kLongest));
-  return Command(ServeOptions{std::move(*source), w.store, w.listen, port, w.token});
+  return Command(ServeOptions{std::move(source), w.store, w.listen, port, w.token});
 }
 
 }  // namespace

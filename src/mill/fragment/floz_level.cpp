@@ -53,10 +53,10 @@ Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions&
   const double step =
       o.trace_step > 0 ? o.trace_step : o.step_over * o.tool_diameter / kPi;  // pi steps a turn outwards
   const auto logic = o.method == Method::floz_linear ? field::Logic::linear : field::Logic::quadratic;
-  const auto model = field::ContourModel::make({fragment}, {o.sampling, logic, field::FlozForm::normalised});
-  if (!model) return tl::unexpected(model.error());
-  const field::Function f = [&](Point p) { return (*model)(p); };
-  const Point top = start ? *start : peak(*model, f, geom::bounds(fragment.outer));
+  LEKALO_TRY(const auto model,
+             field::ContourModel::make({fragment}, {o.sampling, logic, field::FlozForm::normalised}));
+  const field::Function f = [&](Point p) { return model(p); };
+  const Point top = start ? *start : peak(model, f, geom::bounds(fragment.outer));
   // A peak has no way round it: its spiral begins beside it.
   const Point first = start ? top : top + Point{0.25 * step, 0};
   // A spiral that goes round in one place ends after three times the length that would fill the fragment.

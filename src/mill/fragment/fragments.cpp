@@ -174,17 +174,16 @@ Result<std::vector<Region>> divided(const Region& region, const Chord& chord, do
                                  {EdgeKind::line, b + left, a + left, {}},
                                  {EdgeKind::line, a + left, a, {}}});
   if (!half) return tl::unexpected(half.error());
-  const auto pieces = geom::combine({region}, {*half}, geom::BooleanOperation::intersect);
-  if (!pieces) return tl::unexpected(pieces.error());
+  LEKALO_TRY(const auto pieces, geom::combine({region}, {*half}, geom::BooleanOperation::intersect));
   const Point beside =
       chord.at + (0.5 * chord.length) * chord.direction + (1e-6 * chord.length) * geom::perpendicular(along);
-  for (const Region& piece : pieces->regions) {
+  for (const Region& piece : pieces.regions) {
     if (!geom::RegionIndex({piece}).contains(beside)) continue;
-    auto rest = geom::combine({region}, {piece}, geom::BooleanOperation::subtract, pieces->edge_error);
-    if (!rest) return tl::unexpected(rest.error());
+    LEKALO_TRY(auto rest,
+               geom::combine({region}, {piece}, geom::BooleanOperation::subtract, pieces.edge_error));
     std::vector<Region> both{piece};
     const double speck = 1e-9 * geom::area(region);
-    for (Region& r : rest->regions)
+    for (Region& r : rest.regions)
       if (geom::area(r) > speck) both.push_back(std::move(r));
     return both;
   }
@@ -212,13 +211,12 @@ Result<std::vector<Region>> convex_fragments(const std::vector<Region>& regions)
       done.push_back(region);
       continue;
     }
-    auto parts = divided(region, *cut);
-    if (!parts) return tl::unexpected(parts.error());
-    if (parts->size() < 2) {
+    LEKALO_TRY(auto parts, divided(region, *cut));
+    if (parts.size() < 2) {
       done.push_back(region);
       continue;
     }
-    open.insert(open.end(), parts->rbegin(), parts->rend());
+    open.insert(open.end(), parts.rbegin(), parts.rend());
   }
   return done;
 }

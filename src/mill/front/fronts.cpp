@@ -136,11 +136,9 @@ class Grower {
   Result<Growth> run(const std::vector<Region>& start) {
     growth_.cut.push_back(start);
     for (;;) {
-      auto grown = grow_fields();
-      if (!grown) return tl::unexpected(grown.error());
-      auto filled = fill();
-      if (!filled) return tl::unexpected(filled.error());
-      if (!*filled) break;
+      LEKALO_CHECK(grow_fields());
+      LEKALO_TRY(auto filled, fill());
+      if (!filled) break;
     }
     return std::move(growth_);
   }
@@ -167,9 +165,8 @@ class Grower {
       if (held) share = std::min(1.0, 1.06 * share);
       held = true;
       for (int trial = 0;; ++trial) {
-        auto tried = reached_by(field, time + share);
-        if (!tried) return tl::unexpected(tried.error());
-        cut = std::move(*tried);
+        LEKALO_TRY(auto tried, reached_by(field, time + share));
+        cut = std::move(tried);
         fronts = split_at_walls(fresh_stretches(cut, before), before);
         const double less = relief(fronts, before);
         if (less >= 1 || trial == kMostTrials || share <= kLeastShare) break;
@@ -198,8 +195,7 @@ class Grower {
       if (!disc) return tl::unexpected(disc.error());
       pieces.push_back(std::move(*disc));
     }
-    auto all = geom::united(pieces);
-    if (!all) return tl::unexpected(all.error());
+    LEKALO_TRY(auto all, geom::united(pieces));
     const RegionIndex before(growth_.cut.back());
     const std::size_t first = growth_.fronts.size();
     for (Front& front : fronts) {
@@ -209,7 +205,7 @@ class Grower {
     }
     for (std::size_t i = first; i < growth_.fronts.size(); ++i)
       if (growth_.fronts[i].parents.empty()) find_parents(i, first, before);
-    growth_.cut.push_back(std::move(all->regions));
+    growth_.cut.push_back(std::move(all.regions));
     return true;
   }
 
@@ -301,16 +297,13 @@ class Grower {
   Result<std::vector<Region>> reached_by(const ArrivalField& field, double time) const {
     std::vector<Region> cut = fields_;
     if (time <= field.last() || !field.reaches_all()) {
-      auto early = field.before(time);
-      if (!early) return tl::unexpected(early.error());
-      auto inside = geom::combine(*early, fields_, geom::BooleanOperation::intersect);
-      if (!inside) return tl::unexpected(inside.error());
-      cut = std::move(inside->regions);
+      LEKALO_TRY(auto early, field.before(time));
+      LEKALO_TRY(auto inside, geom::combine(early, fields_, geom::BooleanOperation::intersect));
+      cut = std::move(inside.regions);
     }
     if (narrow_.empty()) return cut;
-    auto all = geom::combine(cut, growth_.cut.back(), geom::BooleanOperation::unite);
-    if (!all) return tl::unexpected(all.error());
-    return std::move(all->regions);
+    LEKALO_TRY(auto all, geom::combine(cut, growth_.cut.back(), geom::BooleanOperation::unite));
+    return std::move(all.regions);
   }
 
   /// The share of the step that would hold the angle; 1 where it is held in both directions.

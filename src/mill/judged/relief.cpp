@@ -44,9 +44,8 @@ double smooth_step(double t) {
 
 Result<Relief> Relief::make(PocketPath path, const std::vector<geom::Region>& pockets,
                             const PocketOptions& options) {
-  const auto places = allowed_places(pockets, options);
-  if (!places) return tl::unexpected(places.error());
-  return Relief(std::move(path), *places, options);
+  LEKALO_TRY(const auto places, allowed_places(pockets, options));
+  return Relief(std::move(path), places, options);
 }
 
 Relief::Relief(PocketPath path, const std::vector<geom::Region>& places, const PocketOptions& options)

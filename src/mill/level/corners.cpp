@@ -37,13 +37,11 @@ Corners::Corners(const Piece& piece, const std::vector<Point>& loop_places,
 Result<Corners> Corners::find(const Piece& piece, const std::vector<Point>& loop_places,
                               const std::vector<Region>& cleared, const PocketOptions& o) {
   Corners made(piece, loop_places, cleared, o);
-  const auto roundest = made.peels_.first();
-  if (!roundest) return tl::unexpected(roundest.error());
-  const auto zones = made.peels_.between(*roundest, made.peels_.last());
-  if (!zones) return tl::unexpected(zones.error());
-  made.roundest_ = *roundest;
-  made.walls_ = *made.peels_.at(*roundest);
-  made.zones_ = *zones;
+  LEKALO_TRY(const auto roundest, made.peels_.first());
+  LEKALO_TRY(const auto zones, made.peels_.between(roundest, made.peels_.last()));
+  made.roundest_ = roundest;
+  LEKALO_TRY(made.walls_, made.peels_.at(roundest));
+  made.zones_ = zones;
   return made;
 }
 
@@ -65,17 +63,15 @@ bool Corners::is_hot(const std::vector<Front>& passes, const geom::RegionIndex& 
 /// are allowed and rounds that are not.
 Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone) {
   const std::size_t last = peels_.last();
-  const auto round = peels_.at(outer);
-  if (!round) return tl::unexpected(round.error());
-  const geom::RegionIndex& before = (*round)->index;
+  LEKALO_TRY(const auto round, peels_.at(outer));
+  const geom::RegionIndex& before = round->index;
   Peel chosen{outer, {}};
   std::size_t beyond = last + 1;
   for (std::size_t tried = last; chosen.inner + 1 < beyond; tried = (chosen.inner + beyond) / 2) {
-    const auto fronts = peels_.between(outer, tried);
-    if (!fronts) return tl::unexpected(fronts.error());
+    LEKALO_TRY(const auto fronts, peels_.between(outer, tried));
     std::vector<Front> passes;
     double depth = 0;
-    for (const Front& front : **fronts) {
+    for (const Front& front : *fronts) {
       if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
       passes.push_back(front);
       for (const Point p : places_on(front.edges, 0.1 * piece_.tool_radius))
@@ -95,16 +91,15 @@ Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone
 /// Cuts what a zone holds beyond a round. \param back  whether the next pass begins at the zone's end
 Result<void> Corners::cut_beyond(std::size_t outer, const Front& zone, bool& back, ToolMotion& tool) {
   if (outer == peels_.last()) return {};
-  auto peel = deepest_peel(outer, zone);
-  if (!peel) return tl::unexpected(peel.error());
-  if (peel->passes.empty()) return cut_beyond(peel->inner, zone, back, tool);
-  if (back) std::reverse(peel->passes.begin(), peel->passes.end());
-  for (const Front& pass : peel->passes) {
+  LEKALO_TRY(auto peel, deepest_peel(outer, zone));
+  if (peel.passes.empty()) return cut_beyond(peel.inner, zone, back, tool);
+  if (back) std::reverse(peel.passes.begin(), peel.passes.end());
+  for (const Front& pass : peel.passes) {
     const std::vector<Edge> edges = back && either_way_ ? turned_back(pass.edges) : pass.edges;
     tool.link(edges.front().from);
     tool.go(ToolMotion::Kind::cut, edges);
     bool next = !back;
-    if (auto cut = cut_beyond(peel->inner, pass, next, tool); !cut) return cut;
+    LEKALO_CHECK(cut_beyond(peel.inner, pass, next, tool));
   }
   back = !back;
   return {};

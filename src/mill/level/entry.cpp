@@ -108,9 +108,8 @@ Result<std::vector<Region>> start_region(const Entry& entry, const Piece& piece)
   auto disc = geom::make_region({{EdgeKind::arc_ccw, edge, edge, entry.centre}});
   if (!disc) return tl::unexpected(disc.error());
   if (entry.disc >= kLeastDisc) return std::vector<Region>{*disc};
-  auto clipped = geom::combine({*disc}, piece.allowed.regions, geom::BooleanOperation::intersect);
-  if (!clipped) return tl::unexpected(clipped.error());
-  return clipped->regions;
+  LEKALO_TRY(auto clipped, geom::combine({*disc}, piece.allowed.regions, geom::BooleanOperation::intersect));
+  return clipped.regions;
 }
 
 void enter(ToolMotion& tool, const Entry& entry, Point ahead, const PocketOptions& o) {

@@ -157,34 +157,30 @@ std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter) {
 
 Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o,
                                const std::vector<EarlierCut>& before, const ProgressListener& progress) {
-  auto allowed = allowed_places(pockets, o);
-  if (!allowed) return tl::unexpected(allowed.error());
+  LEKALO_TRY(auto allowed, allowed_places(pockets, o));
   const double levels = level_count(o);
   PocketOptions one = o;
   one.depth = level_depth(o);
-  std::vector<Region> pieces = *allowed;
+  std::vector<Region> pieces = allowed;
   const bool source = o.method != Method::fronts;
   if (source && !before.empty())
     return failure(ErrorCode::bad_input, "the source's method knows no tool that was here before");
   if (source && !o.whole) {
-    const auto fragments = convex_fragments(pockets);
-    if (!fragments) return tl::unexpected(fragments.error());
+    LEKALO_TRY(const auto fragments, convex_fragments(pockets));
     pieces.clear();
-    for (const Region& fragment : *fragments) {
-      const auto part = geom::combine(*allowed, {fragment}, geom::BooleanOperation::intersect, kOperandError);
-      if (!part) return tl::unexpected(part.error());
-      pieces.insert(pieces.end(), part->regions.begin(), part->regions.end());
+    for (const Region& fragment : fragments) {
+      LEKALO_TRY(const auto part,
+                 geom::combine(allowed, {fragment}, geom::BooleanOperation::intersect, kOperandError));
+      pieces.insert(pieces.end(), part.regions.begin(), part.regions.end());
     }
   }
   // Each level has its own cleared places; levels that begin alike share a plan.
   std::vector<std::vector<Region>> cleared;
   for (double k = 1; k <= levels; ++k) {
-    auto places = cleared_places(before, k * one.depth, o.tool_diameter / 2);
-    if (!places) return tl::unexpected(places.error());
-    cleared.push_back(std::move(*places));
+    LEKALO_TRY(auto places, cleared_places(before, k * one.depth, o.tool_diameter / 2));
+    cleared.push_back(std::move(places));
   }
-  const auto starts = starts_of(pieces, o);
-  if (!starts) return tl::unexpected(starts.error());
+  LEKALO_TRY(const auto starts, starts_of(pieces, o));
   double plans = 0;
   for (std::size_t k = 0; k < cleared.size(); ++k) plans += k == 0 || cleared[k] != cleared[k - 1] ? 1 : 0;
   const double to_plan = plans * area_of(pieces);
@@ -200,11 +196,10 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
     Result<PocketPath> plan;
     for (std::size_t k = 0; k < cleared.size(); ++k) {
       if (k == 0 || cleared[k] != cleared[k - 1]) {
-        const auto parts = divided(region, cleared[k]);
-        if (!parts) return tl::unexpected(parts.error());
-        plan = parts->left.empty() ? Result<PocketPath>(PocketPath{})
-               : source            ? floz_level(region, one, (*starts)[i])
-                                   : level_path(region, one, parts->cleared, parts->left, tell);
+        LEKALO_TRY(const auto parts, divided(region, cleared[k]));
+        plan = parts.left.empty() ? Result<PocketPath>(PocketPath{})
+               : source           ? floz_level(region, one, starts[i])
+                                  : level_path(region, one, parts.cleared, parts.left, tell);
         if (!plan) return tl::unexpected(plan.error());
         planned += geom::area(region);
         tell(0);
