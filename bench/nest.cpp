@@ -1,11 +1,11 @@
-// Layouts of instance files within a budget, every one checked again by the independent checker: a table in
-// markdown, a line for a file and a seed, and means where there are several seeds.
+// Nests instance files within a budget and checks every layout again with the independent checker. It prints
+// a table in markdown: a line for each file and seed, and means where there are several seeds.
 //
 //   bench_nest [--cpu SECONDS | --work N] [--seeds 1,2,3] [--threads N] [--angles N] [--save FOLDER]
 //              [--scale 50,200,1000,5000] FILE...
 //
-// --scale: orders of so many pieces made here: 20 polygons of 4 to 9 corners, 20 to 120 mm across, four
-// angles, a gap of 1 mm, on a strip 1,000 mm wide.
+// --scale makes orders of so many pieces: 20 polygons of 4 to 9 corners, 20 to 120 mm across, at four angles,
+// with a gap of 1 mm, on a strip 1,000 mm wide.
 
 #include <fmt/format.h>
 
@@ -142,14 +142,14 @@ layout::Document order_of(std::uint64_t pieces) {
   return document;
 }
 
-/// What is counted of one run.
+/// The figures of one run.
 struct Figures {
-  double density =
-      0;  ///< per cent of the material of the stock in use, less holes; strips: up to their length
+  /// Per cent of the material of the stock in use, less holes; of a strip up to its used length.
+  double density = 0;
   double length = 0;  ///< of a strip, mm
   double sheets = 0;  ///< in use
-  double leftover =
-      0;  ///< of the sheet with the smallest box from the corner around its parts: the rest, mm^2
+  /// The rest of the sheet with the smallest box, from its corner, around its parts, mm^2.
+  double leftover = 0;
   double placed = 0, wanted = 0;
   double kits = 0;
   double first = 0;  ///< processor seconds to the first valid layout

@@ -2,20 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <utility>
 
-#include "lekalo/base/version.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/disk/open_layout.hpp"
-#include "lekalo/draw/layout_picture.hpp"
-#include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "summary.hpp"
+#include "lekalo/jobs/show.hpp"
 
 namespace lekalo::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string label_of(const layout::Document& document, layout::Sheet sheet) {
   const layout::Stock& stock = document.stocks[sheet.stock];
@@ -42,65 +37,24 @@ std::string notes(const std::vector<std::string>& notices) {
   return text;
 }
 
-Result<LayoutInput> read_layout_input(const LayoutSource& source, const std::vector<NamedPath>& outputs,
-                                      std::vector<NamedPath> others) {
+Result<jobs::Layout> read_layout_input(const LayoutSource& source, const std::vector<NamedPath>& outputs,
+                                       std::vector<NamedPath> others) {
   others.insert(others.begin(), {{"the layout", source.path}, {"--instance", source.instance}});
-  if (Result<void> fine = check_outputs(outputs, others); !fine) return tl::unexpected(fine.error());
-  LayoutInput input;
-  input.path = source.path;
-  Result<std::string> bytes = disk::read_file(source.path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  input.sha256 = io::sha256(*bytes);
-  disk::OpenOptions options;
-  options.instance = source.instance;
-  options.parts.unit = source.units;
-  if (source.chord_tolerance) options.parts.chord_tolerance = *source.chord_tolerance;
-  if (source.join) options.parts.drawing.join_tolerance = *source.join;
-  options.parts.drawing.take = source.layers;
-  Result<io::LayoutFile> file = disk::open_layout(source.path, options);
-  if (!file) return tl::unexpected(file.error());
-  input.document = std::move(file->document);
-  input.notices = std::move(file->notices);
-  input.form = io::nesting_form(*bytes);
-  if (!source.instance.empty() && input.form != io::NestingForm::placements)
-    input.notices.push_back(
+  LEKALO_CHECK(check_outputs(outputs, others));
+  LEKALO_TRY(std::string bytes, disk::read_file(source.path));
+  LEKALO_TRY(jobs::Layout layout, jobs::open_layout({source.path, std::move(bytes)}, source.parts,
+                                                    disk::items_near(source.path, source.instance)));
+  if (!source.instance.empty() && layout.form != io::NestingForm::placements)
+    layout.notices.push_back(
         fmt::format("--instance has no effect: {} is no file of placements", io::as_utf8(source.path)));
-  if (input.form == io::NestingForm::strip)
-    input.instance_name = std::filesystem::path(source.path).filename().string();
-  if (input.form == io::NestingForm::placements) {
-    if (auto name = io::instance_of_placements(*bytes, source.path)) input.instance_name = std::move(*name);
-  }
-  // The checker reads the file itself where it can; a job of another program only as what it became.
-  const bool is_layout = bytes->find("lekalo-layout/1") != std::string::npos;
-  input.text = is_layout ? std::move(*bytes) : io::write_layout(input.document);
-  return input;
-}
-
-Json begin_layout_json(const char* format, const std::string& status, const LayoutInput& input) {
-  Json inputs = Json::array();
-  inputs.push_back({{"role", "layout"}, {"path", io::as_utf8(input.path)}, {"sha256", input.sha256}});
-  return {{"format", {{"name", format}, {"version", 1}}},
-          {"status", status},
-          {"units", "mm"},
-          {"inputs", std::move(inputs)},
-          {"warnings", input.notices},
-          {"seed", 0},
-          {"work", input.document.placements.size()},
-          {"version", kVersion}};
-}
-
-std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return layout;
 }
 
 Result<std::string> picture_bytes(const std::string& path, const std::string& name,
-                                  const layout::Document& document, const layout::Completeness& completeness,
+                                  const layout::Document& document,
                                   const std::vector<layout::Violation>& violations) {
-  const draw::LayoutPicture picture{io::as_utf8(document.name.empty() ? name : document.name), document,
-                                    completeness, violations};
-  if (path.ends_with(".png")) return draw::layout_png(picture);
-  if (path.ends_with(".pdf")) return draw::layout_pdf(picture);
-  return draw::layout_svg(picture);
+  return jobs::layout_picture(document, document.name.empty() ? name : document.name, violations,
+                              jobs::picture_form(path).value_or(jobs::PictureForm::svg));
 }
 
 std::string completeness_text(const layout::Document& document, const layout::Completeness& c) {

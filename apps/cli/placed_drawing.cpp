@@ -36,9 +36,8 @@ Result<std::string> placed_drawing(const std::string& path, const std::vector<ge
   for (const geom::Region& region : part) {
     std::vector<geom::Contour> holes;
     for (const geom::Contour& hole : region.holes) holes.push_back(placed(hole, pose));
-    Result<geom::Region> moved = geom::make_region(placed(region.outer, pose), std::move(holes));
-    if (!moved) return tl::unexpected(moved.error());
-    drawn.push_back({std::move(*moved), "PART", {}});
+    LEKALO_TRY(geom::Region moved, geom::make_region(placed(region.outer, pose), std::move(holes)));
+    drawn.push_back({std::move(moved), "PART", {}});
   }
   return path.ends_with(".svg") ? io::svg_drawing(drawn) : io::dxf_drawing(drawn);
 }

@@ -5,7 +5,7 @@
 
 namespace lekalo::server {
 
-/// Who may ask: docs/protocol.md. Values of a request's headers, empty where they are absent.
+/// The values of a request's headers that say who asks (docs/protocol.md), empty where they are absent.
 struct Credentials {
   std::string_view host, origin, authorization, cookie;
   std::string_view token;  ///< of the query
@@ -18,8 +18,8 @@ struct AccessRules {
   std::string token;      ///< empty: none is asked for
 };
 
-/// Empty: it may. Otherwise the sentence why not. A page of another site can make a browser send requests
-/// here, but with its own name as Origin, and, where its name was made to lead here, as Host.
+/// Says why a request may not be answered; empty where it may. A page of another site can make a browser send
+/// requests here, but with its own name as Origin, and, where its name was made to lead here, as Host.
 [[nodiscard]] std::string refusal(const AccessRules& rules, const Credentials& request);
 /// Compares all bytes whatever they are, so that the time says nothing.
 [[nodiscard]] bool same_secret(std::string_view a, std::string_view b) noexcept;

@@ -4,19 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "lekalo/base/double_of_text.hpp"
-#include "lekalo/draw/layout_picture.hpp"
-#include "lekalo/io/formats/any_layout.hpp"
-#include "lekalo/io/layout/layout_export.hpp"
-#include "lekalo/io/layout/layout_json.hpp"
-#include "lekalo/io/nesting/nesting_files.hpp"
-#include "lekalo/layout/check.hpp"
-#include "lekalo/layout/completeness.hpp"
+#include "lekalo/jobs/export.hpp"
+#include "lekalo/jobs/layout.hpp"
 
 namespace lekalo::server {
 namespace {
@@ -90,7 +86,7 @@ ApiAnswer create_layout(Store& store, const Target& target, const std::string& b
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
   if (body.empty()) return api_error(400, *name + ": the file is empty");
-  Result<io::LayoutFile> file = io::read_any_layout(body, *name);
+  Result<jobs::Layout> file = jobs::open_layout({*name, body});
   if (!file) return trouble(file.error());
   if (const std::string* const sheet = target.find("sheet")) {
     const Result<void> added = add_sheet(file->document, *sheet, target.find("count"));
@@ -117,7 +113,7 @@ ApiAnswer history(Store& store, LayoutId id) {
   return json_answer(200, {{"entries", std::move(list)}});
 }
 
-/// For a header: no more than fits into one, with a word about the rest.
+/// The notes as the value of a header: as many as fit into one, and a word about the rest.
 std::string notes_json(const std::vector<std::string>& notes) {
   if (notes.empty()) return {};
   constexpr std::size_t kMost = 8000;
@@ -135,55 +131,56 @@ std::string notes_json(const std::vector<std::string>& notes) {
   return text(list);
 }
 
+/// A form that an export can have: its word, and what its file is.
+struct Form {
+  std::string_view word;
+  jobs::LayoutForm form;
+  const char *type, *ending;
+};
+constexpr Form kForms[] = {{"layout", jobs::LayoutForm::layout, "application/json", ".json"},
+                           {"placements", jobs::LayoutForm::placements, "application/json", ".json"},
+                           {"pdf", jobs::LayoutForm::pdf, "application/pdf", ".pdf"},
+                           {"png", jobs::LayoutForm::png, "image/png", ".png"},
+                           {"dxf", jobs::LayoutForm::machine, "image/vnd.dxf", ".dxf"},
+                           {"svg", jobs::LayoutForm::machine, "image/svg+xml", ".svg"},
+                           {"hpgl", jobs::LayoutForm::machine, "application/vnd.hp-hpgl", ".plt"},
+                           {"gcode", jobs::LayoutForm::machine, "text/plain; charset=utf-8", ".nc"}};
+constexpr const char* kFormWords = "layout, placements, pdf, png, dxf, svg, hpgl or gcode";
+
 /// The other fields of the request are the options of the command line: ?form=gcode&kerf=0.2&feed=2000.
-ApiAnswer export_for_machines(const std::string& name, const layout::Document& document, io::ExportForm form,
-                              const Target& target, const std::string& stem) {
+Result<io::ExportRequest> machine_request(std::string_view form, const Target& target) {
   std::vector<io::ExportWord> words;
   for (const auto& field : target.fields)
     if (field.first != "form" && field.first != "token") words.push_back(field);
-  const Result<io::ExportRequest> request = io::read_export_words(form, words, "");
-  if (!request) return api_error(400, request.error().message);
-  const Result<io::Exported> made = io::export_layout(document, name, *request);
-  if (!made) return api_error(400, made.error().message);
+  return io::read_export_words(*io::export_form(form), words, "");
+}
+
+ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
+  const std::string* const word = target.find("form");
+  if (word == nullptr) return api_error(400, fmt::format("the form is missing: ?form={}", kFormWords));
+  Result<StoredLayout> stored = store.load(id);
+  if (!stored) return trouble(stored.error());
+  const auto form =
+      std::find_if(std::begin(kForms), std::end(kForms), [&](const Form& one) { return one.word == *word; });
+  if (form == std::end(kForms)) return api_error(400, fmt::format("the form has to be {}", kFormWords));
+  jobs::ExportOptions options{form->form, stored->name, {}, {}};
+  const bool machine = form->form == jobs::LayoutForm::machine;
+  if (machine) {
+    Result<io::ExportRequest> request = machine_request(*word, target);
+    if (!request) return api_error(400, request.error().message);
+    options.machine = std::move(*request);
+  }
+  jobs::Layout layout;
+  layout.document = std::move(stored->document);
+  const Result<io::Exported> made = jobs::export_layout(layout, options);
+  // A sheet that is not there is a wrong word of the request, not a layout that is not there.
+  if (!made) return machine ? api_error(400, made.error().message) : trouble(made.error());
   if (made->files.size() > 1)
     return api_error(400,
                      "several sheets are in use and each is a file of its own: name one, for example sheet=" +
                          made->files.front().sheet);
-  const auto [type, ending] = [&]() -> std::pair<const char*, const char*> {
-    if (form == io::ExportForm::dxf) return {"image/vnd.dxf", ".dxf"};
-    if (form == io::ExportForm::svg) return {"image/svg+xml", ".svg"};
-    if (form == io::ExportForm::hpgl) return {"application/vnd.hp-hpgl", ".plt"};
-    return {"text/plain; charset=utf-8", ".nc"};
-  }();
-  return {200, made->files.front().bytes, type, stem + ending, {}, notes_json(made->notes)};
-}
-
-ApiAnswer export_layout(Store& store, LayoutId id, const Target& target) {
-  const std::string* const form = target.find("form");
-  if (form == nullptr)
-    return api_error(400, "the form is missing: ?form=layout, placements, pdf, png, dxf, svg, hpgl or gcode");
-  const Result<StoredLayout> layout = store.load(id);
-  if (!layout) return trouble(layout.error());
-  const layout::Document& document = layout->document;
-  const std::string stem = "layout-" + std::to_string(id);
-  const auto file = [&](const Result<std::string>& bytes, const char* type, const char* ending) {
-    return bytes ? ApiAnswer{200, *bytes, type, stem + ending, {}, {}} : trouble(bytes.error());
-  };
-  if (*form == "layout") return file(io::write_layout(document), "application/json", ".json");
-  if (*form == "placements") {
-    const Result<std::size_t> strip = io::strip_in_use(document);
-    if (!strip) return trouble(strip.error());
-    return file(io::write_placements(document, *strip, ""), "application/json", ".json");
-  }
-  if (const auto machine = io::export_form(*form))
-    return export_for_machines(layout->name, document, *machine, target, stem);
-  if (*form != "pdf" && *form != "png")
-    return api_error(400, "the form has to be layout, placements, pdf, png, dxf, svg, hpgl or gcode");
-  const layout::Completeness completeness = layout::completeness(layout::Workspace(document));
-  const std::vector<layout::Violation> violations = layout::check(document);
-  const draw::LayoutPicture picture{layout->name, document, completeness, violations};
-  if (*form == "pdf") return file(draw::layout_pdf(picture), "application/pdf", ".pdf");
-  return file(draw::layout_png(picture), "image/png", ".png");
+  return {200, made->files.front().bytes, form->type, fmt::format("layout-{}{}", id, form->ending),
+          {},  notes_json(made->notes)};
 }
 
 ApiAnswer wrong_method(const char* allow) {
@@ -248,10 +245,8 @@ Result<void> take_points(const Target& target, const char* field, double most, d
 Result<PhotoScale> scale_in(const Target& target) {
   constexpr double kMostPixels = 65535, kMostMm = 0x1p18;
   PhotoScale scale;
-  if (Result<void> taken = take_points(target, "pixels", kMostPixels, scale.pixels); !taken)
-    return tl::unexpected(taken.error());
-  if (Result<void> taken = take_points(target, "mm", kMostMm, scale.mm); !taken)
-    return tl::unexpected(taken.error());
+  LEKALO_CHECK(take_points(target, "pixels", kMostPixels, scale.pixels));
+  LEKALO_CHECK(take_points(target, "mm", kMostMm, scale.mm));
   return scale;
 }
 

@@ -23,11 +23,11 @@ struct ApiAnswer {
   std::string notes;      ///< what is to be known of a file: a JSON array of sentences, ASCII; may be empty
 };
 
-/// Of a photograph, bytes.
+/// Most bytes of a photograph.
 inline constexpr std::size_t kLargestPhoto = std::size_t{16} << 20;
 /// The type of an image by its first bytes: "image/png", "image/jpeg", or "" for all others.
 [[nodiscard]] std::string image_type(std::string_view bytes);
-/// How many bytes of body a request may have; 0: none.
+/// The most bytes of body that a request may have; 0: none.
 [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view path);
 
 [[nodiscard]] ApiAnswer api_error(int status, const std::string& sentence);

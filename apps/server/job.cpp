@@ -13,14 +13,25 @@ using layout::Placement;
 using layout::Sheet;
 using layout::Workspace;
 
-layout::Change change_to(const layout::Document& from, const Workspace& to) {
-  layout::Change change;
-  change.next_id_before = change.next_id_after = from.next_id;
-  change.placements = difference(from.placements, to.document().placements);
-  return change;
+std::vector<layout::PlacementChange> difference(const std::vector<Placement>& from,
+                                                const std::vector<Placement>& to) {
+  std::vector<layout::PlacementChange> changes;
+  std::size_t i = 0, k = 0;
+  while (i < from.size() || k < to.size()) {
+    if (k == to.size() || (i < from.size() && from[i].id < to[k].id)) {
+      changes.push_back({from[i++], std::nullopt});
+    } else if (i == from.size() || to[k].id < from[i].id) {
+      changes.push_back({std::nullopt, to[k++]});
+    } else {
+      if (from[i] != to[k]) changes.push_back({from[i], to[k]});
+      ++i, ++k;
+    }
+  }
+  return changes;
 }
 
-/// Sheet by sheet, which is what the command does, and each is a better layout than the last.
+/// Compacts sheet by sheet, as the command does, and tells of the layout after each: it is better than the
+/// one before.
 Result<layout::Change> compact_all(const layout::Document& document, const JobContext& context,
                                    layout::CompactCommand command, layout::Mode mode) {
   std::map<Sheet, double> sheets;  // with how many parts
@@ -38,33 +49,23 @@ Result<layout::Change> compact_all(const layout::Document& document, const JobCo
   for (const auto& [sheet, count] : sheets) {
     command.sheet = sheet;
     parts = count;
-    const auto change = plan(work, command, mode, run);
-    if (!change) return tl::unexpected(change.error());
-    carry_out(work, *change);
+    LEKALO_TRY(const layout::Change change, plan(work, command, mode, run));
+    carry_out(work, change);
     done += count;
     if (context.run.stop_requested()) break;
-    if (context.improved && !change->is_nothing()) context.improved(change_to(document, work));
+    if (context.improved && !change.is_nothing()) context.improved(change_between(document, work.document()));
   }
-  return change_to(document, work);
+  return change_between(document, work.document());
 }
 
 }  // namespace
 
-std::vector<layout::PlacementChange> difference(const std::vector<Placement>& from,
-                                                const std::vector<Placement>& to) {
-  std::vector<layout::PlacementChange> changes;
-  std::size_t i = 0, k = 0;
-  while (i < from.size() || k < to.size()) {
-    if (k == to.size() || (i < from.size() && from[i].id < to[k].id)) {
-      changes.push_back({from[i++], std::nullopt});
-    } else if (i == from.size() || to[k].id < from[i].id) {
-      changes.push_back({std::nullopt, to[k++]});
-    } else {
-      if (from[i] != to[k]) changes.push_back({from[i], to[k]});
-      ++i, ++k;
-    }
-  }
-  return changes;
+layout::Change change_between(const layout::Document& from, const layout::Document& to) {
+  layout::Change change;
+  change.placements = difference(from.placements, to.placements);
+  change.next_id_before = from.next_id;
+  change.next_id_after = to.next_id;
+  return change;
 }
 
 std::optional<Job> job_of(const layout::Command& command, layout::Mode mode) {

@@ -18,7 +18,7 @@ namespace lekalo::server {
 /// layout stays open for everyone; what it finds is carried out at the end, as one command, if it still can
 /// be.
 
-/// What a job is given beside the document: its stop flag and listener, and who takes better layouts.
+/// A job gets this beside the document: its stop flag and listener, and who takes better layouts.
 struct JobContext {
   RunControl run;  ///< stopped, the job gives the best it has
   /// A layout better than any before, as the change that leads to it from the document. May be empty.
@@ -29,13 +29,12 @@ using Job = std::function<Result<layout::Change>(const layout::Document&, const 
 /// The job that a command is; none for commands that take a moment.
 [[nodiscard]] std::optional<Job> job_of(const layout::Command& command, layout::Mode mode);
 
-/// From one list of placements to another, both ascending by id.
-[[nodiscard]] std::vector<layout::PlacementChange> difference(const std::vector<layout::Placement>& from,
-                                                              const std::vector<layout::Placement>& to);
+/// The change of placements that leads from one document to another, which has the same stocks and parts.
+[[nodiscard]] layout::Change change_between(const layout::Document& from, const layout::Document& to);
 
 using JobNumber = std::uint64_t;
 
-/// A job that is to be run, and whatever it needs for that.
+/// A job that is to be run, and everything it needs for that.
 struct JobStart {
   JobNumber number = 0;
   Job job;

@@ -12,12 +12,12 @@
 
 namespace lekalo::server {
 
-/// What a client may say, docs/protocol.md.
+/// The messages of a client, as docs/protocol.md has them.
 
 inline constexpr std::size_t kLargestMessage = std::size_t{1} << 20;
-/// Of a selection.
+/// Most ids of a selection.
 inline constexpr std::size_t kMostSelected = 100'000;
-/// Of `seq`, ids and revisions: whole numbers that JavaScript counts exactly.
+/// The largest `seq`, id and revision: JavaScript counts whole numbers up to here exactly.
 inline constexpr std::uint64_t kLargestCount = (std::uint64_t{1} << 53) - 1;
 
 struct CommandMessage {
@@ -44,12 +44,12 @@ using ClientMessage = std::variant<CommandMessage, UndoMessage, SelectMessage, S
 /// characters, lists within lists. Cost: O(bytes), and no more memory than a few times the bytes.
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view bytes);
 
-/// Of a layout: 1 to 200 bytes of UTF-8 without control characters.
+/// Fails with ErrorCode::bad_input unless the name has 1 to 200 bytes of UTF-8 without control characters.
 [[nodiscard]] Result<void> check_layout_name(std::string_view name);
 
-/// The whole of a text as a number in [0, kLargestCount], digits only.
+/// Reads the whole of a text as a number in [0, kLargestCount], digits only.
 [[nodiscard]] std::optional<std::uint64_t> whole_number(std::string_view text);
-/// Decodes %XX; none for a % that is not followed by two hexadecimal digits.
+/// Decodes %XX; returns nothing for a % that is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text);
 
 /// A request's target, "/api/layouts/3?name=x": the path as it stands, and the decoded fields of the query.
@@ -59,7 +59,7 @@ struct Target {
   /// The value of the field; none where it is absent.
   [[nodiscard]] const std::string* find(std::string_view name) const;
 };
-/// None for what is no such target, or has a field twice.
+/// Returns nothing for a text that is no such target, or has a field twice.
 [[nodiscard]] std::optional<Target> parse_target(std::string_view target);
 
 }  // namespace lekalo::server

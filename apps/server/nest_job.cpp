@@ -11,15 +11,12 @@
 #include <thread>
 #include <utility>
 
-#include "lekalo/io/layout/layout_json.hpp"
-#include "lekalo/nest/nest.hpp"
-#include "lekalo/verify/layout.hpp"
+#include "lekalo/jobs/nest.hpp"
 
 namespace lekalo::server {
 namespace {
 
 using layout::Document;
-using layout::Placement;
 
 constexpr double kLeastSeconds = 0.1, kMostSeconds = 3600;
 constexpr unsigned kThreads = 2;
@@ -68,13 +65,7 @@ Result<NestRequest> read_request(const std::vector<std::string_view>& words, con
       return bad(
           fmt::format("'{}' is one word too many; after the time only 'seed NUMBER' may stand", words[at]));
   }
-  for (const std::uint64_t id : request.ids) {
-    const auto found = std::find_if(document.placements.begin(), document.placements.end(),
-                                    [&](const Placement& p) { return p.id == id; });
-    if (found == document.placements.end())
-      return failure(ErrorCode::usage, fmt::format("there is no placement {}", id));
-    if (found->locked) return failure(ErrorCode::usage, fmt::format("placement {} is locked", id));
-  }
+  LEKALO_CHECK(jobs::fine_selection(document, request.ids));
   return request;
 }
 
@@ -114,40 +105,17 @@ class Deadline {
   std::thread thread_;  // the last one: it uses the others
 };
 
-/// What the nester is given: with a selection, everything else stays and nothing is added.
-Document asked_for(Document document, const NestRequest& request) {
-  if (request.ids.empty()) return document;
-  for (Placement& p : document.placements)
-    p.locked = !std::binary_search(request.ids.begin(), request.ids.end(), p.id);
-  for (layout::Part& part : document.parts) part.demand = 0;
-  for (layout::Kit& kit : document.kits) kit.demand = 0;
-  return document;
-}
-
-/// From the document to what was found: what had to stay is as it was.
-layout::Change change_to(const Document& document, const Document& found) {
-  std::vector<Placement> placements = found.placements;
-  for (Placement& p : placements) {
-    const auto before = std::lower_bound(document.placements.begin(), document.placements.end(), p.id,
-                                         [](const Placement& a, std::uint64_t id) { return a.id < id; });
-    if (before != document.placements.end() && before->id == p.id) p.locked = before->locked;
-  }
-  layout::Change change;
-  change.placements = difference(document.placements, placements);
-  change.next_id_before = document.next_id;
-  change.next_id_after = found.next_id;
-  return change;
-}
-
 Result<layout::Change> run(const Document& document, const NestRequest& request, const JobContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   const Deadline deadline(request.seconds, context.run);
-  nest::Options options;
+  jobs::NestOptions options;
   options.seed = request.seed;
   options.threads = kThreads;
+  options.only = request.ids;
   if (context.improved)
-    options.improved = [&](const nest::Nested& better) {
-      context.improved(change_to(document, better.document));
+    options.improved = [&](const Document& better, std::string_view) -> Result<void> {
+      context.improved(change_between(document, better));
+      return {};
     };
   RunControl control;
   control.stop = deadline.flag();
@@ -155,16 +123,8 @@ Result<layout::Change> run(const Document& document, const NestRequest& request,
     const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (context.run.progress) context.run.progress({progress.work, std::min(1.0, passed / request.seconds)});
   };
-  const Result<nest::Nested> found = nest::nest(asked_for(document, request), options, control);
-  if (!found) return tl::unexpected(found.error());
-  const auto verdict = verify::verify_layout({"the layout found", io::write_layout(found->document)});
-  if (!verdict) return failure(ErrorCode::refuted, verdict.error().message);
-  if (!verdict->violations.empty())
-    return failure(ErrorCode::refuted,
-                   fmt::format("the independent checker finds a broken rule ({}) in the layout "
-                               "found, so nothing was done; please report it",
-                               verify::name_of(verdict->violations[0].kind)));
-  return change_to(document, found->document);
+  LEKALO_TRY(const jobs::Nested nested, jobs::nest(document, options, control));
+  return change_between(document, nested.document);
 }
 
 }  // namespace

@@ -19,14 +19,14 @@ struct NestRequest {
   friend bool operator==(const NestRequest&, const NestRequest&) = default;
 };
 
-/// None for a line that is no such request. Fails with bad_input, naming the word, and with usage for ids
-/// that are not there or locked.
+/// Returns nothing for a line that is no such request. Fails with bad_input, naming the word, and with usage
+/// for ids that are not there or locked.
 [[nodiscard]] std::optional<Result<NestRequest>> nest_request(std::string_view line,
                                                               const layout::Document& document);
 [[nodiscard]] std::string to_text(const NestRequest& request);
 
-/// Tells of every better layout; ends at the time asked for, or when it is stopped, with the best, after the
-/// independent check of it.
+/// Tells of every better layout, and ends at the time asked for, or when it is stopped, with the best: each
+/// of them after both checks (jobs/nest.hpp).
 [[nodiscard]] Job job_of(const NestRequest& request);
 
 }  // namespace lekalo::server

@@ -9,12 +9,12 @@
 
 namespace lekalo::server {
 
-/// What waits to be sent to one client. Bounded: where a client reads slower than others write, what a fresh
-/// `layout` says anyway is dropped, and the client gets one once it has read the rest.
+/// The messages that wait to be sent to one client. They are bounded: where a client reads slower than others
+/// write, what a fresh `layout` says anyway is dropped, and the client gets one once it has read the rest.
 class Outbox {
  public:
-  /// Bytes that may wait, without the answers to the client's own messages, of which it can only have asked
-  /// for one at a time.
+  /// \param limit  bytes that may wait, without the answers to the client's own messages, of which it can
+  /// only have asked for one at a time.
   explicit Outbox(std::size_t limit = std::size_t{8} << 20) : limit_(limit) {}
 
   /// Taken in order; once something was dropped, all that may be lost is, until a fresh layout comes.
@@ -42,7 +42,8 @@ class Outbox {
     if (message.loss != Loss::never) waiting_bytes_ -= message.text->size();
     return std::move(message.text);
   }
-  /// True once when everything that waited is sent and something was dropped: time for Room::resend.
+  /// Answers true once, when everything that waited is sent and something was dropped: then Room::resend is
+  /// due.
   [[nodiscard]] bool take_refresh() noexcept {
     if (!behind_ || asked_ || !waiting_.empty()) return false;
     asked_ = true;

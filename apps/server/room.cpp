@@ -4,23 +4,18 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "nest_job.hpp"
 
 namespace lekalo::server {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using layout::Placement;
 using layout::PlacementChange;
-
-std::string json_text(const std::string& text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 std::uint64_t id_of(const PlacementChange& change) {
   return change.after ? change.after->id : change.before->id;
@@ -43,7 +38,7 @@ std::vector<Placement> placed_by(const layout::Change& change) {
   return placed;
 }
 
-/// Of a feature, as the store of last changes knows it.
+/// The key of a feature among the last changes.
 std::string feature_key(std::uint32_t stock, const layout::Feature& feature) {
   return fmt::format("{} {} {}", stock, static_cast<int>(feature.kind), feature.id);
 }
@@ -81,7 +76,7 @@ Outgoing message(ClientNumber to, std::string text, Loss loss = Loss::never) {
 
 std::string refused(std::uint64_t seq, const std::string& why, const std::string& violations = "[]") {
   return fmt::format("{{\"type\": \"refused\", \"seq\": {}, \"message\": {}, \"violations\": {}}}", seq,
-                     json_text(why), violations);
+                     io::json_string(why), violations);
 }
 
 /// \param more  further fields, each after a comma
@@ -99,13 +94,13 @@ layout::Change reversed(const layout::Change& change, std::uint64_t next_id) {
   return back;
 }
 
-/// What is refused in strict mode, to be shown: the violations that the command would make.
+/// The violations that a command refused in strict mode would make, to be shown.
 std::string violations_of_refused(const layout::Workspace& workspace, const layout::Command& command) {
   if (job_of(command, layout::Mode::free)) return "[]";  // takes too long to be tried again for this
   const Result<layout::Change> free = layout::plan(workspace, command, layout::Mode::free);
   if (!free) return "[]";
   const std::vector<Placement> placed = placed_by(*free);
-  // How deep each overlap is takes milliseconds: of many parts everyone here would wait for seconds.
+  // Measuring one overlap takes milliseconds; with many parts everyone here would wait for seconds.
   constexpr std::size_t kMostMeasured = 100;
   const auto depths = placed.size() > kMostMeasured ? layout::Depths::left_out : layout::Depths::measured;
   return io::violations_json(workspace.document(), workspace.violations_of(placed, depths));
@@ -123,10 +118,9 @@ Room::Room(Store& store, LayoutId id, StoredLayout layout)
 Result<Outbound> Room::join(ClientNumber client, const std::string& author) {
   if (removed_) return failure(ErrorCode::usage, "the layout was deleted");
   if (!author.empty() && stacks_.find(author) == stacks_.end()) {
-    const Result<std::vector<HistoryEntry>> history = store_.history(id_);
-    if (!history) return tl::unexpected(history.error());
+    LEKALO_TRY(const std::vector<HistoryEntry> history, store_.history(id_));
     Stack& stack = stacks_[author];
-    for (const HistoryEntry& entry : *history) {
+    for (const HistoryEntry& entry : history) {
       if (entry.author != author) continue;
       if (entry.kind == ChangeKind::command) {
         stack.done.push_back(entry.revision);
@@ -387,14 +381,13 @@ Result<std::string> Room::later_change(const std::string& what, const Toucher* k
   if (known != nullptr)
     return fmt::format("{} changed {} by '{}' (revision {})", known->who, what, brief(known->text),
                        known->revision);
-  // Before the room was opened: the store knows.
+  // The change is older than this room; the store knows it.
   for (Revision r = revision_; r > since; --r) {
-    const Result<StoredChange> change = store_.change_at(id_, r);
-    if (!change) return tl::unexpected(change.error());
-    if (touches(change->change))
+    LEKALO_TRY(const StoredChange change, store_.change_at(id_, r));
+    if (touches(change.change))
       return fmt::format("{} changed {} by '{}' (revision {})",
-                         change->author.empty() ? "another client" : change->author, what,
-                         brief(change->text), r);
+                         change.author.empty() ? "another client" : change.author, what, brief(change.text),
+                         r);
   }
   return what + " was changed";
 }
@@ -416,7 +409,7 @@ Result<void> Room::check_standing(const StoredChange& command, const layout::Cha
     const bool same = one.before ? at && feature_at(stock, one.either().kind, *at) == *one.before : !at;
     if (!same) return refuse(later_change(one.stock, one.either(), command.revision));
   }
-  // What was put in the place that became free stands on the command too, where the rules hold.
+  // A part that was put in the place that became free stands on the command too, where the rules hold.
   if (command.mode == layout::Mode::free) return {};
   const std::vector<Placement> placed = placed_by(wanted);
   const auto is_wanted = [&](std::uint64_t id) {
@@ -464,7 +457,7 @@ Result<void> Room::commit(ClientNumber client, StoredChange change, Outbound& ou
     last_draw_[feature_key(one.stock, one.either())] = {revision_, who(client), change.text};
   to_all(fmt::format("{{\"type\": \"change\", \"revision\": {}, \"client\": {}, \"text\": {}, \"kind\": "
                      "\"{}\", \"placements\": {}, \"features\": {}, \"next_id\": {}}}",
-                     revision_, client, json_text(change.text), name_of(change.kind),
+                     revision_, client, io::json_string(change.text), name_of(change.kind),
                      placements_text(document(), change.change), features_text(document(), change.change),
                      document().next_id),
          Loss::as_newer, out);
@@ -487,26 +480,25 @@ Outbound Room::select(ClientNumber client, const SelectMessage& said) {
 
 Result<Outbound> Room::restore(Revision revision) {
   Outbound out;
-  const Result<layout::Document> state = store_.state_at(id_, revision);
-  if (!state) return tl::unexpected(state.error());
+  LEKALO_TRY(const layout::Document state, store_.state_at(id_, revision));
   StoredChange change;
   change.kind = ChangeKind::restore;
   change.mode = layout::Mode::free;
   change.target = revision;
   change.text = fmt::format("restore {}", revision);
-  change.change.placements = difference(document().placements, state->placements);
-  change.change.next_id_before = change.change.next_id_after = document().next_id;
-  change.change.features = layout::feature_difference(document(), *state);
+  change.change = change_between(document(), state);
+  change.change.next_id_after = document().next_id;
+  change.change.features = layout::feature_difference(document(), state);
   if (change.change.is_nothing()) return out;
-  if (Result<void> kept = commit(0, std::move(change), out); !kept) return tl::unexpected(kept.error());
+  LEKALO_CHECK(commit(0, std::move(change), out));
   return out;
 }
 
 Result<Outbound> Room::rename(const std::string& name) {
   Outbound out;
-  if (Result<void> kept = store_.rename(id_, name); !kept) return tl::unexpected(kept.error());
+  LEKALO_CHECK(store_.rename(id_, name));
   name_ = name;
-  to_all(fmt::format("{{\"type\": \"name\", \"name\": {}}}", json_text(name)), Loss::as_newer, out);
+  to_all(fmt::format("{{\"type\": \"name\", \"name\": {}}}", io::json_string(name)), Loss::as_newer, out);
   return out;
 }
 
@@ -514,31 +506,30 @@ Result<Outbound> Room::set_photo(const Photo& photo, const std::string& image) {
   const auto& stocks = document().stocks;
   if (std::none_of(stocks.begin(), stocks.end(), [&](const auto& one) { return one.id == photo.stock; }))
     return failure(ErrorCode::usage, fmt::format("the layout has no stock '{}'", photo.stock));
-  if (Result<void> kept = store_.set_photo(id_, photo, image); !kept) return tl::unexpected(kept.error());
+  LEKALO_CHECK(store_.set_photo(id_, photo, image));
   return photo_changed(photo.stock, true);
 }
 
 Result<Outbound> Room::set_photo_scale(const std::string& stock, const PhotoScale& scale) {
-  if (Result<void> kept = store_.set_photo_scale(id_, stock, scale); !kept)
-    return tl::unexpected(kept.error());
+  LEKALO_CHECK(store_.set_photo_scale(id_, stock, scale));
   return photo_changed(stock, false);
 }
 
 Result<Outbound> Room::remove_photo(const std::string& stock) {
-  if (Result<void> kept = store_.remove_photo(id_, stock); !kept) return tl::unexpected(kept.error());
+  LEKALO_CHECK(store_.remove_photo(id_, stock));
   return photo_changed(stock, true);
 }
 
 Outbound Room::photo_changed(const std::string& stock, bool image) const {
   Outbound out;
-  to_all(fmt::format("{{\"type\": \"photos\", \"stock\": {}, \"image\": {}}}", json_text(stock), image),
+  to_all(fmt::format("{{\"type\": \"photos\", \"stock\": {}, \"image\": {}}}", io::json_string(stock), image),
          Loss::as_newer, out);
   return out;
 }
 
 Result<Outbound> Room::remove() {
   Outbound out;
-  if (Result<void> kept = store_.remove(id_); !kept) return tl::unexpected(kept.error());
+  LEKALO_CHECK(store_.remove(id_));
   to_all("{\"type\": \"bye\", \"message\": \"the layout was deleted\"}", Loss::never, out);
   clients_.clear();
   removed_ = true;
@@ -564,7 +555,7 @@ void Room::to_all(const std::string& text, Loss loss, Outbound& out) const {
 std::string Room::layout_text(ClientNumber client) const {
   return fmt::format(
       "{{\"type\": \"layout\", \"client\": {}, \"revision\": {}, \"name\": {}, \"document\": {}}}", client,
-      revision_, json_text(name_), io::write_layout(document()));
+      revision_, io::json_string(name_), io::write_layout(document()));
 }
 
 std::string Room::selections_text() const {

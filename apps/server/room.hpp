@@ -19,7 +19,7 @@ namespace lekalo::server {
 /// Number of a connection, unique while the server runs.
 using ClientNumber = std::uint64_t;
 
-/// How a message may be left out when a client reads slower than others write.
+/// Says whether a message may be left out when a client reads slower than others write.
 enum class Loss : std::uint8_t {
   never,     ///< an answer
   as_newer,  ///< the state of a moment; a fresh `layout` takes the place of all of them
@@ -33,8 +33,8 @@ struct Outgoing {
 };
 using Outbound = std::vector<Outgoing>;
 
-/// One layout that is open: its state, its clients, and what each of them is to hear. Knows no network; one
-/// call at a time. Nothing is said to be done before the store has it.
+/// One layout that is open: its state, its clients, and what each of them is to hear. It knows no network;
+/// one call at a time. Nothing is said to be done before the store has it.
 class Room {
  public:
   Room(Store& store, LayoutId id, StoredLayout layout);
@@ -44,11 +44,11 @@ class Room {
   [[nodiscard]] Result<Outbound> join(ClientNumber client, const std::string& author);
   [[nodiscard]] Outbound leave(ClientNumber client);
   [[nodiscard]] Outbound handle(ClientNumber client, const ClientMessage& message);
-  /// Whether a long command of this client is under way. Its further commands then have to wait.
+  /// Says whether a long command of this client is under way. Its further commands then have to wait.
   [[nodiscard]] bool is_busy(ClientNumber client) const;
   /// Jobs that are to be run now, each once; the three below are told of them.
   [[nodiscard]] std::vector<JobStart> take_jobs();
-  /// Whose it is; 0 for a job that has ended.
+  /// The client that started the job; 0 for a job that has ended.
   [[nodiscard]] ClientNumber client_of(JobNumber job) const;
   [[nodiscard]] Outbound job_progress(JobNumber job, double fraction,
                                       std::optional<double> seconds_left) const;
@@ -67,7 +67,7 @@ class Room {
   [[nodiscard]] Result<Outbound> set_photo(const Photo& photo, const std::string& image);
   [[nodiscard]] Result<Outbound> set_photo_scale(const std::string& stock, const PhotoScale& scale);
   [[nodiscard]] Result<Outbound> remove_photo(const std::string& stock);
-  /// From the store too. Everyone in the room is told.
+  /// Deletes the layout, from the store too. Everyone in the room is told.
   [[nodiscard]] Result<Outbound> remove();
 
   [[nodiscard]] Revision revision() const noexcept { return revision_; }
@@ -113,7 +113,7 @@ class Room {
   [[nodiscard]] Stack& stack_of(Client& client);
   [[nodiscard]] std::string who(ClientNumber client) const;
   [[nodiscard]] std::string preview_text(std::uint64_t seq, const layout::Change& change);
-  /// Who changed the placement or the feature last, as a sentence's end.
+  /// The end of a sentence: who changed the placement or the feature last.
   [[nodiscard]] Result<std::string> later_change(std::uint64_t id, Revision since);
   [[nodiscard]] Result<std::string> later_change(std::uint32_t stock, const layout::Feature& feature,
                                                  Revision since);

@@ -24,7 +24,7 @@ using tcp = asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kMostConnections = 512;
-/// For the last words to clients.
+/// The last words to clients may take this long.
 constexpr auto kFarewell = std::chrono::seconds(1);
 
 class Acceptor {

@@ -15,7 +15,7 @@ struct ServerOptions {
   std::string token;                  ///< empty: none is asked for. \pre not empty unless address is loopback
 };
 
-/// Whether an address is one of this machine alone. None: it is no address.
+/// Says whether an address is one of this machine alone. Fails with ErrorCode::usage for what is no address.
 [[nodiscard]] Result<bool> is_loopback(const std::string& address);
 /// 128 bits from the system's source of randomness, as text.
 [[nodiscard]] Result<std::string> random_token();

@@ -43,9 +43,8 @@ void Service::give_back(const std::shared_ptr<OpenRoom>& room) {
 
 Result<void> Service::open(OpenRoom& room) {
   if (room.room) return {};
-  Result<StoredLayout> layout = store.load(room.id);
-  if (!layout) return tl::unexpected(layout.error());
-  room.room = std::make_unique<Room>(store, room.id, std::move(*layout));
+  LEKALO_TRY(StoredLayout layout, store.load(room.id));
+  room.room = std::make_unique<Room>(store, room.id, std::move(layout));
   return {};
 }
 

@@ -18,7 +18,7 @@
 
 namespace lekalo::server {
 
-/// A client's connection, as the rest of the server knows it (talk.cpp). On the network's thread alone.
+/// A client's connection as the rest of the server knows it (talk.cpp). The network's thread alone uses it.
 class Talk {
  public:
   Talk() = default;
@@ -42,11 +42,11 @@ struct OpenRoom {
   std::size_t users = 0;       ///< under Service::rooms_lock
 };
 
-/// What connections share.
+/// Everything that the connections share.
 ///
-/// One thread runs the sockets and owns the connections; up to four run what takes long. A layout's room is
-/// touched on its strand alone, so commands of one layout take turns and those of others go on. What a room
-/// says goes back to the network's thread in the order it was said.
+/// One thread runs the sockets and owns the connections; up to four do the work that takes long. A layout's
+/// room is touched on its strand alone, so commands of one layout take turns and those of others go on. What
+/// a room says goes back to the network's thread in the order it was said.
 struct Service {
   Service(const ServerOptions& options, Store opened);
 
@@ -68,20 +68,20 @@ struct Service {
   [[nodiscard]] std::shared_ptr<OpenRoom> take_room(LayoutId id);
   /// A room nobody uses is closed: its memory goes, its layout is in the store.
   void give_back(const std::shared_ptr<OpenRoom>& room);
-  /// On the room's strand.
+  /// Reads the layout unless that was done. To be called on the room's strand.
   [[nodiscard]] Result<void> open(OpenRoom& room);
-  /// From a thread that may wait: a change of a layout where nobody else changes it.
+  /// Changes a layout on its strand, where nobody else changes it, and waits until that is done.
   [[nodiscard]] Result<void> change_room(LayoutId id, const std::function<Result<Outbound>(Room&)>& change);
-  /// From a room's strand.
+  /// Hands messages to the network's thread. To be called on a room's strand.
   void deliver(Outbound out);
-  /// On the room's strand: runs the jobs that were started there.
+  /// Runs the jobs that were started in the room. To be called on its strand.
   void run_jobs(const std::shared_ptr<OpenRoom>& room);
-  /// What was begun is finished, then what waits for the network goes, while all it refers to is there.
+  /// Finishes what was begun, then drops what waits for the network, while everything it refers to is there.
   void end();
 
  private:
   [[nodiscard]] Result<layout::Change> run_job(const std::shared_ptr<OpenRoom>& room, const JobStart& start);
-  /// From a room's strand: the client's long command has ended.
+  /// Tells the client's connection that its long command has ended. To be called on a room's strand.
   void free_client(ClientNumber client);
 };
 

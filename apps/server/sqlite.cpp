@@ -65,9 +65,8 @@ Result<bool> Statement::step() {
 
 Result<void> Statement::run() {
   for (;;) {
-    const Result<bool> row = step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) break;
+    LEKALO_TRY(const bool row, step());
+    if (!row) break;
   }
   reset();
   return {};
@@ -117,15 +116,13 @@ Result<void> Database::run(const char* sql) const {
 }
 
 Result<std::int64_t> Database::number(std::string_view sql) const {
-  Result<Statement> statement = prepare(sql);
-  if (!statement) return tl::unexpected(statement.error());
-  const Result<bool> row = statement->step();
-  if (!row) return tl::unexpected(row.error());
-  return *row ? statement->integer(0) : 0;
+  LEKALO_TRY(Statement statement, prepare(sql));
+  LEKALO_TRY(const bool row, statement.step());
+  return row ? statement.integer(0) : 0;
 }
 
 Result<Transaction> Transaction::begin(const Database& database) {
-  if (Result<void> begun = database.run("BEGIN IMMEDIATE"); !begun) return tl::unexpected(begun.error());
+  LEKALO_CHECK(database.run("BEGIN IMMEDIATE"));
   return Transaction(database);
 }
 

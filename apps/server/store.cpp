@@ -81,7 +81,7 @@ Result<void> make_file(const std::string& path) {
   return {};
 }
 
-/// What the store holds belongs to the state before it, or the file is damaged.
+/// Says whether a change in the store belongs to the state before it; else the file is damaged.
 bool fits(const layout::Change& change, const layout::Document& document) {
   for (const layout::PlacementChange& one : change.placements)
     for (const auto& side : {one.before, one.after})
@@ -108,7 +108,7 @@ const char* name_of(ChangeKind kind) noexcept {
 }
 
 Result<Store> Store::open(const std::string& path) {
-  if (Result<void> made = make_file(path); !made) return tl::unexpected(made.error());
+  LEKALO_CHECK(make_file(path));
   const auto named = [&](const Error& error) {
     return failure(error.code, fmt::format("{}: {}", path, error.message));
   };
@@ -124,142 +124,125 @@ Result<void> Store::prepare_file() {
   for (const char* setting :
        {"PRAGMA locking_mode=EXCLUSIVE", "PRAGMA journal_mode=WAL", "PRAGMA synchronous=FULL",
         "PRAGMA foreign_keys=ON", "PRAGMA journal_size_limit=67108864", "BEGIN IMMEDIATE; COMMIT"}) {
-    if (Result<void> set = database_.run(setting); !set) return set;
+    LEKALO_CHECK(database_.run(setting));
   }
-  const Result<std::int64_t> application = database_.number("PRAGMA application_id");
-  if (!application) return tl::unexpected(application.error());
-  const Result<std::int64_t> tables = database_.number("SELECT count(*) FROM sqlite_master");
-  if (!tables) return tl::unexpected(tables.error());
-  if (*application != kApplicationId) {
-    if (*application != 0 || *tables != 0)
+  LEKALO_TRY(const std::int64_t application, database_.number("PRAGMA application_id"));
+  LEKALO_TRY(const std::int64_t tables, database_.number("SELECT count(*) FROM sqlite_master"));
+  if (application != kApplicationId) {
+    if (application != 0 || tables != 0)
       return failure(ErrorCode::environment, "this is a database of another program; name another --store");
-    Result<Transaction> all = Transaction::begin(database_);
-    if (!all) return tl::unexpected(all.error());
-    for (const char* schema : {kSchema, kPhotoSchema})
-      if (Result<void> made = database_.run(schema); !made) return made;
+    LEKALO_TRY(Transaction all, Transaction::begin(database_));
+    for (const char* schema : {kSchema, kPhotoSchema}) LEKALO_CHECK(database_.run(schema));
     const std::string marks =
         fmt::format("PRAGMA application_id={}; PRAGMA user_version={}", kApplicationId, kStoreFormat);
-    if (Result<void> marked = database_.run(marks.c_str()); !marked) return marked;
-    return all->commit();
+    LEKALO_CHECK(database_.run(marks.c_str()));
+    return all.commit();
   }
-  const Result<std::int64_t> format = database_.number("PRAGMA user_version");
-  if (!format) return tl::unexpected(format.error());
-  if (*format < 1 || *format > kStoreFormat)
+  LEKALO_TRY(const std::int64_t format, database_.number("PRAGMA user_version"));
+  if (format < 1 || format > kStoreFormat)
     return failure(ErrorCode::environment,
                    fmt::format("the store has format {}, this program knows format {}; use the version of "
                                "lekalo that wrote it",
-                               *format, kStoreFormat));
-  Result<Statement> check = database_.prepare("PRAGMA quick_check(1)");
-  if (!check) return tl::unexpected(check.error());
-  const Result<bool> row = check->step();
-  if (!row) return tl::unexpected(row.error());
-  if (const std::string said = check->text(0); said != "ok")
+                               format, kStoreFormat));
+  LEKALO_TRY(Statement check, database_.prepare("PRAGMA quick_check(1)"));
+  LEKALO_TRY(const bool row, check.step());
+  if (const std::string said = check.text(0); said != "ok")
     return failure(ErrorCode::environment, "the store is damaged: " + said.substr(0, said.find('\n')));
-  if (*format == kStoreFormat) return {};
-  Result<Transaction> all = Transaction::begin(database_);
-  if (!all) return tl::unexpected(all.error());
+  if (format == kStoreFormat) return {};
+  LEKALO_TRY(Transaction all, Transaction::begin(database_));
   const std::string mark = fmt::format("PRAGMA user_version={}", kStoreFormat);
-  for (const char* change : {kPhotoSchema, mark.c_str()})
-    if (Result<void> made = database_.run(change); !made) return made;
-  return all->commit();
+  for (const char* change : {kPhotoSchema, mark.c_str()}) LEKALO_CHECK(database_.run(change));
+  return all.commit();
 }
 
 Result<LayoutId> Store::create_rows(const std::string& name, const layout::Document& document,
                                     const std::string& origin) {
-  Result<Statement> row = database_.prepare(fmt::format(
-      "INSERT INTO layout (name, origin, revision, placements, changed, change_number) VALUES (?, ?, 0, ?, "
-      "{}, {})",
-      kNow, kNextNumber));
-  if (!row) return tl::unexpected(row.error());
-  row->bind(1, name).bind(2, origin).bind(3, static_cast<std::int64_t>(document.placements.size()));
-  if (Result<void> done = row->run(); !done) return tl::unexpected(done.error());
+  LEKALO_TRY(Statement row,
+             database_.prepare(fmt::format("INSERT INTO layout (name, origin, revision, placements, changed, "
+                                           "change_number) VALUES (?, ?, 0, ?, "
+                                           "{}, {})",
+                                           kNow, kNextNumber)));
+  row.bind(1, name).bind(2, origin).bind(3, static_cast<std::int64_t>(document.placements.size()));
+  LEKALO_CHECK(row.run());
   const LayoutId id = database_.last_row();
-  Result<Statement> snapshot = database_.prepare("INSERT INTO snapshot VALUES (?, 0, ?)");
-  if (!snapshot) return tl::unexpected(snapshot.error());
-  snapshot->bind(1, id).bind(2, io::write_layout(document));
-  if (Result<void> done = snapshot->run(); !done) return tl::unexpected(done.error());
+  LEKALO_TRY(Statement snapshot, database_.prepare("INSERT INTO snapshot VALUES (?, 0, ?)"));
+  snapshot.bind(1, id).bind(2, io::write_layout(document));
+  LEKALO_CHECK(snapshot.run());
   return id;
 }
 
 Result<LayoutId> Store::create(const std::string& name, const layout::Document& document,
                                const std::string& origin) {
   const std::lock_guard lock(*turn_);
-  Result<Transaction> all = Transaction::begin(database_);
-  if (!all) return tl::unexpected(all.error());
+  LEKALO_TRY(Transaction all, Transaction::begin(database_));
   const Result<LayoutId> made = create_rows(name, document, origin);
   if (!made) return made;
-  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  LEKALO_CHECK(all.commit());
   return made;
 }
 
 Result<std::optional<LayoutId>> Store::find_origin(const std::string& origin) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> rows =
-      database_.prepare("SELECT id FROM layout WHERE origin = ? AND origin <> '' ORDER BY id DESC LIMIT 1");
-  if (!rows) return tl::unexpected(rows.error());
-  const Result<bool> row = rows->bind(1, origin).step();
-  if (!row) return tl::unexpected(row.error());
-  if (!*row) return std::optional<LayoutId>();
-  return std::optional<LayoutId>(rows->integer(0));
+  LEKALO_TRY(
+      Statement rows,
+      database_.prepare("SELECT id FROM layout WHERE origin = ? AND origin <> '' ORDER BY id DESC LIMIT 1"));
+  LEKALO_TRY(const bool row, rows.bind(1, origin).step());
+  if (!row) return std::optional<LayoutId>();
+  return std::optional<LayoutId>(rows.integer(0));
 }
 
 Result<std::vector<LayoutSummary>> Store::list() {
   const std::lock_guard lock(*turn_);
-  Result<Statement> rows = database_.prepare(
-      "SELECT id, name, revision, placements, changed FROM layout ORDER BY change_number DESC, id DESC");
-  if (!rows) return tl::unexpected(rows.error());
+  LEKALO_TRY(
+      Statement rows,
+      database_.prepare(
+          "SELECT id, name, revision, placements, changed FROM layout ORDER BY change_number DESC, id DESC"));
   std::vector<LayoutSummary> found;
   for (;;) {
-    const Result<bool> row = rows->step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) return found;
-    found.push_back({rows->integer(0), rows->text(1), rows->integer(2), rows->integer(3), rows->text(4)});
+    LEKALO_TRY(const bool row, rows.step());
+    if (!row) return found;
+    found.push_back({rows.integer(0), rows.text(1), rows.integer(2), rows.integer(3), rows.text(4)});
   }
 }
 
 Result<StoredLayout> Store::load_locked(LayoutId id, std::optional<Revision> revision) {
   StoredLayout layout;
   {
-    Result<Statement> row = database_.prepare("SELECT name, revision FROM layout WHERE id = ?");
-    if (!row) return tl::unexpected(row.error());
-    const Result<bool> found = row->bind(1, id).step();
-    if (!found) return tl::unexpected(found.error());
-    if (!*found) return no_layout(id);
-    layout.name = row->text(0);
-    layout.revision = row->integer(1);
+    LEKALO_TRY(Statement row, database_.prepare("SELECT name, revision FROM layout WHERE id = ?"));
+    LEKALO_TRY(const bool found, row.bind(1, id).step());
+    if (!found) return no_layout(id);
+    layout.name = row.text(0);
+    layout.revision = row.integer(1);
   }
   if (revision && (*revision < 0 || *revision > layout.revision))
     return failure(ErrorCode::usage, fmt::format("there is no revision {}; the layout has 0 to {}", *revision,
                                                  layout.revision));
   if (revision) layout.revision = *revision;
-  Result<Statement> snapshot = database_.prepare(
-      "SELECT revision, document FROM snapshot WHERE layout = ? AND revision <= ? ORDER BY revision DESC "
-      "LIMIT 1");
-  if (!snapshot) return tl::unexpected(snapshot.error());
-  const Result<bool> found = snapshot->bind(1, id).bind(2, layout.revision).step();
-  if (!found) return tl::unexpected(found.error());
-  if (!*found) return failure(ErrorCode::environment, "the store is damaged: a layout without its beginning");
-  Revision at = snapshot->integer(0);
-  Result<io::LayoutFile> file = io::read_layout(snapshot->text(1), fmt::format("layout {} in the store", id));
+  LEKALO_TRY(
+      Statement snapshot,
+      database_.prepare(
+          "SELECT revision, document FROM snapshot WHERE layout = ? AND revision <= ? ORDER BY revision DESC "
+          "LIMIT 1"));
+  LEKALO_TRY(const bool found, snapshot.bind(1, id).bind(2, layout.revision).step());
+  if (!found) return failure(ErrorCode::environment, "the store is damaged: a layout without its beginning");
+  Revision at = snapshot.integer(0);
+  Result<io::LayoutFile> file = io::read_layout(snapshot.text(1), fmt::format("layout {} in the store", id));
   if (!file) return failure(ErrorCode::environment, "the store is damaged: " + file.error().message);
   layout.document = std::move(file->document);
 
-  Result<Statement> changes = database_.prepare(
-      "SELECT revision, placements FROM change WHERE layout = ? AND revision > ? AND revision <= ? ORDER BY "
-      "revision");
-  if (!changes) return tl::unexpected(changes.error());
-  changes->bind(1, id).bind(2, at).bind(3, layout.revision);
+  LEKALO_TRY(Statement changes, database_.prepare("SELECT revision, placements FROM change WHERE layout = ? "
+                                                  "AND revision > ? AND revision <= ? ORDER BY "
+                                                  "revision"));
+  changes.bind(1, id).bind(2, at).bind(3, layout.revision);
   for (;;) {
-    const Result<bool> row = changes->step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) break;
-    const Result<layout::Change> change = change_from_text(changes->text(1));
-    if (!change) return tl::unexpected(change.error());
-    if (changes->integer(0) != ++at || !fits(*change, layout.document))
+    LEKALO_TRY(const bool row, changes.step());
+    if (!row) break;
+    LEKALO_TRY(const layout::Change change, change_from_text(changes.text(1)));
+    if (changes.integer(0) != ++at || !fits(change, layout.document))
       return failure(
           ErrorCode::environment,
           fmt::format("the store is damaged: revision {} of layout {} is missing or wrong", at, id));
-    layout::carry_out(layout.document, *change);
+    layout::carry_out(layout.document, change);
   }
   if (at != layout.revision)
     return failure(ErrorCode::environment,
@@ -280,18 +263,15 @@ Result<layout::Document> Store::state_at(LayoutId id, Revision revision) {
 
 Result<LayoutId> Store::copy(LayoutId id, const std::string& name) {
   const std::lock_guard lock(*turn_);
-  const Result<StoredLayout> layout = load_locked(id, std::nullopt);
-  if (!layout) return tl::unexpected(layout.error());
-  Result<Transaction> all = Transaction::begin(database_);
-  if (!all) return tl::unexpected(all.error());
-  const Result<LayoutId> made = create_rows(name, layout->document, {});
+  LEKALO_TRY(const StoredLayout layout, load_locked(id, std::nullopt));
+  LEKALO_TRY(Transaction all, Transaction::begin(database_));
+  const Result<LayoutId> made = create_rows(name, layout.document, {});
   if (!made) return made;
-  Result<Statement> photos =
-      database_.prepare("INSERT INTO photo SELECT ?, stock, type, scale, image FROM photo WHERE layout = ?");
-  if (!photos) return tl::unexpected(photos.error());
-  if (Result<void> done = photos->bind(1, *made).bind(2, id).run(); !done)
-    return tl::unexpected(done.error());
-  if (Result<void> done = all->commit(); !done) return tl::unexpected(done.error());
+  LEKALO_TRY(
+      Statement photos,
+      database_.prepare("INSERT INTO photo SELECT ?, stock, type, scale, image FROM photo WHERE layout = ?"));
+  LEKALO_CHECK(photos.bind(1, *made).bind(2, id).run());
+  LEKALO_CHECK(all.commit());
   return made;
 }
 
@@ -302,39 +282,38 @@ Result<void> Store::one_row(LayoutId id, Result<void> done) {
 
 Result<void> Store::rename(LayoutId id, const std::string& name) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare(fmt::format(
-      "UPDATE layout SET name = ?, changed = {}, change_number = {} WHERE id = ?", kNow, kNextNumber));
-  if (!row) return tl::unexpected(row.error());
-  return one_row(id, row->bind(1, name).bind(2, id).run());
+  LEKALO_TRY(Statement row, database_.prepare(fmt::format(
+                                "UPDATE layout SET name = ?, changed = {}, change_number = {} WHERE id = ?",
+                                kNow, kNextNumber)));
+  return one_row(id, row.bind(1, name).bind(2, id).run());
 }
 
 Result<void> Store::remove(LayoutId id) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare("DELETE FROM layout WHERE id = ?");
-  if (!row) return tl::unexpected(row.error());
-  return one_row(id, row->bind(1, id).run());
+  LEKALO_TRY(Statement row, database_.prepare("DELETE FROM layout WHERE id = ?"));
+  return one_row(id, row.bind(1, id).run());
 }
 
 Result<void> Store::append(LayoutId id, const StoredChange& change, const layout::Document& after) {
   const std::lock_guard lock(*turn_);
-  Result<Transaction> all = Transaction::begin(database_);
-  if (!all) return tl::unexpected(all.error());
-  Result<Statement> row = database_.prepare(fmt::format(
-      "UPDATE layout SET revision = ?, placements = ?, changed = {}, change_number = {} WHERE id = "
-      "? AND revision = ?",
-      kNow, kNextNumber));
-  if (!row) return tl::unexpected(row.error());
-  row->bind(1, change.revision)
+  LEKALO_TRY(Transaction all, Transaction::begin(database_));
+  LEKALO_TRY(
+      Statement row,
+      database_.prepare(fmt::format(
+          "UPDATE layout SET revision = ?, placements = ?, changed = {}, change_number = {} WHERE id = "
+          "? AND revision = ?",
+          kNow, kNextNumber)));
+  row.bind(1, change.revision)
       .bind(2, static_cast<std::int64_t>(after.placements.size()))
       .bind(3, id)
       .bind(4, change.revision - 1);
-  if (Result<void> done = one_row(id, row->run()); !done) return done;
-  Result<Statement> entry = database_.prepare(
-      fmt::format("INSERT INTO change (layout, revision, at, author, kind, mode, target, text, placements) "
-                  "VALUES (?, ?, {}, ?, ?, ?, ?, ?, ?)",
-                  kNow));
-  if (!entry) return tl::unexpected(entry.error());
-  entry->bind(1, id)
+  LEKALO_CHECK(one_row(id, row.run()));
+  LEKALO_TRY(Statement entry,
+             database_.prepare(fmt::format(
+                 "INSERT INTO change (layout, revision, at, author, kind, mode, target, text, placements) "
+                 "VALUES (?, ?, {}, ?, ?, ?, ?, ?, ?)",
+                 kNow)));
+  entry.bind(1, id)
       .bind(2, change.revision)
       .bind(3, change.author)
       .bind(4, static_cast<std::int64_t>(change.kind))
@@ -342,60 +321,52 @@ Result<void> Store::append(LayoutId id, const StoredChange& change, const layout
       .bind(6, change.target)
       .bind(7, change.text)
       .bind(8, change_text(change.change));
-  if (Result<void> done = entry->run(); !done) return done;
+  LEKALO_CHECK(entry.run());
   if (change.revision % kSnapshotEvery == 0) {
-    Result<Statement> snapshot = database_.prepare("INSERT INTO snapshot VALUES (?, ?, ?)");
-    if (!snapshot) return tl::unexpected(snapshot.error());
-    snapshot->bind(1, id).bind(2, change.revision).bind(3, io::write_layout(after));
-    if (Result<void> done = snapshot->run(); !done) return done;
+    LEKALO_TRY(Statement snapshot, database_.prepare("INSERT INTO snapshot VALUES (?, ?, ?)"));
+    snapshot.bind(1, id).bind(2, change.revision).bind(3, io::write_layout(after));
+    LEKALO_CHECK(snapshot.run());
   }
-  return all->commit();
+  return all.commit();
 }
 
 Result<StoredChange> Store::change_at(LayoutId id, Revision revision) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare(
-      "SELECT kind, mode, target, author, text, placements FROM change WHERE layout = ? AND revision = ?");
-  if (!row) return tl::unexpected(row.error());
-  const Result<bool> found = row->bind(1, id).bind(2, revision).step();
-  if (!found) return tl::unexpected(found.error());
-  if (!*found)
+  LEKALO_TRY(Statement row, database_.prepare("SELECT kind, mode, target, author, text, placements FROM "
+                                              "change WHERE layout = ? AND revision = ?"));
+  LEKALO_TRY(const bool found, row.bind(1, id).bind(2, revision).step());
+  if (!found)
     return failure(ErrorCode::usage, fmt::format("layout {} has no change of revision {}", id, revision));
-  Result<layout::Change> change = change_from_text(row->text(5));
-  if (!change) return tl::unexpected(change.error());
+  LEKALO_TRY(layout::Change change, change_from_text(row.text(5)));
   return StoredChange{revision,
-                      static_cast<ChangeKind>(row->integer(0)),
-                      static_cast<layout::Mode>(row->integer(1)),
-                      row->integer(2),
-                      row->text(3),
-                      row->text(4),
-                      std::move(*change)};
+                      static_cast<ChangeKind>(row.integer(0)),
+                      static_cast<layout::Mode>(row.integer(1)),
+                      row.integer(2),
+                      row.text(3),
+                      row.text(4),
+                      std::move(change)};
 }
 
 namespace {
 
 /// Fails where there is no such layout.
 Result<void> exists(Database& database, LayoutId id) {
-  Result<Statement> layout = database.prepare("SELECT 1 FROM layout WHERE id = ?");
-  if (!layout) return tl::unexpected(layout.error());
-  const Result<bool> there = layout->bind(1, id).step();
-  if (!there) return tl::unexpected(there.error());
-  if (!*there) return no_layout(id);
+  LEKALO_TRY(Statement layout, database.prepare("SELECT 1 FROM layout WHERE id = ?"));
+  LEKALO_TRY(const bool there, layout.bind(1, id).step());
+  if (!there) return no_layout(id);
   return {};
 }
 
 /// The rows of a query about one layout, which has to be there. \param take  of a row, a Result<void>
 template <class Take>
 Result<void> each_row(Database& database, LayoutId id, const char* query, Take&& take) {
-  if (Result<void> there = exists(database, id); !there) return there;
-  Result<Statement> rows = database.prepare(query);
-  if (!rows) return tl::unexpected(rows.error());
-  rows->bind(1, id);
+  LEKALO_CHECK(exists(database, id));
+  LEKALO_TRY(Statement rows, database.prepare(query));
+  rows.bind(1, id);
   for (;;) {
-    const Result<bool> row = rows->step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) return {};
-    if (Result<void> taken = take(*rows); !taken) return taken;
+    LEKALO_TRY(const bool row, rows.step());
+    if (!row) return {};
+    LEKALO_CHECK(take(rows));
   }
 }
 
@@ -419,7 +390,7 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
         entries.push_back(entry);
         return {};
       });
-  if (!read) return tl::unexpected(read.error());
+  LEKALO_CHECK(read);
   return entries;
 }
 
@@ -461,25 +432,22 @@ Result<std::vector<Photo>> Store::photos(LayoutId id) {
         photos.push_back({row.text(0), row.text(1), row.integer(2), *scale});
         return {};
       });
-  if (!read) return tl::unexpected(read.error());
+  LEKALO_CHECK(read);
   return photos;
 }
 
 Result<std::string> Store::photo_image(LayoutId id, const std::string& stock) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare("SELECT image FROM photo WHERE layout = ? AND stock = ?");
-  if (!row) return tl::unexpected(row.error());
-  const Result<bool> found = row->bind(1, id).bind(2, stock).step();
-  if (!found) return tl::unexpected(found.error());
-  if (!*found) return no_photo(stock);
-  return row->bytes(0);
+  LEKALO_TRY(Statement row, database_.prepare("SELECT image FROM photo WHERE layout = ? AND stock = ?"));
+  LEKALO_TRY(const bool found, row.bind(1, id).bind(2, stock).step());
+  if (!found) return no_photo(stock);
+  return row.bytes(0);
 }
 
 Result<void> Store::set_photo(LayoutId id, const Photo& photo, const std::string& image) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare("INSERT OR REPLACE INTO photo VALUES (?, ?, ?, ?, ?)");
-  if (!row) return tl::unexpected(row.error());
-  return row->bind(1, id)
+  LEKALO_TRY(Statement row, database_.prepare("INSERT OR REPLACE INTO photo VALUES (?, ?, ?, ?, ?)"));
+  return row.bind(1, id)
       .bind(2, photo.stock)
       .bind(3, photo.type)
       .bind(4, scale_text(photo.scale))
@@ -489,18 +457,16 @@ Result<void> Store::set_photo(LayoutId id, const Photo& photo, const std::string
 
 Result<void> Store::set_photo_scale(LayoutId id, const std::string& stock, const PhotoScale& scale) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare("UPDATE photo SET scale = ? WHERE layout = ? AND stock = ?");
-  if (!row) return tl::unexpected(row.error());
-  Result<void> done = row->bind(1, scale_text(scale)).bind(2, id).bind(3, stock).run();
+  LEKALO_TRY(Statement row, database_.prepare("UPDATE photo SET scale = ? WHERE layout = ? AND stock = ?"));
+  Result<void> done = row.bind(1, scale_text(scale)).bind(2, id).bind(3, stock).run();
   if (done && database_.changed_rows() == 0) return no_photo(stock);
   return done;
 }
 
 Result<void> Store::remove_photo(LayoutId id, const std::string& stock) {
   const std::lock_guard lock(*turn_);
-  Result<Statement> row = database_.prepare("DELETE FROM photo WHERE layout = ? AND stock = ?");
-  if (!row) return tl::unexpected(row.error());
-  Result<void> done = row->bind(1, id).bind(2, stock).run();
+  LEKALO_TRY(Statement row, database_.prepare("DELETE FROM photo WHERE layout = ? AND stock = ?"));
+  Result<void> done = row.bind(1, id).bind(2, stock).run();
   if (done && database_.changed_rows() == 0) return no_photo(stock);
   return done;
 }

@@ -3,44 +3,32 @@
 #include <fmt/format.h>
 
 #include <boost/asio/post.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "api.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "messages.hpp"
 #include "outbox.hpp"
+#include "web_socket.hpp"
 
 namespace lekalo::server {
 namespace {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
-using boost::system::error_code;
-using Request = http::request<http::string_body>;
 
 constexpr auto kSilence = std::chrono::seconds(60);
 constexpr int kMostFaults = 20;
 constexpr std::size_t kMostHeld = 64;
-
-std::string text_as_json(const std::string& text) {
-  const std::string answer = api_error(0, text).body;  // {"error":TEXT}\n
-  constexpr std::size_t kBefore = 9, kAfter = 2;
-  return answer.substr(kBefore, answer.size() - kBefore - kAfter);
-}
 
 /// One WebSocket connection.
 class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocketTalk> {
  public:
   WebSocketTalk(Service& service, tcp::socket&& socket, LayoutId layout, std::string author)
       : service_(service),
-        socket_(std::move(socket)),
+        socket_(std::move(socket), {std::string(kSubprotocol), kLargestMessage, kHeaderTime, kSilence}),
         number_(++service.last_client),
         author_(std::move(author)),
         room_(service.take_room(layout)) {
@@ -53,27 +41,12 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   WebSocketTalk(const WebSocketTalk&) = delete;
   WebSocketTalk& operator=(const WebSocketTalk&) = delete;
 
-  void run(const Request& request) {
+  void run(const Upgrade& request) {
     service_.talks[number_] = weak_from_this();
-    websocket::stream_base::timeout times{};
-    times.handshake_timeout = kHeaderTime;
-    times.idle_timeout = kSilence;
-    times.keep_alive_pings = true;
-    socket_.set_option(times);
-    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      response.set(http::field::sec_websocket_protocol, std::string(kSubprotocol));
-    }));
-    socket_.read_message_max(kLargestMessage);
-    socket_.auto_fragment(false);
-    socket_.text(true);
-    socket_.async_accept(request, [self = shared_from_this()](error_code error) {
-      if (error) return self->over();
+    socket_.accept(request, [self = shared_from_this()](bool done) {
+      if (!done) return self->over();
       self->in_room([](WebSocketTalk& talk) {
-        Result<void> opened = talk.service_.open(*talk.room_);
-        if (!opened) return talk.fail_in_room(opened.error().message);
-        Result<Outbound> out = talk.room_->room->join(talk.number_, talk.author_);
-        if (!out) return talk.fail_in_room(out.error().message);
-        talk.service_.deliver(std::move(*out));
+        if (Result<void> joined = talk.join_room(); !joined) talk.fail_in_room(joined.error().message);
       });
       self->read();
     });
@@ -89,7 +62,7 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   }
   void say_goodbye(const std::string& sentence) override {
     say_trouble("bye", sentence);
-    close_after(websocket::close_code::going_away);
+    close_after(WebSocket::Close::going_away);
   }
 
  private:
@@ -98,16 +71,13 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   }
   void say_trouble(const std::string& type, const std::string& sentence) {
     // The sentences are ours, but may hold what came from outside.
-    say(fmt::format("{{\"type\": \"{}\", \"message\": {}}}", type, text_as_json(sentence)));
+    say(fmt::format("{{\"type\": \"{}\", \"message\": {}}}", type, io::json_string(sentence)));
   }
-  /// Sends what waits, then closes.
-  void close_after(websocket::close_code code) {
+  /// Sends everything that waits, then closes.
+  void close_after(WebSocket::Close code) {
     if (!closing_) closing_ = code;
     write();
   }
-  /// At once, whatever waits.
-  void cut() { beast::get_lowest_layer(socket_).close(); }
-
   /// Runs something on the room's strand, while the connection lives on.
   template <class Work>
   void in_room(Work work) {
@@ -118,31 +88,36 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
       asio::post(service.io, [self = std::move(self)] {});
     });
   }
+  Result<void> join_room() {
+    LEKALO_CHECK(service_.open(*room_));
+    LEKALO_TRY(Outbound out, room_->room->join(number_, author_));
+    service_.deliver(std::move(out));
+    return {};
+  }
   void fail_in_room(const std::string& sentence) {
     asio::post(service_.io, [self = shared_from_this(), sentence] {
       self->say_trouble("error", sentence);
-      self->close_after(websocket::close_code::policy_error);
+      self->close_after(WebSocket::Close::policy);
     });
   }
 
   void read() {
     reading_ = true;
-    socket_.async_read(incoming_, [self = shared_from_this()](error_code error, std::size_t) {
+    socket_.read([self = shared_from_this()](bool done) {
       self->reading_ = false;
-      if (error) return self->over();
+      if (!done) return self->over();
       self->take();
     });
   }
   void take() {
-    const std::string bytes = beast::buffers_to_string(incoming_.data());
-    incoming_.consume(incoming_.size());
+    const WebSocket::Message taken = socket_.message();
     if (closing_) return read();
-    Result<ClientMessage> message = socket_.got_text()
-                                        ? parse_client_message(bytes)
+    Result<ClientMessage> message = taken.is_text
+                                        ? parse_client_message(taken.bytes)
                                         : failure(ErrorCode::bad_input, "messages are text frames of JSON");
     if (!message) {
       say_trouble("error", message.error().message);
-      if (++faults_ == kMostFaults) close_after(websocket::close_code::policy_error);
+      if (++faults_ == kMostFaults) close_after(WebSocket::Close::policy);
       return read();
     }
     // During a long command others wait, but for what ends it.
@@ -187,7 +162,7 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     if (outbox_.empty()) {
       if (closing_ && !closed_) {
         closed_ = true;
-        socket_.async_close(*closing_, [self = shared_from_this()](error_code) { self->over(); });
+        socket_.close(*closing_, [self = shared_from_this()](bool) { self->over(); });
       } else if (outbox_.take_refresh()) {
         in_room([](WebSocketTalk& talk) {
           if (talk.room_->room) talk.service_.deliver(talk.room_->room->resend(talk.number_));
@@ -197,9 +172,9 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     }
     if (closed_) return;
     writing_ = outbox_.pop();
-    socket_.async_write(asio::buffer(*writing_), [self = shared_from_this()](error_code error, std::size_t) {
+    socket_.write(*writing_, [self = shared_from_this()](bool done) {
       self->writing_.reset();
-      if (error) return self->over();
+      if (!done) return self->over();
       self->write();
     });
   }
@@ -208,21 +183,20 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     if (over_) return;
     over_ = true;
     service_.talks.erase(number_);
-    cut();
+    socket_.cut();
     in_room([](WebSocketTalk& talk) {
       if (talk.room_->room) talk.service_.deliver(talk.room_->room->leave(talk.number_));
     });
   }
 
   Service& service_;
-  websocket::stream<beast::tcp_stream> socket_;
-  beast::flat_buffer incoming_;
+  WebSocket socket_;
   ClientNumber number_;
   std::string author_;
   std::shared_ptr<OpenRoom> room_;
   Outbox outbox_;
   std::shared_ptr<const std::string> writing_;
-  std::optional<websocket::close_code> closing_;
+  std::optional<WebSocket::Close> closing_;
   std::deque<ClientMessage> held_;  ///< wait for the end of a long command
   int faults_ = 0, working_ = 0;    ///< working: messages the room has
   bool reading_ = false, busy_ = false, closed_ = false, over_ = false;
@@ -231,7 +205,7 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
 }  // namespace
 
 void start_talk(Service& service, tcp::socket&& socket, LayoutId layout, std::string author,
-                const Request& request) {
+                const Upgrade& request) {
   std::make_shared<WebSocketTalk>(service, std::move(socket), layout, std::move(author))->run(request);
 }
 

@@ -5,9 +5,9 @@
 
 namespace lekalo::server {
 
-/// How long something still takes, from how far it was when: by its pace of late (2 s, or a quarter of all
-/// its time where that is more), so that a slow end is not promised to be as quick as the beginning, and
-/// nothing is said where nothing moves.
+/// Estimates how long something still takes, from how far it was when: by its latest pace (2 s, or a quarter
+/// of all its time where that is more), so that a slow end is not promised to be as quick as the beginning,
+/// and nothing is said where nothing moves.
 class TimeLeft {
  public:
   /// \param at seconds of any clock, never less than before \param fraction in [0, 1]

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/text/excerpt.hpp"
@@ -38,17 +39,18 @@ Result<std::string> path_of_items(const std::string& path, const std::string& in
 
 }  // namespace
 
-Result<io::LayoutFile> open_layout(const std::string& path, const OpenOptions& options) {
-  const auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const auto find = [&](const Result<std::string>& said) -> Result<io::ItemsFile> {
-    const Result<std::string> items = path_of_items(path, options.instance, said);
-    if (!items) return tl::unexpected(items.error());
-    Result<std::string> read = read_file(*items);
-    if (!read) return tl::unexpected(read.error());
-    return io::ItemsFile{*items, std::move(*read)};
+io::FindItems items_near(std::string path, std::string instance) {
+  return [path = std::move(path),
+          instance = std::move(instance)](const Result<std::string>& said) -> Result<io::ItemsFile> {
+    LEKALO_TRY(const std::string items, path_of_items(path, instance, said));
+    LEKALO_TRY(std::string bytes, read_file(items));
+    return io::ItemsFile{items, std::move(bytes)};
   };
-  return io::read_any_layout(*bytes, path, options.parts, find);
+}
+
+Result<io::LayoutFile> open_layout(const std::string& path, const OpenOptions& options) {
+  LEKALO_TRY(const std::string bytes, read_file(path));
+  return io::read_any_layout(bytes, path, options.parts, items_near(path, options.instance));
 }
 
 }  // namespace lekalo::disk

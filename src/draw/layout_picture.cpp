@@ -126,7 +126,7 @@ class Composer {
           parts = any ? joined(parts, mm) : mm;
           any = true;
         }
-      // Of a strip, what is used and a little more.
+      // A strip is drawn as far as it is used, and a little more.
       if (stock.kind == StockKind::strip)
         box.high.x = std::min(box.high.x, std::max(any ? 1.02 * parts.high.x : 0.0, box.high.y - box.low.y));
       framed.push_back({sheet, any ? joined(box, parts) : box});
@@ -140,7 +140,7 @@ class Composer {
   void draw_sheets() {
     const std::vector<Framed> framed = framed_sheets();
     if (framed.empty()) return;
-    // As many columns as show them largest.
+    // The number of columns is the one that shows them largest.
     const std::size_t count = framed.size();
     std::size_t columns = 1;
     double best = 0;
@@ -207,7 +207,7 @@ class Composer {
     }
   }
 
-  /// At the zone's upper end, where it runs into fewer parts' names than in the middle.
+  /// Writes at the zone's upper end, where it runs into fewer parts' names than in the middle.
   void label_zone(const layout::QualityZone& zone, const layout::Stock& stock, const View& view) {
     // The highest corner of the zone on the material, or the highest of the material in the zone.
     const geom::GridRegion &outline = zone.outline.polygon, &material = stock.outline.polygon;

@@ -289,7 +289,7 @@ std::vector<Violation> check_some(const Document& document, std::span<const Plac
     add_stock_violations(document, placed[i],
                          features.try_emplace(stock, stock_of(document, of[i])).first->second, depths,
                          violations);
-    // Of two of `of` the later one meets the other.
+    // When both are in `of`, the later one meets the other.
     all.visit_meeting(reach(placed[i]), [&](std::uint32_t j) {
       if (j < i || j >= of.size()) add_pair(placed[i], placed[j]);
     });

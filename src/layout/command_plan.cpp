@@ -96,7 +96,7 @@ geom::GridRotation turned_by(geom::GridRotation rotation, double degrees) {
   return geom::rotation_from_degrees(std::remainder(geom::degrees_of(rotation) + degrees, 360.0));
 }
 
-/// What a command makes of a workspace: the placements changed, those removed.
+/// The outcome of a command in a workspace: the placements that it changes and those that it removes.
 struct Outcome {
   Placements changed;
   std::vector<std::uint64_t> removed;
@@ -111,7 +111,7 @@ class Planner {
 
   Result<Outcome> operator()(const PlaceCommand& c) const {
     if (c.part >= document_.parts.size()) return wrong(fmt::format("there is no part number {}", c.part));
-    if (auto sheet = known_sheet(document_, {c.stock, c.copy}); !sheet) return tl::unexpected(sheet.error());
+    LEKALO_CHECK(known_sheet(document_, {c.stock, c.copy}));
     if (!is_rotation(c.rotation)) return wrong("a rotation's c and s must have c^2 + s^2 = 1");
     return limited({{.id = document_.next_id,
                      .part = c.part,
@@ -123,9 +123,8 @@ class Planner {
   }
 
   Result<Outcome> operator()(const MoveCommand& c) const {
-    auto placements = shifted(c.ids, c.by, c.to);
-    if (!placements) return tl::unexpected(placements.error());
-    return limited(std::move(*placements));
+    LEKALO_TRY(auto placements, shifted(c.ids, c.by, c.to));
+    return limited(std::move(placements));
   }
 
   Result<Outcome> operator()(const RotateCommand& c) const {
@@ -148,29 +147,26 @@ class Planner {
   }
 
   Result<Outcome> operator()(const RemoveCommand& c) const {
-    auto placements = movable(workspace_, c.ids);
-    if (!placements) return tl::unexpected(placements.error());
+    LEKALO_TRY(auto placements, movable(workspace_, c.ids));
     return Outcome{{}, c.ids, true};
   }
 
   Result<Outcome> operator()(const SwapCommand& c) const {
-    auto placements = movable(workspace_, {c.a, c.b});
-    if (!placements) return tl::unexpected(placements.error());
-    Placement &a = (*placements)[0], &b = (*placements)[1];
+    LEKALO_TRY(auto placements, movable(workspace_, {c.a, c.b}));
+    Placement &a = placements[0], &b = placements[1];
     const GridPoint shift =
         halved(twice_middle(placed_box(workspace_, b)) - twice_middle(placed_box(workspace_, a)));
     a.at = a.at + shift;
     b.at = b.at - shift;
     std::swap(a.stock, b.stock);
     std::swap(a.copy, b.copy);
-    return limited(std::move(*placements));
+    return limited(std::move(placements));
   }
 
   Result<Outcome> operator()(const LockCommand& c) const {
-    auto placements = movable(workspace_, c.ids, true);
-    if (!placements) return tl::unexpected(placements.error());
-    for (Placement& placement : *placements) placement.locked = c.locked;
-    return Outcome{std::move(*placements), {}, true};
+    LEKALO_TRY(auto placements, movable(workspace_, c.ids, true));
+    for (Placement& placement : placements) placement.locked = c.locked;
+    return Outcome{std::move(placements), {}, true};
   }
 
   Result<Outcome> operator()(const SlideCommand& c) const {
@@ -187,7 +183,7 @@ class Planner {
       return wrong("the second direction has no length, or is too long");
     return moved(c.ids, c.direction, [&](Group& group) {
       group.settle(unit_vector(c.direction));
-      // Into the corner: each settling may open the way for the other.
+      // It settles in turns into the corner: each settling may open the way for the other.
       for (int round = 0; c.then && round < 16; ++round) {
         const GridPoint before = group.placements()[0].at;
         group.slide(unit_vector(*c.then), reach_of(group));
@@ -199,12 +195,11 @@ class Planner {
   }
 
   Result<Outcome> operator()(const PushCommand& c) const {
-    auto placements = startable(c.ids, c.by);
-    if (!placements) return tl::unexpected(placements.error());
-    const Sheet sheet{(*placements)[0].stock, (*placements)[0].copy};
+    LEKALO_TRY(auto placements, startable(c.ids, c.by));
+    const Sheet sheet{placements[0].stock, placements[0].copy};
     const geom::Point direction = unit_vector(c.by),
                       way{static_cast<double>(c.by.x), static_cast<double>(c.by.y)};
-    Placements pushed = std::move(*placements);
+    Placements pushed = std::move(placements);
     const GridPoint goal = pushed[0].at + c.by;
     while (true) {
       Group group(workspace_, pushed);
@@ -230,10 +225,9 @@ class Planner {
   }
 
   Result<Outcome> operator()(const SnapCommand& c) const {
-    auto placements = movable(workspace_, {c.id});
-    if (!placements) return tl::unexpected(placements.error());
+    LEKALO_TRY(auto placements, movable(workspace_, {c.id}));
     if (c.reach <= 0 || c.reach > kMostShift) return wrong("snapping needs a reach above 0");
-    const auto place = snapped(workspace_, placements->front(), c.reach);
+    const auto place = snapped(workspace_, placements.front(), c.reach);
     if (!place)
       return wrong(fmt::format("placement {}: no edge within {} mm that it fits against", c.id,
                                geom::mm_from_grid(c.reach)));
@@ -242,7 +236,7 @@ class Planner {
 
   Result<Outcome> operator()(const CompactCommand& c) const {
     if (c.sheet) {
-      if (auto sheet = known_sheet(document_, *c.sheet); !sheet) return tl::unexpected(sheet.error());
+      LEKALO_CHECK(known_sheet(document_, *c.sheet));
     }
     if (auto fault = fault_of(c.direction)) return tl::unexpected(std::move(*fault));
     const geom::Point direction = unit_vector(c.direction);
@@ -265,9 +259,8 @@ class Planner {
         const std::vector<std::uint64_t> ids = foremost_first(work, sheets[i], direction);
         const double begun = round == 0 ? 0 : round + 1, share = round == 0 ? 2 : 1;
         for (std::size_t k = 0; k < ids.size() && !stopped; ++k) {
-          auto moved = settled_by(work, ids[k], direction);
-          if (!moved) return tl::unexpected(moved.error());
-          any = any || *moved;
+          LEKALO_TRY(auto moved, settled_by(work, ids[k], direction));
+          any = any || moved;
           ++settled;
           const double done = begun * parts[sheets[i]] + share * static_cast<double>(k + 1);
           if (run_.progress) run_.progress({settled, std::min(1.0, (behind + done) / total)});
@@ -285,17 +278,16 @@ class Planner {
   }
 
   Result<Outcome> operator()(const NearestCommand& c) const {
-    auto placements = shifted(c.ids, c.by, c.to);
-    if (!placements) return tl::unexpected(placements.error());
-    if (auto sheet = common_sheet(*placements); !sheet) return tl::unexpected(sheet.error());
-    auto place = nearest_place(workspace_, *placements);
+    LEKALO_TRY(auto placements, shifted(c.ids, c.by, c.to));
+    LEKALO_CHECK(common_sheet(placements));
+    auto place = nearest_place(workspace_, placements);
     if (!place) return wrong("no valid place was found on the sheet");
     return limited(std::move(*place));
   }
 
   Result<Outcome> operator()(const FitCommand& c) const {
     if (c.part >= document_.parts.size()) return wrong(fmt::format("there is no part number {}", c.part));
-    if (auto sheet = known_sheet(document_, c.sheet); !sheet) return tl::unexpected(sheet.error());
+    LEKALO_CHECK(known_sheet(document_, c.sheet));
     std::vector<Placement> places = fits_where(workspace_, c.part, c.sheet, 1, c.mirrored, run_);
     if (!places.empty()) {
       places[0].id = document_.next_id;
@@ -320,10 +312,9 @@ class Planner {
       return wrong(
           fmt::format("stock '{}' has {} {}s; no more are kept", stock.id, kMostFeatures, name_of(c.kind)));
     if (auto fault = fault_of_grade(c.kind, c.grade)) return tl::unexpected(std::move(*fault));
-    auto outline = drawn_outline(c.loops);
-    if (!outline) return tl::unexpected(outline.error());
+    LEKALO_TRY(auto outline, drawn_outline(c.loops));
     return of_feature({c.stock, static_cast<std::uint32_t>(feature_count(stock, c.kind)), std::nullopt,
-                       Feature{c.kind, c.id, c.grade, std::move(*outline)}});
+                       Feature{c.kind, c.id, c.grade, std::move(outline)}});
   }
 
   Result<Outcome> operator()(const MoveFeatureCommand& c) const {
@@ -343,9 +334,8 @@ class Planner {
 
   Result<Outcome> operator()(const ReshapeFeatureCommand& c) const {
     return changed_feature(c, [&](Feature& feature) -> Result<void> {
-      auto outline = drawn_outline(c.loops);
-      if (!outline) return tl::unexpected(outline.error());
-      feature.outline = std::move(*outline);
+      LEKALO_TRY(auto outline, drawn_outline(c.loops));
+      feature.outline = std::move(outline);
       return {};
     });
   }
@@ -359,17 +349,15 @@ class Planner {
   }
 
   Result<Outcome> operator()(const RemoveFeatureCommand& c) const {
-    auto change = feature_named(c);
-    if (!change) return tl::unexpected(change.error());
-    change->after.reset();
-    return of_feature(std::move(*change));
+    LEKALO_TRY(auto change, feature_named(c));
+    change.after.reset();
+    return of_feature(std::move(change));
   }
 
  private:
   static Result<Outcome> limited(Placements placements) {
-    auto within = within_limits(std::move(placements));
-    if (!within) return tl::unexpected(within.error());
-    return Outcome{std::move(*within), {}, false};
+    LEKALO_TRY(auto within, within_limits(std::move(placements)));
+    return Outcome{std::move(within), {}, false};
   }
 
   std::optional<Error> fault_of_stock(std::uint32_t stock) const {
@@ -393,9 +381,8 @@ class Planner {
     if (points > kMostFeaturePoints)
       return malformed(
           fmt::format("an outline of {} points; at most {} are kept", points, kMostFeaturePoints));
-    auto polygon = geom::make_grid_region(loops);
-    if (!polygon) return tl::unexpected(polygon.error());
-    return Outline{std::move(*polygon), {}, 0};
+    LEKALO_TRY(auto polygon, geom::make_grid_region(loops));
+    return Outline{std::move(polygon), {}, 0};
   }
   /// The feature that a command names, before and (as yet) after.
   template <class Named>
@@ -414,10 +401,9 @@ class Planner {
   }
   template <class Named, class Edit>
   Result<Outcome> changed_feature(const Named& c, Edit&& edit) const {
-    auto change = feature_named(c);
-    if (!change) return tl::unexpected(change.error());
-    if (Result<void> edited = edit(*change->after); !edited) return tl::unexpected(edited.error());
-    return of_feature(std::move(*change));
+    LEKALO_TRY(auto change, feature_named(c));
+    LEKALO_CHECK(edit(*change.after));
+    return of_feature(std::move(change));
   }
 
   std::vector<Sheet> sheets_in_use() const {
@@ -468,7 +454,7 @@ class Planner {
     if (!placements) return placements;
     if (!on_grid(by, geom::kGridLimit)) return wrong("a shift beyond the limits of the grid");
     if (to) {
-      if (auto sheet = known_sheet(document_, *to); !sheet) return tl::unexpected(sheet.error());
+      LEKALO_CHECK(known_sheet(document_, *to));
     }
     for (Placement& placement : *placements) {
       placement.at = placement.at + by;
@@ -481,24 +467,23 @@ class Planner {
   template <class Turn>
   Result<Outcome> about_middle(const std::vector<std::uint64_t>& ids, Turn&& turn,
                                geom::GridRotation rotation, bool mirrored) const {
-    auto placements = movable(workspace_, ids);
-    if (!placements) return tl::unexpected(placements.error());
-    if (auto sheet = common_sheet(*placements); !sheet) return tl::unexpected(sheet.error());
-    const GridPoint centre = twice_middle(workspace_, *placements);
-    for (Placement& placement : *placements) {
-      // Where its origin goes when the whole turns about the centre, in half steps to keep the centre exact.
+    LEKALO_TRY(auto placements, movable(workspace_, ids));
+    LEKALO_CHECK(common_sheet(placements));
+    const GridPoint centre = twice_middle(workspace_, placements);
+    for (Placement& placement : placements) {
+      // Its origin turns with the whole about the centre; half steps keep the centre exact.
       const GridPoint origin = placement.at + placement.at - centre;
       turn(placement);
       placement.at = halved(geom::turned(origin, rotation, mirrored) + centre);
     }
-    return limited(std::move(*placements));
+    return limited(std::move(placements));
   }
 
   /// Placements on one sheet that lie clear of everything else, and a direction.
   Result<Placements> startable(const std::vector<std::uint64_t>& ids, GridPoint direction) const {
     auto placements = movable(workspace_, ids);
     if (!placements) return placements;
-    if (auto sheet = common_sheet(*placements); !sheet) return tl::unexpected(sheet.error());
+    LEKALO_CHECK(common_sheet(*placements));
     if (auto fault = fault_of(direction)) return tl::unexpected(std::move(*fault));
     if (!Group(workspace_, *placements).is_clear())
       return failure(
@@ -510,9 +495,8 @@ class Planner {
 
   template <class Motion>
   Result<Outcome> moved(const std::vector<std::uint64_t>& ids, GridPoint direction, Motion&& motion) const {
-    auto placements = startable(ids, direction);
-    if (!placements) return tl::unexpected(placements.error());
-    Group group(workspace_, std::move(*placements));
+    LEKALO_TRY(auto placements, startable(ids, direction));
+    Group group(workspace_, std::move(placements));
     motion(group);
     return limited(group.placements());
   }
@@ -551,28 +535,27 @@ std::string described(const Violation& violation) {
 }  // namespace
 
 Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode, const RunControl& run) {
-  auto outcome = std::visit(Planner(workspace, mode, run), command);
-  if (!outcome) return tl::unexpected(outcome.error());
+  LEKALO_TRY(auto outcome, std::visit(Planner(workspace, mode, run), command));
   const bool new_one =
       std::holds_alternative<PlaceCommand>(command) || std::holds_alternative<FitCommand>(command);
-  if (mode == Mode::strict && !outcome->breaks_no_rule && !workspace.is_clear(outcome->changed)) {
-    const auto violations = workspace.violations_of(outcome->changed);
+  if (mode == Mode::strict && !outcome.breaks_no_rule && !workspace.is_clear(outcome.changed)) {
+    const auto violations = workspace.violations_of(outcome.changed);
     return failure(
         ErrorCode::refuted,
         fmt::format("not admitted: {}{}", violations.empty() ? "a rule" : described(violations.front()),
                     violations.size() > 1 ? fmt::format(" (and {} more)", violations.size() - 1) : ""));
   }
   Change change;
-  change.features = std::move(outcome->features);
+  change.features = std::move(outcome.features);
   const std::uint64_t next = workspace.document().next_id;
   change.next_id_before = next;
   change.next_id_after = new_one ? next + 1 : next;
-  for (const Placement& after : outcome->changed) {
+  for (const Placement& after : outcome.changed) {
     const Placement* before = workspace.find(after.id);
     if (before != nullptr && *before == after) continue;
     change.placements.push_back({before == nullptr ? std::nullopt : std::optional(*before), after});
   }
-  for (const std::uint64_t id : outcome->removed)
+  for (const std::uint64_t id : outcome.removed)
     change.placements.push_back({*workspace.find(id), std::nullopt});
   std::sort(change.placements.begin(), change.placements.end(),
             [](const PlacementChange& a, const PlacementChange& b) {

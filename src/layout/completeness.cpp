@@ -11,7 +11,7 @@
 namespace lekalo::layout {
 namespace {
 
-/// What one kit takes of a part.
+/// The pieces that one kit takes of a part.
 struct Share {
   std::int64_t upright = 0, mirrored = 0, either = 0;
   void add(std::optional<bool> hand, std::int64_t count) {
@@ -38,7 +38,7 @@ void take_either(PieceCount& pieces, std::int64_t count) {
   if (pieces.mirrored < 0) pieces.upright += pieces.mirrored, pieces.mirrored = 0;
 }
 
-/// What is missing for `kits` more of them, taken out of `pieces` as far as it is there.
+/// The pieces that are missing for `kits` more of them, taken out of `pieces` as far as it is there.
 void add_missing(std::uint32_t part, const Share& share, std::int64_t kits, PieceCount& pieces,
                  std::vector<MissingPiece>& missing) {
   const auto short_of = [&](std::int64_t wanted, std::int64_t& there, std::optional<bool> mirrored) {

@@ -131,7 +131,7 @@ Group::Way Group::way(Point direction, double length) const {
 }
 
 bool Group::slide(Point direction, double length) {
-  // In legs, so that a long way does not gather everything that lies beside it.
+  // The way is gone in legs, so that a long one does not gather everything that lies beside it.
   const GridBox around = box();
   const double leg = norm(in_doubles(around.high - around.low)) + 1024;
   while (length > 0) {
@@ -186,7 +186,7 @@ bool Group::follow(Point along, double length, Point goal) {
   const auto clear = [&](GridPoint shift) { return is_clear(shift); };
   const phi::SlideEnd end = phi::slide(next.path, std::move(next.events), clear);
   if (end.way < kProgress) return false;
-  // Where a contact ends the way to the goal may open: that can only be at one of the events.
+  // The way to the goal may open where a contact ends, and that can only be at one of the events.
   std::sort(events.begin(), events.end());
   const GridPoint onwards = nearest_step(16 * goal);
   double last = 0;

@@ -26,7 +26,7 @@ class Group {
   /// Moves along a unit vector by at most `length` steps, until something is in the way.
   /// \return whether something was
   bool slide(geom::Point direction, double length);
-  /// Towards a shifted place; along what is in the way as long as that comes nearer to it.
+  /// Moves towards a shifted place, along what is in the way as long as that comes nearer to it.
   void slide_along(geom::GridPoint by);
   /// Slides and slides along until it rests against what lies in the direction.
   void settle(geom::Point direction);

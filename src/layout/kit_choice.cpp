@@ -15,7 +15,7 @@ constexpr std::size_t kMostTable = 100'000;
 /// Sums of values in another order.
 constexpr double kRounding = 1e-12;
 
-/// So many pieces of a kind there are, and so many one kit takes.
+/// How many pieces of a kind there are, and how many of them one kit takes.
 struct Supply {
   std::int64_t there = 0;
   std::vector<std::pair<std::size_t, std::int64_t>> takers;  ///< kit, pieces; ascending by kit
@@ -62,7 +62,7 @@ class Choice {
     }
   }
 
-  /// By kit of those given.
+  /// The best numbers of kits that were found, by kit of those given.
   const std::vector<std::int64_t>& best() {
     start_with_dear_ones();
     if (kits_.size() * left_.size() > kMostTable) return best_;
@@ -156,7 +156,7 @@ class Choice {
       const double with = value + values_[kit] * static_cast<double>(count);
       const double most = with + bound(kit + 1);
       const bool may_be_better = most > best_value_ * (1 + kRounding);
-      // Of equals the one that has more of the first kits counts.
+      // Among equals the one that has more of the first kits counts.
       const bool may_be_earlier =
           most >= best_value_ * (1 - kRounding) &&
           std::lexicographical_compare_three_way(
@@ -188,7 +188,7 @@ std::vector<std::int64_t> most_valuable_kits(const Document& document,
   for (const Kit& kit : document.kits) most.push_back(kit.demand);
   for (const Supply& supply : supplies)
     for (const auto& [kit, count] : supply.takers) most[kit] = std::min(most[kit], supply.there / count);
-  // Where there is enough for all, nobody competes.
+  // Nobody competes where there is enough for all.
   std::erase_if(supplies, [&](const Supply& supply) {
     std::int64_t wanted = 0;
     for (const auto& [kit, count] : supply.takers) wanted += most[kit] * count;

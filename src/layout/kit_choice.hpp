@@ -7,7 +7,7 @@
 
 namespace lekalo::layout {
 
-/// How many of each kit these pieces make so that they are worth most together: kits_made().
+/// The number of each kit that these pieces make when the kits are to be worth most together: kits_made().
 [[nodiscard]] std::vector<std::int64_t> most_valuable_kits(const Document& document,
                                                            const std::vector<PieceCount>& placed);
 

@@ -57,7 +57,7 @@ void visit_edges(const GridRegion& region, Visit&& visit) {
   }
 }
 
-/// What one outline is around a point: all material, none, or material left of an edge or corner there.
+/// One outline around a point: all of it is material, none, or what lies left of an edge or corner there.
 struct Surroundings {
   bool on_boundary = false, inside = false;
   GridPoint first, last;  ///< directions; material lies counter-clockwise from first to last
@@ -85,7 +85,7 @@ Surroundings surroundings(const GridRegion& region, const FractionPoint& q) {
   return found;
 }
 
-/// Whether points just beyond q in direction d, which is along no edge there, are material.
+/// Says whether points just beyond q in direction d, which is along no edge there, are material.
 bool is_material(const Surroundings& s, GridPoint d) noexcept {
   if (!s.on_boundary) return s.inside;
   const bool after_first = cross(s.first, d) > 0, before_last = cross(d, s.last) > 0;
@@ -103,7 +103,7 @@ GridPoint between(GridPoint a, GridPoint b) noexcept {
   return {-a.y, a.x};  // half a turn or more
 }
 
-/// Whether discs of the set searched for touch q.
+/// Says whether discs of the set that is searched for touch q.
 class Corner {
  public:
   Corner(const std::vector<const GridRegion*>& inside, const std::vector<const GridRegion*>& without)

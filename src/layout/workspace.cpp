@@ -17,7 +17,7 @@ GridBox placed_box(const phi::Scene& scene, phi::ShapeIndex shape, GridPoint at)
   return {scene.box(shape).low + at, scene.box(shape).high + at};
 }
 
-/// For searches by id.
+/// Orders placements by id, for searches.
 Placement with_id(std::uint64_t id) {
   Placement placement;
   placement.id = id;
@@ -323,7 +323,7 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   ids.reserve(placements.size());
   for (const Placement& placement : placements) ids.push_back(placement.id);
   const Lifted lifted(*this, ids);
-  // One after the other, each against the scene and those put before it.
+  // They are put in one after the other, each against the scene and those put before it.
   std::size_t clear = 0;
   while (clear < placements.size() && is_clear_of_scene(placements[clear])) {
     put(sheet_scene({placements[clear].stock, placements[clear].copy}), placements[clear]);

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "lekalo/phi/outline_relation.hpp"
-#include "nest/convex_pieces.hpp"
-#include "nest/nofit.hpp"
+#include "nest/table/convex_pieces.hpp"
+#include "nest/table/nofit.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -118,6 +118,51 @@ TEST(NoFit, FindsASlotJustWideEnough) {
   EXPECT_NEAR(table.depth(10, 8), 0, 1e-9);
   EXPECT_GT(table.depth(10.5, 8), 0.4);
   EXPECT_GT(table.depth(10, 4), 0.5);
+}
+
+/// Lists of four bytes an edge, as borders of very many edges have them, give the same to the bit.
+TEST(NoFit, WideListsSayTheSame) {
+  for (std::size_t i = 0; i < cases::case_count(20); ++i) {
+    Random random(cases::seed(), 700 + i);
+    const Shape a = shape_of(cases::random_part(random, i).outline.polygon),
+                b = shape_of(cases::random_part(random, i + 1).outline.polygon);
+    const NoFit narrow(a, b, 1, 1024), wide(a, b, 1, 1024, {}, {}, false, 0);
+    for (int k = 0; k < 200; ++k) {
+      const double x = random.uniform(-70, 70), y = random.uniform(-70, 70);
+      const NoFit::Way one = narrow.way_out(x, y), two = wide.way_out(x, y);
+      EXPECT_EQ(narrow.depth(x, y), wide.depth(x, y)) << "case " << i << " of seed " << cases::seed();
+      EXPECT_TRUE(one.depth == two.depth && one.direction == two.direction)
+          << "case " << i << " of seed " << cases::seed();
+    }
+  }
+}
+
+/// 8,200 small lozenges have 65,600 edges of contact with a square: none of them is left out.
+TEST(NoFit, KeepsEveryEdgeOfABorderOfVeryMany) {
+  constexpr int kAcross = 100, kUp = 82;
+  const auto lozenge_at = [](double x, double y) {
+    const std::vector<geom::Point> loop = {{x - 1, y}, {x, y - 1}, {x + 1, y}, {x, y + 1}};
+    return Shape{{loop}, {loop}};
+  };
+  Shape all;
+  for (int k = 0; k < kAcross * kUp; ++k) {
+    const Shape one = lozenge_at(10.0 * (k % kAcross), 10.0 * (k / kAcross));
+    all.loops.push_back(one.loops[0]);
+    all.pieces.push_back(one.pieces[0]);
+  }
+  const Shape square = shape_of(cases::outline_of({cases::box_loop(0, 0, 2, 2)}).polygon);
+  const NoFit table(all, square, 0, 16'384);
+  EXPECT_GT(table.border().size(), NoFit::kMostNarrow);
+  const NoFit alone(lozenge_at(0, 0), square, 0, 1024);
+  Random random(cases::seed(), 900);
+  for (int k = 0; k < 2000; ++k) {
+    const double x = random.uniform(-4, 2), y = random.uniform(-4, 2);
+    const int of = k % 2 == 0 ? kAcross * kUp - 1 - k % 400 : static_cast<int>(random.below(kAcross * kUp));
+    const double here = alone.depth(x, y);
+    // Deep inside the small table is interpolated, and at corners the large one rounds more.
+    EXPECT_NEAR(table.depth(10.0 * (of % kAcross) + x, 10.0 * (of / kAcross) + y), here,
+                here < 0.05 ? 1e-4 : 0.05);
+  }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lekalo/base/random.hpp"
-#include "nest/box_list.hpp"
+#include "nest/separator/box_list.hpp"
 #include "support/cases.hpp"
 
 namespace lekalo::nest {

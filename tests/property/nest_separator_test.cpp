@@ -3,10 +3,10 @@
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/nest/nest.hpp"
-#include "nest/cost_sums.hpp"
-#include "nest/lattice.hpp"
-#include "nest/separator.hpp"
-#include "nest/sheet_lane.hpp"
+#include "nest/separator/cost_sums.hpp"
+#include "nest/separator/lattice_unit.hpp"
+#include "nest/separator/separator.hpp"
+#include "nest/strand/strand.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -152,7 +152,7 @@ TEST(CostGrid, AddsObstaclesTogetherAndWindowsOfThem) {
   EXPECT_GT(costly, 0u);
 }
 
-/// What slides away from a point stays valid, comes no nearer to it, and leaves room there.
+/// Items that slide away from a point stay valid, come no nearer to it, and leave room there.
 TEST(MakeRoom, SlidesEverythingAwayFromAPoint) {
   layout::Document document =
       whole_millimetres({cases::box_loop(0, 0, 4, 4), cases::box_loop(0, 0, 4, 4), l_shape(5),
@@ -225,7 +225,7 @@ TEST(MakeRoom, GathersWhatIsMissingForOneMore) {
 }
 
 /// A full row with a little room between all: places thrown at random hardly ever close it.
-TEST(SheetLane, MakesRoomForTheLastPiece) {
+TEST(Strand, MakesRoomForTheLastPiece) {
   constexpr std::size_t kSquares = 13;
   layout::Document document = whole_millimetres(std::vector(kSquares, cases::box_loop(0, 0, 10, 10)), 10);
   document.stocks[0].kind = layout::StockKind::sheet;
@@ -240,11 +240,11 @@ TEST(SheetLane, MakesRoomForTheLastPiece) {
   state.tops = {10};
   state.open_bins = {0};
   for (const std::uint64_t seed : {1, 2, 3}) {
-    SheetLane lane(problem, items, seed, 0);
-    lane.start(state);
-    EXPECT_GT(lane.merit().unplaced, 0);
-    lane.run(20'000);
-    EXPECT_EQ(lane.merit().unplaced, 0) << "seed " << seed;
+    Strand strand(problem, items, seed, 0);
+    strand.start(state);
+    EXPECT_GT(strand.merit().unplaced, 0);
+    strand.run(20'000);
+    EXPECT_EQ(strand.merit().unplaced, 0) << "seed " << seed;
   }
 }
 

@@ -7,8 +7,8 @@
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
-#include "nest/builder.hpp"
-#include "nest/settle.hpp"
+#include "nest/exact/builder.hpp"
+#include "nest/exact/settle.hpp"
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
@@ -152,7 +152,7 @@ TEST(Nest, StopsWithTheBestSoFar) {
   EXPECT_TRUE(layout::check(found->document).empty());
 }
 
-/// What the placer calls free is free by the exact check, whatever the rules.
+/// A place that the placer calls free is free by the exact check, whatever the rules.
 TEST(Placer, WhatItPlacesBreaksNoRule) {
   std::size_t placed = 0;
   for (std::size_t index = 0; index < cases::case_count(30); ++index) {

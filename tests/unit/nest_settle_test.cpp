@@ -1,9 +1,9 @@
-#include "nest/settle.hpp"
+#include "nest/exact/settle.hpp"
 
 #include <gtest/gtest.h>
 
 #include "lekalo/layout/check.hpp"
-#include "nest/builder.hpp"
+#include "nest/exact/builder.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::nest {
@@ -81,7 +81,7 @@ TEST_F(Squares, TheRestFindsAnotherPlace) {
   const Settled whole = settled(*problem_, items_, again);
   EXPECT_TRUE(whole.is_whole);
   EXPECT_EQ(whole.document.placements.size(), 3u);
-  // What was settled already stays to the step.
+  // Items that were settled already stay to the step.
   EXPECT_EQ(again.spots[0].x, rest.spots[0].x);
   EXPECT_EQ(again.spots[2].x, rest.spots[2].x);
 }

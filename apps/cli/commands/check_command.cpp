@@ -3,66 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
-#include "lekalo/io/layout/layout_messages.hpp"
-#include "lekalo/layout/check.hpp"
-#include "lekalo/layout/completeness.hpp"
-#include "lekalo/verify/layout.hpp"
+#include "lekalo/jobs/check.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
 namespace lekalo::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using layout::Document;
 using layout::Violation;
 using layout::ViolationKind;
-
-/// What both checkers say, in one form.
-using Finding = std::tuple<std::string, std::uint64_t, std::uint64_t, std::string, std::int64_t, std::string>;
-
-std::vector<Finding> findings_of(const Document& document, const std::vector<Violation>& violations) {
-  std::vector<Finding> findings;
-  for (const Violation& v : violations)
-    findings.emplace_back(name_of(v.kind), v.a, v.b, document.stocks[v.stock].id, v.copy,
-                          feature_id(document, v));
-  std::sort(findings.begin(), findings.end());
-  return findings;
-}
-
-std::vector<Finding> findings_of(const verify::LayoutVerdict& verdict) {
-  std::vector<Finding> findings;
-  for (const verify::LayoutViolation& v : verdict.violations)
-    findings.emplace_back(name_of(v.kind), v.a, v.b, v.stock, v.copy, v.feature);
-  std::sort(findings.begin(), findings.end());
-  return findings;
-}
-
-std::string text_of(const Finding& finding) {
-  const auto& [kind, a, b, stock, copy, feature] = finding;
-  std::string text = fmt::format("{}: placement {}", kind, a);
-  if (b != 0) text += fmt::format(" and {}", b);
-  if (!feature.empty()) text += fmt::format(" at '{}'", feature);
-  return text + fmt::format(" on '{}' #{}", stock, copy + 1);
-}
-
-/// Findings that only one of the two has.
-std::vector<std::string> disagreements(const std::vector<Finding>& engine,
-                                       const std::vector<Finding>& checker) {
-  std::vector<std::string> texts;
-  std::vector<Finding> only;
-  std::set_difference(engine.begin(), engine.end(), checker.begin(), checker.end(), std::back_inserter(only));
-  for (const Finding& finding : only) texts.push_back("only the engine finds " + text_of(finding));
-  only.clear();
-  std::set_difference(checker.begin(), checker.end(), engine.begin(), engine.end(), std::back_inserter(only));
-  for (const Finding& finding : only)
-    texts.push_back("only the independent checker finds " + text_of(finding));
-  return texts;
-}
 
 std::string sentence(const Document& document, const Violation& v) {
   const auto part_of = [&](std::uint64_t id) {
@@ -115,68 +68,47 @@ std::string sentence(const Document& document, const Violation& v) {
   return text;
 }
 
-}  // namespace
-
-Result<int> run_check(const CheckOptions& o) {
-  const Result<LayoutInput> input = read_layout_input(o.source, {{"--picture", o.picture}});
-  if (!input) return tl::unexpected(input.error());
-  const std::vector<Violation> violations = layout::check(input->document);
-  Result<verify::LayoutVerdict> verdict = verify::verify_layout({o.source.path, input->text});
-  // A layout written by hand may leave to lekalo what the checker does not take from it: polygons of curves,
-  // pairs of angles.
-  if (!verdict) verdict = verify::verify_layout({o.source.path, io::write_layout(input->document)});
-  if (!verdict)
-    return failure(ErrorCode::refuted,
-                   "the independent checker refuses this layout: " + verdict.error().message);
-  const std::vector<std::string> doubts =
-      disagreements(findings_of(input->document, violations), findings_of(*verdict));
-  const bool agree = doubts.empty(), valid = violations.empty();
-
-  disk::AtomicFiles files;
-  if (!o.picture.empty()) {
-    const layout::Completeness completeness = layout::completeness(layout::Workspace(input->document));
-    const Result<std::string> picture =
-        picture_bytes(o.picture, o.source.path, input->document, completeness, violations);
-    if (!picture) return tl::unexpected(picture.error());
-    if (Result<void> done = files.add(o.picture, *picture); !done) return tl::unexpected(done.error());
-  }
-  if (o.json) {
-    Json json = begin_layout_json("lekalo-check",
-                                  !agree  ? "refuted"
-                                  : valid ? "valid"
-                                          : "violations",
-                                  *input);
-    json["valid"] = valid && agree;
-    json["checked_by"] = {"engine", "verify"};
-    json["disagreements"] = doubts;
-    json["violations"] = Json::parse(io::violations_json(input->document, violations));
-    json["run"] = Json::object();
-    if (Result<void> done = print(dumped(json)); !done) return tl::unexpected(done.error());
-  }
-  if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
-
-  std::string text = notes(input->notices);
-  const std::size_t count = input->document.placements.size();
+/// The findings for people; the first two hundred violations a line each.
+std::string text_of(const jobs::Layout& input, const jobs::Checked& checked) {
+  const std::size_t count = input.document.placements.size(), broken = checked.violations.size();
   const std::string placements = counted(count, "placement");
-  if (!agree)
+  std::string text = notes(input.notices);
+  if (!checked.agree())
     text +=
         "The engine and the independent checker do not agree; trust neither, and please report this file.\n";
   else if (count == 0)
     text += "Nothing is placed, so no rule is broken.\n";
-  else if (valid)
+  else if (checked.valid())
     text += fmt::format("Valid: {}, no rule is broken; confirmed by the independent checker.\n", placements);
   else
     text += fmt::format("Not valid: {} among {}; the independent checker finds the same.\n",
-                        counted(violations.size(), "violation"), placements);
-  for (const std::string& doubt : doubts) text += "  " + doubt + "\n";
+                        counted(broken, "violation"), placements);
+  for (const std::string& doubt : checked.disagreements) text += "  " + doubt + "\n";
   constexpr std::size_t kMostLines = 200;
-  for (std::size_t i = 0; i < std::min(violations.size(), kMostLines); ++i)
-    text += fmt::format("  {}  {}\n", i + 1, sentence(input->document, violations[i]));
-  if (violations.size() > kMostLines)
-    text += fmt::format("  and {} more; --json lists all\n", violations.size() - kMostLines);
+  for (std::size_t i = 0; i < std::min(broken, kMostLines); ++i)
+    text += fmt::format("  {}  {}\n", i + 1, sentence(input.document, checked.violations[i]));
+  if (broken > kMostLines) text += fmt::format("  and {} more; --json lists all\n", broken - kMostLines);
+  return text;
+}
+
+}  // namespace
+
+Result<int> run_check(const CheckOptions& o) {
+  LEKALO_TRY(const jobs::Layout input, read_layout_input(o.source, {{"--picture", o.picture}}));
+  LEKALO_TRY(const jobs::Checked checked, jobs::check(input));
+  disk::AtomicFiles files;
+  if (!o.picture.empty()) {
+    LEKALO_TRY(const std::string picture,
+               picture_bytes(o.picture, o.source.path, input.document, checked.violations));
+    LEKALO_CHECK(files.add(o.picture, picture));
+  }
+  if (o.json) LEKALO_CHECK(print(jobs::check_json(input, checked)));
+  LEKALO_CHECK(files.commit());
+  std::string text = text_of(input, checked);
   if (!o.picture.empty()) text += fmt::format("Written: {}\n", o.picture);
   tell(text);
-  return !agree ? exit_status(ErrorCode::refuted) : valid ? 0 : 1;
+  if (!checked.agree()) return exit_status(ErrorCode::refuted);
+  return checked.valid() ? 0 : 1;
 }
 
 }  // namespace lekalo::cli

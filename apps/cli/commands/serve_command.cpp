@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the layouts are when nobody says: among the user's data.
+/// The file of the layouts when nobody names one: among the user's data.
 Result<std::string> usual_store() {
   const char* const data = std::getenv("XDG_DATA_HOME");
   const char* const home = std::getenv("HOME");
@@ -44,19 +44,17 @@ Result<std::string> usual_store() {
 /// The file as a layout of the store: the one that was made from the same bytes before, with all that was
 /// done to it since, or a new one.
 Result<server::LayoutId> layout_of_file(server::Store& store, const LayoutSource& source) {
-  const Result<LayoutInput> input = read_layout_input(source, {});
-  if (!input) return tl::unexpected(input.error());
-  for (const std::string& notice : input->notices) tell("note: " + notice + "\n");
-  const Result<std::optional<server::LayoutId>> known = store.find_origin(input->sha256);
-  if (!known) return tl::unexpected(known.error());
-  if (*known) {
+  LEKALO_TRY(const jobs::Layout input, read_layout_input(source, {}));
+  tell(notes(input.notices));
+  LEKALO_TRY(const std::optional<server::LayoutId> known, store.find_origin(input.sha256));
+  if (known) {
     tell(fmt::format("{} was opened before; here is what became of it (its first state is in the history)\n",
                      source.path));
-    return **known;
+    return *known;
   }
-  const std::string& name = input->document.name;
-  return store.create(name.empty() ? fs::path(source.path).stem().string() : name, input->document,
-                      input->sha256);
+  const std::string& name = input.document.name;
+  return store.create(name.empty() ? fs::path(source.path).stem().string() : name, input.document,
+                      input.sha256);
 }
 
 }  // namespace
@@ -66,22 +64,15 @@ Result<int> run_serve(const ServeOptions& o) {
   options.address = o.listen;
   options.port = o.port;
   options.token = o.token;
-  const Result<bool> loopback = server::is_loopback(o.listen);
-  if (!loopback) return tl::unexpected(loopback.error());
-  if (!*loopback && options.token.empty()) {
-    Result<std::string> token = server::random_token();
-    if (!token) return tl::unexpected(token.error());
-    options.token = std::move(*token);
+  LEKALO_TRY(const bool loopback, server::is_loopback(o.listen));
+  if (!loopback && options.token.empty()) {
+    LEKALO_TRY(options.token, server::random_token());
   }
-  const Result<std::string> path = o.store.empty() ? usual_store() : o.store;
-  if (!path) return tl::unexpected(path.error());
-  Result<server::Store> store = server::Store::open(*path);
-  if (!store) return tl::unexpected(store.error());
+  LEKALO_TRY(const std::string path, o.store.empty() ? usual_store() : o.store);
+  LEKALO_TRY(server::Store store, server::Store::open(path));
   std::optional<server::LayoutId> opened;
   if (!o.source.path.empty()) {
-    const Result<server::LayoutId> id = layout_of_file(*store, o.source);
-    if (!id) return tl::unexpected(id.error());
-    opened = *id;
+    LEKALO_TRY(opened, layout_of_file(store, o.source));
   }
   const auto listening = [&](const std::string& url) {
     std::string said = "listening " + url + "\n";
@@ -93,8 +84,7 @@ Result<int> run_serve(const ServeOptions& o) {
       return {};
     });
   };
-  if (Result<void> done = server::serve(options, std::move(*store), listening); !done)
-    return tl::unexpected(done.error());
+  LEKALO_CHECK(server::serve(options, std::move(store), listening));
   return 0;
 }
 

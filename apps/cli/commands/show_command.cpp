@@ -4,42 +4,31 @@
 
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
-#include "lekalo/io/layout/layout_messages.hpp"
-#include "lekalo/layout/check.hpp"
-#include "lekalo/layout/completeness.hpp"
+#include "lekalo/jobs/show.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
 namespace lekalo::cli {
 
 Result<int> run_show(const ShowOptions& o) {
-  const Result<LayoutInput> input = read_layout_input(o.source, {{"--picture", o.picture}});
-  if (!input) return tl::unexpected(input.error());
-  const std::vector<layout::Violation> violations = layout::check(input->document);
-  const layout::Completeness completeness = layout::completeness(layout::Workspace(input->document));
+  LEKALO_TRY(const jobs::Layout input, read_layout_input(o.source, {{"--picture", o.picture}}));
+  const layout::Document& document = input.document;
+  const jobs::Shown shown = jobs::show(document);
   disk::AtomicFiles files;
   if (!o.picture.empty()) {
-    const Result<std::string> picture =
-        picture_bytes(o.picture, o.source.path, input->document, completeness, violations);
-    if (!picture) return tl::unexpected(picture.error());
-    if (Result<void> done = files.add(o.picture, *picture); !done) return tl::unexpected(done.error());
+    LEKALO_TRY(const std::string picture,
+               picture_bytes(o.picture, o.source.path, document, shown.violations));
+    LEKALO_CHECK(files.add(o.picture, picture));
   }
-  if (o.json) {
-    nlohmann::ordered_json json = begin_layout_json("lekalo-show", "shown", *input);
-    json.update(nlohmann::ordered_json::parse(io::completeness_json(input->document, completeness)));
-    json["violations"] = violations.size();
-    json["run"] = nlohmann::ordered_json::object();
-    if (Result<void> done = print(dumped(json)); !done) return tl::unexpected(done.error());
-  }
-  if (Result<void> done = files.commit(); !done) return tl::unexpected(done.error());
-  std::string text = notes(input->notices);
-  text += fmt::format("{}: {} placed, {}, {}\n",
-                      input->document.name.empty() ? o.source.path : input->document.name,
-                      input->document.placements.size(), counted(input->document.parts.size(), "part"),
-                      counted(input->document.stocks.size(), "stock"));
-  text += completeness_text(input->document, completeness);
-  if (!violations.empty())
-    text += counted(violations.size(), "violation") + "; lekalo check says which and where\n";
+  if (o.json) LEKALO_CHECK(print(jobs::show_json(input, shown)));
+  LEKALO_CHECK(files.commit());
+  std::string text = notes(input.notices);
+  text += fmt::format("{}: {} placed, {}, {}\n", document.name.empty() ? o.source.path : document.name,
+                      document.placements.size(), counted(document.parts.size(), "part"),
+                      counted(document.stocks.size(), "stock"));
+  text += completeness_text(document, shown.completeness);
+  if (!shown.violations.empty())
+    text += counted(shown.violations.size(), "violation") + "; lekalo check says which and where\n";
   if (!o.picture.empty()) text += fmt::format("Written: {}\n", o.picture);
   tell(text);
   return 0;

@@ -7,13 +7,13 @@
 namespace lekalo::cli {
 namespace {
 
-constexpr std::array kExportFormats{Word<ExportFormat>{"layout", ExportFormat::layout},
-                                    Word<ExportFormat>{"placements", ExportFormat::placements},
-                                    Word<ExportFormat>{"dxf", ExportFormat::machine},
-                                    Word<ExportFormat>{"svg", ExportFormat::machine},
-                                    Word<ExportFormat>{"pdf", ExportFormat::pdf},
-                                    Word<ExportFormat>{"hpgl", ExportFormat::machine},
-                                    Word<ExportFormat>{"gcode", ExportFormat::machine}};
+constexpr std::array kExportFormats{Word<jobs::LayoutForm>{"layout", jobs::LayoutForm::layout},
+                                    Word<jobs::LayoutForm>{"placements", jobs::LayoutForm::placements},
+                                    Word<jobs::LayoutForm>{"dxf", jobs::LayoutForm::machine},
+                                    Word<jobs::LayoutForm>{"svg", jobs::LayoutForm::machine},
+                                    Word<jobs::LayoutForm>{"pdf", jobs::LayoutForm::pdf},
+                                    Word<jobs::LayoutForm>{"hpgl", jobs::LayoutForm::machine},
+                                    Word<jobs::LayoutForm>{"gcode", jobs::LayoutForm::machine}};
 
 /// The words as they were typed.
 struct ExportWords {
@@ -31,22 +31,22 @@ void add_machine_words(CLI::App& command, ExportWords& w) {
 }
 
 Result<Command> to_export(const ExportWords& w) {
-  ExportFormat format = ExportFormat::layout;
+  jobs::ExportOptions form;
+  form.instance_name = w.instance_name;
   WordReader reader;
-  if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, format);
+  if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, form.form);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
-  io::ExportRequest request;
   std::vector<io::ExportWord> given;
   for (const io::ExportWord& word : w.machine)
     if (!word.second.empty()) given.push_back(word);
-  if (format == ExportFormat::machine) {
-    LEKALO_TRY(request, io::read_export_words(*io::export_form(w.format), given, "--"));
+  if (form.form == jobs::LayoutForm::machine) {
+    LEKALO_TRY(form.machine, io::read_export_words(*io::export_form(w.format), given, "--"));
   } else if (!given.empty()) {
     return failure(ErrorCode::usage, fmt::format("--{} has no meaning for the form {}", given.front().first,
                                                  w.format.empty() ? "layout" : w.format));
   }
   return to_layout_source(w.layout).map([&](LayoutSource&& source) {
-    return Command(ExportOptions{std::move(source), format, w.output, w.instance_name, std::move(request)});
+    return Command(ExportOptions{std::move(source), w.output, std::move(form)});
   });
 }
 

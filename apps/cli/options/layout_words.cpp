@@ -1,5 +1,6 @@
 #include "layout_words.hpp"
 
+#include "lekalo/jobs/show.hpp"
 #include "option_words.hpp"
 
 namespace lekalo::cli {
@@ -30,28 +31,19 @@ void add_layout_outputs(CLI::App& command, LayoutWords& w) {
 }
 
 Result<LayoutSource> to_layout_source(const LayoutWords& w) {
-  LayoutSource source{w.path, w.instance, std::nullopt, std::nullopt, std::nullopt, w.layers};
+  LayoutSource source{w.path, w.instance, {}};
+  source.parts.drawing.take = w.layers;
   WordReader reader;
-  if (!w.units.empty()) {
-    LengthUnit unit{};
-    reader.choice("--units", w.units, kUnits, unit);
-    source.units = unit;
-  }
-  const auto length = [&](const char* option, const std::string& word, double low,
-                          std::optional<double>& value) {
-    if (word.empty()) return;
-    double mm = 0;
-    reader.number(option, word, low, 1000.0, "a number of millimetres", mm);
-    value = mm;
-  };
-  length("--chord-tolerance", w.chords, 0x1p-16, source.chord_tolerance);
-  length("--join", w.join, 0.0, source.join);
+  if (!w.units.empty()) reader.choice("--units", w.units, kUnits, source.parts.unit.emplace());
+  constexpr const char* kLength = "a number of millimetres";
+  reader.number("--chord-tolerance", w.chords, 0x1p-16, 1000.0, kLength, source.parts.chord_tolerance);
+  reader.number("--join", w.join, 0.0, 1000.0, kLength, source.parts.drawing.join_tolerance);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
   return source;
 }
 
 Result<void> fine_picture(const std::string& path) {
-  if (path.empty() || path.ends_with(".svg") || path.ends_with(".png") || path.ends_with(".pdf")) return {};
+  if (path.empty() || jobs::picture_form(path)) return {};
   return failure(
       ErrorCode::usage,
       fmt::format("--picture {}: the name has to end in .svg, .png or .pdf, which says what is drawn", path));

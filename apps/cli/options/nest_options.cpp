@@ -16,23 +16,24 @@ struct NestWords {
 
 Result<Command> to_nest(const NestWords& w) {
   LEKALO_CHECK(fine_picture(w.layout.picture));
-  LEKALO_TRY(LayoutSource source, to_layout_source(w.layout));
   NestOptions o;
-  o.source = std::move(source);
+  LEKALO_TRY(o.source, to_layout_source(w.layout));
   o.output = w.output;
   o.stream = w.stream;
-  o.from_scratch = w.from_scratch;
+  o.search.from_given = !w.from_scratch;
   o.picture = w.layout.picture;
   o.json = w.layout.json;
   WordReader read;
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
-  read.number("--seed", w.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
+  read.number("--seed", w.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1",
+              o.search.seed);
   read.number("--work", w.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
-  read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.threads);
+  read.number("--threads", w.threads, 1u, 64u, "a whole number from 1 to 64", o.search.threads);
   read.number("--angles", w.angles, std::size_t{1}, std::size_t{360}, "a whole number from 1 to 360",
-              o.angles);
+              o.search.angles);
   if (!w.pairs.empty())
-    read.number("--pairs", w.pairs, 0.001, 1e6, "a distance from 0.001 to 1,000,000 mm", o.pair_distance);
+    read.number("--pairs", w.pairs, 0.001, 1e6, "a distance from 0.001 to 1,000,000 mm",
+                o.search.pair_distance);
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);

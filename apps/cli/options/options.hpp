@@ -9,8 +9,10 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
-#include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/io/formats/part_file.hpp"
 #include "lekalo/io/scan/scan_file.hpp"
+#include "lekalo/jobs/export.hpp"
+#include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/pocket.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/guaranteed_blank.hpp"
@@ -81,9 +83,7 @@ struct VerifyOptions {
 struct LayoutSource {
   std::string path;
   std::string instance;  ///< of placements: the file of the items; empty: where they say
-  std::optional<LengthUnit> units;
-  std::optional<double> chord_tolerance, join;  ///< mm
-  std::vector<std::string> layers;              ///< of drawings; empty: all that are shown
+  io::PartOptions parts;
 };
 
 /// A program that ran before with a tool of its own.
@@ -122,14 +122,10 @@ struct ShowOptions {
   bool json = false;
 };
 
-enum class ExportFormat { layout, placements, pdf, machine };
-
 struct ExportOptions {
   LayoutSource source;
-  ExportFormat format = ExportFormat::layout;
-  std::string output;         ///< empty: stdout
-  std::string instance_name;  ///< what placements name as their instance; empty: as the input does
-  io::ExportRequest request;  ///< of ExportFormat::machine: DXF, SVG, HPGL, G-code
+  std::string output;  ///< empty: stdout
+  jobs::ExportOptions form;
 };
 
 struct EditOptions {
@@ -141,13 +137,9 @@ struct NestOptions {
   LayoutSource source;
   std::string output, picture;  ///< may be empty; output: stdout, unless the report goes there
   std::string stream;           ///< every better layout; may be empty
-  double pair_distance = 0;     ///< mm; 0: pairs lie anywhere
-  bool from_scratch = false;    ///< what lies there and is not locked is dropped, not improved
+  jobs::NestOptions search;
   std::optional<double> seconds;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t seed = 0;
-  unsigned threads = 2;
-  std::size_t angles = 24;  ///< of parts that may be turned anyhow
   bool json = false;
 };
 

@@ -14,6 +14,10 @@ struct OpenOptions {
   io::PartOptions parts;  ///< its unit counts for jobs of other programs too
 };
 
+/// Finds the items of the placements in the file `path` on the disk: in `instance`, or, where that is empty,
+/// as OpenOptions says.
+[[nodiscard]] io::FindItems items_near(std::string path, std::string instance);
+
 /// io::read_any_layout of a file; the items of a file of placements are read from the disk too.
 [[nodiscard]] Result<io::LayoutFile> open_layout(const std::string& path, const OpenOptions& options = {});
 

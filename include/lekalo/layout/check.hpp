@@ -11,7 +11,7 @@
 
 namespace lekalo::layout {
 
-/// What can be wrong with a layout. Decided exactly on the grid (phi/outline_relation.hpp).
+/// The rules that a layout can break. They are decided exactly on the grid (phi/outline_relation.hpp).
 enum class ViolationKind : std::uint8_t {
   overlap,     ///< two parts have material in common
   gap,         ///< two parts are nearer than their gap
@@ -59,23 +59,23 @@ struct Violation {
 /// parts whose boxes come within their gap, times their edges). \pre indices and ids are as Document says
 [[nodiscard]] std::vector<Violation> check(const Document& document);
 
-/// Whether it is also found out how to end an overlap, a reach outside, into a defect or a zone. That costs a
-/// hundred times what finding them costs.
+/// Says whether to find out too how to end an overlap, a reach outside, into a defect or a zone: it costs a
+/// hundred times as much as finding them.
 enum class Depths : std::uint8_t {
   measured,
   left_out  ///< amount and direction of these kinds are 0, `at` is the placement's
 };
 
-/// What check() would say of a document with these placements, only of those that one of `of` has a part in:
+/// The violations that check() finds in a document with these placements, as far as one of `of` is in them:
 /// alone, with another of `of`, or with one of `with`. Both ascending by id; ids and the document's own
 /// placements do not matter. What lies on different sheets does not meet. In the order of check().
 [[nodiscard]] std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
                                                 std::span<const Placement> with,
                                                 Depths depths = Depths::measured);
 
-/// What check() is made of. Outlines are those of placed_outline().
+/// The checks that check() is made of. Outlines are those of placed_outline().
 
-/// Of rotation, mirror, grain and stock.
+/// Adds the violations of rotation, mirror, grain and stock.
 void add_own_violations(const Document& document, const Placement& placement, std::vector<Violation>& to);
 /// outside, or else border_gap.
 [[nodiscard]] std::optional<Violation> border_violation(const Document& document, const Placement& placement,

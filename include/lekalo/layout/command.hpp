@@ -161,8 +161,8 @@ enum class Mode : std::uint8_t {
   free     ///< it is, and shown as violations
 };
 
-/// What a command changes: placements and features before and after. Undoing it is putting back what was
-/// before, the features in reverse order.
+/// Everything that a command changes: placements and features before and after. Undoing it is putting back
+/// what was before, the features in reverse order.
 struct PlacementChange {
   std::optional<Placement> before, after;  ///< at least one, of one id
   friend bool operator==(const PlacementChange&, const PlacementChange&) = default;
@@ -177,7 +177,7 @@ struct Change {
   friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// What a command would do, or why it may not.
+/// Works out what a command would do, or why it may not.
 ///
 /// Strict: fails with ErrorCode::refuted, in one sentence with the first violation, when a placement that it
 /// changes would break a rule. (Removing and locking break none.) Free: only commands that slide insist on
@@ -192,7 +192,7 @@ struct Change {
                                   const RunControl& run = {});
 
 void carry_out(Workspace& workspace, const Change& change);
-/// The same on a document alone. \pre stocks and parts are there
+/// Carries a change out on a document alone. \pre stocks and parts are there
 void carry_out(Document& document, const Change& change);
 void take_back(Workspace& workspace, const Change& change);
 

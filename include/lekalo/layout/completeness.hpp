@@ -66,7 +66,7 @@ struct KitsMade {
 /// \param placed  by part
 [[nodiscard]] KitsMade kits_made(const Document& document, std::vector<PieceCount> placed);
 
-/// What the placements are to the kits.
+/// The kits that the placements serve.
 struct KitsServed {
   std::vector<PieceCount> placed;  ///< by part
   std::vector<KitCount> kits;      ///< by kit

@@ -103,10 +103,10 @@ struct Stock {
   std::vector<QualityZone> zones;
   friend bool operator==(const Stock&, const Stock&) = default;
 };
-/// Where a strip of open length ends, in steps: 262,144 mm.
+/// A strip of open length ends here, in steps: 262,144 mm.
 inline constexpr std::int64_t kLongestStrip = geom::kGridLimit / 4;
 
-/// So many pieces of a part in one kit.
+/// The pieces of one part in a kit.
 struct KitPiece {
   std::uint32_t part = 0;        ///< index into Document::parts
   std::int64_t count = 1;        ///< >= 1
@@ -114,7 +114,7 @@ struct KitPiece {
   friend bool operator==(const KitPiece&, const KitPiece&) = default;
 };
 
-/// What makes one product.
+/// The pieces that make one product.
 struct Kit {
   std::string id;
   std::string name;
@@ -158,10 +158,10 @@ struct Document {
 /// The outline where it lies: turned, mirrored, moved.
 [[nodiscard]] geom::GridRegion placed_outline(const Part& part, const Placement& placement);
 
-/// Whether a part may lie at this rotation: its set of angles, decided on the exact pairs of the ends.
+/// Says whether a part may lie at this rotation: its set of angles, decided on the exact pairs of the ends.
 [[nodiscard]] bool rotation_allowed(const Part& part, geom::GridRotation rotation);
-/// Whether its grain follows the stock's closely enough; true where either has none. A mirrored part's grain
-/// is mirrored with it.
+/// Says whether its grain follows the stock's closely enough; true where either has none. A mirrored part's
+/// grain is mirrored with it.
 [[nodiscard]] bool grain_allowed(const Part& part, const Stock& stock, geom::GridRotation rotation,
                                  bool mirrored);
 

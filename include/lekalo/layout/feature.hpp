@@ -11,7 +11,7 @@
 
 namespace lekalo::layout {
 
-/// What is drawn on a stock by hand: defects and quality zones, one at a time.
+/// A feature is what people draw on a stock: a defect or a quality zone.
 enum class FeatureKind : std::uint8_t { defect, zone };
 /// "defect", "zone".
 [[nodiscard]] std::string_view name_of(FeatureKind kind) noexcept;
@@ -32,7 +32,7 @@ struct Feature {
   friend bool operator==(const Feature&, const Feature&) = default;
 };
 
-/// What becomes of one feature. `index` is its place in the list of its kind on the stock, before the change
+/// A change of one feature. `index` is its place in the list of its kind on the stock, before the change
 /// where it goes, after it where it comes.
 struct FeatureChange {
   std::uint32_t stock = 0;
@@ -49,7 +49,7 @@ struct FeatureChange {
 [[nodiscard]] std::optional<std::uint32_t> find_feature(const Stock& stock, FeatureKind kind,
                                                         std::string_view id) noexcept;
 
-/// Where a feature came to lie, and whether it is a new one there.
+/// The place of a feature in its list, and whether it is a new one there.
 struct FeaturePlace {
   std::uint32_t index = 0;
   bool is_new = false;
@@ -60,7 +60,7 @@ FeaturePlace put_feature(Stock& stock, std::uint32_t index, const Feature& featu
 /// \pre index < feature_count
 void take_feature(Stock& stock, FeatureKind kind, std::uint32_t index);
 
-/// From the features of one document to those of another with the same stocks: carried out in this order.
+/// The changes from the features of one document to those of another with the same stocks, in order.
 [[nodiscard]] std::vector<FeatureChange> feature_difference(const Document& from, const Document& to);
 
 }  // namespace lekalo::layout

@@ -55,8 +55,8 @@ class Workspace {
                                                        std::uint32_t index,
                                                        Depths depths = Depths::measured) const;
 
-  /// Whether these placements, in place of those with their ids, break no rule, neither against all others
-  /// nor among themselves. Their ids need not exist.
+  /// Says whether these placements, in place of those with their ids, break no rule, neither against all
+  /// others nor among themselves. Their ids need not exist.
   [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
   /// Every violation that one of them would have a part in, in place of those with their ids, in the order of
   /// check().
@@ -80,7 +80,7 @@ class Workspace {
   /// Puts bodies of a scene into that order.
   void sort_bodies(Sheet sheet, std::vector<phi::BodyIndex>& bodies) const;
 
-  /// Whether a body counts for a part at all: a defect it does not tolerate, a zone too bad for some of it.
+  /// Says whether a body counts for a part: a defect it does not tolerate, a zone too bad for some of it.
   [[nodiscard]] bool concerns(const Part& part, Sheet sheet, phi::BodyIndex body) const;
 
   /// Takes placements out of their scenes while it lives, so that only the others forbid.
@@ -95,7 +95,7 @@ class Workspace {
     const Workspace& workspace_;
     std::vector<std::uint64_t> ids_;
   };
-  /// Whether one placement breaks no rule against what lies in its sheet's scene now: both of the following.
+  /// Says whether one placement breaks no rule against what lies in its scene now: both of the following.
   [[nodiscard]] bool is_clear_of_scene(const Placement& placement) const {
     return may_be_so(placement) && has_room(placement);
   }

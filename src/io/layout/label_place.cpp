@@ -27,7 +27,7 @@ double row_of(const geom::GridBox& box, int k, int n) {
   return static_cast<double>(box.low.y) + static_cast<double>(box.high.y - box.low.y) * k / n + 0.5;
 }
 
-/// Whether an edge comes into the box, mm.
+/// Says whether an edge comes into the box, mm.
 bool crosses_box(const geom::GridRegion& outline, const geom::Box& box) {
   for (std::size_t l = 0; l < outline.loops(); ++l) {
     const std::uint32_t begin = outline.loop_starts[l], end = outline.loop_starts[l + 1];
@@ -80,7 +80,7 @@ LabelFit fitted_label(const geom::GridRegion& outline, double wide, double least
   const geom::GridBox box = bounds(outline);
   LabelFit best;
   for (int k = 1; k < kRows; ++k) {
-    // From the middle outwards: 6, 5, 7, 4, 8 ...
+    // The rows are tried from the middle outwards: 6, 5, 7, 4, 8 ...
     const double y = row_of(box, kRows / 2 + (k % 2 == 0 ? -k / 2 : k / 2), kRows);
     const std::vector<double> crossings = crossings_at(outline, y);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {

@@ -1,4 +1,4 @@
-// From JSON to a layout document, with its rules.
+// Reads a layout document from JSON and holds it to its rules.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ constexpr std::int64_t kMostLevel = 1'000'000;  ///< qualities, severities, prio
 constexpr std::int64_t kLargestId = (std::int64_t{1} << 53) - 1;
 constexpr double kMostMoney = 1e12;
 constexpr std::string_view kFormat = "lekalo-layout/1";
-// What commands make can be read again.
+// The limits of commands are those of files, so that what commands make can be read again.
 static_assert(layout::kMostSeverity == kNeverTolerated && layout::kMostQuality == kMostLevel &&
               layout::kMostFeaturePoints == kMostOutlinePoints && layout::kLongestFeatureId == kLongestText);
 
@@ -420,16 +420,14 @@ Result<LayoutFile> read_layout_tree(const JsonTree& tree, const std::string& nam
 }  // namespace detail
 
 Result<LayoutFile> read_layout(std::string_view bytes, const std::string& name) {
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  return detail::read_layout_tree(*tree, name);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  return detail::read_layout_tree(tree, name);
 }
 
 Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
                                      const std::string& name) {
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  detail::JsonReader reader(*tree, name);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  detail::JsonReader reader(tree, name);
   layout::Feature feature = detail::LayoutReader(reader).read_feature(kind);
   if (!reader.ok()) return tl::unexpected(reader.fault());
   return feature;

@@ -139,15 +139,14 @@ std::vector<GridPoint> read_loop(JsonReader& reader, JsonValue list, double mm_p
 }
 
 Result<Outline> outline_of_curves(const geom::Region& region, geom::ChordSide side, double chord_tolerance) {
-  auto polygon = geom::grid_region_of_curves(region, side, chord_tolerance);
-  if (!polygon) return tl::unexpected(polygon.error());
-  if (polygon->points.size() > kMostOutlinePoints)
+  LEKALO_TRY(auto polygon, geom::grid_region_of_curves(region, side, chord_tolerance));
+  if (polygon.points.size() > kMostOutlinePoints)
     return failure(ErrorCode::bad_input,
                    fmt::format("{} points with chords within {} mm; at most {} are taken: a larger tolerance "
                                "needs fewer",
-                               polygon->points.size(), chord_tolerance, kMostOutlinePoints));
+                               polygon.points.size(), chord_tolerance, kMostOutlinePoints));
   Outline outline;
-  outline.polygon = *std::move(polygon);
+  outline.polygon = std::move(polygon);
   if (has_arcs(region)) {
     outline.curves.push_back(region);
     outline.chord_tolerance_mm = chord_tolerance;

@@ -11,7 +11,7 @@ namespace lekalo::io::detail {
 /// read_layout of bytes that are a tree already.
 [[nodiscard]] Result<LayoutFile> read_layout_tree(const JsonTree& tree, const std::string& name);
 
-/// From (0, 0), in steps.
+/// A rectangle from (0, 0), in steps.
 [[nodiscard]] geom::GridRegion rectangle(std::int64_t along, std::int64_t across);
 
 }  // namespace lekalo::io::detail

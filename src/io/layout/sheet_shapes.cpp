@@ -52,7 +52,8 @@ struct Motion {
   }
 };
 
-/// Whether the polygon is what the drawing gives, so that they lie as near to each other as grid_region says.
+/// Says whether the polygon is what the drawing gives, so that they lie as near to each other as grid_region
+/// says.
 bool is_of_curves(const layout::Outline& outline, geom::ChordSide side) {
   if (outline.curves.empty()) return false;
   const auto made = geom::grid_region_of_curves(outline.curves.front(), side, outline.chord_tolerance_mm);
@@ -118,7 +119,7 @@ std::vector<Point> grain_line(const layout::Part& part, const Placement& placeme
   return {middle - half * way, middle + half * way};
 }
 
-/// How many other parts lie around each: in how many of their holes it is.
+/// Counts for each part the others that lie around it: in how many of their holes it is.
 std::vector<std::size_t> depths(const std::vector<PlacedShape>& parts,
                                 const std::vector<GridRegion>& outlines) {
   std::vector<std::size_t> depth(parts.size(), 0);
@@ -200,7 +201,7 @@ class SheetMaker {
     outlines.push_back(outline);
   }
 
-  /// Of a strip, as long as it is used.
+  /// The stock's outline; that of a strip is as long as it is used.
   static geom::Region material(const layout::Stock& stock, const std::vector<GridRegion>& outlines,
                                GridPoint shift) {
     const geom::GridBox box = bounds(stock.outline.polygon);
@@ -229,7 +230,7 @@ class SheetMaker {
   std::vector<bool> with_arcs_;
 };
 
-/// As far as the sheet and its parts reach to the right and left, mm.
+/// The box around the sheet's material and its parts, mm.
 geom::Box extent(const SheetShapes& sheet) {
   geom::Box box = geom::bounds(sheet.material.outer);
   for (const PlacedShape& part : sheet.parts) {
@@ -282,7 +283,7 @@ std::vector<SheetShapes> sheet_shapes(const Document& document, const std::vecto
   for (const Sheet& sheet : sheets) {
     SheetShapes shapes = maker.make(sheet, {});
     if (side_by_side && !made.empty()) {
-      // Whole tens of millimetres, so that coordinates keep their decimals.
+      // The sheets stand apart by whole tens of millimetres, so that coordinates keep their decimals.
       const geom::Box before = extent(made.back()), box = extent(shapes);
       const double space = std::max(20.0, 0.05 * (before.high.x - before.low.x));
       const double by = 10 * std::ceil((before.high.x + space - box.low.x) / 10);

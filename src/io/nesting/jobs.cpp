@@ -324,9 +324,8 @@ std::optional<NestingForm> nesting_form(std::string_view bytes) {
 
 Result<LayoutFile> read_nesting(std::string_view bytes, const std::string& name,
                                 std::optional<LengthUnit> unit) {
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  const auto form = detail::form_of(*tree);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  const auto form = detail::form_of(tree);
   if (!form)
     return failure(ErrorCode::bad_input,
                    name +
@@ -335,7 +334,7 @@ Result<LayoutFile> read_nesting(std::string_view bytes, const std::string& name,
   if (*form == NestingForm::placements)
     return failure(ErrorCode::bad_input,
                    name + ": placements alone; the file of the items that they place is needed too");
-  return detail::read_nesting_tree(*tree, name, *form, unit);
+  return detail::read_nesting_tree(tree, name, *form, unit);
 }
 
 }  // namespace lekalo::io

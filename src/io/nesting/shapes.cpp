@@ -24,7 +24,7 @@ bool is_spike(GridPoint a, GridPoint b, GridPoint c) {
   return geom::cross(b - a, c - b) == 0 && geom::dot(b - a, c - b) < 0;
 }
 
-/// Without the tips of spikes, exactly: what the loop winds around stays the same. The number of tips
+/// Takes off the tips of spikes, exactly: what the loop winds around stays the same. The number of tips
 /// dropped.
 std::size_t without_spikes(std::vector<GridPoint>& loop) {
   std::vector<GridPoint> kept;

@@ -4,7 +4,7 @@
 
 namespace lekalo::io {
 
-/// Where an outline has room for its name.
+/// The place where an outline has room for its name.
 struct LabelPlace {
   geom::Point at;        ///< mm, in the material: the middle of the widest of a few rows
   double width_mm = 0;   ///< of the material there

@@ -24,7 +24,7 @@ namespace lekalo::io {
 /// Fails with ErrorCode::bad_input as read_layout does; `name` stands for the file.
 [[nodiscard]] Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
                                                    const std::string& name);
-/// What became of features, as docs/protocol.md has it. Cost: O(points).
+/// The changes of features as docs/protocol.md has them. Cost: O(points).
 [[nodiscard]] std::string features_json(const layout::Document& document,
                                         const std::vector<layout::FeatureChange>& changes);
 
@@ -32,8 +32,8 @@ namespace lekalo::io {
 [[nodiscard]] std::string violations_json(const layout::Document& document,
                                           const std::vector<layout::Violation>& violations);
 
-/// What is placed and what is missing, as `lekalo show --json` has it: docs/cli.md. Cost: O(parts, kits and
-/// sheets).
+/// The pieces that are placed and those that are missing, as `lekalo show --json` has it: docs/cli.md. Cost:
+/// O(parts, kits and sheets).
 [[nodiscard]] std::string completeness_json(const layout::Document& document,
                                             const layout::Completeness& completeness);
 /// Its "kits" alone. Cost: O(kits).

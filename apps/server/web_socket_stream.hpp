@@ -1,0 +1,18 @@
+#pragma once
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <utility>
+
+#include "web_socket.hpp"
+
+namespace lekalo::server {
+
+/// For the files that implement WebSocket.
+struct WebSocket::Stream {
+  explicit Stream(boost::asio::ip::tcp::socket&& connection) : socket(std::move(connection)) {}
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket;
+  boost::beast::flat_buffer incoming;
+};
+
+}  // namespace lekalo::server

@@ -1,0 +1,11 @@
+#include "web_socket_stream.hpp"
+
+namespace lekalo::server {
+
+void WebSocket::write(std::string_view bytes, Done done) {
+  stream_->socket.async_write(
+      boost::asio::buffer(bytes.data(), bytes.size()),
+      [done = std::move(done)](boost::system::error_code error, std::size_t) { done(!error); });
+}
+
+}  // namespace lekalo::server

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/jobs/layout.hpp"
+
+namespace lekalo::jobs {
+
+enum class LayoutForm {
+  layout,      ///< "lekalo-layout/1"
+  placements,  ///< of the first strip in use, as other nesting programs read them
+  pdf,         ///< the picture and its tables
+  png,         ///< the picture
+  machine      ///< DXF, SVG, HPGL or G-code, as ExportOptions::machine says
+};
+
+struct ExportOptions {
+  LayoutForm form = LayoutForm::layout;
+  std::string title;          ///< of pictures and machine files; empty: the document's name, or its file's
+  std::string instance_name;  ///< what placements name as the file of their items; empty: the layout's
+  io::ExportRequest machine;  ///< of LayoutForm::machine
+};
+
+/// The layout in another form, whatever rules it breaks: one file, but for HPGL and G-code one for each
+/// sheet. Cost: that of the form's writer; pictures are drawn with what the engine's check finds.
+///
+/// Fails as io::write_placements, io::export_layout and layout_picture do; sentences begin with the name of
+/// the layout's file where it has one.
+[[nodiscard]] Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options);
+
+}  // namespace lekalo::jobs

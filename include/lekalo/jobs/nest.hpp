@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/run_control.hpp"
+#include "lekalo/jobs/layout.hpp"
+#include "lekalo/layout/completeness.hpp"
+#include "lekalo/nest/nest.hpp"
+
+namespace lekalo::jobs {
+
+/// Figures of the best layout so far, for those who watch. They are no result: no check confirms them.
+struct NestStanding {
+  double density = 0;    ///< share of the material in use that the parts cover, in [0, 1]
+  double length_mm = 0;  ///< how far the parts reach on the last sheet or strip in use
+  std::size_t sheets = 0;
+  std::int64_t kits_complete = 0, kits_wanted = 0;
+};
+
+struct NestOptions {
+  std::uint64_t seed = 0;
+  unsigned threads = 2;     ///< 1 to 64; changes the speed and nothing else
+  std::size_t angles = 24;  ///< tried of parts that may be turned anyhow; 1 to 360
+  bool from_given =
+      true;  ///< placements that are not locked are where the search begins; else they are dropped
+  double pair_distance = 0;  ///< mm; > 0: left and right pieces of a kit lie so near one another, middle to
+                             ///< middle
+  /// Ids of the only placements that may move, ascending: everything else stays, and nothing is added. Empty:
+  /// all that are not locked, and what is wanted and not there is added.
+  std::vector<std::uint64_t> only;
+  /// Takes every better layout as it is found, and its bytes, after both checks of it, from the calling
+  /// thread. Its failure, like that of a check, ends what is handed out, and nest fails with it at the end.
+  /// May be empty: then the checks are not run.
+  std::function<Result<void>(const layout::Document& better, std::string_view bytes)> improved;
+  std::function<void(const NestStanding&)> standing;  ///< called at the same moments; may be empty
+};
+
+struct Nested {
+  layout::Document document;  ///< the given one with other placements; both checks find no broken rule
+  std::string bytes;          ///< the document as "lekalo-layout/1": what the independent checker read
+  std::vector<nest::Unplaced> unplaced;  ///< by part
+  std::uint64_t work = 0, merges = 0;    ///< as in nest::Nested; the work is the limit that repeats the run
+  layout::Completeness completeness;
+};
+
+/// Places what a layout wants on its stock (nest/nest.hpp), and hands out nothing that breaks a rule: the
+/// result, and every layout that goes to `improved`, has passed both checks as the bytes that are handed out.
+///
+/// `control` stops it early with the best so far, or limits its work; the same document, options and work
+/// give the same bytes. Fails as nest::nest does, with ErrorCode::usage for a selection that fine_selection
+/// refuses, and with ErrorCode::refuted where a check finds a broken rule.
+[[nodiscard]] Result<Nested> nest(const layout::Document& document, const NestOptions& options,
+                                  const RunControl& control = {});
+
+/// Fails with ErrorCode::usage for ids that are not there or locked.
+[[nodiscard]] Result<void> fine_selection(const layout::Document& document,
+                                          const std::vector<std::uint64_t>& ids);
+
+/// The figures as "lekalo-nest" JSON (docs/cli.md), ending in a line end.
+/// \param given        what was nested
+/// \param cpu_seconds  processor time of the run as the caller measured it
+[[nodiscard]] std::string nest_json(const Layout& given, const NestOptions& options, const Nested& nested,
+                                    double cpu_seconds);
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,57 @@
+#include "lekalo/jobs/export.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "lekalo/io/text/words.hpp"
+#include "lekalo/jobs/show.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+std::string title_of(const Layout& layout, const ExportOptions& options) {
+  if (!options.title.empty()) return options.title;
+  return layout.document.name.empty() ? io::stem_of(layout.name) : layout.document.name;
+}
+
+/// A fault that lacks the name of the file.
+tl::unexpected<Error> fault_of(const Layout& layout, const Error& error) {
+  if (layout.name.empty()) return tl::unexpected(error);
+  return failure(error.code, fmt::format("{}: {}", io::as_utf8(layout.name), error.message));
+}
+
+Result<std::string> placements_of(const Layout& layout, const std::string& instance_name) {
+  const Result<std::size_t> stock = io::strip_in_use(layout.document);
+  if (!stock) return fault_of(layout, stock.error());
+  return io::write_placements(layout.document, *stock,
+                              instance_name.empty() ? layout.instance_name : instance_name);
+}
+
+Result<std::string> drawn(const Layout& layout, const ExportOptions& options) {
+  return layout_picture(layout.document, title_of(layout, options), layout::check(layout.document),
+                        options.form == LayoutForm::pdf ? PictureForm::pdf : PictureForm::png);
+}
+
+}  // namespace
+
+Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options) {
+  const auto alone = [](std::string&& bytes) { return io::Exported{{{"", std::move(bytes)}}, {}}; };
+  switch (options.form) {
+    case LayoutForm::layout:
+      break;
+    case LayoutForm::placements:
+      return placements_of(layout, options.instance_name).map(alone);
+    case LayoutForm::pdf:
+    case LayoutForm::png:
+      return drawn(layout, options).map(alone);
+    case LayoutForm::machine:
+      Result<io::Exported> made =
+          io::export_layout(layout.document, title_of(layout, options), options.machine);
+      if (!made) return fault_of(layout, made.error());
+      return made;
+  }
+  return alone(layout_bytes(layout));
+}
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,48 @@
+#include "lekalo/jobs/layout.hpp"
+
+#include <utility>
+
+#include "layout_json.hpp"
+#include "lekalo/base/version.hpp"
+#include "lekalo/io/text/sha256.hpp"
+#include "lekalo/io/text/words.hpp"
+
+namespace lekalo::jobs {
+
+Result<Layout> open_layout(File file, const io::PartOptions& parts, const io::FindItems& find) {
+  LEKALO_TRY(io::LayoutFile read, io::read_any_layout(file.bytes, file.name, parts, find));
+  Layout layout;
+  layout.sha256 = io::sha256(file.bytes);
+  layout.document = std::move(read.document);
+  layout.notices = std::move(read.notices);
+  layout.form = io::nesting_form(file.bytes);
+  if (layout.form == io::NestingForm::strip) layout.instance_name = io::file_name(file.name);
+  if (layout.form == io::NestingForm::placements)
+    layout.instance_name = io::instance_of_placements(file.bytes, file.name).value_or("");
+  layout.name = std::move(file.name);
+  if (file.bytes.find("lekalo-layout/1") != std::string::npos) layout.bytes = std::move(file.bytes);
+  return layout;
+}
+
+std::string layout_bytes(const Layout& layout) {
+  return layout.bytes.empty() ? io::write_layout(layout.document) : layout.bytes;
+}
+
+Json begin_layout_json(const char* format, const std::string& status, const Layout& layout) {
+  Json inputs = Json::array();
+  inputs.push_back({{"role", "layout"}, {"path", io::as_utf8(layout.name)}, {"sha256", layout.sha256}});
+  return {{"format", {{"name", format}, {"version", 1}}},
+          {"status", status},
+          {"units", "mm"},
+          {"inputs", std::move(inputs)},
+          {"warnings", layout.notices},
+          {"seed", 0},
+          {"work", layout.document.placements.size()},
+          {"version", kVersion}};
+}
+
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,184 @@
+#include "lekalo/jobs/nest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "layout_json.hpp"
+#include "lekalo/jobs/check.hpp"
+#include "nest_checked.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using layout::Document;
+using layout::Placement;
+
+/// The placement of this id; none where it is not there.
+const Placement* placement_of(const Document& document, std::uint64_t id) {
+  const auto found = std::lower_bound(document.placements.begin(), document.placements.end(), id,
+                                      [](const Placement& p, std::uint64_t wanted) { return p.id < wanted; });
+  return found != document.placements.end() && found->id == id ? &*found : nullptr;
+}
+
+/// The document with everything but a selection locked and nothing wanted.
+Document selection_of(Document document, const std::vector<std::uint64_t>& only) {
+  for (Placement& p : document.placements) p.locked = !std::binary_search(only.begin(), only.end(), p.id);
+  for (layout::Part& part : document.parts) part.demand = 0;
+  for (layout::Kit& kit : document.kits) kit.demand = 0;
+  return document;
+}
+
+/// The given document with the placements of another, and the locks as they were given.
+Document placed_as(Document given, const Document& found) {
+  std::vector<Placement> placements = found.placements;
+  for (Placement& p : placements)
+    if (const Placement* const before = placement_of(given, p.id)) p.locked = before->locked;
+  given.placements = std::move(placements);
+  given.next_id = found.next_id;
+  return given;
+}
+
+NestStanding standing_of(const Document& document) {
+  std::map<layout::Sheet, double> reach;
+  double parts = 0;
+  for (const Placement& p : document.placements) {
+    const geom::GridRegion outline = placed_outline(document.parts[p.part], p);
+    parts += geom::area_mm2(outline);
+    double& far = reach[{p.stock, p.copy}];
+    far = std::max(far, geom::mm_from_grid(geom::bounds(outline).high.x));
+  }
+  NestStanding standing;
+  double material = 0;
+  for (const auto& [sheet, far] : reach) {
+    const geom::GridRegion& outline = document.stocks[sheet.stock].outline.polygon;
+    const geom::GridBox box = geom::bounds(outline);
+    standing.length_mm = far;
+    material += document.stocks[sheet.stock].kind == layout::StockKind::strip
+                    ? far * geom::mm_from_grid(box.high.y - box.low.y)
+                    : geom::area_mm2(outline);
+  }
+  standing.sheets = reach.size();
+  if (material > 0) standing.density = parts / material;
+  if (document.kits.empty()) return standing;
+  std::vector<layout::PieceCount> placed(document.parts.size());
+  for (const Placement& p : document.placements)
+    ++(p.mirrored ? placed[p.part].mirrored : placed[p.part].upright);
+  for (const std::int64_t kits : layout::kits_made(document, std::move(placed)).complete)
+    standing.kits_complete += kits;
+  for (const layout::Kit& kit : document.kits) standing.kits_wanted += kit.demand;
+  return standing;
+}
+
+/// A document that both checks confirmed, and its bytes.
+struct Confirmed {
+  Document document;
+  std::string bytes;
+};
+
+Result<Confirmed> confirmed(const Document& given, const Document& found) {
+  Confirmed layout{placed_as(given, found), {}};
+  layout.bytes = io::write_layout(layout.document);
+  LEKALO_CHECK(confirm_layout(layout.document, layout.bytes));
+  return layout;
+}
+
+Json remnant_of(const layout::SheetUse& use) {
+  if (!(use.remnant.low.x < use.remnant.high.x)) return nullptr;
+  return {geom::mm_from_grid(use.remnant.low.x), geom::mm_from_grid(use.remnant.low.y),
+          geom::mm_from_grid(use.remnant.high.x), geom::mm_from_grid(use.remnant.high.y)};
+}
+
+Json stocks_of(const Nested& nested) {
+  Json stocks = Json::array();
+  for (const layout::SheetUse& use : nested.completeness.sheets)
+    stocks.push_back({{"stock", nested.document.stocks[use.sheet.stock].id},
+                      {"copy", use.sheet.copy},
+                      {"parts", use.parts},
+                      {"density", use.density()},
+                      {"length", use.used_length_mm},
+                      {"remnant", remnant_of(use)}});
+  return stocks;
+}
+
+Json kits_of(const Nested& nested) {
+  Json kits = Json::array();
+  for (std::size_t i = 0; i < nested.document.kits.size(); ++i)
+    kits.push_back({{"kit", nested.document.kits[i].id},
+                    {"complete", nested.completeness.kits[i].complete},
+                    {"wanted", nested.document.kits[i].demand},
+                    {"value", nested.document.kits[i].value}});
+  return kits;
+}
+
+Json unplaced_of(const Nested& nested) {
+  Json unplaced = Json::array();
+  for (const nest::Unplaced& u : nested.unplaced)
+    unplaced.push_back({{"part", nested.document.parts[u.part].id},
+                        {"count", u.count},
+                        {"reason", nest::name_of(u.reason)}});
+  return unplaced;
+}
+
+}  // namespace
+
+Result<void> fine_selection(const Document& document, const std::vector<std::uint64_t>& ids) {
+  for (const std::uint64_t id : ids) {
+    const Placement* const found = placement_of(document, id);
+    if (found == nullptr) return failure(ErrorCode::usage, fmt::format("there is no placement {}", id));
+    if (found->locked) return failure(ErrorCode::usage, fmt::format("placement {} is locked", id));
+  }
+  return {};
+}
+
+Result<Nested> nest_checked(const Nester& nester, const Document& document, const NestOptions& options,
+                            const RunControl& control) {
+  LEKALO_CHECK(fine_selection(document, options.only));
+  nest::Options search;
+  search.seed = options.seed;
+  search.threads = options.threads;
+  search.angles = options.angles;
+  search.from_given = options.from_given;
+  search.pair_distance = options.pair_distance;
+  Result<void> fine;  // until a better layout is refuted, or nobody takes it
+  search.improved = [&](const nest::Nested& better) {
+    if (options.improved && fine)
+      fine = confirmed(document, better.document).and_then([&](const Confirmed& layout) {
+        return options.improved(layout.document, layout.bytes);
+      });
+    if (options.standing) options.standing(standing_of(better.document));
+  };
+  LEKALO_TRY(nest::Nested found, options.only.empty()
+                                     ? nester(document, search, control)
+                                     : nester(selection_of(document, options.only), search, control));
+  LEKALO_CHECK(fine);
+  LEKALO_TRY(Confirmed best, confirmed(document, found.document));
+  layout::Completeness completeness = layout::completeness(layout::Workspace(best.document));
+  return Nested{
+      std::move(best.document), std::move(best.bytes), std::move(found.unplaced), found.work, found.merges,
+      std::move(completeness)};
+}
+
+Result<Nested> nest(const Document& document, const NestOptions& options, const RunControl& control) {
+  return nest_checked(nest::nest, document, options, control);
+}
+
+std::string nest_json(const Layout& given, const NestOptions& options, const Nested& nested,
+                      double cpu_seconds) {
+  Json json = begin_layout_json("lekalo-nest", nested.unplaced.empty() ? "complete" : "incomplete", given);
+  json["seed"] = options.seed;
+  json["work"] = nested.work;
+  json["merges"] = nested.merges;
+  json["density"] = nested.completeness.density;
+  json["cost"] = nested.completeness.cost;
+  if (nested.completeness.sheets.size() == 1) json["length"] = nested.completeness.sheets[0].used_length_mm;
+  json["stocks"] = stocks_of(nested);
+  json["kits"] = kits_of(nested);
+  json["unplaced"] = unplaced_of(nested);
+  json["run"] = {{"cpu_seconds", cpu_seconds}, {"threads", options.threads}};
+  return dumped(json);
+}
+
+}  // namespace lekalo::jobs

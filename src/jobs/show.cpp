@@ -1,0 +1,44 @@
+#include "lekalo/jobs/show.hpp"
+
+#include "layout_json.hpp"
+#include "lekalo/draw/layout_picture.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
+#include "lekalo/io/text/words.hpp"
+
+namespace lekalo::jobs {
+
+Shown show(const layout::Document& document) {
+  return {layout::completeness(layout::Workspace(document)), layout::check(document)};
+}
+
+std::string show_json(const Layout& layout, const Shown& shown) {
+  Json json = begin_layout_json("lekalo-show", "shown", layout);
+  json.update(Json::parse(io::completeness_json(layout.document, shown.completeness)));
+  json["violations"] = shown.violations.size();
+  json["run"] = Json::object();
+  return dumped(json);
+}
+
+std::optional<PictureForm> picture_form(std::string_view name) noexcept {
+  if (name.ends_with(".svg")) return PictureForm::svg;
+  if (name.ends_with(".png")) return PictureForm::png;
+  if (name.ends_with(".pdf")) return PictureForm::pdf;
+  return std::nullopt;
+}
+
+Result<std::string> layout_picture(const layout::Document& document, std::string_view title,
+                                   const std::vector<layout::Violation>& violations, PictureForm form) {
+  const layout::Completeness completeness = layout::completeness(layout::Workspace(document));
+  const draw::LayoutPicture picture{io::as_utf8(title), document, completeness, violations};
+  switch (form) {
+    case PictureForm::svg:
+      break;
+    case PictureForm::png:
+      return draw::layout_png(picture);
+    case PictureForm::pdf:
+      return draw::layout_pdf(picture);
+  }
+  return draw::layout_svg(picture);
+}
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,107 @@
+#include "merit.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "lekalo/layout/completeness.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+double missing_value(const Problem& problem, const Items& items, const State& state) {
+  const layout::Document& document = problem.document();
+  if (document.kits.empty()) return 0;
+  const auto complete = layout::kits_made(document, placed_pieces(problem, items, state)).complete;
+  double missing = 0;
+  for (std::size_t k = 0; k < complete.size(); ++k)
+    missing += document.kits[k].value * static_cast<double>(document.kits[k].demand - complete[k]);
+  return missing;
+}
+
+}  // namespace
+
+Merit merit_of(const Problem& problem, const Items& items, const State& state) {
+  Merit merit;
+  for (std::size_t i = 0; i < items.movable(); ++i)
+    if (state.spots[i].bin == kNowhere) {
+      const int priority = problem.document().parts[items.parts[i]].priority;
+      merit.unplaced += problem.area_of(items.parts[i]) * (1 + std::max(0, priority));
+    }
+  for (const std::uint32_t bin : state.open_bins)
+    merit.cost += problem.document().stocks[problem.bins()[bin].stock].cost;
+  if (problem.is_strip()) {
+    merit.reach = strip_length(problem, items, state);
+    return merit;
+  }
+  merit.missing = missing_value(problem, items, state);
+  if (!state.open_bins.empty())
+    merit.reach = -leftover_of(problem, items, state, emptiest(problem, items, state));
+  return merit;
+}
+
+/// This adds up in another order than reach_of(), and layouts depend on the last bit of it.
+double strip_length(const Problem& problem, const Items& items, const State& state) {
+  const Bin& strip = problem.bins()[kStrip];
+  double length = std::max(0.0, strip.locked_reach - strip.box.x0);
+  for (std::size_t i = 0; i < items.movable(); ++i) {
+    const Spot& spot = state.spots[i];
+    if (spot.bin == kNowhere) continue;
+    length = std::max(length, problem.border_gap_of(items.parts[i]) + spot.x +
+                                  problem.forms()[spot.form].box.x1 - strip.box.x0);
+  }
+  return length;
+}
+
+double reach_of(const Problem& problem, const Items& items, const State& state, std::uint32_t b, int axis) {
+  const Bin& bin = problem.bins()[b];
+  double reach = axis == 0 ? bin.locked_reach - bin.box.x0 : bin.locked_top - bin.box.y0;
+  for (std::size_t i = 0; i < items.movable(); ++i) {
+    const Spot& spot = state.spots[i];
+    if (spot.bin != b) continue;
+    const Box& box = problem.forms()[spot.form].box;
+    const double gap = problem.border_gap_of(items.parts[i]);
+    reach = std::max(reach, gap + (axis == 0 ? spot.x + box.x1 - bin.box.x0 : spot.y + box.y1 - bin.box.y0));
+  }
+  return std::max(0.0, reach);
+}
+
+double leftover_of(const Problem& problem, const Items& items, const State& state, std::uint32_t b) {
+  const Bin& bin = problem.bins()[b];
+  const double height = bin.box.y1 - bin.box.y0;
+  return (bin.box.x1 - bin.box.x0) * height -
+         reach_of(problem, items, state, b, 0) * (bin.open ? height : reach_of(problem, items, state, b, 1));
+}
+
+std::uint32_t emptiest(const Problem& problem, const Items& items, const State& state) {
+  std::uint32_t found = state.open_bins.front();
+  double most = -std::numeric_limits<double>::infinity();
+  for (const std::uint32_t bin : state.open_bins) {
+    const double leftover = leftover_of(problem, items, state, bin);
+    if (leftover > most) {
+      most = leftover;
+      found = bin;
+    }
+  }
+  return found;
+}
+
+double used_area(const Problem& problem, const Items& items, const State& state, std::uint32_t bin) {
+  double area = 0;
+  for (std::size_t i = 0; i < items.movable(); ++i)
+    if (state.spots[i].bin == bin) area += problem.area_of(items.parts[i]);
+  return area;
+}
+
+std::vector<layout::PieceCount> placed_pieces(const Problem& problem, const Items& items,
+                                              const State& state) {
+  std::vector<layout::PieceCount> placed = problem.locked_pieces();
+  for (std::size_t i = 0; i < items.movable(); ++i) {
+    const Spot& spot = state.spots[i];
+    if (spot.bin == kNowhere) continue;
+    layout::PieceCount& count = placed[items.parts[i]];
+    ++(problem.forms()[spot.form].mirrored ? count.mirrored : count.upright);
+  }
+  return placed;
+}
+
+}  // namespace lekalo::nest

@@ -1,0 +1,58 @@
+# Holds what the additions beside this file are to do, and that nothing else changes with them.
+#
+#   cmake -DLEKALO= -DEXTENDED= -DSOURCES= -DOVERLAY= -DLAYERS= -DWORK= -P check_additions.cmake
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+function(demand CONDITION SENTENCE)
+  if(NOT ${CONDITION})
+    message(FATAL_ERROR "${SENTENCE}")
+  endif()
+endfunction()
+
+# says(PROGRAM RESULT ARGUMENTS...): what it writes to stdout and stderr; it has to end well.
+function(says PROGRAM RESULT)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status
+    OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${PROGRAM} ${ARGN}: ${status}: ${said}")
+  endif()
+  set(${RESULT} "${said}" PARENT_SCOPE)
+endfunction()
+
+# ---- the layers of the tree with the additions in it --------------------------------------------------------
+foreach(folder include src apps)
+  file(COPY ${SOURCES}/${folder} DESTINATION ${WORK}/tree)
+endforeach()
+file(COPY ${OVERLAY}/ DESTINATION ${WORK}/tree)
+says(${CMAKE_COMMAND} layers -DROOT=${WORK}/tree -DLAYERS=${LAYERS} -P ${SOURCES}/tests/layers/check_layers.cmake)
+
+# ---- the post: help names it, a pocket's program and a cut are written in it -----------------------------------
+set(pocket ${SOURCES}/examples/pockets/cover.json --tool 6 --depth 1)
+foreach(command pocket export)
+  says(${EXTENDED} help ${command} --help)
+  string(FIND "${help}" "shop" place)
+  demand("place GREATER -1" "lekalo ${command} --help does not name the post that was added")
+endforeach()
+says(${EXTENDED} said pocket ${pocket} --post shop -o shop.ngc)
+file(READ ${WORK}/shop.ngc program)
+demand("program MATCHES \"; LEKALO POCKET\"" "the added post has not written its comments: ${program}")
+
+# ---- the move: the nester with it finds layouts that pass the check ----------------------------------------------
+set(strip ${SOURCES}/examples/orders/begun.json)
+foreach(program LEKALO EXTENDED)
+  says(${${program}} said nest ${strip} --work 300000 --seed 1 -o ${program}.json)
+  says(${LEKALO} said check ${program}.json)
+  file(SHA256 ${WORK}/${program}.json digest_${program})
+endforeach()
+demand("NOT digest_LEKALO STREQUAL digest_EXTENDED" "the move that was added has never had a turn")
+
+# ---- nothing else: the same bytes without the additions -----------------------------------------------------------
+foreach(arguments "pocket;${pocket}" "check;${SOURCES}/examples/layouts/shoes.json")
+  foreach(program LEKALO EXTENDED)
+    execute_process(COMMAND ${${program}} ${arguments} WORKING_DIRECTORY ${WORK} OUTPUT_VARIABLE bytes_${program}
+      ERROR_VARIABLE bytes_${program})
+  endforeach()
+  demand("bytes_LEKALO STREQUAL bytes_EXTENDED" "with the additions lekalo ${arguments} writes other bytes")
+endforeach()

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "jobs/nest_checked.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/jobs/check.hpp"
+#include "lekalo/jobs/nest.hpp"
+#include "lekalo/layout/check.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using layout::Document;
+
+/// A sheet of 100 with squares of 10 at (20, 40) and (60, 40), and six wanted in all.
+Document wanted_squares() {
+  Document document = cases::two_squares();
+  document.parts[0].demand = 6;
+  return document;
+}
+
+/// Both squares in one place.
+Document broken_squares() {
+  Document document = wanted_squares();
+  document.placements[1].at = document.placements[0].at;
+  return document;
+}
+
+/// Finds these layouts in turn, each as a better one than the last, and ends with the last.
+Nester finding(std::vector<Document> documents) {
+  return [documents](const Document&, const nest::Options& options,
+                     const RunControl&) -> Result<nest::Nested> {
+    nest::Nested found;
+    for (const Document& document : documents) {
+      found.document = document;
+      if (options.improved) options.improved(found);
+    }
+    return found;
+  };
+}
+
+TEST(JobsNest, ALayoutThatBreaksARuleIsNeverTheResult) {
+  const auto nested = nest_checked(finding({wanted_squares(), broken_squares()}), wanted_squares(), {}, {});
+  ASSERT_FALSE(nested);
+  EXPECT_EQ(nested.error().code, ErrorCode::refuted);
+  EXPECT_NE(nested.error().message.find("overlap"), std::string::npos) << nested.error().message;
+}
+
+TEST(JobsNest, NothingIsToldOfABetterLayoutThatBreaksARuleNorOfLaterOnes) {
+  std::vector<Document> told;
+  NestOptions options;
+  options.improved = [&](const Document& better, std::string_view) -> Result<void> {
+    told.push_back(better);
+    return {};
+  };
+  const auto nested = nest_checked(finding({wanted_squares(), broken_squares(), wanted_squares()}),
+                                   wanted_squares(), options, {});
+  ASSERT_FALSE(nested);
+  EXPECT_EQ(nested.error().code, ErrorCode::refuted);
+  EXPECT_EQ(told, std::vector<Document>{wanted_squares()});
+}
+
+TEST(JobsNest, AFailureOfWhoTakesBetterLayoutsIsItsOwn) {
+  int taken = 0;
+  NestOptions options;
+  options.improved = [&](const Document&, std::string_view) -> Result<void> {
+    ++taken;
+    return failure(ErrorCode::environment, "the disk is full");
+  };
+  const auto nested =
+      nest_checked(finding({wanted_squares(), wanted_squares()}), wanted_squares(), options, {});
+  ASSERT_FALSE(nested);
+  EXPECT_EQ(nested.error().message, "the disk is full");
+  EXPECT_EQ(taken, 1);
+}
+
+TEST(JobsNest, HandsOutTheBytesThatBothChecksConfirmed) {
+  std::vector<std::string> told;
+  std::optional<NestStanding> standing;
+  NestOptions options;
+  options.improved = [&](const Document& better, std::string_view bytes) -> Result<void> {
+    EXPECT_TRUE(confirm_layout(better, bytes));
+    EXPECT_EQ(bytes, io::write_layout(better));
+    told.emplace_back(bytes);
+    return {};
+  };
+  options.standing = [&](const NestStanding& now) { standing = now; };
+  RunControl control;
+  control.work_limit = 100'000;
+  const auto nested = nest(wanted_squares(), options, control);
+  ASSERT_TRUE(nested) << nested.error().message;
+  EXPECT_EQ(nested->document.placements.size(), 6u);
+  EXPECT_EQ(nested->bytes, io::write_layout(nested->document));
+  EXPECT_TRUE(nested->unplaced.empty());
+  EXPECT_EQ(nested->completeness.placed[0].total(), 6);
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.back(), nested->bytes);
+  ASSERT_TRUE(standing);
+  EXPECT_EQ(standing->sheets, 1u);
+  EXPECT_DOUBLE_EQ(standing->density, 0.06);
+  Layout again;
+  again.document = nested->document;
+  EXPECT_TRUE(check(again)->valid());
+}
+
+TEST(JobsNest, ASelectionLeavesDemandLocksAndTheRestAsTheyWere) {
+  Document document = wanted_squares();
+  NestOptions options;
+  options.only = {2};
+  RunControl control;
+  control.work_limit = 100'000;
+  const auto nested = nest(document, options, control);
+  ASSERT_TRUE(nested) << nested.error().message;
+  EXPECT_EQ(nested->document.parts, document.parts);
+  ASSERT_EQ(nested->document.placements.size(), 2u);
+  EXPECT_EQ(nested->document.placements[0], document.placements[0]);
+  EXPECT_FALSE(nested->document.placements[1].locked);
+
+  options.only = {7};
+  EXPECT_EQ(nest(document, options).error().message, "there is no placement 7");
+  document.placements[1].locked = true;
+  options.only = {2};
+  EXPECT_EQ(nest(document, options).error().message, "placement 2 is locked");
+}
+
+TEST(JobsNest, AConfirmedLayoutPassesBothChecksAsItsBytes) {
+  const Document good = wanted_squares(), broken = broken_squares();
+  EXPECT_TRUE(confirm_layout(good, io::write_layout(good)));
+  EXPECT_FALSE(confirm_layout(broken, io::write_layout(broken)));
+  // The bytes count, not the document that they are said to be.
+  const auto other = confirm_layout(good, io::write_layout(broken));
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().message.find("independent checker"), std::string::npos);
+  EXPECT_FALSE(confirm_layout(good, "{}"));
+}
+
+}  // namespace
+}  // namespace lekalo::jobs

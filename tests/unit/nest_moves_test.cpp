@@ -1,0 +1,170 @@
+// How strands, schedules and moves work together, and a move that is made outside of src/nest.
+
+#include <gtest/gtest.h>
+
+#include "lekalo/layout/check.hpp"
+#include "nest/exact/builder.hpp"
+#include "nest/exact/settle.hpp"
+#include "nest/strand/strand.hpp"
+#include "support/layout_cases.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+/// Asks for a strip that is shorter by one millimetre, a few times: the whole of a move.
+class OneMillimetreLess final : public Move {
+ public:
+  bool begin(Search&) override { return failures_ < 3; }
+  Outcome attempt(Search& search) override {
+    const Box& strip = search.problem.bins()[kStrip].box;
+    const double length = strip_length(search.problem, search.items, search.best.state);
+    search.separator.load(search.best.state);
+    search.separator.set_limits(kStrip, strip.x0 + length - 1, strip.y1);
+    search.begin_separation();
+    return Outcome::under_way;
+  }
+  Outcome step(Search& search) override { return search.after_pass(search.separator.pass(), {20, 1}); }
+  Outcome on_valid(Search& search) override {
+    search.current = {search.separator.state(), search.merit_of(search.separator.state())};
+    if (!(search.current.merit < search.best.merit)) return Outcome::failed;
+    search.keep_if_best();
+    return Outcome::under_way;
+  }
+  Outcome on_failure(Search&) override { return ++failures_ < 3 ? Outcome::under_way : Outcome::over; }
+
+ private:
+  int failures_ = 0;
+};
+
+/// Four squares of 10 mm, far apart on a strip 10 mm high.
+class Row : public testing::Test {
+ protected:
+  Row() {
+    document_.placements.clear();
+    document_.stocks[0].kind = layout::StockKind::strip;
+    document_.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 200, 10)});
+    document_.parts.resize(1);
+    document_.parts[0].outline = cases::outline_of({cases::box_loop(0, 0, 10, 10)});
+    document_.parts[0].rotations = {{0, 0}};
+    document_.parts[0].demand = 4;
+    problem_.emplace(document_, SearchOptions{});
+    items_.parts.assign(4, 0);
+    items_.forms.assign(4, problem_->forms_of(0));
+    state_ = empty_state(*problem_, items_);
+    for (std::size_t i = 0; i < 4; ++i) state_.spots[i] = {25.5 * static_cast<double>(i), 0, 0, kStrip};
+    state_.open_bins = {kStrip};
+  }
+  layout::Document document_ = cases::two_squares();
+  std::optional<Problem> problem_;
+  Items items_;
+  State state_;
+};
+
+TEST_F(Row, AMoveOfAStrangerShortensTheStrip) {
+  Schedule schedule;
+  schedule.add(std::make_unique<OneMillimetreLess>());
+  Strand strand(*problem_, items_, Random(1), std::move(schedule));
+  strand.start(state_);
+  EXPECT_EQ(strand.merit().reach, 86.5);
+  strand.run(200'000);
+  EXPECT_TRUE(strand.is_done());
+  EXPECT_LT(strand.merit().reach, 60);
+  EXPECT_GE(strand.merit().reach, 40 - 1e-3);
+  const Settled done = settled(*problem_, items_, strand.best());
+  EXPECT_TRUE(done.is_whole);
+  EXPECT_TRUE(layout::check(done.document).empty());
+}
+
+TEST_F(Row, AMoveIsAddedToTheUsualSchedule) {
+  Schedule schedule = strip_schedule(0);
+  schedule.add(std::make_unique<OneMillimetreLess>());
+  Strand strand(*problem_, items_, Random(1), std::move(schedule));
+  strand.start(state_);
+  strand.run(200'000);
+  EXPECT_NEAR(strand.merit().reach, 40, 1e-3);
+}
+
+TEST_F(Row, TheSameChanceGivesTheSameState) {
+  Strand one(*problem_, items_, 7, 0), two(*problem_, items_, 7, 0);
+  for (Strand* strand : {&one, &two}) {
+    strand->start(state_);
+    strand->run(5'000);
+  }
+  EXPECT_EQ(one.work(), two.work());
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(one.best().spots[i].x, two.best().spots[i].x);
+}
+
+TEST_F(Row, AStripTakesABetterStateWhenItsAttemptHasFailed) {
+  Schedule schedule;
+  schedule.add(std::make_unique<OneMillimetreLess>());
+  Strand strand(*problem_, items_, Random(1), std::move(schedule));
+  strand.start(state_);
+  State better = state_;
+  for (std::size_t i = 0; i < 4; ++i) better.spots[i].x = 10.0 * static_cast<double>(i);
+  strand.start(better);
+  EXPECT_EQ(strand.merit().reach, 86.5);
+  strand.run(200'000);
+  EXPECT_EQ(strand.merit().reach, 40);
+}
+
+/// Wants so many turns, each over at once, and writes its name.
+class Named final : public Move {
+ public:
+  Named(char name, int turns, std::string& log) : name_(name), turns_(turns), log_(log) {}
+  bool begin(Search&) override {
+    if (turns_-- <= 0) return false;
+    log_ += name_;
+    return true;
+  }
+  Outcome attempt(Search&) override { return Outcome::over; }
+  Outcome step(Search&) override { return Outcome::over; }
+  Outcome on_valid(Search&) override { return Outcome::over; }
+  Outcome on_failure(Search&) override { return Outcome::over; }
+
+ private:
+  char name_;
+  int turns_;
+  std::string& log_;
+};
+
+TEST_F(Row, TheFirstMoveThatWantsATurnHasIt) {
+  std::string log;
+  Schedule schedule;
+  schedule.add(std::make_unique<Named>('a', 2, log));
+  schedule.add(std::make_unique<Named>('b', 3, log));
+  Strand strand(*problem_, items_, Random(1), std::move(schedule));
+  strand.start(state_);
+  EXPECT_EQ(log, "aabbb");
+  EXPECT_TRUE(strand.is_done());
+}
+
+TEST_F(Row, AConditionSaysAfterWhichTurnAMoveComes) {
+  std::string log;
+  Schedule schedule;
+  auto other = std::make_unique<Named>('o', 3, log);
+  schedule.add(std::make_unique<Named>('c', 9, log),
+               [&other = *other](const Move* last) { return last == &other; });
+  schedule.add(std::move(other));
+  Strand strand(*problem_, items_, Random(1), std::move(schedule));
+  strand.start(state_);
+  EXPECT_EQ(log, "ocococ");
+}
+
+TEST_F(Row, AttemptsThatAreAlwaysInVainEndAStrand) {
+  class Vain final : public Move {
+   public:
+    bool begin(Search&) override { return true; }
+    Outcome attempt(Search&) override { return Outcome::failed; }
+    Outcome step(Search&) override { return Outcome::failed; }
+    Outcome on_valid(Search&) override { return Outcome::failed; }
+    Outcome on_failure(Search&) override { return Outcome::under_way; }
+  };
+  Schedule schedule;
+  schedule.add(std::make_unique<Vain>());
+  Strand strand(*problem_, items_, Random(1), std::move(schedule));
+  strand.start(state_);
+  EXPECT_TRUE(strand.is_done());
+}
+
+}  // namespace
+}  // namespace lekalo::nest
