@@ -61,7 +61,7 @@ class JobReader {
     notices_.push_back(fmt::format("{}: {}: {}", reader_.name(), at.path(), what));
   }
 
-  // ---- strips
+  // Strips: "strip_height" and "items".
 
   void strip_job(JsonValue root) {
     if (!reader_.expect_object(root, {"name", "strip_height", "items"})) return;
@@ -109,7 +109,7 @@ class JobReader {
     }
   }
 
-  // ---- sheets
+  // Sheets: "bin_types" and "item_types".
 
   void sheet_job(JsonValue root) {
     if (!reader_.expect_object(root, {"objective", "parameters", "bin_types", "item_types"})) return;
@@ -227,7 +227,7 @@ class JobReader {
     document_.parts.push_back(std::move(part));
   }
 
-  // ---- hides
+  // Hides: "Items" and "Objects".
 
   void hide_job(JsonValue root) {
     if (!reader_.expect_object(root, {"Name", "Items", "Objects"})) return;
@@ -324,9 +324,8 @@ std::optional<NestingForm> nesting_form(std::string_view bytes) {
 
 Result<LayoutFile> read_nesting(std::string_view bytes, const std::string& name,
                                 std::optional<LengthUnit> unit) {
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  const auto form = detail::form_of(*tree);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  const auto form = detail::form_of(tree);
   if (!form)
     return failure(ErrorCode::bad_input,
                    name +
@@ -335,7 +334,7 @@ Result<LayoutFile> read_nesting(std::string_view bytes, const std::string& name,
   if (*form == NestingForm::placements)
     return failure(ErrorCode::bad_input,
                    name + ": placements alone; the file of the items that they place is needed too");
-  return detail::read_nesting_tree(*tree, name, *form, unit);
+  return detail::read_nesting_tree(tree, name, *form, unit);
 }
 
 }  // namespace lekalo::io

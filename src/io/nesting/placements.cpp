@@ -107,16 +107,14 @@ Result<LayoutFile> read_placements_tree(const JsonTree& tree, const std::string&
 }  // namespace detail
 
 Result<std::string> instance_of_placements(std::string_view bytes, const std::string& name) {
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  return detail::instance_of_tree(*tree, name);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  return detail::instance_of_tree(tree, name);
 }
 
 Result<LayoutFile> read_placements(std::string_view bytes, const std::string& name, layout::Document instance,
                                    std::optional<LengthUnit> unit) {
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  return detail::read_placements_tree(*tree, name, std::move(instance), unit);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  return detail::read_placements_tree(tree, name, std::move(instance), unit);
 }
 
 Result<std::size_t> strip_in_use(const layout::Document& document) {
