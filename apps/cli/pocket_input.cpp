@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "lekalo/disk/files.hpp"
-#include "shapes.hpp"
+#include "lekalo/io/formats/outline_file.hpp"
 
 namespace lekalo::cli {
 
@@ -14,12 +14,12 @@ Result<jobs::PocketOutline> read_pocket_outline(const PocketOptions& o) {
     how.layers.insert(how.layers.end(), o.island_layers.begin(), o.island_layers.end());
     how.layers.insert(how.layers.end(), o.open_layers.begin(), o.open_layers.end());
   }
-  LEKALO_TRY(Shape shape, read_shape(bytes, o.pocket, how));
+  LEKALO_TRY(io::ReadOutline read, io::read_outline(bytes, o.pocket, how));
   return jobs::PocketOutline{{o.pocket, std::move(bytes)},
-                             std::move(shape.regions),
-                             std::move(shape.labels),
-                             std::move(shape.open),
-                             std::move(shape.notices)};
+                             std::move(read.outline.regions),
+                             std::move(read.outline.labels),
+                             std::move(read.open),
+                             std::move(read.notices)};
 }
 
 }  // namespace lekalo::cli

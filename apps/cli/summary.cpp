@@ -46,11 +46,10 @@ std::string mm_up(double value) {
 double degrees(double radians) { return radians * kDegreesPerRadian; }
 
 std::string headline(const io::LocateDocument& d) {
-  if (d.regions && d.regions->scan && !d.regions->scan->proved)
+  if (d.scan && !d.scan->proved)
     return "Stretches of the blank are unknown: what follows holds for the rest of it, and is no yes.";
   if (d.status == "optimal") return "The best placement was found and proved.";
-  const bool demands = d.regions && d.regions->demands;
-  if (d.status == "infeasible" && demands)
+  if (d.status == "infeasible" && d.demands)
     return "No placement meets the demands; this is proved. The one that misses least:";
   if (d.status == "infeasible") {
     return fmt::format("No placement reaches the demanded allowance of {} mm; this is proved.",
@@ -81,7 +80,7 @@ std::string bound_line(const io::LocateDocument& d) {
 }
 
 std::string demand_line(const io::LocateDocument& d) {
-  if (d.regions && d.regions->demands) return "";
+  if (d.demands) return "";
   if (d.shortfall > 0) {
     const bool open = d.upper_bound && *d.upper_bound >= d.min_allowance;
     return fmt::format("  demanded           {} mm: {} are missing{}\n", d.min_allowance, mm_up(d.shortfall),
@@ -91,8 +90,8 @@ std::string demand_line(const io::LocateDocument& d) {
 }
 
 std::string criteria_lines(const io::LocateDocument& d) {
-  if (!d.regions || !d.regions->demands) return "";
-  const io::DemandRecord& r = *d.regions->demands;
+  if (!d.demands) return "";
+  const io::DemandRecord& r = *d.demands;
   std::string text =
       r.margin >= 0
           ? fmt::format(
@@ -115,8 +114,8 @@ std::string criteria_lines(const io::LocateDocument& d) {
 }
 
 std::string scan_lines(const io::LocateDocument& d) {
-  if (!d.regions || !d.regions->scan) return "";
-  const io::ScanRecord& scan = *d.regions->scan;
+  if (!d.scan) return "";
+  const io::ScanRecord& scan = *d.scan;
   std::string text =
       fmt::format("  scan               {} points, guard {:.6g} mm, up to {:.6g} mm drawn further in\n",
                   scan.points, scan.guard, scan.loss);
@@ -128,21 +127,14 @@ std::string scan_lines(const io::LocateDocument& d) {
 
 std::string contact_lines(const io::LocateDocument& d) {
   std::string text;
-  for (const locate::Contact& contact : d.contacts) {
-    text += fmt::format("{}part point {} on blank edge {}", text.empty() ? "  held by            " : ", ",
-                        contact.part_vertex, contact.blank_edge);
+  const char* separator = d.convex() ? "  held by            " : "  nearest at         blank ";
+  for (const locate::Touch& touch : d.contacts) {
+    text += separator + (d.convex() ? fmt::format("part point {} on blank edge {}", touch.part_edge,
+                                                  touch.blank_edge)
+                                    : fmt::format("({:.3f}, {:.3f})", touch.blank.x, touch.blank.y));
+    separator = ", ";
   }
-  return text.empty() ? text : text + "\n";
-}
-
-std::string touch_lines(const io::LocateDocument& d) {
-  if (!d.regions) return "";
-  std::string text;
-  for (const locate::RegionTouch& touch : d.regions->contacts) {
-    text += fmt::format("{}({:.3f}, {:.3f})", text.empty() ? "  nearest at         blank " : ", ",
-                        touch.blank.x, touch.blank.y);
-  }
-  if (d.regions->mirrored) text = "  mirrored           in x, before it is turned\n" + text;
+  if (d.mirrored) text = "  mirrored           in x, before it is turned\n" + text;
   return text.empty() ? text : text + "\n";
 }
 
@@ -205,7 +197,7 @@ std::string decimals_up(double value, int decimals) {
 
 std::string locate_summary(const io::LocateDocument& d, const std::vector<std::string>& written) {
   std::string text = headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + criteria_lines(d) +
-                     scan_lines(d) + contact_lines(d) + touch_lines(d) + alternative_lines(d) + trim_line(d) +
+                     scan_lines(d) + contact_lines(d) + alternative_lines(d) + trim_line(d) +
                      comparison_lines(d) + deviation_line(d) + program_lines(d);
   for (const std::string& warning : d.warnings) text += "  note               " + warning + "\n";
   for (const std::string& path : written) text += "  wrote              " + path + "\n";

@@ -33,19 +33,20 @@ Colour colour_of_status(const std::string& status) {
 
 class Panel {
  public:
-  Panel(const LocatePicture& picture, const Located& shapes, const Rect& room, std::vector<Item>& items)
-      : picture_(picture), shapes_(shapes), room_(room), items_(items), y_(room.y) {
+  Panel(const LocatePicture& picture, const PictureOfRings& rings, const Located& shapes, const Rect& room,
+        std::vector<Item>& items)
+      : picture_(picture), rings_(rings), shapes_(shapes), room_(room), items_(items), y_(room.y) {
     const geom::Box box = joined(geom::bounds(shapes.blank), geom::bounds(shapes.part));
     decimals_ = decimals_for(std::max(box.high.x - box.low.x, box.high.y - box.low.y));
   }
 
-  void draw(bool start_drawn) {
+  void draw() {
     heading();
     verdict();
     numbers();
     rule();
     allowance_key();
-    legend(start_drawn);
+    legend();
   }
   [[nodiscard]] double end() const { return y_; }
 
@@ -124,9 +125,9 @@ class Panel {
 
   void numbers() {
     const locate::Placement& result = picture_.result;
-    if (picture_.has_upper_bound) {
-      row("proven upper bound", length(picture_.upper_bound, Rounding::up), "upper-bound");
-      const double gap = difference_rounded_up(picture_.upper_bound, result.clearance);
+    if (picture_.upper_bound) {
+      row("proven upper bound", length(*picture_.upper_bound, Rounding::up), "upper-bound");
+      const double gap = difference_rounded_up(*picture_.upper_bound, result.clearance);
       row("gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap");
     } else {
       row("proven upper bound", "not proved", "upper-bound");
@@ -195,21 +196,21 @@ class Panel {
          false, "outside");
   }
 
-  void legend(bool start_drawn) {
+  void legend() {
     y_ += 1.2;
     const double second = room_.x + room_.width / 2;
     y_ += kLine;
     swatch(room_.x, kBlankFill, kBlankLine, "blank");
     swatch(second, kPaper, kInk, "part, placed");
-    if (start_drawn) {
+    if (rings_.draw_start) {
       y_ += kLine;
       path({{room_.x, y_ - 1.0}, {room_.x + 6, y_ - 1.0}}, false, stroked(kStartLine, 0.35, 1.3), "key");
-      const locate::Placement& start = picture_.start;
+      const locate::Placement& start = rings_.start;
       const bool own = start.x == 0 && start.y == 0 && start.theta == 0;
       text(room_.x + 8, own ? "part, where its own coordinates put it" : "part, where it started", kSmall,
            kInk);
     }
-    if (picture_.contacts.empty()) return;
+    if (rings_.contacts.empty()) return;
     y_ += kLine;
     path({{room_.x + 0.8, y_ - 1.0}, {room_.x + 6, y_ - 1.0}}, false, stroked(kInk, 0.5), "key");
     Paint dot = filled(kPaper);
@@ -227,6 +228,7 @@ class Panel {
   }
 
   const LocatePicture& picture_;
+  const PictureOfRings& rings_;
   const Located& shapes_;
   Rect room_;
   std::vector<Item>& items_;
@@ -236,10 +238,10 @@ class Panel {
 
 }  // namespace
 
-double draw_panel(const LocatePicture& picture, const Located& shapes, bool start_drawn, const Rect& room,
-                  std::vector<Item>& items) {
-  Panel panel(picture, shapes, room, items);
-  panel.draw(start_drawn);
+double draw_panel(const LocatePicture& picture, const PictureOfRings& rings, const Located& shapes,
+                  const Rect& room, std::vector<Item>& items) {
+  Panel panel(picture, rings, shapes, room, items);
+  panel.draw();
   return panel.end();
 }
 

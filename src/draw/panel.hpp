@@ -9,8 +9,8 @@
 namespace lekalo::draw {
 
 /// Title, names, status, numbers, colour scale and legend, from the top of `room` downwards. Returns where
-/// they end. `start_drawn`: the legend names the start.
-double draw_panel(const LocatePicture& picture, const Located& shapes, bool start_drawn, const Rect& room,
-                  std::vector<Item>& items);
+/// they end.
+double draw_panel(const LocatePicture& picture, const PictureOfRings& rings, const Located& shapes,
+                  const Rect& room, std::vector<Item>& items);
 
 }  // namespace lekalo::draw

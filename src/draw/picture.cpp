@@ -12,6 +12,7 @@
 #include "lekalo/io/text/words.hpp"
 #include "panel.hpp"
 #include "picture_drawing.hpp"
+#include "picture_scene.hpp"
 #include "printed_number.hpp"
 #include "scene.hpp"
 #include "view.hpp"
@@ -22,7 +23,6 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-constexpr Rect kPage{0, 0, 250, 160};
 constexpr Rect kDrawing{5, 5, 168, 142};
 constexpr Rect kPanel{180, 7, 64, 146};
 constexpr double kLabelRoom = 12;  ///< around the shapes in the drawing
@@ -45,25 +45,22 @@ Paint stroke(Colour colour, double width, double dash = 0) {
   return paint;
 }
 
-class Composer {
+class RingComposer {
  public:
-  explicit Composer(const LocatePicture& picture)
-      : picture_(picture), shapes_(located(picture)), contacts_(contact_lines(picture, shapes_)) {
-    scene_.width = kPage.width;
-    scene_.height = kPage.height;
+  RingComposer(const LocatePicture& picture, const PictureOfRings& rings)
+      : picture_(picture),
+        rings_(rings),
+        shapes_(located(rings, picture.result)),
+        contacts_(contact_lines(rings, shapes_)),
+        scene_(empty_scene(picture)) {
     choose_view();
   }
 
   Scene compose() && {
-    Paint white;
-    white.fill = kPaper;
-    white.fill_alpha = 1;
-    scene_.items.push_back(PathItem{{kPage.ring()}, true, white, {"page", ""}});
-    describe();
     main_drawing();
     scale_bar();
-    const bool start_shown = picture_.draw_start && start_in_main_;
-    const double text_end = draw_panel(picture_, shapes_, picture_.draw_start, kPanel, scene_.items);
+    const bool start_shown = rings_.draw_start && start_in_main_;
+    const double text_end = draw_panel(picture_, rings_, shapes_, kPanel, scene_.items);
     const double bottom = kPanel.bottom() - kInsetCaption - 1;
     const double side = std::min(kInsetSide, bottom - text_end - 3);
     Rect inset{kPanel.x, bottom - side, side, side};
@@ -71,7 +68,7 @@ class Composer {
       magnified(inset);
       inset.x = kPanel.x + kPanel.width / 2 + 1;
     }
-    if (picture_.draw_start && !start_shown) overview(inset);
+    if (rings_.draw_start && !start_shown) overview(inset);
     return std::move(scene_);
   }
 
@@ -82,7 +79,7 @@ class Composer {
     view_ = fitted(box, room);
     const View with_start = fitted(joined(box, geom::bounds(shapes_.start)), room);
     start_in_main_ = with_start.scale >= kSmallestShare * view_.scale;
-    if (picture_.draw_start && start_in_main_) view_ = with_start;
+    if (rings_.draw_start && start_in_main_) view_ = with_start;
     choose_magnification();
   }
 
@@ -98,23 +95,15 @@ class Composer {
     thinnest_scale_ = magnification_ * view_.scale;
   }
 
-  void describe() {
-    const locate::Placement& p = picture_.result;
-    scene_.title = fmt::format("{}: {} in {}", picture_.title, io::file_name(picture_.part_name),
-                               io::file_name(picture_.blank_name));
-    scene_.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad",
-                                     picture_.status, p.clearance, p.x, p.y, p.theta);
-  }
-
   void main_drawing() {
     draw_shapes(shapes_, view_, kDrawing, scene_.items);
     Obstacles obstacles{{on_paper(shapes_.blank, view_, kDrawing), on_paper(shapes_.part, view_, kDrawing)},
                         {}};
-    if (picture_.draw_start && start_in_main_) {
+    if (rings_.draw_start && start_in_main_) {
       draw_start(shapes_, view_, kDrawing, scene_.items);
       obstacles.lines.push_back(on_paper(shapes_.start, view_, kDrawing));
     }
-    draw_contacts(picture_, contacts_, view_, kDrawing, scene_.items);
+    draw_contacts(rings_, contacts_, view_, kDrawing, scene_.items);
     if (thinnest_scale_ > 0) {
       const Point at = view_(shapes_.samples[shapes_.thinnest].at);
       scene_.items.push_back(
@@ -135,7 +124,7 @@ class Composer {
       const Point vertex = view_(line.vertex);
       const bool sticks_out = dot(outward, vertex - foot) > 0;
       labels.push_back(
-          {sticks_out ? vertex : foot, outward, contact_label(picture_, picture_.contacts[line.index])});
+          {sticks_out ? vertex : foot, outward, contact_label(rings_, rings_.contacts[line.index])});
     }
     place_labels(labels, kLabelSize, obstacles, kDrawing, scene_.items);
   }
@@ -217,6 +206,7 @@ class Composer {
 
   static constexpr double kRing = 2.4;  ///< around the thinnest place, mm of paper
   const LocatePicture& picture_;
+  const PictureOfRings& rings_;
   Located shapes_;
   std::vector<ContactLine> contacts_;
   Scene scene_;
@@ -225,12 +215,32 @@ class Composer {
   double magnification_ = 0, thinnest_scale_ = 0;
 };
 
+Scene composed(const LocatePicture& picture) {
+  if (const auto* const regions = std::get_if<PictureOfRegions>(&picture.outlines))
+    return composed_regions(picture, *regions);
+  return RingComposer(picture, std::get<PictureOfRings>(picture.outlines)).compose();
+}
+
 }  // namespace
 
-std::string picture_svg(const LocatePicture& picture) { return scene_svg(Composer(picture).compose()); }
+Scene empty_scene(const LocatePicture& picture) {
+  const locate::Placement& p = picture.result;
+  Scene scene;
+  scene.width = kPage.width, scene.height = kPage.height;
+  scene.title = fmt::format("{}: {} in {}", picture.title, io::file_name(picture.part_name),
+                            io::file_name(picture.blank_name));
+  scene.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad",
+                                  picture.status, p.clearance, p.x, p.y, p.theta);
+  Paint white;
+  white.fill = kPaper, white.fill_alpha = 1;
+  scene.items.push_back(PathItem{{kPage.ring()}, true, white, {"page", ""}});
+  return scene;
+}
+
+std::string picture_svg(const LocatePicture& picture) { return scene_svg(composed(picture)); }
 
 Result<std::string> picture_png(const LocatePicture& picture, int width_px) {
-  return scene_png(Composer(picture).compose(), width_px);
+  return scene_png(composed(picture), width_px);
 }
 
 }  // namespace lekalo::draw

@@ -74,9 +74,9 @@ void set_range(Located& shapes) {
 }
 
 /// Of places that are equally thin a vertex in contact is the one to show.
-void prefer_contact(const LocatePicture& picture, Located& shapes) {
+void prefer_contact(const PictureOfRings& rings, Located& shapes) {
   const double close = shapes.least + shapes.rounding + 1e-6 * (shapes.high - shapes.low);
-  for (const locate::Contact& contact : picture.contacts) {
+  for (const locate::Contact& contact : rings.contacts) {
     const auto at_vertex = [&](const locate::AllowanceSample& sample) {
       return sample.part_edge == contact.part_vertex && sample.along == 0 && sample.allowance <= close;
     };
@@ -169,29 +169,29 @@ double typical_width(const Ring& ring) {
 
 }  // namespace
 
-Located located(const LocatePicture& picture) {
+Located located(const PictureOfRings& rings, const locate::Placement& result) {
   Located shapes;
-  shapes.blank = picture.blank;
-  shapes.part = placed(picture.part, picture.result);
-  shapes.start = placed(picture.part, picture.start);
+  shapes.blank = rings.blank;
+  shapes.part = placed(rings.part, result);
+  shapes.start = placed(rings.part, rings.start);
   const double step = perimeter(shapes.part) / kSamplesAround;
-  auto samples = locate::contour_allowance(picture.part, picture.blank, picture.result, step);
+  auto samples = locate::contour_allowance(rings.part, rings.blank, result, step);
   if (!samples) return shapes;
   shapes.samples = std::move(*samples);
   const double largest =
       std::max({geom::largest_coordinate(shapes.blank), geom::largest_coordinate(shapes.part),
-                geom::largest_coordinate(picture.part)});
+                geom::largest_coordinate(rings.part)});
   shapes.rounding = kRoundings * std::numeric_limits<double>::epsilon() * largest;
   set_range(shapes);
-  prefer_contact(picture, shapes);
+  prefer_contact(rings, shapes);
   shapes.blank_at_thinnest = nearest_of_outline(shapes.samples[shapes.thinnest].at, shapes.blank);
   return shapes;
 }
 
-std::vector<ContactLine> contact_lines(const LocatePicture& picture, const Located& shapes) {
+std::vector<ContactLine> contact_lines(const PictureOfRings& rings, const Located& shapes) {
   std::vector<ContactLine> lines;
-  for (std::size_t i = 0; i < picture.contacts.size(); ++i) {
-    const locate::Contact& contact = picture.contacts[i];
+  for (std::size_t i = 0; i < rings.contacts.size(); ++i) {
+    const locate::Contact& contact = rings.contacts[i];
     if (contact.part_vertex >= shapes.part.size() || contact.blank_edge >= shapes.blank.size()) continue;
     const Point a = shapes.blank[contact.blank_edge];
     const Point b = shapes.blank[contact.blank_edge + 1 == shapes.blank.size() ? 0 : contact.blank_edge + 1];
@@ -202,12 +202,12 @@ std::vector<ContactLine> contact_lines(const LocatePicture& picture, const Locat
   return lines;
 }
 
-std::string contact_label(const LocatePicture& picture, const locate::Contact& contact) {
+std::string contact_label(const PictureOfRings& rings, const locate::Contact& contact) {
   const auto number = [](const std::vector<std::uint32_t>& numbers, std::uint32_t index) {
     return index < numbers.size() ? numbers[index] : index;
   };
-  return fmt::format("v{} e{}", number(picture.vertex_numbers, contact.part_vertex),
-                     number(picture.edge_numbers, contact.blank_edge));
+  return fmt::format("v{} e{}", number(rings.vertex_numbers, contact.part_vertex),
+                     number(rings.edge_numbers, contact.blank_edge));
 }
 
 void draw_shapes(const Located& shapes, const View& view, const Rect& visible, std::vector<Item>& items) {
@@ -236,7 +236,7 @@ void draw_start(const Located& shapes, const View& view, const Rect& visible, st
                            {"start", "part at the start"}});
 }
 
-void draw_contacts(const LocatePicture& picture, const std::vector<ContactLine>& lines, const View& view,
+void draw_contacts(const PictureOfRings& rings, const std::vector<ContactLine>& lines, const View& view,
                    const Rect& visible, std::vector<Item>& items) {
   items.push_back(ClipBegin{{visible.ring()}});
   for (const ContactLine& line : lines) {
@@ -246,12 +246,12 @@ void draw_contacts(const LocatePicture& picture, const std::vector<ContactLine>&
     }
   }
   for (const ContactLine& line : lines) {
-    const locate::Contact& contact = picture.contacts[line.index];
+    const locate::Contact& contact = rings.contacts[line.index];
     const Point vertex = view(line.vertex), foot = view(line.foot);
     Paint stroke = line_of(kInk, 0.5);
     stroke.round = true;
     items.push_back(
-        PathItem{{{vertex, foot}}, false, stroke, {"contact", "contact " + contact_label(picture, contact)}});
+        PathItem{{{vertex, foot}}, false, stroke, {"contact", "contact " + contact_label(rings, contact)}});
     Paint dot = fill_of(kPaper);
     dot.stroke = kInk;
     dot.width = 0.4;

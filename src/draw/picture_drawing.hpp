@@ -22,7 +22,7 @@ struct Located {
   double rounding = 0;             ///< allowances of at most this size cannot be told from 0, mm
   [[nodiscard]] bool sticks_out() const { return least < -rounding; }
 };
-[[nodiscard]] Located located(const LocatePicture& picture);
+[[nodiscard]] Located located(const PictureOfRings& rings, const locate::Placement& result);
 
 /// A contact as drawn: from the vertex to the foot of its perpendicular on the line of the blank's edge.
 struct ContactLine {
@@ -31,14 +31,14 @@ struct ContactLine {
   geom::Point edge_from, edge_to;
 };
 /// Those with valid indices.
-[[nodiscard]] std::vector<ContactLine> contact_lines(const LocatePicture& picture, const Located& shapes);
-[[nodiscard]] std::string contact_label(const LocatePicture& picture, const locate::Contact& contact);
+[[nodiscard]] std::vector<ContactLine> contact_lines(const PictureOfRings& rings, const Located& shapes);
+[[nodiscard]] std::string contact_label(const PictureOfRings& rings, const locate::Contact& contact);
 
 /// Blank, placed part, what sticks out, and the coloured band inside the part's outline, as seen in `view`,
 /// drawn inside `visible` only.
 void draw_shapes(const Located& shapes, const View& view, const Rect& visible, std::vector<Item>& items);
 void draw_start(const Located& shapes, const View& view, const Rect& visible, std::vector<Item>& items);
-void draw_contacts(const LocatePicture& picture, const std::vector<ContactLine>& lines, const View& view,
+void draw_contacts(const PictureOfRings& rings, const std::vector<ContactLine>& lines, const View& view,
                    const Rect& visible, std::vector<Item>& items);
 
 }  // namespace lekalo::draw

@@ -6,10 +6,10 @@
 
 #include "colour.hpp"
 #include "lekalo/base/angle.hpp"
-#include "lekalo/draw/picture.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "picture_scene.hpp"
 #include "printed_number.hpp"
 #include "region_rings.hpp"
 #include "scene.hpp"
@@ -21,7 +21,6 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-constexpr Rect kPage{0, 0, 250, 160};
 constexpr Rect kDrawing{6, 6, 168, 142};
 constexpr Rect kPanel{182, 8, 62, 144};
 constexpr double kSag = 0.01;        ///< of an arc's chord, mm of paper
@@ -38,25 +37,18 @@ Paint stroke(Colour colour, double width) {
 
 class RegionComposer {
  public:
-  explicit RegionComposer(const RegionPicture& picture)
+  RegionComposer(const LocatePicture& picture, const PictureOfRegions& regions)
       : picture_(picture),
-        blank_(picture.blank),
+        regions_(regions),
+        blank_(regions.blank),
         pose_(geom::BlankFromPart::from_angle(picture.result.theta, {picture.result.x, picture.result.y},
-                                              picture.mirrored)) {
-    scene_.width = kPage.width, scene_.height = kPage.height;
+                                              picture.mirrored)),
+        scene_(empty_scene(picture)) {
     choose_view();
     measure();
   }
 
   Scene compose() && {
-    const locate::Placement& p = picture_.result;
-    scene_.title = fmt::format("lekalo locate: {} in {}", io::file_name(picture_.part_name),
-                               io::file_name(picture_.blank_name));
-    scene_.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad",
-                                     picture_.status, p.clearance, p.x, p.y, p.theta);
-    Paint white;
-    white.fill = kPaper, white.fill_alpha = 1;
-    scene_.items.push_back(PathItem{{kPage.ring()}, true, white, {"page", ""}});
     draw_blank();
     draw_part();
     draw_contacts();
@@ -73,7 +65,7 @@ class RegionComposer {
   }
 
   [[nodiscard]] std::vector<Ring> placed_rings(double sag, double step) const {
-    std::vector<Ring> rings = region_rings(picture_.part, sag, step);
+    std::vector<Ring> rings = region_rings(regions_.part, sag, step);
     for (Ring& ring : rings)
       for (Point& p : ring) p = pose_(p);
     return rings;
@@ -104,7 +96,7 @@ class RegionComposer {
     Paint paint = stroke(kBlankLine, 0.3);
     paint.fill = kBlankFill, paint.fill_alpha = 1;
     std::vector<Ring> lines;
-    for (const Ring& ring : region_rings(picture_.blank, kSag / view_.scale, 1e300))
+    for (const Ring& ring : region_rings(regions_.blank, kSag / view_.scale, 1e300))
       lines.push_back(paper(ring));
     scene_.items.push_back(PathItem{std::move(lines), true, paint, {"blank", "blank"}});
   }
@@ -139,7 +131,7 @@ class RegionComposer {
   }
 
   void draw_contacts() {
-    for (const locate::RegionTouch& contact : picture_.contacts) {
+    for (const locate::Touch& contact : regions_.contacts) {
       const Point a = view_(pose_(contact.part)), b = view_(contact.blank);
       Paint dot;
       dot.fill = kInk, dot.fill_alpha = 1;
@@ -186,9 +178,9 @@ class RegionComposer {
     line("minimum allowance", decimal(p.clearance, decimals, Rounding::down) + " mm");
     if (picture_.upper_bound)
       line("proved: none above", decimal(*picture_.upper_bound, decimals, Rounding::up) + " mm");
-    if (picture_.margin) line("margin of the demands", decimal(*picture_.margin, decimals, Rounding::down));
-    if (picture_.margin_bound)
-      line("proved: none above", decimal(*picture_.margin_bound, decimals, Rounding::up));
+    if (regions_.margin) line("margin of the demands", decimal(*regions_.margin, decimals, Rounding::down));
+    if (regions_.margin_bound)
+      line("proved: none above", decimal(*regions_.margin_bound, decimals, Rounding::up));
     if (picture_.min_allowance > 0) line("demanded", decimal(picture_.min_allowance, decimals) + " mm");
     if (picture_.shortfall > 0) line("missing", decimal(picture_.shortfall, decimals, Rounding::up) + " mm");
     y_ += 6;
@@ -233,7 +225,8 @@ class RegionComposer {
     y_ += height;
   }
 
-  const RegionPicture& picture_;
+  const LocatePicture& picture_;
+  const PictureOfRegions& regions_;
   geom::RegionIndex blank_;
   geom::BlankFromPart pose_;
   View view_;
@@ -246,10 +239,8 @@ class RegionComposer {
 
 }  // namespace
 
-std::string picture_svg(const RegionPicture& picture) { return scene_svg(RegionComposer(picture).compose()); }
-
-Result<std::string> picture_png(const RegionPicture& picture, int width_px) {
-  return scene_png(RegionComposer(picture).compose(), width_px);
+Scene composed_regions(const LocatePicture& picture, const PictureOfRegions& regions) {
+  return RegionComposer(picture, regions).compose();
 }
 
 }  // namespace lekalo::draw

@@ -120,7 +120,7 @@ void judge(const Report& report, FeatureRow& row) {
 
 geom::BlankFromPart pose_of(const Report& report) {
   const locate::Placement& p = report.document.placement;
-  return geom::BlankFromPart::from_angle(p.theta, {p.x, p.y}, report.mirrored);
+  return geom::BlankFromPart::from_angle(p.theta, {p.x, p.y}, report.document.mirrored);
 }
 
 void find_demands(Report& report) {
@@ -165,41 +165,14 @@ void find_missing(Report& report) {
   }
 }
 
-std::size_t index_of(const std::vector<std::uint32_t>& numbers, std::uint32_t number) {
-  if (numbers.empty()) return number;
-  return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
-}
-
-/// Convex contours: the vertex and the foot of its perpendicular on the line of the blank's edge.
-std::vector<ReportContact> vertex_contacts(const io::LocateDocument& document, const Report& report) {
-  const geom::Contour &part = report.shapes.part[0].outer, &blank = report.shapes.blank[0].outer;
-  const geom::BlankFromPart pose = pose_of(report);
-  std::vector<ReportContact> contacts;
-  for (const locate::Contact& contact : document.contacts) {
-    const std::size_t i = index_of(report.shapes.part_vertex_numbers, contact.part_vertex);
-    const std::size_t j = index_of(report.shapes.blank_edge_numbers, contact.blank_edge);
-    if (i >= part.size() || j >= blank.size()) continue;
-    const Point vertex = pose(part[i].from), a = blank[j].from, along = blank[j].to - a;
-    const Point foot = a + (dot(vertex - a, along) / dot(along, along)) * along;
-    contacts.push_back({contact.part_vertex, contact.blank_edge, part[i].from, foot, norm(foot - vertex)});
-  }
-  return contacts;
-}
-
-std::vector<ReportContact> edge_contacts(const io::RegionRecord& regions) {
-  std::vector<ReportContact> contacts;
-  for (const locate::RegionTouch& touch : regions.contacts)
-    contacts.push_back({touch.part_edge, touch.blank_edge, touch.part, touch.blank, touch.distance});
-  return contacts;
-}
-
 /// What the page prints of the document, without its long lists.
 io::LocateDocument without_lists(const io::LocateDocument& document) {
   io::LocateDocument kept;
   kept.status = document.status, kept.method = document.method;
   kept.inputs = document.inputs, kept.warnings = document.warnings;
   kept.seed = document.seed, kept.work = document.work;
-  kept.placement = document.placement, kept.upper_bound = document.upper_bound;
+  kept.placement = document.placement, kept.mirrored = document.mirrored;
+  kept.upper_bound = document.upper_bound;
   kept.min_allowance = document.min_allowance, kept.shortfall = document.shortfall;
   kept.window_from_deg = document.window_from_deg, kept.window_to_deg = document.window_to_deg;
   kept.certificate_file = document.certificate_file;
@@ -215,18 +188,13 @@ Result<Report> make_report(const io::LocateDocument& document, ReportShapes shap
   Report report;
   report.document = without_lists(document);
   report.shapes = std::move(shapes);
-  report.mirrored = document.regions && document.regions->mirrored;
-  if (document.regions && document.regions->demands) {
-    report.margin = document.regions->demands->margin;
-    report.margin_bound = document.regions->demands->margin_bound;
-  }
+  if (document.demands)
+    report.margin = document.demands->margin, report.margin_bound = document.demands->margin_bound;
   const double size = size_of(report.shapes.part);
   report.step = round_length(length_of(report.shapes.part) / kSamplesAround);
   report.tolerance = std::max(std::min(kTolerance, kToleranceOfSize * size), kLargestOfSize * size);
-  auto edges = locate::edge_allowances(report.shapes.part, report.shapes.blank, pose_of(report), report.step,
-                                       report.tolerance);
-  if (!edges) return tl::unexpected(edges.error());
-  report.edges = std::move(*edges);
+  LEKALO_TRY(report.edges, locate::edge_allowances(report.shapes.part, report.shapes.blank, pose_of(report),
+                                                   report.step, report.tolerance));
   if (features.empty()) features = contours_as_features(report.shapes.part);
   for (ReportFeature& feature : features) {
     report.features.push_back(row_of(std::move(feature), report));
@@ -234,8 +202,8 @@ Result<Report> make_report(const io::LocateDocument& document, ReportShapes shap
   }
   find_demands(report);
   find_missing(report);
-  report.contacts_at_vertices = !document.regions;
-  report.contacts = document.regions ? edge_contacts(*document.regions) : vertex_contacts(document, report);
+  report.contacts_at_vertices = document.convex();
+  report.contacts = document.contacts;
   const int decimals = decimals_for(std::max(size, size_of(report.shapes.blank)));
   report.proof = proof_sentences(document, decimals);
   report.assumptions = assumption_sentences(document, decimals);

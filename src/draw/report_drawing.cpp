@@ -38,7 +38,7 @@ class Drawing {
   Drawing(const Report& report, const ReportLook& look, const Rect& frame, Sheet& sheet)
       : report_(report), look_(look), frame_(frame), sheet_(sheet), items_(sheet.items()) {
     const locate::Placement& p = report.document.placement;
-    pose_ = geom::BlankFromPart::from_angle(p.theta, {p.x, p.y}, report.mirrored);
+    pose_ = geom::BlankFromPart::from_angle(p.theta, {p.x, p.y}, report.document.mirrored);
     choose_view();
     for (Ring& ring : region_rings(report.shapes.part, kSag / view_.scale, 1e300)) {
       std::transform(ring.begin(), ring.end(), ring.begin(), pose_);
@@ -180,8 +180,8 @@ class Drawing {
 
   void contacts() {
     for (std::size_t k = 0; k < report_.contacts.size(); ++k) {
-      const ReportContact& contact = report_.contacts[k];
-      const Point a = view_(pose_(contact.part_at)), b = view_(contact.blank_at);
+      const locate::Touch& contact = report_.contacts[k];
+      const Point a = view_(pose_(contact.part)), b = view_(contact.blank);
       Paint line = stroked(kInk, 0.4);
       line.round = true;
       items_.push_back(
@@ -211,7 +211,7 @@ class Drawing {
            "missing-label", kOutside, true});
     }
     for (std::size_t k = 0; k < std::min(report_.contacts.size(), kMostMarks); ++k) {
-      const Point a = view_(pose_(report_.contacts[k].part_at)), b = view_(report_.contacts[k].blank_at);
+      const Point a = view_(pose_(report_.contacts[k].part)), b = view_(report_.contacts[k].blank);
       const Point out = norm(b - a) > 1e-6 ? b - a : away_from_middle(b);
       labels.push_back({b, out, contact_letter(k), "contact-label", kInk, true});
     }
@@ -219,7 +219,7 @@ class Drawing {
     for (const std::vector<Ring>* rings : {&blank_, &part_})
       for (const Ring& ring : *rings)
         if (ring.size() > 1) obstacles.lines.push_back(ring);
-    for (const ReportContact& contact : report_.contacts) around(view_(pose_(contact.part_at)), obstacles);
+    for (const locate::Touch& contact : report_.contacts) around(view_(pose_(contact.part)), obstacles);
     for (const locate::MissingPlace& place : report_.missing) around(view_(place.in_blank), obstacles);
     Rect room = frame_.grown(-1);
     room.height -= kStrip;

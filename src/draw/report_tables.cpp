@@ -98,7 +98,7 @@ double draw_numbers(const Report& report, const ReportLook& look, const Rect& co
   rows.add("y", length_text(p.y, look.decimals), "y");
   // As many digits as move the rim of the part by less than the last digit of x.
   rows.add("angle", decimal(p.theta * kDegreesPerRadian, 7) + "°", "theta-deg");
-  if (report.mirrored) rows.add("mirrored", "in x, before turning", "mirrored");
+  if (report.document.mirrored) rows.add("mirrored", "in x, before turning", "mirrored");
   return rows.end();
 }
 
@@ -124,12 +124,12 @@ double draw_contacts(const Report& report, const ReportLook& look, const Rect& c
   y = table.titles(y);
   const std::size_t shown = std::min(report.contacts.size(), most_rows);
   for (std::size_t k = 0; k < shown; ++k) {
-    const ReportContact& contact = report.contacts[k];
+    const locate::Touch& contact = report.contacts[k];
     y = table.row(
         y,
-        {contact_letter(k), fmt::format("{}", contact.part), fmt::format("{}", contact.blank),
-         decimal(contact.distance, look.table_decimals), decimal(contact.blank_at.x, look.table_decimals - 1),
-         decimal(contact.blank_at.y, look.table_decimals - 1)},
+        {contact_letter(k), fmt::format("{}", contact.part_edge), fmt::format("{}", contact.blank_edge),
+         decimal(contact.distance, look.table_decimals), decimal(contact.blank.x, look.table_decimals - 1),
+         decimal(contact.blank.y, look.table_decimals - 1)},
         {.size = kReportSmall, .kind = "contact-row"});
   }
   if (shown < report.contacts.size()) {

@@ -20,9 +20,8 @@ std::string where_looked(const io::LocateDocument& d) {
   std::string text = d.window_from_deg == 0 && d.window_to_deg == 360
                          ? "at any angle"
                          : fmt::format("at an angle from {}° to {}°", d.window_from_deg, d.window_to_deg);
-  const locate::Mirror mirror = d.regions ? d.regions->mirror : locate::Mirror::no;
-  if (mirror == locate::Mirror::yes) text += ", mirrored,";
-  if (mirror == locate::Mirror::either) text += ", mirrored or not,";
+  if (d.mirror == locate::Mirror::yes) text += ", mirrored,";
+  if (d.mirror == locate::Mirror::either) text += ", mirrored or not,";
   return text;
 }
 
@@ -67,7 +66,7 @@ std::string demand_verdict(const io::LocateDocument& d, const io::DemandRecord& 
 }
 
 std::string verdict(const io::LocateDocument& d, int decimals) {
-  if (d.regions && d.regions->demands) return demand_verdict(d, *d.regions->demands, decimals);
+  if (d.demands) return demand_verdict(d, *d.demands, decimals);
   if (!d.upper_bound) {
     return fmt::format("Nothing is proved about other placements: the method {} cannot; {}.", d.method,
                        this_has(d, decimals));
@@ -89,11 +88,11 @@ std::string verdict(const io::LocateDocument& d, int decimals) {
 }
 
 std::string proof_place(const io::LocateDocument& d) {
-  if (!d.upper_bound && !(d.regions && d.regions->demands)) return {};
-  const bool regions = d.regions.has_value();
-  const bool inside = regions ? !d.regions->certificate.empty() : d.certificate.has_value();
-  const std::size_t count = regions || !d.certificate ? d.certificate_intervals : d.certificate->size();
-  const std::string what = fmt::format("{} {}", count, regions ? "boxes of poses" : "intervals of the angle");
+  if (!d.upper_bound && !d.demands) return {};
+  const bool inside = io::has_proof(d), angles = d.convex();
+  const std::string what =
+      fmt::format("{} {}", angles && inside ? io::proof_size(d) : d.certificate_intervals,
+                  angles ? "intervals of the angle" : "boxes of poses");
   if (d.certificate_file) {
     return fmt::format("The proof, {}, is in {}, SHA-256 {}.", what, name_of(*d.certificate_file),
                        d.certificate_file->sha256);
@@ -126,14 +125,14 @@ std::string as_sentence(std::string text) {
 
 std::vector<std::string> assumption_sentences(const io::LocateDocument& d, int decimals) {
   std::vector<std::string> sentences;
-  if (d.regions && d.regions->part_tolerance + d.regions->blank_tolerance > 0) {
+  if (d.part_tolerance + d.blank_tolerance > 0) {
     sentences.push_back(fmt::format(
         "The true outlines lie within {} mm (part) and {} mm (blank) of those used; this is taken off "
         "the allowance and added to the bound.",
-        short_number_up(d.regions->part_tolerance), short_number_up(d.regions->blank_tolerance)));
+        short_number_up(d.part_tolerance), short_number_up(d.blank_tolerance)));
   }
-  if (d.regions && d.regions->scan) {
-    const io::ScanRecord& scan = *d.regions->scan;
+  if (d.scan) {
+    const io::ScanRecord& scan = *d.scan;
     for (const std::string& assumption : scan.assumptions) sentences.push_back(as_sentence(assumption));
     if (!scan.proved)
       sentences.push_back(fmt::format(

@@ -44,17 +44,18 @@ run(${prefix}/bin/lekalo --version)
 
 # The example program, built the same way.
 set(example ${CMAKE_CURRENT_LIST_DIR}/../../examples/library)
-run(${CMAKE_COMMAND} -S ${example} -B ${WORK}/place -G ${GENERATOR}
+run(${CMAKE_COMMAND} -S ${example} -B ${WORK}/library -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=${TYPE}
   -DCMAKE_PREFIX_PATH=${prefix})
-run(${CMAKE_COMMAND} --build ${WORK}/place)
-run(${WORK}/place/place ${example}/plate.json ${example}/casting.json)
+run(${CMAKE_COMMAND} --build ${WORK}/library)
+run(${WORK}/library/locate ${example}/plate.json ${example}/casting.json ${WORK}/located.json)
 if(NOT output MATCHES "clearance 2\\.[0-9]+ mm, and no placement has more than 2\\.")
-  message(FATAL_ERROR "examples/library/place does not find the placement:\n${output}")
+  message(FATAL_ERROR "examples/library/locate does not find the placement:\n${output}")
 endif()
-run(${WORK}/place/nest ${example}/../layouts/shoes.json ${WORK}/nested.json)
+run(${prefix}/bin/lekalo verify ${WORK}/located.json)
+run(${WORK}/library/nest ${example}/../layouts/shoes.json ${WORK}/nested.json)
 run(${prefix}/bin/lekalo check ${WORK}/nested.json)
-run(${WORK}/place/pocket ${example}/../pockets/cover.json)
+run(${WORK}/library/pocket ${example}/../pockets/cover.json)
 if(NOT output MATCHES "M30.*cut: (99\\.99|100)")
   message(FATAL_ERROR "examples/library/pocket does not write a judged program:\n${output}")
 endif()

@@ -5,16 +5,17 @@
 #include <iostream>
 
 #include "lekalo/io/contour/contour_file.hpp"
-#include "lekalo/locate/convex.hpp"
+#include "lekalo/jobs/locate.hpp"
 
 namespace {
 
 void as_in_the_readme() {
-  const auto part = lekalo::geom::ConvexPolygon::make({{0, 0}, {8, 0}, {8, 8}, {0, 8}});
-  const auto blank = lekalo::geom::ConvexPolygon::make({{10, 10}, {20, 10}, {20, 20}, {10, 20}});
-  const auto result = lekalo::locate::locate_convex({*part, *blank}, {});
-  assert(result->best.clearance <= 1 && result->upper_bound >= 1);  // the optimum is 1 mm
-  assert(result->upper_bound - result->best.clearance <= 1e-9);     // and that is proved
+  const lekalo::jobs::File part{"part.csv", "0 0\n8 0\n8 8\n0 8\n"};
+  const lekalo::jobs::File blank{"blank.csv", "10 10\n20 10\n20 20\n10 20\n"};
+  const auto made = lekalo::jobs::locate({.part = part, .blank = blank});
+  const auto& found = made->document;  // made->result is its bytes, confirmed by the independent checker
+  assert(found.placement.clearance <= 1 && *found.upper_bound >= 1);  // the optimum is 1 mm
+  assert(*found.upper_bound - found.placement.clearance <= 1e-9);     // and that is proved
 }
 
 }  // namespace

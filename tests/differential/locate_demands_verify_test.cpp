@@ -33,10 +33,12 @@ io::LocateDocument document_of(const locate::DemandProblem& problem, const locat
   demands.margin_gap = r.margin_gap, demands.largest = r.largest, demands.second = r.second;
   demands.deviation = r.deviation, demands.curve = r.curve;
   demands.grown_for = r.proof.grown_for, demands.shift = r.proof.shift, demands.bound = r.proof.bound;
-  d.regions = io::RegionRecord{
-      shapes.part,       shapes.blank, shapes.part_tolerance, shapes.blank_tolerance, shapes.mirror,
-      r.mirrored,        r.contacts,   r.proof.certificate,   r.proof.pivot,          shapes.locked,
-      std::move(demands)};
+  d.part = shapes.part, d.part_tolerance = shapes.part_tolerance;
+  d.blank = shapes.blank, d.blank_tolerance = shapes.blank_tolerance;
+  d.mirror = shapes.mirror, d.mirrored = r.mirrored, d.locked = shapes.locked;
+  d.contacts = r.contacts;
+  d.proof = locate::PoseProof{r.proof.pivot, r.proof.certificate};
+  d.demands = std::move(demands);
   constexpr double kDegrees = 57.29577951308232;
   // A little less than was searched: degrees are rounded.
   d.window_from_deg = shapes.window.from * kDegrees + 1e-9;
@@ -103,7 +105,7 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
     if (i % 4 > 1) continue;  // reading long certificates again and again only costs time
     const auto refuted = [&](const std::function<void(io::LocateDocument&, locate::SmallestLargest&)>& lie) {
       io::LocateDocument wrong = document;
-      lie(wrong, *wrong.regions->demands->second);
+      lie(wrong, *wrong.demands->second);
       return checked(wrong).verdict == verify::Verdict::refuted;
     };
     // A cap as high as what was found is kept by the placement found: no tree proves the contrary.
@@ -128,15 +130,15 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
     }
     // The bound is one for placements with that margin, and not for those with less.
     EXPECT_TRUE(refuted([&](auto& d, auto& s) {
-      d.regions->demands->give_up += 0.1, s.margin = std::max(0.0, s.margin - 0.1);
+      d.demands->give_up += 0.1, s.margin = std::max(0.0, s.margin - 0.1);
     }));
     EXPECT_TRUE(refuted([&](auto&, auto& s) {
       for (locate::CoverTree& tree : s.proof->certificate) tree.nodes = {tree.nodes.back()};
     }));
-    EXPECT_TRUE(refuted([&](auto& d, auto& s) { s.proof->certificate = d.regions->certificate; }));
-    EXPECT_TRUE(refuted([&](auto& d, auto& s) { d.regions->demands->largest = s.kept + 0.001; }));
+    EXPECT_TRUE(refuted([&](auto& d, auto& s) { s.proof->certificate = std::get<locate::PoseProof>(d.proof).trees; }));
+    EXPECT_TRUE(refuted([&](auto& d, auto& s) { d.demands->largest = s.kept + 0.001; }));
     io::LocateDocument without = document;
-    without.regions->demands->second->proof->certificate.clear();
+    without.demands->second->proof->certificate.clear();
     EXPECT_EQ(checked(without).verdict, verify::Verdict::unproved);
   }
   EXPECT_GT(with_maximum, 0U);

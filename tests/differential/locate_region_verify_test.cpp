@@ -21,9 +21,10 @@ io::LocateDocument document_of(const cases::RegionCase& one, const locate::Regio
   d.placement = result.best;
   d.upper_bound = result.upper_bound;
   d.shortfall = result.shortfall;
-  d.regions = io::RegionRecord{
-      one.part,        one.blank,          0,           0, locate::Mirror::no, result.mirrored,
-      result.contacts, result.certificate, result.pivot};
+  d.part = one.part, d.blank = one.blank;
+  d.mirrored = result.mirrored;
+  d.contacts = result.contacts;
+  d.proof = locate::PoseProof{result.pivot, result.certificate};
   return d;
 }
 
@@ -62,13 +63,13 @@ TEST(LocateRegionsAndVerify, TheCheckerConfirmsEveryRandomCase) {
       for (const bool of_part : {false, true}) {
         wrong = document;
         *wrong.upper_bound -= 0.01;
-        for (locate::BallTerm& term : wrong.regions->certificate[0].terms)
+        for (locate::BallTerm& term : std::get<locate::PoseProof>(wrong.proof).trees[0].terms)
           (of_part ? term.part_radius : term.blank_radius) += 5;
         EXPECT_EQ(checked(wrong).verdict, verify::Verdict::refuted);
       }
       // One leaf made to stand for all poses.
       wrong = document;
-      auto& nodes = wrong.regions->certificate[0].nodes;
+      auto& nodes = std::get<locate::PoseProof>(wrong.proof).trees[0].nodes;
       ASSERT_GT(nodes.size(), 2u);
       nodes = {nodes.back()};
       EXPECT_EQ(checked(wrong).verdict, verify::Verdict::refuted);

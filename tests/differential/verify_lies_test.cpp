@@ -33,9 +33,10 @@ Json true_result(locate::Mirror mirror = locate::Mirror::no) {
   d.placement = result->best;
   d.upper_bound = result->upper_bound;
   d.shortfall = result->shortfall;
-  d.regions = io::RegionRecord{
-      one.part,     one.blank, 0, 0, mirror, result->mirrored, result->contacts, result->certificate,
-      result->pivot};
+  d.part = one.part, d.blank = one.blank;
+  d.mirror = mirror, d.mirrored = result->mirrored;
+  d.contacts = result->contacts;
+  d.proof = locate::PoseProof{result->pivot, result->certificate};
   return Json::parse(io::result_json(d));
 }
 

@@ -8,6 +8,10 @@
 namespace lekalo::test {
 namespace {
 
+draw::PictureOfRings& rings(draw::LocatePicture& picture) {
+  return std::get<draw::PictureOfRings>(picture.outlines);
+}
+
 draw::LocatePicture example() {
   const auto one = cases::published_examples()[0];
   draw::LocatePicture picture;
@@ -15,12 +19,11 @@ draw::LocatePicture example() {
   picture.part_name = "part.csv";
   picture.blank_name = "blank.csv";
   picture.status = "optimal";
-  picture.part = one.part().vertices();
-  picture.blank = one.blank().vertices();
+  rings(picture).part = one.part().vertices();
+  rings(picture).blank = one.blank().vertices();
   picture.result = {3.645792, 15.392857, 0, 0.94692};
-  picture.has_upper_bound = true;
   picture.upper_bound = 0.94693;
-  picture.contacts = {{2, 1, 0}, {3, 3, 0}, {9, 8, 0}};
+  rings(picture).contacts = {{2, 1, 0}, {3, 3, 0}, {9, 8, 0}};
   return picture;
 }
 
@@ -70,7 +73,7 @@ TEST(PicturePng, DrawsCyrillicLettersAndNotBoxes) {
 TEST(PicturePng, ShowsWhatThePictureHolds) {
   draw::LocatePicture moved = example(), without_contacts = example();
   moved.result.x += 0.5;
-  without_contacts.contacts.clear();
+  rings(without_contacts).contacts.clear();
   const std::string before = png(example());
   EXPECT_NE(png(moved), before);
   EXPECT_NE(png(without_contacts), before);

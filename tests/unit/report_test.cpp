@@ -35,15 +35,14 @@ LocateDocument document_of(const std::vector<Region>& part, const std::vector<Re
   d.placement.clearance = clearance;
   d.upper_bound = clearance + 5e-4;
   d.shortfall = std::max(0.0, -clearance);
-  d.regions = io::RegionRecord{};
-  d.regions->part = part, d.regions->blank = blank;
+  d.part = part, d.blank = blank;
   d.certificate_intervals = 41;
-  d.regions->certificate.resize(1);
+  d.proof = locate::PoseProof{{}, std::vector<locate::CoverTree>(1)};
   return d;
 }
 
 Report report_of(const LocateDocument& document, std::vector<draw::ReportFeature> features = {}) {
-  auto report = draw::make_report(document, {document.regions->part, document.regions->blank, 0, {}, {}, {}},
+  auto report = draw::make_report(document, {document.part, document.blank, 0, {}, {}},
                                   std::move(features));
   EXPECT_TRUE(report.has_value());
   return report ? *std::move(report) : Report{};
@@ -53,8 +52,8 @@ std::vector<Region> plate(double low, double right, double top) {
   return {region(polygon({{low, low}, {right, low}, {right, top}, {low, top}}))};
 }
 
-locate::RegionTouch touch(std::uint32_t edge, Point part, Point blank, double distance) {
-  locate::RegionTouch made;
+locate::Touch touch(std::uint32_t edge, Point part, Point blank, double distance) {
+  locate::Touch made;
   made.part_edge = made.blank_edge = edge;
   made.part = part, made.blank = blank, made.distance = distance;
   return made;
@@ -67,7 +66,7 @@ LocateDocument plate_with_hole() {
   const std::vector<Region> blank{
       region(polygon({{-2, -2}, {42, -2}, {42, 22}, {-2, 22}}), {circle({10, 10}, 4)})};
   LocateDocument d = document_of(part, blank, 1);
-  d.regions->contacts = {touch(4, {15, 10}, {14, 10}, 1)};
+  d.contacts = {touch(4, {15, 10}, {14, 10}, 1)};
   return d;
 }
 
@@ -128,7 +127,7 @@ TEST(Report, OfDemandsThatAreMetFindsNothingMissingNeitherByRoundingNorOnTheRimO
   d.upper_bound.reset();
   io::DemandRecord demands;
   demands.margin = 0, demands.margin_bound = 1e-4;
-  d.regions->demands = demands;
+  d.demands = demands;
   const Report report = report_of(d, {{"face", {1}, -0.02, {}, 0.02}, {"sides", {0, 2, 3}, -0.0100, {}, {}}});
   for (const draw::FeatureRow& row : report.features) EXPECT_TRUE(row.met) << row.feature.name << row.verdict;
   EXPECT_TRUE(report.missing.empty());
@@ -137,7 +136,7 @@ TEST(Report, OfDemandsThatAreMetFindsNothingMissingNeitherByRoundingNorOnTheRimO
   EXPECT_EQ(texts(page, "margin").size(), 1U);
   // The same with a demand that is not met.
   demands.margin = -0.005;
-  d.regions->demands = demands;
+  d.demands = demands;
   const Report missed = report_of(d, {{"face", {1}, -0.005, {}, {}}});
   EXPECT_FALSE(missed.features[0].met);
   EXPECT_FALSE(missed.missing.empty());
@@ -220,8 +219,8 @@ TEST(Report, CsvHasEveryEdgeWithItsEndsAndExtremesInNumbersThatReadBack) {
 
 TEST(Report, OfSeveralPiecesNamesThemAndCsvCountsThem) {
   LocateDocument d = plate_with_hole();
-  d.regions->part.push_back(region(polygon({{60, 0}, {70, 0}, {65, 9}})));
-  d.regions->blank.push_back(region(polygon({{56, -2}, {74, -2}, {65, 14}})));
+  d.part.push_back(region(polygon({{60, 0}, {70, 0}, {65, 9}})));
+  d.blank.push_back(region(polygon({{56, -2}, {74, -2}, {65, 14}})));
   const Report report = report_of(d);
   ASSERT_EQ(report.features.size(), 3U);
   EXPECT_EQ(report.features[1].feature.name, "piece 0, hole 0");
@@ -236,26 +235,23 @@ TEST(Report, OfConvexContoursPrintsTheNumbersOfTheFiles) {
   const auto as_region = [](const geom::ConvexPolygon& p) {
     return std::vector<Region>{region(polygon(p.vertices()))};
   };
-  draw::ReportShapes shapes{as_region(part), as_region(blank), 0, {}, {}, {}};
+  draw::ReportShapes shapes{as_region(part), as_region(blank), 0, {}, {}};
   const auto n = static_cast<std::uint32_t>(part.size());
   LocateDocument d;
   d.status = "optimal", d.method = "certified";
   d.placement = found->best, d.upper_bound = found->upper_bound;
-  d.certificate = found->certificate;
-  for (std::uint32_t k = 0; k < n; ++k) {
-    shapes.part_vertex_numbers.push_back(n - 1 - k);
-    shapes.part_edge_numbers.push_back((2 * n - 2 - k) % n);
-  }
-  for (locate::Contact contact : found->contacts) {
-    contact.part_vertex = n - 1 - contact.part_vertex;
-    d.contacts.push_back(contact);
+  d.proof = locate::AngleProof{found->certificate};
+  for (std::uint32_t k = 0; k < n; ++k) shapes.part_edge_numbers.push_back((2 * n - 2 - k) % n);
+  for (const locate::Contact& contact : found->contacts) {
+    d.contacts.push_back(locate::touch_of(contact, part, blank, found->best));
+    d.contacts.back().part_edge = n - 1 - contact.part_vertex;
   }
   const auto report = draw::make_report(d, shapes);
   ASSERT_TRUE(report.has_value());
   ASSERT_EQ(report->contacts.size(), found->contacts.size());
   for (std::size_t k = 0; k < found->contacts.size(); ++k) {
-    EXPECT_EQ(report->contacts[k].part, d.contacts[k].part_vertex);
-    EXPECT_EQ(report->contacts[k].part_at, part[found->contacts[k].part_vertex]);
+    EXPECT_EQ(report->contacts[k].part_edge, d.contacts[k].part_edge);
+    EXPECT_EQ(report->contacts[k].part, part[found->contacts[k].part_vertex]);
     EXPECT_NEAR(report->contacts[k].distance, found->best.clearance, 1e-9);
   }
   EXPECT_NEAR(report->features[0].minimum, found->best.clearance, 1e-9);
@@ -302,7 +298,7 @@ TEST(Report, PutsNoTextOnAnotherOrOffThePage) {
             document_of(c.part, c.blank, off == 0 ? 0.1 : -off, {c.shift.x + off, c.shift.y, c.theta, 0});
         for (std::uint32_t k = 0; k < 9; ++k) {
           const Point p = c.part[0].outer[k % c.part[0].outer.size()].from;
-          d.regions->contacts.push_back(touch(k, p, c.pose()(p), 0.1));
+          d.contacts.push_back(touch(k, p, c.pose()(p), 0.1));
         }
         expect_clear_page(report_of(d), c.name);
       }

@@ -8,6 +8,8 @@
 namespace lekalo::cli {
 namespace {
 
+using Method = jobs::LocateMethod;
+
 constexpr std::array kMethods{Word<Method>{"certified", Method::certified},
                               Word<Method>{"ipopt", Method::ipopt}, Word<Method>{"icp", Method::icp}};
 constexpr std::array kStartRules{
@@ -45,13 +47,13 @@ constexpr double kLongestTime = 1e7;           // seconds
 void read_window(const std::vector<std::string>& words, WordReader& read, LocateOptions& o) {
   if (words.size() != 2) return;
   const char* const wanted = "an angle between -720 and 720 degrees";
-  read.number("--window", words[0], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_from_deg);
-  read.number("--window", words[1], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.window_to_deg);
-  read.require(o.window_from_deg <= o.window_to_deg,
+  read.number("--window", words[0], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.job.window_from_deg);
+  read.number("--window", words[1], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.job.window_to_deg);
+  read.require(o.job.window_from_deg <= o.job.window_to_deg,
                fmt::format("--window: the first angle, {}, is above the second, {}", words[0], words[1]));
-  if (o.window_to_deg - o.window_from_deg > 360 - kClosedWindow) {
-    o.window_from_deg = 0;
-    o.window_to_deg = 360;
+  if (o.job.window_to_deg - o.job.window_from_deg > 360 - kClosedWindow) {
+    o.job.window_from_deg = 0;
+    o.job.window_to_deg = 360;
   }
 }
 
@@ -59,32 +61,32 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read_window(words.window, read, o);
   if (!words.gap.empty())
     read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0",
-                o.gap.emplace());
-  read.choice("--mirror", words.mirror, kMirrors, o.mirror);
+                o.job.gap.emplace());
+  read.choice("--mirror", words.mirror, kMirrors, o.job.mirror);
   for (const auto& [option, word, to] :
-       {std::tuple{"--lock-x", &words.lock_x, &o.locked.x}, {"--lock-y", &words.lock_y, &o.locked.y}})
+       {std::tuple{"--lock-x", &words.lock_x, &o.job.locked.x}, {"--lock-y", &words.lock_y, &o.job.locked.y}})
     if (!word->empty())
       read.number(option, *word, -kLargestLength, kLargestLength, "a coordinate in mm up to 1e9",
                   to->emplace());
   o.features = words.features;
-  read.choice("--criterion", words.criterion, kCriteria, o.criterion);
-  read.number("--give-up", words.give_up, 0.0, kLargestLength, "a length in mm of 0 or more", o.give_up);
+  read.choice("--criterion", words.criterion, kCriteria, o.job.criterion);
+  read.number("--give-up", words.give_up, 0.0, kLargestLength, "a length in mm of 0 or more", o.job.give_up);
   read.require(
-      words.give_up.empty() || o.criterion != locate::Criterion::smallest,
+      words.give_up.empty() || o.job.criterion != locate::Criterion::smallest,
       "--give-up is for --criterion largest and even: what they may take off the smallest allowance");
   read.number("--trade-off", words.trade_off, std::size_t{2}, std::size_t{100},
-              "a whole number from 2 to 100", o.trade_off);
+              "a whole number from 2 to 100", o.job.trade_off);
   read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
-              o.min_allowance);
-  read.choice("--method", words.method, kMethods, o.method);
-  read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.starts);
-  read.choice("--start-rule", words.start_rule, kStartRules, o.start_rule);
+              o.job.min_allowance);
+  read.choice("--method", words.method, kMethods, o.job.method);
+  read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.job.starts);
+  read.choice("--start-rule", words.start_rule, kStartRules, o.job.start_rule);
   constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
-  read.number("--seed", words.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.seed);
+  read.number("--seed", words.seed, std::uint64_t{0}, kLargest, "a whole number from 0 to 2^64 - 1", o.job.seed);
   read.number("--work", words.work, std::uint64_t{1}, kLargest, "a whole number from 1 to 2^64 - 1", o.work);
   if (!words.alternatives.empty()) {
     read.number("--alternatives", words.alternatives, 0.0, kLargestLength, "a length in mm of 0 or more",
-                o.alternatives.emplace());
+                o.job.alternatives.emplace());
   }
   if (!words.time.empty()) {
     read.number("--time", words.time, 1e-6, kLongestTime, "a time in seconds above 0", o.seconds.emplace());
@@ -98,11 +100,13 @@ void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
     read.number(option, word, least, kLargestLength,
                 least > 0 ? "a length in mm above 0" : "a length in mm of 0 or more", to.emplace());
   };
-  length("--join", words.join, 0, o.join);
-  length("--curve-tolerance", words.curve, kSmallestLength, o.curve);
-  o.part_layers = words.part_layers, o.blank_layers = words.blank_layers;
+  io::OutlineOptions how = o.job.part;
+  length("--join", words.join, 0, how.join);
+  length("--curve-tolerance", words.curve, kSmallestLength, how.curve);
+  o.job.part = o.job.blank = how;
+  o.job.part.layers = words.part_layers, o.job.blank.layers = words.blank_layers;
 
-  ScanWords scan;
+  io::ScanReading scan;
   locate::ScanOptions& m = scan.measurement;
   std::optional<double> uncertainty, simplify, height, thickness;
   length("--uncertainty", words.uncertainty, 0, uncertainty);
@@ -125,65 +129,74 @@ void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
       m.min_radius || m.max_dip || m.step || m.drop_outliers || simplify || height || !words.coverage.empty();
   read.require(uncertainty || !other,
                "a scan needs --uncertainty MM, the standard uncertainty of one measured point");
-  if (uncertainty) o.scan = scan;
+  if (uncertainty) o.job.blank.scan = scan;
 }
 
 void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) {
   o.nc = words.nc;
-  o.nc_out = words.nc_out;
-  read.require(o.nc.empty() || !o.nc_out.empty(),
+  o.outputs.program = words.nc_out;
+  read.require(o.nc.empty() || !o.outputs.program.empty(),
                "--nc: say with --nc-out FILE where the rewritten program goes");
-  read.require(o.nc_out.empty() || !o.nc.empty(), "--nc-out: say with --nc FILE which program to rewrite");
+  read.require(o.outputs.program.empty() || !o.nc.empty(), "--nc-out: say with --nc FILE which program to rewrite");
   read.require(!o.nc.empty() || (words.nc_mode.empty() && words.wcs.empty() && words.scan_frame.empty()),
                "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
-  read.choice("--nc-mode", words.nc_mode, kModes, o.rewrite.mode);
-  read.choice("--scan-frame", words.scan_frame, kScanFrames, o.rewrite.scan_frame);
+  read.choice("--nc-mode", words.nc_mode, kModes, o.job.rewrite.mode);
+  read.choice("--scan-frame", words.scan_frame, kScanFrames, o.job.rewrite.scan_frame);
   read.number("--nc-angle-decimals", words.nc_angle_decimals, 0, 9, "a whole number from 0 to 9",
-              o.rewrite.g68_angle_decimals);
-  read.require(words.nc_angle_decimals.empty() || o.rewrite.mode == nc::RewriteMode::g68,
+              o.job.rewrite.g68_angle_decimals);
+  read.require(words.nc_angle_decimals.empty() || o.job.rewrite.mode == nc::RewriteMode::g68,
                "--nc-angle-decimals is for --nc-mode g68 alone");
-  if (o.units) o.rewrite.start_unit = *o.units;
-  read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)", o.rewrite.work_offset);
+  if (o.job.part.units) o.job.rewrite.start_unit = *o.job.part.units;
+  read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)", o.job.rewrite.work_offset);
 }
 
 void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) {
   o.output = words.output;
-  o.certificate = words.certificate;
+  o.outputs.certificate = words.certificate;
   o.picture = words.picture;
   o.report = words.report;
   o.allowances = words.allowances;
   o.drawing = words.drawing;
-  o.deviations = words.deviations;
+  o.outputs.deviations = words.deviations;
   o.compare = words.compare;
   o.json = words.json;
   const std::string ending = std::filesystem::path(o.picture).extension().string();
   read.require(o.picture.empty() || ending == ".svg" || ending == ".png",
                fmt::format("--picture: the name \"{}\" ends neither in .svg nor in .png", o.picture));
+  if (!o.picture.empty())
+    o.outputs.picture = ending == ".svg" ? jobs::PictureFormat::svg : jobs::PictureFormat::png;
   const std::string page = std::filesystem::path(o.report).extension().string();
   read.require(
       o.report.empty() || page == ".svg" || page == ".pdf" || page == ".png",
       fmt::format("--report: the name \"{}\" ends neither in .svg nor in .pdf nor in .png", o.report));
+  if (!o.report.empty())
+    o.outputs.report = page == ".pdf"   ? jobs::ReportFormat::pdf
+                       : page == ".png" ? jobs::ReportFormat::png
+                                        : jobs::ReportFormat::svg;
   read.require(o.drawing.empty() || o.drawing.ends_with(".dxf") || o.drawing.ends_with(".svg"),
                fmt::format("--drawing: the name \"{}\" ends neither in .dxf nor in .svg", o.drawing));
+  if (!o.drawing.empty())
+    o.outputs.drawing = o.drawing.ends_with(".svg") ? jobs::DrawingFormat::svg : jobs::DrawingFormat::dxf;
   read.require(o.allowances.empty() || std::filesystem::path(o.allowances).extension() == ".csv",
                fmt::format("--allowances: the name \"{}\" does not end in .csv", o.allowances));
+  o.outputs.allowances = !o.allowances.empty();
 }
 
 /// A file that a method cannot make is refused; a number that it does not look at is only worth a word.
 void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) {
-  const bool certified = o.method == Method::certified;
-  const std::string method = name_of(o.method);
-  read.require(certified || o.certificate.empty(),
+  const bool certified = o.job.method == Method::certified;
+  const std::string method = name_of(o.job.method);
+  read.require(certified || o.outputs.certificate.empty(),
                "--certificate: --method " + method + " proves nothing, only --method certified does");
-  read.require(certified || !o.alternatives,
+  read.require(certified || !o.job.alternatives,
                "--alternatives: --method " + method + " finds none, only --method certified does");
   const auto no_effect = [&](bool given, const char* option) {
     if (given) o.warnings.push_back(fmt::format("{} has no effect with --method {}", option, method));
   };
   no_effect(!words.gap.empty() && !certified, "--gap");
-  no_effect(!words.starts.empty() && o.method != Method::ipopt, "--starts");
-  no_effect(!words.start_rule.empty() && o.method != Method::ipopt, "--start-rule");
-  no_effect(!words.work.empty() && o.method == Method::icp, "--work");
+  no_effect(!words.starts.empty() && o.job.method != Method::ipopt, "--starts");
+  no_effect(!words.start_rule.empty() && o.job.method != Method::ipopt, "--start-rule");
+  no_effect(!words.work.empty() && o.job.method == Method::icp, "--work");
 }
 
 Result<LocateOptions> to_options(const LocateWords& words) {
@@ -191,10 +204,10 @@ Result<LocateOptions> to_options(const LocateWords& words) {
   WordReader read;
   o.part = words.part;
   o.blank = words.blank;
-  if (!words.units.empty()) read.choice("--units", words.units, kUnits, o.units.emplace());
+  if (!words.units.empty()) read.choice("--units", words.units, kUnits, o.job.part.units.emplace());
   if (!words.trim.empty()) {
     read.number("--trim", words.trim, kSmallestLength, kLargestLength, "a length in mm above 0",
-                o.trim.emplace());
+                o.job.trim.emplace());
   }
   read_shapes(words, read, o);
   read_search(words, read, o);
@@ -316,20 +329,6 @@ void add_output_options(CLI::App& locate, LocateWords& w) {
 }
 
 }  // namespace
-
-bool needs_convex(const LocateOptions& o) {
-  return o.method != Method::certified || o.trim || o.alternatives || !o.deviations.empty() ||
-         !o.compare.empty();
-}
-
-bool has_demands(const LocateOptions& o) {
-  return o.locked.x || o.locked.y || !o.features.empty() || o.criterion != locate::Criterion::smallest ||
-         o.trade_off > 0;
-}
-
-const char* name_of(Method method) noexcept { return name_in(kMethods, method); }
-const char* name_of(nc::RewriteMode mode) noexcept { return name_in(kModes, mode); }
-const char* name_of(nc::ScanFrame frame) noexcept { return name_in(kScanFrames, frame); }
 
 Typed add_locate_form(CLI::App& app) {
   auto words = std::make_shared<LocateWords>();

@@ -10,67 +10,27 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/io/formats/part_file.hpp"
-#include "lekalo/io/scan/scan_file.hpp"
 #include "lekalo/jobs/export.hpp"
+#include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/pocket.hpp"
-#include "lekalo/locate/demand.hpp"
-#include "lekalo/locate/guaranteed_blank.hpp"
-#include "lekalo/locate/reference.hpp"
-#include "lekalo/locate/region.hpp"
-#include "lekalo/nc/rewrite.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::cli {
 
-enum class Method { certified, ipopt, icp };
-
-/// How a blank was measured.
-struct ScanWords {
-  locate::ScanOptions measurement;
-  std::optional<io::ScanSlice> slice;
-};
-
 /// How a part's or a blank's file is read.
-struct ShapeOptions {
-  std::optional<LengthUnit> units;
-  std::optional<double> join, curve;  ///< of drawings, mm
-  std::vector<std::string> layers;    ///< of drawings; empty: all that are shown
-  std::optional<ScanWords> scan;      ///< the file holds measured points
-};
+using ShapeOptions = io::OutlineOptions;
 
 /// What `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
-  std::string part, blank;
-  std::optional<LengthUnit> units;
-  std::optional<double> trim;  ///< mm
-  std::optional<double> join, curve;
-  std::vector<std::string> part_layers, blank_layers;
-  std::optional<ScanWords> scan;  ///< the blank is a scan
-  double window_from_deg = 0, window_to_deg = 360;
-  std::optional<double> gap;  ///< mm; each kind of shape has its own default
-  double min_allowance = 0;   ///< mm
-  locate::Mirror mirror = locate::Mirror::no;
-  locate::LockedShift locked;
-  std::string features;  ///< file
-  locate::Criterion criterion = locate::Criterion::smallest;
-  double give_up = 0;         ///< mm
-  std::size_t trade_off = 0;  ///< points
-  Method method = Method::certified;
-  int starts = 10;
-  locate::StartRule start_rule = locate::StartRule::random;
-  std::uint64_t seed = 0;
+  std::string part, blank, nc, compare, features;
+  std::string output, picture, report, allowances, drawing;  ///< the other outputs are named in `outputs`
+  jobs::LocateOptions job;
+  jobs::LocateOutputs outputs;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
   std::optional<double> seconds;
-  std::optional<double> alternatives;  ///< mm
-  std::string nc, nc_out;
-  nc::RewriteOptions rewrite;
-  std::string output, certificate, picture, report, allowances, drawing, deviations, compare;
   bool json = false;
   std::vector<std::string> warnings;  ///< options that have no effect here
-
-  [[nodiscard]] ShapeOptions of_part() const { return {units, join, curve, part_layers, {}}; }
-  [[nodiscard]] ShapeOptions of_blank() const { return {units, join, curve, blank_layers, scan}; }
 };
 
 struct VerifyOptions {
@@ -151,12 +111,6 @@ struct ServeOptions {
   std::string token;          ///< empty: none given
 };
 
-/// Whether anything was asked for that takes the shapes as regions, convex or not.
-[[nodiscard]] bool has_demands(const LocateOptions& options);
-
-/// Whether anything was asked for that only convex contours have.
-[[nodiscard]] bool needs_convex(const LocateOptions& options);
-
 /// Text for stdout and nothing else to do: help, version, a completion script.
 struct PrintText {
   std::string text;
@@ -167,10 +121,5 @@ using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, Simula
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
 [[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);
-
-/// Names as they stand on the command line and in results.
-[[nodiscard]] const char* name_of(Method method) noexcept;
-[[nodiscard]] const char* name_of(nc::RewriteMode mode) noexcept;
-[[nodiscard]] const char* name_of(nc::ScanFrame frame) noexcept;
 
 }  // namespace lekalo::cli

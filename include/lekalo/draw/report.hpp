@@ -35,29 +35,21 @@ struct FeatureRow {
   std::string verdict;
 };
 
-/// Where the placed part is nearest to the blank, numbers as in the result document.
-struct ReportContact {
-  std::uint32_t part = 0, blank = 0;  ///< part vertex (convex contours) or edge; blank edge
-  geom::Point part_at, blank_at;      ///< in their own frames, mm
-  double distance = 0;
-};
-
 /// What the page needs beside the document.
 struct ReportShapes {
   std::vector<geom::Region> part, blank;  ///< mm, as used
   double outline_error = 0;               ///< how far the outlines may be from the true ones, together, mm
-  /// The document's numbers of part edges, part vertices and blank edges, where these regions count otherwise
-  /// (a contour that the file gives clockwise); empty: the same.
-  std::vector<std::uint32_t> part_edge_numbers, part_vertex_numbers, blank_edge_numbers;
+  /// The document's numbers of part edges and blank edges, where these regions count otherwise (a contour
+  /// that the file gives clockwise); empty: the same.
+  std::vector<std::uint32_t> part_edge_numbers, blank_edge_numbers;
 };
 
 struct Report {
-  io::LocateDocument document;  ///< without shapes and certificate
+  io::LocateDocument document;  ///< without shapes and proof
   ReportShapes shapes;
-  bool mirrored = false;
   std::optional<double> margin, margin_bound;  ///< of demands by feature
-  bool contacts_at_vertices = false;
-  std::vector<ReportContact> contacts;
+  bool contacts_at_vertices = false;  ///< those of convex outlines
+  std::vector<locate::Touch> contacts;
   std::vector<std::string> proof, assumptions;  ///< sentences
   double step = 0;                              ///< mm along the outline between samples, at most
   double tolerance = 0;                         ///< of the extremes, mm

@@ -68,4 +68,8 @@ struct ConvexResult {
 /// angle (near-round shapes). Memory is bounded by the certificate kept.
 [[nodiscard]] Result<ConvexResult> locate_convex(const ConvexProblem& problem, const ConvexOptions& options);
 
+/// The contact at a placement: the vertex, and the foot of its perpendicular on the line of the blank's edge.
+[[nodiscard]] Touch touch_of(const Contact& contact, const geom::ConvexPolygon& part,
+                             const geom::ConvexPolygon& blank, const Placement& placement);
+
 }  // namespace lekalo::locate

@@ -20,7 +20,7 @@ namespace lekalo::locate {
 /// Edges of the part that have a demand of their own.
 struct Feature {
   std::string name;
-  std::vector<std::uint32_t> edges;  ///< numbered through all pieces and contours as in RegionTouch
+  std::vector<std::uint32_t> edges;  ///< numbered through all pieces and contours as in Touch
   double minimum = 0;                ///< no point has less allowance, mm, >= 0
   std::optional<double> target;      ///< what the most even placement aims at, mm, >= 0
   std::optional<double> maximum;     ///< no point has more, mm, > minimum
@@ -104,7 +104,7 @@ struct DemandResult {
   std::optional<SmallestLargest> second;  ///< with Criterion::largest and even, where the demands are met
   double deviation =
       0;  ///< root of the mean square deviation of the allowance from its targets, mm, as measured
-  std::vector<RegionTouch> contacts;  ///< of the part itself, near or deep where the demands hold it
+  std::vector<Touch> contacts;  ///< of the part itself, near or deep where the demands hold it
   DemandProof proof;
   std::vector<TradeOff> curve;  ///< from the largest margin to none
   std::uint64_t work = 0;

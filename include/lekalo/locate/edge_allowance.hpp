@@ -16,7 +16,7 @@ namespace lekalo::locate {
 /// shape, also ones that cross themselves, and decides sides exactly; here every edge has its extremes,
 /// proved.)
 ///
-/// Edges are numbered through all pieces and contours, each outer contour before its holes (RegionTouch).
+/// Edges are numbered through all pieces and contours, each outer contour before its holes (Touch).
 
 /// A point of the part's outline and the material over it.
 struct OutlinePoint {

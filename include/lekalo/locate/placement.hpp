@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+
+#include "lekalo/geom/point.hpp"
 
 #include "lekalo/base/angle.hpp"
 
@@ -19,6 +22,18 @@ struct Placement {
 struct Contact {
   std::uint32_t part_vertex = 0, blank_edge = 0;
   double multiplier = 0;
+};
+
+/// A place that holds a placement: where the part is nearest to the blank's boundary. Edges are numbered
+/// through all pieces and contours, each outer contour before its holes, in the order of the regions given.
+struct Touch {
+  std::uint32_t part_edge = 0;  ///< of convex outlines the vertex that touches, at which that edge begins
+  std::uint32_t blank_edge = 0;
+  geom::Point part, blank;  ///< the two points, each in its own frame, mm
+  double distance = 0;      ///< mm, at the placement
+  double multiplier = 0;    ///< its share in what holds the placement; all sum to 1
+  /// The cap that the part's point is deep for, `part_edge` counted in its list; none: it is near.
+  std::optional<std::uint32_t> cap;
 };
 
 /// Angles from `from` to `to` >= `from`, radians. The default is every angle.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -58,17 +57,6 @@ struct RegionOptions {
   RunControl run;  ///< one unit of work is one box bounded, one program solved or one pose measured
 };
 
-/// Where the placed part is nearest to the blank's boundary. Edges are numbered through all pieces and
-/// contours, each outer contour before its holes, in the order of the regions given.
-struct RegionTouch {
-  std::uint32_t part_edge = 0, blank_edge = 0;
-  geom::Point part, blank;  ///< the two points, each in its own frame, mm
-  double distance = 0;      ///< mm, at the placement
-  double multiplier = 0;    ///< its share in what holds the placement; all sum to 1
-  /// The cap that the part's point is deep for, `part_edge` counted in its list; none: it is near.
-  std::optional<std::uint32_t> cap;
-};
-
 /// One ball in the part's material, one in whose inside the blank has none, radii >= 0 (0: a point of the
 /// outline); part coordinates and blank coordinates. With a cap: a point of one of its edges, and a ball in
 /// the blank's material.
@@ -105,7 +93,7 @@ struct RegionResult {
   bool mirrored = false;
   double upper_bound = 0;  ///< no placement in the window has more; rounded up
   double shortfall = 0;    ///< max(0, min_allowance - clearance)
-  std::vector<RegionTouch> contacts;
+  std::vector<Touch> contacts;
   geom::Point pivot;  ///< of the certificate, part coordinates
   std::vector<CoverTree> certificate;
   std::uint64_t work = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "contour_points.hpp"
+#include "lekalo/io/text/format.hpp"
 #include "lekalo/io/text/words.hpp"
 
 namespace lekalo::io {
@@ -11,12 +12,17 @@ namespace {
 
 Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
                              std::optional<LengthUnit> unit) {
-  const std::string ending = ending_of(name);
-  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") {
-    return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
+  switch (format_by_ending(name)) {
+    case Format::points:
+      return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
+    case Format::json:
+      return read_json_contour(bytes, name, unit);
+    case Format::dxf:
+      return read_dxf_contour(bytes, name, unit);
+    default:
+      break;
   }
-  if (ending == ".json") return read_json_contour(bytes, name, unit);
-  if (ending == ".dxf") return read_dxf_contour(bytes, name, unit);
+  const std::string ending = ending_of(name);
   return refuse(name,
                 fmt::format("contours are read from .csv, .txt, .xyz, .json and .dxf files, not from {}",
                             ending.empty() ? "a name without ending" : excerpt(ending)));

@@ -10,21 +10,10 @@
 #include "io/nesting/forms.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
+#include "lekalo/io/text/format.hpp"
 
 namespace lekalo::io {
 namespace {
-
-bool looks_like_json(std::string_view bytes) {
-  const std::size_t begin = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  return begin != std::string_view::npos && (bytes[begin] == '{' || bytes[begin] == '[');
-}
-
-/// DXF begins with the number of a group, SVG with a tag.
-bool looks_like_drawing(std::string_view bytes) {
-  const std::size_t begin = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  return begin != std::string_view::npos &&
-         (bytes[begin] == '<' || (bytes[begin] >= '0' && bytes[begin] <= '9'));
-}
 
 tl::unexpected<Error> no_layout(const std::string& path) {
   return failure(ErrorCode::bad_input,
@@ -55,7 +44,8 @@ Result<LayoutFile> read_placed(const detail::JsonTree& tree, const std::string& 
 
 Result<LayoutFile> read_any_layout(std::string_view bytes, const std::string& name, const PartOptions& parts,
                                    const FindItems& find) {
-  if (looks_like_json(bytes)) {
+  const Format format = format_by_content(bytes);
+  if (format == Format::json) {
     const auto tree = detail::JsonTree::parse(bytes, name);
     if (!tree) return tl::unexpected(tree.error());
     const detail::JsonValue root = tree->root();
@@ -65,7 +55,7 @@ Result<LayoutFile> read_any_layout(std::string_view bytes, const std::string& na
                                               : detail::read_nesting_tree(*tree, name, *form, parts.unit);
     }
     if (!root.find("shape") && !root.find("outer") && !root.find("pieces")) return no_layout(name);
-  } else if (!looks_like_drawing(bytes)) {
+  } else if (format == Format::unknown) {
     return no_layout(name);
   }
   auto read = read_parts(bytes, name, parts);

@@ -8,15 +8,13 @@
 #include <set>
 #include <utility>
 
+#include "drawing_file.hpp"
 #include "io/layout/layout_outline.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
-#include "lekalo/io/drawing/drawing.hpp"
-#include "lekalo/io/dxf/dxf.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/shape/shape_tree.hpp"
-#include "lekalo/io/svg/svg.hpp"
 #include "lekalo/io/text/words.hpp"
 
 namespace lekalo::io {
@@ -74,7 +72,7 @@ bool is_export(const Drawing& drawing) {
 }
 
 Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, DrawingOptions options) {
-  if (!drawing) return tl::unexpected(drawing.error());
+  LEKALO_CHECK(drawing);
   DrawnParts made;
   if (options.take.empty() && options.leave.empty() && is_export(*drawing)) {
     made.notices.push_back(
@@ -83,20 +81,18 @@ Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, Drawi
                     drawing->name));
     if (has_layer(*drawing, "SHEET")) {
       options.take = {"SHEET"};
-      auto sheets = make_regions(*drawing, options);
-      if (!sheets) return tl::unexpected(sheets.error());
-      made.sheets = std::move(sheets->regions);
-      made.tolerance = sheets->tolerance;
+      LEKALO_TRY(DrawnRegions sheets, make_regions(*drawing, options));
+      made.sheets = std::move(sheets.regions);
+      made.tolerance = sheets.tolerance;
     }
     options.take = {"CUT"};
   }
-  auto drawn = make_regions(*drawing, options);
-  if (!drawn) return tl::unexpected(drawn.error());
-  made.tolerance = std::max(made.tolerance, drawn->tolerance);
-  made.notices.insert(made.notices.end(), drawn->notices.begin(), drawn->notices.end());
+  LEKALO_TRY(DrawnRegions drawn, make_regions(*drawing, options));
+  made.tolerance = std::max(made.tolerance, drawn.tolerance);
+  made.notices.insert(made.notices.end(), drawn.notices.begin(), drawn.notices.end());
   std::size_t edge = 0;
-  for (geom::Region& region : drawn->regions) {
-    const DrawnCurve& curve = drawing->curves[drawn->curve_of_edge[edge]];
+  for (geom::Region& region : drawn.regions) {
+    const DrawnCurve& curve = drawing->curves[drawn.curve_of_edge[edge]];
     edge += edges_of(region);
     const std::string& layer = drawing->layers[curve.layer].name;
     const std::string& handle = drawing->entities[curve.entity].handle;
@@ -106,40 +102,33 @@ Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, Drawi
 }
 
 Result<DrawnParts> of_tree(std::string_view bytes, const std::string& name, const PartOptions& options) {
-  auto file = parse_shape_tree(bytes, name, options.unit);
-  if (!file) return tl::unexpected(file.error());
+  LEKALO_TRY(ShapeFile file, parse_shape_tree(bytes, name, options.unit));
   DrawnParts made;
-  made.tolerance = file->tolerance;
+  made.tolerance = file.tolerance;
   std::size_t edge = 0;
-  for (geom::Region& region : file->regions) {
-    const std::uint32_t named = file->name_of_edge[edge];
+  for (geom::Region& region : file.regions) {
+    const std::uint32_t named = file.name_of_edge[edge];
     edge += edges_of(region);
-    const std::string text = named == kNoName ? "" : file->names[named];
+    const std::string text = named == kNoName ? "" : file.names[named];
     made.parts.push_back({std::move(region), text, text});
   }
   return made;
 }
 
 Result<DrawnParts> of_regions(std::string_view bytes, const std::string& name, const PartOptions& options) {
-  auto file = parse_regions(bytes, name, options.unit);
-  if (!file) return tl::unexpected(file.error());
+  LEKALO_TRY(RegionFile file, parse_regions(bytes, name, options.unit));
   DrawnParts made;
-  for (geom::Region& region : file->regions) made.parts.push_back({std::move(region), "", ""});
+  for (geom::Region& region : file.regions) made.parts.push_back({std::move(region), "", ""});
   return made;
 }
 
 Result<DrawnParts> drawn_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  std::string_view rest = bytes;
-  if (rest.substr(0, 3) == kByteOrderMark) rest.remove_prefix(3);
-  const std::size_t begin = rest.find_first_not_of(" \t\r\n");
-  const char first = begin == std::string_view::npos ? ' ' : rest[begin];
-  if (first == '<') return of_drawing(parse_svg(bytes, name, options.unit), true, options.drawing);
-  if (first != '{' && first != '[')
-    return of_drawing(parse_dxf(bytes, name, options.unit), false, options.drawing);
-  const auto tree = detail::JsonTree::parse(bytes, name);
-  if (!tree) return tl::unexpected(tree.error());
-  return tree->root().find("shape") ? of_tree(bytes, name, options) : of_regions(bytes, name, options);
+  const Format format = format_by_content(bytes);
+  if (format != Format::json)
+    return of_drawing(parse_drawing(format, bytes, name, options.unit), format == Format::svg,
+                      options.drawing);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  return tree.root().find("shape") ? of_tree(bytes, name, options) : of_regions(bytes, name, options);
 }
 
 }  // namespace

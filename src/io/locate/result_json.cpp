@@ -49,11 +49,16 @@ void append_json(std::string& out, const Json& value) {
   }
 }
 
-void append_contact(std::string& out, const locate::Contact& contact) {
+void append_contact(std::string& out, std::uint32_t part_vertex, std::uint32_t blank_edge,
+                    double multiplier) {
   fmt::format_to(std::back_inserter(out), R"({{"part_vertex": {}, "blank_edge": {}, "multiplier": )",
-                 contact.part_vertex, contact.blank_edge);
-  append_number(out, contact.multiplier);
+                 part_vertex, blank_edge);
+  append_number(out, multiplier);
   out += '}';
+}
+
+void append_vertex_touch(std::string& out, const locate::Touch& touch) {
+  append_contact(out, touch.part_edge, touch.blank_edge, touch.multiplier);
 }
 
 /// Certificates hold up to millions of intervals, so they go to text without a tree in between.
@@ -66,7 +71,7 @@ void append_interval(std::string& out, const locate::CertificateInterval& interv
   const char* separator = "[";
   for (const locate::Contact& contact : interval.contacts) {
     out += separator;
-    append_contact(out, contact);
+    append_contact(out, contact.part_vertex, contact.blank_edge, contact.multiplier);
     separator = ", ";
   }
   out += "]}";
@@ -140,11 +145,6 @@ Json to_json(const DeviationsRecord& deviations) {
           {"greatest", deviations.greatest}};
 }
 
-template <class T>
-Json or_null(const std::optional<T>& record) {
-  return record ? to_json(*record) : Json(nullptr);
-}
-
 Json certificate_file_json(const LocateDocument& d) {
   if (!d.certificate_file) return nullptr;
   Json json = to_json(*d.certificate_file);
@@ -200,7 +200,7 @@ void append_placement(ObjectText& out, const LocateDocument& d) {
   out.field("y", p.y);
   out.field("theta", p.theta);
   out.field("theta_deg", p.theta * kDegreesPerRadian);
-  out.field("mirrored", d.regions && d.regions->mirrored);
+  out.field("mirrored", d.mirrored);
   out.field("clearance", p.clearance);
   out.field("upper_bound", d.upper_bound ? Json(*d.upper_bound) : Json(nullptr));
   out.field("gap", d.upper_bound ? Json(difference_rounded_up(*d.upper_bound, p.clearance)) : Json(nullptr));
@@ -217,7 +217,7 @@ void append_point(std::string& out, geom::Point p) {
   out += ']';
 }
 
-void append_touch(std::string& out, const locate::RegionTouch& touch) {
+void append_touch(std::string& out, const locate::Touch& touch) {
   fmt::format_to(std::back_inserter(out), R"({{"part_edge": {}, "blank_edge": {}, "part_at": )",
                  touch.part_edge, touch.blank_edge);
   append_point(out, touch.part);
@@ -267,7 +267,7 @@ void append_node(std::string& out, const locate::CoverTree& tree, const locate::
   out += "]}";
 }
 
-void append_cover(std::string& out, const geom::Point& pivot, const std::vector<locate::CoverTree>& trees) {
+void append_cover(std::string& out, geom::Point pivot, const std::vector<locate::CoverTree>& trees) {
   out += R"({"pivot": )";
   append_point(out, pivot);
   out += R"(, "trees": [)";
@@ -375,54 +375,84 @@ Json to_json(const ScanRecord& scan) {
           {"unknown", scan.unknown}, {"dropped", scan.dropped}};
 }
 
+template <class T>
+Json or_null(const std::optional<T>& record) {
+  return record ? to_json(*record) : Json(nullptr);
+}
+
 /// What proves the bound of largest allowances, if anything does and it is here.
-const locate::DemandProof* largest_proof(const RegionRecord& r) {
-  if (!r.demands || !r.demands->second || !r.demands->second->proof) return nullptr;
-  const locate::DemandProof& proof = *r.demands->second->proof;
+const locate::DemandProof* largest_proof(const LocateDocument& d) {
+  if (!d.demands || !d.demands->second || !d.demands->second->proof) return nullptr;
+  const locate::DemandProof& proof = *d.demands->second->proof;
   return proof.certificate.empty() ? nullptr : &proof;
 }
 
-void append_regions(ObjectText& out, const LocateDocument& d) {
-  const RegionRecord& r = *d.regions;
-  out.field("mirror", name_of(r.mirror));
-  if (r.locked.x || r.locked.y) {
-    out.field("locked", {{"x", or_null(r.locked.x)}, {"y", or_null(r.locked.y)}});
+void append(ObjectText& out, const LocateDocument& d, const locate::PoseProof& proof) {
+  out.field("mirror", name_of(d.mirror));
+  if (d.locked.x || d.locked.y) {
+    out.field("locked", {{"x", or_null(d.locked.x)}, {"y", or_null(d.locked.y)}});
   } else {
     out.field("locked", nullptr);
   }
-  out.field("part_cut", r.part_cut);
-  out.field("scan", r.scan ? to_json(*r.scan) : Json(nullptr));
-  out.field("demands", r.demands ? to_json(*r.demands) : Json(nullptr));
-  out.field("tolerances", {{"part", r.part_tolerance}, {"blank", r.blank_tolerance}});
+  out.field("part_cut", d.part_cut);
+  out.field("scan", or_null(d.scan));
+  out.field("demands", or_null(d.demands));
+  out.field("tolerances", {{"part", d.part_tolerance}, {"blank", d.blank_tolerance}});
   out.text("regions", [&](std::string& text) {
-    text += R"({"part": )" + regions_json(r.part) + R"(, "blank": )" + regions_json(r.blank) + "}";
+    text += R"({"part": )" + regions_json(d.part) + R"(, "blank": )" + regions_json(d.blank) + "}";
   });
-  out.list("contacts", r.contacts, append_touch);
-  if (r.certificate.empty()) {
-    out.field("certificate", nullptr);
-  } else {
-    out.text("certificate", [&](std::string& text) { append_cover(text, r.pivot, r.certificate); });
-  }
-  if (const locate::DemandProof* const proof = largest_proof(r)) {
-    out.text("largest_certificate",
-             [&](std::string& text) { append_cover(text, proof->pivot, proof->certificate); });
-  } else {
-    out.field("largest_certificate", nullptr);
-  }
+  out.list("contacts", d.contacts, append_touch);
+  const auto cover = [&](const char* key, geom::Point pivot, const std::vector<locate::CoverTree>* trees) {
+    if (trees == nullptr || trees->empty()) return out.field(key, nullptr);
+    out.text(key, [&](std::string& text) { append_cover(text, pivot, *trees); });
+  };
+  const locate::DemandProof* const largest = largest_proof(d);
+  cover("certificate", proof.pivot, &proof.trees);
+  cover("largest_certificate", largest != nullptr ? largest->pivot : geom::Point{},
+        largest != nullptr ? &largest->certificate : nullptr);
   out.field("certificate_file", certificate_file_json(d));
 }
 
-void append_proof(ObjectText& out, const LocateDocument& d) {
-  if (d.regions) return append_regions(out, d);
-  out.list("contacts", d.contacts, append_contact);
-  if (d.certificate) {
-    out.list("certificate", *d.certificate, append_interval);
-  } else {
+void append(ObjectText& out, const LocateDocument& d, const locate::AngleProof& proof) {
+  out.list("contacts", d.contacts, append_vertex_touch);
+  if (proof.intervals.empty()) {
     out.field("certificate", nullptr);
+  } else {
+    out.list("certificate", proof.intervals, append_interval);
   }
   out.field("certificate_file", certificate_file_json(d));
   out.list("alternatives", d.alternatives, kAsJson);
   out.field("alternatives_complete", d.alternatives_complete);
+}
+
+std::size_t size_of(const locate::AngleProof& proof) { return proof.intervals.size(); }
+std::size_t size_of(const std::vector<locate::CoverTree>& trees) {
+  std::size_t leaves = 0;
+  for (const locate::CoverTree& tree : trees) leaves += tree.nodes.size() / 2 + 1;
+  return leaves;
+}
+std::size_t size_of(const locate::PoseProof& proof) { return size_of(proof.trees); }
+
+void append_certificates(std::string& text, const LocateDocument& d, const locate::PoseProof& proof) {
+  text += "\"certificate\": ";
+  append_cover(text, proof.pivot, proof.trees);
+  if (const locate::DemandProof* const largest = largest_proof(d)) {
+    text += ",\n\"largest_certificate\": ";
+    append_cover(text, largest->pivot, largest->certificate);
+  }
+  text += "\n}\n";
+}
+
+/// Millions of intervals: nothing but their text is held.
+void append_certificates(std::string& text, const LocateDocument&, const locate::AngleProof& proof) {
+  text += "\"intervals\": [";
+  const char* separator = "\n";
+  for (const locate::CertificateInterval& interval : proof.intervals) {
+    text += separator;
+    append_interval(text, interval);
+    separator = ",\n";
+  }
+  text += "\n]}\n";
 }
 
 const Json& member(const Json& object, const char* key) {
@@ -473,7 +503,7 @@ std::string result_json(const LocateDocument& d) {
   ObjectText out;
   append_head(out, d);
   append_placement(out, d);
-  append_proof(out, d);
+  std::visit([&](const auto& proof) { append(out, d, proof); }, d.proof);
   out.field("trim", or_null(d.trim));
   out.field("nc", or_null(d.nc));
   out.field("comparison", or_null(d.comparison));
@@ -482,28 +512,49 @@ std::string result_json(const LocateDocument& d) {
   return std::move(out).finish();
 }
 
-CertificateText::CertificateText()
-    : text_("{\"format\": {\"name\": \"lekalo-certificate\", \"version\": 1},\n\"intervals\": [") {}
-
-void CertificateText::add(const locate::CertificateInterval& interval) {
-  text_ += intervals_ == 0 ? "\n" : ",\n";
-  append_interval(text_, interval);
-  ++intervals_;
+std::size_t proof_size(const LocateDocument& d) {
+  const locate::DemandProof* const largest = largest_proof(d);
+  return std::visit([](const auto& proof) { return size_of(proof); }, d.proof) +
+         (largest != nullptr ? size_of(largest->certificate) : 0);
 }
 
-std::string CertificateText::finish() && {
-  text_ += "\n]}\n";
-  return std::move(text_);
+bool has_proof(const LocateDocument& d) noexcept {
+  const auto* const angles = std::get_if<locate::AngleProof>(&d.proof);
+  return angles != nullptr ? !angles->intervals.empty() : !std::get<locate::PoseProof>(d.proof).trees.empty();
 }
 
-std::string cover_text(const RegionRecord& record) {
-  std::string text = "{\"format\": {\"name\": \"lekalo-certificate\", \"version\": 1},\n\"certificate\": ";
-  append_cover(text, record.pivot, record.certificate);
-  if (const locate::DemandProof* const proof = largest_proof(record)) {
-    text += ",\n\"largest_certificate\": ";
-    append_cover(text, proof->pivot, proof->certificate);
+std::string certificate_text(const LocateDocument& d) {
+  std::string text = "{\"format\": {\"name\": \"lekalo-certificate\", \"version\": 1},\n";
+  std::visit([&](const auto& proof) { append_certificates(text, d, proof); }, d.proof);
+  return text;
+}
+
+const char* name_of(locate::Status status) noexcept {
+  switch (status) {
+    case locate::Status::optimal:
+      return "optimal";
+    case locate::Status::stopped:
+      return "stopped";
+    case locate::Status::infeasible:
+      break;
   }
-  return text + "\n}\n";
+  return "infeasible";
+}
+
+const char* name_of(nc::RewriteMode mode) noexcept {
+  switch (mode) {
+    case nc::RewriteMode::coordinates:
+      return "coordinates";
+    case nc::RewriteMode::offset:
+      return "offset";
+    case nc::RewriteMode::g68:
+      break;
+  }
+  return "g68";
+}
+
+const char* name_of(nc::ScanFrame frame) noexcept {
+  return frame == nc::ScanFrame::machine ? "machine" : "wcs";
 }
 
 const InputRecord* WrittenResult::input(std::string_view role) const noexcept {

@@ -157,4 +157,20 @@ Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& nam
   return made;
 }
 
+ScanRecord record_of(const ScanBlank& scan) {
+  const locate::GuaranteedBlank& b = scan.blank;
+  return {scan.file.points.points.size(),
+          b.proved(),
+          b.ordered,
+          b.guard,
+          b.step,
+          b.median_spacing,
+          b.widest,
+          b.deepest,
+          b.loss,
+          b.assumptions,
+          scan.unknown,
+          scan.dropped};
+}
+
 }  // namespace lekalo::io

@@ -8,6 +8,7 @@
 #include "contact_program.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
+#include "lekalo/geom/pose.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "locate/search/search_limits.hpp"
 #include "proof.hpp"
@@ -250,6 +251,16 @@ Result<ConvexResult> locate_convex(const ConvexProblem& problem, const ConvexOpt
   if (!(problem.part_coordinate_error >= 0) || !(problem.blank_coordinate_error >= 0))
     return failure(ErrorCode::usage, "coordinate errors must not be negative");
   return Localiser(problem, options).run();
+}
+
+Touch touch_of(const Contact& contact, const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
+               const Placement& placement) {
+  const auto pose = geom::BlankFromPart::from_angle(placement.theta, {placement.x, placement.y});
+  const geom::Point vertex = pose(part[contact.part_vertex]), a = blank[contact.blank_edge];
+  const geom::Point along = blank[blank.next(contact.blank_edge)] - a;
+  const geom::Point foot = a + (dot(vertex - a, along) / dot(along, along)) * along;
+  return {contact.part_vertex, contact.blank_edge, part[contact.part_vertex], foot, norm(foot - vertex),
+          contact.multiplier,  {}};
 }
 
 }  // namespace lekalo::locate

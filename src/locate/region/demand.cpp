@@ -491,9 +491,9 @@ class DemandLocaliser {
     const BlankFromPart map = pose_.map();
     std::vector<phi::RegionContact> places;
     (void)base_->at(map, margin, &places);
-    std::vector<RegionTouch>& touches = result_.contacts;
-    const auto add = [&](const RegionTouch& touch) {
-      const bool known = std::any_of(touches.begin(), touches.end(), [&](const RegionTouch& t) {
+    std::vector<Touch>& touches = result_.contacts;
+    const auto add = [&](const Touch& touch) {
+      const bool known = std::any_of(touches.begin(), touches.end(), [&](const Touch& t) {
         return t.part_edge == touch.part_edge && t.blank_edge == touch.blank_edge && t.cap == touch.cap;
       });
       if (!known) touches.push_back(touch);

@@ -183,8 +183,8 @@ class RegionLocaliser {
     return Point{mirrored ? -p.x : p.x, p.y} + part_origin_;
   }
 
-  [[nodiscard]] std::vector<RegionTouch> contacts(PoseSearch& search, bool mirrored) const {
-    std::vector<RegionTouch> touches;
+  [[nodiscard]] std::vector<Touch> contacts(PoseSearch& search, bool mirrored) const {
+    std::vector<Touch> touches;
     for (const PoseSearch::Held& held : search.held_at(search.best())) {
       const phi::RegionContact& c = held.contact;
       touches.push_back({c.part_edge, c.blank_edge, given_point(c.part, mirrored), c.blank + blank_origin_,

@@ -100,13 +100,11 @@ void read_nc(Fields& fields, ResultDocument& result, std::string& complaint) {
 
 }  // namespace
 
-Result<ResultDocument> read_result_document(const Document& document) {
-  const auto root = parse_json(document.bytes, document.name);
-  if (!root) return tl::unexpected(root.error());
+Result<ResultDocument> read_result_document(Json written, const std::string& name) {
   std::string complaint;
-  Fields fields(*root, "", complaint);
+  Fields fields(written, "", complaint);
   if (!has_format(fields, "lekalo-locate")) {
-    return bad(document.name, "field format does not say lekalo-locate, version 1");
+    return bad(name, "field format does not say lekalo-locate, version 1");
   }
   ResultDocument result;
   result.status = fields.text("status");
@@ -134,15 +132,14 @@ Result<ResultDocument> read_result_document(const Document& document) {
   });
   read_trim(fields, result, complaint);
   read_nc(fields, result, complaint);
-  if (!complaint.empty()) return bad(document.name, complaint);
+  if (!complaint.empty()) return bad(name, complaint);
   return result;
 }
 
 Result<Json> read_certificate_document(const Document& document) {
-  const auto root = parse_json(document.bytes, document.name);
-  if (!root) return tl::unexpected(root.error());
+  LEKALO_TRY(const Json root, parse_json(document.bytes, document.name));
   std::string complaint;
-  Fields fields(*root, "", complaint);
+  Fields fields(root, "", complaint);
   if (!has_format(fields, "lekalo-certificate")) {
     return bad(document.name, "field format does not say lekalo-certificate, version 1");
   }

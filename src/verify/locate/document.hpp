@@ -50,9 +50,9 @@ struct ResultDocument {
   std::optional<WrittenNc> nc;
 };
 
-/// bad_input when a field is missing or is not what docs/formats.md says. Pieces of `document.bytes` stay in
-/// use.
-[[nodiscard]] Result<ResultDocument> read_result_document(const Document& document);
+/// bad_input, naming the document, when a field is missing or is not what docs/formats.md says. Pieces of the
+/// text behind `written` stay in use.
+[[nodiscard]] Result<ResultDocument> read_result_document(Json written, const std::string& name);
 
 /// The list of intervals of a certificate file.
 [[nodiscard]] Result<Json> read_certificate_document(const Document& document);

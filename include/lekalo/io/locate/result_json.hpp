@@ -8,11 +8,13 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
-#include "lekalo/geom/polygon.hpp"
-#include "lekalo/locate/convex.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
+#include "lekalo/io/scan/scan_file.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/placement.hpp"
-#include "lekalo/locate/region.hpp"
+#include "lekalo/locate/proof.hpp"
+#include "lekalo/nc/rewrite.hpp"
 
 namespace lekalo::io {
 
@@ -31,11 +33,6 @@ struct InputRecord {
   std::optional<LengthUnit> unit;
   std::size_t points = 0;
   std::vector<std::size_t> dropped;
-};
-
-struct TrimRecord {
-  double tolerance = 0, loss = 0;  ///< mm
-  geom::Ring contour;              ///< mm, counter-clockwise
 };
 
 struct NcRecord {
@@ -77,30 +74,7 @@ struct DemandRecord {
   double grown_for = 0, shift = 0, bound = 0;  ///< of DemandProof
 };
 
-/// A blank that was measured (GuaranteedBlank). Lengths in mm.
-struct ScanRecord {
-  std::size_t points = 0;
-  bool proved = false, ordered = false;
-  double guard = 0, step = 0, median_spacing = 0, widest = 0, deepest = 0, loss = 0;
-  std::vector<std::string> assumptions, unknown, dropped;  ///< sentences
-};
-
-/// What only a localisation of regions has (docs/formats.md).
-struct RegionRecord {
-  std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
-  double part_tolerance = 0, blank_tolerance = 0;
-  locate::Mirror mirror = locate::Mirror::no;  ///< allowed
-  bool mirrored = false;                       ///< the placement
-  std::vector<locate::RegionTouch> contacts;
-  /// Empty: there is none, or it is in certificate_file.
-  std::vector<locate::CoverTree> certificate;
-  geom::Point pivot;  ///< of the certificate, part coordinates
-  locate::LockedShift locked = {};
-  std::optional<DemandRecord> demands = {};  ///< then upper_bound of the document is not used
-  bool part_cut = false;                     ///< `part` is without what a file of features says to ignore
-  std::optional<ScanRecord> scan = {};       ///< what `blank` was made from
-};
-
+/// A localisation of convex outlines or of regions: `proof` says which.
 struct LocateDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
   std::string method;  ///< certified, ipopt, icp
@@ -108,22 +82,36 @@ struct LocateDocument {
   std::vector<std::string> warnings;
   std::uint64_t seed = 0, work = 0;
   locate::Placement placement;
-  std::optional<double> upper_bound;
+  bool mirrored = false;              ///< the placement
+  std::optional<double> upper_bound;  ///< none with demands, whose margin has the bound
   double min_allowance = 0, shortfall = 0;
   double window_from_deg = 0, window_to_deg = 360;
-  std::vector<locate::Contact> contacts;
-  std::optional<std::vector<locate::CertificateInterval>> certificate;
+  std::vector<locate::Touch> contacts;  ///< with an AngleProof numbers and multipliers alone are written
+  locate::Proof proof;                  ///< empty: there is none, or it is in certificate_file
   std::optional<FileRecord> certificate_file;
-  std::size_t certificate_intervals = 0;  ///< of certificate_file
+  std::size_t certificate_intervals = 0;  ///< of the proof, wherever it is
+  std::optional<NcRecord> nc;
+  double seconds = 0;  ///< of this run; the only field that is not a function of the input
+  int threads = 1;
+
+  // With a PoseProof:
+  std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
+  double part_tolerance = 0, blank_tolerance = 0;
+  bool part_cut = false;                       ///< `part` is without what a file of features says to ignore
+  locate::Mirror mirror = locate::Mirror::no;  ///< allowed
+  locate::LockedShift locked;
+  std::optional<DemandRecord> demands;
+  std::optional<ScanRecord> scan;  ///< what `blank` was made from
+
+  // With an AngleProof:
   std::vector<locate::Placement> alternatives;
   bool alternatives_complete = true;
   std::optional<TrimRecord> trim;
-  std::optional<NcRecord> nc;
   std::optional<ComparisonRecord> comparison;
   std::optional<DeviationsRecord> deviations;
-  std::optional<RegionRecord> regions;  ///< then `contacts` and `certificate` above are not used
-  double seconds = 0;                   ///< of this run; the only field that is not a function of the input
-  int threads = 1;
+
+  /// Whether convex outlines were placed, by the fast path or a method of reference.
+  [[nodiscard]] bool convex() const noexcept { return std::holds_alternative<locate::AngleProof>(proof); }
 };
 
 /// The document as JSON text, one top-level field or list item a line, numbers in the shortest form that
@@ -131,22 +119,19 @@ struct LocateDocument {
 /// finite.
 [[nodiscard]] std::string result_json(const LocateDocument& document);
 
-/// The document of a certificate file, built interval by interval so that only its text is held.
-class CertificateText {
- public:
-  CertificateText();
-  void add(const locate::CertificateInterval& interval);
-  [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }
-  /// The finished text; nothing can be added afterwards.
-  [[nodiscard]] std::string finish() &&;
+/// How many intervals of the angle or boxes of poses prove what the document says, that of largest allowances
+/// included.
+[[nodiscard]] std::size_t proof_size(const LocateDocument& document);
+/// Whether the document holds a proof of its bound.
+[[nodiscard]] bool has_proof(const LocateDocument& document) noexcept;
 
- private:
-  std::string text_;
-  std::size_t intervals_ = 0;
-};
+/// The document of a certificate file: all proofs that the document holds.
+[[nodiscard]] std::string certificate_text(const LocateDocument& document);
 
-/// The document of a certificate file of a localisation of regions: all its certificates.
-[[nodiscard]] std::string cover_text(const RegionRecord& record);
+/// Names as they stand in results.
+[[nodiscard]] const char* name_of(locate::Status status) noexcept;
+[[nodiscard]] const char* name_of(nc::RewriteMode mode) noexcept;
+[[nodiscard]] const char* name_of(nc::ScanFrame frame) noexcept;
 
 /// What `verify` and `--compare` need of a written result; what is proved about the rest is verify's matter.
 struct WrittenResult {

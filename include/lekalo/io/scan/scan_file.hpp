@@ -62,6 +62,15 @@ struct ScanBlank {
   std::vector<std::string> unknown, dropped;
 };
 
+/// What a result says of a blank that was measured (GuaranteedBlank). Lengths in mm.
+struct ScanRecord {
+  std::size_t points = 0;
+  bool proved = false, ordered = false;
+  double guard = 0, step = 0, median_spacing = 0, widest = 0, deepest = 0, loss = 0;
+  std::vector<std::string> assumptions, unknown, dropped;  ///< sentences
+};
+[[nodiscard]] ScanRecord record_of(const ScanBlank& scan);
+
 /// Fails as parse_scan and guaranteed_blank do, naming the file.
 [[nodiscard]] Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& name,
                                                 const ScanBlankOptions& options);

@@ -1,4 +1,4 @@
-#include "region_check.hpp"
+#include "pose_check.hpp"
 
 #include <array>
 #include <optional>
@@ -54,9 +54,9 @@ struct RegionDocument {
   std::optional<Program> program;
 };
 
-class RegionCheck {
+class PoseCheck {
  public:
-  RegionCheck(const LocateInputs& inputs, Json result) : inputs_(inputs), root_(result) {}
+  PoseCheck(const LocateInputs& inputs, Json result) : inputs_(inputs), root_(result) {}
 
   Result<LocateReport> run() {
     read();
@@ -128,7 +128,7 @@ class RegionCheck {
   LocateReport report_;
 };
 
-void RegionCheck::read() {
+void PoseCheck::read() {
   Fields fields(root_, "", complaint_);
   std::string ignored;
   Fields format(fields.get("format"), "format", ignored);
@@ -203,19 +203,19 @@ void RegionCheck::read() {
   if (r_.part_tolerance.low < 0 || r_.blank_tolerance.low < 0) fields.complain("a tolerance is negative");
 }
 
-void RegionCheck::place() {
+void PoseCheck::place() {
   motion_ =
       motion_of(Interval(r_.theta, 96 + angle_bits(r_.theta)), enclosed(r_.x), enclosed(r_.y), r_.mirrored);
   placed_ = placed(r_.part, motion_);
 }
 
-void RegionCheck::check_shape(const char* role, const Shape& shape) {
+void PoseCheck::check_shape(const char* role, const Shape& shape) {
   if (const auto fault = fault_of(shape)) find("the outline of the {} is none: {}", role, *fault);
 }
 
 /// Where the input is a region file the shape used must be its shape. How other files become regions is not
 /// rechecked here.
-void RegionCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
+void PoseCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
   const auto root = parse_json(file.bytes, file.name);
   const auto has = [&](std::string_view key) {
     std::array<Json, 1> found;
@@ -240,7 +240,7 @@ void RegionCheck::check_input(const char* role, const Document& file, const Shap
   if (!same) find("the {} used is not the shape in {}", role, file.name);
 }
 
-void RegionCheck::check_clearance() {
+void PoseCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
   // Even adding nothing widens an enclosure, and a part that touches has nothing to spare.
   const bool none = r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0;
@@ -269,7 +269,7 @@ void RegionCheck::check_clearance() {
         less.low, less.high);
 }
 
-void RegionCheck::check_pose() {
+void PoseCheck::check_pose() {
   check_allowed("", r_.x, r_.y, r_.theta, r_.mirrored);
   const Precision wide = 128 + angle_bits(r_.theta);
   const Interval degrees = Interval(r_.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
@@ -280,7 +280,7 @@ void RegionCheck::check_pose() {
 }
 
 /// Locked shifts, the window and mirroring.
-void RegionCheck::check_allowed(const std::string& whose, const Decimal& x, const Decimal& y,
+void PoseCheck::check_allowed(const std::string& whose, const Decimal& x, const Decimal& y,
                                 const Decimal& angle, bool mirrored) {
   for (const auto& [locked, is] : {std::pair{&r_.locked_x, &x}, {&r_.locked_y, &y}})
     if (*locked && compare(**locked, *is) != 0) find("{}the placement is not where it is locked", whose);
@@ -297,7 +297,7 @@ void RegionCheck::check_allowed(const std::string& whose, const Decimal& x, cons
 }
 
 /// Every placement of the trade-off curve has the margin and the largest allowance that it is said to have.
-void RegionCheck::check_curve() {
+void PoseCheck::check_curve() {
   for (std::size_t k = 0; k < r_.demands->curve.size(); ++k) {
     const WrittenTradeOff& point = r_.demands->curve[k];
     const std::string whose = fmt::format("demands.trade_off[{}]: ", k);
@@ -313,7 +313,7 @@ void RegionCheck::check_curve() {
   }
 }
 
-void RegionCheck::check_contacts() {
+void PoseCheck::check_contacts() {
   for (std::size_t i = 0; i < r_.contacts.size(); ++i) {
     const WrittenTouch& contact = r_.contacts[i];
     const double size =
@@ -329,7 +329,7 @@ void RegionCheck::check_contacts() {
   }
 }
 
-void RegionCheck::check_derived() {
+void PoseCheck::check_derived() {
   const auto differs = [](Span written, Span real) {
     const double slack =
         1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
@@ -347,7 +347,7 @@ void RegionCheck::check_derived() {
   check_side();
 }
 
-void RegionCheck::check_side() {
+void PoseCheck::check_side() {
   if (r_.program) {
     const Span left = r_.clearance - r_.program->rounding;
     if (r_.program->clearance.low > left.high || r_.program->rounding.low < 0)
@@ -355,7 +355,7 @@ void RegionCheck::check_side() {
   }
 }
 
-Json RegionCheck::certificate_of(const char* key) {
+Json PoseCheck::certificate_of(const char* key) {
   const Json here = Fields(root_, "", complaint_).get(key);
   if (!(here.text.empty() || here.is_null()) || !r_.in_file || !inputs_.certificate) return here;
   const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
@@ -364,7 +364,7 @@ Json RegionCheck::certificate_of(const char* key) {
 }
 
 /// False when there is no certificate of that name to look at.
-bool RegionCheck::check_cover(const char* key, const DemandCheck* demands, const Bounded& what) {
+bool PoseCheck::check_cover(const char* key, const DemandCheck* demands, const Bounded& what) {
   const Json certificate = certificate_of(key);
   if (certificate.text.empty() || certificate.is_null()) return false;
   Fields fields(certificate, key, complaint_);
@@ -401,7 +401,7 @@ bool RegionCheck::check_cover(const char* key, const DemandCheck* demands, const
   return true;
 }
 
-bool RegionCheck::check_certificates(DemandCheck* demands) {
+bool PoseCheck::check_certificates(DemandCheck* demands) {
   const bool bounds_largest = demands != nullptr && r_.demands->second && r_.demands->second->proof;
   const Json largest = Fields(root_, "", complaint_).get("largest_certificate");
   if (!bounds_largest && !largest.text.empty() && !largest.is_null())
@@ -438,7 +438,7 @@ bool RegionCheck::check_certificates(DemandCheck* demands) {
   return proved;
 }
 
-void RegionCheck::check_status() {
+void PoseCheck::check_status() {
   const bool out_of_reach =
       r_.demands ? r_.demands->margin_bound.high < 0 : r_.upper_bound.high < r_.min_allowance.low;
   if (r_.status == "infeasible" && !out_of_reach)
@@ -451,14 +451,8 @@ void RegionCheck::check_status() {
 
 }  // namespace
 
-bool has_regions(Json result) {
-  std::array<Json, 1> found;
-  constexpr std::array<std::string_view, 1> kKeys{"regions"};
-  return result.is_object() && find_members(result, kKeys, found) && found[0].is_object();
-}
-
-Result<LocateReport> check_regions(const LocateInputs& inputs, Json result) {
-  return RegionCheck(inputs, result).run();
+Result<LocateReport> check_poses(const LocateInputs& inputs, Json written) {
+  return PoseCheck(inputs, written).run();
 }
 
 }  // namespace lekalo::verify

@@ -7,7 +7,7 @@
 #include "lekalo/io/dxf/dxf.hpp"
 #include "lekalo/io/svg/svg.hpp"
 
-namespace lekalo::cli {
+namespace lekalo::jobs {
 namespace {
 
 geom::Contour placed(const geom::Contour& contour, const geom::BlankFromPart& pose) {
@@ -27,7 +27,7 @@ geom::Contour placed(const geom::Contour& contour, const geom::BlankFromPart& po
 
 }  // namespace
 
-Result<std::string> placed_drawing(const std::string& path, const std::vector<geom::Region>& part,
+Result<std::string> placed_drawing(DrawingFormat format, const std::vector<geom::Region>& part,
                                    const std::vector<geom::Region>& blank, const locate::Placement& placement,
                                    bool mirrored) {
   const auto pose = geom::BlankFromPart::from_angle(placement.theta, {placement.x, placement.y}, mirrored);
@@ -39,7 +39,7 @@ Result<std::string> placed_drawing(const std::string& path, const std::vector<ge
     LEKALO_TRY(geom::Region moved, geom::make_region(placed(region.outer, pose), std::move(holes)));
     drawn.push_back({std::move(moved), "PART", {}});
   }
-  return path.ends_with(".svg") ? io::svg_drawing(drawn) : io::dxf_drawing(drawn);
+  return format == DrawingFormat::svg ? io::svg_drawing(drawn) : io::dxf_drawing(drawn);
 }
 
-}  // namespace lekalo::cli
+}  // namespace lekalo::jobs

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/units.hpp"
+#include "lekalo/geom/region.hpp"
+#include "lekalo/io/contour/contour_file.hpp"
+#include "lekalo/io/scan/scan_file.hpp"
+#include "lekalo/locate/outline.hpp"
+
+namespace lekalo::io {
+
+/// How measured points become the outline of a blank (locate/guaranteed_blank.hpp).
+struct ScanReading {
+  locate::ScanOptions measurement;
+  std::optional<ScanSlice> slice;
+};
+
+/// How the file of an outline is read.
+struct OutlineOptions {
+  std::optional<LengthUnit> units;    ///< applies where the file does not say; millimetres if neither does
+  std::optional<double> join, curve;  ///< of drawings, mm: DrawingOptions
+  std::vector<std::string> layers;    ///< of drawings; empty: all that are shown
+  std::optional<ScanReading> scan;    ///< the file holds measured points
+};
+
+/// The points along a convex outline, as its file has them.
+struct ContourRecord {
+  LengthUnit unit = LengthUnit::millimetre;  ///< of the file
+  geom::Ring points;                         ///< mm, file order, nothing dropped
+  std::vector<std::size_t> dropped;          ///< indices of points that are no corners of the outline
+  std::optional<TrimRecord> trim;
+};
+
+struct ReadOutline {
+  locate::Outline outline;          ///< with regions, or convex
+  std::vector<geom::Edge> open;     ///< edges that a region file says are no walls, as they are written
+  std::vector<std::string> notices;
+  std::optional<ScanRecord> scan;        ///< of a blank that was measured
+  std::optional<ContourRecord> contour;  ///< of a convex outline
+};
+
+/// A file of an outline in any form: regions, a tree of primitives, a drawing, points along one outline, or a
+/// scan; its ending and what is in it say which. Each reader sees the bytes once, and only when its answer
+/// is asked for.
+class OutlineFile {
+ public:
+  /// \pre bytes outlive this
+  OutlineFile(std::string_view bytes, std::string name, OutlineOptions options);
+
+  /// Whether the file is to be read as a convex outline: it is a convex polygon, or one that only the reader
+  /// of convex outlines has the words to refuse. With `only_convex_will_do` that includes polygons that are
+  /// not convex.
+  [[nodiscard]] bool is_convex(bool only_convex_will_do);
+
+  /// The outline as regions of lines and arcs; bad_input where outlines cross or touch, with the place.
+  [[nodiscard]] Result<ReadOutline> as_regions();
+
+  /// The outline as a convex polygon: of points as make_convex says; with `trim` in mm it is cut inwards as
+  /// trim_to_convex says, and then its own points have numbers in results.
+  [[nodiscard]] Result<ReadOutline> as_convex(std::optional<double> trim = {});
+
+ private:
+  enum class Form { regions, tree, drawing, points, scan };
+  [[nodiscard]] Form form() const;
+  Result<ReadOutline>& drawn();
+  Result<ContourFile>& points();
+  [[nodiscard]] Result<ReadOutline> read_points();
+  [[nodiscard]] Result<ReadOutline> read_regions() const;
+  [[nodiscard]] Result<ReadOutline> read_tree() const;
+  [[nodiscard]] Result<ReadOutline> read_drawing() const;
+  [[nodiscard]] Result<ReadOutline> read_scan() const;
+
+  std::string_view bytes_;
+  std::string name_;
+  OutlineOptions options_;
+  Form form_;
+  std::optional<Result<ReadOutline>> drawn_;
+  std::optional<Result<ContourFile>> points_;
+};
+
+/// The outline in a file as regions.
+[[nodiscard]] inline Result<ReadOutline> read_outline(std::string_view bytes, const std::string& name,
+                                                      const OutlineOptions& options) {
+  return OutlineFile(bytes, name, options).as_regions();
+}
+
+}  // namespace lekalo::io

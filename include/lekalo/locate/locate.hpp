@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/run_control.hpp"
+#include "lekalo/locate/demand.hpp"
+#include "lekalo/locate/outline.hpp"
+#include "lekalo/locate/proof.hpp"
+
+namespace lekalo::locate {
+
+/// Certified global localisation: where does the part lie best in the blank, and why is no placement better?
+/// The searches beneath are locate_convex, locate_regions and locate_demands.
+
+/// What is asked for beside the largest clearance (demand.hpp).
+struct Demands {
+  std::vector<Feature> features;
+  double minimum = 0;  ///< of edges that belong to no feature, mm, >= 0
+  Criterion criterion = Criterion::smallest;
+  double give_up = 0;         ///< of the margin, for the second and third criterion, mm, >= 0
+  std::size_t trade_off = 0;  ///< points of the curve to compute, 0 or at least 2
+};
+
+struct Problem {
+  Outline part, blank;
+  AngleWindow window;
+  Mirror mirror = Mirror::no;
+  LockedShift locked;
+  std::optional<Demands> demands;
+};
+
+struct Options {
+  /// Stop when upper bound - clearance is this small, mm, > 0. Without: 1e-9 for convex outlines, else 1e-3.
+  std::optional<double> gap;
+  double min_allowance = 0;  ///< mm; when provably not reachable the status is infeasible
+  /// Of convex outlines: also list the other local maxima whose clearance is within this of the best, mm.
+  std::optional<double> alternatives;
+  /// The unit of work is that of the search beneath. Regions stop by themselves after 2,000,000 units, which
+  /// are some minutes and some gigabytes.
+  RunControl run;
+};
+
+struct Found {
+  Status status = Status::stopped;
+  Placement best;  ///< clearance rounded down: an exact recheck never finds less
+  bool mirrored = false;
+  /// No placement in the window has more clearance; rounded up. Without a value: the bound is that of the
+  /// margin of the demands.
+  std::optional<double> upper_bound;
+  double shortfall = 0;         ///< what is missing of the minimum allowance, or of the demands, mm
+  std::vector<Touch> contacts;  ///< what holds the best placement
+  Proof proof;                  ///< of the bound; contacts in it have the outlines' numbers
+  std::vector<Placement> alternatives;
+  bool alternatives_complete = true;
+  /// What was found of the demands. Its certificate has moved to `proof`, its contacts to `contacts`.
+  std::optional<DemandResult> demands;
+  std::uint64_t work = 0;
+};
+
+/// Whether the fast path takes the problem: two convex outlines, and nothing asked for but the clearance of a
+/// part that is not mirrored and may be shifted anywhere.
+[[nodiscard]] bool is_convex(const Problem& problem) noexcept;
+
+/// Chooses the search: the fast path where is_convex says so, else that of regions, with demands if there are
+/// any. Errors and costs are those of the searches; ErrorCode::usage for alternatives without the fast path.
+/// \pre outlines that the fast path does not take have regions
+[[nodiscard]] Result<Found> locate(const Problem& problem, const Options& options);
+
+}  // namespace lekalo::locate

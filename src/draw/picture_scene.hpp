@@ -1,0 +1,17 @@
+#pragma once
+
+#include "lekalo/draw/picture.hpp"
+#include "scene.hpp"
+#include "view.hpp"
+
+namespace lekalo::draw {
+
+inline constexpr Rect kPage{0, 0, 250, 160};  ///< mm of paper
+
+/// White paper with title and description: what both kinds of pictures begin with.
+[[nodiscard]] Scene empty_scene(const LocatePicture& picture);
+
+/// The picture of a localisation of regions.
+[[nodiscard]] Scene composed_regions(const LocatePicture& picture, const PictureOfRegions& regions);
+
+}  // namespace lekalo::draw

@@ -1,0 +1,212 @@
+#include "lekalo/io/formats/outline_file.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "drawing_file.hpp"
+#include "lekalo/geom/predicates.hpp"
+#include "lekalo/geom/region_check.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+#include "lekalo/io/shape/shape_tree.hpp"
+
+namespace lekalo::io {
+namespace {
+
+/// Points of curves move by no more than this many times what their edges' coordinates do: both coordinates
+/// of an end, and what an arc's centre and radius add.
+constexpr double kOutlinePerCoordinate = 5;
+
+bool is_convex_polygon(const std::vector<geom::Region>& regions) {
+  if (regions.size() != 1 || !regions[0].holes.empty()) return false;
+  const geom::Contour& outer = regions[0].outer;
+  for (std::size_t k = 0; k < outer.size(); ++k) {
+    const geom::Edge &edge = outer[k], &next = outer[(k + 1) % outer.size()];
+    if (edge.kind != geom::EdgeKind::line || geom::orientation(edge.from, edge.to, next.to) < 0) return false;
+  }
+  return true;
+}
+
+/// File indices of points equal to the one before, and of closing points: what a contour drops that is not
+/// made convex by dropping collinear points.
+std::vector<std::size_t> repeated_points(const geom::Ring& points) {
+  std::size_t end = points.size();  // before the closing points
+  while (end > 1 && points[end - 1] == points[0]) --end;
+  std::vector<std::size_t> repeated;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (k >= end || points[k] == points[k - 1]) repeated.push_back(k);
+  }
+  return repeated;
+}
+
+Result<ReadOutline> convex_as_it_is(const ContourFile& file) {
+  LEKALO_TRY(ConvexContour convex, make_convex(file));
+  locate::ConvexOutline outline{convex.polygon, convex.coordinate_error, {}, {}};
+  for (std::size_t k = 0; k < convex.polygon.size(); ++k) {
+    outline.vertex_numbers.push_back(static_cast<std::uint32_t>(convex.file_index_of_vertex[k]));
+    outline.edge_numbers.push_back(static_cast<std::uint32_t>(convex.file_edge(k)));
+  }
+  ReadOutline read;
+  read.outline.convex = std::move(outline);
+  read.notices = std::move(convex.notices);
+  read.contour = ContourRecord{file.unit, file.points, std::move(convex.dropped), {}};
+  return read;
+}
+
+Result<ReadOutline> convex_by_trimming(const ContourFile& file, double tolerance) {
+  LEKALO_TRY(TrimmedContour trimmed, trim_to_convex(file, tolerance));
+  TrimRecord record{tolerance, trimmed.loss, trimmed.polygon.vertices()};
+  ReadOutline read;
+  read.outline.convex = locate::ConvexOutline{std::move(trimmed.polygon), trimmed.coordinate_error, {}, {}};
+  read.notices = std::move(trimmed.notices);
+  read.contour = ContourRecord{file.unit, file.points, repeated_points(file.points), std::move(record)};
+  return read;
+}
+
+std::size_t edge_count(const std::vector<geom::Region>& regions) {
+  std::size_t count = 0;
+  for (const geom::Region& region : regions) {
+    count += region.outer.size();
+    for (const geom::Contour& hole : region.holes) count += hole.size();
+  }
+  return count;
+}
+
+}  // namespace
+
+OutlineFile::OutlineFile(std::string_view bytes, std::string name, OutlineOptions options)
+    : bytes_(bytes), name_(std::move(name)), options_(std::move(options)), form_(form()) {}
+
+OutlineFile::Form OutlineFile::form() const {
+  const Format format = format_by_ending(name_);
+  if (options_.scan || format == Format::ply) return Form::scan;
+  if (format == Format::dxf || format == Format::svg) return Form::drawing;
+  if (format != Format::json) return Form::points;
+  const auto says = [&](std::string_view word) { return bytes_.find(word) != std::string_view::npos; };
+  if (says("\"shape\"")) return Form::tree;
+  return says("\"outer\"") || says("\"pieces\"") ? Form::regions : Form::points;
+}
+
+Result<ContourFile>& OutlineFile::points() {
+  if (!points_) points_ = parse_contour(bytes_, name_, options_.units);
+  return *points_;
+}
+
+Result<ReadOutline> OutlineFile::read_points() {
+  LEKALO_CHECK(points());
+  const ContourFile& file = *points();
+  geom::Ring ring;
+  for (const geom::Point& p : file.points)
+    if (ring.empty() || !(p == ring.back())) ring.push_back(p);
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+  if (ring.size() < 3)
+    return failure(ErrorCode::bad_input, fmt::format("{}: fewer than three different points", name_));
+  geom::Contour outer;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    outer.push_back({geom::EdgeKind::line, ring[k], ring[(k + 1) % ring.size()], {}});
+  auto region = geom::make_region(std::move(outer));
+  if (!region) return failure(region.error().code, name_ + ": " + region.error().message);
+  ReadOutline read;
+  read.outline.regions.push_back(std::move(*region));
+  read.outline.tolerance = kOutlinePerCoordinate * file.coordinate_error;
+  read.notices = file.notices;
+  if (!is_convex_polygon(read.outline.regions))
+    read.notices.push_back(
+        name_ + " is not convex and is taken as it is; --trim MM cuts a blank inwards to a convex one");
+  return read;
+}
+
+Result<ReadOutline> OutlineFile::read_regions() const {
+  ReadOutline read;
+  LEKALO_TRY(RegionFile file, parse_regions(bytes_, name_, options_.units, &read.open));
+  read.outline.regions = std::move(file.regions);
+  read.outline.tolerance = kOutlinePerCoordinate * file.coordinate_error;
+  return read;
+}
+
+Result<ReadOutline> OutlineFile::read_tree() const {
+  LEKALO_TRY(ShapeFile file, parse_shape_tree(bytes_, name_, options_.units));
+  ReadOutline read;
+  read.outline.regions = std::move(file.regions);
+  read.outline.tolerance = file.tolerance;
+  for (const std::uint32_t name : file.name_of_edge)
+    read.outline.labels.push_back(name == kNoName ? "" : file.names[name]);
+  return read;
+}
+
+Result<ReadOutline> OutlineFile::read_drawing() const {
+  LEKALO_TRY(const Drawing drawing, parse_drawing(format_by_ending(name_), bytes_, name_, options_.units));
+  DrawingOptions how;
+  if (options_.join) how.join_tolerance = *options_.join;
+  if (options_.curve) how.curve_tolerance = *options_.curve;
+  how.take = options_.layers;
+  LEKALO_TRY(DrawnRegions drawn, make_regions(drawing, how));
+  ReadOutline read;
+  read.outline.regions = std::move(drawn.regions);
+  read.outline.tolerance = drawn.tolerance;
+  for (const std::uint32_t curve : drawn.curve_of_edge)
+    read.outline.labels.push_back(drawing.layers[drawing.curves[curve].layer].name);
+  read.notices = std::move(drawn.notices);
+  return read;
+}
+
+Result<ReadOutline> OutlineFile::read_scan() const {
+  ScanBlankOptions how;
+  how.unit = options_.units;
+  if (options_.scan) how.scan = options_.scan->measurement, how.slice = options_.scan->slice;
+  LEKALO_TRY(ScanBlank scan, read_scan_blank(bytes_, name_, how));
+  ReadOutline read;
+  read.scan = record_of(scan);
+  read.outline.regions = std::move(scan.blank.regions);
+  read.notices = std::move(scan.notices);
+  return read;
+}
+
+Result<ReadOutline>& OutlineFile::drawn() {
+  if (drawn_) return *drawn_;
+  switch (form_) {
+    case Form::regions:
+      return drawn_.emplace(read_regions());
+    case Form::tree:
+      return drawn_.emplace(read_tree());
+    case Form::drawing:
+      return drawn_.emplace(read_drawing());
+    case Form::scan:
+      return drawn_.emplace(read_scan());
+    case Form::points:
+      break;
+  }
+  return drawn_.emplace(read_points());
+}
+
+bool OutlineFile::is_convex(bool only_convex_will_do) {
+  if (form_ == Form::scan || form_ == Form::tree) return false;
+  const Result<ReadOutline>& read = drawn();
+  const bool convex = read && is_convex_polygon(read->outline.regions);
+  if (form_ == Form::regions) return convex;
+  if (form_ == Form::points) return !read || convex || only_convex_will_do;
+  if (!read) return only_convex_will_do;
+  if (!convex && !only_convex_will_do) return false;
+  // Drawings that the reader of convex outlines reads too.
+  return options_.layers.empty() && !options_.join && points();
+}
+
+Result<ReadOutline> OutlineFile::as_regions() {
+  LEKALO_TRY(ReadOutline read, std::move(drawn()));
+  drawn_.reset();
+  if (const auto fault = geom::fault_of(read.outline.regions))
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}; outlines must not meet", name_, *fault));
+  if (read.outline.labels.empty()) read.outline.labels.assign(edge_count(read.outline.regions), "");
+  return read;
+}
+
+Result<ReadOutline> OutlineFile::as_convex(std::optional<double> trim) {
+  LEKALO_CHECK(points());
+  const ContourFile& file = *points();
+  LEKALO_TRY(ReadOutline read, trim ? convex_by_trimming(file, *trim) : convex_as_it_is(file));
+  read.notices.insert(read.notices.begin(), file.notices.begin(), file.notices.end());
+  return read;
+}
+
+}  // namespace lekalo::io

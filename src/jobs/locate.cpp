@@ -1,0 +1,233 @@
+#include "lekalo/jobs/locate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "lekalo/io/text/sha256.hpp"
+#include "lekalo/io/text/words.hpp"
+#include "lekalo/locate/allowance.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "locate_documents.hpp"
+#include "locate_inputs.hpp"
+#include "locate_search.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+/// Proofs of up to this many intervals or boxes stand in the result itself.
+constexpr std::size_t kInlineProof = 10'000;
+
+io::FileRecord record_of(const File& file) { return {file.name, io::sha256(file.bytes)}; }
+
+std::vector<io::InputRecord> input_records(const LocateJob& job, const LocateInputs& in) {
+  std::vector<io::InputRecord> records;
+  for (const auto& [role, file, read] :
+       {std::tuple{"part", &job.part, &in.part}, {"blank", &job.blank, &in.blank}}) {
+    io::InputRecord record{role, record_of(*file), std::nullopt, 0, {}};
+    if (const auto& contour = read->contour)
+      record.unit = contour->unit, record.points = contour->points.size(), record.dropped = contour->dropped;
+    records.push_back(std::move(record));
+  }
+  for (const auto& [role, file] :
+       {std::pair{"nc", &job.program}, {"features", &job.features}, {"last-result", &job.earlier}})
+    if (*file) records.push_back({role, record_of(**file), std::nullopt, 0, {}});
+  return records;
+}
+
+void warn_of_names(const LocateJob& job, std::vector<std::string>& warnings) {
+  const auto name_of_file = [](const std::optional<File>& file) { return file ? file->name : std::string(); };
+  for (const std::string& name :
+       {job.part.name, job.blank.name, name_of_file(job.program), name_of_file(job.earlier),
+        job.outputs.program, job.outputs.certificate, job.outputs.deviations}) {
+    if (io::as_utf8(name) != name) {
+      warnings.push_back("the file name " + io::as_utf8(name) +
+                         " is not UTF-8, so the result holds it with replaced characters and verify must be "
+                         "told where the file is");
+    }
+  }
+}
+
+io::DemandRecord record_of(const locate::Demands& asked, locate::DemandResult&& r) {
+  io::DemandRecord record;
+  record.minimum = asked.minimum, record.features = asked.features;
+  record.criterion = asked.criterion, record.give_up = asked.give_up;
+  record.margin = r.margin, record.margin_bound = r.margin_bound;
+  record.margin_found = r.margin_found, record.margin_gap = r.margin_gap;
+  record.largest = r.largest, record.deviation = r.deviation;
+  record.second = std::move(r.second);
+  if (record.second && record.second->proof) record.second->proof->grown.clear();
+  record.curve = std::move(r.curve);
+  record.grown_for = r.proof.grown_for, record.shift = r.proof.shift, record.bound = r.proof.bound;
+  return record;
+}
+
+io::LocateDocument document_of(const LocateJob& job, const LocateInputs& in, Search&& search) {
+  const locate::Problem& p = in.problem;
+  locate::Found& found = search.found;
+  io::LocateDocument d;
+  d.status = search.status, d.method = name_of(job.options.method), d.seconds = search.seconds;
+  d.inputs = input_records(job, in);
+  d.warnings = job.warnings;
+  for (const io::ReadOutline* read : {&in.part, &in.blank})
+    d.warnings.insert(d.warnings.end(), read->notices.begin(), read->notices.end());
+  d.seed = job.options.seed, d.work = found.work;
+  d.placement = found.best, d.mirrored = found.mirrored, d.upper_bound = found.upper_bound;
+  d.min_allowance = job.options.min_allowance, d.shortfall = found.shortfall;
+  d.window_from_deg = job.options.window_from_deg, d.window_to_deg = job.options.window_to_deg;
+  d.contacts = std::move(found.contacts), d.proof = std::move(found.proof);
+  if (d.convex()) {
+    warn_of_names(job, d.warnings);
+    d.alternatives = std::move(found.alternatives), d.alternatives_complete = found.alternatives_complete;
+    d.trim = in.blank.contour->trim;
+    return d;
+  }
+  d.part = p.part.regions, d.part_tolerance = p.part.tolerance, d.part_cut = in.part_cut;
+  d.blank = p.blank.regions, d.blank_tolerance = p.blank.tolerance, d.scan = in.blank.scan;
+  d.mirror = p.mirror, d.locked = p.locked;
+  if (found.demands) d.demands = record_of(*p.demands, std::move(*found.demands));
+  return d;
+}
+
+void clear(io::LocateDocument& d) {
+  if (d.convex()) d.proof = locate::AngleProof{};
+  else d.proof = locate::PoseProof{};
+}
+
+/// Leaves the proof in the document, or makes it a document of its own.
+void place_proof(const LocateJob& job, Located& made) {
+  io::LocateDocument& d = made.document;
+  const bool keep = !job.outputs.certificate.empty();
+  const std::size_t size = d.certificate_intervals = io::proof_size(d);
+  if (size == 0 || (!keep && size <= kInlineProof)) return;
+  made.certificate = io::certificate_text(d);
+  if (d.demands && d.demands->second && d.demands->second->proof)
+    d.demands->second->proof->certificate.clear();
+  if (const std::size_t first = io::proof_size(d); !keep && first <= kInlineProof) {
+    d.certificate_intervals = first;
+    d.warnings.push_back(fmt::format(
+        "the certificates have {} cells, more than the {} that go into a result, so that of largest "
+        "allowances is not kept; --certificate FILE keeps it",
+        size, kInlineProof));
+    return;
+  }
+  clear(d);
+  if (keep) {
+    d.certificate_file = io::FileRecord{job.outputs.certificate, io::sha256(made.certificate)};
+    return;
+  }
+  d.warnings.push_back(
+      fmt::format("the certificate has {} {}, more than the {} that go into a result, and is not kept; "
+                  "--certificate FILE keeps it",
+                  size, d.convex() ? "intervals" : "cells", kInlineProof));
+}
+
+/// Puts the bytes about to be handed out before the independent checker. Where a proof was made it has to
+/// hold, also one that is too long to be kept.
+Result<void> self_check(const LocateJob& job, const Located& made) {
+  verify::LocateInputs inputs{
+      {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
+  std::string with_proof;
+  if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
+  if (inputs.certificate && !made.document.certificate_file) {
+    io::LocateDocument document = made.document;
+    document.certificate_file = io::FileRecord{"certificate", io::sha256(made.certificate)};
+    with_proof = io::result_json(document);
+    inputs.result.bytes = with_proof;
+  }
+  const Result<verify::LocateReport> report = verify::verify_locate(inputs);
+  const auto wanted = job.options.method == LocateMethod::certified ? verify::Verdict::confirmed
+                                                                    : verify::Verdict::unproved;
+  if (report && report->verdict == wanted) return {};
+  const std::string why =
+      !report ? "self-check: " + report.error().message
+              : "self-check refuted the result: " +
+                    (report->findings.empty() ? "the proof is not complete" : report->findings.front());
+  return failure(ErrorCode::refuted,
+                 why + "; no file was written, and this is a mistake of lekalo worth reporting");
+}
+
+/// The search rounds a clearance down by more than the written pose loses, so that a part that just fits
+/// seems to miss its demand by some last digits. The checker reads the same digits exactly: the demand is
+/// claimed where it confirms the claim, and only there.
+void claim_what_just_fits(const LocateJob& job, io::LocateDocument& d) {
+  const bool just = d.convex() && d.status == io::name_of(locate::Status::optimal) && d.shortfall > 0 &&
+                    d.upper_bound && *d.upper_bound >= d.min_allowance;
+  if (!just) return;
+  Located claim;
+  claim.document = d;
+  claim.document.placement.clearance = d.min_allowance;
+  claim.document.shortfall = 0;
+  const io::LocateDocument claimed = claim.document;
+  place_proof(job, claim);
+  claim.result = io::result_json(claim.document);
+  if (self_check(job, claim)) d = claimed;
+}
+
+void add_comparison(const LocateInputs& in, io::LocateDocument& d) {
+  if (!in.earlier) return;
+  const locate::ConvexOutline &part = *in.problem.part.convex, &blank = *in.problem.blank.convex;
+  const locate::Placement& last = in.earlier->placement;
+  const io::InputRecord* const last_part = in.earlier->input("part");
+  io::ComparisonRecord c;
+  c.same_part = last_part != nullptr && last_part->file.sha256 == d.inputs.front().file.sha256;
+  if (!c.same_part) d.warnings.push_back("the earlier result was made from another part file");
+  const locate::PlacementShift shift = locate::placement_shift(part.polygon.vertices(), last, d.placement);
+  c.dx = shift.dx, c.dy = shift.dy, c.dtheta = shift.dtheta, c.largest_shift = shift.largest;
+  c.last_clearance = last.clearance;
+  c.last_pose_clearance = safe_clearance(part, blank, last);
+  d.comparison = c;
+}
+
+/// One line for every probed point; index counts from 0 in file order.
+std::string deviations_csv(const geom::Ring& probed, const std::vector<double>& deviations) {
+  std::string text = "index,x,y,deviation\n";
+  for (std::size_t k = 0; k < probed.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", k, probed[k].x, probed[k].y, deviations[k]);
+  }
+  return text;
+}
+
+void add_deviations(const LocateJob& job, const LocateInputs& in, Located& made) {
+  if (job.outputs.deviations.empty()) return;
+  const geom::Ring& probed = in.blank.contour->points;
+  const std::vector<double> deviations = locate::deviations(
+      probed, in.problem.part.convex->polygon.vertices(), made.document.placement);
+  const auto [least, greatest] = std::minmax_element(deviations.begin(), deviations.end());
+  made.deviations = deviations_csv(probed, deviations);
+  made.document.deviations = io::DeviationsRecord{
+      {job.outputs.deviations, io::sha256(made.deviations)}, deviations.size(), *least, *greatest};
+}
+
+}  // namespace
+
+const char* name_of(LocateMethod method) noexcept {
+  switch (method) {
+    case LocateMethod::certified:
+      return "certified";
+    case LocateMethod::ipopt:
+      return "ipopt";
+    case LocateMethod::icp:
+      break;
+  }
+  return "icp";
+}
+
+Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwatch& stopwatch) {
+  LEKALO_TRY(const LocateInputs in, read_inputs(job));
+  LEKALO_TRY(Search search, searched(in.problem, job.options, run, stopwatch));
+  Located made;
+  made.document = document_of(job, in, std::move(search));
+  claim_what_just_fits(job, made.document);
+  place_proof(job, made);
+  add_comparison(in, made.document);
+  add_deviations(job, in, made);
+  LEKALO_CHECK(add_program(job, made));
+  LEKALO_CHECK(add_pictures(job, in, made));
+  made.result = io::result_json(made.document);
+  LEKALO_CHECK(self_check(job, made));
+  return made;
+}
+
+}  // namespace lekalo::jobs
