@@ -62,7 +62,7 @@ std::string wrong_count(const CLI::App& command, const std::string& message) {
                      wanted == 1 ? "a value" : fmt::format("{} values", wanted), option->get_type_name());
 }
 
-/// "a, b and c"
+/// The names as "a, b and c".
 std::string command_names(const CLI::App& app) {
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   std::string names;

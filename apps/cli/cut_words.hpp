@@ -11,7 +11,7 @@ namespace lekalo::cli {
 /// The form that the ending of a picture's name asks for; none for an empty name.
 [[nodiscard]] jobs::CutPicture picture_form(const std::string& path);
 
-/// What the checker found, for people: a line a figure.
+/// The checker's findings for people, a line a figure.
 [[nodiscard]] std::string report_rows(const verify::SimulateReport& report);
 
 /// A line for each of the hottest stretches, and how many more there are.

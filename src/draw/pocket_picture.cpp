@@ -36,12 +36,12 @@ Paint fill_of(Colour colour, double alpha) {
   return paint;
 }
 
-/// Low engagement dark and cold, high engagement bright and warm.
+/// Makes low engagement dark and cold, and high engagement bright and warm.
 Colour band_colour(int band) {
   return scale_colour(kColourSteps - 1 - band * (kColourSteps - 1) / (kBands - 1));
 }
 
-/// -2: entry, -1: air, else the band of engagement.
+/// The look of a stretch: -2 for entry, -1 for air, else its band of engagement.
 int look_of(const PocketStretch& s) {
   if (s.entry) return -2;
   if (s.engagement_deg < kAirDegrees) return -1;
@@ -92,7 +92,8 @@ class Composer {
     return rings;
   }
 
-  /// Stretches of one look that hang together are one line; looks one above the other, air below.
+  /// Draws stretches of one look that hang together as one line, and looks one above the other with air
+  /// below, so that what cuts is never hidden.
   void draw_path() {
     constexpr double kNear = 1e-3;  // mm
     const auto width = [](int look) { return look == -1 ? 0.12 : 0.3; };
@@ -125,7 +126,7 @@ class Composer {
     }
   }
 
-  /// On paper, without places that a straight line passes within a hundredth of a millimetre.
+  /// The line on paper, without places that a straight line passes within a hundredth of a millimetre.
   [[nodiscard]] Ring thinned(const Ring& line) const {
     constexpr double kOff = 0.01;
     Ring kept{view_(line.front())};
@@ -226,8 +227,8 @@ std::string pocket_animation(const PocketPicture& picture) {
   for (const geom::Ring& ring : region_rings(picture.pockets, 0.02, 5)) data += json_points(ring) + ",";
   data += "];\nconst lost=[";
   for (const geom::Ring& ring : region_rings(picture.unreachable, 0.02, 5)) data += json_points(ring) + ",";
-  // x, y, engagement, how it came here (0: a jump, 1: on, 2: entry). Of places left out the most engaged
-  // speaks.
+  // Each place has x, y, engagement, and how the tool came there (0: a jump, 1: on, 2: entry). The most
+  // engaged place speaks for those that are left out.
   double most = 0;
   const auto put = [&](geom::Point p, double engagement, int how) {
     path += fmt::format("{:.3f},{:.3f},{:.1f},{},\n", p.x, p.y, engagement, how);

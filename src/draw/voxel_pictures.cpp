@@ -39,9 +39,8 @@ Result<std::array<std::string, 4>> voxel_pngs(const field::VoxelImages& images) 
                    {kX, fmt::format("{}", images.frame.origin.x)},
                    {kY, fmt::format("{}", images.frame.origin.y)},
                    {kPitch, fmt::format("{}", images.frame.pitch)}};
-    Result<std::string> bytes = grey_png(image);
-    if (!bytes) return tl::unexpected(bytes.error());
-    pictures[k] = std::move(*bytes);
+    LEKALO_TRY(std::string bytes, grey_png(image));
+    pictures[k] = std::move(bytes);
   }
   return pictures;
 }
@@ -50,28 +49,27 @@ Result<field::VoxelImages> parse_voxel_pngs(const std::array<std::string_view, 4
                                             const std::array<std::string, 4>& names) {
   field::VoxelImages model;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Result<GreyImage> image = parse_grey_png(bytes[k], names[k]);
-    if (!image) return tl::unexpected(image.error());
+    LEKALO_TRY(const GreyImage image, parse_grey_png(bytes[k], names[k]));
     const auto text = [&](const char* key) -> std::string {
-      for (const auto& [name, value] : image->texts)
+      for (const auto& [name, value] : image.texts)
         if (name == key) return value;
       return {};
     };
     const auto x = double_of_text(text(kX)), y = double_of_text(text(kY)),
                pitch = double_of_text(text(kPitch)), palette = double_of_text(text(kPalette));
     const bool good = text(kKind) == letter_of(k) && x && y && pitch && *pitch > 0 && palette &&
-                      *palette >= 2 && *palette < (image->bits == 16 ? 65536 : 256);
+                      *palette >= 2 && *palette < (image.bits == 16 ? 65536 : 256);
     if (!good)
       return failure(
           ErrorCode::bad_input,
           fmt::format("{}: no M-image {} with its numbers as lekalo writes them", names[k], letter_of(k)));
-    const field::GridFrame frame{{*x, *y}, *pitch, image->columns, image->rows};
+    const field::GridFrame frame{{*x, *y}, *pitch, image.columns, image.rows};
     if (k == 0) model.frame = frame, model.palette = static_cast<std::uint16_t>(*palette);
     const field::GridFrame& first = model.frame;
     if (!(frame.origin == first.origin) || frame.pitch != first.pitch || frame.columns != first.columns ||
         frame.rows != first.rows || static_cast<std::uint16_t>(*palette) != model.palette)
       return failure(ErrorCode::bad_input, fmt::format("{}: of another grid than {}", names[k], names[0]));
-    model.images[k] = turned_over(image->pixels, image->columns);
+    model.images[k] = turned_over(image.pixels, image.columns);
   }
   return model;
 }

@@ -68,7 +68,7 @@ class March {
 
   void update(std::size_t m) {
     if (accepted_[m] != 0 || !(speed_[m] > 0)) return;
-    // Of each axis the side that arrives first: a (T - b)^2, second order with a = 9/4.
+    // Each axis adds a (T - b)^2 from the side that arrives first; a is 9/4 for a difference of second order.
     double a[2] = {0, 0}, b[2] = {0, 0};
     int count = 0;
     const auto take = [&](std::size_t at, std::size_t size, std::size_t stride) {

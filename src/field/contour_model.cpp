@@ -29,7 +29,7 @@ void add_pieces(const geom::Edge& edge, double step, std::vector<ContourModel::C
   const bool arc = edge.kind != geom::EdgeKind::line;
   const double sweep = arc ? arc_sweep(edge) : 0;
   const double length = arc ? sweep * arc_radius(edge) : norm(edge.to - edge.from);
-  // Two chords at least, or a full circle would be none.
+  // A full circle needs two chords at least.
   const double pieces = std::max(arc ? std::ceil(sweep / 3) : 1.0, std::ceil(length / step));
   geom::Point at = edge.from;
   for (double i = 1; i <= pieces; ++i) {

@@ -22,7 +22,7 @@ struct NearSegment {
   float x, y, along_x, along_y, length;
 };
 
-/// Some nodes of a tile, what is least there and of which of the tile's segments.
+/// Some nodes of a tile, the least value at each, and which of the tile's segments has it.
 struct Block {
   std::array<float, kBlock> x, y, least;
   std::array<std::uint32_t, kBlock> which;
@@ -46,7 +46,7 @@ LEKALO_WIDE void least_normalised(const NearSegment& s, Block& block, std::size_
   }
 }
 
-/// The same where t < 0: no node lies in the disc that has the segment as diameter.
+/// Does the same where t < 0: no node lies in the disc that has the segment as diameter.
 LEKALO_WIDE void least_normalised_beyond(const NearSegment& s, Block& block, std::size_t n,
                                          std::uint32_t number) {
   const float per_length = 1 / s.length, quarter = 0.25F * s.length;
@@ -115,8 +115,8 @@ LEKALO_WIDE void jets_distance(Block& block, std::size_t n) {
   }
 }
 
-/// What a kind of function is: bounds over a disc, what is least at nodes and jets of it in single precision,
-/// a jet in double.
+/// A kind of function says these of itself: bounds over a disc, the least value at nodes and jets in single
+/// precision, and a jet in double.
 struct LinearFloz {
   const ContourModel& model;
   [[nodiscard]] FlozBounds bounds(const FlozSegment& s, geom::Point x, double radius) const {

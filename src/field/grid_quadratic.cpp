@@ -23,7 +23,8 @@ constexpr std::size_t kFew = 7;     // parts of a tree that needs no further div
 constexpr std::size_t kBlock = 128;
 constexpr std::size_t kDeepest = 24;  // a balanced tree over a million segments, and some
 
-// What polynomials may take of the stated errors; a part for each halving of tiles, kTop to kSmall.
+// Polynomials may take this share of the stated errors, a part of it for each halving of tiles from kTop to
+// kSmall.
 constexpr double kValueShare = 0.5 * kQuadraticGridError, kGradientShare = 0.5 * kQuadraticGridGradientError;
 constexpr double kHalvings = 5;
 
@@ -54,7 +55,7 @@ Jet3 hypotenuse(const Jet3& a, const Jet3& b) {
     const auto [i, j] = kPairs[k];
     r[3 + k] = by * (p[0] * p[3 + k] + q[0] * q[3 + k] + p[i] * p[j] + q[i] * q[j] - r[i] * r[j]);
   }
-  // Of i j k: each first with the second of the other two.
+  // The third derivative by i, j and k has each first derivative with the second of the other two.
   constexpr std::array<std::array<std::array<std::size_t, 2>, 3>, 4> kTriples{{{{{1, 3}, {1, 3}, {1, 3}}},
                                                                                {{{1, 4}, {1, 4}, {2, 3}}},
                                                                                {{{1, 5}, {2, 4}, {2, 4}}},
@@ -76,7 +77,7 @@ std::array<double, 3> largest(const Jet3& jet) {
           std::sqrt(d[6] * d[6] + 3 * d[7] * d[7] + 3 * d[8] * d[8] + d[9] * d[9])};
 }
 
-/// At a place beyond the disc that has the segment as diameter.
+/// FLOZ and its derivatives at a place beyond the disc that has the segment as diameter.
 Jet3 far_floz(const FlozSegment& s, Point at, FlozForm form) {
   const Point d = at - s.middle, n = perpendicular(s.along);
   const double by = 1 / s.length, f = dot(n, d);
@@ -117,7 +118,7 @@ struct Tree {
   std::vector<Model> models;
 };
 
-/// What is known of a subtree over a tile.
+/// The knowledge about a subtree over a tile.
 struct Bounds {
   double low = 0, high = 0;
   bool smooth = false;  ///< what follows is known
@@ -126,21 +127,21 @@ struct Bounds {
   std::array<double, 4> most{};
 };
 
-/// How fast the relative derivatives change along a line, at most.
+/// The most that the relative derivatives change along a line.
 std::array<double, 3> changes(const Bounds& bounds) {
   std::array<double, 3> change{};
   for (std::size_t k = 0; k < 3; ++k) change[k] = bounds.most[k + 1] + bounds.most[k] * bounds.most[0];
   return change;
 }
 
-/// By what they are at the middle, where that and their change are less.
+/// Lowers bounds to the derivatives at the middle and their change, where these are less.
 void tighten(Bounds& bounds, double radius) {
   const auto middle = largest((1 / bounds.middle.d[0]) * bounds.middle);
   for (std::size_t k = 3; k-- > 0;)
     bounds.most[k] = std::min(bounds.most[k], middle[k] + radius * changes(bounds)[k]);
 }
 
-/// Not below exp(x). \pre x >= 0
+/// A number not below exp(x). \pre x >= 0
 double growth(double x) { return x < 1 ? 1 / (1 - x) : std::numeric_limits<double>::infinity(); }
 
 double conjunction_of(double a, double b) {
@@ -275,7 +276,8 @@ LEKALO_WIDE void take_model(const Step& s, const float* __restrict x, const floa
   }
 }
 
-/// As conjunction(), the weights 1 - a / r as b^2 / (r (r + a)), and (r + a) (r + b) = (a + b + r)^2 / 2.
+/// Computes as conjunction() does, with the weights 1 - a / r as b^2 / (r (r + a)), and (r + a) (r + b) = (a
+/// + b + r)^2 / 2.
 LEKALO_WIDE void join(Jets& __restrict a, const Jets& __restrict b, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const float p = a.value[i], q = b.value[i];
@@ -309,7 +311,7 @@ class Sampler {
     std::array<Jets, kDeepest> stack;
   };
 
-  /// Halved as folded() does.
+  /// Halves the list as folded() does.
   void add_all(std::size_t begin, std::size_t end) {
     const std::size_t before = all_.parts.size();
     if (end - begin == 1) {

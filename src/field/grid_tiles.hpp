@@ -10,7 +10,7 @@
 
 #include "lekalo/field/grid.hpp"
 
-/// What filling grids by tiles shares.
+/// The parts that all fillings of grids by tiles share.
 namespace lekalo::field {
 
 inline constexpr std::size_t kTop = 256;  // nodes along a tile
@@ -44,8 +44,9 @@ void each_quarter(const Tile& tile, const Act& act) {
 
 inline constexpr float kLeast = std::numeric_limits<float>::min();
 
-/// Of FLOZ in single precision, at (x, y) from the segment's middle: f is the line's value, u = f^2 / L, and
-/// over = sqrt(u^2 + t^2) - t without cancellation, as in floz(). For loops that become vector instructions.
+/// The parts of FLOZ in single precision, at (x, y) from the segment's middle: f is the line's value, u = f^2
+/// / L, and over = sqrt(u^2 + t^2) - t without cancellation, as in floz(). Loops over it become vector
+/// instructions.
 struct Terms {
   float f, u, over, root;
 };
@@ -72,7 +73,7 @@ void share_out(std::size_t count, unsigned threads, const Act& act) {
   for (std::thread& other : others) other.join();
 }
 
-/// Where the chords cross each row of nodes, ascending: inside is to the right of an odd number.
+/// The places where the chords cross each row of nodes, ascending: inside is to the right of an odd number.
 class Signs {
  public:
   Signs(const ContourModel& model, const GridFrame& frame) : crossings_(frame.rows) {

@@ -280,9 +280,8 @@ Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, d
         fmt::format("a chord tolerance of {} mm is below {} mm, 16 steps of the grid", tolerance, 0x1p-16));
   std::vector<Loop> loops;
   for (std::size_t l = 0; l <= region.holes.size(); ++l) {
-    auto loop = grid_loop(l == 0 ? region.outer : region.holes[l - 1], l, side, tolerance);
-    if (!loop) return tl::unexpected(loop.error());
-    loops.push_back(std::move(*loop));
+    LEKALO_TRY(auto loop, grid_loop(l == 0 ? region.outer : region.holes[l - 1], l, side, tolerance));
+    loops.push_back(std::move(loop));
   }
   return make_grid_region(std::move(loops));
 }

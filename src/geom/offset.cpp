@@ -171,12 +171,10 @@ struct Material {
 Result<Material> material_of(const std::vector<Region>& regions, detail::KeepRule is_wrong, bool meeting) {
   Outlines outlines;
   outlines.add(regions, 0);
-  const auto wrong = detail::overlay(outlines, is_wrong);
-  if (!wrong) return tl::unexpected(wrong.error());
-  if (wrong->regions.empty() && !(meeting && fault_of(regions))) return Material{regions, 0};
-  auto whole = united(regions);
-  if (!whole) return tl::unexpected(whole.error());
-  return Material{std::move(whole->regions), whole->corner_error};
+  LEKALO_TRY(const auto wrong, detail::overlay(outlines, is_wrong));
+  if (wrong.regions.empty() && !(meeting && fault_of(regions))) return Material{regions, 0};
+  LEKALO_TRY(auto whole, united(regions));
+  return Material{std::move(whole.regions), whole.corner_error};
 }
 
 /// A loop that winds the other way is no material, and what its edges sweep is none either. (Edges inside

@@ -174,13 +174,10 @@ double arc_sweep(const Edge& arc) noexcept { return sweep_of(CcwArc(arc)); }
 
 Result<Region> make_region(Contour outer, std::vector<Contour> holes) {
   Region region;
-  auto checked = normalised(std::move(outer), true, "outer contour");
-  if (!checked) return tl::unexpected(std::move(checked.error()));
-  region.outer = std::move(*checked);
+  LEKALO_TRY(region.outer, normalised(std::move(outer), true, "outer contour"));
   for (std::size_t i = 0; i < holes.size(); ++i) {
-    auto hole = normalised(std::move(holes[i]), false, fmt::format("hole {}", i));
-    if (!hole) return tl::unexpected(std::move(hole.error()));
-    region.holes.push_back(std::move(*hole));
+    LEKALO_TRY(auto hole, normalised(std::move(holes[i]), false, fmt::format("hole {}", i)));
+    region.holes.push_back(std::move(hole));
   }
   return region;
 }

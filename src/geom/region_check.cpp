@@ -30,11 +30,11 @@ class Names {
   }
 
  private:
-  struct Contour {
+  struct NamedContour {
     std::size_t piece;
     std::string name;
   };
-  std::vector<Contour> contours_;
+  std::vector<NamedContour> contours_;
   bool several_;
 };
 

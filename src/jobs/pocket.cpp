@@ -16,7 +16,7 @@
 namespace lekalo::jobs {
 namespace {
 
-/// What other tools have cut before, for the checker and for the path.
+/// The programs of earlier tools, for the checker, and what they have cut, for the path.
 struct CutBefore {
   std::vector<EarlierProgram> programs;
   std::vector<mill::EarlierCut> cuts;

@@ -9,7 +9,7 @@
 
 namespace lekalo::jobs {
 
-/// Where the tool may be, for the path maker and for the checker.
+/// The same pockets for the path maker and for the checker.
 struct PocketGround {
   /// The pockets, and what the tool stands on beyond their open edges.
   std::vector<geom::Region> extended;

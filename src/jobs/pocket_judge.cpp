@@ -14,7 +14,7 @@
 namespace lekalo::jobs {
 namespace {
 
-/// What a machine's axes and a few decimals may take of a wall, mm.
+/// mm that a program may take of a wall: the axes of a machine and a few decimals take as much.
 constexpr double kMostGouge = 0.005;
 /// A ramp takes off material that was to be met later elsewhere, so that another stretch can become too hot;
 /// a second round is seldom needed.

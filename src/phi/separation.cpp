@@ -237,15 +237,4 @@ StickingOut sticking_out(const GridRegion& container, const GridRegion& a) {
   return most;
 }
 
-SignedClearance signed_clearance(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
-  if (interiors_meet(a, b, b_shift)) {
-    const Separation separation = separate(a, b, b_shift);
-    return {-separation.distance_mm, separation.direction, separation.at};
-  }
-  const EdgeDistance apart = edge_distance(a, b, b_shift);
-  const Point away = apart.on_a - apart.on_b;
-  const double length = norm(away);
-  return {apart.distance_mm, length > 0 ? (1 / length) * away : Point{}, apart.on_a};
-}
-
 }  // namespace lekalo::phi

@@ -65,7 +65,7 @@ class Crossings {
   std::vector<double>& events_;
 };
 
-struct Window {
+struct SweptBox {
   Point low, high;
   [[nodiscard]] bool meets(Point a, Point b) const noexcept {
     return std::min(a.x, b.x) <= high.x && std::max(a.x, b.x) >= low.x && std::min(a.y, b.y) <= high.y &&
@@ -74,7 +74,7 @@ struct Window {
 };
 
 /// The window that a box sweeps on its way, and `reach` around it.
-Window swept(const GridBox& box, Point from, Point way, double reach) noexcept {
+SweptBox swept(const GridBox& box, Point from, Point way, double reach) noexcept {
   const Point low = in_doubles(box.low) + from, high = in_doubles(box.high) + from;
   return {{low.x + std::min(0.0, way.x) - reach, low.y + std::min(0.0, way.y) - reach},
           {high.x + std::max(0.0, way.x) + reach, high.y + std::max(0.0, way.y) + reach}};
@@ -86,8 +86,8 @@ void add_all(const GridRegion& one, Point one_at, const GridRegion& other, Point
   const double reach = static_cast<double>(gap) + 4;
   const Point way = length * direction;
   Crossings crossings(direction, length, static_cast<double>(gap), events);
-  const Window window = swept(bounds(one), one_at, way, reach);
-  const Window from_other = swept(bounds(other), other_at, -way, reach);
+  const SweptBox window = swept(bounds(one), one_at, way, reach);
+  const SweptBox from_other = swept(bounds(other), other_at, -way, reach);
   std::vector<Point> points;
   for (const GridPoint p : one.points) {
     const Point at = in_doubles(p) + one_at;
@@ -100,10 +100,10 @@ void add_all(const GridRegion& one, Point one_at, const GridRegion& other, Point
     for (std::uint32_t i = begin; i < end; ++i) {
       const Point to = in_doubles(other.points[i]) + other_at;
       if (window.meets(from, to)) {
-        const Window near{{std::min(from.x, to.x) - reach + std::min(0.0, -way.x),
-                           std::min(from.y, to.y) - reach + std::min(0.0, -way.y)},
-                          {std::max(from.x, to.x) + reach + std::max(0.0, -way.x),
-                           std::max(from.y, to.y) + reach + std::max(0.0, -way.y)}};
+        const SweptBox near{{std::min(from.x, to.x) - reach + std::min(0.0, -way.x),
+                             std::min(from.y, to.y) - reach + std::min(0.0, -way.y)},
+                            {std::max(from.x, to.x) + reach + std::max(0.0, -way.x),
+                             std::max(from.y, to.y) + reach + std::max(0.0, -way.y)}};
         for (const Point p : points)
           if (near.meets(p, p)) crossings.add(p, from, to);
       }

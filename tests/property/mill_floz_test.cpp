@@ -126,27 +126,6 @@ TEST(MillFragments, ACurveOfShortEdgesIsCutAsACurve) {
   EXPECT_NEAR(area_of(*fragments), geom::area(arm), 1e-6);
 }
 
-TEST(FieldTrace, ALevelLineStaysOnItsLevelAndCloses) {
-  // An ellipse: f = 1 - (x/5)^2 - (y/3)^2.
-  const field::Function f = [](Point p) {
-    return field::Jet{1 - p.x * p.x / 25 - p.y * p.y / 9, {-2 * p.x / 25, -2 * p.y / 9}};
-  };
-  for (const double tolerance : {1e-2, 1e-4}) {
-    const auto line = field::level_line(f, {4, 0}, 1.0, tolerance);
-    ASSERT_GT(line.size(), 8U);
-    EXPECT_EQ(line.front(), line.back());
-    double area = 0;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      const field::Jet jet = f(line[i]);
-      EXPECT_LE(std::abs(jet.value - f({4, 0}).value) / norm(jet.gradient), tolerance);
-      EXPECT_LE(norm(line[i + 1] - line[i]), 1.0 + 2 * tolerance);
-      area += 0.5 * cross(line[i], line[i + 1]);
-    }
-    EXPECT_GT(area, 0);  // counter-clockwise about the peak
-    EXPECT_NEAR(area, 3.141592653589793 * 4 * 2.4, 3);
-  }
-}
-
 TEST(FieldTrace, TheStepSetsTheSpacingOfTheSpiral) {
   // On a cone every level line is a circle: a turn ends pi steps farther out.
   const field::Function f = [](Point p) {

@@ -179,16 +179,5 @@ TEST(Separation, BringsPartsBackIntoMaterialWithHoles) {
   EXPECT_FALSE(phi::bring_inside(rectangle(10 * mm, 10 * mm), rectangle(11 * mm, 2 * mm)).has_value());
 }
 
-TEST(Separation, SignedClearanceChangesSignAtTouching) {
-  const GridRegion a = rectangle(10 * mm, 10 * mm);
-  const auto at = [&](std::int64_t x) { return phi::signed_clearance(a, a, {x, mm}); };
-  EXPECT_EQ(at(13 * mm).clearance_mm, 3);
-  EXPECT_EQ(at(13 * mm).direction, (geom::Point{-1, 0}));
-  EXPECT_EQ(at(10 * mm).clearance_mm, 0);
-  EXPECT_NEAR(at(8 * mm).clearance_mm, -2, 1e-5);
-  EXPECT_NEAR(at(8 * mm).direction.x, -1, 1e-9);
-  EXPECT_NEAR(at(10 * mm - 1).clearance_mm, -geom::kGridStep, 4 * geom::kGridStep);
-}
-
 }  // namespace
 }  // namespace lekalo

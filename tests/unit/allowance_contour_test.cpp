@@ -203,22 +203,4 @@ TEST(PlacementShift, TakesTheShorterWayRound) {
   EXPECT_EQ(locate::placement_shift(kSquare, {0, 0, std::numbers::pi, 0}, {}).dtheta, std::numbers::pi);
 }
 
-TEST(ComparePlacements, GivesTheClearanceOfTheLastPlacementInTheNewBlank) {
-  const auto part = cases::convex(kSmallSquare), blank = cases::convex(kSquare);
-  const auto same = locate::compare_placements(part, blank, {1, 2, 0, 0}, {3, 3, 0, 3});
-  EXPECT_LE(same.last_in_new_blank, 1);
-  EXPECT_DOUBLE_EQ(same.last_in_new_blank, 1);
-  EXPECT_EQ(same.shift.dx, 2);
-  const auto outside = locate::compare_placements(part, blank, {-1, 2, 0, 0}, {3, 3, 0, 3});
-  EXPECT_LE(outside.last_in_new_blank, -1);
-  EXPECT_DOUBLE_EQ(outside.last_in_new_blank, -1);
-}
-
-TEST(ComparePlacements, TakesTheReadingErrorOffTheClearance) {
-  const auto part = cases::convex(kSmallSquare), blank = cases::convex(kSquare);
-  const auto c = locate::compare_placements(part, blank, {1, 2, 0, 0}, {3, 3, 0, 3}, 0x1p-20);
-  EXPECT_LT(c.last_in_new_blank, 1 - std::numbers::sqrt2 * 0x1p-20);
-  EXPECT_GT(c.last_in_new_blank, 1 - 0x1p-19);
-}
-
 }  // namespace

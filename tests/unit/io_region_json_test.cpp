@@ -35,5 +35,18 @@ TEST(RegionJson, RefusesWithOneSentence) {
   }
 }
 
+TEST(RegionJson, SaysWhereAFileIsNoJson) {
+  const auto message = [](const std::string& text) {
+    const auto file = parse_regions(text, "bad.json");
+    return file ? std::string("read") : file.error().message;
+  };
+  EXPECT_EQ(message("{\"outer\": [\n"), "bad.json, line 2: the file ends too early; it may be cut off");
+  EXPECT_EQ(message("{\"outer\":\n [1e999]}"), "bad.json, line 2: the number '1e999' is out of range");
+  EXPECT_EQ(message(R"({"outer": [{"line": {"from": [0, 0], "from": [1, 0]}}]})"),
+            "bad.json: outer[0].line: the key 'from' stands twice in one object");
+  EXPECT_NE(message(R"({"outer": )" + std::string(1'000'000, '[')).find("more than 64 deep here"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace lekalo::io

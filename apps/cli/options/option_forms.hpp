@@ -7,7 +7,7 @@
 
 namespace lekalo::cli {
 
-/// What was typed for one command, as options; to be called after the command line is parsed.
+/// Gives the options that were typed for one command; to be called after the command line is parsed.
 using Typed = std::function<Result<Command>()>;
 
 /// Each adds the options of its command, with help and footer, to `app`.

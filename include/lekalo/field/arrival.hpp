@@ -8,7 +8,7 @@
 
 namespace lekalo::field {
 
-/// When a front gets to each node: |grad T| = 1 / speed.
+/// The time at which a front gets to each node: |grad T| = 1 / speed.
 struct ArrivalTimes {
   GridFrame frame;
   std::vector<double> time;  ///< s; infinite where nothing arrives; negative in the start
@@ -16,8 +16,8 @@ struct ArrivalTimes {
   bool reaches_all = true;   ///< whether the front gets to every node with a speed
 };
 
-/// Fast marching (J. A. Sethian, 1996) from a start at time 0, with differences of second order where two
-/// nodes behind are known.
+/// Marches a front from a start at time 0 (fast marching, J. A. Sethian, 1996), with differences of second
+/// order where two nodes behind are known.
 /// \param speed  mm/s at each node, as many as the frame has; not above 0 where nothing goes
 /// \param start  of lines and arcs; nodes in it or nearer than 2.2 pitches get the exact distance (negative
 ///   inside) over their own speed
@@ -30,10 +30,9 @@ struct ArrivalTimes {
 [[nodiscard]] ArrivalTimes arrival_times(const GridFrame& frame, const std::vector<double>& speed,
                                          const geom::RegionIndex& start);
 
-/// The times carried on straight to nodes without speed up to `rings` away from those that have a time, so
-/// that level lines cross the walls: the mean of 2 T1 - T2 along each axis, T1 alone where T2 is not known.
-/// The lowest and the highest two rows of the grid stay without.
-/// \param speed  as for arrival_times
+/// Carries the times on straight to nodes without speed up to `rings` away from those that have a time, so
+/// that level lines cross the walls: the mean of 2 T1 - T2 along each axis, or T1 alone where T2 is not
+/// known. The lowest and the highest two rows of the grid get no time. \param speed  as for arrival_times
 void extend_beyond_walls(ArrivalTimes& arrival, const std::vector<double>& speed, std::size_t rings);
 
 }  // namespace lekalo::field

@@ -30,7 +30,7 @@ class ContourModel {
   [[nodiscard]] Jet operator()(geom::Point x) const;
   /// The function without its sign.
   [[nodiscard]] Jet unsigned_at(geom::Point x) const;
-  /// Whether x is inside the chords; of points on them either.
+  /// True when x is inside the chords; either answer for points on them.
   [[nodiscard]] bool inside(geom::Point x) const;
 
   [[nodiscard]] const std::vector<FlozSegment>& segments() const { return segments_; }

@@ -10,7 +10,7 @@
 
 namespace lekalo::field {
 
-/// Square grid: node (i, j) is at origin + pitch (i, j), number j * columns + i.
+/// A square grid: node (i, j) is at origin + pitch (i, j), number j * columns + i.
 struct GridFrame {
   geom::Point origin;
   double pitch = 1;
@@ -22,7 +22,8 @@ struct GridFrame {
   }
 };
 
-/// Numbers that are not set to 0 first: at 4096 x 4096 nodes that would take as long as filling them.
+/// Allocates numbers that are not set to 0 first, which at 4096 x 4096 nodes would take as long as filling
+/// them.
 template <class T>
 struct NotSet : std::allocator<T> {
   template <class U>
@@ -45,7 +46,7 @@ struct FieldGrid {
   Samples value, dx, dy;
 };
 
-/// What a sampled value may be off, relative to the largest of itself, the grid's pitch and the longest
+/// The error of a sampled value, relative to the largest of itself, the grid's pitch and the longest
 /// segment, for a linear conjunction and for distances. Held by tests/property/field_test.cpp. Gradients are
 /// within kFieldGridGradientError, relative to their length or 1, where one segment has the least function by
 /// more than that; elsewhere they belong to one of those that do.
@@ -62,7 +63,8 @@ inline constexpr double kQuadraticGridGradientError = 2e-3;
 /// (floz_bounds) is below the least upper bound of all, so that a node looks at few; it is for FLOZ itself,
 /// not for distance: the nearest segment need not have the least FLOZ. In a quadratic conjunction every
 /// segment matters everywhere, but subtrees of its fold that are far from a tile are cubic polynomials there,
-/// which pays the more the finer the grid. \pre frame.pitch > 0, threads > 0
+/// which pays the more the finer the grid.
+/// \pre frame.pitch > 0, threads > 0
 [[nodiscard]] FieldGrid sample(const ContourModel& model, const GridFrame& frame, unsigned threads = 2);
 
 /// The signed distance from the model's segments at every node, positive inside, likewise.
@@ -71,7 +73,8 @@ inline constexpr double kQuadraticGridGradientError = 2e-3;
 
 /// The distance of each node from the boundary of regions, of their lines and arcs themselves, in double
 /// precision; negative outside. Error: as geom::RegionIndex::nearest; within 1e-9 of the boundary either
-/// sign. Cost: O(nodes log edges). \pre frame.pitch > 0, regions that are not empty
+/// sign. Cost: O(nodes log edges).
+/// \pre frame.pitch > 0, regions that are not empty
 [[nodiscard]] std::vector<double> signed_distances(const geom::RegionIndex& regions, const GridFrame& frame);
 
 }  // namespace lekalo::field

@@ -7,7 +7,7 @@
 
 namespace lekalo::field {
 
-/// Level lines of numbers at the nodes of a grid, by cells. (trace.hpp follows those of a function.)
+/// Level lines of numbers at the nodes of a grid, by cells.
 class LevelLines {
  public:
   /// A crossing of a level line with the way between two neighbouring nodes.

@@ -11,7 +11,7 @@ namespace lekalo::jobs {
 /// empty. Everything happens in the thread that called the job.
 using PhaseListener = std::function<ProgressListener(const char* phase)>;
 
-/// What hears the progress of a phase that begins now; empty without anybody who listens.
+/// Begins a phase and gives the listener to its progress, which is empty where nobody listens.
 [[nodiscard]] inline ProgressListener begin_phase(const PhaseListener& phases, const char* phase) {
   return phases ? phases(phase) : ProgressListener{};
 }

@@ -20,7 +20,7 @@ namespace lekalo::jobs {
 struct PocketOutline {
   File file;
   std::vector<geom::Region> regions;  ///< mm, made by make_region, without faults
-  /// Of every edge, outer contours before their holes: the layer it is on, or ""; empty: no edge has one.
+  /// The layer of every edge, outer contours before their holes; "" where an edge is on none. May be empty.
   std::vector<std::string> labels;
   std::vector<geom::Edge> open;      ///< edges that the file itself says are no walls
   std::vector<std::string> notices;  ///< what the reader noticed, a sentence each
@@ -80,11 +80,13 @@ struct Pocketed {
 /// judgement is the one reported. A program that leaves the pocket by more than 0.005 mm or meets material in
 /// rapid motion is never handed out.
 ///
-/// Phases: "planning the tool before" (with rest_of), "planning the path", and "checking the program" once
-/// for each whole judgement.
-/// bad_input for what mill::pocket_path refuses, an island (a contour with edges on an island layer) that
-/// lies in no pocket, a layer with no edge on it, a tool before that is not larger, and earlier programs that
-/// the checker cannot read. ErrorCode::refuted where the checker does not let the program pass.
+/// The phases are "planning the tool before" (with rest_of), "planning the path", and "checking the program"
+/// once for each whole judgement.
+///
+/// Errors: bad_input for what mill::pocket_path refuses, an island (a contour with edges on an island layer)
+/// that lies in no pocket, a layer with no edge on it, a tool before that is not larger, and earlier programs
+/// that the checker cannot read. ErrorCode::refuted where the checker does not let the program pass.
+///
 /// Cost: planning, and two to six judgements; a pocket of 100 x 60 mm takes about a second.
 [[nodiscard]] Result<Pocketed> pocket(PocketJob job, const PhaseListener& phases = {});
 

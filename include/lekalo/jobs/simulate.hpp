@@ -40,9 +40,9 @@ struct Simulated {
   std::string animation;  ///< a page that plays the cut
 };
 
-/// Follows the program with the independent checker and says what it cuts. There is one phase, "following
-/// the program". Errors and cost are those of verify::simulate; a picture adds ErrorCode::environment for a
-/// drawing library that fails.
+/// Follows the program with the independent checker and says what it cuts. The only phase is
+/// "following the program". Errors and cost are those of verify::simulate; a picture adds
+/// ErrorCode::environment for a drawing library that fails.
 [[nodiscard]] Result<Simulated> simulate(const SimulateJob& job, const PhaseListener& phases = {});
 
 }  // namespace lekalo::jobs

@@ -26,7 +26,8 @@ struct Verified {
 /// verify::verify_locate proves. The NC program is no evidence for the placement, but a result that names
 /// other bytes than those found is not true; one that is not there may have gone to the machine, and a note
 /// says so.
-/// bad_input where the result, the part, the blank or the certificate is not there or cannot be read.
+///
+/// Errors: bad_input where the result, the part, the blank or the certificate is not there or cannot be read.
 [[nodiscard]] Result<Verified> verify(const File& result, const FileFinder& find);
 
 }  // namespace lekalo::jobs

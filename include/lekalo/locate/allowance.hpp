@@ -64,19 +64,4 @@ struct PlacementShift {
 [[nodiscard]] PlacementShift placement_shift(const geom::Ring& part, const Placement& last,
                                              const Placement& now);
 
-/// Probing again: what moved, and what the last placement is worth in the blank as probed now.
-struct PlacementComparison {
-  PlacementShift shift;
-  /// Minimum allowance of the last placement in the new blank, mm, never above the exact one; negative: it
-  /// would stick out.
-  double last_in_new_blank = 0;
-};
-
-/// `coordinate_error`: how far any coordinate of the part may be from the one meant (the decimal in the file)
-/// plus the same for the blank, mm; 1.5 times this is taken off last_in_new_blank. Cost: O(n + m).
-[[nodiscard]] PlacementComparison compare_placements(const geom::ConvexPolygon& part,
-                                                     const geom::ConvexPolygon& new_blank,
-                                                     const Placement& last, const Placement& now,
-                                                     double coordinate_error = 0);
-
 }  // namespace lekalo::locate

@@ -6,7 +6,7 @@
 
 namespace lekalo::mill {
 
-/// What the tool's rim meets over a piece of a move.
+/// The tool's load over a piece of a move: how much of its rim is in material.
 struct MoveLoad {
   double length = 0;          ///< mm
   double engagement_deg = 0;  ///< of the rim
@@ -19,16 +19,18 @@ struct FeedOptions {
   double step_over = 0.4;         ///< part of the diameter, in (0, 0.5]
 };
 
-/// The path with feeds that follow the load, in at most six steps from half the feed to the most. Below the
+/// Gives the path feeds that follow the load, in at most six steps from half the feed to the most. Below the
 /// engagement a of a straight pass the thickest chip stays as thick, feed sin(a) / sin(engagement); above
 /// 1.25 a the feed falls as the engagement grows. A step holds for 2 mm of path at least, and the slower feed
 /// begins 1 mm before the load. Moves are divided where the feed changes; helices, plunges, links and rapids
-/// keep theirs. \param loads  of each move, along it; a move without any keeps its feed
+/// keep theirs.
+/// \param loads  of each move, along it; a move without any keeps its feed
 [[nodiscard]] PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
                                     const FeedOptions& options);
 
-/// The path with what of its links meets a thicker chip at their feed than a straight pass does at its own as
-/// cuts, and a millimetre before and after it. \param loads  of each link, along it
+/// Turns stretches of links into cuts, which run at the feed of the cut: those that would meet a thicker chip
+/// at their own feed than a straight pass does at its own, and a millimetre before and after them.
+/// \param loads  of each link, along it
 [[nodiscard]] PocketPath with_cutting_links_slow(const PocketPath& path,
                                                  const std::vector<std::vector<MoveLoad>>& loads,
                                                  const FeedOptions& options, double link_mm_per_min);

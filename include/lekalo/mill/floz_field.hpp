@@ -10,7 +10,8 @@ namespace lekalo::mill {
 /// The source's function of the pockets on a grid: the FLOZ models of the convex fragments joined by
 /// R-disjunctions (their borders stay visible), or with options.whole one model of all. 0 on the outlines,
 /// positive inside. The grid has `nodes` nodes along its longer side, and a margin of a twentieth.
-/// bad_input as ContourModel and convex_fragments. \pre options.method is one of the source's, nodes > 1
+/// Errors are those of ContourModel and convex_fragments.
+/// \pre options.method is one of the source's, nodes > 1
 [[nodiscard]] Result<field::FieldGrid> floz_field(const std::vector<geom::Region>& pockets,
                                                   const PocketOptions& options, std::size_t nodes);
 

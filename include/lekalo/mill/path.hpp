@@ -8,7 +8,7 @@
 
 namespace lekalo::mill {
 
-/// One motion of the tool's tip, from where the one before ended.
+/// One motion of the tool's tip. It begins where the motion before it ended.
 struct PathMove {
   enum class Kind : std::uint8_t {
     rapid,   ///< above the stock
@@ -23,13 +23,13 @@ struct PathMove {
   geom::Point to;
   double z = 0;  ///< at its end; an arc that changes it is a piece of a helix
   geom::EdgeKind shape = geom::EdgeKind::line;
-  /// Of arcs, which are at most one full turn; one that ends where it begins is a full turn. Its distances
-  /// from both ends agree within 1e-6 mm.
+  /// The centre of an arc, whose distances from both ends agree within 1e-6 mm. An arc is at most one full
+  /// turn, and one that ends where it begins is a full turn.
   geom::Point centre = {};
   double feed = 0;  ///< mm/min; 0: the one of its kind
 };
 
-/// The first motion is a rapid one: it begins anywhere.
+/// Motions in their order. The first is a rapid one, so that it may begin anywhere.
 struct PocketPath {
   std::vector<PathMove> moves;
   std::size_t fronts = 0;  ///< curves of equal arrival that were cut

@@ -10,13 +10,13 @@
 
 namespace lekalo::mill {
 
-/// Which way round a cut goes; with a spindle that turns clockwise, climb has the material on the right.
+/// The side on which a cut has the material. With a spindle that turns clockwise, climb has it on the right.
 enum class Direction { any, climb, conventional };
 
-/// `fronts` is the product's; the others are the source's spirals on FLOZ models, for comparison.
+/// `fronts` is the product's method; the others are the source's spirals on FLOZ models, for comparison.
 enum class Method { fronts, floz_linear, floz_quadratic };
 
-/// A stretch an earlier tool went along: what its disc swept there is gone.
+/// A stretch that an earlier tool went along: what its disc swept there is gone.
 struct EarlierCut {
   geom::Edge edge;   ///< an arc of at most half a turn; a line of no length where it went straight down
   double depth = 0;  ///< mm below the stock's face; all of it is at least as deep
@@ -35,24 +35,24 @@ struct PocketOptions {
   double ramp_angle = 0.05;     ///< rad, of entries
   double fit_tolerance = 2e-3;  ///< mm, of lines and arcs in place of the path's points
   Method method = Method::fronts;
-  // Of the source's methods alone:
+  // The source's methods alone use these:
   bool whole = false;     ///< one model of each pocket, not one of each convex fragment
   double sampling = 3;    ///< mm: longest segment of the model
   double trace_step = 0;  ///< mm; 0: the one that leaves the step-over between turns
-  /// mm: the spiral in whose place one lies begins there, the others at their peaks
+  /// mm: a spiral begins at the start that lies in its place, or without one at its peak.
   std::vector<geom::Point> starts;
 };
 
-/// mm that one level takes; levels are equally deep.
+/// The mm that one level takes; levels are equally deep.
 [[nodiscard]] double level_depth(const PocketOptions& options);
 
-/// A path that clears what the tool can reach of the pockets, by fronts: the places the tool's middle may be
-/// are reached from an entry in steps that hold the engagement, and each step's boundary is cut.
-/// docs/design/pocket.md says how and what it does not do yet. Levels are equally deep and each pocket is
-/// finished before the next. A pocket the tool does not fit into is left out.
+/// Plans a path that clears what the tool can reach of the pockets, by fronts: from an entry the path grows
+/// over the places where the tool's middle may be, in steps that hold the engagement, and the boundary of
+/// each step is cut. docs/design/pocket.md says how, and what it does not do yet. Levels are equally deep and
+/// each pocket is finished before the next. A pocket that the tool does not fit into is left out.
 ///
-/// After other tools (`before`) only what they left is cut, from where they have been: the tool comes down
-/// there, and goes from one place to the next through what is gone.
+/// After other tools (`before`) only what they have left is cut. The tool comes down where they have been,
+/// and goes from one place to the next through what is gone.
 ///
 /// bad_input for options out of range, where the tool fits nowhere, where the tools before have left nothing,
 /// and for a start outside all spirals' places, a second one in a place, and one whose spiral has no step
@@ -63,7 +63,7 @@ struct PocketOptions {
                                              const std::vector<EarlierCut>& before = {},
                                              const ProgressListener& progress = {});
 
-/// What a tool of this diameter cuts along the path.
+/// The stretches that a tool of this diameter cuts along the path.
 [[nodiscard]] std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter);
 
 }  // namespace lekalo::mill

@@ -20,13 +20,15 @@ struct RampedPath {
   std::vector<Ramp> ramps;  ///< in the path's order
 };
 
-/// The path with ramps where it would meet more of the rim than 1.25 straight passes do over 0.15 mm: slots,
+/// Gives the path ramps where it would meet more of the rim than 1.25 straight passes do over 0.15 mm: slots,
 /// acute corners, ends of grooves, whatever has no side to be relieved from. There the tool rises nearly to
-/// the top of its level, goes along the stretch and a radius around it downwards, comes back through what it
-/// has cut, and so on to the floor. What it meets at once is a thin layer: the ramp angle times the stretch,
-/// two diameters of it at most, but at least a fiftieth of the diameter and at most a tenth. No ramp leaves
-/// the path in plan, and all of them go in its direction. \param loads  of each move, along it Cost: linear
-/// in the path; a ramp's way is its depth over the ramp angle.
+/// the top of its level, goes down along the stretch and a radius around it, comes back through what it has
+/// cut, and repeats this to the floor. It meets a thin layer at a time: the ramp angle times the stretch, two
+/// diameters of it at most, but at least a fiftieth of the diameter and at most a tenth. No ramp leaves the
+/// path in plan, and all of them go in its direction.
+///
+/// Cost: linear in the path; a ramp's way is its depth over the ramp angle.
+/// \param loads  of each move, along it
 [[nodiscard]] RampedPath with_ramps(PocketPath path, const std::vector<std::vector<MoveLoad>>& loads,
                                     const PocketOptions& options);
 

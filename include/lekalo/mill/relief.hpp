@@ -11,18 +11,19 @@
 
 namespace lekalo::mill {
 
-/// A path with shallower passes ahead of stretches that meet more of the rim than 1.25 times what a straight
-/// pass does: along the stretch, further from the material, and back through what that has cut. Whoever asks
-/// measures (lekalo/verify/simulate.hpp); a pass that does not make its stretch better is left out again.
+/// Puts shallower passes ahead of stretches that meet more of the rim than 1.25 times what a straight pass
+/// does: such a pass runs beside the stretch, farther from the material, and back through what it has cut.
+/// The caller measures (lekalo/verify/simulate.hpp), and a pass that does not make its stretch better is left
+/// out again:
 ///
-///     Relief relief(path, places, options);
-///     while (relief.improve(loads of relief.path(), at least of relief.wanted())) {}
+///     LEKALO_TRY(Relief relief, Relief::make(path, pockets, options));
+///     while (relief.improve(loads)) loads = those of relief.path() that relief.wanted() names;
 ///
-/// Stretches are level and without a cusp. Nothing is done about those that cannot be entered from a side:
-/// slots, points of corners. Cost: n log n, and a distance to the walls for each 0.02 radii of a pass.
+/// Stretches are level and without a cusp. Slots and the points of corners stay as they are, because they
+/// have no side to be entered from. Cost: n log n, and a distance to the walls for each 0.02 radii of a pass.
 class Relief {
  public:
-  /// Moves of path(), both ends among them.
+  /// A run of moves of path(), both ends among them.
   struct Moves {
     std::size_t first = 0, last = 0;
   };
@@ -32,14 +33,14 @@ class Relief {
                                            const PocketOptions& options);
 
   [[nodiscard]] const PocketPath& path() const { return path_; }
-  /// Whether path() is another one now, which is to be measured.
+  /// True when path() is another one now, which is to be measured.
   /// \param loads  of each move of path() in wanted(), along it; at first of all moves
   bool improve(const std::vector<std::vector<MoveLoad>>& loads);
-  /// What is to be measured, ascending and apart.
+  /// The moves to be measured, in ascending runs that do not touch.
   [[nodiscard]] std::vector<Moves> wanted() const;
 
  private:
-  /// A stretch that is too hot, in mm of the way along the path given.
+  /// A stretch that is too hot. Its places are mm along the path given.
   struct Site {
     Moves run;                          ///< of the path given: level, of some length each, without a cusp
     double begin = 0, end = 0;          ///< where the tool may leave it and come back
@@ -71,7 +72,7 @@ class Relief {
   double fit_tolerance_;
   std::vector<Site> sites_;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  /// Of a move of path_: the site it was added for, or where along the path given it begins.
+  /// The source of a move of path_: the site it was added for, or where along the path given it begins.
   struct Origin {
     std::size_t site = kNone;
     double begin = 0;

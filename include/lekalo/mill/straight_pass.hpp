@@ -1,9 +1,10 @@
 #pragma once
 
-/// What the rim of the tool meets on a straight pass: the measure of all others.
+/// The angle of the rim that is in material on a straight pass: the measure of all other stretches.
 namespace lekalo::mill {
 
-/// Beside a straight pass, radians: acos(1 - 2 step_over). \param step_over  of the diameter, in (0, 0.5]
+/// The angle of a straight pass beside another one, radians: acos(1 - 2 step_over). \param step_over  of the
+/// diameter, in (0, 0.5]
 [[nodiscard]] double straight_pass_angle(double step_over);
 
 /// Degrees of the rim above which a stretch outside entries is too hot: 1.25 straight passes.

@@ -38,13 +38,4 @@ struct StickingOut {
 };
 [[nodiscard]] StickingOut sticking_out(const geom::GridRegion& container, const geom::GridRegion& a);
 
-/// Positive: the distance apart; 0: they touch; negative: less the length of separate()'s shift.
-struct SignedClearance {
-  double clearance_mm = 0;
-  geom::Point direction;  ///< unit, in which to move `a` away from `b`; (0, 0) when they touch
-  geom::Point at;         ///< mm, on a's edge nearest to b, or in the overlap
-};
-[[nodiscard]] SignedClearance signed_clearance(const geom::GridRegion& a, const geom::GridRegion& b,
-                                               geom::GridPoint b_shift = {});
-
 }  // namespace lekalo::phi

@@ -26,8 +26,8 @@ namespace lekalo::io {
   return fmt::format("more than {} points; thin the contour out first", kMostContourPoints);
 }
 
-/// The readers, one a format. `bytes` is without byte order mark; whether there are points at all is checked
-/// by the caller.
+/// The readers, one for each format. `bytes` has no byte order mark; the caller checks that there are points
+/// at all.
 [[nodiscard]] Result<ContourFile> read_text_contour(std::string_view bytes, const std::string& name,
                                                     LengthUnit unit);
 [[nodiscard]] Result<ContourFile> read_json_contour(std::string_view bytes, const std::string& name,

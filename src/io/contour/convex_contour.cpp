@@ -11,13 +11,13 @@
 namespace lekalo::io {
 namespace {
 
-/// Where the contour between two corners strays from the straight segment.
+/// A place at which the contour between two corners strays from the straight segment.
 struct Stray {
   std::size_t position = 0;
   double distance = 0;  ///< mm, rounded up
 };
 
-/// Looks at every point between corners.
+/// Measures every point between corners against its segment.
 class StraightRuns {
  public:
   StraightRuns(const Outline& outline, double tolerance) : outline_(outline), tolerance_(tolerance) {
@@ -96,49 +96,48 @@ std::string drop_notice(const std::string& name, const char* what, const std::ve
 }  // namespace
 
 std::size_t ConvexContour::file_edge(std::size_t polygon_edge) const {
-  // Backwards, the file leaves for this edge from the vertex where the polygon arrives.
+  // A reversed file leaves for this edge from the vertex at which the polygon arrives.
   return file_index_of_vertex[reversed ? polygon.next(polygon_edge) : polygon_edge];
 }
 
 Result<ConvexContour> make_convex(const ContourFile& file) {
-  const double tolerance = kCollinearErrors * file.coordinate_error;
-  const auto outline = make_outline(file, tolerance);
-  if (!outline) return tl::unexpected(outline.error());
-  const std::vector<std::size_t>& corners = outline->corners;
-  const StraightRuns runs(*outline, tolerance);
-  if (runs.worst().distance > tolerance) return refuse_stray(*outline, runs.worst());
-  if (runs.runs_back_at() != outline->ring.size()) {
+  const double tolerance = kCollinearErrors * file.coordinate_error;  // docs/design/io.md, step 2
+  LEKALO_TRY(const auto outline, make_outline(file, tolerance));
+  const std::vector<std::size_t>& corners = outline.corners;
+  const StraightRuns runs(outline, tolerance);
+  if (runs.worst().distance > tolerance) return refuse_stray(outline, runs.worst());
+  if (runs.runs_back_at() != outline.ring.size()) {
     return refuse(file.name, fmt::format("the contour runs back along its own edge to {}",
-                                         outline->name(runs.runs_back_at())));
+                                         outline.name(runs.runs_back_at())));
   }
 
   geom::Ring vertices;
   std::vector<std::size_t> indices;
   for (const std::size_t position : corners) {
-    vertices.push_back(outline->point(position));
-    indices.push_back(outline->ring[position]);
+    vertices.push_back(outline.point(position));
+    indices.push_back(outline.ring[position]);
   }
   auto polygon = geom::ConvexPolygon::make(std::move(vertices));
   if (!polygon) return refuse(file.name, polygon.error().message);
 
   std::vector<std::size_t> straight;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    for (std::size_t i = outline->after(corners[k]); i != corners[(k + 1) % corners.size()];
-         i = outline->after(i)) {
-      straight.push_back(outline->ring[i]);
+    for (std::size_t i = outline.after(corners[k]); i != corners[(k + 1) % corners.size()];
+         i = outline.after(i)) {
+      straight.push_back(outline.ring[i]);
     }
   }
   std::sort(straight.begin(), straight.end());
-  ConvexContour contour{*std::move(polygon), std::move(indices), outline->reversed, {}, 0, {}};
-  std::merge(straight.begin(), straight.end(), outline->duplicates.begin(), outline->duplicates.end(),
+  ConvexContour contour{*std::move(polygon), std::move(indices), outline.reversed, {}, 0, {}};
+  std::merge(straight.begin(), straight.end(), outline.duplicates.begin(), outline.duplicates.end(),
              std::back_inserter(contour.dropped));
   contour.coordinate_error = file.coordinate_error;
   if (runs.worst().distance > 0) {
     contour.coordinate_error = std::nextafter(file.coordinate_error + runs.worst().distance,
                                               std::numeric_limits<double>::infinity());
   }
-  if (!outline->duplicates.empty()) {
-    contour.notices.push_back(drop_notice(file.name, "duplicate", outline->duplicates));
+  if (!outline.duplicates.empty()) {
+    contour.notices.push_back(drop_notice(file.name, "duplicate", outline.duplicates));
   }
   if (!straight.empty()) contour.notices.push_back(drop_notice(file.name, "collinear", straight));
   return contour;

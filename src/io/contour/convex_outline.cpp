@@ -24,10 +24,10 @@ Vector between(Point from, Point to) { return {geom::two_sum(to.x, -from.x), geo
 DoubleDouble cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
 DoubleDouble dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
 
-/// Of a vector that is not zero.
+/// The length of a vector. \pre it is not zero
 DoubleDouble length(Vector a) { return geom::sqrt(dot(a, a)); }
 
-/// Pays for 30 operations of double-double arithmetic and for leaving the low half out.
+/// The margin pays for 30 operations of double-double arithmetic and for leaving the low half out.
 double rounded_up(DoubleDouble value, double scale) {
   return std::nextafter(std::abs(value.hi) + 0x1p-96 * scale, std::numeric_limits<double>::infinity());
 }
@@ -51,7 +51,7 @@ class HullChords {
  public:
   HullChords(const geom::Ring& hull, double tolerance) : hull_(hull), tolerance_(tolerance) {}
 
-  /// Whether all corners strictly between corners i and j > i lie within the tolerance of their segment.
+  /// True when all corners strictly between corners i and j > i lie within the tolerance of their segment.
   [[nodiscard]] bool straight(std::size_t i, std::size_t j) const {
     const auto near = [&](std::size_t k) {
       return distance_to_segment_up(corner(k), corner(i), corner(j)) <= tolerance_;
@@ -95,7 +95,7 @@ class HullChords {
   double tolerance_;
 };
 
-/// Indices of the corners that stay, ascending; fewer than three when the hull is no wider than the
+/// The indices of the corners that stay, ascending; fewer than three when the hull is no wider than the
 /// tolerance. Cost: O(corners log^2 corners).
 std::vector<std::size_t> true_corners(const geom::Ring& hull, double tolerance) {
   const std::size_t n = hull.size();
@@ -108,13 +108,13 @@ std::vector<std::size_t> true_corners(const geom::Ring& hull, double tolerance) 
   // convex_hull begins with the point lowest in (x, y), so the outcome does not depend on where the file
   // begins. The first chord stops one corner short of where it began: a chord needs two ends.
   for (std::size_t j = 0; j < n; j = chords.farthest_straight(j, j == 0 ? n - 1 : n)) kept.push_back(j);
-  // The first corner was kept unseen.
+  // The walk kept the first corner without looking at it.
   if (kept.size() > 3 && chords.straight(kept.back(), kept[1] + n)) kept.erase(kept.begin());
   return kept;
 }
 
-/// Corners as positions in a ring that should meet them in their order, forwards or backwards: how often the
-/// next stands lower.
+/// Counts how often the next corner stands lower in the ring, which should meet the corners in their order,
+/// forwards or backwards.
 std::size_t count_falls(const std::vector<std::size_t>& corners) {
   std::size_t falls = 0;
   for (std::size_t j = 0; j < corners.size(); ++j)

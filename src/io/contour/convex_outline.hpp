@@ -26,7 +26,7 @@ struct Outline {
   [[nodiscard]] std::size_t after(std::size_t position) const {
     return position + 1 == ring.size() ? 0 : position + 1;
   }
-  /// "point 7 (line 9: 12.5, 3 mm)".
+  /// The name of a point in messages: "point 7 (line 9: 12.5, 3 mm)".
   [[nodiscard]] std::string name(std::size_t position) const;
 };
 
@@ -36,8 +36,8 @@ struct Outline {
 /// outline
 [[nodiscard]] Result<Outline> make_outline(const ContourFile& file, double tolerance);
 
-/// Distance from p to the segment ab, never below the exact one, and 0 only where that is 0; relative error
-/// 1e-15.
+/// The distance from p to the segment ab, never below the exact one, and 0 only where that is 0; relative
+/// error 1e-15.
 [[nodiscard]] double distance_to_segment_up(geom::Point p, geom::Point a, geom::Point b);
 /// The same to the line through a and b, a != b; positive left of it, negative right. Magnitude rounded up.
 [[nodiscard]] double depth_left_of_line_up(geom::Point p, geom::Point a, geom::Point b);

@@ -12,7 +12,7 @@
 namespace lekalo::io {
 namespace {
 
-/// How far the ends of LINEs that belong together may lie apart, drawing units.
+/// The ends of LINEs that belong together may lie this far apart, drawing units.
 constexpr double kChainReach = 1e-6;
 
 struct Polyline {
@@ -26,7 +26,7 @@ struct Polyline {
   std::size_t x_line = 0;
 };
 
-/// Drawing units of $INSUNITS that drawings in the shop come with, for the message.
+/// The drawing units of $INSUNITS that drawings in the shop come with, for the message.
 const char* unit_word(std::string_view code) {
   constexpr std::pair<std::string_view, const char*> kWords[] = {{"2", "feet"},   {"5", "centimetres"},
                                                                  {"6", "metres"}, {"8", "microinches"},
@@ -55,7 +55,7 @@ class DxfReader {
   }
 
   Result<ContourFile> read() {
-    if (auto done = read_sections(); !done) return tl::unexpected(std::move(done.error()));
+    LEKALO_CHECK(read_sections());
     if (third_numbers_) file_.notices.push_back(fmt::format("{}: z coordinates are ignored", file_.name));
     if (!polylines_.empty() && !lines_.empty()) {
       return refuse(
@@ -90,9 +90,8 @@ class DxfReader {
 
   Result<void> read_sections() {
     while (true) {
-      const auto more = next();
-      if (!more) return tl::unexpected(more.error());
-      if (!*more || at(0, "EOF")) return {};
+      LEKALO_TRY(const auto more, next());
+      if (!more || at(0, "EOF")) return {};
       if (group_.code == 999) continue;  // a comment
       if (!at(0, "SECTION"))
         return refuse_here(fmt::format("a section is wanted here, not {}", excerpt(group_.value)));
@@ -104,10 +103,8 @@ class DxfReader {
     const std::size_t begin = group_.line;
     std::string_view section, variable;
     while (true) {
-      const auto more = next();
-      if (!more) return tl::unexpected(more.error());
-      if (!*more)
-        return refuse_line(file_.name, begin, "this section does not end; the file is not complete");
+      LEKALO_TRY(const auto more, next());
+      if (!more) return refuse_line(file_.name, begin, "this section does not end; the file is not complete");
       if (section.empty()) {
         if (group_.code != 2 || group_.value.empty()) return refuse_here("a section without a name");
         section = group_.value;
@@ -135,10 +132,8 @@ class DxfReader {
       return refuse_here(fmt::format("$INSUNITS {} ({}): drawings are read in mm (4) or inches (1)",
                                      excerpt(group_.value), unit_word(group_.value)));
     }
-    const auto unit =
-        agree_on_unit(file_.name, file_says, fmt::format("$INSUNITS in line {}", group_.line), user_says_);
-    if (!unit) return tl::unexpected(unit.error());
-    file_.unit = *unit;
+    LEKALO_TRY(file_.unit, agree_on_unit(file_.name, file_says,
+                                         fmt::format("$INSUNITS in line {}", group_.line), user_says_));
     return {};
   }
 
@@ -151,17 +146,15 @@ class DxfReader {
         continue;
       }
       if (group_.code != 0) return refuse_here("an entity is wanted here (group code 0)");
-      Result<bool> read = group_.value == "LWPOLYLINE" ? read_polyline()
-                          : group_.value == "LINE"     ? read_line()
-                                                       : refuse_entity();
-      if (!read) return tl::unexpected(std::move(read.error()));
-      more = std::move(read);
+      more = group_.value == "LWPOLYLINE" ? read_polyline()
+             : group_.value == "LINE"     ? read_line()
+                                          : refuse_entity();
     }
     if (!more) return tl::unexpected(more.error());
     return refuse_line(file_.name, begin, "the section ENTITIES does not end; the file is not complete");
   }
 
-  /// Layer of the entity whose name was just read, then the refusal.
+  /// Reads on to the layer of the entity whose name was just read, then refuses it.
   Result<bool> refuse_entity() {
     const std::string type(group_.value);
     const std::size_t line = group_.line;
@@ -182,13 +175,12 @@ class DxfReader {
     return *value;
   }
 
-  /// Groups that mean the same for both entities.
+  /// Reads the groups that mean the same for both entities.
   Result<void> read_common(std::string& layer, const char* type) {
     if (group_.code == 8) layer = group_.value;
     if (group_.code != 210 && group_.code != 220 && group_.code != 230) return {};
-    const auto direction = number(LengthUnit::millimetre);
-    if (!direction) return tl::unexpected(direction.error());
-    if (direction->value != (group_.code == 230 ? 1.0 : 0.0) || direction->error != 0) {
+    LEKALO_TRY(const auto direction, number(LengthUnit::millimetre));
+    if (direction.value != (group_.code == 230 ? 1.0 : 0.0) || direction.error != 0) {
       return refuse_here(
           fmt::format("this {} does not lie in the xy plane seen from above (extrusion direction)", type));
     }
@@ -201,9 +193,8 @@ class DxfReader {
     polyline.line = group_.line;
     auto more = next();
     for (; more && *more && group_.code != 0; more = next()) {
-      auto done = read_common(polyline.layer, "LWPOLYLINE");
-      if (done) done = read_vertex_group(polyline);
-      if (!done) return tl::unexpected(std::move(done.error()));
+      LEKALO_CHECK(read_common(polyline.layer, "LWPOLYLINE"));
+      LEKALO_CHECK(read_vertex_group(polyline));
     }
     if (!more) return more;
     if (polyline.has_x) return refuse_line(file_.name, polyline.x_line, "an x without its y");
@@ -221,10 +212,9 @@ class DxfReader {
     if (group_.code == 90) polyline.count = group_.value;
     if (group_.code != 70 && group_.code != 42 && group_.code != 10 && group_.code != 20) return {};
     const bool is_length = group_.code == 10 || group_.code == 20;
-    const auto value = number(is_length ? file_.unit : LengthUnit::millimetre);
-    if (!value) return tl::unexpected(value.error());
-    if (group_.code == 70) polyline.closed = std::fmod(value->value, 2.0) == 1.0;
-    if (group_.code == 42 && (value->value != 0 || value->error != 0)) {
+    LEKALO_TRY(const auto value, number(is_length ? file_.unit : LengthUnit::millimetre));
+    if (group_.code == 70) polyline.closed = std::fmod(value.value, 2.0) == 1.0;
+    if (group_.code == 42 && (value.value != 0 || value.error != 0)) {
       const std::size_t vertex =
           polyline.has_x || polyline.points == 0 ? polyline.points : polyline.points - 1;
       return refuse_here(fmt::format(
@@ -237,12 +227,12 @@ class DxfReader {
     }
     polyline.has_x = !polyline.has_x;
     if (polyline.has_x) {
-      polyline.x = *value;
+      polyline.x = value;
       polyline.x_line = group_.line;
       return {};
     }
     ++polyline.points;
-    if (!append_point(file_, polyline.x, *value, polyline.x_line)) return refuse_here(too_many_points());
+    if (!append_point(file_, polyline.x, value, polyline.x_line)) return refuse_here(too_many_points());
     return {};
   }
 
@@ -253,18 +243,17 @@ class DxfReader {
     std::optional<double> values[4];
     auto more = next();
     for (; more && *more && group_.code != 0; more = next()) {
-      if (auto done = read_common(line.layer, "LINE"); !done) return tl::unexpected(std::move(done.error()));
+      LEKALO_CHECK(read_common(line.layer, "LINE"));
       const auto* code = std::find(std::begin(kCodes), std::end(kCodes), group_.code);
       const bool is_z = group_.code == 30 || group_.code == 31;
       if (code == std::end(kCodes) && !is_z) continue;
-      const auto value = number(file_.unit);
-      if (!value) return tl::unexpected(value.error());
+      LEKALO_TRY(const auto value, number(file_.unit));
       if (is_z) {
-        third_numbers_ = third_numbers_ || value->value != 0;
+        third_numbers_ = third_numbers_ || value.value != 0;
         continue;
       }
-      values[code - std::begin(kCodes)] = value->value;
-      file_.coordinate_error = std::max(file_.coordinate_error, value->error);
+      values[code - std::begin(kCodes)] = value.value;
+      file_.coordinate_error = std::max(file_.coordinate_error, value.error);
     }
     if (!more) return more;
     if (!std::all_of(std::begin(values), std::end(values),
@@ -301,9 +290,8 @@ class DxfReader {
   Result<ContourFile> take_chain() {
     // The ends are doubles near their decimals: two decimals 1e-6 apart must not fail for that.
     const double reach = kChainReach * millimetres_per(file_.unit) + 3 * file_.coordinate_error;
-    const auto chain = chain_lines(lines_, reach, file_.name);
-    if (!chain) return tl::unexpected(chain.error());
-    for (const ChainLink& link : *chain) {
+    LEKALO_TRY(const auto chain, chain_lines(lines_, reach, file_.name));
+    for (const ChainLink& link : chain) {
       file_.points.push_back(lines_[link.line].ends[link.entered_at]);
       file_.places.push_back(lines_[link.line].line);
     }

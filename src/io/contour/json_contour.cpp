@@ -2,46 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "contour_points.hpp"
+#include "io/text/json_events.hpp"
 
 namespace lekalo::io {
 namespace {
 
-using Json = nlohmann::json;
-
-/// How far an edge of the region form may begin from the end of the one before it, per coordinate, in the
+/// An edge of the region form may begin this far from the end of the one before it, per coordinate, in the
 /// file's unit.
 constexpr double kEdgeGap = 1e-6;
 
-/// Listens to the parser and keeps the points. Events, not a tree: only they carry a number's own text, which
-/// decides whether it is a double exactly, and five million points stay small.
-class ContourListener {
+/// Listens to the parser and keeps the points. It takes events and no tree, because only these carry a
+/// number's own text, which decides whether it is a double exactly, and because five million points stay
+/// small so.
+class ContourListener final : public detail::JsonEvents {
  public:
-  using number_integer_t = Json::number_integer_t;
-  using number_unsigned_t = Json::number_unsigned_t;
-  using number_float_t = Json::number_float_t;
-  using string_t = Json::string_t;
-  using binary_t = Json::binary_t;
-
-  ContourListener(std::string_view bytes, const std::string& name, LengthUnit unit) : bytes_(bytes) {
+  ContourListener(const std::string& name, LengthUnit unit) {
     file_.name = name;
     file_.unit = unit;
     file_.places_are_lines = false;
   }
 
-  bool null() { return scalar("null"); }
-  bool boolean(bool) { return scalar("a truth value"); }
-  bool number_integer(number_integer_t value) { return number(fmt::format("{}", value)); }
-  bool number_unsigned(number_unsigned_t value) { return number(fmt::format("{}", value)); }
-  bool number_float(number_float_t, const string_t& text) { return number(text); }
-  bool binary(binary_t&) { return scalar("bytes"); }
+  bool null() override { return scalar("null"); }
+  bool boolean(bool) override { return scalar("a truth value"); }
+  bool integer(std::int64_t value) override { return decimal(fmt::format("{}", value)); }
+  bool number(double, std::string_view text) override { return decimal(std::string(text)); }
 
-  bool string(string_t& text) {
+  bool text(std::string_view text) override {
     if (inside() != Place::root_object || key() != "units") return scalar(excerpt(text));
     if (text != "mm" && text != "inch") {
       return stop(fmt::format("\"units\" is {}; \"mm\" and \"inch\" are known", excerpt(text)));
@@ -50,7 +41,7 @@ class ContourListener {
     return true;
   }
 
-  bool start_object(std::size_t) {
+  bool begin_object() override {
     switch (inside()) {
       case Place::nothing:
         return enter(Place::root_object);
@@ -63,7 +54,7 @@ class ContourListener {
     }
   }
 
-  bool start_array(std::size_t) {
+  bool begin_list() override {
     switch (inside()) {
       case Place::nothing:
         return start_points("the list");
@@ -78,19 +69,19 @@ class ContourListener {
     }
   }
 
-  bool key(string_t& text) {
+  bool key(std::string_view text) override {
     Frame& top = stack_.back();
     if (std::find(top.keys.begin(), top.keys.end(), text) != top.keys.end()) {
       return stop(fmt::format("the key {} stands twice in one object", excerpt(text)));
     }
-    top.keys.push_back(text);
+    top.keys.emplace_back(text);
     if (top.place == Place::line && text != "from" && text != "to") {
       return stop(fmt::format("{}: a line has \"from\" and \"to\", not {}", item(), excerpt(text)));
     }
     return true;
   }
 
-  bool end_object() {
+  bool end_object() override {
     const Frame top = std::move(stack_.back());
     stack_.pop_back();
     if (top.place == Place::line && top.keys.size() != 2) {
@@ -101,7 +92,7 @@ class ContourListener {
     return count_item();
   }
 
-  bool end_array() {
+  bool end_list() override {
     const Place place = inside();
     const std::size_t count = stack_.back().count;
     if (is_point(place) && count != 2) {
@@ -118,17 +109,15 @@ class ContourListener {
     return count_item();
   }
 
-  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) {
-    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(position, bytes_.size()));
-    const auto line = 1 + std::count(bytes_.begin(), end, '\n');
-    constexpr int kNumberOverflow = 406;
-    const std::string number = token.substr(0, token.find_last_not_of(" \t\r\n,]}") + 1);
-    return stop(error.id == kNumberOverflow
-                    ? fmt::format("line {}: {}", line, number_sentence(NumberFault::too_large, number))
-                    : fmt::format("line {}: this is not JSON from here on, near {}", line, excerpt(token)));
+  void broken(const detail::JsonBreak& at) override {
+    const std::string number = at.token.substr(0, at.token.find_last_not_of(" \t\r\n,]}") + 1);
+    fault_ = fmt::format("line {}: {}", at.line,
+                         at.number_too_large
+                             ? number_sentence(NumberFault::too_large, number)
+                             : fmt::format("this is not JSON from here on, near {}", excerpt(at.token)));
   }
 
-  /// After a parse that went through.
+  /// The contour, after a parse that went through.
   Result<ContourFile> take() {
     if (!has_contour_) return refuse(file_.name, "there is neither \"points\" nor \"outer\" in this file");
     const double gap = kEdgeGap * millimetres_per(file_.unit);
@@ -194,7 +183,7 @@ class ContourListener {
     return wrong("a list");
   }
 
-  /// One more item of the list around it is complete.
+  /// Counts one more complete item of the list around it.
   bool count_item() {
     if (stack_.empty()) return true;
     ++stack_.back().count;
@@ -202,7 +191,7 @@ class ContourListener {
     return true;
   }
 
-  bool number(const std::string& text) {
+  bool decimal(const std::string& text) {
     if (!is_point(inside())) return scalar(text);
     const auto value = read_millimetres(text, file_.unit);
     if (!value) return stop(fmt::format("{}: {}", item(), number_sentence(value.error(), text)));
@@ -237,7 +226,6 @@ class ContourListener {
     }
   }
 
-  std::string_view bytes_;
   ContourFile file_;
   std::optional<LengthUnit> file_unit_;
   std::vector<Frame> stack_;
@@ -253,18 +241,17 @@ class ContourListener {
 Result<ContourFile> read_json_contour(std::string_view bytes, const std::string& name,
                                       std::optional<LengthUnit> user_says) {
   const auto listen = [&](LengthUnit unit) {
-    ContourListener listener(bytes, name, unit);
-    const bool complete = Json::sax_parse(bytes.begin(), bytes.end(), &listener);
+    ContourListener listener(name, unit);
+    const bool complete = detail::parse_json(bytes, listener);
     return std::pair(complete, std::move(listener));
   };
   const LengthUnit assumed = user_says.value_or(LengthUnit::millimetre);
   auto [complete, listener] = listen(assumed);
   if (!complete) return listener.fault();
-  const auto unit = agree_on_unit(name, listener.file_unit(), "\"units\"", user_says);
-  if (!unit) return tl::unexpected(unit.error());
-  if (*unit == assumed) return listener.take();
+  LEKALO_TRY(const auto unit, agree_on_unit(name, listener.file_unit(), "\"units\"", user_says));
+  if (unit == assumed) return listener.take();
   // "units" may stand behind the points it is for.
-  auto [again, in_unit] = listen(*unit);
+  auto [again, in_unit] = listen(unit);
   return again ? in_unit.take() : in_unit.fault();
 }
 

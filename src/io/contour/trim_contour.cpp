@@ -10,11 +10,12 @@
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 
-// Why the result lies inside the contour. Let side i be the segment between two corners of the hull, and p_i
-// the point deepest under it of the stretch of the contour between them. The line through p_i parallel to
-// side i has that stretch, and the side, on one side of it or on it; the result lies on the other. So, seen
-// from any point of the result, each stretch can be pulled straight onto its side without passing over the
-// point, and the contour winds around the point as often as the hull does: once.
+// Step 3 of docs/design/io.md, and the reason why the result lies inside the contour. Let side i be the
+// segment between two corners of the hull, and p_i the point deepest under it of the stretch of the contour
+// between them. The line through p_i parallel to side i has that stretch, and the side, on one side of it or
+// on it; the result lies on the other. So, seen from any point of the result, each stretch can be pulled
+// straight onto its side without passing over the point, and the contour winds around the point as often as
+// the hull does: once.
 
 namespace lekalo::io {
 namespace {
@@ -63,11 +64,11 @@ struct ExactishPoint {
   DoubleDouble x, y;
 };
 
-/// The half plane nx x + ny y >= c, (nx, ny) of length 1.
+/// The half plane of all (x, y) with nx x + ny y >= c, (nx, ny) of length 1.
 struct HalfPlane {
   DoubleDouble nx, ny, c;
 
-  /// Left of the side, beyond its deepest point by `margin`.
+  /// The half plane left of the side, beyond its deepest point by `margin`.
   HalfPlane(const Side& side, double margin) {
     const DoubleDouble dx = geom::two_sum(side.to.x, -side.from.x),
                        dy = geom::two_sum(side.to.y, -side.from.y);
@@ -82,7 +83,8 @@ struct HalfPlane {
   [[nodiscard]] bool holds(const ExactishPoint& p) const { return excess(p).hi >= 0; }
 };
 
-/// Where two borders meet; nothing unless the second turns left of the first by less than half a turn.
+/// The point at which two borders meet; nothing unless the second turns left of the first by less than half a
+/// turn.
 std::optional<ExactishPoint> meet(const HalfPlane& a, const HalfPlane& b) {
   const DoubleDouble sine = a.nx * b.ny - a.ny * b.nx;
   if (!(sine.hi > 0)) return std::nullopt;
@@ -144,7 +146,7 @@ bool is_beyond(const geom::ConvexPolygon& polygon, const std::vector<Side>& side
   return true;
 }
 
-/// Largest distance of a coordinate from its shortest decimal.
+/// The largest distance of a coordinate from its shortest decimal.
 double written_error(const geom::Ring& ring) {
   double error = 0;
   for (const Point p : ring) {
@@ -172,15 +174,14 @@ Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance)
   // Sides between corners closer to straight than this meet nowhere in particular.
   const double rounding = kHalfUlp * geom::largest_coordinate(file.points);
   const double straight = std::max(kCollinearErrors * file.coordinate_error, 16 * rounding);
-  const auto outline = make_outline(file, straight);
-  if (!outline) return tl::unexpected(outline.error());
+  LEKALO_TRY(const auto outline, make_outline(file, straight));
 
-  const Sides measured = measure_sides(*outline);
+  const Sides measured = measure_sides(outline);
   const Side& worst = *std::max_element(measured.sides.begin(), measured.sides.end(),
                                         [](const Side& a, const Side& b) { return a.depth < b.depth; });
   if (!(worst.depth <= tolerance + straight)) {
     return refuse(file.name, fmt::format("--trim {} is not enough: {} lies {:.4g} mm inside the convex hull",
-                                         tolerance, outline->name(worst.deepest), worst.depth));
+                                         tolerance, outline.name(worst.deepest), worst.depth));
   }
 
   // Decimals of the file differ from its points by up to sqrt(2) coordinate errors, those of the result by up
@@ -198,11 +199,11 @@ Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance)
     const double loss = sum_rounded_up({worst.depth, measured.outside, margin, 2 * rounding});
     std::string notice =
         fmt::format("{}: trimmed inwards, at most {:.4g} mm of allowance is lost; deepest at {}", file.name,
-                    loss, outline->name(worst.deepest));
+                    loss, outline.name(worst.deepest));
     return TrimmedContour{*std::move(polygon), loss, error, {std::move(notice)}};
   }
   return refuse(file.name, fmt::format("nothing convex is left inside dents up to {:.4g} mm deep ({})",
-                                       worst.depth, outline->name(worst.deepest)));
+                                       worst.depth, outline.name(worst.deepest)));
 }
 
 }  // namespace lekalo::io

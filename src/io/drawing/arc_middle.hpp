@@ -4,7 +4,7 @@
 
 namespace lekalo::io {
 
-/// Unit direction from the centre to the middle of an arc, within rounding.
+/// The unit direction from the centre to the middle of an arc, within rounding.
 /// \pre an arc, not a full circle
 [[nodiscard]] inline geom::Point towards_middle(const geom::Curve& arc) noexcept {
   const geom::Point first = (1 / norm(arc.first)) * arc.first, last = (1 / norm(arc.last)) * arc.last;

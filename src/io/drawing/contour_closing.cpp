@@ -23,8 +23,8 @@ constexpr double kLeastChordInGaps = 4;
 
 bool is_line(const Edge& edge) { return edge.kind == EdgeKind::line; }
 
-/// How far any point of an arc moves at most when one end moves by 1 and the other stays, all by one
-/// similarity map: its distance from the staying end over the chord.
+/// The most that any point of an arc moves when one end moves by 1 and the other stays, all by one similarity
+/// map: its distance from the staying end over the chord.
 double lever(const Edge& arc) {
   const geom::Curve curve = make_curve(arc);
   return curve.wide ? 2 * curve.radius / norm(arc.to - arc.from) * kUp : 1;
@@ -34,7 +34,7 @@ double lever(const Edge& arc) {
 Edge pulled(const Edge& arc, Point from, Point to) {
   const Point before = arc.to - arc.from, after = to - from, out = arc.centre - arc.from;
   const double squared = dot(before, before);
-  // The centre in the chord's frame.
+  // The centre keeps its place in the chord's frame.
   const double along = dot(out, before) / squared, aside = cross(before, out) / squared;
   return {arc.kind, from, to, from + along * after + aside * perpendicular(after)};
 }
@@ -59,7 +59,7 @@ class GapCloser {
  private:
   [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == contour_.edges.size() ? 0 : i + 1; }
 
-  /// Where they meet an arc across a gap, so that only the half near it has to move.
+  /// Splits wide arcs where they meet an arc across a gap, so that only the half near it has to move.
   void halve_wide_arcs() {
     const geom::Contour& edges = contour_.edges;
     std::vector<bool> halved(edges.size(), false);
@@ -120,7 +120,7 @@ class GapCloser {
   static bool may_pull(const Edge& arc, const ClosedGap& gap) {
     return norm(arc.to - arc.from) >= kLeastChordInGaps * gap.size;
   }
-  /// Of the new centre: a few units of its distances, as kEdgeDistanceError.
+  /// The rounding of the new centre: a few units of its distances, as kEdgeDistanceError.
   static double rounding(const Edge& arc) {
     return geom::kEdgeDistanceError * (norm(arc.centre) + 2 * geom::arc_radius(arc));
   }

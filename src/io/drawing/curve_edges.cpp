@@ -19,13 +19,13 @@ using geom::Point;
 /// Radii above this many chords are not used: their arcs are nearly lines, and their centres' own digits
 /// would be the limit (kCurveRounding counts on this).
 constexpr double kLargestRadiusInChords = 256;
-/// Shortest step, in Bezier pieces. Parts of a curve that short are lines within any tolerance that rounding
-/// leaves, so that it is not reached but by tolerances that cannot be met.
+/// The shortest step, in Bezier pieces. Parts of a curve that short are lines within any tolerance that
+/// rounding leaves, so that it is not reached but by tolerances that cannot be met.
 constexpr double kShortestStep = 0x1p-30;
-/// How often the bounds of a piece are halved before its arc is given up.
+/// The number of times that the bounds of a piece are halved before its arc is given up.
 constexpr int kBoundDepth = 4;
 
-/// binomial(n, i) for n up to twice the highest degree; exact.
+/// The table of binomial(n, i) for n up to twice the highest degree, exact.
 class Binomials {
  public:
   constexpr Binomials() {
@@ -104,7 +104,7 @@ struct Candidate {
   double end_error = 0;  ///< difference of the radii at its ends
 };
 
-/// Through three points, if it is an arc of at most a quarter turn and not nearly a line.
+/// The arc through three points, if it is one of at most a quarter turn and not nearly a line.
 std::optional<Candidate> arc_through(Point from, Point middle, Point to) {
   const Point m = middle - from, q = to - from;
   const double turn = cross(m, q), chord = norm(q);
@@ -124,7 +124,7 @@ std::optional<Candidate> arc_through(Point from, Point middle, Point to) {
   return made;
 }
 
-/// How far the piece may be from the arc, both ways, if that is proven to be within `limit`.
+/// A bound on the distance of the piece from the arc and back, if it is proven to be within `limit`.
 std::optional<double> distance_bound(const Candidate& arc, const Bezier& piece, double limit) {
   const Point bisector = arc.first + arc.last;
   double aside = 0;  // poles outside the wedge between the arc's ends
@@ -144,8 +144,8 @@ std::optional<double> distance_bound(const Candidate& arc, const Bezier& piece, 
   return e + 2 * aside + arc.end_error;
 }
 
-/// Largest distance of a pole from the segment: a bound for the whole piece, the segment's surroundings being
-/// convex.
+/// The largest distance of a pole from the segment: a bound for the whole piece, the segment's surroundings
+/// being convex.
 double distance_bound(Point from, Point to, const Bezier& piece) {
   const Point along = to - from;
   const double squared = dot(along, along);
@@ -163,7 +163,8 @@ class Follower {
  public:
   Follower(const BezierChain& chain, double tolerance) : pieces_(chain.pieces), tolerance_(tolerance) {}
 
-  /// From the curve's first to its last point, both as given; nothing if the tolerance is out of reach.
+  /// The edges from the curve's first to its last point, both as given; nothing if the tolerance is out of
+  /// reach.
   std::optional<CurveEdges> follow(Point first, Point last) {
     CurveEdges made;
     const auto end = static_cast<double>(pieces_.size());

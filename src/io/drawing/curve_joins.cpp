@@ -19,7 +19,7 @@ struct Pair {
   EndNumber a = 0, b = 0;  ///< a < b
 };
 
-/// Loose ends in square cells a little wider than the tolerance, in the order of the cells.
+/// Sorts loose ends into square cells a little wider than the tolerance, in the order of the cells.
 class EndGrid {
  public:
   EndGrid(const std::vector<End>& ends, double tolerance) : tolerance_(tolerance) {
@@ -87,7 +87,7 @@ class Joiner {
     joins_.partner[a] = b;
     joins_.partner[b] = a;
   }
-  /// Both ends of a curve that is not clearly longer than their distance.
+  /// True for both ends of a curve that is not clearly longer than their distance.
   [[nodiscard]] bool too_short_to_close(const Pair& pair) const {
     return pair.a / 2 == pair.b / 2 && !(curves_[pair.a / 2].reach >= 4 * pair.distance);
   }

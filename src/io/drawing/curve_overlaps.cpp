@@ -96,7 +96,7 @@ std::optional<double> lies_on(const LaidCurve& b, const LaidCurve& a, double rea
   return same_edges(geom::reversed(*b.edges), *a.edges, limit);
 }
 
-/// Of the distances here (kEdgeDistanceError), a few of them and their products.
+/// The rounding of the distances measured here: a few times kEdgeDistanceError, for their sums and products.
 double rounding(const Box& box) {
   return 4 * geom::kEdgeDistanceError *
          std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
@@ -123,7 +123,8 @@ std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, doub
     numbers.push_back(i);
     boxes.push_back(wider(curves[i].box, reach));
   }
-  /// Whether i is to be kept rather than j.
+  // The larger curve is kept, because only the smaller one can lie on the other whole; of equal ones the
+  // first.
   const auto before = [&](std::uint32_t i, std::uint32_t j) {
     return curves[i].size != curves[j].size ? curves[i].size > curves[j].size : i < j;
   };

@@ -27,15 +27,15 @@ using geom::Point;
 
 /// Rounds a sum of a few terms up.
 constexpr double kUp = 1 + 0x1p-48;
-/// Joins again after something was dropped or cut: every round needs a new reason, so that more than a few
-/// are a drawing in which everything lies on everything.
+/// The most rounds of joining again after something was dropped or cut. Every round needs a new reason, so
+/// that more than a few mean a drawing in which everything lies on everything.
 constexpr int kMostRounds = 8;
-/// Curves that the sentence about a crowded place names.
+/// The most curves that the sentence about a crowded place names.
 constexpr std::size_t kMostNamed = 4;
 
 std::string text(Point p) { return fmt::format("({:.9g}, {:.9g}) mm", p.x, p.y); }
 
-/// What became of one drawn curve.
+/// One drawn curve after step 1: its edges, and what reading and moving did to it.
 struct Worked {
   std::vector<Edge> edges;
   double curve_error = 0, moved = 0, coordinate_error = 0;
@@ -59,31 +59,28 @@ class Assembly {
   Assembly(const Drawing& drawing, const DrawingOptions& options) : drawing_(drawing), options_(options) {}
 
   Result<DrawnRegions> run() {
-    if (auto failed = check_options()) return *failed;
-    auto layers = choose_layers(drawing_, options_);
-    if (!layers) return tl::unexpected(std::move(layers.error()));
-    result_.notices = std::move(layers->notices);
-    if (auto failed = work_curves(layers->taken)) return *failed;
+    LEKALO_CHECK(check_options());
+    LEKALO_TRY(auto layers, choose_layers(drawing_, options_));
+    result_.notices = std::move(layers.notices);
+    LEKALO_CHECK(work_curves(layers.taken));
     drop_duplicates();
-    if (auto failed = join()) return *failed;
+    LEKALO_CHECK(join());
     make_chains();
-    if (auto failed = sort_out_open_chains()) return *failed;
+    LEKALO_CHECK(sort_out_open_chains());
     close_contours();
-    if (auto failed = nest()) return *failed;
+    LEKALO_CHECK(nest());
     account();
     report();
     return std::move(result_);
   }
 
  private:
-  using Failure = std::optional<tl::unexpected<Error>>;
-
-  [[nodiscard]] Failure refuse(const std::string& sentence) const {
+  [[nodiscard]] tl::unexpected<Error> refuse(const std::string& sentence) const {
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", drawing_.name, sentence));
   }
   [[nodiscard]] std::string name(std::uint32_t curve) const { return curve_name(drawing_, curve); }
 
-  [[nodiscard]] Failure check_options() const {
+  [[nodiscard]] Result<void> check_options() const {
     if (!(options_.join_tolerance >= 0) || !std::isfinite(options_.join_tolerance))
       return failure(ErrorCode::usage,
                      fmt::format("the join tolerance is {} mm; it must be 0 or more, and finite",
@@ -92,12 +89,12 @@ class Assembly {
       return failure(ErrorCode::usage,
                      fmt::format("the curve tolerance is {} mm; it must be above 0, and finite",
                                  options_.curve_tolerance));
-    return std::nullopt;
+    return {};
   }
 
-  // ---- curves ---------------------------------------------------------------------------------------------
+  // Step 1 of docs/design/drawing-regions.md: curves become edges.
 
-  [[nodiscard]] Failure work_curves(const std::vector<bool>& taken) {
+  [[nodiscard]] Result<void> work_curves(const std::vector<bool>& taken) {
     worked_.resize(drawing_.curves.size());
     std::size_t edges = 0;
     for (std::uint32_t i = 0; i < worked_.size(); ++i) {
@@ -122,7 +119,7 @@ class Assembly {
       }
       curve.closed = curve.edges.front().from == curve.edges.back().to;
     }
-    return std::nullopt;
+    return {};
   }
 
   void drop_duplicates() {
@@ -147,7 +144,7 @@ class Assembly {
     for (std::size_t i = 0; i < worked_.size(); ++i) reach_[i] = laid[i].size;
   }
 
-  // ---- joins ----------------------------------------------------------------------------------------------
+  // Steps 2 and 3: copies are removed, and ends are joined.
 
   [[nodiscard]] const Point& end_point(EndNumber end) const {
     const std::vector<Edge>& edges = worked_[end / 2].edges;
@@ -157,7 +154,7 @@ class Assembly {
     return worked_[curve].taken && !worked_[curve].closed;
   }
 
-  [[nodiscard]] Failure join() {
+  [[nodiscard]] Result<void> join() {
     for (int round = 0; round < kMostRounds; ++round) {
       std::vector<OpenCurve> open(worked_.size());
       for (std::size_t i = 0; i < open.size(); ++i) {
@@ -175,7 +172,7 @@ class Assembly {
       if (!drop_specks() && !cut_overlaps()) break;
     }
     if (!joins_.undecided.empty()) return refuse(crowd_sentence(end_point(joins_.undecided.front())));
-    return std::nullopt;
+    return {};
   }
 
   /// Curves no longer than the join tolerance with which nothing is joined.
@@ -232,7 +229,7 @@ class Assembly {
         ends.size(), options_.join_tolerance, text(at), names);
   }
 
-  // ---- chains ---------------------------------------------------------------------------------------------
+  // Step 3, continued: joined curves make chains.
 
   [[nodiscard]] Point loose_end(const Chain& chain, bool last) const {
     const Link& link = last ? chain.links.back() : chain.links.front();
@@ -271,7 +268,7 @@ class Assembly {
     }
   }
 
-  [[nodiscard]] Failure sort_out_open_chains() {
+  [[nodiscard]] Result<void> sort_out_open_chains() {
     const auto open = static_cast<std::size_t>(
         std::count_if(chains_.begin(), chains_.end(), [](const Chain& c) { return !c.closed; }));
     if (open > 0 && !options_.leave_open_chains) {
@@ -293,7 +290,7 @@ class Assembly {
       result_.open_chains.push_back(std::move(listed));
     }
     std::erase_if(chains_, [](const Chain& chain) { return !chain.closed; });
-    if (!chains_.empty()) return std::nullopt;
+    if (!chains_.empty()) return {};
     if (drawing_.curves.empty()) return refuse("there are no curves in the drawing" + unread_sentence());
     return refuse(fmt::format("none of the {} curves closes a contour{}", drawing_.curves.size(),
                               result_.notices.empty() ? "" : "; " + result_.notices.front()));
@@ -319,7 +316,7 @@ class Assembly {
                     : "");
   }
 
-  // ---- contours -------------------------------------------------------------------------------------------
+  // Steps 4 and 5: gaps are closed, contours are nested and checked.
 
   void close_contours() {
     for (const Chain& chain : chains_) {
@@ -347,7 +344,7 @@ class Assembly {
     }
   }
 
-  [[nodiscard]] Failure nest() {
+  [[nodiscard]] Result<void> nest() {
     std::vector<geom::Contour> contours;
     for (const LooseContour& contour : contours_) {
       contours.push_back(contour.edges);
@@ -362,7 +359,7 @@ class Assembly {
     if (!nested) return refuse(meeting_sentence(nested.error().message));
     result_.regions = *std::move(nested);
     number_edges();
-    return std::nullopt;
+    return {};
   }
 
   /// The same fault in the drawing's words.
@@ -407,7 +404,7 @@ class Assembly {
     }
   }
 
-  // ---- accounts -------------------------------------------------------------------------------------------
+  // Step 6: the account is drawn up.
 
   void account() {
     const auto count = [this](const Worked& curve) {

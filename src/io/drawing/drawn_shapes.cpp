@@ -39,7 +39,7 @@ Bounded flushed(Bounded x) noexcept {
   return {0, x.error + kSmallestMillimetres};
 }
 
-/// a x + b y + shift; the error is that of rounding alone.
+/// Computes a x + b y + shift; the error is that of rounding alone.
 Bounded combination(double a, double x, double b, double y, double shift) noexcept {
   const DoubleDouble first = geom::two_product(a, x), second = geom::two_product(b, y);
   const DoubleDouble sum = geom::two_sum(first.hi, second.hi);
@@ -58,7 +58,7 @@ Stretch stretch_of(const Affine& map) noexcept {
           geom::norm({map.xx - map.yy, map.xy + map.yx}) / 2};
 }
 
-/// No distance grows by more than this factor, under the exact map either.
+/// The factor by which distances grow at most, under the exact map too.
 double largest_stretch(const Affine& map) noexcept {
   const Stretch stretch = stretch_of(map);
   return (stretch.kept + stretch.skewed + 2 * map.linear_error) * kRoundingUp;
@@ -74,7 +74,7 @@ BoundedVector bounded_image_of_vector(const Affine& map, Point v) noexcept {
   return {{x.value, y.value}, (std::max(x.error, y.error) + entries) * kRoundingUp};
 }
 
-/// Angle from `begin` to `end` about the centre in the direction of the arc, in (0, 2 pi].
+/// The angle from `begin` to `end` about the centre in the direction of the arc, in (0, 2 pi].
 double sweep_between(const Edge& arc) noexcept {
   if (arc.from == arc.to) return kTurn;
   const Point a = arc.kind == EdgeKind::arc_ccw ? arc.from : arc.to;
@@ -112,7 +112,7 @@ std::optional<BoundedShape> image_of_arc(const Affine& map, const Edge& arc, dou
     const bool ccw = (arc.kind == EdgeKind::arc_ccw) != mirrors;
     const Edge edge{ccw ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from.at, to.at, centre.at};
     BoundedShape shape = circle_arc(edge, sweep_between(arc), std::max({from.error, to.error, centre.error}));
-    // An image that is not quite a circle: each of its points is within off * radius of the one that is, and
+    // The image is not quite a circle: each of its points is within off * radius of the one that is, and
     // so are the two that give the mean radius and the directions of the ends.
     shape.error += carried + 4 * off * radius * kRoundingUp;
     return shape;
@@ -154,7 +154,7 @@ std::optional<BoundedShape> image_of_spline(const Affine& map, const Spline& spl
   return shape;
 }
 
-/// De Boor's algorithm; rational poles as (w x, w y, w).
+/// Evaluates a spline by de Boor's algorithm, with rational poles as (w x, w y, w).
 Point spline_point(const Spline& spline, double t, std::size_t span) {
   struct Homogeneous {
     double x, y, w;
@@ -259,13 +259,13 @@ std::optional<BoundedShape> bulge_arc(const BoundedPoint& from, const BoundedPoi
   BoundedShape line = line_between(from, to);
   line.error = (line.error * (1 + std::abs(bulge)) + height + bulge_error * half_chord) * kRoundingUp;
   if (bulge == 0) return line;
-  // Centre: half way, and (1 - bulge^2) / (4 bulge) of the chord to its left.
+  // The centre lies beside the middle of the chord, (1 - bulge^2) / (4 bulge) of it to the left.
   const DoubleDouble b{bulge}, half{0.5};
   const DoubleDouble left = (DoubleDouble{1} - geom::two_product(bulge, bulge)) / (DoubleDouble{4} * b);
   const DoubleDouble x = half * geom::two_sum(from.at.x, to.at.x) - left * dy;
   const DoubleDouble y = half * geom::two_sum(from.at.y, to.at.y) + left * dx;
   const Point centre{flushed({x.hi}).value, flushed({y.hi}).value};
-  // Of double-double arithmetic there are less than 100 units of 2^-106 of the numbers in it; half turns need
+  // Double-double arithmetic errs here by less than 100 units of 2^-106 of the numbers in it; half turns need
   // only the mean of the ends.
   const double terms = std::abs(left.hi) * 2 * half_chord + std::max(largest(from.at), largest(to.at));
   const double rounding = std::max(std::abs(x.hi + x.lo - centre.x), std::abs(y.hi + y.lo - centre.y)) +

@@ -12,7 +12,8 @@
 
 namespace lekalo::io {
 
-/// What bulges and radii lose of an arc, written beside it: docs/design/drawing-regions.md, "Writers".
+/// Bulges and radii lose digits of an arc, so writers put the exact numbers beside it: docs/design/
+/// drawing-regions.md, "Writers".
 
 /// How many chords the centre lies to the left of the chord's middle, if it is moved along the chord to where
 /// both ends are equally far. \pre from != to
@@ -25,16 +26,16 @@ inline constexpr std::size_t kMostPieces = 4;
 /// the difference of their radii leaves no bulge that means them.
 inline constexpr double kWidestPiece = 5.3;
 
-/// What the curves of an arc or circle in the file do not say.
+/// The number that the curves of an arc or circle in the file do not say.
 struct ExactArc {
   std::size_t first = 0, count = 1;  ///< its curves, one to kMostPieces, counted from the entity's first
   geom::EdgeKind kind = geom::EdgeKind::line;  ///< line: a circle
   geom::Point point;                           ///< the centre; of a circle, where it begins
 };
 
-/// "3 1 ccw 12.5 -4", "0 1 start 7 2"
+/// The text of an exact arc: "3 1 ccw 12.5 -4" or, for a circle, "0 1 start 7 2".
 [[nodiscard]] std::string text_of(const ExactArc& arc);
-/// Nothing where the text is none of these, or a number is not is_exact.
+/// Reads such a text; nothing where it is none, or where a number is not is_exact.
 [[nodiscard]] std::optional<ExactArc> read_exact_arc(std::string_view text);
 
 /// Those of a contour, for a file from which `curves` are read: curves_of_edge[i] of them for edge i.

@@ -8,7 +8,7 @@
 
 namespace lekalo::io {
 
-/// Which layers count, and a sentence about those that do not.
+/// The layers that count, and a sentence about those that do not.
 struct LayerChoice {
   std::vector<bool> taken;  ///< by layer
   std::vector<std::string> notices;

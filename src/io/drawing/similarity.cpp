@@ -18,7 +18,7 @@ using geom::Region;
 
 namespace {
 
-/// Reading a decimal in inches: two roundings and that of 25.4.
+/// Reading a decimal in inches costs two roundings and that of 25.4.
 constexpr double kReading = 4 * kUnitRoundoff;
 
 double largest(Point p) { return std::max(std::abs(p.x), std::abs(p.y)); }

@@ -47,9 +47,9 @@ inline constexpr double kShortest = 0x1p-47;
 
 /// Largest magnitude of a coordinate of the box.
 [[nodiscard]] double largest_of(const geom::Box& box) noexcept;
-/// Of its edges' ends and centres.
+/// The largest magnitude of a coordinate of its edges' ends and centres.
 [[nodiscard]] double largest_of(const geom::Region& region) noexcept;
-/// `by` further on every side.
+/// The box that reaches `by` further on every side.
 [[nodiscard]] geom::Box grown(const geom::Box& box, double by) noexcept;
 
 }  // namespace lekalo::io::detail

@@ -23,7 +23,7 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-/// Neighbours looked at on either side of a number.
+/// The most neighbours looked at on either side of a number.
 constexpr int kNeighbours = 8;
 
 /// The first of value, its neighbours, their neighbours ... that is accepted; value if none is.
@@ -44,9 +44,9 @@ double half_unit_of(double v) {
   return 0.5 * (std::nextafter(std::abs(v), std::numeric_limits<double>::infinity()) - std::abs(v));
 }
 
-/// How far the centre lies to the left of the chord's middle, in chords: (1 - b^2) / (4 b) for the bulge b.
-/// What a reader makes of a bulge is this, rounded in x and in y: if there are numbers that round to both
-/// coordinates, one of those; else the centre's place along the perpendicular.
+/// The level of the centre: its distance to the left of the chord's middle in chords, (1 - b^2) / (4 b) for
+/// the bulge b. A reader computes the centre from it, rounded in x and in y. The result is therefore a number
+/// that rounds to both coordinates if there is one, else the centre's place along the perpendicular.
 DoubleDouble left_of_chord(const Edge& arc) {
   const DoubleDouble dx = geom::two_sum(arc.to.x, -arc.from.x), dy = geom::two_sum(arc.to.y, -arc.from.y);
   const DoubleDouble half{0.5};

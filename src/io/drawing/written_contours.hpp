@@ -10,7 +10,7 @@
 
 namespace lekalo::io {
 
-/// What the writers of drawings share: contours in order with their layers.
+/// The contours of a drawing in the order in which both writers write them, with their layers.
 
 struct WrittenContour {
   const geom::Contour* edges = nullptr;

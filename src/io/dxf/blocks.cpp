@@ -22,7 +22,7 @@ std::size_t copies_of(const Insertion& insertion) {
   return product(std::size_t{insertion.columns}, std::size_t{insertion.rows});
 }
 
-/// From the block's coordinates to those of what holds the insertion.
+/// The map from the block's coordinates to those of the block that holds the insertion.
 Affine placement(const Insertion& insertion, const BoundedPoint& base, std::uint32_t column,
                  std::uint32_t row) {
   Affine to_base;
@@ -59,7 +59,7 @@ class Expansion {
   Result<DxfBlock> run(DxfBlock model) {
     find_blocks(model);
     for (auto& [name, block] : blocks_) find_blocks(block);
-    if (auto weighed = weigh(model, 0); !weighed) return tl::unexpected(weighed.error());
+    LEKALO_CHECK(weigh(model, 0));
     const std::size_t total = weights_.at(&model).cost;
     if (total > kMostCurves) {
       return refuse(file_,
@@ -74,9 +74,7 @@ class Expansion {
     out_.unread = std::move(model.unread);
     out_.curves.reserve(total);
     const std::vector<DrawnCurve> own = std::exchange(model.curves, {});
-    if (auto done = place(own, model.insertions, nullptr, DxfLayers::kZero, kNotFrozen); !done) {
-      return tl::unexpected(done.error());
-    }
+    LEKALO_CHECK(place(own, model.insertions, nullptr, DxfLayers::kZero, kNotFrozen));
     return std::move(out_);
   }
 
@@ -96,7 +94,8 @@ class Expansion {
     }
   }
 
-  /// So that every step of the expansion makes a curve.
+  /// Step 3 of docs/design/drawing.md: leaves out insertions that show nothing, so that every step of the
+  /// expansion makes a curve.
   void drop_empty_insertions(DxfBlock& block) {
     const auto is_empty = [this](const Insertion& insertion) {
       const auto weight = weights_.find(insertion.block);
@@ -141,8 +140,8 @@ class Expansion {
     return {};
   }
 
-  /// Adds to the model's own what stands in blocks, as often as they are shown. A block comes before what
-  /// holds it in by_depth_.
+  /// Adds to the model's own counts those of the blocks, as often as they are shown. In by_depth_ a block
+  /// comes before the blocks that hold it.
   void count_unread(DxfBlock& model) {
     std::map<const DxfBlock*, std::size_t> shown_times{{&model, 1}};
     for (auto block = by_depth_.rbegin(); block != by_depth_.rend(); ++block) {
@@ -166,7 +165,7 @@ class Expansion {
     }
   }
 
-  /// Curves and insertions of one block in file order; the map is null in the model space.
+  /// Step 4: places the curves and insertions of one block in file order; the map is null in the model space.
   Result<void> place(const std::vector<DrawnCurve>& curves, const std::vector<Insertion>& insertions,
                      const Affine* map, std::uint32_t inherited, std::uint32_t frozen) {
     std::size_t next = 0;

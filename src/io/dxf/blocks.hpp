@@ -49,10 +49,11 @@ struct DxfBlock {
 
 using DxfBlocks = std::map<std::string, DxfBlock>;  ///< by folded name
 
-/// What a curve counts towards kMostCurves: a spline one more for every 8 poles.
+/// The share of a curve in kMostCurves: 1, and for a spline 1 more for every 8 poles.
 [[nodiscard]] std::size_t curve_cost(const Shape& shape);
 
-/// A line or arc of no length, a circle lost in rounding, a spline in one point: nothing to cut.
+/// True for shapes that leave nothing to cut: a line or arc of no length, a circle lost in rounding, a spline
+/// in one point.
 [[nodiscard]] bool is_point(const Shape& shape);
 
 /// The model space with every insertion replaced by what it shows; layers are still those of DxfLayers:

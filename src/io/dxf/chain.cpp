@@ -18,7 +18,7 @@ namespace {
 /// More line ends than this in one place are no contour, and would make every search there slow.
 constexpr std::size_t kMostEndsInOnePlace = 64;
 
-/// The ends of all lines in square cells a little wider than the reach.
+/// Sorts the ends of all lines into square cells a little wider than the reach.
 class EndGrid {
  public:
   EndGrid(const std::vector<DxfLine>& lines, double reach)
@@ -65,7 +65,7 @@ class EndGrid {
     return best;
   }
 
-  /// For a message only: distance to the nearest end of any other unused line.
+  /// The distance, wanted for a message only, to the nearest end of any other unused line.
   [[nodiscard]] double distance_to_unused(geom::Point p) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < lines_.size(); ++i) {

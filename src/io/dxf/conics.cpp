@@ -8,7 +8,7 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
 
-// CIRCLE, ARC and ELLIPSE.
+// Reads CIRCLE, ARC and ELLIPSE.
 
 namespace lekalo::io {
 namespace {
@@ -22,7 +22,7 @@ bool reaches_too_far(Point centre, double reach) {
   return !(std::max(std::abs(centre.x), std::abs(centre.y)) + reach <= kLargestMillimetres);
 }
 
-/// centre + radius (x or y of a direction), rounded once; the error is that of rounding.
+/// A coordinate centre + radius * (x or y of a direction), rounded once; the error is that of rounding.
 Millimetres along(double centre, double radius, double direction) {
   const geom::DoubleDouble step = geom::two_product(radius, direction), sum = geom::two_sum(centre, step.hi);
   return {sum.hi, std::abs(sum.lo) + std::abs(step.lo)};
@@ -125,7 +125,8 @@ Result<void> DxfEntities::read_ellipse(DxfBlock& into) {
   arc.end = std::max(arc.begin + sweep, std::nextafter(arc.begin, 10.0));
   arc.from = point_at(arc, arc.begin);
   arc.to = whole ? arc.from : point_at(arc, arc.end);
-  // Parameters: as read, the slack of a whole turn, and what whole turns away from 0 to 2 pi lose.
+  // Parameters are off by their reading, by the slack of a whole turn, and by the digits that angles whole
+  // turns away from 0 to 2 pi lose.
   const double slack = whole && turned != 0 ? std::abs(std::abs(turned) - kTurn) : 0;
   const double angles = low.error + high.error + slack +
                         8 * kUnitRoundoff * (std::abs(low.value) + std::abs(high.value) + kTurn);

@@ -16,7 +16,7 @@ namespace {
 /// A plane that leans by no more than this is that of the drawing: programs write directions with rounding.
 constexpr double kLeaning = 1e-9;
 
-/// Without reading it: whether a number is nothing but zeros.
+/// True when the text of a number is nothing but zeros; it need not be read for that.
 bool is_zero(std::string_view number) {
   return std::all_of(number.begin(),
                      std::find_if(number.begin(), number.end(), [](char c) { return c == 'e' || c == 'E'; }),
@@ -89,9 +89,8 @@ Result<bool> DxfEntities::take_common() {
     case 210:
     case 220:
     case 230: {
-      const auto value = number(false);
-      if (!value) return tl::unexpected(value.error());
-      common_.normal[(at_.code() - 210) / 10] = value->value;
+      LEKALO_TRY(const auto value, number(false));
+      common_.normal[(at_.code() - 210) / 10] = value.value;
       return true;
     }
     default:
@@ -101,9 +100,8 @@ Result<bool> DxfEntities::take_common() {
 
 Result<void> DxfEntities::read_numbers(const Wanted* first, const Wanted* last, Numbers& numbers) {
   while (at_.next() && at_.code() != 0) {
-    const auto taken = take_common();
-    if (!taken) return tl::unexpected(taken.error());
-    if (*taken) continue;
+    LEKALO_TRY(const auto taken, take_common());
+    if (taken) continue;
     const Wanted* wanted =
         std::find_if(first, last, [this](const Wanted& w) { return w.code == at_.code(); });
     if (wanted == last) continue;
@@ -112,9 +110,8 @@ Result<void> DxfEntities::read_numbers(const Wanted* first, const Wanted* last, 
                          fmt::format("the {} of line {} has the group {} twice; the file is damaged",
                                      shown(common_.type), common_.line, wanted->code));
     }
-    const auto value = number(wanted->is_length);
-    if (!value) return tl::unexpected(value.error());
-    numbers.set(wanted->code, *value);
+    LEKALO_TRY(const auto value, number(wanted->is_length));
+    numbers.set(wanted->code, value);
     if (wanted->code >= 30 && wanted->code < 40) note_height();
   }
   for (const Wanted* wanted = first; at_.ok() && wanted != last; ++wanted) {
@@ -132,13 +129,12 @@ Result<Millimetres> DxfEntities::number(bool is_length) const {
 }
 
 Result<unsigned> DxfEntities::whole_number() const {
-  const auto value = number(false);
-  if (!value) return tl::unexpected(value.error());
-  if (value->error != 0 || !(value->value >= 0) || value->value != std::floor(value->value)) {
+  LEKALO_TRY(const auto value, number(false));
+  if (value.error != 0 || !(value.value >= 0) || value.value != std::floor(value.value)) {
     return refuse_line(at_.name(), at_.line(),
                        fmt::format("a whole number is wanted here, not {}", excerpt(at_.value())));
   }
-  return static_cast<unsigned>(value->value);
+  return static_cast<unsigned>(value.value);
 }
 
 void DxfEntities::note_height() {
@@ -224,21 +220,18 @@ Result<void> DxfEntities::read_insert(DxfBlock& into) {
   // Its name and its counts are not among the numbers; they are taken on the way.
   std::string_view name;
   while (at_.next() && at_.code() != 0) {
-    const auto taken = take_common();
-    if (!taken) return tl::unexpected(taken.error());
-    if (*taken) continue;
+    LEKALO_TRY(const auto taken, take_common());
+    if (taken) continue;
     if (at_.code() == 2) name = at_.value();
     if (at_.code() == 70 || at_.code() == 71) {
-      const auto count = whole_number();
-      if (!count) return tl::unexpected(count.error());
-      (at_.code() == 70 ? insertion.columns : insertion.rows) = std::max(*count, 1U);
+      LEKALO_TRY(const auto count, whole_number());
+      (at_.code() == 70 ? insertion.columns : insertion.rows) = std::max(count, 1U);
     }
     const auto* wanted = std::find_if(std::begin(kWanted), std::end(kWanted),
                                       [this](const Wanted& w) { return w.code == at_.code(); });
     if (wanted == std::end(kWanted)) continue;
-    const auto value = number(wanted->is_length);
-    if (!value) return tl::unexpected(value.error());
-    numbers.set(wanted->code, *value);
+    LEKALO_TRY(const auto value, number(wanted->is_length));
+    numbers.set(wanted->code, value);
     if (wanted->code == 30) note_height();
   }
   if (!at_.ok()) return {};
@@ -269,10 +262,7 @@ Result<void> DxfEntities::read_insert(DxfBlock& into) {
 }
 
 Result<void> DxfEntities::read_other(DxfBlock& into) {
-  while (at_.next() && at_.code() != 0) {
-    const auto taken = take_common();
-    if (!taken) return tl::unexpected(taken.error());
-  }
+  while (at_.next() && at_.code() != 0) LEKALO_CHECK(take_common());
   // SEQEND ends vertices and attributes and is nothing by itself.
   if (!at_.ok() || common_.type == "SEQEND" || is_out_of_sight(into)) return {};
   into.count_unread(shown(common_.type), common_.line);

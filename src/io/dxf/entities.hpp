@@ -24,9 +24,9 @@ class DxfCursor {
   /// False at the end of the file and at a fault.
   bool next() { return ok_ = groups_.next(group_); }
   [[nodiscard]] bool ok() const { return ok_; }
-  /// What stops the reading inside of something that began at this line. \pre not ok()
+  /// The error of a text that ends or breaks inside of something that began at this line. \pre not ok()
   [[nodiscard]] Error broken_off(std::size_t begin, std::string_view what) const;
-  /// The fault of the text, nothing at its end.
+  /// The fault of the text; nothing when it simply ended.
   [[nodiscard]] const std::optional<Error>& fault() const { return groups_.fault(); }
 
   [[nodiscard]] int code() const { return group_.code; }
@@ -44,7 +44,7 @@ class DxfCursor {
   bool ok_ = true;
 };
 
-/// Reads entities into blocks; src/io/dxf_{entities,conics,polyline,spline}.cpp.
+/// Reads entities into blocks; its functions stand in entities.cpp, conics.cpp, polyline.cpp and spline.cpp.
 class DxfEntities {
  public:
   DxfEntities(DxfCursor& cursor, DxfLayers& layers, DecimalFactor unit)
@@ -58,11 +58,11 @@ class DxfEntities {
   [[nodiscard]] Result<Millimetres> number(bool is_length) const;
 
   [[nodiscard]] std::vector<DrawnEntity>& entities() { return entities_; }
-  /// Something read does not lie at z = 0.
+  /// True when something that was read does not lie at z = 0.
   [[nodiscard]] bool has_heights() const { return has_heights_; }
 
  private:
-  /// What every entity may say.
+  /// The groups that every entity may have.
   struct Common {
     std::string_view type, handle, layer;
     std::size_t line = 0;
@@ -121,11 +121,11 @@ class DxfEntities {
   void note_height();
 
   [[nodiscard]] tl::unexpected<Error> refuse_entity(const std::string& sentence) const;
-  /// Nothing is drawn in the model space, and the entity is counted.
+  /// True when the entity draws nothing in the model space; it is counted then.
   bool is_out_of_sight(DxfBlock& into);
   void count_unread(DxfBlock& into, const char* why) const;
-  /// From the plane of the entity, at this height above its origin, to that of the drawing; nothing where it
-  /// is seen from the side.
+  /// The map from the plane of the entity, at this height above its origin, to that of the drawing; nothing
+  /// where the plane is seen from the side.
   [[nodiscard]] std::optional<Affine> plane(double height) const;
   Result<void> add(DxfBlock& into, const Affine& plane, BoundedShape shape);
   Result<void> add_polyline(DxfBlock& into, const Affine& plane, bool closed);

@@ -22,7 +22,7 @@ class DxfGroups {
   DxfGroups(std::string_view bytes, const std::string& name)
       : name_(name), at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
-  /// False at the end of the file and at the first fault, which is then in `fault`.
+  /// Takes the next group; false at the end of the file and at the first fault, which is then in `fault`.
   bool next(DxfGroup& group) {
     if (at_ == end_) return false;
     const std::string_view code = next_line();

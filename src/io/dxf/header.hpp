@@ -10,7 +10,7 @@
 
 namespace lekalo::io {
 
-/// What the section HEADER says that matters here.
+/// The variables of the section HEADER that matter here.
 struct DxfHeader {
   std::string_view code_page;  ///< $DWGCODEPAGE
   std::string_view unit;       ///< $INSUNITS, empty where it is absent

@@ -7,7 +7,7 @@
 #include "io/text/refusal.hpp"
 #include "text.hpp"
 
-// LWPOLYLINE, and POLYLINE with its VERTEX entities.
+// Reads LWPOLYLINE, and POLYLINE with its VERTEX entities.
 
 namespace lekalo::io {
 namespace {
@@ -42,40 +42,37 @@ Result<void> DxfEntities::read_lwpolyline(DxfBlock& into) {
   std::optional<unsigned> count;
   bool wants_y = false;
   while (at_.next() && at_.code() != 0) {
-    const auto taken = take_common();
-    if (!taken) return tl::unexpected(taken.error());
-    if (*taken) continue;
+    LEKALO_TRY(const auto taken, take_common());
+    if (taken) continue;
     switch (at_.code()) {
       case 70:
       case 90: {
-        const auto value = whole_number();
-        if (!value) return tl::unexpected(value.error());
-        if (at_.code() == 70) flags = *value;
-        if (at_.code() == 90) count = *value;
+        LEKALO_TRY(const auto value, whole_number());
+        if (at_.code() == 70) flags = value;
+        if (at_.code() == 90) count = value;
         break;
       }
       case 10:
       case 20:
       case 38:
       case 42: {
-        const auto value = number(at_.code() != 42);
-        if (!value) return tl::unexpected(value.error());
+        LEKALO_TRY(const auto value, number(at_.code() != 42));
         if (at_.code() == 38) {
-          height = value->value;
+          height = value.value;
           note_height();
         } else if (at_.code() == 42) {
           if (vertices_.empty())
             return refuse_line(at_.name(), at_.line(), "a bulge before the first vertex");
-          vertices_.back().bulge = *value;
+          vertices_.back().bulge = value;
         } else if (wants_y != (at_.code() == 20)) {
           return refuse_line(at_.name(), at_.line(),
                              wants_y ? "an x, but the one before has no y" : "a y without its x");
         } else if (at_.code() == 10) {
-          vertices_.push_back({{{value->value, 0}, value->error}, {}});
+          vertices_.push_back({{{value.value, 0}, value.error}, {}});
           wants_y = true;
         } else {
-          vertices_.back().at.at.y = value->value;
-          vertices_.back().at.error = std::max(vertices_.back().at.error, value->error);
+          vertices_.back().at.at.y = value.value;
+          vertices_.back().at.error = std::max(vertices_.back().at.error, value.error);
           wants_y = false;
         }
         break;
@@ -103,17 +100,14 @@ Result<void> DxfEntities::read_polyline(DxfBlock& into) {
   unsigned flags = 0;
   Millimetres height;
   while (at_.next() && at_.code() != 0) {
-    const auto taken = take_common();
-    if (!taken) return tl::unexpected(taken.error());
-    if (*taken) continue;
+    LEKALO_TRY(const auto taken, take_common());
+    if (taken) continue;
     if (at_.code() == 70) {
-      const auto value = whole_number();
-      if (!value) return tl::unexpected(value.error());
-      flags = *value;
+      LEKALO_TRY(const auto value, whole_number());
+      flags = value;
     } else if (at_.code() == 30) {
-      const auto value = number(true);
-      if (!value) return tl::unexpected(value.error());
-      height = *value;
+      LEKALO_TRY(const auto value, number(true));
+      height = value;
       note_height();
     }
   }

@@ -24,13 +24,12 @@ class DxfDrawing {
   }
 
   Result<Drawing> read() {
-    if (auto done = read_sections(); !done) return tl::unexpected(done.error());
+    LEKALO_CHECK(read_sections());
     if (!seen_entities_) {
       return refuse(at_.name(), "there is no section ENTITIES; this is not a complete DXF file");
     }
-    auto model = expanded(std::move(model_), blocks_, layers_, entities_->entities(), at_.name());
-    if (!model) return tl::unexpected(model.error());
-    take(std::move(*model));
+    LEKALO_TRY(auto model, expanded(std::move(model_), blocks_, layers_, entities_->entities(), at_.name()));
+    take(std::move(model));
     return std::move(drawing_);
   }
 
@@ -43,7 +42,7 @@ class DxfDrawing {
         return refuse_line(at_.name(), at_.line(),
                            fmt::format("a section is wanted here, not {}", excerpt(at_.value())));
       }
-      if (auto done = read_section(); !done) return done;
+      LEKALO_CHECK(read_section());
     }
     // The word EOF is often missing where sections are not.
     if (at_.fault()) return tl::unexpected(*at_.fault());
@@ -61,15 +60,13 @@ class DxfDrawing {
     const std::string_view section = at_.value();
     const std::string what = fmt::format("the section {}", excerpt(section));
     if (!at_.next()) return tl::unexpected(at_.broken_off(begin, what));
-    Result<void> done;
-    if (section == "HEADER") done = read_header();
-    if (section == "TABLES") done = read_tables();
+    if (section == "HEADER") LEKALO_CHECK(read_header());
+    if (section == "TABLES") LEKALO_CHECK(read_tables());
     if (section == "OBJECTS") read_objects();
     if (section == "BLOCKS" || section == "ENTITIES") {
-      done = begin_entities();
-      if (done) done = section == "BLOCKS" ? read_blocks() : read_entities();
+      LEKALO_CHECK(begin_entities());
+      LEKALO_CHECK(section == "BLOCKS" ? read_blocks() : read_entities());
     }
-    if (!done) return done;
     while (at_.ok() && !at_.at(0, "ENDSEC")) at_.next();
     if (!at_.ok()) return tl::unexpected(at_.broken_off(begin, what));
     return {};
@@ -140,15 +137,14 @@ class DxfDrawing {
     return {};
   }
 
-  /// From here on numbers are read, in a unit that must be known.
+  /// Fixes the unit before the first numbers are read.
   Result<void> begin_entities() {
     if (entities_) return {};
-    const auto unit = drawing_unit(header_, user_says_, at_.name());
-    if (!unit) return tl::unexpected(unit.error());
-    drawing_.unit = unit->name;
-    drawing_.millimetres_per_unit = unit->millimetres();
-    unit_is_said_ = unit->said;
-    entities_.emplace(at_, layers_, unit->factor);
+    LEKALO_TRY(const auto unit, drawing_unit(header_, user_says_, at_.name()));
+    drawing_.unit = unit.name;
+    drawing_.millimetres_per_unit = unit.millimetres();
+    unit_is_said_ = unit.said;
+    entities_.emplace(at_, layers_, unit.factor);
     return {};
   }
 
@@ -172,12 +168,11 @@ class DxfDrawing {
       const bool is_number = at_.code() == 10 || at_.code() == 20 || at_.code() == 70;
       if (at_.code() == 2) name = at_.value();
       if (!is_number) continue;
-      const auto value = entities_->number(at_.code() != 70);
-      if (!value) return tl::unexpected(value.error());
-      if (at_.code() == 70) flags = static_cast<unsigned>(std::max(value->value, 0.0));
-      if (at_.code() == 10) block.base.at.x = value->value;
-      if (at_.code() == 20) block.base.at.y = value->value;
-      if (at_.code() != 70) block.base.error = std::max(block.base.error, value->error);
+      LEKALO_TRY(const auto value, entities_->number(at_.code() != 70));
+      if (at_.code() == 70) flags = static_cast<unsigned>(std::max(value.value, 0.0));
+      if (at_.code() == 10) block.base.at.x = value.value;
+      if (at_.code() == 20) block.base.at.y = value.value;
+      if (at_.code() != 70) block.base.error = std::max(block.base.error, value.error);
     }
     block.external = (flags & kExternal) != 0;
     while (at_.ok() && at_.code() == 0 && !at_.at(0, "ENDBLK") && !at_.at(0, "ENDSEC")) {
@@ -212,7 +207,7 @@ class DxfDrawing {
     return {};
   }
 
-  /// Curves into the drawing; layers and entities are those of curves, in their order.
+  /// Takes the curves into the drawing; its layers and entities are those of the curves, in their order.
   void take(DxfBlock model) {
     constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> layer(layers_.size(), kNew), entity(entities_->entities().size(), kNew);

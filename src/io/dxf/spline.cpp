@@ -6,7 +6,7 @@
 #include "entities.hpp"
 #include "io/text/refusal.hpp"
 
-// SPLINE.
+// Reads SPLINE.
 
 namespace lekalo::io {
 namespace {
@@ -42,7 +42,8 @@ double local_size(const Spline& spline) {
   return size * (1 + 0x1p-40);
 }
 
-/// What rounding of poles, knots and weights may have done to the curve (docs/design/drawing.md, "Errors").
+/// The distance by which rounded poles, knots and weights may have moved the curve (docs/design/drawing.md,
+/// "Errors").
 double spline_error(const SplineText& text) {
   const Spline& spline = text.spline;
   double error = 1.5 * text.pole_error;
@@ -65,7 +66,7 @@ double spline_error(const SplineText& text) {
   return error * (1 + 0x1p-40);
 }
 
-/// Why a spline is not read; null where it is.
+/// Says why a spline is not read; null where it is.
 const char* unread_because(const SplineText& text) {
   const Spline& spline = text.spline;
   if (spline.poles.empty()) return text.fit_points > 0 ? "fit points alone" : "without control points";
@@ -78,7 +79,7 @@ const char* unread_because(const SplineText& text) {
   return nullptr;
 }
 
-/// Of the curve between the first and the last knot that counts.
+/// Says why the curve between the first and the last knot that counts cannot be read, or nullptr.
 const char* broken_because(const Spline& spline) {
   const std::size_t p = spline.degree, n = spline.poles.size();
   if (spline.knots[p] == spline.knots[n]) return "of no length";
@@ -96,45 +97,42 @@ Result<void> DxfEntities::read_spline(DxfBlock& into) {
   SplineText text;
   Spline& spline = text.spline;
   while (at_.next() && at_.code() != 0) {
-    const auto taken = take_common();
-    if (!taken) return tl::unexpected(taken.error());
-    if (*taken) continue;
+    LEKALO_TRY(const auto taken, take_common());
+    if (taken) continue;
     const int code = at_.code();
     if (code == 11) ++text.fit_points;
     if (code == 30) note_height();
     if (code == 71 || code == 72 || code == 73) {
-      const auto value = whole_number();
-      if (!value) return tl::unexpected(value.error());
-      (code == 71 ? text.degree : code == 72 ? text.said_knots : text.said_poles) = *value;
+      LEKALO_TRY(const auto value, whole_number());
+      (code == 71 ? text.degree : code == 72 ? text.said_knots : text.said_poles) = value;
     }
     if (code != 10 && code != 20 && code != 40 && code != 41) continue;
-    const auto value = number(code < 40);
-    if (!value) return tl::unexpected(value.error());
+    LEKALO_TRY(const auto value, number(code < 40));
     if (code == 40) {
-      if (!spline.knots.empty() && !(spline.knots.back() <= value->value)) {
+      if (!spline.knots.empty() && !(spline.knots.back() <= value.value)) {
         return refuse_line(at_.name(), at_.line(),
                            fmt::format("the knot {} of the SPLINE of line {} is below the one before it",
                                        excerpt(at_.value()), common_.line));
       }
-      const bool repeats = !spline.knots.empty() && spline.knots.back() == value->value;
+      const bool repeats = !spline.knots.empty() && spline.knots.back() == value.value;
       text.knots_unclear =
-          text.knots_unclear || (repeats && value->error > 0 && at_.value() != text.last_knot);
+          text.knots_unclear || (repeats && value.error > 0 && at_.value() != text.last_knot);
       text.last_knot = at_.value();
-      text.knot_error = std::max(text.knot_error, value->error);
-      spline.knots.push_back(value->value);
+      text.knot_error = std::max(text.knot_error, value.error);
+      spline.knots.push_back(value.value);
     } else if (code == 41) {
-      text.weights_rounded = text.weights_rounded || value->error > 0;
-      spline.weights.push_back(value->value);
+      text.weights_rounded = text.weights_rounded || value.error > 0;
+      spline.weights.push_back(value.value);
     } else if (text.wants_y != (code == 20)) {
       return refuse_line(at_.name(), at_.line(),
                          text.wants_y ? "an x, but the one before has no y" : "a y without its x");
     } else if (code == 10) {
-      spline.poles.push_back({value->value, 0});
-      text.pole_error = std::max(text.pole_error, value->error);
+      spline.poles.push_back({value.value, 0});
+      text.pole_error = std::max(text.pole_error, value.error);
       text.wants_y = true;
     } else {
-      spline.poles.back().y = value->value;
-      text.pole_error = std::max(text.pole_error, value->error);
+      spline.poles.back().y = value.value;
+      text.pole_error = std::max(text.pole_error, value.error);
       text.wants_y = false;
     }
   }

@@ -18,7 +18,8 @@ bool is_ascii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// Length of the well-formed UTF-8 sequence at the beginning (Unicode 15, table 3-7), 0 when there is none.
+/// The length of the well-formed UTF-8 sequence at the beginning (Unicode 15, table 3-7), 0 when there is
+/// none.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = byte(0);
@@ -63,7 +64,7 @@ std::string charset_of(std::string_view code_page) {
   return "CP1252";
 }
 
-/// Code pages whose letters are pairs of bytes; chance makes UTF-8 of them.
+/// Code pages whose letters are pairs of bytes, which look like UTF-8 by chance.
 bool is_double_byte(std::string_view charset) {
   constexpr std::string_view kPages[] = {"CP932", "CP936", "CP949", "CP950", "JOHAB"};
   return std::find(std::begin(kPages), std::end(kPages), charset) != std::end(kPages);

@@ -30,7 +30,7 @@ bool same_name(const std::string& a, const std::string& b) {
                     [](char x, char y) { return folded(x) == folded(y); });
 }
 
-/// Nothing where the name will do.
+/// Refuses names that DXF cannot hold; nothing where the name will do.
 std::optional<tl::unexpected<Error>> fault_of_name(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
     return failure(ErrorCode::usage,
@@ -268,7 +268,7 @@ class DxfWriter {
 
   void keep_exact_arcs(const WrittenContour& contour, const std::vector<Edge>& read,
                        const std::vector<std::size_t>& of_edge) {
-    // Scaling to millimetres rounds what they would have to agree with.
+    // Scaling to millimetres rounds the curves that the exact numbers would have to agree with.
     if (unit_ != LengthUnit::millimetre) return;
     for (const ExactArc& arc : exact_arcs_of(*contour.edges, read, of_edge))
       exact_arcs_.push_back(entity_ + ' ' + text_of(arc));
@@ -282,7 +282,7 @@ class DxfWriter {
     if (!arcs.empty()) group(3, kExactArcsName), group(350, arcs);
     group(0, "DICTIONARY"), group(5, groups), group(330, root), group(100, "AcDbDictionary"), group(281, 1);
     if (!arcs.empty()) {
-      // Not as extended data of the entities: of that they can hold no more than 16 kB.
+      // An entity's extended data would be the usual place, but holds no more than 16 kB.
       group(0, "XRECORD"), group(5, arcs), group(330, root), group(100, "AcDbXrecord"), group(280, 1);
       group(1, kExactArcsName);
       for (const std::string& line : exact_arcs_) group(1, line);
@@ -307,11 +307,10 @@ class DxfWriter {
 
 Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras,
                                 LengthUnit unit) {
-  const auto drawing = written_drawing(regions, extras, same_name);
-  if (!drawing) return tl::unexpected(drawing.error());
-  for (const std::string& name : drawing->layers)
+  LEKALO_TRY(const auto drawing, written_drawing(regions, extras, same_name));
+  for (const std::string& name : drawing.layers)
     if (auto fault = fault_of_name(name)) return *fault;
-  return DxfWriter(*drawing, unit).write();
+  return DxfWriter(drawing, unit).write();
 }
 
 }  // namespace lekalo::io

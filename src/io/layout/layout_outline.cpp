@@ -79,7 +79,7 @@ GridRegion read_polygon(JsonReader& reader, JsonValue value) {
 
 std::optional<geom::Region> read_curves(JsonReader& reader, JsonValue value) {
   if (!reader.expect_object(value, {"outer", "holes", "islands"})) return std::nullopt;
-  auto region = read_region(value.to_json(), fmt::format("{}: {}", reader.name(), value.path()), 1);
+  auto region = read_region(value, fmt::format("{}: {}", reader.name(), value.path()), 1);
   if (region) return *std::move(region);
   reader.take(region.error());
   return std::nullopt;

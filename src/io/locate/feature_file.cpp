@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/shape/region_reader.hpp"
+#include "io/text/json_form.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -13,7 +14,8 @@
 namespace lekalo::io {
 namespace {
 
-using detail::Json;
+using detail::JsonKind;
+using detail::JsonValue;
 using locate::Feature;
 
 /// Stretches of an edge lie this near to it, as part of the part's size.
@@ -23,29 +25,25 @@ class FeatureReader {
  public:
   FeatureReader(std::string name, double scale) : name_(std::move(name)), scale_(scale) {}
 
-  Result<FeatureSpec> read(const Json& json, std::size_t index) {
+  Result<FeatureSpec> read(JsonValue json, std::size_t index) {
     where_ = fmt::format("{}, feature {}", name_, index);
-    if (auto fine = detail::expect_object(
-            json, where_,
-            {"name", "edges", "contour", "label", "minimum", "target", "maximum", "scale", "finished"});
-        !fine)
-      return tl::unexpected(std::move(fine.error()));
+    LEKALO_CHECK(detail::expect_object(
+        json, where_,
+        {"name", "edges", "contour", "label", "minimum", "target", "maximum", "scale", "finished"}));
     FeatureSpec spec;
-    if (!json.contains("name") || !json["name"].is_string() || json["name"].get<std::string>().empty())
-      return refuse(where_, "\"name\" must be a text");
-    spec.demand.name = json["name"].get<std::string>();
+    const auto name = json.find("name");
+    if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
+    spec.demand.name = name->text();
     where_ = fmt::format("{}, feature \"{}\"", name_, spec.demand.name);
-    if (auto fine = select(json, spec); !fine) return tl::unexpected(std::move(fine.error()));
-    Result<void> fine =
-        length(json, "minimum", [&](double v) { spec.demand.minimum = v; })
-            .and_then([&] { return length(json, "target", [&](double v) { spec.demand.target = v; }); })
-            .and_then([&] { return length(json, "maximum", [&](double v) { spec.demand.maximum = v; }); })
-            .and_then([&] { return length(json, "finished", [&](double v) { spec.demand.finished = v; }); });
-    if (!fine) return tl::unexpected(std::move(fine.error()));
-    if (json.contains("scale")) {
-      if (!json["scale"].is_number() || !(json["scale"].get<double>() > 0))
+    LEKALO_CHECK(select(json, spec));
+    LEKALO_CHECK(length(json, "minimum", [&](double v) { spec.demand.minimum = v; }));
+    LEKALO_CHECK(length(json, "target", [&](double v) { spec.demand.target = v; }));
+    LEKALO_CHECK(length(json, "maximum", [&](double v) { spec.demand.maximum = v; }));
+    LEKALO_CHECK(length(json, "finished", [&](double v) { spec.demand.finished = v; }));
+    if (const auto scale = json.find("scale")) {
+      if (!scale->is_number() || !(scale->number() > 0))
         return refuse(where_, "\"scale\" must be a number above 0");
-      spec.demand.scale = json["scale"].get<double>();
+      spec.demand.scale = scale->number();
     }
     if (spec.demand.maximum && !(*spec.demand.maximum > spec.demand.minimum))
       return refuse(where_, fmt::format("\"maximum\" {} mm is not above the minimum of {} mm",
@@ -53,42 +51,45 @@ class FeatureReader {
     if (spec.demand.finished) {
       if (!(*spec.demand.finished > 0)) return refuse(where_, "\"finished\", a tolerance, must be above 0");
       for (const char* other : {"minimum", "target", "maximum", "scale"})
-        if (json.contains(other))
+        if (json.find(other))
           return refuse(where_, fmt::format("a \"finished\" feature has no \"{}\"", other));
     }
     return spec;
   }
 
   template <class Take>
-  Result<void> length(const Json& json, const char* key, Take take) const {
-    if (!json.contains(key) || json[key].is_null()) return {};
-    if (!json[key].is_number() || !(json[key].get<double>() >= 0) ||
-        !std::isfinite(scale_ * json[key].get<double>()))
+  Result<void> length(JsonValue json, const char* key, Take take) const {
+    const auto said = json.find(key);
+    if (!said || said->kind() == JsonKind::null) return {};
+    if (!said->is_number() || !(said->number() >= 0) || !std::isfinite(scale_ * said->number()))
       return refuse(where_, fmt::format("\"{}\" must be a length that is not negative", key));
-    take(scale_ * json[key].get<double>());
+    take(scale_ * said->number());
     return {};
   }
   void at(std::string where) { where_ = std::move(where); }
 
  private:
-  Result<void> select(const Json& json, FeatureSpec& spec) const {
-    if (json.contains("edges") + json.contains("contour") + json.contains("label") != 1)
+  static bool is_word(JsonValue value) { return value.kind() == JsonKind::text && !value.text().empty(); }
+  static bool is_index(JsonValue value) { return value.kind() == JsonKind::integer && value.integer() >= 0; }
+
+  Result<void> select(JsonValue json, FeatureSpec& spec) const {
+    const auto edges = json.find("edges"), contour = json.find("contour"), label = json.find("label");
+    if (edges.has_value() + contour.has_value() + label.has_value() != 1)
       return refuse(where_, "one of \"edges\", \"contour\" and \"label\" must say which edges it has");
-    if (json.contains("label")) {
-      if (!json["label"].is_string() || json["label"].get<std::string>().empty())
+    if (label) {
+      if (!is_word(*label))
         return refuse(where_, "\"label\" must be a text: a layer or the name of a primitive");
-      spec.label = json["label"].get<std::string>();
-    } else if (json.contains("contour")) {
-      if (!json["contour"].is_number_unsigned())
-        return refuse(where_, "\"contour\" must be a whole number from 0 on");
-      spec.contour = json["contour"].get<std::size_t>();
+      spec.label = label->text();
+    } else if (contour) {
+      if (!is_index(*contour)) return refuse(where_, "\"contour\" must be a whole number from 0 on");
+      spec.contour = static_cast<std::size_t>(contour->integer());
     } else {
-      if (!json["edges"].is_array() || json["edges"].empty())
+      if (edges->size() == 0 || edges->kind() != JsonKind::list)
         return refuse(where_, "\"edges\" must be a list of edge numbers");
-      for (const Json& edge : json["edges"]) {
-        if (!edge.is_number_unsigned() || edge.get<std::uint64_t>() > 0xffffffff)
+      for (const JsonValue edge : *edges) {
+        if (!is_index(edge) || edge.integer() > 0xffffffff)
           return refuse(where_, "\"edges\" must hold whole numbers from 0 on");
-        spec.edges.push_back(edge.get<std::uint32_t>());
+        spec.edges.push_back(static_cast<std::uint32_t>(edge.integer()));
       }
     }
     return {};
@@ -114,35 +115,29 @@ std::vector<std::uint32_t> contour_starts(const std::vector<geom::Region>& part)
 
 Result<FeatureFile> parse_features(std::string_view bytes, const std::string& name,
                                    std::optional<LengthUnit> unit) {
-  const auto json = detail::parse_json(bytes, name);
-  if (!json) return tl::unexpected(json.error());
-  if (auto fine = detail::expect_object(*json, name, {"units", "minimum", "features", "ignore"}); !fine)
-    return tl::unexpected(std::move(fine.error()));
-  const auto file_unit = detail::unit_of(*json, name, unit);
-  if (!file_unit) return tl::unexpected(file_unit.error());
-  const double scale = millimetres_per(*file_unit);
+  LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+  const JsonValue root = tree.root();
+  LEKALO_CHECK(detail::expect_object(root, name, {"units", "minimum", "features", "ignore"}));
+  LEKALO_TRY(const auto file_unit, detail::unit_of(root, name, unit));
+  const double scale = millimetres_per(file_unit);
   FeatureFile file{name, {}, {}, {}};
   FeatureReader reader(name, scale);
   reader.at(name);
-  if (auto fine = reader.length(*json, "minimum", [&](double v) { file.minimum = v; }); !fine)
-    return tl::unexpected(std::move(fine.error()));
-  if (json->contains("features")) {
-    if (!(*json)["features"].is_array()) return refuse(name, "\"features\" must be a list");
-    for (const Json& item : (*json)["features"]) {
-      auto spec = reader.read(item, file.features.size());
-      if (!spec) return tl::unexpected(std::move(spec.error()));
-      file.features.push_back(std::move(*spec));
+  LEKALO_CHECK(reader.length(root, "minimum", [&](double v) { file.minimum = v; }));
+  if (const auto features = root.find("features")) {
+    if (features->kind() != JsonKind::list) return refuse(name, "\"features\" must be a list");
+    for (const JsonValue item : *features) {
+      LEKALO_TRY(auto spec, reader.read(item, file.features.size()));
+      file.features.push_back(std::move(spec));
     }
   }
-  if (json->contains("ignore")) {
-    if (!(*json)["ignore"].is_array()) return refuse(name, "\"ignore\" must be a list of regions");
-    for (const Json& item : (*json)["ignore"]) {
+  if (const auto ignored = root.find("ignore")) {
+    if (ignored->kind() != JsonKind::list) return refuse(name, "\"ignore\" must be a list of regions");
+    for (const JsonValue item : *ignored) {
       const std::string where = fmt::format("{}, ignored region {}", name, file.ignored.size());
-      if (auto fine = detail::expect_object(item, where, {"outer", "holes", "islands"}); !fine)
-        return tl::unexpected(std::move(fine.error()));
-      auto region = detail::read_region(item, where, scale);
-      if (!region) return tl::unexpected(std::move(region.error()));
-      file.ignored.push_back(std::move(*region));
+      LEKALO_CHECK(detail::expect_object(item, where, {"outer", "holes", "islands"}));
+      LEKALO_TRY(auto region, detail::read_region(item, where, scale));
+      file.ignored.push_back(std::move(region));
     }
   }
   return file;

@@ -61,7 +61,7 @@ class JobReader {
     notices_.push_back(fmt::format("{}: {}: {}", reader_.name(), at.path(), what));
   }
 
-  // ---- strips
+  // Strips: "strip_height" and "items".
 
   void strip_job(JsonValue root) {
     if (!reader_.expect_object(root, {"name", "strip_height", "items"})) return;
@@ -109,7 +109,7 @@ class JobReader {
     }
   }
 
-  // ---- sheets
+  // Sheets: "bin_types" and "item_types".
 
   void sheet_job(JsonValue root) {
     if (!reader_.expect_object(root, {"objective", "parameters", "bin_types", "item_types"})) return;
@@ -227,7 +227,7 @@ class JobReader {
     document_.parts.push_back(std::move(part));
   }
 
-  // ---- hides
+  // Hides: "Items" and "Objects".
 
   void hide_job(JsonValue root) {
     if (!reader_.expect_object(root, {"Name", "Items", "Objects"})) return;

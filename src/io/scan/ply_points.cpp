@@ -170,13 +170,11 @@ class PlyReader {
       }
       if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
       if (words_[0] == "end_header") break;
-      auto done =
-          words_[0] == "format"    ? read_format(has_format)
-          : words_[0] == "element" ? read_element()
-          : words_[0] == "property"
-              ? read_property()
-              : Result<void>(refuse_here(fmt::format("unknown word {} in the header", excerpt(words_[0]))));
-      if (!done) return done;
+      LEKALO_CHECK(words_[0] == "format"     ? read_format(has_format)
+                   : words_[0] == "element"  ? read_element()
+                   : words_[0] == "property" ? read_property()
+                                             : Result<void>(refuse_here(fmt::format(
+                                                   "unknown word {} in the header", excerpt(words_[0])))));
     }
     if (!has_format) return refuse(name_, "the header of this PLY has no format line");
     for (const Element& element : elements_)

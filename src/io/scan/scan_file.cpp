@@ -37,8 +37,7 @@ class ScanReader {
       return add(row.numbers[0].value, row.numbers[1].value, z,
                  std::max(row.numbers[0].error, row.numbers[1].error), row.line, row.after_a_gap && !slice_);
     };
-    if (auto read = read_text_rows(bytes, file_.name, file_.unit, take, file_.notices); !read)
-      return tl::unexpected(std::move(read.error()));
+    LEKALO_CHECK(read_text_rows(bytes, file_.name, file_.unit, take, file_.notices));
     file_.has_order = !slice_;
     return finish();
   }
@@ -49,9 +48,7 @@ class ScanReader {
     const auto take = [&](const PlyPoint& p, std::size_t vertex) {
       return add(p.xyz[0], p.xyz[1], p.xyz[2], p.error, vertex, false);
     };
-    if (auto read = read_ply_points(bytes, file_.name, file_.unit, slice_.has_value(), take, file_.notices);
-        !read)
-      return tl::unexpected(std::move(read.error()));
+    LEKALO_CHECK(read_ply_points(bytes, file_.name, file_.unit, slice_.has_value(), take, file_.notices));
     return finish();
   }
 
@@ -131,18 +128,17 @@ Result<ScanFile> parse_scan(std::string_view bytes, const std::string& name, std
 
 Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& name,
                                   const ScanBlankOptions& options) {
-  auto file = parse_scan(bytes, name, options.unit, options.slice);
-  if (!file) return tl::unexpected(std::move(file.error()));
+  LEKALO_TRY(auto file, parse_scan(bytes, name, options.unit, options.slice));
   locate::ScanOptions scan = options.scan;
   // Both coordinates may be off; 1.5 > sqrt(2).
-  scan.reading_error += 1.5 * file->coordinate_error;
-  if (scan.order == locate::PointOrder::automatic && !file->has_order) scan.order = locate::PointOrder::none;
-  auto blank = locate::guaranteed_blank(file->points, scan);
+  scan.reading_error += 1.5 * file.coordinate_error;
+  if (scan.order == locate::PointOrder::automatic && !file.has_order) scan.order = locate::PointOrder::none;
+  auto blank = locate::guaranteed_blank(file.points, scan);
   if (!blank) {
     if (blank.error().code != ErrorCode::bad_input) return tl::unexpected(std::move(blank.error()));
     return refuse(name, blank.error().message);
   }
-  ScanBlank made{*std::move(blank), *std::move(file), {}, {}, {}};
+  ScanBlank made{*std::move(blank), std::move(file), {}, {}, {}};
   made.notices = made.file.notices;
   for (const std::string& notice : made.blank.notices) made.notices.push_back(name + ": " + notice);
   if (options.slice) {

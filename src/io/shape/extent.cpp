@@ -1,4 +1,5 @@
-// Where a shape of a tree can have points: boxes, and what half-planes enclose together.
+// Step 2 of docs/design/shape-tree.md: a box around all points that a shape can have, and around what
+// half-planes enclose together.
 
 #include <algorithm>
 #include <cmath>

@@ -13,14 +13,18 @@
 
 namespace lekalo::io::detail {
 
-/// Points whose left the half-plane is.
+/// Two points of the edge of a half-plane, which lies to the left of the way from one to the other.
 struct HalfPlane {
   geom::Point from, to;
 };
 
+/// Each of kDeepestShapeTree shapes takes two levels of JSON, and a region in the innermost one a few more;
+/// twice as many leave the refusal to the reader of trees, which can say where it is.
+inline constexpr std::size_t kDeepestShapeJson = 4 * kDeepestShapeTree;
+
 enum class ShapeKind { primitive, half_plane, unite, intersect, subtract, map };
 
-/// Where a shape can have points.
+/// A box around all points that a shape can have, or the word that it has no end.
 struct Extent {
   bool bounded = true;  ///< else the box says nothing
   bool empty = false;
@@ -43,16 +47,16 @@ struct ShapeNode {
 /// The primitive named by `word`, whose value is `json`: `regions` or `half_plane` of the node, and its
 /// error. Lengths times `scale`. \pre is_primitive(word)
 [[nodiscard]] bool is_primitive(std::string_view word);
-[[nodiscard]] Result<ShapeNode> read_primitive(const std::string& word, const Json& json,
+[[nodiscard]] Result<ShapeNode> read_primitive(const std::string& word, JsonValue json,
                                                const std::string& where, double scale);
 
 /// The number under `key`, times `scale`; refused beyond kLargestMillimetres.
-[[nodiscard]] Result<double> read_number(const Json& json, const std::string& where, const char* key,
+[[nodiscard]] Result<double> read_number(JsonValue json, const std::string& where, const char* key,
                                          double scale);
 /// The point [x, y], times `scale`; refused beyond kLargestMillimetres.
-[[nodiscard]] Result<geom::Point> place_of(const Json& json, const std::string& where, double scale);
-/// The same under `key`; `otherwise` where there is no such key.
-[[nodiscard]] Result<geom::Point> read_place(const Json& json, const std::string& where, const char* key,
+[[nodiscard]] Result<geom::Point> place_of(JsonValue json, const std::string& where, double scale);
+/// The point under `key`; `otherwise` where there is no such key.
+[[nodiscard]] Result<geom::Point> read_place(JsonValue json, const std::string& where, const char* key,
                                              double scale,
                                              std::optional<geom::Point> otherwise = std::nullopt);
 
@@ -60,9 +64,9 @@ struct ShapeTree {
   ShapeNode root;
   std::vector<std::string> names;
 };
-[[nodiscard]] Result<ShapeTree> read_shape_tree(const Json& json, const std::string& where, double scale);
+[[nodiscard]] Result<ShapeTree> read_shape_tree(JsonValue json, const std::string& where, double scale);
 
-/// Where the node's shape can be; from its own numbers and its children's extents.
+/// The extent of the node's shape, from its own numbers and its children's extents.
 [[nodiscard]] Extent extent_of(const ShapeNode& node);
 
 /// An edge of a primitive in the coordinates of the result, run through with the material of the result on
@@ -74,7 +78,7 @@ struct NamedEdge {
 
 struct Evaluated {
   std::vector<geom::Region> regions;
-  /// mm: every edge is within this of that of an exact primitive. 0: there are none.
+  /// Every edge is within this, mm, of that of an exact primitive; 0 when there are no edges.
   double edge_error = 0;
   /// At least 1: corners are within this many times edge_error of the exact ones; greater where edges meet at
   /// a small angle.
@@ -83,7 +87,7 @@ struct Evaluated {
 };
 [[nodiscard]] Result<Evaluated> evaluate(const ShapeTree& tree);
 
-/// ShapeFile::name_of_edge.
+/// The names that ShapeFile::name_of_edge states.
 [[nodiscard]] std::vector<std::uint32_t> names_of_edges(const Evaluated& shape);
 
 }  // namespace lekalo::io::detail

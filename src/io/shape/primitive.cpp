@@ -1,4 +1,4 @@
-// The primitives of a tree of shapes, from their numbers to regions.
+// Step 1 of docs/design/shape-tree.md for primitives: from their numbers to regions.
 
 #include <fmt/format.h>
 
@@ -21,15 +21,15 @@ using geom::Region;
 
 namespace {
 
-/// Of the largest coordinate or length: what a primitive's outline may be off. Reading moves a coordinate by
-/// 4 u at most (inches), sums of two or three numbers read and a product with a unit vector by 16 u; points
-/// so by 23 u, and the points of an arc by three times what its ends and its centre are.
+/// A primitive's outline is off by at most this part of its largest coordinate or length. Reading moves a
+/// coordinate by 4 u at most (inches); sums of two or three numbers read, and a product with a unit vector,
+/// by 16 u; so a point by 23 u, and the points of an arc by three times as much as its ends and its centre.
 constexpr double kPrimitiveError = 0x80p-53;
-/// The same where corners lie at angles that are computed: 45 u for the angle.
+/// The same for primitives whose corners lie at computed angles, which add 45 u.
 constexpr double kAngledError = 0x200p-53;
-/// Points of an edge without end must be this part of their coordinates apart.
+/// The two points of an edge without end must be at least this part of their coordinates apart.
 constexpr double kLeastOfDirection = 1e-6;
-constexpr std::size_t kMostSides = 10'000;
+constexpr std::int64_t kMostSides = 10'000;
 
 using Made = Result<ShapeNode>;
 
@@ -45,7 +45,7 @@ Contour full_circle(Point centre, double radius) {
   return {{EdgeKind::arc_ccw, from, from, centre}};
 }
 
-/// Made, checked, and with its error.
+/// Makes the node of a primitive, checks its reach, and states its error.
 Made finished(Contour outer, std::vector<Contour> holes, const std::string& where, double relative_error) {
   auto region = geom::make_region(std::move(outer), std::move(holes));
   if (!region) return refuse(where, region.error().message);
@@ -64,27 +64,26 @@ Made finished(Contour outer, std::vector<Contour> holes, const std::string& wher
 }
 
 Made finished_as_drawn(Contour outer, std::vector<Contour> holes, const std::string& where) {
-  auto node = finished(std::move(outer), std::move(holes), where, kPrimitiveError);
-  if (!node) return node;
-  if (const auto fault = geom::fault_of(node->regions)) return refuse(where, *fault);
+  LEKALO_TRY(auto node, finished(std::move(outer), std::move(holes), where, kPrimitiveError));
+  if (const auto fault = geom::fault_of(node.regions)) return refuse(where, *fault);
   return node;
 }
 
-/// A length above 0.
-Result<double> read_length(const Json& json, const std::string& where, const char* key, double scale) {
+/// Reads a length, which must be above 0.
+Result<double> read_length(JsonValue json, const std::string& where, const char* key, double scale) {
   auto length = read_number(json, where, key, scale);
   if (length && !(*length > 0)) {
-    return refuse(where, fmt::format("\"{}\" is {}; it must be above 0", key, json[key].get<double>()));
+    return refuse(where, fmt::format("\"{}\" is {}; it must be above 0", key, json.find(key)->number()));
   }
   return length;
 }
 
-/// One of several keys that say the same thing in different ways.
-Result<std::string> only_one(const Json& json, const std::string& where,
+/// Finds the one that is given of several keys that say the same thing in different ways.
+Result<std::string> only_one(JsonValue json, const std::string& where,
                              std::initializer_list<const char*> keys) {
   std::string found;
   for (const char* key : keys) {
-    if (!json.contains(key)) continue;
+    if (!json.find(key)) continue;
     if (!found.empty()) return refuse(where, fmt::format("\"{}\" and \"{}\" together; give one", found, key));
     found = key;
   }
@@ -92,58 +91,49 @@ Result<std::string> only_one(const Json& json, const std::string& where,
   return found;
 }
 
-Result<double> read_radius(const Json& json, const std::string& where, double scale) {
-  const auto key = only_one(json, where, {"radius", "diameter"});
-  if (!key) return tl::unexpected(key.error());
-  const auto length = read_length(json, where, key->c_str(), scale);
-  if (!length) return length;
-  return *key == "diameter" ? 0.5 * *length : *length;
+Result<double> read_radius(JsonValue json, const std::string& where, double scale) {
+  LEKALO_TRY(const auto key, only_one(json, where, {"radius", "diameter"}));
+  LEKALO_TRY(const auto length, read_length(json, where, key.c_str(), scale));
+  return key == "diameter" ? 0.5 * length : length;
 }
 
-Made read_circle(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"centre", "radius", "diameter"}); !known)
-    return tl::unexpected(known.error());
-  const auto centre = read_place(json, where, "centre", scale, Point{});
-  if (!centre) return tl::unexpected(centre.error());
-  const auto radius = read_radius(json, where, scale);
-  if (!radius) return tl::unexpected(radius.error());
-  return finished(full_circle(*centre, *radius), {}, where, kPrimitiveError);
+Made read_circle(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"centre", "radius", "diameter"}));
+  LEKALO_TRY(const auto centre, read_place(json, where, "centre", scale, Point{}));
+  LEKALO_TRY(const auto radius, read_radius(json, where, scale));
+  return finished(full_circle(centre, radius), {}, where, kPrimitiveError);
 }
 
-/// "size" and "centre" or "corner" (the one with the least coordinates).
-Result<geom::Box> read_box(const Json& json, const std::string& where, double scale) {
-  const auto size = read_place(json, where, "size", scale);
-  if (!size) return tl::unexpected(size.error());
-  if (!(size->x > 0 && size->y > 0)) {
-    return refuse(where, fmt::format("\"size\" is [{}, {}]; width and height must be above 0",
-                                     json["size"][0].get<double>(), json["size"][1].get<double>()));
+/// Reads a box from "size" and "centre" or "corner" (the one with the least coordinates).
+Result<geom::Box> read_box(JsonValue json, const std::string& where, double scale) {
+  LEKALO_TRY(const auto size, read_place(json, where, "size", scale));
+  if (!(size.x > 0 && size.y > 0)) {
+    const Point said = *two_numbers(*json.find("size"));
+    return refuse(where,
+                  fmt::format("\"size\" is [{}, {}]; width and height must be above 0", said.x, said.y));
   }
-  if (json.contains("centre") && json.contains("corner"))
+  if (json.find("centre") && json.find("corner"))
     return refuse(where, "\"centre\" and \"corner\" together; give one");
-  if (json.contains("corner")) {
-    const auto corner = read_place(json, where, "corner", scale);
-    if (!corner) return tl::unexpected(corner.error());
-    return geom::Box{*corner, *corner + *size};
+  if (json.find("corner")) {
+    LEKALO_TRY(const auto corner, read_place(json, where, "corner", scale));
+    return geom::Box{corner, corner + size};
   }
-  const auto centre = read_place(json, where, "centre", scale, Point{});
-  if (!centre) return tl::unexpected(centre.error());
-  const Point half = 0.5 * *size;
-  return geom::Box{*centre - half, *centre + half};
+  LEKALO_TRY(const auto centre, read_place(json, where, "centre", scale, Point{}));
+  const Point half = 0.5 * size;
+  return geom::Box{centre - half, centre + half};
 }
 
-Made read_rectangle(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"size", "centre", "corner"}); !known)
-    return tl::unexpected(known.error());
-  const auto box = read_box(json, where, scale);
-  if (!box) return tl::unexpected(box.error());
-  const auto [low, high] = *box;
+Made read_rectangle(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"size", "centre", "corner"}));
+  LEKALO_TRY(const auto box, read_box(json, where, scale));
+  const auto [low, high] = box;
   return finished(ring({low, {high.x, low.y}, high, {low.x, high.y}}), {}, where, kPrimitiveError);
 }
 
-/// Corners cut by quarter circles; sides that these leave nothing of are left out.
+/// The box with its corners cut by quarter circles; sides of which these leave nothing are left out.
 Contour rounded(const geom::Box& box, double r) {
   const auto [low, high] = box;
-  // Where two circles meet, both use one coordinate, so that no sliver of a side is left.
+  // Two circles that meet share one coordinate, so that no sliver of a side is left.
   const bool no_width = !(high.x - low.x > 2 * r), no_height = !(high.y - low.y > 2 * r);
   const double middle_x = 0.5 * (low.x + high.x), middle_y = 0.5 * (low.y + high.y);
   if (no_width && no_height) return full_circle({middle_x, middle_y}, r);
@@ -167,113 +157,97 @@ Contour rounded(const geom::Box& box, double r) {
   return contour;
 }
 
-Made read_rounded_rectangle(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"size", "centre", "corner", "radius"}); !known)
-    return tl::unexpected(known.error());
-  const auto box = read_box(json, where, scale);
-  if (!box) return tl::unexpected(box.error());
-  const auto radius = read_length(json, where, "radius", scale);
-  if (!radius) return tl::unexpected(radius.error());
-  const double shorter = scale * std::min(json["size"][0].get<double>(), json["size"][1].get<double>());
-  if (!(2 * *radius <= shorter)) {
+Made read_rounded_rectangle(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"size", "centre", "corner", "radius"}));
+  LEKALO_TRY(const auto box, read_box(json, where, scale));
+  LEKALO_TRY(const auto radius, read_length(json, where, "radius", scale));
+  const Point size = *two_numbers(*json.find("size"));
+  const double shorter = scale * std::min(size.x, size.y);
+  if (!(2 * radius <= shorter)) {
     return refuse(where, fmt::format("\"radius\" is {}; half of the shorter side, {}, is the most",
-                                     json["radius"].get<double>(), 0.5 * shorter / scale));
+                                     json.find("radius")->number(), 0.5 * shorter / scale));
   }
-  return finished(rounded(*box, *radius), {}, where, kPrimitiveError);
+  return finished(rounded(box, radius), {}, where, kPrimitiveError);
 }
 
-Made read_slot(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"from", "to", "width"}); !known)
-    return tl::unexpected(known.error());
-  const auto from = read_place(json, where, "from", scale), to = read_place(json, where, "to", scale);
-  if (!from) return tl::unexpected(from.error());
-  if (!to) return tl::unexpected(to.error());
-  const auto width = read_length(json, where, "width", scale);
-  if (!width) return tl::unexpected(width.error());
-  const double length = norm(*to - *from);
+Made read_slot(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"from", "to", "width"}));
+  LEKALO_TRY(const auto from, read_place(json, where, "from", scale));
+  LEKALO_TRY(const auto to, read_place(json, where, "to", scale));
+  LEKALO_TRY(const auto width, read_length(json, where, "width", scale));
+  const double length = norm(to - from);
   if (!(length > 0)) return refuse(where, "\"from\" and \"to\" are one point; that is a circle");
-  const Point aside = (0.5 * *width / length) * perpendicular(*to - *from);
-  return finished({{EdgeKind::line, *from - aside, *to - aside, {}},
-                   {EdgeKind::arc_ccw, *to - aside, *to + aside, *to},
-                   {EdgeKind::line, *to + aside, *from + aside, {}},
-                   {EdgeKind::arc_ccw, *from + aside, *from - aside, *from}},
+  const Point aside = (0.5 * width / length) * perpendicular(to - from);
+  return finished({{EdgeKind::line, from - aside, to - aside, {}},
+                   {EdgeKind::arc_ccw, to - aside, to + aside, to},
+                   {EdgeKind::line, to + aside, from + aside, {}},
+                   {EdgeKind::arc_ccw, from + aside, from - aside, from}},
                   {}, where, kAngledError);
 }
 
-Made read_regular_polygon(const Json& json, const std::string& where, double scale) {
-  if (const auto known =
-          expect_object(json, where, {"sides", "centre", "radius", "across_flats", "corner_deg"});
-      !known)
-    return tl::unexpected(known.error());
-  const bool whole = json.contains("sides") && json["sides"].is_number_unsigned();
-  const auto sides = whole ? json["sides"].get<std::uint64_t>() : 0;
+Made read_regular_polygon(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"sides", "centre", "radius", "across_flats", "corner_deg"}));
+  const auto said = json.find("sides");
+  const std::int64_t sides = said && said->kind() == JsonKind::integer ? said->integer() : 0;
   if (sides < 3 || sides > kMostSides)
     return refuse(where, fmt::format("\"sides\" must be a whole number from 3 to {}", kMostSides));
-  const auto centre = read_place(json, where, "centre", scale, Point{});
-  if (!centre) return tl::unexpected(centre.error());
-  const auto key = only_one(json, where, {"radius", "across_flats"});
-  if (!key) return tl::unexpected(key.error());
-  const auto length = read_length(json, where, key->c_str(), scale);
-  if (!length) return tl::unexpected(length.error());
-  if (*key == "across_flats" && sides % 2 != 0) {
+  LEKALO_TRY(const auto centre, read_place(json, where, "centre", scale, Point{}));
+  LEKALO_TRY(const auto key, only_one(json, where, {"radius", "across_flats"}));
+  LEKALO_TRY(const auto length, read_length(json, where, key.c_str(), scale));
+  if (key == "across_flats" && sides % 2 != 0) {
     return refuse(where,
                   fmt::format("\"across_flats\" with {} sides: no two sides are parallel; give \"radius\", "
                               "from the centre to a corner",
                               sides));
   }
   double corner_deg = 0;
-  if (json.contains("corner_deg")) {
-    const auto angle = read_number(json, where, "corner_deg", 1);
-    if (!angle) return tl::unexpected(angle.error());
-    corner_deg = std::fmod(*angle, 360.0);
+  if (json.find("corner_deg")) {
+    LEKALO_TRY(const auto angle, read_number(json, where, "corner_deg", 1));
+    corner_deg = std::fmod(angle, 360.0);
   }
   const auto count = static_cast<double>(sides);
-  const double radius = *key == "radius" ? *length : 0.5 * *length / direction_of_degrees(180 / count).unit.x;
+  const double radius = key == "radius" ? length : 0.5 * length / direction_of_degrees(180 / count).unit.x;
   std::vector<Point> corners;
-  for (std::uint64_t k = 0; k < sides; ++k) {
+  for (std::int64_t k = 0; k < sides; ++k) {
     const double degrees = corner_deg + 360 * static_cast<double>(k) / count;
-    corners.push_back(*centre + radius * direction_of_degrees(degrees).unit);
+    corners.push_back(centre + radius * direction_of_degrees(degrees).unit);
   }
   return finished(ring(corners), {}, where, kAngledError);
 }
 
-Made read_polygon(const Json& json, const std::string& where, double scale) {
-  if (!json.is_array() || json.size() < 3) return refuse(where, "a list of at least three points is needed");
+Made read_polygon(JsonValue json, const std::string& where, double scale) {
+  if (json.kind() != JsonKind::list || json.size() < 3)
+    return refuse(where, "a list of at least three points is needed");
   std::vector<Point> points;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const auto point = place_of(json[i], fmt::format("{}[{}]", where, i), scale);
-    if (!point) return tl::unexpected(point.error());
-    points.push_back(*point);
+  for (const JsonValue item : json) {
+    LEKALO_TRY(const auto point, place_of(item, fmt::format("{}[{}]", where, points.size()), scale));
+    points.push_back(point);
   }
   return finished_as_drawn(ring(points), {}, where);
 }
 
-Made read_drawn_region(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"outer", "holes", "islands"}); !known)
-    return tl::unexpected(known.error());
-  auto region = read_region(json, where, scale);
-  if (!region) return tl::unexpected(std::move(region.error()));
-  return finished_as_drawn(std::move(region->outer), std::move(region->holes), where);
+Made read_drawn_region(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"outer", "holes", "islands"}));
+  LEKALO_TRY(auto region, read_region(json, where, scale));
+  return finished_as_drawn(std::move(region.outer), std::move(region.holes), where);
 }
 
-Made read_half_plane(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"from", "to"}); !known)
-    return tl::unexpected(known.error());
-  const auto from = read_place(json, where, "from", scale), to = read_place(json, where, "to", scale);
-  if (!from) return tl::unexpected(from.error());
-  if (!to) return tl::unexpected(to.error());
-  const double largest = std::max({std::abs(from->x), std::abs(from->y), std::abs(to->x), std::abs(to->y)});
-  if (!(norm(*to - *from) > kLeastOfDirection * largest))
+Made read_half_plane(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"from", "to"}));
+  LEKALO_TRY(const auto from, read_place(json, where, "from", scale));
+  LEKALO_TRY(const auto to, read_place(json, where, "to", scale));
+  const double largest = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)});
+  if (!(norm(to - from) > kLeastOfDirection * largest))
     return refuse(where, "\"from\" and \"to\" are too near each other to give a direction");
   ShapeNode node;
   node.kind = ShapeKind::half_plane;
   node.where = where;
-  node.half_plane = {*from, *to};
+  node.half_plane = {from, to};
   node.error = kPrimitiveError * largest;
   return node;
 }
 
-using ReadPrimitive = Made (*)(const Json&, const std::string&, double);
+using ReadPrimitive = Made (*)(JsonValue, const std::string&, double);
 constexpr std::array<std::pair<std::string_view, ReadPrimitive>, 8> kPrimitives{{
     {"circle", read_circle},
     {"rectangle", read_rectangle},
@@ -291,12 +265,12 @@ bool is_primitive(std::string_view word) {
   return std::any_of(kPrimitives.begin(), kPrimitives.end(), [&](const auto& p) { return p.first == word; });
 }
 
-Result<ShapeNode> read_primitive(const std::string& word, const Json& json, const std::string& where,
+Result<ShapeNode> read_primitive(const std::string& word, JsonValue json, const std::string& where,
                                  double scale) {
   const auto found =
       std::find_if(kPrimitives.begin(), kPrimitives.end(), [&](const auto& p) { return p.first == word; });
-  auto node = found->second(json, where, scale);
-  if (node) node->extent = extent_of(*node);
+  LEKALO_TRY(auto node, found->second(json, where, scale));
+  node.extent = extent_of(node);
   return node;
 }
 

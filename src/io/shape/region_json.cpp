@@ -33,8 +33,8 @@ double largest_coordinate(const std::vector<Region>& regions) {
   return largest;
 }
 
-/// Half a unit in the last place for reading; for inches as much again for 25.4, the product and the first
-/// two together.
+/// Reading errs by half a unit in the last place; inches by as much again for 25.4, for the product, and for
+/// the first two together.
 double coordinate_error(const std::vector<Region>& regions, LengthUnit unit) {
   return largest_coordinate(regions) * (unit == LengthUnit::inch ? 0x4p-53 : 0x1p-53);
 }
@@ -68,35 +68,29 @@ std::string region_json(const Region& region, const std::string& indent, const s
 Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name,
                                  std::optional<LengthUnit> unit, std::vector<Edge>* open) {
   using namespace detail;
-  const auto json = parse_json(bytes, name);
-  if (!json) return tl::unexpected(json.error());
-  const bool several = json->is_object() && json->contains("pieces");
-  const auto known =
-      several ? expect_object(*json, name, {"name", "source", "units", "pieces"})
-              : expect_object(*json, name, {"name", "source", "units", "outer", "holes", "islands"});
-  if (!known) return tl::unexpected(known.error());
-  const auto file_unit = unit_of(*json, name, unit);
-  if (!file_unit) return tl::unexpected(file_unit.error());
+  LEKALO_TRY(const auto tree, JsonTree::parse(bytes, name));
+  const JsonValue root = tree.root();
+  const auto pieces = root.find("pieces");
+  LEKALO_CHECK(pieces ? expect_object(root, name, {"name", "source", "units", "pieces"})
+                      : expect_object(root, name, {"name", "source", "units", "outer", "holes", "islands"}));
+  LEKALO_TRY(const auto file_unit, unit_of(root, name, unit));
 
-  RegionFile file{name, *file_unit, {}, 0};
-  const auto add = [&](const Json& piece, const std::string& where) -> Result<void> {
-    auto region = read_region(piece, where, millimetres_per(*file_unit), open);
-    if (!region) return tl::unexpected(std::move(region.error()));
-    file.regions.push_back(std::move(*region));
+  RegionFile file{name, file_unit, {}, 0};
+  const auto add = [&](JsonValue piece, const std::string& where) -> Result<void> {
+    LEKALO_TRY(auto region, read_region(piece, where, millimetres_per(file_unit), open));
+    file.regions.push_back(std::move(region));
     return {};
   };
-  if (several) {
-    const Json& pieces = (*json)["pieces"];
-    if (!pieces.is_array() || pieces.empty())
+  if (pieces) {
+    if (pieces->kind() != JsonKind::list || pieces->size() == 0)
       return refuse(name, "\"pieces\" must be a list of at least one region");
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const std::string where = fmt::format("{}, piece {}", name, i);
-      auto done = expect_object(pieces[i], where, {"outer", "holes", "islands"});
-      if (done) done = add(pieces[i], where);
-      if (!done) return tl::unexpected(std::move(done.error()));
+    for (const JsonValue piece : *pieces) {
+      const std::string where = fmt::format("{}, piece {}", name, file.regions.size());
+      LEKALO_CHECK(expect_object(piece, where, {"outer", "holes", "islands"}));
+      LEKALO_CHECK(add(piece, where));
     }
-  } else if (auto done = add(*json, name); !done) {
-    return tl::unexpected(std::move(done.error()));
+  } else {
+    LEKALO_CHECK(add(root, name));
   }
   file.coordinate_error = coordinate_error(file.regions, file.unit);
   return file;

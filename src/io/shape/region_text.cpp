@@ -11,7 +11,7 @@ using geom::Contour;
 using geom::Edge;
 using geom::Point;
 
-// "-0" would be read back as the integer 0.
+// A "-0" would be read back as the integer 0.
 std::string number(double v) { return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v); }
 
 std::string point(Point p) { return fmt::format("[{}, {}]", number(p.x), number(p.y)); }

@@ -66,7 +66,7 @@ Result<Evaluated> half_plane_in(const ShapeNode& node, const Box& window) {
     const Point width = (inside + reach) * left;
     contour = rectangle(a, b, b + width, a + width);
     out.sources.push_back({contour[0], node.name});
-    // What the two points are off, as seen from the far end of the edge; and the rounding of a and b.
+    // The two points' errors, as seen from the far end of the edge, and the rounding of a and b.
     const double far = std::abs(middle) + reach;
     out.edge_error = 2 * node.error * (1 + 2 * far / length) + 16 * kUnitRoundoff * (far + largest_of(wide));
   }
@@ -76,6 +76,7 @@ Result<Evaluated> half_plane_in(const ShapeNode& node, const Box& window) {
   return out;
 }
 
+/// Step 3 of docs/design/shape-tree.md: evaluates the tree bottom up, with one Boolean a node.
 class Evaluator {
  public:
   explicit Evaluator(bool named) : named_(named) {}
@@ -90,16 +91,17 @@ class Evaluator {
       case ShapeKind::map:
         return mapped(node, window);
       case ShapeKind::unite:
-        return combined(run_all(node, 0, window), {}, BooleanOperation::unite, node);
+        return run_all(node, 0, window).and_then([&](Evaluated all) {
+          return combined(std::move(all), {}, BooleanOperation::unite, node);
+        });
       case ShapeKind::intersect:
         return intersection(node, window);
       case ShapeKind::subtract: {
-        auto first = run(node.children[0], window);
-        if (!first || node.children.size() == 1) return first;
-        auto rest = run_all(node, 1, window);
-        if (!rest) return rest;
-        for (NamedEdge& source : rest->sources) source.edge = turned(source.edge);
-        return combined(std::move(first), *std::move(rest), BooleanOperation::subtract, node);
+        LEKALO_TRY(auto first, run(node.children[0], window));
+        if (node.children.size() == 1) return first;
+        LEKALO_TRY(auto rest, run_all(node, 1, window));
+        for (NamedEdge& source : rest.sources) source.edge = turned(source.edge);
+        return combined(std::move(first), std::move(rest), BooleanOperation::subtract, node);
       }
       case ShapeKind::primitive:
         break;
@@ -120,9 +122,8 @@ class Evaluator {
   [[nodiscard]] Result<Evaluated> run_all(const ShapeNode& node, std::size_t first, const Box& window) const {
     Evaluated all;
     for (std::size_t i = first; i < node.children.size(); ++i) {
-      auto one = run(node.children[i], window);
-      if (!one) return one;
-      append(all, *std::move(one));
+      LEKALO_TRY(auto one, run(node.children[i], window));
+      append(all, std::move(one));
     }
     return all;
   }
@@ -134,25 +135,24 @@ class Evaluator {
   }
 
   [[nodiscard]] Result<Evaluated> intersection(const ShapeNode& node, const Box& window) const {
-    auto all = run(node.children[0], window);
-    for (std::size_t i = 1; all && i < node.children.size(); ++i) {
-      auto next = run(node.children[i], window);
-      if (!next) return next;
-      all = combined(std::move(all), *std::move(next), BooleanOperation::intersect, node);
+    LEKALO_TRY(auto all, run(node.children[0], window));
+    for (std::size_t i = 1; i < node.children.size(); ++i) {
+      LEKALO_TRY(auto next, run(node.children[i], window));
+      LEKALO_TRY(all, combined(std::move(all), std::move(next), BooleanOperation::intersect, node));
     }
     return all;
   }
 
-  [[nodiscard]] static Result<Evaluated> combined(Result<Evaluated> a, Evaluated b,
-                                                  BooleanOperation operation, const ShapeNode& node) {
-    if (!a || (operation == BooleanOperation::unite && a->regions.size() == 1)) return a;
-    merge_errors(b, *a);
-    auto result = geom::combine(a->regions, b.regions, operation, b.edge_error);
+  [[nodiscard]] static Result<Evaluated> combined(Evaluated a, Evaluated b, BooleanOperation operation,
+                                                  const ShapeNode& node) {
+    if (operation == BooleanOperation::unite && a.regions.size() == 1) return a;
+    merge_errors(b, a);
+    auto result = geom::combine(a.regions, b.regions, operation, b.edge_error);
     if (!result) return refuse(node.where, result.error().message);
     Evaluated out{std::move(result->regions), result->edge_error, b.sharpness, {}};
     if (result->edge_error > 0)
       out.sharpness = std::max(out.sharpness, result->corner_error / result->edge_error);
-    out.sources = std::move(a->sources);
+    out.sources = std::move(a.sources);
     out.sources.insert(out.sources.end(), b.sources.begin(), b.sources.end());
     return out;
   }
@@ -164,12 +164,12 @@ class Evaluator {
 
   [[nodiscard]] Result<Evaluated> mapped(const ShapeNode& node, const Box& window) const {
     const ShapeNode& child = node.children[0];
-    const auto inner = run(child, child.extent.bounded ? child.extent.box : preimage(node.map, window));
-    if (!inner) return inner;
+    LEKALO_TRY(const auto inner,
+               run(child, child.extent.bounded ? child.extent.box : preimage(node.map, window)));
     std::vector<Region> regions;
     double largest = 0;
     double after = 0;
-    for (const Region& region : inner->regions) {
+    for (const Region& region : inner.regions) {
       auto moved = image(node.map, region);
       if (!moved) return refuse(node.where, moved.error().message);
       largest = std::max(largest, largest_of(region));
@@ -177,8 +177,8 @@ class Evaluator {
       regions.push_back(*std::move(moved));
     }
     const double rounding = kOutlinePerPoint * rounding_of(node.map, largest) + kShortest * after;
-    Evaluated out{std::move(regions), node.map.factor * inner->edge_error + rounding, inner->sharpness, {}};
-    for (const NamedEdge& source : inner->sources) {
+    Evaluated out{std::move(regions), node.map.factor * inner.edge_error + rounding, inner.sharpness, {}};
+    for (const NamedEdge& source : inner.sources) {
       const Edge edge = image(node.map, source.edge);
       out.sources.push_back({node.map.mirrors ? turned(edge) : edge, source.name});
     }
@@ -188,7 +188,7 @@ class Evaluator {
   bool named_;
 };
 
-/// Middle of an edge, and the direction it is run through there.
+/// The middle of an edge, and the direction it is run through there.
 struct Middle {
   Point at, direction;
 };
@@ -198,7 +198,7 @@ Middle middle_of(const Edge& edge) {
   const double radius = geom::arc_radius(edge), side = edge.kind == EdgeKind::arc_ccw ? 1 : -1;
   if (edge.from == edge.to)
     return {edge.centre - (edge.from - edge.centre), -side * perpendicular(edge.from - edge.centre)};
-  // Of the two middles between the ends' directions the one on the arc's side of the chord.
+  // The ends' directions have two middles; the one on the arc's side of the chord is meant.
   const Point out = (-side / norm(chord)) * perpendicular(chord);
   return {edge.centre + radius * out, chord};
 }
@@ -239,6 +239,7 @@ Result<Evaluated> evaluate(const ShapeTree& tree) {
   return result;
 }
 
+/// Step 4 of docs/design/shape-tree.md.
 std::vector<std::uint32_t> names_of_edges(const Evaluated& shape) {
   struct Source {
     geom::Curve curve;
@@ -282,20 +283,17 @@ std::vector<std::uint32_t> names_of_edges(const Evaluated& shape) {
 Result<ShapeFile> parse_shape_tree(std::string_view bytes, const std::string& name,
                                    std::optional<LengthUnit> unit) {
   using namespace detail;
-  const auto json = parse_json(bytes, name);
-  if (!json) return tl::unexpected(json.error());
-  if (const auto known = expect_object(*json, name, {"name", "source", "units", "shape"}); !known)
-    return tl::unexpected(known.error());
-  const auto file_unit = unit_of(*json, name, unit);
-  if (!file_unit) return tl::unexpected(file_unit.error());
-  if (!json->contains("shape")) return refuse(name, "\"shape\", the tree of shapes, is missing");
-  auto tree = read_shape_tree((*json)["shape"], name + ": shape", millimetres_per(*file_unit));
-  if (!tree) return tl::unexpected(std::move(tree.error()));
-  auto shape = evaluate(*tree);
-  if (!shape) return tl::unexpected(std::move(shape.error()));
-  ShapeFile file{name, *file_unit, {}, shape->sharpness * shape->edge_error, std::move(tree->names), {}};
-  file.name_of_edge = names_of_edges(*shape);
-  file.regions = std::move(shape->regions);
+  LEKALO_TRY(const auto document, JsonTree::parse(bytes, name, kDeepestShapeJson));
+  const JsonValue root = document.root();
+  LEKALO_CHECK(expect_object(root, name, {"name", "source", "units", "shape"}));
+  LEKALO_TRY(const auto file_unit, unit_of(root, name, unit));
+  const auto said = root.find("shape");
+  if (!said) return refuse(name, "\"shape\", the tree of shapes, is missing");
+  LEKALO_TRY(auto tree, read_shape_tree(*said, name + ": shape", millimetres_per(file_unit)));
+  LEKALO_TRY(auto shape, evaluate(tree));
+  ShapeFile file{name, file_unit, {}, shape.sharpness * shape.edge_error, std::move(tree.names), {}};
+  file.name_of_edge = names_of_edges(shape);
+  file.regions = std::move(shape.regions);
   return file;
 }
 

@@ -1,4 +1,4 @@
-// From JSON to a tree of shapes: its words, its numbers, and where each node can have points.
+// Step 1 of docs/design/shape-tree.md: from JSON to a tree of shapes, its words and its numbers.
 
 #include <fmt/format.h>
 
@@ -14,22 +14,23 @@ namespace lekalo::io::detail {
 
 using geom::Point;
 
-Result<double> read_number(const Json& json, const std::string& where, const char* key, double scale) {
-  if (!json.contains(key)) return refuse(where, fmt::format("\"{}\" is missing", key));
-  if (!json[key].is_number())
-    return refuse(where, fmt::format("\"{}\" must be a number, not {}", key, json[key].type_name()));
-  const double value = scale * json[key].get<double>();
+Result<double> read_number(JsonValue json, const std::string& where, const char* key, double scale) {
+  const auto said = json.find(key);
+  if (!said) return refuse(where, fmt::format("\"{}\" is missing", key));
+  if (!said->is_number())
+    return refuse(where, fmt::format("\"{}\" must be a number, not {}", key, json_word(said->kind())));
+  const double value = scale * said->number();
   if (!(std::abs(value) <= kLargestMillimetres)) {
-    return refuse(where, fmt::format("\"{}\" is {}; numbers go up to {:g}", key, json[key].get<double>(),
+    return refuse(where, fmt::format("\"{}\" is {}; numbers go up to {:g}", key, said->number(),
                                      kLargestMillimetres / scale));
   }
   return value;
 }
 
-Result<Point> place_of(const Json& json, const std::string& where, double scale) {
-  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number())
-    return refuse(where, "two numbers [x, y] are needed");
-  const Point point{scale * json[0].get<double>(), scale * json[1].get<double>()};
+Result<Point> place_of(JsonValue json, const std::string& where, double scale) {
+  const auto said = two_numbers(json);
+  if (!said) return refuse(where, "two numbers [x, y] are needed");
+  const Point point = scale * *said;
   if (!(std::abs(point.x) <= kLargestMillimetres && std::abs(point.y) <= kLargestMillimetres)) {
     return refuse(where, fmt::format("[{}, {}] is too far out; coordinates go up to {:g}", point.x / scale,
                                      point.y / scale, kLargestMillimetres / scale));
@@ -37,16 +38,16 @@ Result<Point> place_of(const Json& json, const std::string& where, double scale)
   return point;
 }
 
-Result<Point> read_place(const Json& json, const std::string& where, const char* key, double scale,
+Result<Point> read_place(JsonValue json, const std::string& where, const char* key, double scale,
                          std::optional<Point> otherwise) {
-  if (json.contains(key)) return place_of(json[key], where + "." + key, scale);
+  if (const auto said = json.find(key)) return place_of(*said, where + "." + key, scale);
   if (otherwise) return *otherwise;
   return refuse(where, fmt::format("\"{}\" is missing", key));
 }
 
 namespace {
 
-/// Factors of "scale"; beyond, either the numbers before or those after are no sizes of parts.
+/// The largest factor of "scale"; beyond it, either the numbers before or those after are no sizes of parts.
 constexpr double kLargestFactor = 1e6;
 
 constexpr std::array<std::pair<std::string_view, ShapeKind>, 3> kBooleans{{
@@ -59,81 +60,71 @@ constexpr const char* kAllWords =
     "circle, rectangle, rounded_rectangle, slot, regular_polygon, polygon, region, half_plane, union, "
     "intersection, difference, move, rotate, mirror, scale";
 
-Result<Similarity> read_move(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"by", "shape"}); !known)
-    return tl::unexpected(known.error());
+Result<Similarity> read_move(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"by", "shape"}));
   return read_place(json, where, "by", scale).map(move_by);
 }
 
-Result<Similarity> read_rotate(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"by_deg", "about", "shape"}); !known)
-    return tl::unexpected(known.error());
-  const auto degrees = read_number(json, where, "by_deg", 1);
-  if (!degrees) return tl::unexpected(degrees.error());
-  const auto about = read_place(json, where, "about", scale, Point{});
-  if (!about) return tl::unexpected(about.error());
-  return turn_about(*about, *degrees);
+Result<Similarity> read_rotate(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"by_deg", "about", "shape"}));
+  LEKALO_TRY(const auto degrees, read_number(json, where, "by_deg", 1));
+  LEKALO_TRY(const auto about, read_place(json, where, "about", scale, Point{}));
+  return turn_about(about, degrees);
 }
 
-Result<Similarity> read_scale(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"by", "about", "shape"}); !known)
-    return tl::unexpected(known.error());
-  const auto factor = read_number(json, where, "by", 1);
-  if (!factor) return tl::unexpected(factor.error());
-  if (!(*factor >= 1 / kLargestFactor && *factor <= kLargestFactor)) {
+Result<Similarity> read_scale(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"by", "about", "shape"}));
+  LEKALO_TRY(const auto factor, read_number(json, where, "by", 1));
+  if (!(factor >= 1 / kLargestFactor && factor <= kLargestFactor)) {
     return refuse(where,
                   fmt::format("\"by\" is {}; a factor from {:g} to {:g} is needed (mirror has a word of its "
                               "own)",
-                              *factor, 1 / kLargestFactor, kLargestFactor));
+                              factor, 1 / kLargestFactor, kLargestFactor));
   }
-  const auto about = read_place(json, where, "about", scale, Point{});
-  if (!about) return tl::unexpected(about.error());
-  return scale_about(*about, *factor);
+  LEKALO_TRY(const auto about, read_place(json, where, "about", scale, Point{}));
+  return scale_about(about, factor);
 }
 
-Result<Similarity> read_mirror(const Json& json, const std::string& where, double scale) {
-  if (const auto known = expect_object(json, where, {"flip", "from", "to", "shape"}); !known)
-    return tl::unexpected(known.error());
-  if (json.contains("flip")) {
-    if (json.contains("from") || json.contains("to"))
-      return refuse(where, "\"flip\" and a line together; give one");
-    if (json["flip"] != "x" && json["flip"] != "y")
+Result<Similarity> read_mirror(JsonValue json, const std::string& where, double scale) {
+  LEKALO_CHECK(expect_object(json, where, {"flip", "from", "to", "shape"}));
+  if (const auto said = json.find("flip")) {
+    if (json.find("from") || json.find("to")) return refuse(where, "\"flip\" and a line together; give one");
+    if (!said->text_is("x") && !said->text_is("y"))
       return refuse(where, "\"flip\" must be \"x\" or \"y\", the coordinate that changes its sign");
-    return flip(json["flip"] == "x");
+    return flip(said->text_is("x"));
   }
-  const auto from = read_place(json, where, "from", scale), to = read_place(json, where, "to", scale);
-  if (!from || !to) {
-    return from ? tl::unexpected(to.error()) : tl::unexpected(from.error());
-  }
-  if (*from == *to)
+  LEKALO_TRY(const auto from, read_place(json, where, "from", scale));
+  LEKALO_TRY(const auto to, read_place(json, where, "to", scale));
+  if (from == to)
     return refuse(where, "\"from\" and \"to\" are one point; two points of the line are needed");
-  return mirror_in_line(*from, *to);
+  return mirror_in_line(from, to);
 }
 
 class TreeReader {
  public:
   explicit TreeReader(double scale) : scale_(scale) {}
 
-  Result<ShapeNode> node(const Json& json, const std::string& where, std::uint32_t name, std::size_t depth) {
+  Result<ShapeNode> node(JsonValue json, const std::string& where, std::uint32_t name, std::size_t depth) {
     if (depth > kDeepestShapeTree)
       return refuse(where, fmt::format("shapes are nested more than {} deep", kDeepestShapeTree));
-    if (!json.is_object())
-      return refuse(where, fmt::format("a shape is an object, not {}", json.type_name()));
-    std::string word;
-    for (const auto& item : json.items()) {
+    if (json.kind() != JsonKind::object)
+      return refuse(where, fmt::format("a shape is an object, not {}", json_word(json.kind())));
+    std::optional<JsonValue> said;
+    for (const JsonValue item : json) {
       if (item.key() == "name") continue;
-      if (!word.empty())
+      if (said)
         return refuse(where, fmt::format("\"{}\" and \"{}\" together; a shape is one word, and \"name\"",
-                                         word, item.key()));
-      word = item.key();
+                                         said->key(), item.key()));
+      said = item;
     }
-    if (word.empty()) return refuse(where, fmt::format("no shape here; known: {}", kAllWords));
-    if (json.contains("name")) {
-      if (!json["name"].is_string() || json["name"].get_ref<const std::string&>().empty())
+    if (!said) return refuse(where, fmt::format("no shape here; known: {}", kAllWords));
+    if (const auto given = json.find("name")) {
+      if (given->kind() != JsonKind::text || given->text().empty())
         return refuse(where, "\"name\" must be a text that is not empty");
-      name = index_of(json["name"].get_ref<const std::string&>());
+      name = index_of(std::string(given->text()));
     }
-    const Json& value = json[word];
+    const JsonValue value = *said;
+    const std::string word(value.key());
     const std::string place = where + "." + word;
     if (is_primitive(word)) {
       if (++primitives_ > kMostPrimitives)
@@ -158,36 +149,35 @@ class TreeReader {
     return at;
   }
 
-  Result<ShapeNode> boolean_of(ShapeKind kind, const Json& json, const std::string& where, std::uint32_t name,
+  Result<ShapeNode> boolean_of(ShapeKind kind, JsonValue json, const std::string& where, std::uint32_t name,
                                std::size_t depth) {
-    if (!json.is_array() || json.empty()) return refuse(where, "a list of at least one shape is needed");
+    if (json.kind() != JsonKind::list || json.size() == 0)
+      return refuse(where, "a list of at least one shape is needed");
     ShapeNode made;
     made.kind = kind;
     made.where = where;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-      auto child = node(json[i], fmt::format("{}[{}]", where, i), name, depth + 1);
-      if (!child) return child;
-      made.children.push_back(*std::move(child));
+    for (const JsonValue item : json) {
+      LEKALO_TRY(auto child, node(item, fmt::format("{}[{}]", where, made.children.size()), name, depth + 1));
+      made.children.push_back(std::move(child));
     }
     made.extent = extent_of(made);
     return made;
   }
 
-  Result<ShapeNode> map_of(const std::string& word, const Json& json, const std::string& where,
+  Result<ShapeNode> map_of(const std::string& word, JsonValue json, const std::string& where,
                            std::uint32_t name, std::size_t depth) {
-    const auto map = word == "move"     ? read_move(json, where, scale_)
-                     : word == "rotate" ? read_rotate(json, where, scale_)
-                     : word == "mirror" ? read_mirror(json, where, scale_)
-                                        : read_scale(json, where, scale_);
-    if (!map) return tl::unexpected(map.error());
-    if (!json.contains("shape")) return refuse(where, "\"shape\", what it does this to, is missing");
-    auto child = node(json["shape"], where + ".shape", name, depth + 1);
-    if (!child) return child;
+    LEKALO_TRY(const auto map, word == "move"     ? read_move(json, where, scale_)
+                               : word == "rotate" ? read_rotate(json, where, scale_)
+                               : word == "mirror" ? read_mirror(json, where, scale_)
+                                                  : read_scale(json, where, scale_));
+    const auto inner = json.find("shape");
+    if (!inner) return refuse(where, "\"shape\", what it does this to, is missing");
+    LEKALO_TRY(auto child, node(*inner, where + ".shape", name, depth + 1));
     ShapeNode made;
     made.kind = ShapeKind::map;
     made.where = where;
-    made.map = *map;
-    made.children.push_back(*std::move(child));
+    made.map = map;
+    made.children.push_back(std::move(child));
     made.extent = extent_of(made);
     if (made.extent.bounded && !(largest_of(made.extent.box) <= kLargestMillimetres)) {
       return refuse(where, fmt::format("this brings the shape to {:.3g} mm; coordinates go up to {:g} mm",
@@ -202,11 +192,10 @@ class TreeReader {
 
 }  // namespace
 
-Result<ShapeTree> read_shape_tree(const Json& json, const std::string& where, double scale) {
+Result<ShapeTree> read_shape_tree(JsonValue json, const std::string& where, double scale) {
   TreeReader reader(scale);
-  auto root = reader.node(json, where, kNoName, 1);
-  if (!root) return tl::unexpected(std::move(root.error()));
-  return ShapeTree{*std::move(root), std::move(reader.names)};
+  LEKALO_TRY(auto root, reader.node(json, where, kNoName, 1));
+  return ShapeTree{std::move(root), std::move(reader.names)};
 }
 
 }  // namespace lekalo::io::detail

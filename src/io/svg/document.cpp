@@ -18,10 +18,10 @@ constexpr std::pair<std::string_view, std::string_view> kPrefixes[] = {
     {"http://www.inkscape.org/namespaces/inkscape", "inkscape:"},
     {"http://www.w3.org/1999/xlink", "xlink:"},
 };
-/// Of any elements; groups and uses that draw have a smaller limit of their own.
+/// The most elements within each other; groups and uses that draw have a smaller limit of their own.
 constexpr std::size_t kDeepestXml = 512;
-/// Characters of an entity: programs abbreviate addresses with them. (Beyond that, expat stops where entities
-/// make the file a hundred times larger.)
+/// The most characters of an entity: programs abbreviate addresses with them. (Expat stops by itself where
+/// entities make the file a hundred times larger.)
 constexpr int kLongestEntity = 4096;
 
 struct QualifiedName {

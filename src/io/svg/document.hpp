@@ -15,14 +15,14 @@ namespace lekalo::io::detail {
 /// An element of an SVG file. Those of other namespaces are not kept.
 struct SvgElement {
   std::string name;  ///< without prefix
-  /// SVG's own by name; those of other namespaces with the usual prefix ("inkscape:label", "xlink:href"), or
-  /// not at all.
+  /// Attributes: SVG's own by name, and of other namespaces the known ones with their usual prefix
+  /// ("inkscape:label", "xlink:href"); others are left out.
   std::vector<std::pair<std::string, std::string>> attributes;
   std::string text;  ///< of a style element
   std::size_t line = 0;
   std::vector<std::uint32_t> children;
 
-  /// nullptr where there is none.
+  /// The value of an attribute, nullptr where there is none.
   [[nodiscard]] const std::string* attribute(std::string_view key) const noexcept;
 };
 

@@ -44,7 +44,7 @@ class PathReader {
  private:
   using Fault = std::optional<std::string>;
 
-  /// As many sets of numbers as there are.
+  /// Reads as many sets of numbers as there are.
   Fault arguments() {
     do {
       if (const auto fault = one_set()) return fault;
@@ -182,7 +182,7 @@ class PathReader {
     const double apart =
         std::max(std::abs(current_.at.x - start_.at.x), std::abs(current_.at.y - start_.at.y));
     const bool drawn = segments_.size() > first_of_subpath_;
-    // Where the decimals may meet, they do: relative steps only lose that in rounding.
+    // Ends that may meet within their errors do meet: relative steps lose that only in rounding.
     if (apart > 0 && drawn && apart <= current_.error + start_.error) {
       PathSegment& last = segments_.back();
       last.to = {start_.at, last.to.error + apart};

@@ -18,7 +18,7 @@ struct PathSegment {
 };
 
 /// Path data, absolute, without pieces of no length; closed subpaths end exactly where they began. A closing
-/// line shorter than what its ends are off is left out, and the end before it moved.
+/// line shorter than its ends' errors is left out, and the end before it moved.
 [[nodiscard]] Read<std::vector<PathSegment>> read_svg_path(std::string_view data);
 
 /// The shape of a segment; nullopt where it has no length.

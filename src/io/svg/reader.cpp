@@ -17,13 +17,13 @@ namespace {
 
 using namespace detail;
 
-/// Elements drawn, copies counted: uses of uses grow without curves too.
+/// The most elements drawn, copies counted: uses of uses grow without curves too.
 constexpr std::size_t kMostElements = 2 * kMostCurves;
 
 /// Elements that draw nothing where they stand, and have no outline to lose.
 constexpr std::string_view kSilent[] = {"title",  "desc",   "metadata", "style",
                                         "script", "symbol", "view",     "color-profile"};
-/// What else may stand in defs besides things to be used.
+/// Elements that may stand in defs besides shapes to be used.
 constexpr std::string_view kResources[] = {"clipPath", "mask",        "pattern",        "marker",
                                            "filter",   "font",        "linearGradient", "radialGradient",
                                            "hatch",    "meshgradient"};
@@ -33,7 +33,7 @@ bool is_in(const std::string_view (&words)[N], std::string_view word) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-/// What an element takes from those around it.
+/// The values that an element takes from those around it.
 struct Context {
   Affine map;  ///< user units to millimetres
   Viewport viewport;
@@ -91,7 +91,7 @@ class SvgReader {
     unread.line = std::min(unread.line, element.line);
   }
 
-  /// The attribute "transform", after what the map does already.
+  /// Applies the attribute "transform", within the map so far.
   Failure moved(const SvgElement& element, Context& context) {
     if (const auto property = geometry_in_style(element)) {
       return fault(element,
@@ -171,7 +171,7 @@ class SvgReader {
     context.layer_said = says_layer;
   }
 
-  /// The first child that asks for nothing special.
+  /// Draws the first child of a switch that asks for nothing special.
   Failure choose(const SvgElement& element, const Context& context) {
     for (const std::uint32_t index : element.children) {
       const SvgElement& child = document_.elements[index];
@@ -184,7 +184,8 @@ class SvgReader {
     return std::nullopt;
   }
 
-  /// The content of an svg or symbol element; `place` has its corner and size (a use, or the element itself).
+  /// Draws the content of an svg or symbol element; `place` has its corner and size (a use, or the element
+  /// itself).
   Failure viewport(const SvgElement& element, const SvgElement& place, Context context) {
     const bool by_use = &element != &place;
     const auto side = [&](const char* key, Along along, const Bounded& otherwise) -> Read<Bounded> {
@@ -215,7 +216,7 @@ class SvgReader {
     return children(element, context);
   }
 
-  /// By the attributes x and y.
+  /// Moves the map by the attributes x and y.
   Failure shifted(const SvgElement& element, Context& context) {
     Affine shift;
     for (const char* key : {"x", "y"}) {
@@ -303,9 +304,8 @@ class SvgReader {
 }  // namespace
 
 Result<Drawing> parse_svg(std::string_view bytes, const std::string& name, std::optional<LengthUnit> unit) {
-  const auto document = read_svg_document(bytes, name);
-  if (!document) return tl::unexpected(document.error());
-  return SvgReader(*document, name).run(unit);
+  LEKALO_TRY(const auto document, read_svg_document(bytes, name));
+  return SvgReader(document, name).run(unit);
 }
 
 }  // namespace lekalo::io

@@ -17,7 +17,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' |
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Characters of the number that text begins with, 0 for none.
+/// The number of characters of the number that the text begins with, 0 for none.
 std::size_t number_length(std::string_view text) {
   std::size_t at = 0, digits = 0;
   const auto digits_here = [&] {
@@ -55,7 +55,7 @@ Affine entries(const std::array<Bounded, 6>& n) {
 }
 const Bounded kOne{1, 0}, kZero{};
 
-/// Sine and cosine of an angle in degrees that is itself off by so much.
+/// The sine and cosine of an angle in degrees that has an error itself.
 struct Turn {
   Bounded sine, cosine;
 };
@@ -143,11 +143,10 @@ std::string SvgScanner::here() const {
 
 Read<SvgLength> split_svg_length(std::string_view text) {
   SvgScanner scanner(text);
-  const auto number = scanner.number();
-  if (!number) return tl::unexpected(number.error());
+  LEKALO_TRY(const auto number, scanner.number());
   std::string_view unit = scanner.rest();
   while (!unit.empty() && is_blank(unit.back())) unit.remove_suffix(1);
-  return SvgLength{*number, unit};
+  return SvgLength{number, unit};
 }
 
 std::optional<Bounded> millimetres_per_unit(std::string_view unit) {
@@ -162,9 +161,8 @@ std::optional<Bounded> millimetres_per_unit(std::string_view unit) {
 }
 
 Read<Bounded> read_svg_length(std::string_view text, const Viewport& viewport, Along along) {
-  const auto length = split_svg_length(text);
-  if (!length) return tl::unexpected(length.error());
-  const auto& [number, unit] = *length;
+  LEKALO_TRY(const auto length, split_svg_length(text));
+  const auto& [number, unit] = length;
   if (unit.empty() || unit == "px") return number;
   if (unit == "%") {
     const Bounded part = over(number, {100, 0});
@@ -199,15 +197,13 @@ Read<Affine> read_svg_transform(std::string_view text) {
     scanner.advance(1);
     std::vector<Bounded> numbers;
     for (scanner.skip_blanks(); scanner.peek() != ')'; scanner.skip_comma()) {
-      const auto number = scanner.number();
-      if (!number) return tl::unexpected(number.error());
+      LEKALO_TRY(const auto number, scanner.number());
       if (numbers.size() == 6) return tl::unexpected(fmt::format("{} has more than 6 numbers", word));
-      numbers.push_back(*number);
+      numbers.push_back(number);
     }
     scanner.advance(1);
-    const auto next = transform_of(word, numbers);
-    if (!next) return next;
-    all = composed(all, *next);
+    LEKALO_TRY(const auto next, transform_of(word, numbers));
+    all = composed(all, next);
     if (!(all.size() <= kLargestMillimetres))
       return tl::unexpected(fmt::format("it enlarges more than {:g} times", kLargestMillimetres));
     scanner.skip_comma();

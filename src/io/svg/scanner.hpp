@@ -10,7 +10,7 @@
 
 namespace lekalo::io::detail {
 
-/// Why an attribute cannot be read; whoever knows the element adds the place.
+/// A value, or a sentence why an attribute cannot be read, to which whoever knows the element adds the place.
 template <class T>
 using Read = tl::expected<T, std::string>;
 
@@ -20,21 +20,21 @@ class SvgScanner {
   explicit SvgScanner(std::string_view text) : text_(text) {}
 
   void skip_blanks() noexcept;
-  /// Blanks with at most one comma among them; true if there was a comma.
+  /// Skips blanks with at most one comma among them; true if there was a comma.
   bool skip_comma() noexcept;
   [[nodiscard]] bool at_end() const noexcept { return at_ == text_.size(); }
-  /// '\0' at the end.
+  /// The next character, '\0' at the end.
   [[nodiscard]] char peek() const noexcept { return at_end() ? '\0' : text_[at_]; }
   [[nodiscard]] std::string_view rest() const noexcept { return text_.substr(at_); }
   void advance(std::size_t characters) noexcept { at_ += characters; }
   [[nodiscard]] bool number_ahead() const noexcept;
-  /// A number; blanks before it are skipped.
+  /// Reads a number; blanks before it are skipped.
   [[nodiscard]] Read<Bounded> number();
-  /// '0' or '1', also right before the next number.
+  /// Reads '0' or '1', which may stand right before the next number.
   [[nodiscard]] Read<bool> flag();
-  /// Letters from here on.
+  /// Reads the letters from here on.
   [[nodiscard]] std::string_view word() noexcept;
-  /// "at character 12: " and what stands there.
+  /// The place for messages: "at character 12: " and the text there.
   [[nodiscard]] std::string here() const;
 
  private:
@@ -42,16 +42,16 @@ class SvgScanner {
   std::size_t at_ = 0;
 };
 
-/// What percentages refer to, in user units.
+/// The width and height that percentages refer to, in user units.
 struct Viewport {
   Bounded width, height;
 };
 enum class Along { x, y, diagonal };
 
-/// A length with a unit: in user units where CSS says what they are, else the sentence.
+/// A length with a unit, converted to user units; the sentence for units that CSS does not fix.
 [[nodiscard]] Read<Bounded> read_svg_length(std::string_view text, const Viewport& viewport, Along along);
 
-/// A length as it stands there.
+/// A length as the file writes it: number and unit.
 struct SvgLength {
   Bounded number;
   std::string_view unit;  ///< "", "%", "mm", ...
@@ -60,7 +60,7 @@ struct SvgLength {
 /// Millimetres for one of an absolute unit ("px" and "" too: 1/96 inch); nullopt for others.
 [[nodiscard]] std::optional<Bounded> millimetres_per_unit(std::string_view unit);
 
-/// The attribute "transform".
+/// Reads the attribute "transform".
 [[nodiscard]] Read<Affine> read_svg_transform(std::string_view text);
 
 }  // namespace lekalo::io::detail

@@ -48,7 +48,7 @@ class ShapeReader {
   [[nodiscard]] Bounded length_or_zero(const char* key, Along along) {
     return length(key, along).value_or(Bounded{});
   }
-  /// Not below 0.
+  /// Reads a length that must not be below 0.
   [[nodiscard]] std::optional<Bounded> size(const char* key, Along along) {
     auto read = length(key, along);
     if (read && read->value < 0) {
@@ -130,7 +130,7 @@ class ShapeReader {
     // The standard's order: from the left end of the upper side, in the direction of growing angles.
     const Bounded in_left = plus(x, rx), in_top = plus(y, ry);
     Bounded in_right = minus(right, rx), in_bottom = minus(bottom, ry);
-    // Sides that the corners leave nothing of but rounding.
+    // Sides of which the corners leave nothing but rounding are left out.
     const auto meet = [](const Bounded& low, Bounded& high) {
       const double apart = std::abs(high.value - low.value);
       if (apart <= high.error + low.error) high = {low.value, high.error + apart};
@@ -162,7 +162,7 @@ class ShapeReader {
     return shapes;
   }
 
-  /// circle and ellipse
+  /// Reads a circle or an ellipse.
   Shapes round() {
     const bool is_circle = element_.name == "circle";
     const BoundedPoint centre = point_of(length_or_zero("cx", Along::x), length_or_zero("cy", Along::y));

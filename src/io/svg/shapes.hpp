@@ -8,7 +8,7 @@
 
 namespace lekalo::io::detail {
 
-/// path, line, polyline, polygon, rect, circle or ellipse.
+/// True for the elements that draw: path, line, polyline, polygon, rect, circle and ellipse.
 [[nodiscard]] bool is_svg_shape(std::string_view element) noexcept;
 
 /// The curves of such an element in its user units, y down as they stand there. Empty where the standard

@@ -10,13 +10,13 @@ namespace lekalo::io::detail {
 
 /// Attributes that our own files have besides those of SVG.
 
-/// Of a shape: its exact arcs in its own user units, "; " between them.
+/// The attribute of a shape with its exact arcs, in its own user units and with "; " between them.
 inline constexpr const char* kExactArcs = "data-lekalo-arcs";
-/// Of the root: where its page's lower left corner lies in the drawing, millimetres, y up.
+/// The attribute of the root with the place of its page's lower left corner in the drawing, mm, y up.
 inline constexpr const char* kPageCorner = "data-lekalo-corner";
 
 [[nodiscard]] std::string exact_arcs_text(const std::vector<ExactArc>& arcs);
-/// restore_exact_arcs for the text of an attribute; what cannot be read does not fit.
+/// Calls restore_exact_arcs for the text of an attribute; arcs that cannot be read count as unfit.
 [[nodiscard]] std::size_t restore_exact_arcs(std::vector<BoundedShape>& curves, std::string_view text);
 
 /// Takes the drawing, whose user units become millimetres by `map`, where the text of kPageCorner says; false

@@ -50,7 +50,7 @@ std::string without_comments(std::string_view text) {
 constexpr std::array<std::string_view, 12> kGeometry{"transform", "translate", "rotate", "scale", "d",  "x",
                                                      "y",         "cx",        "cy",     "r",     "rx", "ry"};
 
-/// The declarations between braces or of a style attribute.
+/// Reads the declarations between braces or of a style attribute.
 struct Declarations {
   Visibility says;
   std::string geometry;  ///< a property that moves or shapes, if there is one

@@ -19,9 +19,10 @@ class StyleSheet {
  public:
   explicit StyleSheet(const SvgDocument& document);
 
-  /// What attributes, rules and the style attribute say of an element, the later over the earlier.
+  /// An element's visibility by its attributes, the rules and its style attribute, the later over the
+  /// earlier.
   [[nodiscard]] Visibility of(const SvgElement& element) const;
-  /// What of the sheets is not read, in sentences.
+  /// Sentences about the parts of the style sheets that are not read.
   [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }
 
  private:

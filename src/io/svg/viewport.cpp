@@ -46,7 +46,7 @@ Bounded millimetres(const Side& side) {
   return times(side.number, per);
 }
 
-/// y up: (x, height - y).
+/// Turns y upwards: (x, height - y).
 Affine turned_up(const Affine& down, const Bounded& height) {
   const Affine up{1, 0, 0, -1, {0, height.value}, 0, height.error};
   return composed(up, down);
@@ -92,7 +92,7 @@ Read<Affine> fit(const SvgElement& element, const ViewBox& box, const Bounded& w
     if (!x || !y)
       return tl::unexpected(fmt::format("preserveAspectRatio is {}, which is no alignment", excerpt(*said)));
     const bool slice = align.find("slice") != std::string_view::npos;
-    // Where both say the same, as exact numbers may, neither alignment moves anything.
+    // Two scales that are equal, as exact numbers may be, leave no room that an alignment could share out.
     (sx.value < sy.value) != slice ? sy = sx : sx = sy;
     left = times({*x, 0}, minus(width, times(sx, box.width)));
     above = times({*y, 0}, minus(height, times(sy, box.height)));
@@ -101,13 +101,11 @@ Read<Affine> fit(const SvgElement& element, const ViewBox& box, const Bounded& w
 }
 
 Read<Page> page_of(const SvgElement& root, std::optional<LengthUnit> said) {
-  const auto width = read_side(root, "width"), height = read_side(root, "height");
-  if (!width) return tl::unexpected(width.error());
-  if (!height) return tl::unexpected(height.error());
-  const auto box = read_view_box(root);
-  if (!box) return tl::unexpected(box.error());
+  LEKALO_TRY(const auto width, read_side(root, "width"));
+  LEKALO_TRY(const auto height, read_side(root, "height"));
+  LEKALO_TRY(const auto box, read_view_box(root));
   Page page;
-  const std::optional<Side>& side = *width ? *width : *height;
+  const std::optional<Side>& side = width ? width : height;
   page.unit = side ? side->unit : "px";
   if (page.unit != "px" && said) {
     const bool inch = page.unit == "in", metric = page.unit == "mm" || page.unit == "cm" || page.unit == "Q";
@@ -124,35 +122,33 @@ Read<Page> page_of(const SvgElement& root, std::optional<LengthUnit> said) {
     page.notice = side ? "the page is given in px, taken as 1/96 inch; --units says otherwise"
                        : "the page has no size; its units are taken as px, 1/96 inch; --units says otherwise";
   }
-  if (by_user || (!side && *box)) {
+  if (by_user || (!side && box)) {
     // One unit of the drawing is one of the user's (or a px), whatever the window.
     const Bounded scale =
         by_user ? (*said == LengthUnit::inch ? *millimetres_per_unit("in") : Bounded{1, 0}) : px;
-    const Bounded x = *box ? (*box)->x : Bounded{}, y = *box ? (*box)->y : Bounded{};
-    const Bounded tall = *box ? (*box)->height : (*height ? (*height)->number : Bounded{});
+    const Bounded x = box ? box->x : Bounded{}, y = box ? box->y : Bounded{};
+    const Bounded tall = box ? box->height : (height ? height->number : Bounded{});
     const Affine down = scaled_and_moved(scale, scale, negative(times(scale, x)), negative(times(scale, y)));
     page.millimetres_from_user = turned_up(down, times(scale, tall));
-    page.viewport = {*box ? (*box)->width : (*width ? (*width)->number : Bounded{}), tall};
+    page.viewport = {box ? box->width : (width ? width->number : Bounded{}), tall};
     return page;
   }
-  if (!*box) {
+  if (!box) {
     const auto in_px = [&](const std::optional<Side>& s) {
       return s ? over(times(millimetres(*s), {960, 0}), {254, 0}) : Bounded{};
     };
-    page.viewport = {in_px(*width), in_px(*height)};
+    page.viewport = {in_px(width), in_px(height)};
     page.millimetres_from_user =
-        turned_up(scaled_and_moved(px, px, {}, {}), *height ? millimetres(**height) : Bounded{});
+        turned_up(scaled_and_moved(px, px, {}, {}), height ? millimetres(*height) : Bounded{});
     return page;
   }
-  // A side that is missing follows the other.
-  const ViewBox& view = **box;
-  Bounded wide = *width ? millimetres(**width) : Bounded{},
-          tall = *height ? millimetres(**height) : Bounded{};
-  if (!*width) wide = over(times(tall, view.width), view.height);
-  if (!*height) tall = over(times(wide, view.height), view.width);
-  const auto down = fit(root, view, wide, tall);
-  if (!down) return tl::unexpected(down.error());
-  page.millimetres_from_user = turned_up(*down, tall);
+  // A missing side follows the other.
+  const ViewBox& view = *box;
+  Bounded wide = width ? millimetres(*width) : Bounded{}, tall = height ? millimetres(*height) : Bounded{};
+  if (!width) wide = over(times(tall, view.width), view.height);
+  if (!height) tall = over(times(wide, view.height), view.width);
+  LEKALO_TRY(const auto down, fit(root, view, wide, tall));
+  page.millimetres_from_user = turned_up(down, tall);
   page.viewport = {view.width, view.height};
   return page;
 }

@@ -21,15 +21,16 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-/// Height of an arc's centre over its chord, in radii, above which its radius says well enough where the
+/// The height of an arc's centre over its chord, in radii, above which its radius says well enough where the
 /// centre is. At half a turn readers take the square root of what rounding left: 1e-8 of the radius.
 constexpr double kClearlyNoHalfTurn = 0x1p-8;
-/// What rounding leaves below 0 does not move the page; mm.
+/// A coordinate that rounding leaves this little below 0, mm, does not move the page.
 constexpr double kNoMatter = 0x1p-20;
 constexpr double kStrokeMm = 0.2;
-/// Of wide arcs into half turns, and of those into what a radius tells.
+/// A wide arc is halved into half turns, and these once more into arcs that a radius tells.
 constexpr int kHalvings = 2;
-/// Against its ends; what is shorter than their decimals' errors is no line to a reader.
+/// The least length of a line as part of its ends' coordinates; what is shorter than their decimals' errors
+/// is no line to a reader.
 constexpr double kShortLine = 0x1p-48;
 
 bool same_name(const std::string& a, const std::string& b) { return a == b; }
@@ -89,7 +90,7 @@ class SvgWriter {
   }
 
  private:
-  /// A group for every layer that follows another.
+  /// Opens a group for every layer that follows another.
   void enter(std::size_t layer) {
     if (open_layer_ == layer) return;
     if (open_layer_) text_ += "</g>\n";
@@ -129,7 +130,7 @@ class SvgWriter {
         continue;
       }
       of_edge.push_back(1);
-      // The last line is what Z draws, if readers do not take it for rounding.
+      // Z draws the last line, unless readers would take it for rounding.
       const bool last = i + 1 == contour.size();
       if (!last || norm(edge.to - edge.from) <= kShortLine * (norm(edge.from) + norm(edge.to)))
         append("L{} {}", edge.to.x, upright(edge.to.y));
@@ -149,7 +150,7 @@ class SvgWriter {
     return read;
   }
 
-  /// In the frame of the file, y down.
+  /// The point in the frame of the file, y down.
   void keep_exact_arcs(const geom::Contour& contour, const std::vector<Edge>& read,
                        const std::vector<std::size_t>& of_edge) {
     std::size_t expected = 0;
@@ -172,7 +173,7 @@ class SvgWriter {
     const geom::Curve curve = make_curve(arc);
     const Point chord = arc.to - arc.from, middle = 0.5 * (arc.from + arc.to);
     const double half = 0.5 * norm(chord);
-    // Of the centre over the chord: what lies along the chord is the difference of the radii.
+    // The height of the centre over the chord; its part along the chord is the difference of the radii.
     const double height = std::abs(cross(chord, arc.centre - middle)) / (2 * half);
     const bool unclear = height < kClearlyNoHalfTurn * curve.radius;
     const bool wide = geom::arc_sweep(arc) > kWidestPiece;
@@ -196,11 +197,9 @@ class SvgWriter {
 }  // namespace
 
 Result<std::string> svg_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras) {
-  const auto drawing = written_drawing(regions, extras, same_name);
-  if (!drawing) return tl::unexpected(drawing.error());
-  for (const std::string& name : drawing->layers)
-    if (auto fine = check_name(name); !fine) return tl::unexpected(fine.error());
-  return SvgWriter(*drawing).write();
+  LEKALO_TRY(const auto drawing, written_drawing(regions, extras, same_name));
+  for (const std::string& name : drawing.layers) LEKALO_CHECK(check_name(name));
+  return SvgWriter(drawing).write();
 }
 
 }  // namespace lekalo::io

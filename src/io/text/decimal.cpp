@@ -18,14 +18,14 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// digits times 10^exponent, without leading and trailing zeros; no digits for zero.
+/// A decimal as digits times 10^exponent, without leading and trailing zeros; zero has no digits.
 struct Decimal {
   bool negative = false;
   std::string digits;
   std::int64_t exponent = 0;
 };
 
-/// The digits after "e"; saturates far outside of every range that matters.
+/// Reads the digits after "e"; the value saturates far outside of every range that matters.
 std::optional<std::int64_t> read_exponent(std::string_view text) {
   const bool negative = !text.empty() && text.front() == '-';
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
@@ -66,7 +66,7 @@ std::optional<Decimal> read_decimal(std::string_view text) {
   return decimal;
 }
 
-/// Exactly: schoolbook multiplication, the point moved.
+/// Multiplies exactly, digit after digit as by hand, and moves the point.
 void multiply(Decimal& decimal, DecimalFactor factor) {
   std::uint64_t carry = 0;
   for (auto digit = decimal.digits.rbegin(); digit != decimal.digits.rend(); ++digit) {
@@ -85,8 +85,9 @@ void multiply(Decimal& decimal, DecimalFactor factor) {
 constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// What nearly all numbers of drawings are: no exponent, and an integer below 2^53 over a power of ten that
-/// is a double, so that one division rounds as wanted. Nothing for others and for what is out of range.
+/// Reads the form that nearly all numbers of drawings have: no exponent, and an integer below 2^53 over a
+/// power of ten that is a double, so that one division rounds as wanted. Nothing for others and for numbers
+/// out of range.
 std::optional<Millimetres> read_short(std::string_view text, DecimalFactor factor) {
   const bool negative = !text.empty() && text.front() == '-';
   if (negative || (!text.empty() && text.front() == '+')) text.remove_prefix(1);

@@ -16,7 +16,7 @@ inline constexpr double kLargestMillimetres = 1e9;
 /// exact (geom/predicates.hpp).
 inline constexpr double kSmallestMillimetres = 1e-100;
 
-/// A decimal number of a file in millimetres (inches times exactly 25.4): the double nearest to it.
+/// A decimal number of a file in millimetres (inches times exactly 25.4), as the double nearest to it.
 struct Millimetres {
   double value = 0;
   double error = 0;  ///< |value - decimal| is at most this; 0 only where the two are proved equal
@@ -24,8 +24,8 @@ struct Millimetres {
 
 enum class NumberFault { not_a_number, not_finite, too_large };
 
-/// multiplier times 10^exponent: millimetres in a unit of length whose ratio is a decimal, {1, 0} for numbers
-/// that are no lengths.
+/// The number of millimetres in a unit of length, multiplier times 10^exponent; {1, 0} for numbers that are
+/// no lengths.
 struct DecimalFactor {
   unsigned multiplier = 1;  ///< at most 10^8
   int exponent = 0;         ///< from -15 to 15
@@ -43,10 +43,10 @@ struct DecimalFactor {
 }
 
 [[nodiscard]] bool is_number(std::string_view text);
-/// nan, inf or infinity, with or without a sign, in any case.
+/// True for nan, inf or infinity, with or without a sign, in upper or lower case.
 [[nodiscard]] bool is_not_finite(std::string_view text);
 
-/// What is wrong with a number: "'abc' is not a number".
+/// Says what is wrong with a number: "'abc' is not a number".
 [[nodiscard]] std::string number_sentence(NumberFault fault, std::string_view text);
 
 }  // namespace lekalo::io

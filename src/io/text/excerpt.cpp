@@ -7,7 +7,7 @@
 namespace lekalo::io {
 namespace {
 
-/// Bytes of the UTF-8 sequence that begins here, 0 when it is none or not printable.
+/// The length of the UTF-8 sequence that begins here, 0 when it is none or not printable.
 std::size_t printable_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;

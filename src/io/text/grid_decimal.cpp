@@ -16,7 +16,8 @@ using geom::Int128;
 
 constexpr int kMostPlaces = 17;
 
-/// steps 10^places / 2^bits, rounded down, and whether the nearest integer is one more (ties too).
+/// The value steps * 10^places / 2^bits rounded down, and a flag that the nearest integer is one more (ties
+/// count as nearer to it).
 struct Scaled {
   std::int64_t floor = 0;
   bool up = false;
@@ -26,7 +27,7 @@ Scaled scaled(std::int64_t steps, Int128 power, int bits) {
   return {static_cast<std::int64_t>(floor), product - (floor << bits) >= (Int128{1} << (bits - 1))};
 }
 
-/// n / 10^places.
+/// Writes n / 10^places.
 void append_decimal(std::string& text, std::int64_t n, int places) {
   if (n < 0) text += '-';
   std::string digits = std::to_string(n < 0 ? -n : n);
@@ -46,7 +47,7 @@ void append_shortest(std::string& text, std::int64_t steps, int bits, const Choo
   const std::size_t before = text.size();
   for (int places = 0; places <= kMostPlaces; ++places, power *= 10) {
     const std::int64_t n = choose(scaled(steps, power, bits));
-    // Off by more than a step: no need to look closer.
+    // A decimal that is off by more than a step cannot give the steps again.
     const Int128 off = (Int128{n} << bits) - Int128{steps} * power;
     if (off > power || off < -power) continue;
     append_decimal(text, n, places);

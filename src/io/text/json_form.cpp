@@ -8,10 +8,30 @@
 
 namespace lekalo::io::detail {
 
-Result<void> expect_object(const Json& json, const std::string& where,
+const char* json_word(JsonKind kind) noexcept {
+  switch (kind) {
+    case JsonKind::null:
+      return "null";
+    case JsonKind::boolean:
+      return "boolean";
+    case JsonKind::integer:
+    case JsonKind::number:
+      return "number";
+    case JsonKind::text:
+      return "string";
+    case JsonKind::list:
+      return "array";
+    case JsonKind::object:
+      return "object";
+  }
+  return "?";
+}
+
+Result<void> expect_object(JsonValue json, const std::string& where,
                            std::initializer_list<std::string_view> known) {
-  if (!json.is_object()) return refuse(where, fmt::format("an object is needed, not {}", json.type_name()));
-  for (const auto& item : json.items()) {
+  if (json.kind() != JsonKind::object)
+    return refuse(where, fmt::format("an object is needed, not {}", json_word(json.kind())));
+  for (const JsonValue item : json) {
     if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
     return refuse(where,
                   fmt::format("unknown word \"{}\"; known here: {}", item.key(), fmt::join(known, ", ")));
@@ -19,21 +39,27 @@ Result<void> expect_object(const Json& json, const std::string& where,
   return {};
 }
 
-Result<LengthUnit> unit_of(const Json& json, const std::string& name, std::optional<LengthUnit> said) {
-  if (!json.contains("units")) return said.value_or(LengthUnit::millimetre);
-  const Json& units = json["units"];
-  if (!units.is_string())  // not printed: it may be brackets a million deep
+std::optional<geom::Point> two_numbers(JsonValue json) {
+  if (json.kind() != JsonKind::list || json.size() != 2) return std::nullopt;
+  auto item = json.begin();
+  const JsonValue x = *item, y = *++item;
+  if (!x.is_number() || !y.is_number()) return std::nullopt;
+  return geom::Point{x.number(), y.number()};
+}
+
+Result<LengthUnit> unit_of(JsonValue json, const std::string& name, std::optional<LengthUnit> said) {
+  const auto units = json.find("units");
+  if (!units) return said.value_or(LengthUnit::millimetre);
+  if (units->kind() != JsonKind::text)  // not printed: it may be brackets a hundred deep
+    return refuse(name, fmt::format("\"units\" is of type {}; \"mm\" and \"inch\" are known",
+                                    json_word(units->kind())));
+  if (units->text() != "mm" && units->text() != "inch")
     return refuse(name,
-                  fmt::format("\"units\" is of type {}; \"mm\" and \"inch\" are known", units.type_name()));
-  if (units != "mm" && units != "inch") {
-    return refuse(name, fmt::format("\"units\" is {}; \"mm\" and \"inch\" are known",
-                                    excerpt(units.get_ref<const std::string&>())));
-  }
-  const LengthUnit unit = units == "mm" ? LengthUnit::millimetre : LengthUnit::inch;
-  if (said && *said != unit) {
-    return refuse(
-        name, fmt::format("the file says \"units\": {}, which contradicts the unit asked for", units.dump()));
-  }
+                  fmt::format("\"units\" is {}; \"mm\" and \"inch\" are known", excerpt(units->text())));
+  const LengthUnit unit = units->text() == "mm" ? LengthUnit::millimetre : LengthUnit::inch;
+  if (said && *said != unit)
+    return refuse(name, fmt::format("the file says \"units\": \"{}\", which contradicts the unit asked for",
+                                    units->text()));
   return unit;
 }
 

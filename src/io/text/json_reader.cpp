@@ -10,7 +10,7 @@
 namespace lekalo::io::detail {
 namespace {
 
-/// Names of fields that a notice tells one by one.
+/// The most names of fields that a notice tells one by one.
 constexpr std::size_t kMostNamesTold = 10;
 
 std::string shown(JsonValue value) {
@@ -84,7 +84,8 @@ std::int64_t JsonReader::integer(JsonValue value, std::int64_t low, std::int64_t
                                     : fmt::format("a whole number is needed, not {}", name_of(value.kind())));
     return 0;
   }
-  // Compared as doubles first: casting what is out of range is undefined. The limits are below 2^53.
+  // The comparison is one of doubles, because casting a number out of range is undefined; the limits are
+  // below 2^53, so it is exact.
   if (!(value.number() >= static_cast<double>(low) && value.number() <= static_cast<double>(high))) {
     refuse(value, fmt::format("{} is out of range; from {} to {} is allowed", shown(value), low, high));
     return 0;

@@ -13,16 +13,16 @@
 
 namespace lekalo::io::detail {
 
-/// Longest text of a name or an id, bytes.
+/// The longest text of a name or an id, bytes.
 inline constexpr std::size_t kLongestText = 1000;
-/// Counts, copies, qualities and the like.
+/// The largest of counts, copies, qualities and the like.
 inline constexpr std::int64_t kLargestCount = 1'000'000'000;
 
 /// Takes values out of a tree and keeps the first fault: "FILE: PATH: what is wrong". After it everything
 /// reads as nothing, so that callers look once, at the end or before work that is long.
 class JsonReader {
  public:
-  /// Fields that begin with `own` are the writer's business: never refused.
+  /// \param own  fields whose names begin so are the writer's business and never refused
   JsonReader(const JsonTree& tree, std::string name, std::string_view own = "x_")
       : tree_(&tree), name_(std::move(name)), own_(own) {}
 
@@ -32,31 +32,31 @@ class JsonReader {
   /// \pre !ok()
   [[nodiscard]] const Error& fault() const noexcept { return *fault_; }
   void refuse(JsonValue at, const std::string& why);
-  /// Makes a fault of another reader's that lacks file and place, or has them.
+  /// Keeps another reader's fault: refuse adds file and place, take expects that it names them.
   void refuse(JsonValue at, const Error& error) { refuse(at, error.message); }
   void take(Error error) {
     if (ok()) fault_ = std::move(error);
   }
 
-  /// Refuses what is no object and words that are not known. Fields that begin with `own` are counted
-  /// instead.
+  /// Refuses values that are no objects, and fields that are not known. Fields that begin with `own` are
+  /// counted instead.
   bool expect_object(JsonValue value, std::initializer_list<std::string_view> known);
-  /// Refuses what is no list or has more items.
+  /// Refuses values that are no lists, and lists of more items.
   bool expect_list(JsonValue value, std::size_t most);
-  /// The member, refused where it is missing; what it is for is said.
+  /// The member; where it is missing, the refusal says what it is for.
   std::optional<JsonValue> need(JsonValue object, std::string_view key, std::string_view what);
 
   double number(JsonValue value, double low, double high);
   std::int64_t integer(JsonValue value, std::int64_t low, std::int64_t high);
   bool truth(JsonValue value);
-  /// At most kLongestText bytes, no control characters.
+  /// Reads a text of at most kLongestText bytes without control characters.
   std::string text(JsonValue value);
   std::string text_not_empty(JsonValue value);
-  /// In steps, of a number of file units of so many millimetres.
+  /// A length in grid steps, from a number of file units of so many millimetres each.
   std::int64_t length(JsonValue value, double low_mm, double high_mm, double mm_per_unit = 1);
   std::int64_t gap(JsonValue value, double mm_per_unit = 1);
 
-  /// "x_name (3 times)" of all that expect_object counted.
+  /// Lines like "x_name (3 times)" for all the fields that expect_object counted.
   [[nodiscard]] std::vector<std::string> left_out() const;
 
  private:

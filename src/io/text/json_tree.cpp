@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
-#include "decimal.hpp"
+#include "json_events.hpp"
+#include "lekalo/io/text/excerpt.hpp"
 
 namespace lekalo::io::detail {
 
@@ -64,85 +64,55 @@ std::string plain_key(std::string_view key) {
   return plain ? std::string(key) : excerpt(key);
 }
 
-Json JsonValue::to_json() const {
-  switch (kind()) {
-    case JsonKind::null:
-      return {};
-    case JsonKind::boolean:
-      return truth();
-    case JsonKind::integer:
-      return integer();
-    case JsonKind::number:
-      return number();
-    case JsonKind::text:
-      return std::string(text());
-    case JsonKind::list: {
-      Json list = Json::array();
-      for (const JsonValue item : *this) list.push_back(item.to_json());
-      return list;
-    }
-    case JsonKind::object: {
-      Json object = Json::object();
-      for (const JsonValue item : *this) object[std::string(item.key())] = item.to_json();
-      return object;
-    }
-  }
-  return {};
-}
-
-/// What the parser of the JSON library tells, put into the list. Returning false ends the parse.
-class JsonTreeBuilder {
+/// Appends each value that the parser finds to the flat list.
+class JsonTreeBuilder final : public JsonEvents {
  public:
-  JsonTreeBuilder(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  JsonTreeBuilder(std::string_view bytes, const std::string& name, std::size_t deepest)
+      : name_(name), deepest_(deepest) {
+    tree.texts_.reserve(bytes.size() / 4);
+  }
 
-  bool null() { return add(JsonKind::null, 0); }
-  bool boolean(bool value) { return add(JsonKind::boolean, value ? 1 : 0); }
-  bool number_integer(std::int64_t value) {
+  bool null() override { return add(JsonKind::null, 0); }
+  bool boolean(bool value) override { return add(JsonKind::boolean, value ? 1 : 0); }
+  bool integer(std::int64_t value) override {
     return add(JsonKind::integer, static_cast<std::uint64_t>(value));
   }
-  bool number_unsigned(std::uint64_t value) {
-    return value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())
-               ? add(JsonKind::integer, value)
-               : add(JsonKind::number, std::bit_cast<std::uint64_t>(static_cast<double>(value)));
-  }
-  bool number_float(double value, const std::string&) {
+  bool number(double value, std::string_view) override {
     return add(JsonKind::number, std::bit_cast<std::uint64_t>(value));
   }
-  bool string(std::string& value) {
+  bool text(std::string_view value) override {
     const std::uint64_t at = keep(value);
     return add(JsonKind::text, at << 32U | value.size());
   }
-  bool binary(Json::binary_t&) { return false; }  // JSON has none
-  bool start_object(std::size_t) { return open(JsonKind::object); }
-  bool start_array(std::size_t) { return open(JsonKind::list); }
-  bool key(std::string& value) {
+  bool begin_object() override { return open(JsonKind::object); }
+  bool begin_list() override { return open(JsonKind::list); }
+  bool key(std::string_view value) override {
     key_ = keep(value);
     key_size_ = static_cast<std::uint32_t>(value.size());
     return true;
   }
-  bool end_array() {
+  bool end_list() override {
     close();
     return true;
   }
-  bool end_object() {
+  bool end_object() override {
     if (!keys_differ(open_.back())) return false;
     close();
     return true;
   }
-  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) {
-    constexpr int kNumberTooLarge = 406;
-    if (error.id == kNumberTooLarge)
-      return fault_at(position, fmt::format("the number {} is out of range", excerpt(token)));
-    // An end of file is reported one beyond the last byte.
-    if (position > bytes_.size()) return fault_at(position, "the file ends too early; it may be cut off");
-    return fault_at(position, fmt::format("this is not JSON from {} on", excerpt(token)));
+  void broken(const JsonBreak& at) override {
+    const std::string why = at.number_too_large
+                                ? fmt::format("the number {} is out of range", excerpt(at.token))
+                            : at.ends_early ? "the file ends too early; it may be cut off"
+                                            : fmt::format("this is not JSON from {} on", excerpt(at.token));
+    fault = Error{ErrorCode::bad_input, fmt::format("{}, line {}: {}", name_, at.line, why)};
   }
 
   std::optional<Error> fault;
   JsonTree tree;
 
  private:
-  std::uint32_t keep(const std::string& text) {
+  std::uint32_t keep(std::string_view text) {
     const auto at = static_cast<std::uint32_t>(tree.texts_.size());
     tree.texts_ += text;
     return at;
@@ -156,9 +126,9 @@ class JsonTreeBuilder {
   }
 
   bool open(JsonKind kind) {
-    if (open_.size() == kDeepestJson) {
+    if (open_.size() == deepest_) {
       fault = Error{ErrorCode::bad_input, fmt::format("{}: {}: lists and objects are more than {} deep here",
-                                                      name_, path(), kDeepestJson)};
+                                                      name_, path(), deepest_)};
       return false;
     }
     add(kind, 0);
@@ -185,7 +155,7 @@ class JsonTreeBuilder {
     return false;
   }
 
-  /// Of the innermost list or object that is open.
+  /// The path of the innermost list or object that is open.
   [[nodiscard]] std::string path() const {
     std::string text;
     for (std::size_t i = 1; i < open_.size(); ++i) {
@@ -200,27 +170,19 @@ class JsonTreeBuilder {
     return text;
   }
 
-  bool fault_at(std::size_t position, const std::string& why) {
-    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(position, bytes_.size()));
-    fault = Error{ErrorCode::bad_input,
-                  fmt::format("{}, line {}: {}", name_, 1 + std::count(bytes_.begin(), end, '\n'), why)};
-    return false;
-  }
-
-  std::string_view bytes_;
   const std::string& name_;
+  std::size_t deepest_;
   std::vector<std::uint32_t> open_;
   std::vector<std::string_view> keys_;
   std::uint32_t key_ = 0, key_size_ = 0;
 };
 
-Result<JsonTree> JsonTree::parse(std::string_view bytes, const std::string& name) {
+Result<JsonTree> JsonTree::parse(std::string_view bytes, const std::string& name, std::size_t deepest) {
   if (bytes.size() > kLargestJson)
     return failure(ErrorCode::bad_input, fmt::format("{}: is larger than {} MiB; split it into several files",
                                                      name, kLargestJson >> 20U));
-  JsonTreeBuilder builder(bytes, name);
-  builder.tree.texts_.reserve(bytes.size() / 4);
-  const bool parsed = Json::sax_parse(bytes.begin(), bytes.end(), &builder);
+  JsonTreeBuilder builder(bytes, name, deepest);
+  const bool parsed = parse_json(bytes, builder);
   if (builder.fault) return tl::unexpected(std::move(*builder.fault));
   if (!parsed) return failure(ErrorCode::bad_input, fmt::format("{}: this is not JSON", name));
   return std::move(builder.tree);

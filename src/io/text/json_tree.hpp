@@ -8,21 +8,23 @@
 #include <string_view>
 #include <vector>
 
-#include "json_form.hpp"
 #include "lekalo/base/error.hpp"
 
 namespace lekalo::io::detail {
 
 /// A JSON document as one flat list of values in file order: a file of a hundred thousand placements is read
-/// in the time that its bytes take, and every value knows its path for messages.
+/// in the time that its bytes take, and every value knows its path for messages. Every JSON file that io
+/// reads is read through it, but for contours (json_contour.cpp): these hear the parser themselves
+/// (json_events.hpp), because they need the decimals of numbers, and their five million points would be half
+/// a gigabyte here.
 
 enum class JsonKind : std::uint8_t { null, boolean, integer, number, text, list, object };
-/// "a list", for messages.
+/// The kind in words for messages: "a list".
 [[nodiscard]] const char* name_of(JsonKind kind) noexcept;
 
-/// Lists and objects within each other; deeper ones are refused.
+/// The most lists and objects within each other of a document; deeper ones are refused.
 inline constexpr std::size_t kDeepestJson = 64;
-/// Largest document, bytes; larger ones are refused.
+/// The largest document, bytes; larger ones are refused.
 inline constexpr std::size_t kLargestJson = std::size_t{1} << 28;
 
 /// A key as it stands in a path: quoted where it is not plain.
@@ -55,17 +57,15 @@ class JsonValue {
   [[nodiscard]] bool text_is(std::string_view what) const noexcept {
     return kind() == JsonKind::text && text() == what;
   }
-  /// Items of a list or an object; 0 for others.
+  /// The number of items of a list or an object; 0 for others.
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] Iterator begin() const noexcept;
   [[nodiscard]] Iterator end() const noexcept;
   [[nodiscard]] std::string_view key() const noexcept;  ///< \pre an item of an object
-  /// Of an object; nothing in others. Cost: O(its items).
+  /// The item of an object under this key; nothing in values that are no objects. Cost: O(its items).
   [[nodiscard]] std::optional<JsonValue> find(std::string_view key) const noexcept;
-  /// "parts[3].outline"; "" for the whole document. Cost: O(what stands before it).
+  /// The path of the value, "parts[3].outline", and "" for the whole document. Cost: O(values before it).
   [[nodiscard]] std::string path() const;
-  /// For readers that take it in that form.
-  [[nodiscard]] Json to_json() const;
 
  private:
   const JsonTree* tree_;
@@ -75,9 +75,11 @@ class JsonValue {
 class JsonTree {
  public:
   /// Fails with ErrorCode::bad_input, naming file and line or path: no JSON, a file that ends too early, a
-  /// number beyond doubles, a key that stands twice in one object, what is deeper or larger than the above.
-  [[nodiscard]] static Result<JsonTree> parse(std::string_view bytes, const std::string& name);
-  /// Valid until the tree is moved.
+  /// number beyond doubles, a key that stands twice in one object, values deeper than `deepest`, a document
+  /// larger than kLargestJson.
+  [[nodiscard]] static Result<JsonTree> parse(std::string_view bytes, const std::string& name,
+                                              std::size_t deepest = kDeepestJson);
+  /// The value of the whole document, valid until the tree is moved.
   [[nodiscard]] JsonValue root() const noexcept { return {*this, 0}; }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace lekalo::io {
 
-/// How every reader says no: the file or the place in it, then the sentence.
+/// The form in which every reader refuses: the file or the place in it, then the sentence.
 [[nodiscard]] inline tl::unexpected<Error> refuse(const std::string& name, const std::string& sentence) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, sentence));
 }
@@ -21,8 +21,8 @@ namespace lekalo::io {
   return failure(ErrorCode::bad_input, fmt::format("{}: line {}: {}", name, line, sentence));
 }
 
-/// Why bytes are not text that can be read, whatever the file's name says: a binary DXF, a DWG, UTF-16, zero
-/// bytes; empty for anything else.
+/// Says why bytes are not text that can be read, whatever the file's name says: a binary DXF, a DWG, UTF-16,
+/// zero bytes; empty for anything else.
 [[nodiscard]] std::string wrong_encoding(std::string_view bytes);
 
 /// The unit that holds when the file says one (or nothing) and the user says one (or nothing).

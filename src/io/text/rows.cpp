@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// The content of a line: nothing for comments, the rest after '#' cut off.
+/// The content of a line up to a '#'; nothing for comments.
 std::string_view without_comment(std::string_view line) {
   line = trimmed(line);
   if (line.empty() || line[0] == ';' || line[0] == '%' || line.substr(0, 2) == "//") return {};
@@ -46,7 +46,7 @@ void split_at_blanks(std::string_view line, Fields& fields) {
   }
 }
 
-/// "12,5": a number as half of the world writes it.
+/// True for "12,5", a number as half of the world writes it.
 bool is_decimal_comma(std::string_view text) {
   const std::size_t comma = text.find(',');
   if (comma == std::string_view::npos || comma + 1 == text.size()) return false;

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "lekalo/base/angle.hpp"
-#include "lekalo/base/rounding.hpp"
 #include "lekalo/geom/pose.hpp"
-#include "lekalo/phi/convex.hpp"
 #include "outline_tree.hpp"
 
 namespace lekalo::locate {
@@ -97,15 +95,6 @@ PlacementShift placement_shift(const Ring& part, const Placement& last, const Pl
     }
   }
   return shift;
-}
-
-PlacementComparison compare_placements(const geom::ConvexPolygon& part, const geom::ConvexPolygon& new_blank,
-                                       const Placement& last, const Placement& now, double coordinate_error) {
-  const double low = phi::clearance_enclosure(part, new_blank, last.x, last.y, last.theta).low;
-  // Points that differ by e in each coordinate lie within sqrt(2) e.
-  const double errors = 1.5 * coordinate_error;
-  return {placement_shift(part.vertices(), last, now),
-          errors == 0 ? low : difference_rounded_down(low, errors)};
 }
 
 }  // namespace lekalo::locate

@@ -37,17 +37,16 @@ Result<field::FieldGrid> floz_field(const std::vector<geom::Region>& pockets, co
   const auto logic = o.method == Method::floz_linear ? field::Logic::linear : field::Logic::quadratic;
   std::vector<std::vector<geom::Region>> parts{pockets};
   if (!o.whole) {
-    const auto fragments = convex_fragments(pockets);
-    if (!fragments) return tl::unexpected(fragments.error());
+    LEKALO_TRY(const auto fragments, convex_fragments(pockets));
     parts.clear();
-    for (const geom::Region& fragment : *fragments) parts.push_back({fragment});
+    for (const geom::Region& fragment : fragments) parts.push_back({fragment});
   }
   const field::GridFrame frame = frame_of(pockets, nodes);
   field::FieldGrid whole;
   for (const std::vector<geom::Region>& part : parts) {
-    const auto model = field::ContourModel::make(part, {o.sampling, logic, field::FlozForm::normalised});
-    if (!model) return tl::unexpected(model.error());
-    field::FieldGrid grid = field::sample(*model, frame);
+    LEKALO_TRY(const auto model,
+               field::ContourModel::make(part, {o.sampling, logic, field::FlozForm::normalised}));
+    field::FieldGrid grid = field::sample(model, frame);
     if (whole.value.empty()) {
       whole = std::move(grid);
       continue;

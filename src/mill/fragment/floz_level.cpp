@@ -15,7 +15,7 @@ namespace {
 using geom::Point;
 using Kind = PathMove::Kind;
 
-/// The best of a coarse grid, then uphill.
+/// Finds the peak: the best place of a coarse grid, and from there uphill.
 Point peak(const field::ContourModel& model, const field::Function& f, const geom::Box& box) {
   constexpr int kNodes = 48;
   const Point size = box.high - box.low;
@@ -31,7 +31,8 @@ Point peak(const field::ContourModel& model, const field::Function& f, const geo
   return field::peak_of(f, best, std::max(size.x, size.y) / kNodes, 1e-4);
 }
 
-/// How many places, with the lines to them, are in the fragment: the model's chords may lie outside its arcs.
+/// Counts the places that lie in the fragment with the lines to them: chords of the model may lie outside the
+/// fragment's arcs.
 std::size_t inside(const std::vector<Point>& path, const geom::Region& fragment) {
   constexpr double kSlack = 1e-4;  // mm
   constexpr int kPieces = 6;
@@ -52,10 +53,10 @@ Result<PocketPath> floz_level(const geom::Region& fragment, const PocketOptions&
   const double step =
       o.trace_step > 0 ? o.trace_step : o.step_over * o.tool_diameter / kPi;  // pi steps a turn outwards
   const auto logic = o.method == Method::floz_linear ? field::Logic::linear : field::Logic::quadratic;
-  const auto model = field::ContourModel::make({fragment}, {o.sampling, logic, field::FlozForm::normalised});
-  if (!model) return tl::unexpected(model.error());
-  const field::Function f = [&](Point p) { return (*model)(p); };
-  const Point top = start ? *start : peak(*model, f, geom::bounds(fragment.outer));
+  LEKALO_TRY(const auto model,
+             field::ContourModel::make({fragment}, {o.sampling, logic, field::FlozForm::normalised}));
+  const field::Function f = [&](Point p) { return model(p); };
+  const Point top = start ? *start : peak(model, f, geom::bounds(fragment.outer));
   // A peak has no way round it: its spiral begins beside it.
   const Point first = start ? top : top + Point{0.25 * step, 0};
   // A spiral that goes round in one place ends after three times the length that would fill the fragment.

@@ -51,7 +51,7 @@ struct Joint {
   bool soft;    ///< turns away a little, as places along a curve do
 };
 
-/// Of a curve given by many short edges, the place half way round, if the curve bends enough.
+/// Finds the place half way round a curve that is given by many short edges, if the curve bends enough.
 void add_bend(const std::vector<Joint>& curve, double size, std::vector<Notch>& notches) {
   const Point from = curve.front().notch.at, way = curve.back().notch.at - from;
   const double length = norm(way);
@@ -83,7 +83,7 @@ void add_notches(const geom::Contour& contour, double size, std::vector<Notch>& 
     const Point middle = middle_of(edge), along = tangent(edge, middle);
     if (norm(middle - 0.5 * (edge.from + edge.to)) > kBend * size) notches.push_back({middle, along, along});
   }
-  // Begun after a place that is no curve's, if there is one.
+  // The walk begins after a place that is on no curve, if there is one, so that no curve is seen in halves.
   const auto first = std::find_if(joints.begin(), joints.end(), [](const Joint& j) { return !j.soft; });
   if (first != joints.end()) std::rotate(joints.begin(), first + 1, joints.end());
   for (std::size_t i = 0; i < joints.size();) {
@@ -96,7 +96,7 @@ void add_notches(const geom::Contour& contour, double size, std::vector<Notch>& 
   }
 }
 
-/// How far from p along a unit direction the boundary is, farther than `least`.
+/// The distance from p to the boundary along a unit direction, beyond `least`.
 double reach(const std::vector<geom::Curve>& curves, Point p, Point d, double least) {
   double best = std::numeric_limits<double>::infinity();
   const auto take = [&](double t) {
@@ -145,7 +145,7 @@ std::optional<Chord> shortest_cut(const Region& region) {
       if (const double far = norm(other.at - n.at); far > kOnward * size)
         ways.push_back((1 / far) * (other.at - n.at));
     for (const Point way : ways) {
-      // Between the two edges' own lines, or the corner would stay one.
+      // A cut goes between the lines of the two edges, or the corner would stay one.
       if (cross(n.before, way) < -1e-9 || cross(n.after, way) < -1e-9) continue;
       if (norm(n.before - n.after) < 1e-9 && dot(way, across) < 0.9 * norm(across)) continue;
       const double length = reach(index.curves(), n.at, way, kOnward * size);
@@ -162,7 +162,7 @@ std::optional<Chord> shortest_cut(const Region& region) {
   return best;
 }
 
-/// What lies on one side of the chord next to it, as far as its line goes, and the rest.
+/// The part that lies on one side of the chord, next to it and as far as its line goes, and the rest.
 Result<std::vector<Region>> divided(const Region& region, const Chord& chord, double side) {
   const geom::Box box = geom::bounds(region.outer);
   const double size = 2 * norm(box.high - box.low) + 1;
@@ -174,24 +174,23 @@ Result<std::vector<Region>> divided(const Region& region, const Chord& chord, do
                                  {EdgeKind::line, b + left, a + left, {}},
                                  {EdgeKind::line, a + left, a, {}}});
   if (!half) return tl::unexpected(half.error());
-  const auto pieces = geom::combine({region}, {*half}, geom::BooleanOperation::intersect);
-  if (!pieces) return tl::unexpected(pieces.error());
+  LEKALO_TRY(const auto pieces, geom::combine({region}, {*half}, geom::BooleanOperation::intersect));
   const Point beside =
       chord.at + (0.5 * chord.length) * chord.direction + (1e-6 * chord.length) * geom::perpendicular(along);
-  for (const Region& piece : pieces->regions) {
+  for (const Region& piece : pieces.regions) {
     if (!geom::RegionIndex({piece}).contains(beside)) continue;
-    auto rest = geom::combine({region}, {piece}, geom::BooleanOperation::subtract, pieces->edge_error);
-    if (!rest) return tl::unexpected(rest.error());
+    LEKALO_TRY(auto rest,
+               geom::combine({region}, {piece}, geom::BooleanOperation::subtract, pieces.edge_error));
     std::vector<Region> both{piece};
     const double speck = 1e-9 * geom::area(region);
-    for (Region& r : rest->regions)
+    for (Region& r : rest.regions)
       if (geom::area(r) > speck) both.push_back(std::move(r));
     return both;
   }
   return std::vector<Region>{region};
 }
 
-/// Divided by the chord: from the side whose line cuts less of the rest off.
+/// Divides by the chord, from the side on which its line cuts less of the rest off.
 Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
   auto left = divided(region, chord, 1);
   if (!left || left->size() == 2) return left;
@@ -212,13 +211,12 @@ Result<std::vector<Region>> convex_fragments(const std::vector<Region>& regions)
       done.push_back(region);
       continue;
     }
-    auto parts = divided(region, *cut);
-    if (!parts) return tl::unexpected(parts.error());
-    if (parts->size() < 2) {
+    LEKALO_TRY(auto parts, divided(region, *cut));
+    if (parts.size() < 2) {
       done.push_back(region);
       continue;
     }
-    open.insert(open.end(), parts->rbegin(), parts->rend());
+    open.insert(open.end(), parts.rbegin(), parts.rend());
   }
   return done;
 }

@@ -20,7 +20,7 @@ constexpr std::size_t kMargin = 4;  // nodes beyond the box
 
 field::GridFrame frame_about(const geom::Box& box, double pitch) {
   const double margin = static_cast<double>(kMargin) * pitch;
-  // Half a pitch off, so that walls of round numbers do not run through nodes.
+  // The grid lies off round numbers, so that walls at round numbers do not run through nodes.
   return {box.low - Point{margin + 0.37 * pitch, margin + 0.41 * pitch}, pitch,
           static_cast<std::size_t>((box.high.x - box.low.x) / pitch) + 2 * kMargin + 2,
           static_cast<std::size_t>((box.high.y - box.low.y) / pitch) + 2 * kMargin + 2};
@@ -50,7 +50,7 @@ Result<std::vector<Region>> ArrivalField::before(double time) const {
   std::vector<geom::Contour> contours;
   for (std::vector<Place>& line : lines_->at(time)) {
     const std::size_t n = line.size();
-    // Begun at a place that is not smooth, if there is one.
+    // A line begins at a place that is not smooth, if it has one, so that the fit may break there.
     const auto rough = std::find_if(line.begin(), line.end(), [](const Place& p) { return !p.known; });
     std::rotate(line.begin(), rough == line.end() ? line.begin() : rough, line.end());
     for (int round = 0; round < 2; ++round) {

@@ -11,13 +11,13 @@
 
 namespace lekalo::mill {
 
-/// When a front that starts at a region's boundary arrives at each place of a region, on a grid
-/// (field::arrival_times), the speed given by the distance from the region's boundary. Where the speed falls
-/// towards the boundary, its level lines come to it almost tangent.
+/// Step 3 of docs/design/pocket.md: the time at which a front that starts at one region's boundary arrives at
+/// each place of another region, on a grid (field::arrival_times). Its speed depends on the distance from the
+/// boundary; where the speed falls towards it, level lines come to the boundary almost tangent.
 class ArrivalField {
  public:
-  /// Speed at distance d from the walls: that of the next step of a pass of convex radius bend * d, not
-  /// below `least`.
+  /// The speed at distance d from the walls is the step that a pass of convex radius bend * d may be followed
+  /// by, but not below `least`.
   struct Law {
     double tool_radius = 0, step = 0;
     double cosine = 0;  ///< of the angle that the next step is to hold
@@ -35,10 +35,10 @@ class ArrivalField {
   [[nodiscard]] double speed(double distance) const;
   /// The latest arrival at a node inside.
   [[nodiscard]] double last() const { return arrival_.last; }
-  /// Whether the front arrives at every node inside.
+  /// True when the front arrives at every node inside.
   [[nodiscard]] bool reaches_all() const { return arrival_.reaches_all; }
-  /// The places that are reached before `time`, and some beyond the boundary of what is allowed: smooth
-  /// stretches as lines and arcs within kFit of the level line of the interpolated field.
+  /// The places that are reached before `time`, and some beyond the boundary of what is allowed. Smooth
+  /// stretches are lines and arcs within kFit of the level line of the interpolated field.
   [[nodiscard]] Result<std::vector<geom::Region>> before(double time) const;
 
  private:

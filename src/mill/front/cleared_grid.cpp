@@ -49,8 +49,8 @@ void ClearedGrid::own_start(const std::vector<Region>& start) {
   }
 }
 
-/// From the rim of what is owned on into what the layer adds; each node belongs to the nearest front of the
-/// layer.
+/// Gives the nodes that the layer adds to the layer's nearest front each. The search starts at the rim of the
+/// nodes owned so far, because what is new lies beside it.
 void ClearedGrid::own_layer(const Growth& growth, std::size_t layer, std::size_t first, std::size_t last) {
   const geom::RegionIndex index(growth.cut[layer]);
   std::vector<std::vector<Point>> places;
@@ -132,7 +132,7 @@ std::vector<Point> ClearedGrid::way(Point from, Point to) const {
     if (n == goal) break;
     around(n, [&](std::size_t m) {
       if (!is_open(m)) return;
-      // Away from what still stands: such a way can be pulled straight.
+      // A way that keeps away from what still stands costs less, because it can be pulled straight.
       const double there = cost[n] + (is_deep(m) ? 1 : 4) * norm(node(m) - node(n));
       if (there < cost[m]) {
         cost[m] = there, back[m] = n;

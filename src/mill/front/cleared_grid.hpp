@@ -7,15 +7,15 @@
 
 namespace lekalo::mill {
 
-/// Places of the tool's middle on a grid and the front that has to be cut before each can be passed: ways at
-/// depth that cut nothing.
+/// Finds ways at depth that cut nothing: a grid of places of the tool's middle, each with the front that has
+/// to be cut before the tool may pass there.
 class ClearedGrid {
  public:
   ClearedGrid(const Growth& growth, double tool_radius);
 
   void set_done(std::size_t front) { done_[front] = 1; }
   [[nodiscard]] bool is_done(std::size_t front) const { return done_[front] != 0; }
-  /// Whether a straight way keeps to what is cut.
+  /// True when a straight way keeps to what is cut.
   [[nodiscard]] bool is_clear(geom::Point a, geom::Point b) const;
   /// Corners of a short way through what is cut, the last of them `to`; none where there is no way.
   [[nodiscard]] std::vector<geom::Point> way(geom::Point from, geom::Point to) const;

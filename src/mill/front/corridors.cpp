@@ -38,7 +38,7 @@ Point turned(Point p, double angle) {
 
 Point unit(Point p) { return (1 / norm(p)) * p; }
 
-/// From -pi to pi.
+/// The angle from one direction to another, from -pi to pi.
 double angle_between(Point from, Point to) {
   const double angle = geom::direction_angle(dot(from, to), cross(from, to));
   return angle > kPi ? angle - kTurn : angle;
@@ -81,14 +81,15 @@ class Walker {
     std::size_t parent = kNone;
   };
 
-  /// Distance to the walls, negative beyond them.
+  /// The distance to the walls, negative beyond them.
   double room_at(Point p) {
     const auto near = limit_.nearest(p, likely_);
     likely_ = near.edge;
     return limit_.contains(p) ? near.distance : -near.distance;
   }
 
-  /// Where the boundary of what is cut has more room than beside: it may go on there.
+  /// Finds the places of the boundary of what is cut that have more room than those beside them: a corridor
+  /// may begin there.
   void find_mouths(const geom::Contour& contour) {
     const double spacing = std::min(0.1 * r_, length_of(contour) / 24);
     struct Place {
@@ -120,7 +121,7 @@ class Walker {
     Point at;
     double room = -1;
   };
-  /// Most room on the circle about a place, between two angles from a heading.
+  /// Finds the place with most room on a circle, between two angles from a heading.
   Peak peak_about(Point centre, double radius, Point heading, double low, double high) {
     const auto at = [&](double angle) { return centre + radius * turned(heading, angle); };
     constexpr double kShare = 0.381966011250105;
@@ -149,7 +150,7 @@ class Walker {
     return peak_about(centre, radius, heading, where - kApart, where + kApart);
   }
 
-  /// The other ways on from a place that was come to in a heading and is left in another.
+  /// Finds the other ways on from a place that was reached in one heading and is left in another.
   void find_branches(const Disc& disc, Point came, Point left, std::size_t parent, double reach) {
     constexpr int kDirections = 24;
     constexpr double kApart = 360.0 / kDirections * kDegree;
@@ -166,7 +167,7 @@ class Walker {
     }
   }
 
-  /// The rim's arc in material, degrees, on a half circle about `next` beside one about `last`.
+  /// The largest arc of the rim in material, degrees, on a half circle about `next` beside one about `last`.
   [[nodiscard]] double engagement(const Disc& last, const Disc& next) const {
     double largest = 0;
     const Point heading = unit(next.at - last.at);
@@ -185,7 +186,7 @@ class Walker {
     return largest / kDegree;
   }
 
-  /// Whether all of the circle that lies ahead is cut.
+  /// True when all of the circle that lies ahead is cut.
   [[nodiscard]] bool is_cut(const Disc& disc, Point heading) const {
     for (int i = -4; i <= 4; ++i) {
       const Point p = disc.at + disc.radius * turned(heading, i * 15 * kDegree);
@@ -197,7 +198,7 @@ class Walker {
     return true;
   }
 
-  /// Whether what gets narrower is a way to somewhere and not a corner.
+  /// True when a corridor that gets narrower is a way to somewhere and not a corner.
   bool leads_on(Disc disc, Point heading) {
     disc.radius = room_at(disc.at);
     for (int i = 0; i < 200; ++i) {
@@ -275,7 +276,7 @@ class Walker {
     ends.emplace(right, left);
   }
 
-  /// From behind, along what is cut and slowly out of it.
+  /// The way to the first loop: it begins behind, runs along what is cut and comes out of it slowly.
   std::vector<Point> first_lead(const Disc& last, Point way, Point to) {
     const double to_angle = angle_between(way, to - last.at);
     const double from_angle = (to_angle < 0 ? -170 : 170) * kDegree;
@@ -292,7 +293,7 @@ class Walker {
     return places;
   }
 
-  /// Straight, but along a wall that is in the way.
+  /// The straight way between two places, led along a wall that is in the way.
   std::vector<Point> lead(Point from, Point to) {
     std::vector<Point> places{from};
     const double pieces = std::ceil(norm(to - from) / (kLeadSpacing * r_));
@@ -304,7 +305,7 @@ class Walker {
     return places;
   }
 
-  /// Straight on in full material as far as no loop has room; whether one has at its end.
+  /// Goes straight on in full material as far as no loop has room, and says whether one has at its end.
   bool slot(Disc& last, Point& heading, std::size_t& parent) {
     std::vector<Point> way{last.at};
     const double reach = kSlotStep * r_;

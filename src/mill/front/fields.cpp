@@ -20,7 +20,8 @@ constexpr double kLeastCorridor = 2.8;  // of the radius the fields are opened b
 constexpr std::size_t kManyEdges = 40;
 constexpr double kFieldSpacing = 0.5, kFieldFit = 0.01;  // mm
 
-/// Whether a piece leads on: more than one stretch of its boundary is no wall, or it goes round something.
+/// True for a piece that leads on: more than one stretch of its boundary is no wall, or it goes round
+/// something.
 bool leads_on(const Region& piece, const geom::RegionIndex& walls) {
   if (!piece.holes.empty()) return true;
   const auto is_open = [&](const Edge& edge) { return walls.nearest(place_at(edge, 0.5)).distance > 1e-3; };
@@ -34,7 +35,7 @@ bool leads_on(const Region& piece, const geom::RegionIndex& walls) {
   return stretches > 1;
 }
 
-/// Long contours of short edges as lines and arcs near them: the fields need not be exact.
+/// Replaces long contours of short edges by lines and arcs near them: the fields need not be exact.
 std::vector<Region> with_fewer_edges(std::vector<Region> regions) {
   std::vector<geom::Contour> contours;
   bool fewer = false;
@@ -54,27 +55,24 @@ std::vector<Region> with_fewer_edges(std::vector<Region> regions) {
   return made ? std::move(*made) : regions;
 }
 
-/// What the fields leave over, without what leads into a corner alone, and some of the fields about it.
+/// The places that the fields leave over, without those that only lead into a corner, and with some of the
+/// fields around them.
 Result<std::vector<Region>> narrow_places(const Places& allowed, const std::vector<Region>& fields,
                                           double strip, double fillet) {
-  auto reached = geom::offset(fields, 1.01 * strip);
-  if (!reached) return tl::unexpected(reached.error());
-  auto lost =
-      geom::combine(allowed.regions, reached->regions, geom::BooleanOperation::subtract, reached->edge_error);
-  if (!lost) return tl::unexpected(lost.error());
-  // What is short leads into a corner.
-  std::erase_if(lost->regions, [&](const Region& piece) {
+  LEKALO_TRY(auto reached, geom::offset(fields, 1.01 * strip));
+  LEKALO_TRY(auto lost, geom::combine(allowed.regions, reached.regions, geom::BooleanOperation::subtract,
+                                      reached.edge_error));
+  // A short piece leads into a corner.
+  std::erase_if(lost.regions, [&](const Region& piece) {
     const geom::Box box = geom::bounds(piece.outer);
     return !fields.empty() && norm(box.high - box.low) < kLeastCorridor * (strip + fillet) &&
            !leads_on(piece, allowed.index);
   });
-  if (lost->regions.empty()) return std::vector<Region>{};
-  auto wider = geom::offset(lost->regions, 2 * strip + fillet);
-  if (!wider) return tl::unexpected(wider.error());
-  auto narrow =
-      geom::combine(wider->regions, allowed.regions, geom::BooleanOperation::intersect, wider->edge_error);
-  if (!narrow) return tl::unexpected(narrow.error());
-  return std::move(narrow->regions);
+  if (lost.regions.empty()) return std::vector<Region>{};
+  LEKALO_TRY(auto wider, geom::offset(lost.regions, 2 * strip + fillet));
+  LEKALO_TRY(auto narrow, geom::combine(wider.regions, allowed.regions, geom::BooleanOperation::intersect,
+                                        wider.edge_error));
+  return std::move(narrow.regions);
 }
 
 }  // namespace
@@ -82,17 +80,14 @@ Result<std::vector<Region>> narrow_places(const Places& allowed, const std::vect
 Result<Piece> find_fields(const Region& allowed, double tool_radius, const std::vector<Region>& cleared) {
   Places all({allowed});
   const double strip = kStrip * tool_radius, fillet = kFieldFillet * tool_radius;
-  auto opened = opened_by(all.regions, strip, fillet);
-  if (!opened) return tl::unexpected(opened.error());
-  std::vector<Region> fields = with_fewer_edges(std::move(*opened));
-  auto narrow = narrow_places(all, fields, strip, fillet);
-  if (!narrow) return tl::unexpected(narrow.error());
+  LEKALO_TRY(auto opened, opened_by(all.regions, strip, fillet));
+  std::vector<Region> fields = with_fewer_edges(std::move(opened));
+  LEKALO_TRY(auto narrow, narrow_places(all, fields, strip, fillet));
   if (!cleared.empty()) {
-    auto both = geom::combine(fields, cleared, geom::BooleanOperation::unite);
-    if (!both) return tl::unexpected(both.error());
-    fields = std::move(both->regions);
+    LEKALO_TRY(auto both, geom::combine(fields, cleared, geom::BooleanOperation::unite));
+    fields = std::move(both.regions);
   }
-  return Piece{tool_radius, strip, std::move(all), Places(std::move(fields)), Places(std::move(*narrow))};
+  return Piece{tool_radius, strip, std::move(all), Places(std::move(fields)), Places(std::move(narrow))};
 }
 
 }  // namespace lekalo::mill

@@ -16,8 +16,9 @@ struct Places {
   geom::RegionIndex index;  ///< of them
 };
 
-/// One piece of the places where the tool's middle may be, divided: fields, where fronts go, keep a strip off
-/// the walls and are rounded in corners; what is too narrow for that is a corridor, for loops.
+/// One piece of the places where the tool's middle may be, divided as step 1 of docs/design/pocket.md says.
+/// Fronts go through the fields, which keep a strip off the walls and are rounded in corners; loops go
+/// through corridors, which are too narrow to be fields.
 struct Piece {
   double tool_radius = 0;  ///< mm
   double strip = 0;        ///< mm between the fields and the walls
@@ -26,7 +27,7 @@ struct Piece {
   Places narrow;           ///< corridors, and some of what they lead to
 };
 
-/// Four offsets and three Booleans of the piece at most. Errors: as geom::offset and geom::combine.
+/// Divides a piece by at most four offsets and three Booleans. Errors: as geom::offset and geom::combine.
 /// \param allowed  where the tool's middle may be: one piece
 /// \param cleared  where other tools have been; the fields hold it
 [[nodiscard]] Result<Piece> find_fields(const geom::Region& allowed, double tool_radius,

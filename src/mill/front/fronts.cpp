@@ -33,13 +33,14 @@ constexpr double kPitch = 0.07;  // of the tool's radius
 constexpr double kMostNodes = 6e5;
 constexpr double kLeastShare = 0.3;
 
-// What a layer is to hold, of the angle of a straight pass; the share of its length that may pass it, and how
-// far.
+// Step 5 of docs/design/pocket.md, as shares of the angle of a straight pass: what a layer is to hold, what a
+// part of its length may reach, and what counts as far too much.
 constexpr double kHeld = 1.02, kPeak = 1.185, kFarBeyond = 1.287;
-constexpr double kBeyond = 0.07;
+constexpr double kBeyond = 0.07;    // of the length: how much of it may pass kHeld
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
-/// Of the step: how far from where a pass would leave a wall its arc begins and ends, at most.
+/// A pass leaves a wall on an arc that begins and ends at most this share of the step from where it would
+/// leave without one.
 constexpr double kCorner = 1.2;
 constexpr double kShortRun = 2;          // of the step: a way along a wall that two passes may share
 constexpr double kLeft = 0.75;           // of the step: what a pass may leave at a wall
@@ -57,7 +58,7 @@ bool is_fresh(Point p, const RegionIndex& before) {
   return before.nearest(p).distance > kOnIt && !before.contains(p);
 }
 
-/// Shares of an edge between which it is not cut yet.
+/// The parts of an edge that are not cut yet, as shares of its length.
 std::vector<std::pair<double, double>> fresh_parts(const Edge& edge, const RegionIndex& before) {
   std::vector<std::pair<double, double>> parts;
   const double pieces = std::max(1.0, std::ceil(length_of(edge) / kSpacing));
@@ -68,7 +69,7 @@ std::vector<std::pair<double, double>> fresh_parts(const Edge& edge, const Regio
     }
     return fresh_low ? low : high;
   };
-  // An edge of one piece still shows what its middle is.
+  // An edge that is one piece is looked at in its middle as well.
   const double count = std::max(2.0, pieces);
   bool last = is_fresh(edge.from, before);
   double begin = 0;
@@ -135,17 +136,15 @@ class Grower {
   Result<Growth> run(const std::vector<Region>& start) {
     growth_.cut.push_back(start);
     for (;;) {
-      auto grown = grow_fields();
-      if (!grown) return tl::unexpected(grown.error());
-      auto filled = fill();
-      if (!filled) return tl::unexpected(filled.error());
-      if (!*filled) break;
+      LEKALO_CHECK(grow_fields());
+      LEKALO_TRY(auto filled, fill());
+      if (!filled) break;
     }
     return std::move(growth_);
   }
 
  private:
-  /// In the wide, by level lines of the arrival time. Whether there were fronts.
+  /// Grows through the fields by level lines of the arrival time, and says whether there were fronts.
   Result<bool> grow_fields() {
     if (fields_.empty()) return false;
     const std::size_t first = growth_.fronts.size();
@@ -166,9 +165,8 @@ class Grower {
       if (held) share = std::min(1.0, 1.06 * share);
       held = true;
       for (int trial = 0;; ++trial) {
-        auto tried = reached_by(field, time + share);
-        if (!tried) return tl::unexpected(tried.error());
-        cut = std::move(*tried);
+        LEKALO_TRY(auto tried, reached_by(field, time + share));
+        cut = std::move(tried);
         fronts = split_at_walls(fresh_stretches(cut, before), before);
         const double less = relief(fronts, before);
         if (less >= 1 || trial == kMostTrials || share <= kLeastShare) break;
@@ -184,7 +182,7 @@ class Grower {
     return growth_.fronts.size() > first;
   }
 
-  /// Corridors hardly wider than the tool, by loops. Whether there were any.
+  /// Grows through corridors hardly wider than the tool by loops, and says whether there were any.
   Result<bool> fill() {
     if (narrow_.empty()) return false;
     std::vector<Front> fronts = corridor_loops(limit_, corridors_, growth_.cut.back(), growth_.fronts, law_);
@@ -197,8 +195,7 @@ class Grower {
       if (!disc) return tl::unexpected(disc.error());
       pieces.push_back(std::move(*disc));
     }
-    auto all = geom::united(pieces);
-    if (!all) return tl::unexpected(all.error());
+    LEKALO_TRY(auto all, geom::united(pieces));
     const RegionIndex before(growth_.cut.back());
     const std::size_t first = growth_.fronts.size();
     for (Front& front : fronts) {
@@ -208,11 +205,11 @@ class Grower {
     }
     for (std::size_t i = first; i < growth_.fronts.size(); ++i)
       if (growth_.fronts[i].parents.empty()) find_parents(i, first, before);
-    growth_.cut.push_back(std::move(all->regions));
+    growth_.cut.push_back(std::move(all.regions));
     return true;
   }
 
-  /// A ring from its place nearest to what is cut; false where that is nowhere near it.
+  /// Lets a ring begin at its place nearest to what is cut; false where no place is near.
   bool begin_where_it_touches(Front& front, const RegionIndex& before) const {
     double gap = kTouching * r_;
     std::size_t begin = front.edges.size();
@@ -234,7 +231,8 @@ class Grower {
     return true;
   }
 
-  /// Cuts a way along a wall off where it touches what is cut; what is behind, or nothing where it does not.
+  /// Cuts a way along a wall off where it touches what is cut, and returns what lies behind; nothing where it
+  /// does not touch.
   std::vector<Edge> behind_touch(std::vector<Edge>& along, const RegionIndex& before) const {
     double gap = kTouching * r_;
     std::size_t at = along.size();
@@ -254,7 +252,7 @@ class Grower {
     return behind;
   }
 
-  /// Passes that meet a wall on their way end and begin there; rings that touch what is cut begin there.
+  /// Divides passes where they meet a wall on their way, and lets rings begin where they touch what is cut.
   std::vector<Front> split_at_walls(std::vector<Front> given, const RegionIndex& before) const {
     std::vector<Front> fronts;
     for (Front& front : given) {
@@ -299,19 +297,16 @@ class Grower {
   Result<std::vector<Region>> reached_by(const ArrivalField& field, double time) const {
     std::vector<Region> cut = fields_;
     if (time <= field.last() || !field.reaches_all()) {
-      auto early = field.before(time);
-      if (!early) return tl::unexpected(early.error());
-      auto inside = geom::combine(*early, fields_, geom::BooleanOperation::intersect);
-      if (!inside) return tl::unexpected(inside.error());
-      cut = std::move(inside->regions);
+      LEKALO_TRY(auto early, field.before(time));
+      LEKALO_TRY(auto inside, geom::combine(early, fields_, geom::BooleanOperation::intersect));
+      cut = std::move(inside.regions);
     }
     if (narrow_.empty()) return cut;
-    auto all = geom::combine(cut, growth_.cut.back(), geom::BooleanOperation::unite);
-    if (!all) return tl::unexpected(all.error());
-    return std::move(all->regions);
+    LEKALO_TRY(auto all, geom::combine(cut, growth_.cut.back(), geom::BooleanOperation::unite));
+    return std::move(all.regions);
   }
 
-  /// The share of the step that would hold the angle; 1 where it is held, cut in either direction.
+  /// The share of the step that would hold the angle; 1 where it is held in both directions.
   [[nodiscard]] double relief(const std::vector<Front>& fronts, const RegionIndex& before) const {
     double length = 0, beyond = 0, largest = 0;
     for (const Front& front : fronts)
@@ -394,8 +389,8 @@ std::vector<Front> fresh_stretches(const std::vector<Region>& cut, const RegionI
   return fronts;
 }
 
-/// Instead of the corner before edges[corner] an arc that begins and ends at the same way from it, tangent
-/// where it begins; nothing where it would not be nearly so at its end.
+/// Replaces the corner before edges[corner] by an arc that begins and ends at the same distance from it, and
+/// is tangent where it begins; nothing where it would not be nearly tangent at its end.
 std::vector<Edge> around_corner(const std::vector<Edge>& edges, std::size_t corner, double reach) {
   double before = reach, after = reach;
   std::size_t leave = corner - 1, meet = corner;

@@ -18,11 +18,11 @@ struct Front {
   std::size_t layer = 0;             ///< of Growth::cut after it
   bool loop = false;                 ///< half a circle of a trochoid, from its right wall to its left
   bool slot = false;                 ///< in full material, to be cut in its direction
-  /// Of a loop: cut on the way from where the loop before begins, or ends, to where this one does.
+  /// The ways to a loop from where the loop before begins, or ends, to where this one does; they are cut too.
   std::vector<geom::Point> right_lead, left_lead;
 };
 
-/// What grows from a start until it fills what is allowed.
+/// The fronts that grow from a start, layer by layer, until they fill what is allowed.
 struct Growth {
   std::vector<Front> fronts;  ///< in layers
   std::vector<std::vector<geom::Region>>
@@ -33,11 +33,11 @@ struct GrowthLaw {
   double tool_radius = 0;  ///< mm
   double step = 0;         ///< mm between straight passes, at most
   double wall_strip = 0;   ///< mm between the fields and the walls
-  double angle =
-      0;  ///< rad of the rim in material on a straight pass: what others hold but for a few per cent
+  /// rad of the rim in material on a straight pass: what others hold but for a few per cent.
+  double angle = 0;
 };
 
-/// What bounds the fronts: the walls of the fields, but for the mouths of corridors.
+/// The walls that bound the fronts: those of the fields, but for the mouths of corridors.
 struct FieldWalls {
   const geom::RegionIndex &fields, &limit, &narrow;
   double strip = 0;  ///< mm from the fields to the limit
@@ -46,16 +46,16 @@ struct FieldWalls {
 /// Hears now and then how much is planned to be cut, mm2 of the places of the tool's middle.
 using AreaListener = std::function<void(double)>;
 
-/// Fronts from `start`, which is cut, through `fields` and, by loops, corridors (`narrow`) that lead from one
-/// field to another or are large. `limit`: where the tool's middle may be. docs/design/pocket.md says how.
-/// Errors: as geom::combine.
+/// Grows fronts from `start`, which is cut, through `fields` and, by loops, through corridors (`narrow`) that
+/// lead from one field to another or are large: steps 4 and 5 of docs/design/pocket.md. The tool's middle may
+/// be in `limit`. Errors: as geom::combine.
 [[nodiscard]] Result<Growth> grow(const geom::RegionIndex& limit, const std::vector<geom::Region>& fields,
                                   const std::vector<geom::Region>& narrow,
                                   const std::vector<geom::Region>& start, const GrowthLaw& law,
                                   const AreaListener& listener);
 
-/// The pass that cuts a front, in its direction or back: from the wall on an arc, and without the way along
-/// the wall at its end, which is left to the pass along all walls.
+/// The pass that cuts a front, in its direction or back. It leaves the wall on an arc, and omits the way
+/// along the wall at its end, because the pass along all walls cuts that.
 [[nodiscard]] std::vector<geom::Edge> pass_along(const Front& front, bool back, const FieldWalls& walls,
                                                  const geom::RegionIndex& before, double step);
 

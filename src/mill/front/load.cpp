@@ -17,10 +17,10 @@ using geom::Point;
 constexpr int kLooks = 18;  // directions over the leading half of the rim
 constexpr double kDegreesApart = 180.0 / kLooks;
 
-/// Degrees of the leading half of the rim that are farther than the radius from what is cut.
+/// The degrees of the rim's leading half that are farther than the radius from what is cut.
 double degrees_in_material(Point at, Point heading, bool back, const geom::RegionIndex& before, double r,
                            std::uint32_t& likely) {
-  // From the side where the material is, over ahead, to the other side.
+  // The look goes from the side where the material is, over straight ahead, to the other side.
   const Point side = back ? perpendicular(heading) : -perpendicular(heading);
   double degrees = 0, last = 0;
   for (int i = 0; i <= kLooks; ++i) {
@@ -33,7 +33,7 @@ double degrees_in_material(Point at, Point heading, bool back, const geom::Regio
       if (beyond > 0 && last > 0) degrees += kDegreesApart;
       if ((beyond > 0) != (last > 0))
         degrees += kDegreesApart * std::max(beyond, last) / (std::max(beyond, last) - std::min(beyond, last));
-      // Beyond the far end of the arc nothing else is met.
+      // Nothing is met beyond the far end of the arc.
       if (last > 0 && !(beyond > 0)) break;
     }
     last = beyond;

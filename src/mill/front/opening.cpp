@@ -6,11 +6,9 @@ namespace lekalo::mill {
 
 Result<std::vector<geom::Region>> opened_by(const std::vector<geom::Region>& regions, double shrink,
                                             double fillet) {
-  auto least = geom::offset(regions, -(shrink + fillet));
-  if (!least) return tl::unexpected(least.error());
-  auto opened = geom::offset(least->regions, fillet);
-  if (!opened) return tl::unexpected(opened.error());
-  return std::move(opened->regions);
+  LEKALO_TRY(auto least, geom::offset(regions, -(shrink + fillet)));
+  LEKALO_TRY(auto opened, geom::offset(least.regions, fillet));
+  return std::move(opened.regions);
 }
 
 }  // namespace lekalo::mill

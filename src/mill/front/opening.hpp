@@ -7,8 +7,8 @@
 
 namespace lekalo::mill {
 
-/// Regions shrunk by `shrink`, and of that what discs of radius `fillet` reach: corners are rounded, what is
-/// narrower is gone. Errors: as geom::offset.
+/// Shrinks regions by `shrink` and keeps of that what discs of radius `fillet` reach: corners become round,
+/// and what is narrower than a disc is gone. Errors: as geom::offset.
 [[nodiscard]] Result<std::vector<geom::Region>> opened_by(const std::vector<geom::Region>& regions,
                                                           double shrink, double fillet);
 

@@ -14,8 +14,8 @@ using geom::Region;
 
 namespace {
 
-/// Fillets of the walls' corners, of the tool's radius, the first that of the pass along the walls. Thinner
-/// peels have others between.
+/// Fillets of the walls' corners, as shares of the tool's radius; the first is that of the pass along the
+/// walls. Thinner peels have others between them.
 constexpr double kPeels[] = {0.65, 0.57, 0.5, 0.43, 0.37, 0.3, 0.23, 0.16, 0.08, 0.04, 0.02};
 
 }  // namespace
@@ -34,9 +34,8 @@ Peels::Peels(const std::vector<Region>& allowed, const std::vector<Point>& loops
 
 Result<std::size_t> Peels::first() {
   for (std::size_t k = 0;; ++k) {
-    const auto round = at(k);
-    if (!round) return tl::unexpected(round.error());
-    if (!(*round)->regions.empty()) return k;
+    LEKALO_TRY(const Round* const round, at(k));
+    if (!round->regions.empty()) return k;
   }
 }
 
@@ -44,15 +43,12 @@ Result<const Peels::Round*> Peels::at(std::size_t k) {
   if (const auto found = rounds_.find(k); found != rounds_.end()) return &found->second;
   std::vector<Region> regions = allowed_;
   if (k < last()) {
-    auto opened = opened_by(allowed_, 0, fillets_[k]);
-    if (!opened) return tl::unexpected(opened.error());
-    regions = std::move(*opened);
-    if (!regions.empty() && !loops_.empty())
-      if (auto added = add_corridors(k, regions); !added) return tl::unexpected(added.error());
+    LEKALO_TRY(auto opened, opened_by(allowed_, 0, fillets_[k]));
+    regions = std::move(opened);
+    if (!regions.empty() && !loops_.empty()) LEKALO_CHECK(add_corridors(k, regions));
     if (!cleared_.empty()) {
-      auto all = geom::combine(regions, cleared_, geom::BooleanOperation::unite);
-      if (!all) return tl::unexpected(all.error());
-      regions = std::move(all->regions);
+      LEKALO_TRY(auto all, geom::combine(regions, cleared_, geom::BooleanOperation::unite));
+      regions = std::move(all.regions);
     }
   }
   geom::RegionIndex index(regions);
@@ -61,28 +57,22 @@ Result<const Peels::Round*> Peels::at(std::size_t k) {
 
 Result<const std::vector<Front>*> Peels::between(std::size_t outer, std::size_t inner) {
   if (const auto found = made_.find({outer, inner}); found != made_.end()) return &found->second;
-  const auto low = at(outer), high = at(inner);
-  if (!low) return tl::unexpected(low.error());
-  if (!high) return tl::unexpected(high.error());
-  return &made_.emplace(std::pair(outer, inner), fresh_stretches((*high)->regions, (*low)->index))
-              .first->second;
+  LEKALO_TRY(const Round* const low, at(outer));
+  LEKALO_TRY(const Round* const high, at(inner));
+  return &made_.emplace(std::pair(outer, inner), fresh_stretches(high->regions, low->index)).first->second;
 }
 
 Result<void> Peels::add_corridors(std::size_t k, std::vector<Region>& opened) {
-  auto lost = geom::combine(allowed_, opened, geom::BooleanOperation::subtract);
-  if (!lost) return tl::unexpected(lost.error());
-  std::erase_if(lost->regions, [&](const Region& piece) {
+  LEKALO_TRY(auto lost, geom::combine(allowed_, opened, geom::BooleanOperation::subtract));
+  std::erase_if(lost.regions, [&](const Region& piece) {
     const geom::RegionIndex index({piece});
     return std::none_of(loops_.begin(), loops_.end(), [&](Point p) { return index.contains(p); });
   });
-  if (lost->regions.empty()) return {};
-  const auto sharper = at(k + 1);
-  if (!sharper) return tl::unexpected(sharper.error());
-  auto narrow = geom::combine(lost->regions, (*sharper)->regions, geom::BooleanOperation::intersect);
-  if (!narrow) return tl::unexpected(narrow.error());
-  auto all = geom::combine(opened, narrow->regions, geom::BooleanOperation::unite, lost->edge_error);
-  if (!all) return tl::unexpected(all.error());
-  opened = std::move(all->regions);
+  if (lost.regions.empty()) return {};
+  LEKALO_TRY(const Round* const sharper, at(k + 1));
+  LEKALO_TRY(auto narrow, geom::combine(lost.regions, sharper->regions, geom::BooleanOperation::intersect));
+  LEKALO_TRY(auto all, geom::combine(opened, narrow.regions, geom::BooleanOperation::unite, lost.edge_error));
+  opened = std::move(all.regions);
   return {};
 }
 

@@ -9,9 +9,10 @@
 
 namespace lekalo::mill {
 
-/// Where the tool's middle may be, with corners rounded less and less, the last as they are; what other tools
-/// have cut belongs to each. Where loops went a corner is rounded by the largest fillet it has room for. Each
-/// is made when it is asked for, as is what lies between two.
+/// The rounds of step 7 of docs/design/pocket.md: places of the tool's middle with corners rounded less and
+/// less, the last with corners as they are. What other tools have cut belongs to each round. Where loops went
+/// a corner is rounded by the largest fillet it has room for. A round is made when it is asked for, and so is
+/// what lies between two.
 class Peels {
  public:
   struct Round {
@@ -27,7 +28,7 @@ class Peels {
         std::vector<geom::Region> cleared, double radius, double thinness);
 
   [[nodiscard]] std::size_t last() const { return fillets_.size() - 1; }
-  /// The roundest there is room for anywhere.
+  /// The roundest round that has room anywhere.
   [[nodiscard]] Result<std::size_t> first();
   /// Errors: as geom::offset and geom::combine. What is returned stays as long as this.
   [[nodiscard]] Result<const Round*> at(std::size_t k);

@@ -2,10 +2,11 @@
 
 #include "lekalo/mill/straight_pass.hpp"
 
-/// How far a pass may lie from the one before: exact for two circles, docs/design/pocket.md.
+/// The distance at which a pass may follow another: exact for two circles (docs/design/pocket.md, step 2).
 namespace lekalo::mill {
 
-/// What the next pass is to hold, of the angle of a straight one: a little more, for it is seldom as deep.
+/// The share of a straight pass's angle that the next pass is to hold: a little more than all of it, because
+/// a pass is seldom as deep as it may be.
 constexpr double kNext = 1.0134;
 
 /// The step from a pass of convex radius r0 to the next about the same centre for which the rim's arc in

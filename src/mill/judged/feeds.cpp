@@ -24,9 +24,9 @@ struct Piece {
   bool joined = false;  ///< the piece before leads here without a motion between
 };
 
-/// The six steps, ascending.
+/// The six feeds to choose from, ascending.
 std::array<double, 6> steps_of(const FeedOptions& o) {
-  // A third of the way by ratio: the cube root by Newton's method, the same everywhere.
+  // A step is a third of the way by ratio. Newton's method gives the same cube root on every machine.
   const double ratio = o.most_mm_per_min / o.feed_mm_per_min;
   double root = 1;
   for (int i = 0; i < 60; ++i) root -= (root * root * root - ratio) / (3 * root * root);
@@ -50,7 +50,7 @@ double stepped(double feed, const std::array<double, 6>& steps) {
   return best;
 }
 
-/// Each piece takes the least feed of the path within kAround of it, as long as nothing lies between.
+/// Gives each piece the least feed of the path within kAround of it, as far as the motion is not interrupted.
 void look_around(std::vector<Piece>& pieces) {
   std::vector<double> least(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -126,7 +126,8 @@ class Ramping {
     return parts;
   }
 
-  /// From where the tool is, at the floor, along the parts to their end, again and again.
+  /// Lets the tool, which is at the floor, rise and go along the parts to their end again and again, each
+  /// time deeper.
   void ramp_down(const std::vector<Part>& parts, double floor) {
     double length = 0;
     for (const Part& part : parts) length += part.length;

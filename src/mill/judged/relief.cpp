@@ -26,14 +26,15 @@ constexpr double kRamp = 1;          // of the tool's radius: on the way from th
 constexpr double kShortRamp = 0.08;  // of a ramp: where there is less way the pass begins beside the path
 constexpr double kSpacing = 0.02;    // of the tool's radius, between places of a pass
 constexpr double kCusp = 0.5;        // cosine of the turn between two moves at which a stretch ends
-/// Of what would make the stretch meet as much as a straight pass; tried one after the other.
+/// Depths of the shallower pass that are tried one after the other, as shares of the depth at which the
+/// stretch would meet as much as a straight pass.
 constexpr double kDepths[] = {1, 1.6, 0.6, 0.3};
 constexpr double kMostDepth = 0.95;  // of the tool's radius
 constexpr double kBetter = 0.7;      // of the excess before: what a pass has to bring
 constexpr double kNothing = 0.05;    // degrees times mm
 constexpr double kOutside = 1e-3;    // mm: arcs in place of the path's points may reach so far into a wall
 
-/// A step from 0 to 1 without corners.
+/// Rises from 0 to 1 without corners.
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -43,9 +44,8 @@ double smooth_step(double t) {
 
 Result<Relief> Relief::make(PocketPath path, const std::vector<geom::Region>& pockets,
                             const PocketOptions& options) {
-  const auto places = allowed_places(pockets, options);
-  if (!places) return tl::unexpected(places.error());
-  return Relief(std::move(path), *places, options);
+  LEKALO_TRY(const auto places, allowed_places(pockets, options));
+  return Relief(std::move(path), places, options);
 }
 
 Relief::Relief(PocketPath path, const std::vector<geom::Region>& places, const PocketOptions& options)
@@ -57,7 +57,7 @@ Relief::Relief(PocketPath path, const std::vector<geom::Region>& places, const P
       held_(most_held_degrees(options.step_over)),
       fit_tolerance_(options.fit_tolerance) {}
 
-/// Over the passes of a site and its stretch of the path.
+/// Adds up, over the passes of a site and its stretch of the path, how much more is met than is held.
 double Relief::excess_of(const Site& site, const std::vector<std::vector<MoveLoad>>& loads) const {
   const auto number = static_cast<std::size_t>(&site - sites_.data());
   double sum = 0;
@@ -85,7 +85,8 @@ bool Relief::improve(const std::vector<std::vector<MoveLoad>>& loads) {
   if (stage_ == Stage::trials) {
     for (Site& site : sites_)
       if (!site.settled) try_next(site);
-    // What was tried and left out may have made other passes look better: once more without it.
+    // A pass that was tried and left out may have made its neighbours look better, so that all that stay are
+    // measured once more without it.
     if (std::all_of(sites_.begin(), sites_.end(), [](const Site& site) { return site.settled; }))
       stage_ = Stage::confirmation;
   }
@@ -93,7 +94,7 @@ bool Relief::improve(const std::vector<std::vector<MoveLoad>>& loads) {
   return !wanted().empty();
 }
 
-/// Hot stretches of level runs without a cusp.
+/// Finds the hot stretches of level runs without a cusp.
 void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
   for (std::size_t first = 1; first < given_.moves().size();) {
     if (!given_.is_level(first)) {
@@ -153,7 +154,7 @@ void Relief::judge_trials(const std::vector<std::vector<MoveLoad>>& loads) {
   }
 }
 
-/// Passes that do not help; whether there were any.
+/// Leaves out passes that do not help, and says whether there were any.
 bool Relief::leave_out(const std::vector<std::vector<MoveLoad>>& loads) {
   bool any = false;
   for (Site& site : sites_)
@@ -166,7 +167,7 @@ bool Relief::leave_out(const std::vector<std::vector<MoveLoad>>& loads) {
 
 void Relief::try_next(Site& site) {
   while (site.trials < static_cast<int>(std::size(kDepths))) {
-    // Of a straight stretch: what lies between the two angles.
+    // A straight stretch would need the depth that lies between the two angles.
     const double depth =
         kDepths[site.trials++] * radius_ *
         (geom::sincos(straight_).cosine - geom::sincos(site.largest / kDegreesPerRadian).cosine);
@@ -185,7 +186,8 @@ bool Relief::is_inside(const Edge& edge) const {
   return true;
 }
 
-/// There beside the path, and back on the same way.
+/// Makes the pass that takes load off a site: beside its stretch of the path, farther from the material, and
+/// back on the same way. Empty where there is no room beside the path.
 std::vector<PathMove> Relief::pass_beside(const Site& site, double depth) const {
   const auto share_beside = [&](double along) {
     const double before = site.hot_begin - site.begin, after = site.end - site.hot_end;
@@ -249,7 +251,7 @@ void Relief::compose() {
   path_.moves.clear();
   origins_.clear();
   auto site = sites_.begin();
-  std::vector<Site*> open;  // whose stretches have not come to their end
+  std::vector<Site*> open;  // sites whose stretches have not come to their end
   for (std::size_t i = 0; i < given_.moves().size(); ++i) {
     const PathMove& move = given_.moves()[i];
     const double begin = given_.begin_of(i);

@@ -17,8 +17,8 @@ using geom::Region;
 
 constexpr double kSameLevel = 1e-6;  // mm of depth
 constexpr double kGrain = 1e-6;      // mm: stretches that agree to it are one
-/// mm: holes in what is cut that are narrower than twice this are rounding, and so is what stands thinner
-/// than kThin where the tool came along.
+/// mm: holes in what is cut that are narrower than twice kClosed are rounding, and so is material that stands
+/// thinner than kThin where the tool came along.
 constexpr double kClosed = 4e-3, kThin = 4e-3;
 constexpr double kLeastDepth = 6e-3;  // mm: a piece that is nowhere thicker is left alone
 constexpr std::size_t kTogether = 24;
@@ -28,7 +28,8 @@ Result<Region> disc(Point middle, double radius) {
   return geom::make_region({{EdgeKind::arc_ccw, from, from, middle}});
 }
 
-/// What a disc sweeps along an edge, but for the discs at its ends. \pre an arc of at most half a turn
+/// The region that a disc sweeps along an edge, without the discs at its ends. \pre an arc of at most half a
+/// turn
 Result<Region> body(const Edge& edge, double radius) {
   if (edge.kind == EdgeKind::line) {
     const Point way = edge.to - edge.from;
@@ -55,15 +56,15 @@ Result<Region> body(const Edge& edge, double radius) {
                             {EdgeKind::line, d, a, {}}});
 }
 
-/// Few at a time: what lies inside is gone before the next come.
+/// Unites a few pieces at a time, so that what lies inside is gone before the next pieces come.
 Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
   std::vector<std::vector<Region>> groups;
   for (std::size_t i = 0; i < pieces.size(); i += kTogether) {
     const auto first = pieces.begin() + static_cast<std::ptrdiff_t>(i);
-    auto group =
-        geom::united({first, first + static_cast<std::ptrdiff_t>(std::min(kTogether, pieces.size() - i))});
-    if (!group) return tl::unexpected(group.error());
-    groups.push_back(std::move(group->regions));
+    LEKALO_TRY(
+        auto group,
+        geom::united({first, first + static_cast<std::ptrdiff_t>(std::min(kTogether, pieces.size() - i))}));
+    groups.push_back(std::move(group.regions));
   }
   while (groups.size() > 1) {
     std::vector<std::vector<Region>> larger;
@@ -72,9 +73,8 @@ Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
         larger.push_back(std::move(groups[i]));
         break;
       }
-      auto both = geom::combine(groups[i], groups[i + 1], geom::BooleanOperation::unite);
-      if (!both) return tl::unexpected(both.error());
-      larger.push_back(std::move(both->regions));
+      LEKALO_TRY(auto both, geom::combine(groups[i], groups[i + 1], geom::BooleanOperation::unite));
+      larger.push_back(std::move(both.regions));
     }
     groups = std::move(larger);
   }
@@ -85,7 +85,7 @@ Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
 
 Result<std::vector<Region>> cleared_places(const std::vector<EarlierCut>& cuts, double depth,
                                            double tool_radius) {
-  // Levels one below the other go the same ways.
+  // Levels one below the other go the same ways, so that each stretch is taken once.
   using Key = std::array<long long, 8>;
   std::set<Key> seen;
   std::vector<Region> pieces;
@@ -107,35 +107,28 @@ Result<std::vector<Region>> cleared_places(const std::vector<EarlierCut>& cuts, 
     if (!(cut.depth >= depth - kSameLevel)) continue;
     const double radius = cut.tool_diameter / 2;
     if (norm(cut.edge.to - cut.edge.from) > kGrain && fresh(cut.edge, cut.tool_diameter))
-      if (Result<void> added = add(body(cut.edge, radius)); !added) return tl::unexpected(added.error());
+      LEKALO_CHECK(add(body(cut.edge, radius)));
     for (const Point end : {cut.edge.from, cut.edge.to})
-      if (fresh({EdgeKind::line, end, end, {}}, cut.tool_diameter))
-        if (Result<void> added = add(disc(end, radius)); !added) return tl::unexpected(added.error());
+      if (fresh({EdgeKind::line, end, end, {}}, cut.tool_diameter)) LEKALO_CHECK(add(disc(end, radius)));
   }
-  auto swept = union_of(pieces);
-  if (!swept) return tl::unexpected(swept.error());
-  auto closed = geom::offset(*swept, kClosed);
-  if (!closed) return tl::unexpected(closed.error());
-  auto places = geom::offset(closed->regions, -(kClosed + tool_radius - kThin));
-  if (!places) return tl::unexpected(places.error());
-  return std::move(places->regions);
+  LEKALO_TRY(auto swept, union_of(pieces));
+  LEKALO_TRY(auto closed, geom::offset(swept, kClosed));
+  LEKALO_TRY(auto places, geom::offset(closed.regions, -(kClosed + tool_radius - kThin)));
+  return std::move(places.regions);
 }
 
 Result<Divided> divided(const Region& allowed, const std::vector<Region>& cleared) {
   if (cleared.empty()) return Divided{{}, {allowed}};
-  auto left = geom::combine({allowed}, cleared, geom::BooleanOperation::subtract);
-  if (!left) return tl::unexpected(left.error());
+  LEKALO_TRY(auto left, geom::combine({allowed}, cleared, geom::BooleanOperation::subtract));
   std::vector<Region> thick;
-  for (const Region& piece : left->regions) {
-    const auto inside = geom::offset({piece}, -kLeastDepth / 2);
-    if (!inside) return tl::unexpected(inside.error());
-    if (!inside->regions.empty()) thick.push_back(piece);
+  for (const Region& piece : left.regions) {
+    LEKALO_TRY(const auto inside, geom::offset({piece}, -kLeastDepth / 2));
+    if (!inside.regions.empty()) thick.push_back(piece);
   }
-  left->regions = std::move(thick);
-  if (left->regions.empty()) return Divided{{allowed}, {}};
-  auto rest = geom::combine({allowed}, left->regions, geom::BooleanOperation::subtract);
-  if (!rest) return tl::unexpected(rest.error());
-  return Divided{std::move(rest->regions), std::move(left->regions)};
+  left.regions = std::move(thick);
+  if (left.regions.empty()) return Divided{{allowed}, {}};
+  LEKALO_TRY(auto rest, geom::combine({allowed}, left.regions, geom::BooleanOperation::subtract));
+  return Divided{std::move(rest.regions), std::move(left.regions)};
 }
 
 }  // namespace lekalo::mill

@@ -8,12 +8,12 @@
 
 namespace lekalo::mill {
 
-/// Places where a tool of this radius meets nothing at this depth, because earlier tools have been there;
-/// what stands thinner than some thousandths of a millimetre counts as nothing.
+/// The places where a tool of this radius meets nothing at this depth, because earlier tools have been there.
+/// Material that stands thinner than some thousandths of a millimetre counts as nothing.
 [[nodiscard]] Result<std::vector<geom::Region>> cleared_places(const std::vector<EarlierCut>& cuts,
                                                                double depth, double tool_radius);
 
-/// Places a tool may be, divided.
+/// The places where a tool may be, divided into those that are cut and those that are left.
 struct Divided {
   std::vector<geom::Region> cleared, left;
 };

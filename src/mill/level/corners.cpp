@@ -14,7 +14,7 @@ using geom::Region;
 
 namespace {
 
-// How much a peel may take, of the tool's radius: the last, which comes to the corner itself, and others.
+// A peel may take this share of the tool's radius: the last, which comes to the corner itself, and others.
 constexpr double kSharpPeel = 0.12, kPeel = 0.22;
 constexpr double kHotSpacing = 0.02, kHotMoment = 0.04;  // of the tool's radius
 
@@ -37,13 +37,11 @@ Corners::Corners(const Piece& piece, const std::vector<Point>& loop_places,
 Result<Corners> Corners::find(const Piece& piece, const std::vector<Point>& loop_places,
                               const std::vector<Region>& cleared, const PocketOptions& o) {
   Corners made(piece, loop_places, cleared, o);
-  const auto roundest = made.peels_.first();
-  if (!roundest) return tl::unexpected(roundest.error());
-  const auto zones = made.peels_.between(*roundest, made.peels_.last());
-  if (!zones) return tl::unexpected(zones.error());
-  made.roundest_ = *roundest;
-  made.walls_ = *made.peels_.at(*roundest);
-  made.zones_ = *zones;
+  LEKALO_TRY(const auto roundest, made.peels_.first());
+  LEKALO_TRY(const auto zones, made.peels_.between(roundest, made.peels_.last()));
+  made.roundest_ = roundest;
+  LEKALO_TRY(made.walls_, made.peels_.at(roundest));
+  made.zones_ = zones;
   return made;
 }
 
@@ -52,7 +50,7 @@ Result<void> Corners::cut(std::size_t zone, ToolMotion& tool) {
   return cut_beyond(roundest_, zones()[zone], back, tool);
 }
 
-/// Whether more than a moment of passes meets too much of the rim.
+/// True when a pass meets too much of the rim for more than a moment.
 bool Corners::is_hot(const std::vector<Front>& passes, const geom::RegionIndex& before) const {
   const double radius = piece_.tool_radius;
   return std::any_of(passes.begin(), passes.end(), [&](const Front& pass) {
@@ -61,26 +59,25 @@ bool Corners::is_hot(const std::vector<Front>& passes, const geom::RegionIndex& 
   });
 }
 
-/// In a zone: the last at once, else halved between what may be and what may not.
+/// Finds the deepest peel that a zone allows: the last round at once, or else by halving between rounds that
+/// are allowed and rounds that are not.
 Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone) {
   const std::size_t last = peels_.last();
-  const auto round = peels_.at(outer);
-  if (!round) return tl::unexpected(round.error());
-  const geom::RegionIndex& before = (*round)->index;
+  LEKALO_TRY(const auto round, peels_.at(outer));
+  const geom::RegionIndex& before = round->index;
   Peel chosen{outer, {}};
   std::size_t beyond = last + 1;
   for (std::size_t tried = last; chosen.inner + 1 < beyond; tried = (chosen.inner + beyond) / 2) {
-    const auto fronts = peels_.between(outer, tried);
-    if (!fronts) return tl::unexpected(fronts.error());
+    LEKALO_TRY(const auto fronts, peels_.between(outer, tried));
     std::vector<Front> passes;
     double depth = 0;
-    for (const Front& front : **fronts) {
+    for (const Front& front : *fronts) {
       if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
       passes.push_back(front);
       for (const Point p : places_on(front.edges, 0.1 * piece_.tool_radius))
         depth = std::max(depth, before.nearest(p).distance);
     }
-    // At the end of a corridor the other corner is met as well.
+    // The end of a corridor has two corners, which are met at once.
     const double most = thinness_ * (tried == last ? kSharpPeel : kPeel) *
                         (piece_.narrow.index.contains(zone.edges.front().from) ? 0.5 : 1);
     if (tried == outer + 1 || (depth < most * piece_.tool_radius && !is_hot(passes, before)))
@@ -91,19 +88,18 @@ Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone
   return chosen;
 }
 
-/// What a zone holds beyond a round. \param back  whether the next pass begins at the zone's end
+/// Cuts what a zone holds beyond a round. \param back  whether the next pass begins at the zone's end
 Result<void> Corners::cut_beyond(std::size_t outer, const Front& zone, bool& back, ToolMotion& tool) {
   if (outer == peels_.last()) return {};
-  auto peel = deepest_peel(outer, zone);
-  if (!peel) return tl::unexpected(peel.error());
-  if (peel->passes.empty()) return cut_beyond(peel->inner, zone, back, tool);
-  if (back) std::reverse(peel->passes.begin(), peel->passes.end());
-  for (const Front& pass : peel->passes) {
+  LEKALO_TRY(auto peel, deepest_peel(outer, zone));
+  if (peel.passes.empty()) return cut_beyond(peel.inner, zone, back, tool);
+  if (back) std::reverse(peel.passes.begin(), peel.passes.end());
+  for (const Front& pass : peel.passes) {
     const std::vector<Edge> edges = back && either_way_ ? turned_back(pass.edges) : pass.edges;
     tool.link(edges.front().from);
     tool.go(ToolMotion::Kind::cut, edges);
     bool next = !back;
-    if (auto cut = cut_beyond(peel->inner, pass, next, tool); !cut) return cut;
+    LEKALO_CHECK(cut_beyond(peel.inner, pass, next, tool));
   }
   back = !back;
   return {};

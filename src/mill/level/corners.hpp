@@ -8,8 +8,8 @@
 
 namespace lekalo::mill {
 
-/// Corners, which the pass along the walls rounds: what it leaves there is cut in peels, to and fro, each as
-/// deep as it may be.
+/// Step 7 of docs/design/pocket.md: the pass along the walls rounds corners, and what it leaves there is cut
+/// in peels, to and fro, each as deep as it may be.
 class Corners {
  public:
   /// \param piece, loop_places  kept by reference \param loop_places, cleared  as of Peels
@@ -18,11 +18,11 @@ class Corners {
                                             const std::vector<geom::Region>& cleared,
                                             const PocketOptions& options);
 
-  /// Where the pass along the walls goes.
+  /// The round on whose boundary the pass along the walls goes.
   [[nodiscard]] const Peels::Round& walls() const { return *walls_; }
-  /// The stretches of the walls themselves that it leaves out.
+  /// The stretches of the walls themselves that this pass leaves out.
   [[nodiscard]] const std::vector<Front>& zones() const { return *zones_; }
-  /// From where the pass along the walls leaves the zone: at its end.
+  /// Cuts a zone. The tool is where the pass along the walls leaves it: at the zone's end.
   Result<void> cut(std::size_t zone, ToolMotion& tool);
 
  private:
@@ -41,7 +41,7 @@ class Corners {
   bool either_way_;
   Peels peels_;
   std::size_t roundest_ = 0;  ///< round of the pass along the walls
-  // Kept by peels_, where they stay:
+  // peels_ keeps these, and they stay where they are:
   const Peels::Round* walls_ = nullptr;
   const std::vector<Front>* zones_ = nullptr;
 };

@@ -22,13 +22,13 @@ constexpr double kHelix = 0.8;        // of the tool's radius
 constexpr double kLeastHelix = 1e-3;  // mm: below it the tool goes straight down
 constexpr double kLeastDisc = 0.01;   // mm
 
-/// A quarter of a turn about the entry, to `out` off its centre.
+/// Goes a quarter of a turn about the entry, to `out` off its centre.
 void quarter(ToolMotion& tool, const Entry& entry, Point out, double z, Kind kind) {
   tool.go(
       {.kind = kind, .to = entry.centre + out, .z = z, .shape = EdgeKind::arc_ccw, .centre = entry.centre});
 }
 
-/// Once round on the floor. \param out  where the tool is, off the centre
+/// Goes once round on the floor. \param out  where the tool is, off the centre
 void level_turn(ToolMotion& tool, const Entry& entry, Point out, double depth, Kind kind) {
   for (int q = 0; q < 4; ++q) {
     out = perpendicular(out);
@@ -36,7 +36,8 @@ void level_turn(ToolMotion& tool, const Entry& entry, Point out, double depth, K
   }
 }
 
-/// Down from the stock's face, and once round on the floor. \param out  where the tool is, off the centre
+/// Goes down from the stock's face, and once round on the floor. \param out  where the tool is, off the
+/// centre
 void helix(ToolMotion& tool, const Entry& entry, Point out, const PocketOptions& o) {
   const double turns = std::ceil(o.depth / (kTurn * entry.helix * o.ramp_angle));
   for (double i = 1; i <= 4 * turns; ++i) {
@@ -46,21 +47,21 @@ void helix(ToolMotion& tool, const Entry& entry, Point out, const PocketOptions&
   level_turn(tool, entry, out, o.depth, Kind::entry);
 }
 
-/// From the helix to the disc.
+/// Leads from the helix out to the disc.
 void spiral(ToolMotion& tool, const Entry& entry, Point ahead, const PocketOptions& o) {
   const double radius = o.tool_diameter / 2, widest_step = o.step_over * o.tool_diameter;
   const double cosine = geom::sincos(kNext * straight_pass_angle(o.step_over)).cosine;
   std::vector<double> steps;
   double reach = entry.helix;
   while (reach < entry.disc) {
-    // The second turn meets the step of the first: what a turn may add depends on where it begins.
+    // A turn meets the step of the one before, so that what it may add depends on where it begins.
     steps.push_back(std::min(widest_step, step_for(reach, radius, cosine)));
     reach += steps.back();
   }
   const double scale = (entry.disc - entry.helix) / (reach - entry.helix);
   double r = entry.helix;
   for (const double step : steps) {
-    // Four quarters about the corners of a small square: tangent to each other, and back on the axis.
+    // Four quarter circles about the corners of a small square are tangent to each other and end on the axis.
     const double more = scale * step / 4;
     Point out = ahead, centre = entry.centre;
     for (int q = 0; q < 4; ++q) {
@@ -107,9 +108,8 @@ Result<std::vector<Region>> start_region(const Entry& entry, const Piece& piece)
   auto disc = geom::make_region({{EdgeKind::arc_ccw, edge, edge, entry.centre}});
   if (!disc) return tl::unexpected(disc.error());
   if (entry.disc >= kLeastDisc) return std::vector<Region>{*disc};
-  auto clipped = geom::combine({*disc}, piece.allowed.regions, geom::BooleanOperation::intersect);
-  if (!clipped) return tl::unexpected(clipped.error());
-  return clipped->regions;
+  LEKALO_TRY(auto clipped, geom::combine({*disc}, piece.allowed.regions, geom::BooleanOperation::intersect));
+  return clipped.regions;
 }
 
 void enter(ToolMotion& tool, const Entry& entry, Point ahead, const PocketOptions& o) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for one
 
-/// In the direction of travel.
+/// The edges of a front in the direction of travel.
 std::vector<Edge> along(const Front& front, bool back) {
   return back ? turned_back(front.edges) : front.edges;
 }
@@ -75,7 +75,8 @@ void FrontPasses::cut_all(const std::vector<std::size_t>& among) {
   }
 }
 
-/// Near, and of two near ones the one that less waits for, so that what is small is not left behind.
+/// Chooses a near front, and of two near ones the one that fewer wait for, so that what is small is not left
+/// behind.
 std::optional<std::size_t> FrontPasses::next(const std::vector<std::size_t>& among) const {
   std::optional<std::size_t> best;
   double least = std::numeric_limits<double>::infinity();
@@ -98,7 +99,7 @@ void FrontPasses::cut(const Front& front) {
   cut_across(front);
 }
 
-/// From wall to wall, begun at the nearer one.
+/// Cuts from wall to wall, beginning at the nearer one.
 void FrontPasses::cut_across(const Front& front) {
   const Point begin = front.edges.front().from, end = front.edges.back().to;
   const bool back = either_way_ && norm(end - tool_.at()) < norm(begin - tool_.at());
@@ -111,7 +112,7 @@ void FrontPasses::cut_across(const Front& front) {
     edges = along(given, back);
   tool_.link(edges.front().from, cut_before);
   tool_.go(Kind::cut, edges);
-  // Where its front meets the wall.
+  // The corner lies where the front itself meets the wall.
   Point corner = back ? end : begin;
   for (const Edge& edge : along(given, back)) {
     if (piece_.fields.index.nearest(place_at(edge, 0.5)).distance > 1e-6) break;
@@ -120,7 +121,8 @@ void FrontPasses::cut_across(const Front& front) {
   passes_.push_back({edges.front().from, corner, tool_.at()});
 }
 
-/// The pass before may have left the wall before it came to this front: it begins where that one began.
+/// The pass before may have left the wall before it came to this front; then this one begins where that
+/// began.
 Front FrontPasses::begun_like_before(const Front& front, bool back) const {
   Front given = front;
   const Point begin = back ? front.edges.back().to : front.edges.front().from;
@@ -136,8 +138,8 @@ Front FrontPasses::begun_like_before(const Front& front, bool back) const {
   return given;
 }
 
-/// Round, begun where it leaves what is cut before least; where that is nowhere near it, over a ramp, and
-/// over the ramp's stretch again.
+/// Cuts a ring, beginning at its place nearest to what is cut before. Where no place is near, the tool comes
+/// in over a ramp, and goes over the ramp's stretch again at the end.
 void FrontPasses::cut_ring(const Front& front) {
   const geom::RegionIndex cut_before = before(front);
   const std::vector<Point> at = places_on(front.edges, 0.1 * law_.tool_radius);
@@ -150,7 +152,7 @@ void FrontPasses::cut_ring(const Front& front) {
   }
   const std::size_t n = at.size() - 1;
   const auto leaving = cut_before.nearest(at[start]);
-  // What a short ring goes round is nearly all cut from outside of it.
+  // A short ring needs no ramp: nearly all of what it goes round is cut from outside of it.
   const bool ramped = leaving.distance >= 0.05 * law_.tool_radius && length_of(front.edges) > 6 * law_.step;
   const double ramp = ramped ? 3 * law_.step : 0;
   tool_.link(leaving.point, cut_before);
@@ -170,13 +172,13 @@ void FrontPasses::cut_ring(const Front& front) {
   passes_.push_back({tool_.at(), tool_.at(), tool_.at()});
 }
 
-/// One loop of a trochoid, begun at the side where the one before ended.
+/// Cuts one loop of a trochoid, beginning at the side where the one before ended.
 void FrontPasses::cut_loop(const Front& front) {
   const bool back =
       either_way_ && norm(front.left_lead.front() - tool_.at()) < norm(front.right_lead.front() - tool_.at());
   const std::vector<Point>& lead = back ? front.left_lead : front.right_lead;
   const double far = norm(lead.front() - tool_.at());
-  // Across what the loop before has cut, if there is only that to cross.
+  // The tool goes straight across what the loop before has cut, if there is only that to cross.
   if (far < 3 * arc_radius(front.edges.front()) && tool_.is_inside(tool_.at(), lead.front())) {
     if (far > 1e-6) tool_.go(Kind::link, lead.front());
   } else {

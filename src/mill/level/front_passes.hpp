@@ -9,32 +9,32 @@
 
 namespace lekalo::mill {
 
-/// Cuts what grows from a start, front by front: which is next, and how a pass from wall to wall, a ring, a
-/// loop and a slot are begun and cut.
+/// Step 6 of docs/design/pocket.md: cuts what grows from a start, front by front. It chooses the next front,
+/// and knows how a pass from wall to wall, a ring, a loop and a slot are begun and cut.
 class FrontPasses {
  public:
   /// \param piece, tool, listener  kept by reference
   FrontPasses(const Piece& piece, ToolMotion& tool, const PocketOptions& options,
               const AreaListener& listener);
 
-  /// Fronts from `start`, which is cut, in place of those before. Errors: as mill::grow.
+  /// Grows fronts from `start`, which is cut, in place of those before. Errors: as mill::grow.
   Result<void> grow_from(const std::vector<geom::Region>& start);
-  /// Of the last growth.
+  /// The fronts of the last growth.
   [[nodiscard]] const std::vector<Front>& fronts() const { return growth_.fronts; }
-  /// Places the last growth comes to.
+  /// The places that the last growth comes to.
   [[nodiscard]] const std::vector<geom::Region>& reached() const { return growth_.cut.back(); }
-  /// Direction from the middle of a disc, the start, to where the first front begins.
+  /// The direction from the middle of a disc, the start, to where the first front begins.
   [[nodiscard]] geom::Point first_direction(geom::Point centre, double disc) const;
-  /// Cuts all of the last growth that can be; O(fronts^2) to choose.
+  /// Cuts all fronts of the last growth that can be cut. Choosing takes O(fronts^2).
   void cut_all();
-  /// The same of some fronts alone.
+  /// Does the same for some fronts alone.
   void cut_all(const std::vector<std::size_t>& among);
 
-  // Of all growths:
+  // These count over all growths:
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// Where passes ended.
+  /// The places where passes ended.
   [[nodiscard]] std::vector<geom::Point> ends() const;
-  /// Centres of loops, and places of slots.
+  /// The centres of loops, and the places of slots.
   [[nodiscard]] const std::vector<geom::Point>& loop_places() const { return loop_places_; }
 
  private:
@@ -48,7 +48,7 @@ class FrontPasses {
   void cut_loop(const Front& front);
   void cut_slot(const Front& front);
   [[nodiscard]] Front begun_like_before(const Front& front, bool back) const;
-  /// What is cut before the front's layer.
+  /// The places that are cut before the front's layer.
   [[nodiscard]] geom::RegionIndex before(const Front& front) const {
     return geom::RegionIndex(growth_.cut[front.layer - 1]);
   }

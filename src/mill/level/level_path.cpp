@@ -13,21 +13,22 @@
 #include "walls.hpp"
 
 namespace lekalo::mill {
-// The order of things on one level; each of them has a file of its own.
+// This file has the order of the steps 1 to 8 of docs/design/pocket.md; each step has a file of its own.
 namespace {
 
 using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
-/// Up, for the end of a level; no motion where there was nothing to cut.
+/// Lifts the tool at the end of a level. The path is empty where there was nothing to cut.
 PocketPath finished(ToolMotion& tool, const FrontPasses& passes) {
   if (tool.moves().empty()) return {};
   tool.rise();
   return {tool.moves(), passes.count()};
 }
 
-/// From the solid: an entry and its fronts, again where the tool cannot come to from there, then the walls.
+/// Clears from the solid: an entry and its fronts, again for what cannot be reached from there, then the
+/// walls.
 Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions& o,
                                         const AreaListener& listener) {
   ToolMotion tool(piece, o);
@@ -35,9 +36,8 @@ Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions&
   std::vector<Region> left = piece.fields.regions.empty() ? piece.allowed.regions : piece.fields.regions;
   while (!left.empty()) {
     const Entry entry = widest_disc(left, piece.tool_radius);
-    const auto start = start_region(entry, piece);
-    if (!start) return tl::unexpected(start.error());
-    if (auto grown = passes.grow_from(*start); !grown) return tl::unexpected(grown.error());
+    LEKALO_TRY(const auto start, start_region(entry, piece));
+    LEKALO_CHECK(passes.grow_from(start));
     enter(tool, entry, passes.first_direction(entry.centre, entry.disc), o);
     passes.cut_all();
     const RegionIndex cut(passes.reached());
@@ -49,22 +49,20 @@ Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions&
     });
     if (left.size() == before) break;
   }
-  auto corners = Corners::find(piece, passes.loop_places(), {}, o);
-  if (!corners) return tl::unexpected(corners.error());
-  if (auto walls = cut_walls(tool, *corners, piece, passes.ends()); !walls)
-    return tl::unexpected(walls.error());
+  LEKALO_TRY(auto corners, Corners::find(piece, passes.loop_places(), {}, o));
+  LEKALO_CHECK(cut_walls(tool, corners, piece, passes.ends()));
   cut_missed_walls(tool, piece, {});
   return finished(tool, passes);
 }
 
-/// A place that other tools have left, and what of each list is cut there.
+/// A place that other tools have left, and the numbers of the fronts, walls and corners that are cut there.
 struct LeftPlace {
   RegionIndex index;
   std::vector<std::size_t> fronts, walls, corners;
   [[nodiscard]] bool is_empty() const { return fronts.empty() && walls.empty() && corners.empty(); }
 };
 
-/// The one a front lies in or is nearest to.
+/// The place that a front lies in or is nearest to.
 LeftPlace& place_of(const Front& front, std::vector<LeftPlace>& places) {
   const Point p = place_at(front.edges[front.edges.size() / 2], 0.5);
   std::size_t best = 0;
@@ -76,30 +74,29 @@ LeftPlace& place_of(const Front& front, std::vector<LeftPlace>& places) {
   return places[best];
 }
 
-/// Corners of a place, the nearest first.
+/// Cuts corners, the nearest first.
 Result<void> cut_corners(ToolMotion& tool, Corners& corners, std::vector<std::size_t> which) {
   const auto far = [&](std::size_t i) { return norm(corners.zones()[i].edges.back().to - tool.at()); };
   while (!which.empty()) {
     const auto next = std::min_element(which.begin(), which.end(),
                                        [&](std::size_t a, std::size_t b) { return far(a) < far(b); });
-    if (auto cut = corners.cut(*next, tool); !cut) return cut;
+    LEKALO_CHECK(corners.cut(*next, tool));
     which.erase(next);
   }
   return {};
 }
 
-/// What other tools have left, place by place: fronts that grow from where they have been, then the walls
-/// they did not come to, then corners.
+/// Clears what other tools have left, place by place: fronts that grow from where they have been, then the
+/// walls that those did not come to, then corners.
 Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions& o,
                                         const std::vector<Region>& cleared, const std::vector<Region>& left,
                                         const AreaListener& listener) {
   ToolMotion tool(piece, o);
   FrontPasses passes(piece, tool, o, listener);
-  if (auto grown = passes.grow_from(cleared); !grown) return tl::unexpected(grown.error());
-  auto corners = Corners::find(piece, passes.loop_places(), cleared, o);
-  if (!corners) return tl::unexpected(corners.error());
-  const std::vector<Front> walls = fresh_stretches(corners->walls().regions, RegionIndex(passes.reached()));
-  const std::vector<Front>&fronts = passes.fronts(), &zones = corners->zones();
+  LEKALO_CHECK(passes.grow_from(cleared));
+  LEKALO_TRY(auto corners, Corners::find(piece, passes.loop_places(), cleared, o));
+  const std::vector<Front> walls = fresh_stretches(corners.walls().regions, RegionIndex(passes.reached()));
+  const std::vector<Front>&fronts = passes.fronts(), &zones = corners.zones();
   std::vector<LeftPlace> places;
   for (const Region& region : left) places.push_back({RegionIndex({region}), {}, {}, {}});
   for (std::size_t i = 0; i < fronts.size(); ++i) place_of(fronts[i], places).fronts.push_back(i);
@@ -121,10 +118,10 @@ Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions&
     }
     passes.cut_all(place->fronts);
     cut_stretches(tool, walls, place->walls);
-    if (auto cut = cut_corners(tool, *corners, place->corners); !cut) return tl::unexpected(cut.error());
+    LEKALO_CHECK(cut_corners(tool, corners, place->corners));
     places.erase(place);
   }
-  // What the fronts do not come to from there stays for a helix.
+  // Walls that no pass came along are cut last.
   cut_missed_walls(tool, piece, cleared);
   return finished(tool, passes);
 }
@@ -132,10 +129,9 @@ Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions&
 Result<PocketPath> climb_or_any(const Region& allowed, const PocketOptions& o,
                                 const std::vector<Region>& cleared, const std::vector<Region>& left,
                                 const AreaListener& listener) {
-  const auto piece = find_fields(allowed, o.tool_diameter / 2, cleared);
-  if (!piece) return tl::unexpected(piece.error());
-  return cleared.empty() ? cleared_from_entries(*piece, o, listener)
-                         : cleared_after_others(*piece, o, cleared, left, listener);
+  LEKALO_TRY(const auto piece, find_fields(allowed, o.tool_diameter / 2, cleared));
+  return cleared.empty() ? cleared_from_entries(piece, o, listener)
+                         : cleared_after_others(piece, o, cleared, left, listener);
 }
 
 }  // namespace
@@ -150,9 +146,8 @@ Result<PocketPath> level_path(const Region& allowed, const PocketOptions& option
   const auto other = mirrored({allowed}), start = mirrored(cleared), rest = mirrored(left);
   for (const auto* made : {&other, &start, &rest})
     if (!*made) return tl::unexpected(made->error());
-  auto path = climb_or_any(other->front(), turned, *start, *rest, listener);
-  if (!path) return path;
-  return mirrored(std::move(*path));
+  LEKALO_TRY(auto path, climb_or_any(other->front(), turned, *start, *rest, listener));
+  return mirrored(std::move(path));
 }
 
 }  // namespace lekalo::mill

@@ -35,7 +35,7 @@ bool line_inside(const geom::RegionIndex& allowed, Point a, Point b) {
   return true;
 }
 
-/// The start of each piece's spiral, if one is chosen.
+/// The starts that are chosen, each for the piece whose spiral begins there.
 Result<std::vector<std::optional<Point>>> starts_of(const std::vector<Region>& pieces,
                                                     const PocketOptions& o) {
   constexpr double kSlack = 1e-6;  // mm: a start on a border is in one of its pieces
@@ -66,7 +66,7 @@ double level_count(const PocketOptions& o) {
   return o.step_down > 0 ? std::ceil((o.depth - o.floor_stock) / o.step_down * (1 - 1e-12)) : 1;
 }
 
-/// One piece of places, level by level.
+/// The path of one piece of places, put together level by level.
 class Levels {
  public:
   /// \param all_cut  a level's plan leaves nothing of the places
@@ -77,8 +77,8 @@ class Levels {
         safe_height_(safe_height),
         tool_radius_(tool_radius) {}
 
-  /// The plan of a level, made for one at the stock's face, `top` below it. From the end of the level above
-  /// to its beginning the tool goes through what that level has cut, if that is all.
+  /// Adds the plan of a level, which is made for one at the stock's face, `top` below it. From the end of the
+  /// level above to the beginning of this one the tool goes at depth if the level above is all cut.
   void add(const PocketPath& plan, double top) {
     const auto first_down = static_cast<std::size_t>(
         std::find_if(plan.moves.begin(), plan.moves.end(), [](const PathMove& m) { return m.z <= 0; }) -
@@ -109,7 +109,7 @@ class Levels {
   [[nodiscard]] const std::vector<PathMove>& moves() const { return path_.moves; }
 
  private:
-  /// Corners of a way among the places, all of which are cut on the level above; none where there is none.
+  /// Corners of a way among the places, all of which are cut on the level above; none where there is no way.
   std::vector<Point> way(Point from, Point to) {
     if (line_inside(limit_, from, to)) return {to};
     if (!grid_) grid_.emplace(Growth{{}, {places_}}, tool_radius_);
@@ -157,34 +157,30 @@ std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter) {
 
 Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketOptions& o,
                                const std::vector<EarlierCut>& before, const ProgressListener& progress) {
-  auto allowed = allowed_places(pockets, o);
-  if (!allowed) return tl::unexpected(allowed.error());
+  LEKALO_TRY(auto allowed, allowed_places(pockets, o));
   const double levels = level_count(o);
   PocketOptions one = o;
   one.depth = level_depth(o);
-  std::vector<Region> pieces = *allowed;
+  std::vector<Region> pieces = allowed;
   const bool source = o.method != Method::fronts;
   if (source && !before.empty())
     return failure(ErrorCode::bad_input, "the source's method knows no tool that was here before");
   if (source && !o.whole) {
-    const auto fragments = convex_fragments(pockets);
-    if (!fragments) return tl::unexpected(fragments.error());
+    LEKALO_TRY(const auto fragments, convex_fragments(pockets));
     pieces.clear();
-    for (const Region& fragment : *fragments) {
-      const auto part = geom::combine(*allowed, {fragment}, geom::BooleanOperation::intersect, kOperandError);
-      if (!part) return tl::unexpected(part.error());
-      pieces.insert(pieces.end(), part->regions.begin(), part->regions.end());
+    for (const Region& fragment : fragments) {
+      LEKALO_TRY(const auto part,
+                 geom::combine(allowed, {fragment}, geom::BooleanOperation::intersect, kOperandError));
+      pieces.insert(pieces.end(), part.regions.begin(), part.regions.end());
     }
   }
-  // Of each level; levels that begin alike share a plan.
+  // Each level has its own cleared places; levels that begin alike share a plan.
   std::vector<std::vector<Region>> cleared;
   for (double k = 1; k <= levels; ++k) {
-    auto places = cleared_places(before, k * one.depth, o.tool_diameter / 2);
-    if (!places) return tl::unexpected(places.error());
-    cleared.push_back(std::move(*places));
+    LEKALO_TRY(auto places, cleared_places(before, k * one.depth, o.tool_diameter / 2));
+    cleared.push_back(std::move(places));
   }
-  const auto starts = starts_of(pieces, o);
-  if (!starts) return tl::unexpected(starts.error());
+  LEKALO_TRY(const auto starts, starts_of(pieces, o));
   double plans = 0;
   for (std::size_t k = 0; k < cleared.size(); ++k) plans += k == 0 || cleared[k] != cleared[k - 1] ? 1 : 0;
   const double to_plan = plans * area_of(pieces);
@@ -200,11 +196,10 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
     Result<PocketPath> plan;
     for (std::size_t k = 0; k < cleared.size(); ++k) {
       if (k == 0 || cleared[k] != cleared[k - 1]) {
-        const auto parts = divided(region, cleared[k]);
-        if (!parts) return tl::unexpected(parts.error());
-        plan = parts->left.empty() ? Result<PocketPath>(PocketPath{})
-               : source            ? floz_level(region, one, (*starts)[i])
-                                   : level_path(region, one, parts->cleared, parts->left, tell);
+        LEKALO_TRY(const auto parts, divided(region, cleared[k]));
+        plan = parts.left.empty() ? Result<PocketPath>(PocketPath{})
+               : source           ? floz_level(region, one, starts[i])
+                                  : level_path(region, one, parts.cleared, parts.left, tell);
         if (!plan) return tl::unexpected(plan.error());
         planned += geom::area(region);
         tell(0);

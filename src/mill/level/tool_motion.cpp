@@ -41,7 +41,8 @@ void ToolMotion::go(const PathMove& move) {
 void ToolMotion::go(Kind kind, Point to) { go({.kind = kind, .to = to, .z = -depth_}); }
 
 void ToolMotion::go(Kind kind, const Edge& edge) {
-  // Both ends at the same distance from the centre, whatever rounding or a way along a wall made of them.
+  // The centre is put at the same distance from both ends, whatever rounding or a way along a wall made of
+  // them.
   const Point chord = edge.to - at_;
   const double square = dot(chord, chord);
   Point centre = edge.centre;
@@ -78,15 +79,15 @@ void ToolMotion::link(Point to, const geom::RegionIndex& cut) {
   if (far < 1e-6) return;
   if (far < kFrontWay * step_) {
     const auto wall = way_along_wall(piece_.fields.index, at_, to, kWallWay * step_);
-    // Past the mouth of a corridor the way along the wall of the fields may still be full.
+    // The wall of the fields also runs past mouths of corridors, where material may still stand.
     if (wall && is_within(*wall, cut, 0.02 * piece_.tool_radius)) return go(Kind::link, *wall);
     if (is_within({{EdgeKind::line, at_, to, {}}}, cut, 1e-3)) return go(Kind::link, to);
   }
   link_over_grid(to);
 }
 
-/// Over the grid, or back where the tool came from to where there is such a way: out of a corridor that is
-/// narrower than the grid, or past a place whose front is still to be cut.
+/// Links over the grid. Where it has no way (in a corridor that is narrower than its pitch, or at a place
+/// whose front is still to be cut) the tool first goes back on its path to where there is one.
 void ToolMotion::link_over_grid(Point to) {
   std::vector<Edge> back;
   double length = 0, tried = -kBackSpacing;
@@ -122,7 +123,7 @@ std::vector<Point> ToolMotion::way_inside(Point from, Point to) const {
   return is_way(corners) ? corners : std::vector<Point>{};
 }
 
-/// Over the stock, where there is no way at depth.
+/// Goes over the stock, because there is no way at depth.
 void ToolMotion::hop(Point to) {
   if (norm(to - at_) < kOnlyStep * piece_.tool_radius && is_inside(at_, to)) return go(Kind::cut, to);
   rise();

@@ -10,9 +10,9 @@
 
 namespace lekalo::mill {
 
-/// The tool at one level, from Z 0 to -options.depth: the path so far and where the tool is. A link goes at
-/// depth through what is cut: along a wall, straight, or over a grid of places that know which front must be
-/// cut before them; where there is no way, over the stock.
+/// The tool at one level, from Z 0 to -options.depth: the path so far and where the tool is. A link (step 8
+/// of docs/design/pocket.md) goes at depth through what is cut: along a wall, straight, or over a grid of
+/// places that know which front must be cut before them. Where there is no such way it goes over the stock.
 class ToolMotion {
  public:
   using Kind = PathMove::Kind;
@@ -24,13 +24,13 @@ class ToolMotion {
   [[nodiscard]] const std::vector<PathMove>& moves() const { return moves_; }
 
   void go(const PathMove& move);
-  /// At depth.
+  /// Goes on at depth.
   void go(Kind kind, geom::Point to);
   void go(Kind kind, const geom::Edge& edge);
   void go(Kind kind, const std::vector<geom::Edge>& edges);
-  /// Straight up, above the stock.
+  /// Lifts the tool straight up, above the stock.
   void rise();
-  /// From above the stock to where nothing stands down to z.
+  /// Lowers the tool from above the stock to a place where nothing stands down to z.
   void come_down(geom::Point to, double z);
   void come_down(geom::Point to);
 
@@ -40,10 +40,10 @@ class ToolMotion {
   [[nodiscard]] bool is_done(std::size_t front) const { return grid_->is_done(front); }
   /// \pre set_growth
   void link(geom::Point to);
-  /// The same to where a front begins. \param cut  what the layers before it have cut
+  /// Links to where a front begins. \param cut  what the layers before it have cut
   void link(geom::Point to, const geom::RegionIndex& cut);
 
-  /// Whether the tool's middle may go there, cut or not.
+  /// True when the tool's middle may go there, whether that is cut or not.
   [[nodiscard]] bool is_inside(const geom::Edge& edge) const;
   [[nodiscard]] bool is_inside(geom::Point from, geom::Point to) const;
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kOnWall = 1e-4;  // mm
 
-/// Whether the goal, which lies on an edge, is ahead on the rest of it.
+/// True when the goal, which lies on an edge, is ahead on the rest of it.
 /// \param from_seam  the rest is one whole circle, from its seam on
 bool is_ahead(const Edge& edge, const Edge& rest, const Edge& last, bool from_seam) {
   if (edge.kind == EdgeKind::line) return dot(last.to - last.from, edge.to - edge.from) > 0;
@@ -37,8 +37,8 @@ std::optional<std::vector<Edge>> way_along_wall(const geom::RegionIndex& walls, 
     double length = 0;
     std::uint32_t e = begin.edge;
     Point at = from;
-    // Once round, and the edge where it began again: a wall that is one whole circle is walked from its
-    // seam on.
+    // The walk goes once round, and then over the edge where it began again, because a wall that is one whole
+    // circle is walked from its seam on.
     for (std::uint32_t walked = 0; walked <= count && length < most; ++walked) {
       Edge edge = walls.curves()[e].edge;
       if (back) edge = turned_back(edge);

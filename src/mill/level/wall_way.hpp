@@ -7,11 +7,11 @@
 
 namespace lekalo::mill {
 
-/// Of the step: how long a way along a wall instead of one across may be.
+/// A way along a wall is taken instead of one across if it is at most this many steps long.
 constexpr double kWallWay = 6;
 
-/// Along a wall, either way round, from one place on it to another; none where they are not both on it, or
-/// further from each other than `most` mm. Time: O(edges on the way).
+/// A way along a wall from one place on it to another: forwards if that is at most `most` mm, else back if
+/// that is; none where neither is, or where the places are not both on one wall. Time: O(edges on the way).
 [[nodiscard]] std::optional<std::vector<geom::Edge>> way_along_wall(const geom::RegionIndex& walls,
                                                                     geom::Point from, geom::Point to,
                                                                     double most);

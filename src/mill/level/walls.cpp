@@ -27,7 +27,7 @@ constexpr double kBadStart = 3;    // of the tool's radius: of way rather than a
 constexpr double kMissed = 5e-3;   // mm
 constexpr double kMissedPiece = 0.1;  // of the tool's radius
 
-/// Of each edge of the walls the corners that are left from it: mm along it, and which.
+/// The corners that are left from each edge of the walls: how many mm along the edge, and which.
 using Stops = std::vector<std::vector<std::pair<double, std::size_t>>>;
 
 Stops stops_of(const RegionIndex& walls, const std::vector<Front>& corners) {
@@ -42,7 +42,7 @@ Stops stops_of(const RegionIndex& walls, const std::vector<Front>& corners) {
   return stops;
 }
 
-/// Where the pass along a wall begins.
+/// The place where the pass along a wall begins.
 struct WallStart {
   std::size_t contour = 0;
   std::uint32_t edge = 0;
@@ -55,7 +55,7 @@ std::size_t contour_of(const RegionIndex& walls, std::uint32_t edge) {
   return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), edge) - starts.begin()) - 1;
 }
 
-/// The nearest to where the tool is.
+/// Finds the start nearest to where the tool is.
 /// \param left  contours
 WallStart wall_start(const RegionIndex& walls, const std::vector<std::size_t>& left, const Stops& stops,
                      const std::vector<Point>& ends, const Piece& piece, Point at) {
@@ -90,7 +90,7 @@ WallStart wall_start(const RegionIndex& walls, const std::vector<std::size_t>& l
   return best;
 }
 
-/// Once round a contour.
+/// Goes once round a contour.
 Result<void> cut_wall(ToolMotion& tool, Corners& corners, const WallStart& start, const Stops& stops) {
   const RegionIndex& walls = corners.walls().index;
   const Edge begun = walls.curves()[start.edge].edge;
@@ -130,7 +130,7 @@ Result<void> cut_wall(ToolMotion& tool, Corners& corners, const WallStart& start
   return {};
 }
 
-/// Lines and arcs that cut along a path.
+/// The lines and arcs of a path that cut.
 class CutPlaces {
  public:
   explicit CutPlaces(const std::vector<PathMove>& moves) {

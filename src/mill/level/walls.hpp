@@ -8,17 +8,16 @@
 
 namespace lekalo::mill {
 
-/// One pass along each wall, which takes the strip the fields keep; where it comes by a corner, that as well.
-/// It begins ahead of where a pass came near the wall, to which it comes at a small angle.
-/// \param ends  where passes ended
-/// Errors: as Corners::cut.
+/// Step 7 of docs/design/pocket.md: cuts one pass along each wall, which takes the strip that the fields
+/// keep, and the corners that it comes by. The pass begins ahead of where a front's pass ended near the wall,
+/// so that it comes to the wall at a small angle. \param ends  where passes ended Errors: as Corners::cut.
 Result<void> cut_walls(ToolMotion& tool, Corners& corners, const Piece& piece,
                        const std::vector<geom::Point>& ends);
 
-/// Some stretches of walls, the nearest first.
+/// Cuts some stretches of walls, the nearest first.
 void cut_stretches(ToolMotion& tool, const std::vector<Front>& walls, std::vector<std::size_t> which);
 
-/// Stretches of the walls no pass came along, as the path shows. Time: O(walls * passes).
+/// Cuts stretches of the walls that no pass came along, as the path shows. Time: O(walls * passes).
 /// \param cleared  where other tools have been
 void cut_missed_walls(ToolMotion& tool, const Piece& piece, const std::vector<geom::Region>& cleared);
 

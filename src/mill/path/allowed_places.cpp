@@ -39,15 +39,14 @@ Result<void> check(const PocketOptions& o) {
 }  // namespace
 
 Result<std::vector<Region>> allowed_places(const std::vector<Region>& pockets, const PocketOptions& o) {
-  if (auto good = check(o); !good) return tl::unexpected(good.error());
-  auto allowed = geom::offset(pockets, -(o.tool_diameter / 2 + o.stock_to_leave));
-  if (!allowed) return tl::unexpected(allowed.error());
-  if (allowed->regions.empty())
+  LEKALO_CHECK(check(o));
+  LEKALO_TRY(auto allowed, geom::offset(pockets, -(o.tool_diameter / 2 + o.stock_to_leave)));
+  if (allowed.regions.empty())
     return failure(
         ErrorCode::bad_input,
         fmt::format("a tool of {:g} mm that leaves {:g} mm on the walls fits nowhere in this pocket",
                     o.tool_diameter, o.stock_to_leave));
-  return std::move(allowed->regions);
+  return std::move(allowed.regions);
 }
 
 }  // namespace lekalo::mill

@@ -6,8 +6,8 @@
 
 namespace lekalo::mill {
 
-/// Where the tool's middle may be. bad_input for options out of range and where it may be nowhere; else as
-/// geom::offset.
+/// The places where the tool's middle may be. bad_input for options out of range, and where it may be
+/// nowhere; other errors are those of geom::offset.
 [[nodiscard]] Result<std::vector<geom::Region>> allowed_places(const std::vector<geom::Region>& pockets,
                                                                const PocketOptions& options);
 

@@ -123,7 +123,7 @@ class Fitter {
       if (!(path_.moves[i].to == points_.back())) points_.push_back(path_.moves[i].to);
     const std::span<const Point> points(points_);
     for (std::size_t i = 0; i + 1 < points.size();) {
-      // How far one motion reaches: doubled while it fits, then halved between what fits and what does not.
+      // The reach of one motion is doubled while it fits, then halved between what fits and what does not.
       std::size_t good = 1, bad = 0;
       Fit best;
       while (bad == 0 || bad - good > 1) {

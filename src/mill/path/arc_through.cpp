@@ -33,7 +33,7 @@ bool piece(const std::vector<Point>& p, std::size_t first, std::size_t last, dou
     const double uu = dot(u, u), vv = dot(v, v), d = 2 * cross(u, v);
     const Point centre = a + (1 / d) * Point{v.y * uu - u.y * vv, u.x * vv - v.x * uu};
     const double radius = norm(centre - a);
-    // No more than about a third of a turn.
+    // An arc is at most about a third of a turn.
     if (radius < kLargest && length < 1.7 * radius) {
       bool round = true;
       double before = -1;

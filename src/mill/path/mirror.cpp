@@ -31,9 +31,8 @@ Result<std::vector<Region>> mirrored(const std::vector<Region>& regions) {
   for (const Region& region : regions) {
     std::vector<geom::Contour> holes;
     for (const geom::Contour& hole : region.holes) holes.push_back(mirrored(hole));
-    auto other = geom::make_region(mirrored(region.outer), std::move(holes));
-    if (!other) return tl::unexpected(other.error());
-    made.push_back(std::move(*other));
+    LEKALO_TRY(auto other, geom::make_region(mirrored(region.outer), std::move(holes)));
+    made.push_back(std::move(other));
   }
   return made;
 }

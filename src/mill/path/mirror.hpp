@@ -6,7 +6,7 @@
 #include "lekalo/geom/region.hpp"
 #include "lekalo/mill/path.hpp"
 
-/// With x for -x: what is climb on one side of a mirror is conventional on the other.
+/// Mirrors with x for -x: what is climb on one side of a mirror is conventional on the other.
 namespace lekalo::mill {
 
 /// Errors: as geom::make_region.

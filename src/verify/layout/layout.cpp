@@ -162,12 +162,11 @@ std::string_view name_of(LayoutRule rule) noexcept {
 }
 
 Result<LayoutVerdict> verify_layout(const Document& document) {
-  const auto layout = read_layout(document);
-  if (!layout) return tl::unexpected(layout.error());
+  LEKALO_TRY(const auto layout, read_layout(document));
   LayoutVerdict verdict;
-  verdict.placements = layout->placements.size();
-  for (const Found& found : Checker(*layout).check()) {
-    const WrittenStock& stock = layout->stocks[found.stock];
+  verdict.placements = layout.placements.size();
+  for (const Found& found : Checker(layout).check()) {
+    const WrittenStock& stock = layout.stocks[found.stock];
     LayoutViolation violation{found.kind, found.a, found.b, stock.id, found.copy, {}};
     if (found.kind == LayoutRule::quality) violation.feature = stock.zones[found.feature].id;
     if (found.kind == LayoutRule::defect || found.kind == LayoutRule::defect_gap)

@@ -358,11 +358,10 @@ void read_placements(Members& root, const Index& parts, const Index& stocks, Wri
 }  // namespace
 
 Result<WrittenLayout> read_layout(const Document& document) {
-  const auto parsed = parse_json(document.bytes, document.name);
-  if (!parsed) return tl::unexpected(parsed.error());
+  LEKALO_TRY(const auto parsed, parse_json(document.bytes, document.name));
   std::string complaint;
   WrittenLayout layout;
-  Members root(*parsed, "", complaint,
+  Members root(parsed, "", complaint,
                {"format", "units", "name", "rules", "stocks", "parts", "kits", "placements", "next_id"});
   if (root.text("format") != "lekalo-layout/1") root.complain("field format does not say lekalo-layout/1");
   if (root.text("units") != "mm") root.complain("field units is not \"mm\"");

@@ -44,9 +44,10 @@ FlatPoint operator-(FlatPoint a, FlatPoint b) { return {a.x - b.x, a.y - b.y}; }
 
 /// Everything seen from one corner of the blank, so that a blank far from the origin keeps its digits; placed
 /// part points as intervals, and both as doubles in units of 2^scale, which makes them smaller than 1.
-class Scene {
+class SeenFromBlank {
  public:
-  Scene(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn, Precision precision)
+  SeenFromBlank(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
+                Precision precision)
       : blank_(blank), precision_(precision), origin_(blank.corner(0)) {
     const Interval tx(pose.shift.x - origin_.x, precision), ty(pose.shift.y - origin_.y, precision);
     for (const Point& v : part.points) {
@@ -135,7 +136,7 @@ Interval least_of(const std::vector<Interval>& values) {
 
 /// Least signed distance from the hull's edges, each moved in by its dent when `dented`.
 Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
-                      const Scene& scene, bool dented, Precision precision) {
+                      const SeenFromBlank& scene, bool dented, Precision precision) {
   const auto row_distance = [&](std::size_t j) {
     FlatPoint normal;
     double dent = 0;
@@ -172,7 +173,7 @@ Interval segment_distance(const IntervalPoint& p, const IntervalPoint& a, const 
 
 /// Distance between two outlines that do not cross: part points from blank edges, and blank points from part
 /// edges. Only blank points that are no hull corners can be nearest to the inside of a part edge.
-Interval outline_distance(const Outline& blank, const Outline& part, const Scene& scene) {
+Interval outline_distance(const Outline& blank, const Outline& part, const SeenFromBlank& scene) {
   const std::size_t n = blank.points.size(), m = part.points.size();
   std::vector<bool> is_corner(n, false);
   for (const std::size_t i : blank.hull) is_corner[i] = true;
@@ -205,7 +206,7 @@ Interval outline_distance(const Outline& blank, const Outline& part, const Scene
 
 Interval allowance(const Outline& blank, const Outline& part, const Pose& pose, Precision precision) {
   const Turn turn = rotation(pose.angle, precision);
-  const Scene scene(blank, part, pose, turn, precision);
+  const SeenFromBlank scene(blank, part, pose, turn, precision);
   const Interval outer = line_minimum(blank, part, pose, turn, scene, false, precision);
   if (blank.convex()) return outer;
   const Interval inner = line_minimum(blank, part, pose, turn, scene, true, precision);

@@ -96,10 +96,9 @@ std::vector<Stroke> cut_at(const Stroke& s, std::vector<Place> cuts) {
 }  // namespace
 
 Result<PocketReach> PocketReach::make(const Document& pocket, double clearance, double air_width) {
-  const Result<Json> json = parse_json(pocket.bytes, pocket.name);
-  if (!json) return tl::unexpected(json.error());
+  LEKALO_TRY(const Json json, parse_json(pocket.bytes, pocket.name));
   std::string complaint;
-  const Shape shape = read_shape(*json, "pocket", complaint);
+  const Shape shape = read_shape(json, "pocket", complaint);
   if (!complaint.empty()) return failure(ErrorCode::bad_input, fmt::format("{}: {}", pocket.name, complaint));
   if (const auto fault = fault_of(shape))
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", pocket.name, *fault));

@@ -96,26 +96,21 @@ struct Job {
 
 Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
                      const std::vector<EarlierProgram>& earlier) {
-  if (const Result<void> good = check(o, earlier); !good) return tl::unexpected(good.error());
-  Result<std::vector<Move>> moves = read_moves(program);
-  if (!moves) return tl::unexpected(moves.error());
+  LEKALO_CHECK(check(o, earlier));
+  LEKALO_TRY(std::vector<Move> moves, read_moves(program));
   const double radius = o.tool_diameter / 2;
-  Result<PocketReach> reach =
-      PocketReach::make(pocket, radius + o.stock_to_leave, kAirWidth * (radius + o.stock_to_leave));
-  if (!reach) return tl::unexpected(reach.error());
-  Result<CutPath> path = cuts_of(program, *moves, o.tool_diameter, o.top);
-  if (!path) return tl::unexpected(path.error());
+  LEKALO_TRY(PocketReach reach,
+             PocketReach::make(pocket, radius + o.stock_to_leave, kAirWidth * (radius + o.stock_to_leave)));
+  LEKALO_TRY(CutPath path, cuts_of(program, moves, o.tool_diameter, o.top));
   for (const EarlierProgram& other : earlier) {
-    const Result<std::vector<Move>> its_moves = read_moves(other.program);
-    if (!its_moves) return tl::unexpected(its_moves.error());
-    Result<CutPath> its_path = cuts_of(other.program, *its_moves, other.tool_diameter, o.top);
-    if (!its_path) return tl::unexpected(its_path.error());
-    for (Cut& cut : its_path->cuts) {
+    LEKALO_TRY(const std::vector<Move> its_moves, read_moves(other.program));
+    LEKALO_TRY(CutPath its_path, cuts_of(other.program, its_moves, other.tool_diameter, o.top));
+    for (Cut& cut : its_path.cuts) {
       cut.entry = 0;
-      path->before.push_back(cut);
+      path.before.push_back(cut);
     }
   }
-  return Job{std::move(*moves), std::move(*reach), std::move(*path)};
+  return Job{std::move(moves), std::move(reach), std::move(path)};
 }
 
 }  // namespace
@@ -123,11 +118,10 @@ Result<Job> read_job(const Document& program, const Document& pocket, const Simu
 Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
                                 const std::vector<EarlierProgram>& earlier,
                                 const ProgressListener& progress) {
-  const Result<Job> job = read_job(program, pocket, o, earlier);
-  if (!job) return tl::unexpected(job.error());
-  const std::vector<Move>& moves = job->moves;
-  const PocketReach& reach = job->reach;
-  const CutPath& path = job->path;
+  LEKALO_TRY(const Job job, read_job(program, pocket, o, earlier));
+  const std::vector<Move>& moves = job.moves;
+  const PocketReach& reach = job.reach;
+  const CutPath& path = job.path;
   const double radius = o.tool_diameter / 2;
   SimulateReport report;
   report.retracts = path.retracts;
@@ -161,20 +155,17 @@ Result<std::vector<EngagementSample>> engagement_on(const Document& program, con
                                                     const SimulateOptions& o,
                                                     const std::vector<EarlierProgram>& earlier,
                                                     const std::vector<LineRange>& lines) {
-  const Result<Job> job = read_job(program, pocket, o, earlier);
-  if (!job) return tl::unexpected(job.error());
+  LEKALO_TRY(const Job job, read_job(program, pocket, o, earlier));
   SimulateReport report;
-  measure_engagement_on(job->path, job->reach.air(), o, lines, report);
+  measure_engagement_on(job.path, job.reach.air(), o, lines, report);
   return std::move(report.samples);
 }
 
 Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top) {
-  const Result<std::vector<Move>> moves = read_moves(program);
-  if (!moves) return tl::unexpected(moves.error());
-  const Result<CutPath> path = cut_path(*moves, top, 0, 1e30, program.name);
-  if (!path) return tl::unexpected(path.error());
+  LEKALO_TRY(const std::vector<Move> moves, read_moves(program));
+  LEKALO_TRY(const CutPath path, cut_path(moves, top, 0, 1e30, program.name));
   std::vector<CutStretch> stretches;
-  for (const Cut& cut : path->cuts) {
+  for (const Cut& cut : path.cuts) {
     const Stroke& s = cut.stroke;
     stretches.push_back({s.arc, s.ccw, s.from.x, s.from.y, s.to.x, s.to.y, s.centre.x, s.centre.y,
                          std::max(cut.from_z, cut.to_z)});

@@ -132,10 +132,9 @@ Result<Contour> json_points(const Document& document, Json list) {
   Contour contour;
   JsonItems items(list);
   while (const auto item = items.next()) {
-    auto point = json_point(document, *item, contour.size());
-    if (!point) return tl::unexpected(std::move(point.error()));
-    contour.x.push_back(std::move((*point)[0]));
-    contour.y.push_back(std::move((*point)[1]));
+    LEKALO_TRY(auto point, json_point(document, *item, contour.size()));
+    contour.x.push_back(std::move(point[0]));
+    contour.y.push_back(std::move(point[1]));
   }
   return contour;
 }
@@ -156,14 +155,12 @@ Result<Contour> json_region(const Document& document, Json outer) {
     constexpr std::array<std::string_view, 2> kTips{"from", "to"};
     if (!find_members(line, kTips, tips))
       return bad(document, fmt::format("edge {} gives an end twice", index));
-    auto from = json_point(document, tips[0], index);
-    if (!from) return tl::unexpected(std::move(from.error()));
-    auto to = json_point(document, tips[1], index);
-    if (!to) return tl::unexpected(std::move(to.error()));
-    contour.x.push_back(std::move((*from)[0]));
-    contour.y.push_back(std::move((*from)[1]));
-    ends.x.push_back(std::move((*to)[0]));
-    ends.y.push_back(std::move((*to)[1]));
+    LEKALO_TRY(auto from, json_point(document, tips[0], index));
+    LEKALO_TRY(auto to, json_point(document, tips[1], index));
+    contour.x.push_back(std::move(from[0]));
+    contour.y.push_back(std::move(from[1]));
+    ends.x.push_back(std::move(to[0]));
+    ends.y.push_back(std::move(to[1]));
   }
   const Decimal tolerance{1, -6};
   const auto apart = [&tolerance](const Decimal& a, const Decimal& b) {
@@ -181,14 +178,13 @@ Result<Contour> json_region(const Document& document, Json outer) {
 }
 
 Result<Contour> read_json(const Document& document) {
-  const auto root = parse_json(document.bytes, document.name);
-  if (!root) return tl::unexpected(root.error());
-  if (root->is_array()) return json_points(document, *root);
-  if (!root->is_object()) return bad(document, "neither a list of points nor an object");
+  LEKALO_TRY(const auto root, parse_json(document.bytes, document.name));
+  if (root.is_array()) return json_points(document, root);
+  if (!root.is_object()) return bad(document, "neither a list of points nor an object");
 
   constexpr std::array<std::string_view, 5> kKeys{"points", "outer", "units", "holes", "islands"};
   std::array<Json, 5> found;
-  if (!find_members(*root, kKeys, found)) return bad(document, "a field is given twice");
+  if (!find_members(root, kKeys, found)) return bad(document, "a field is given twice");
   const auto& [points, outer, units, holes, islands] = found;
   for (const Json& inner : {holes, islands}) {
     if (!inner.text.empty() && (!inner.is_array() || count_items(inner) > 0)) {
@@ -246,10 +242,10 @@ class DxfReader {
   explicit DxfReader(const Document& document) : document_(document) {}
 
   Result<Contour> read() {
-    if (auto ok = read_pairs(); !ok) return tl::unexpected(ok.error());
+    LEKALO_CHECK(read_pairs());
     Contour contour;
-    if (auto ok = read_unit(contour); !ok) return tl::unexpected(ok.error());
-    if (auto ok = read_outline(contour); !ok) return tl::unexpected(ok.error());
+    LEKALO_CHECK(read_unit(contour));
+    LEKALO_CHECK(read_outline(contour));
     return contour;
   }
 
@@ -331,9 +327,8 @@ class DxfReader {
   Result<void> check_plane(const DxfEntity& entity) const {
     for (const DxfPair& pair : entity.pairs) {
       if (pair.code != 210 && pair.code != 220 && pair.code != 230) continue;
-      const auto value = number(pair);
-      if (!value) return tl::unexpected(value.error());
-      if (compare(*value, Decimal{pair.code == 230 ? 1 : 0, 0}) != 0) {
+      LEKALO_TRY(const auto value, number(pair));
+      if (compare(value, Decimal{pair.code == 230 ? 1 : 0, 0}) != 0) {
         return complain(pair.line,
                         fmt::format("{} does not lie in the xy plane seen from above", entity.type));
       }
@@ -346,13 +341,11 @@ class DxfReader {
     bool closed = false;
     for (const DxfPair& pair : entity.pairs) {
       if (pair.code != 10 && pair.code != 20 && pair.code != 42 && pair.code != 70) continue;
-      auto value = number(pair);
-      if (!value) return tl::unexpected(value.error());
-      if (pair.code == 42 && value->digits != 0)
-        return complain(pair.line, "a bulge; arcs are not read here");
-      if (pair.code == 70) closed = value->exponent == 0 && value->digits % 2 != 0;
-      if (pair.code == 10) contour.x.push_back(*std::move(value));
-      if (pair.code == 20) contour.y.push_back(*std::move(value));
+      LEKALO_TRY(auto value, number(pair));
+      if (pair.code == 42 && value.digits != 0) return complain(pair.line, "a bulge; arcs are not read here");
+      if (pair.code == 70) closed = value.exponent == 0 && value.digits % 2 != 0;
+      if (pair.code == 10) contour.x.push_back(std::move(value));
+      if (pair.code == 20) contour.y.push_back(std::move(value));
       if (pair.code == 20 && contour.x.size() != contour.y.size()) {
         return complain(pair.line, "a y without its x");
       }
@@ -365,13 +358,12 @@ class DxfReader {
   }
 
   Result<DxfLine> read_line(const DxfEntity& entity) const {
-    if (auto ok = check_plane(entity); !ok) return tl::unexpected(ok.error());
+    LEKALO_CHECK(check_plane(entity));
     std::array<std::optional<Decimal>, 4> values;  // codes 10, 20, 11, 21
     for (const DxfPair& pair : entity.pairs) {
       if (pair.code != 10 && pair.code != 20 && pair.code != 11 && pair.code != 21) continue;
-      auto value = number(pair);
-      if (!value) return tl::unexpected(value.error());
-      values[static_cast<std::size_t>((pair.code % 10) * 2 + pair.code / 10 - 1)] = *std::move(value);
+      LEKALO_TRY(auto value, number(pair));
+      values[static_cast<std::size_t>((pair.code % 10) * 2 + pair.code / 10 - 1)] = std::move(value);
     }
     for (const auto& value : values) {
       if (!value) return complain(entity.line, "the LINE has no two ends");
@@ -432,9 +424,8 @@ class ChainEnds {
 Result<void> DxfReader::read_chain(const std::vector<const DxfEntity*>& entities, Contour& contour) const {
   std::vector<DxfLine> lines;
   for (const DxfEntity* entity : entities) {
-    auto line = read_line(*entity);
-    if (!line) return tl::unexpected(line.error());
-    lines.push_back(*std::move(line));
+    LEKALO_TRY(auto line, read_line(*entity));
+    lines.push_back(std::move(line));
   }
   ChainEnds ends(lines);
   ChainEnds::End entered{0, 0, 0};

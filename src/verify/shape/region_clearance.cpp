@@ -11,10 +11,9 @@ namespace lekalo::verify {
 namespace {
 
 Result<Shape> shape_of(const Document& document) {
-  const auto root = parse_json(document.bytes, document.name);
-  if (!root) return tl::unexpected(root.error());
+  LEKALO_TRY(const auto root, parse_json(document.bytes, document.name));
   std::string complaint;
-  Shape shape = read_shape(*root, "the region", complaint);
+  Shape shape = read_shape(root, "the region", complaint);
   if (complaint.empty()) complaint = fault_of(shape).value_or("");
   if (complaint.empty()) return shape;
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
@@ -69,13 +68,12 @@ Result<Enclosure> verify_clearance(const Document& part, const Document& blank, 
         std::abs(at.theta) <= kLargestCoordinate))
     return failure(ErrorCode::bad_input,
                    fmt::format("a placement has coordinates up to {} only", kLargestCoordinate));
-  const Result<Shape> of_part = shape_of(part), of_blank = shape_of(blank);
-  if (!of_part) return tl::unexpected(of_part.error());
-  if (!of_blank) return tl::unexpected(of_blank.error());
+  LEKALO_TRY(const Shape of_part, shape_of(part));
+  LEKALO_TRY(const Shape of_blank, shape_of(blank));
   const Motion motion = motion_of(Interval::exactly(at.theta, 128), just(at.x), just(at.y), at.mirrored);
   std::optional<ExactShift> shift;
   if (at.theta == 0) shift = ExactShift{exactly(at.x), exactly(at.y), at.mirrored};
-  const Span value = clearance(*of_part, placed(*of_part, motion), *of_blank, shift);
+  const Span value = clearance(of_part, placed(of_part, motion), of_blank, shift);
   return Enclosure{value.low, value.high};
 }
 

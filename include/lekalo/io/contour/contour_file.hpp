@@ -21,7 +21,7 @@ struct ContourFile {
   LengthUnit unit = LengthUnit::millimetre;
   geom::Ring
       points;  ///< mm, at most 1e9, file order, nothing dropped; each the double nearest to its decimal
-  /// Where each point stands, for messages: line number, 1-based (text, DXF), or index (JSON).
+  /// The place of each point, for messages: its line, 1-based (text, DXF), or its index (JSON).
   std::vector<std::size_t> places;
   bool places_are_lines = true;
   /// Every coordinate is within this of the decimal in the file, mm: half a unit in the last place of the

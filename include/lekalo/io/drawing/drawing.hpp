@@ -55,7 +55,7 @@ struct DrawnCurve {
   double error = 0;
 };
 
-/// What a person finds again in the drawing program.
+/// The words by which a person finds an entity again in the drawing program.
 struct DrawnEntity {
   std::string type;      ///< as in the file: "LWPOLYLINE", "path"
   std::string handle;    ///< DXF handle or SVG id, "" if there is none

@@ -20,7 +20,7 @@ struct LayeredRegion {
   std::vector<std::string> hole_layers;  ///< as many as holes; empty: all on `layer`
 };
 
-/// What else a drawing shows beside regions. Points and heights are in the drawing's unit.
+/// A line that a drawing shows beside its regions. Points and heights are in the drawing's unit.
 struct DrawnLine {
   geom::Point from, to;
   std::string layer;
@@ -43,14 +43,14 @@ struct DrawingExtras {
   std::vector<LayerColour> colours;
 };
 
-/// What parse_dxf or parse_svg and make_regions make of the written text (tests/property/
-/// io_drawing_writer_test.cpp): the same regions, bit for bit (-0 as 0, and what is nearer to 0 than 1e-100
-/// as 0), holes and layers in the same order; written again, the same bytes. (With a join tolerance below
-/// what the regions measure across, otherwise their two sides are copies of a line to make_regions.)
+/// Laws of the written text (tests/property/io_drawing_writer_test.cpp): parse_dxf or parse_svg and
+/// make_regions make the same regions of it, bit for bit (-0 and numbers nearer to 0 than 1e-100 become 0),
+/// with holes and layers in the same order; written again they give the same bytes. The join tolerance must
+/// be below the regions' width, otherwise make_regions takes their two sides for copies of one line.
 ///
-/// What bulges and radii do not say of an arc stands beside its curves, where other programs pass over it.
-/// Those see, and so do our readers where the curves were changed since and the exact numbers do not fit any
-/// more:
+/// The numbers of an arc that its bulge or radius loses stand beside its curves, where other programs pass
+/// over them. Those programs see the following, and so do our readers where the curves were changed since and
+/// the exact numbers do not fit any more:
 ///   - lines and the ends of arcs bit for bit;
 ///   - arcs as arcs, every point of either curve within kWrittenArcError times the largest coordinate, radius
 ///     or centre coordinate, plus twice the difference of the radii at the arc's ends, of the other; an arc

@@ -25,7 +25,7 @@ struct ScanFile {
   std::string name;
   LengthUnit unit = LengthUnit::millimetre;
   locate::ScanPoints points;
-  /// Where each point stands: line number, 1-based, or vertex of a PLY, 0-based.
+  /// The place of each point: its line, 1-based, or its vertex in a PLY, 0-based.
   std::vector<std::size_t> places;
   bool places_are_lines = true;
   bool has_order = true;  ///< text without a slice; else the order in the file means nothing
