@@ -145,7 +145,7 @@ Result<void> Store::prepare_file() {
                                "lekalo that wrote it",
                                format, kStoreFormat));
   LEKALO_TRY(Statement check, database_.prepare("PRAGMA quick_check(1)"));
-  LEKALO_TRY(const bool row, check.step());
+  LEKALO_CHECK(check.step());
   if (const std::string said = check.text(0); said != "ok")
     return failure(ErrorCode::environment, "the store is damaged: " + said.substr(0, said.find('\n')));
   if (format == kStoreFormat) return {};

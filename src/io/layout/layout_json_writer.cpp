@@ -10,6 +10,7 @@
 #include "layout_outline.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
+#include "lekalo/io/text/words.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -19,10 +20,6 @@ using detail::append_gap;
 using detail::append_mm;
 using detail::append_number;
 using detail::append_outline;
-
-std::string quoted(const std::string& text) {
-  return detail::Json(text).dump(-1, ' ', false, detail::Json::error_handler_t::replace);
-}
 
 /// Fields of one object, on one line.
 class Fields {
@@ -37,7 +34,7 @@ class Fields {
     text_ += "\": ";
     return text_;
   }
-  void text(const char* key, const std::string& value) { field(key) += quoted(value); }
+  void text(const char* key, const std::string& value) { field(key) += json_string(value); }
   void name(const std::string& value) {
     if (!value.empty()) text("name", value);
   }
@@ -116,13 +113,13 @@ void append_zone(std::string& text, const std::string& id, int quality, const Ou
 class Writer {
  public:
   explicit Writer(const Document& document) : document_(document) {
-    for (const Part& part : document.parts) part_ids_.push_back(quoted(part.id));
-    for (const Stock& stock : document.stocks) stock_ids_.push_back(quoted(stock.id));
+    for (const Part& part : document.parts) part_ids_.push_back(json_string(part.id));
+    for (const Stock& stock : document.stocks) stock_ids_.push_back(json_string(stock.id));
   }
 
   std::string write() {
     text_ = "{\"format\": \"lekalo-layout/1\", \"units\": \"mm\"";
-    if (!document_.name.empty()) text_ += ", \"name\": " + quoted(document_.name);
+    if (!document_.name.empty()) text_ += ", \"name\": " + json_string(document_.name);
     rules(document_.rules);
     list("stocks", document_.stocks, [this](const Stock& s) { stock(s); });
     list("parts", document_.parts, [this](const Part& p) { part(p); });
@@ -246,8 +243,8 @@ std::string write_layout(const Document& document) { return Writer(document).wri
 
 std::string placement_json(const Document& document, const Placement& placement) {
   std::string text;
-  append_placement(text, placement, quoted(document.parts[placement.part].id),
-                   quoted(document.stocks[placement.stock].id));
+  append_placement(text, placement, json_string(document.parts[placement.part].id),
+                   json_string(document.stocks[placement.stock].id));
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "io/text/decimal.hpp"
 #include "io/text/grid_decimal.hpp"
 #include "io/text/json_reader.hpp"
+#include "lekalo/io/text/words.hpp"
 
 namespace lekalo::io {
 namespace detail {
@@ -162,8 +163,7 @@ Result<std::string> write_placements(const layout::Document& document, std::size
   if (lines.empty())
     return failure(ErrorCode::bad_input, fmt::format("nothing lies on the strip {}", excerpt(strip.id)));
   const std::int64_t height = geom::bounds(strip.outline.polygon).high.y;
-  std::string text = "{\n \"instance\": " +
-                     detail::Json(instance).dump(-1, ' ', false, detail::Json::error_handler_t::replace);
+  std::string text = "{\n \"instance\": " + json_string(instance);
   detail::append_mm(text += ",\n \"strip_height\": ", height);
   detail::append_mm(text += ",\n \"length\": ", length);
   const double room = geom::mm_from_grid(height) * geom::mm_from_grid(length);
