@@ -60,12 +60,12 @@ struct LocateOutputs {
 
 struct LocateJob {
   File part, blank;
-  std::optional<File> features;  ///< demands by feature (io/locate/feature_file.hpp)
-  std::optional<File> program;   ///< NC program in the part's frame
-  std::optional<File> earlier;   ///< result of an earlier probing, to compare with
-  LocateOptions options;
-  LocateOutputs outputs;
-  std::vector<std::string> warnings;  ///< what the caller has to say; the result repeats it first
+  std::optional<File> features = {};  ///< demands by feature (io/locate/feature_file.hpp)
+  std::optional<File> program = {};   ///< NC program in the part's frame
+  std::optional<File> earlier = {};   ///< result of an earlier probing, to compare with
+  LocateOptions options = {};
+  LocateOutputs outputs = {};
+  std::vector<std::string> warnings = {};  ///< what the caller has to say; the result repeats it first
 };
 
 /// A placement that the independent checker has confirmed. Documents that were not asked for are empty.
