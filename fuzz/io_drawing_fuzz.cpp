@@ -1,4 +1,5 @@
 #include "io_drawing_check.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
 
 // parse_dxf on any bytes: a sentence, or a sound drawing.
 
