@@ -11,7 +11,7 @@
 namespace lekalo::server {
 
 /// `nest [IDS] for SECONDS [seed N]`: the nester on the whole layout, which also places what is wanted and
-/// not there, or on these placements alone, everything else staying. docs/protocol.md
+/// not there, or on these placements alone, everything else staying; see docs/protocol.md.
 struct NestRequest {
   std::vector<std::uint64_t> ids;  ///< ascending; none: the whole layout
   double seconds = 0;              ///< in [0.1, 3,600]

@@ -20,7 +20,7 @@ inline constexpr int kColourSteps = 64;
 /// The step for a value of the range, clamped.
 [[nodiscard]] int scale_step(double value, double low, double high);
 
-/// What the colours of a picture stand for, mm, low < high.
+/// The colours of a picture stand for values in this range, mm, low < high.
 struct ColourRange {
   double low = 0, high = 1;
 };

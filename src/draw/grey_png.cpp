@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostSide = 30'000, kMostPixels = 100'000'000;
 
-/// What the library's calls need; it leaves them by longjmp on trouble, so nothing with a destructor lives in
-/// their functions.
+/// The library's calls work on this. The library leaves them by longjmp on trouble, so nothing with a
+/// destructor lives in their functions.
 struct Stream {
   std::string_view rest;
   std::string* written = nullptr;

@@ -19,7 +19,7 @@ struct Label {
   bool any_side = false;  ///< rather on another side than nowhere
 };
 
-/// What labels keep off, closed lines on paper.
+/// Labels keep off these closed lines on paper.
 struct Obstacles {
   std::vector<geom::Ring> filled;  ///< no label on the line or inside
   std::vector<geom::Ring> lines;   ///< no label on the line

@@ -73,7 +73,7 @@ void set_range(Located& shapes) {
   shapes.high = range.high;
 }
 
-/// Of places that are equally thin a vertex in contact is the one to show.
+/// Prefers a vertex in contact among places that are equally thin, for that is the one to show.
 void prefer_contact(const PictureOfRings& rings, Located& shapes) {
   const double close = shapes.least + shapes.rounding + 1e-6 * (shapes.high - shapes.low);
   for (const locate::Contact& contact : rings.contacts) {
@@ -214,7 +214,7 @@ void draw_shapes(const Located& shapes, const View& view, const Rect& visible, s
   const Ring blank = on_paper(shapes.blank, view, visible), part = on_paper(shapes.part, view, visible);
   const bool thin = typical_width(shapes.part) * view.scale < 1.5 * kBand;
   items.push_back(ClipBegin{{visible.ring()}});
-  // What the blank does not cover of the part afterwards is what sticks out.
+  // The blank is painted over the part, so what it leaves uncovered of the part is what sticks out.
   if (shapes.sticks_out())
     items.push_back(PathItem{{part}, true, fill_of({250, 190, 196}), {"part-outside", ""}});
   items.push_back(PathItem{{blank}, true, fill_of(kBlankFill), {"blank", "blank"}});

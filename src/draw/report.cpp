@@ -93,8 +93,8 @@ FeatureRow row_of(ReportFeature feature, const Report& report) {
   return row;
 }
 
-/// Where the result says that every demand of a feature is met, a measurement that misses one by no more than
-/// its own tolerance does not say otherwise.
+/// A measurement that misses a demand by no more than its own tolerance does not contradict a result that
+/// says that every demand of a feature is met.
 double rounding_of(const Report& report) {
   return report.margin && *report.margin >= 0 ? report.tolerance : 0;
 }
@@ -165,7 +165,7 @@ void find_missing(Report& report) {
   }
 }
 
-/// What the page prints of the document, without its long lists.
+/// Keeps what the page prints of the document: all but its long lists.
 io::LocateDocument without_lists(const io::LocateDocument& document) {
   io::LocateDocument kept;
   kept.status = document.status, kept.method = document.method;

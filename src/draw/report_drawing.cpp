@@ -24,7 +24,7 @@ constexpr Colour kMissingFill{250, 190, 196};
 
 enum Level : int { kSticksOut = -2, kTooThin = -1 };  ///< else a step of the colour scale
 
-/// Of blank and placed part.
+/// Gives the box around the blank and the placed part.
 geom::Box bounds_of(const Report& report) {
   geom::Box box = geom::bounds(report.shapes.blank.front().outer);
   for (const geom::Region& region : report.shapes.blank) box = joined(box, geom::bounds(region.outer));
@@ -74,7 +74,7 @@ class Drawing {
   void shapes() {
     const bool thin = is_thin(), sticks_out = report_.document.placement.clearance < 0;
     items_.push_back(ClipBegin{{frame_.ring()}});
-    // What the blank does not cover of the part afterwards is what is missing.
+    // The blank is painted over the part, so what it leaves uncovered of the part is what is missing.
     if (sticks_out) items_.push_back(PathItem{part_, true, filled(kMissingFill), {"part-outside", ""}});
     items_.push_back(PathItem{blank_, true, filled(kBlankFill), {"blank", "blank"}});
     items_.push_back(ClipBegin{blank_});
@@ -197,7 +197,7 @@ class Drawing {
     }
   }
 
-  /// What is missing first, for that decides.
+  /// Labels what is missing first, for that decides.
   void labels() {
     std::vector<Label> labels;
     for (const locate::MissingPlace& place : report_.missing) {

@@ -12,7 +12,7 @@ inline constexpr Rect kReportPage{0, 0, 210, 297};
 
 [[nodiscard]] Scene report_page(const Report& report);
 
-/// What the sections of the page share.
+/// Holds what the sections of the page share.
 struct ReportLook {
   double least = 0, greatest = 0;  ///< allowance along the outline, mm
   ColourRange range;

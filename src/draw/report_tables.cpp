@@ -154,7 +154,7 @@ double draw_features(const Report& report, const ReportLook& look, const Rect& c
   columns.push_back({"", 2.2});
   Table table(columns, column, sheet);
   y = table.titles(y);
-  // Where not all find room: those that lack something first, then the thinnest, in their own order.
+  // If not all find room, those that lack something are kept first, then the thinnest, in their own order.
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (rows.size() > most_rows) {

@@ -7,10 +7,10 @@
 
 namespace lekalo::draw {
 
-/// What is proved and where the proof is, one sentence each; clearances rounded down, bounds up.
+/// Says what is proved and where the proof is, one sentence each; clearances are rounded down, bounds up.
 [[nodiscard]] std::vector<std::string> proof_sentences(const io::LocateDocument& document, int decimals);
 
-/// What the result takes for granted and where it was told to look.
+/// Says what the result takes for granted and where it was told to look.
 [[nodiscard]] std::vector<std::string> assumption_sentences(const io::LocateDocument& document, int decimals);
 
 }  // namespace lekalo::draw

@@ -29,7 +29,8 @@ struct Paint {
   bool round = false;
 };
 
-/// What a primitive shows, for people who look into the file and for tests: becomes class and title in SVG.
+/// Says what a primitive shows, for people who look into the file and for tests: becomes class and title in
+/// SVG.
 struct Meaning {
   std::string kind, title;
 };

@@ -25,7 +25,7 @@ locate::AngleWindow window_of(const LocateOptions& options) {
   return {from - kBound * std::abs(from), to + kBound * std::abs(to)};
 }
 
-/// What only convex outlines can have, and the job asks for; nullptr: nothing.
+/// Names an option that only convex outlines can have and that the job asks for; nullptr if there is none.
 const char* only_convex_has(const LocateJob& job) {
   if (job.options.method != LocateMethod::certified) return "--method ipopt or icp";
   if (job.options.trim) return "--trim";

@@ -7,7 +7,7 @@
 
 namespace lekalo::jobs {
 
-/// What a method found.
+/// Holds what a method found.
 struct Search {
   std::string status;  ///< as it stands in results
   locate::Found found;

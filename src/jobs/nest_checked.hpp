@@ -10,7 +10,8 @@ namespace lekalo::jobs {
 using Nester =
     std::function<Result<nest::Nested>(const layout::Document&, const nest::Options&, const RunControl&)>;
 
-/// What nest() does with what any nester finds: a test hands in one that breaks rules.
+/// Does with the findings of any nester what nest() does with those of its own: a test hands in one that
+/// breaks rules.
 [[nodiscard]] Result<Nested> nest_checked(const Nester& nester, const layout::Document& document,
                                           const NestOptions& options, const RunControl& control);
 

@@ -35,7 +35,7 @@ int compare_x(const FractionPoint& q, GridPoint p) noexcept {
 int compare_y(const FractionPoint& q, GridPoint p) noexcept {
   return sign(q.whole * (q.from.y - p.y) + q.part * q.along.y);
 }
-/// Which side of the line a b q lies on.
+/// Says on which side of the line a b the point q lies.
 int turn(GridPoint a, GridPoint b, const FractionPoint& q) noexcept {
   return geom::sign_of_sum(q.whole, cross(b - a, q.from - a), q.part, cross(b - a, q.along));
 }

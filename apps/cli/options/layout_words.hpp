@@ -17,7 +17,8 @@ void add_layout_source(CLI::App& command, LayoutWords& words, bool required = tr
 void add_layout_outputs(CLI::App& command, LayoutWords& words);
 
 [[nodiscard]] Result<LayoutSource> to_layout_source(const LayoutWords& words);
-/// Whether a picture can be drawn under this name; empty: none is asked for.
+/// Fails with ErrorCode::usage unless a picture can be drawn under this name. An empty name passes: no
+/// picture is asked for.
 [[nodiscard]] Result<void> fine_picture(const std::string& path);
 
 }  // namespace lekalo::cli

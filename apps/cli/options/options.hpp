@@ -21,7 +21,7 @@ namespace lekalo::cli {
 /// How a part's or a blank's file is read.
 using ShapeOptions = io::OutlineOptions;
 
-/// What `lekalo locate` was asked for, checked. An empty path means: not asked for.
+/// Holds what `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
   std::string part, blank, nc, compare, features;
   std::string output, picture, report, allowances, drawing;  ///< the other outputs are named in `outputs`

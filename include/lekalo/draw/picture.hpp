@@ -21,8 +21,8 @@ struct PictureOfRings {
   /// The numbers printed for vertices of the part and edges of the blank (those of the files); empty:
   /// indices.
   std::vector<std::uint32_t> vertex_numbers, edge_numbers;
-  /// Where the part lay before: by default where its own coordinates put it. Drawn faint; in an inset when it
-  /// lies far away from the blank.
+  /// The part lay here before: by default where its own coordinates put it. It is drawn faint there, or in an
+  /// inset when it lies far away from the blank.
   locate::Placement start;
   bool draw_start = true;
 };

@@ -17,7 +17,7 @@ struct PocketStretch {
   bool entry = false;  ///< down into material
 };
 
-/// What a program cuts of a pocket, for a picture or an animation.
+/// Holds what a program cuts of a pocket, for a picture or an animation.
 struct PocketPicture {
   std::string name;                                           ///< UTF-8
   std::vector<geom::Region> pockets, unreachable, fragments;  ///< fragments: drawn dashed; may be empty

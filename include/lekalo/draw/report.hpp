@@ -35,7 +35,7 @@ struct FeatureRow {
   std::string verdict;
 };
 
-/// What the page needs beside the document.
+/// Holds what the page needs beside the document.
 struct ReportShapes {
   std::vector<geom::Region> part, blank;  ///< mm, as used
   double outline_error = 0;               ///< how far the outlines may be from the true ones, together, mm

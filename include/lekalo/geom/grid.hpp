@@ -72,7 +72,7 @@ struct GridRotation {
 };
 
 /// The steps nearest to cosine and sine of `degrees` (taken exactly; multiples of 90 give 0 and +-1). The
-/// error of either is at most half a step. \pre |degrees| <= 3.6e6 and finite
+/// error of either is at most half a step. \pre |degrees| <= 3.6e6 and finite.
 [[nodiscard]] GridRotation rotation_from_degrees(double degrees) noexcept;
 /// In (-180, 180]: the number with the fewest decimals, up to 9, whose rotation_from_degrees is `rotation`;
 /// within 1e-12 of its angle where there is none.

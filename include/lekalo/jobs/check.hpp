@@ -10,8 +10,9 @@
 
 namespace lekalo::jobs {
 
-/// What the two checks of a layout say: that of the engine (layout/check.hpp), which also finds the way out
-/// of a violation, and that of the independent checker (verify/layout.hpp), which reads the bytes itself.
+/// Holds the answers of the two checks of a layout: that of the engine (layout/check.hpp), which also finds
+/// the way out of a violation, and that of the independent checker (verify/layout.hpp), which reads the bytes
+/// itself.
 struct Checked {
   std::vector<layout::Violation> violations;  ///< every one that the engine finds, in the order of the check
   std::vector<std::string> disagreements;     ///< a sentence for each finding that only one of the two has
@@ -29,7 +30,8 @@ struct Checked {
 /// of verify::verify_layout, about a second for 1,000 parts.
 [[nodiscard]] Result<Checked> check(const Layout& layout);
 
-/// What was found as "lekalo-check" JSON (docs/formats.md) with an empty member "run", ending in a line end.
+/// Gives the findings as "lekalo-check" JSON (docs/formats.md) with an empty member "run", ending in a line
+/// end.
 [[nodiscard]] std::string check_json(const Layout& layout, const Checked& checked);
 
 /// The last line of defence before a layout that lekalo made is handed out: fails with ErrorCode::refuted and

@@ -46,7 +46,7 @@ enum class PictureFormat { none, svg, png };
 enum class ReportFormat { none, svg, pdf, png };
 enum class DrawingFormat { none, dxf, svg };
 
-/// What is made beside the result. Names are those by which the result calls these documents.
+/// Says what is made beside the result. Names are those by which the result calls these documents.
 struct LocateOutputs {
   std::string certificate;  ///< empty: the proof stands in the result, if it is not too long
   std::string deviations;   ///< the distance of every probed point as CSV; empty: not made
@@ -76,7 +76,7 @@ struct Located {
   /// There was a program, but the placement does not allow it; a warning in the document says why.
   bool program_withheld = false;
 
-  /// Whether the answer is yes: the allowance or the demands are met, the whole blank is known, and the
+  /// True if the answer is yes: the allowance or the demands are met, the whole blank is known, and the
   /// program, if there was one, is there.
   [[nodiscard]] bool holds() const noexcept {
     return !(document.shortfall > 0) && !program_withheld && (!document.scan || document.scan->proved);

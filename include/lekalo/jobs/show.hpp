@@ -12,7 +12,7 @@
 
 namespace lekalo::jobs {
 
-/// What a layout amounts to, and what the engine's check finds in it.
+/// Says what a layout amounts to, and what the engine's check finds in it.
 struct Shown {
   layout::Completeness completeness;
   std::vector<layout::Violation> violations;

@@ -89,7 +89,7 @@ void add_own_violations(const Document& document, const Placement& placement, st
 [[nodiscard]] std::optional<Violation> quality_violation(const Document& document, const Placement& placement,
                                                          const geom::GridRegion& outline, std::uint32_t zone,
                                                          Depths depths = Depths::measured);
-/// overlap, or else gap. \pre on one copy of one stock; a.id < b.id
+/// Gives the violation overlap, or else gap. \pre on one copy of one stock; a.id < b.id.
 [[nodiscard]] std::optional<Violation> pair_violation(const Document& document, const Placement& a,
                                                       const geom::GridRegion& outline_a, const Placement& b,
                                                       const geom::GridRegion& outline_b,

@@ -9,8 +9,8 @@
 
 namespace lekalo::layout {
 
-/// What a layout amounts to: kits and parts complete, material used. Placements count wherever they lie;
-/// whether they lie well is the check's matter.
+/// This header says what a layout amounts to: kits and parts complete, material used. Placements count
+/// wherever they lie; whether they lie well is the check's matter.
 
 /// Pieces of a part, upright and mirrored ones.
 struct PieceCount {

@@ -77,7 +77,7 @@ struct LargestProof : DemandProof {
   double most = 0;
 };
 
-/// What the second criterion found.
+/// Holds what the second criterion found.
 struct SmallestLargest {
   double margin = 0;  ///< placements with at least that were compared: the largest found less `give_up`
   double found = 0;   ///< the smallest largest allowance found among them, rounded up, mm
@@ -93,9 +93,9 @@ struct DemandResult {
   Status status = Status::stopped;
   Placement best;  ///< its clearance is that of the part alone, rounded down
   bool mirrored = false;
-  /// Where every demand is met: the least of (allowance - minimum) / scale over the edges that are not
-  /// finished, rounded down. Where not: minus how much of the demanded material is missing, or allowance too
-  /// large, mm.
+  /// If every demand is met, this is the least of (allowance - minimum) / scale over the edges that are not
+  /// finished, rounded down. Otherwise it is minus how much of the demanded material is missing, or allowance
+  /// too large, mm.
   double margin = 0;
   double margin_bound = 0;  ///< no placement that keeps the maxima has more; rounded up
   double margin_found = 0;  ///< the largest margin found: `margin`, unless another criterion gave some up

@@ -42,11 +42,11 @@ inline constexpr std::size_t kMaxOutlinePoints = 10'000'000;
 /// An edge's extremes are searched in at most this many steps each.
 inline constexpr std::size_t kMostSplits = 100'000;
 
-/// Where nothing crosses, the least allowance of an edge comes from the closed formulas of
-/// geom/edge_distance.hpp; the other extremes by branch and bound over stretches of the edge. A stretch
-/// from a to b has at most (f(a) + f(b) + length) / 2, because the distance to a set changes by no more than
-/// the way, and at most the largest distance of its points from any one edge of the blank: for a line its
-/// ends', since the distance from a convex set is convex.
+/// The least allowance of an edge that nothing crosses comes from the closed formulas of
+/// geom/edge_distance.hpp; the other extremes are found by branch and bound over stretches of the edge. A
+/// stretch from a to b has at most (f(a) + f(b) + length) / 2, because the distance to a set changes by no
+/// more than the way, and at most the largest distance of its points from any one edge of the blank: for a
+/// line its ends', since the distance from a convex set is convex.
 ///
 /// \pre regions made by make_region, at least one in each, not crossing themselves or each other
 /// Errors: usage when step or tolerance is not > 0 (step may be infinite), or more than kMaxOutlinePoints.
@@ -63,10 +63,10 @@ struct MissingPlace {
   double depth = 0;  ///< distance to the nearest material of the blank, mm, > 0
 };
 
-/// Where the part reaches furthest beyond the blank's material, also inside the part, over a hole of the
-/// blank for instance: the deepest place, then the deepest more than `apart` mm from those before, at most
-/// `most`. Each is at most 1/64 of its depth and `tolerance` less deep than the deepest possible there, where
-/// kMostSplits steps were enough to find it.
+/// Finds where the part reaches furthest beyond the blank's material, also inside the part, over a hole of
+/// the blank for instance: the deepest place, then the deepest more than `apart` mm from those before, at
+/// most `most`. Each is at most 1/64 of its depth and `tolerance` less deep than the deepest possible there,
+/// where kMostSplits steps were enough to find it.
 ///
 /// \pre as above; tolerance > 0. Cost: O(log n) a square of a quadtree, some thousand squares a place.
 [[nodiscard]] std::vector<MissingPlace> missing_material(const std::vector<geom::Region>& part,

@@ -15,7 +15,7 @@ namespace lekalo::locate {
 /// Certified global localisation: where does the part lie best in the blank, and why is no placement better?
 /// The searches beneath are locate_convex, locate_regions and locate_demands.
 
-/// What is asked for beside the largest clearance (demand.hpp).
+/// Holds what is asked for beside the largest clearance (demand.hpp).
 struct Demands {
   std::vector<Feature> features;
   double minimum = 0;  ///< of edges that belong to no feature, mm, >= 0
@@ -36,7 +36,8 @@ struct Options {
   /// Stop when upper bound - clearance is this small, mm, > 0. Without: 1e-9 for convex outlines, else 1e-3.
   std::optional<double> gap;
   double min_allowance = 0;  ///< mm; when provably not reachable the status is infeasible
-  /// Of convex outlines: also list the other local maxima whose clearance is within this of the best, mm.
+  /// Only convex outlines have this: if it is set, the other local maxima whose clearance is within this of
+  /// the best are listed too, mm.
   std::optional<double> alternatives;
   /// The unit of work is that of the search beneath. Regions stop by themselves after 2,000,000 units, which
   /// are some minutes and some gigabytes.
@@ -55,12 +56,12 @@ struct Found {
   Proof proof;                  ///< of the bound; contacts in it have the outlines' numbers
   std::vector<Placement> alternatives;
   bool alternatives_complete = true;
-  /// What was found of the demands. Its certificate has moved to `proof`, its contacts to `contacts`.
+  /// This was found of the demands. Its certificate has moved to `proof`, its contacts to `contacts`.
   std::optional<DemandResult> demands;
   std::uint64_t work = 0;
 };
 
-/// Whether the fast path takes the problem: two convex outlines, and nothing asked for but the clearance of a
+/// True if the fast path takes the problem: two convex outlines, and nothing asked for but the clearance of a
 /// part that is not mirrored and may be shifted anywhere.
 [[nodiscard]] bool is_convex(const Problem& problem) noexcept;
 

@@ -19,7 +19,7 @@ struct ConvexOutline {
   std::vector<std::uint32_t> vertex_numbers, edge_numbers;
 };
 
-/// What is placed, or what it is placed in.
+/// Describes what is placed, or what it is placed in.
 struct Outline {
   /// Regions of lines and arcs, mm, made by make_region. May be empty where `convex` is there.
   std::vector<geom::Region> regions;

@@ -9,7 +9,7 @@
 
 namespace lekalo::locate {
 
-/// Where the part lies: part coordinates p go to R(theta) p + (x, y) in blank coordinates.
+/// Says where the part lies: part coordinates p go to R(theta) p + (x, y) in blank coordinates.
 struct Placement {
   double x = 0, y = 0;  ///< mm
   double theta = 0;     ///< radians, counter-clockwise

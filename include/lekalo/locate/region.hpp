@@ -28,8 +28,8 @@ struct Cap {
   double most = 0;
 };
 
-/// Where a shift of the placement is given: x, y of p -> R(theta) p + (x, y), mm. (The angle is locked by a
-/// window of one angle.)
+/// Holds the shift of the placement where one is given: x, y of p -> R(theta) p + (x, y), mm. (The angle is
+/// locked by a window of one angle.)
 struct LockedShift {
   std::optional<double> x, y;
 };

@@ -6,10 +6,10 @@
 
 namespace lekalo::phi {
 
-/// By how much two outlines on the grid are in each other's way, and how to end that:
+/// This header says by how much two outlines on the grid are in each other's way, and how to end that:
 /// docs/design/layout-check.md. Shifts are found in floating point and then proved on the grid
 /// (phi/outline_relation.hpp), so that the one returned works; whether none is shorter is not promised. \pre
-/// as in outline_relation.hpp
+/// as in outline_relation.hpp.
 
 struct Separation {
   geom::GridPoint shift;   ///< steps

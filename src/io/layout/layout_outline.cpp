@@ -46,7 +46,7 @@ double perimeter(const GridRegion& region) {
 /// extents; no proof that they are.
 std::optional<std::string> difference(const GridRegion& polygon, const geom::Region& curves,
                                       double tolerance) {
-  // What chords and the band of inconsistent arcs may do, twice.
+  // The outlines may differ by twice what chords and the band of inconsistent arcs may do.
   const double off = 2 * (tolerance + 2 * geom::kArcConsistency);
   const double drawn = geom::area(curves), cut = geom::area_mm2(polygon);
   if (!(std::abs(drawn - cut) <= off * (perimeter(polygon) + 4 * off)))

@@ -14,8 +14,8 @@ namespace lekalo::io::detail {
 ///
 /// A part whose drawing has arcs, and whose polygon is what its drawing gives (grid_region_of_curves, so that
 /// it holds the drawing), is its drawing turned and moved: within its chord tolerance, and nowhere more than
-/// 2 grid steps beyond its placed outline. Every other part is its placed outline, exactly.
-/// docs/design/export.md
+/// 2 grid steps beyond its placed outline. Every other part is its placed outline, exactly; see
+/// docs/design/export.md.
 struct PlacedShape {
   const layout::Placement* placement = nullptr;
   const layout::Part* part = nullptr;

@@ -380,7 +380,7 @@ Json or_null(const std::optional<T>& record) {
   return record ? to_json(*record) : Json(nullptr);
 }
 
-/// What proves the bound of largest allowances, if anything does and it is here.
+/// Gives the proof of the bound of largest allowances, if there is one and it is here.
 const locate::DemandProof* largest_proof(const LocateDocument& d) {
   if (!d.demands || !d.demands->second || !d.demands->second->proof) return nullptr;
   const locate::DemandProof& proof = *d.demands->second->proof;

@@ -161,7 +161,7 @@ class EdgeSearch {
   struct Stretch {
     OutlinePoint a, b;
     double bound = 0;
-    /// Of equal bounds the first along the edge comes first.
+    /// The first along the edge comes first among equal bounds.
     friend bool operator<(const Stretch& left, const Stretch& right) {
       return left.bound != right.bound ? left.bound < right.bound : left.a.along > right.a.along;
     }

@@ -19,11 +19,11 @@ constexpr std::uint64_t kReportEvery = 4096;
 /// part of the gap; elsewhere a bound that says so is enough, which saves most of the pivots.
 constexpr double kNotWorth = 0.25;
 
-/// Whether an interval still has an angle inside that doubles can tell from its ends. (Below 2^-56 a turn
+/// True if an interval still has an angle inside that doubles can tell from its ends. (Below 2^-56 a turn
 /// moves nothing by more than rounding does.)
 bool divisible(double lo, double hi) { return hi - lo > std::max(0x1p-51 * std::abs(hi), 0x1p-56); }
 
-/// Where to solve next: at the split, or in the middle where rounding put that on an end.
+/// Chooses where to solve next: at the split, or in the middle where rounding put that on an end.
 double inside(double split, double lo, double hi) {
   return split > lo && split < hi ? split : lo + 0.5 * (hi - lo);
 }

@@ -192,8 +192,8 @@ void ContactProgram::change_vertex(std::size_t row, const Angle& angle, std::uin
   const double now = normal_direction_[edge] - angle.theta - 0.25 * kTurn;
   const double ahead = wrap(direction_of_side_[vertex] - now);
   const double behind = wrap(now - direction_of_side_[vertex == 0 ? m - 1 : vertex - 1]);
-  // Where rounding put the vertex a hair beyond its range the difference wraps to a full turn; then only this
-  // angle.
+  // If rounding put the vertex a hair beyond its range, the difference wraps to a full turn; the vertex then
+  // serves for this angle only.
   row_from_[row] = angle.theta - (ahead < 0.5 * kTurn ? ahead : 0.0);
   row_to_[row] = angle.theta + (behind < 0.5 * kTurn ? behind : 0.0);
 }

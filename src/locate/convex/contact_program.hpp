@@ -101,7 +101,7 @@ class ContactProgram {
   };
   [[nodiscard]] PlacedEdge place_edge(std::uint32_t edge, const Angle& angle, geom::Point shift,
                                       std::uint32_t hint) const;
-  /// Whether all edges strictly between two are open by at least `least`. May say no when they are.
+  /// True if all edges strictly between two are open by at least `least`. May say no when they are.
   [[nodiscard]] bool all_open_between(const PlacedEdge& first, const PlacedEdge& last, double least) const;
   /// Makes `least` the least open edge strictly between two, if one is less open than it.
   void find_least_open(const PlacedEdge& first, const PlacedEdge& last, const Angle& angle, geom::Point shift,

@@ -89,7 +89,7 @@ class Localiser {
   }
 
  private:
-  /// What rounding the pose and proving the bound may take of the gap.
+  /// Rounding the pose and proving the bound may take this much of the gap.
   [[nodiscard]] double taken_by_rounding() const {
     const double far = geom::largest_coordinate(problem_.part.vertices()) +
                        geom::largest_coordinate(problem_.blank.vertices());
@@ -109,7 +109,7 @@ class Localiser {
     return proved_bound(piece.basis, piece.from, piece.to, part_.ring, blank_.ring, uncertainty_);
   }
 
-  /// What a piece of the cover proves, with the third contact braced where that proves more.
+  /// Gives the bound that a piece of the cover proves, with the third contact braced where that proves more.
   double prove(CoverPiece& piece, double enough) const {
     const double bound = proved(piece);
     if (bound <= enough) return bound;
@@ -161,8 +161,8 @@ class Localiser {
     return placement;
   }
 
-  /// What holds the placement: contacts whose multipliers balance in force, and in moment where two bounds
-  /// meet.
+  /// Gives what holds the placement: contacts whose multipliers balance in force, and in moment where two
+  /// bounds meet.
   [[nodiscard]] std::vector<Contact> contacts(const AngleSearch::Incumbent& found) const {
     const Basis* rising = nullptr;
     const Basis* falling = nullptr;
@@ -201,7 +201,7 @@ class Localiser {
     return merged;
   }
 
-  /// Whether the three contacts of a basis are those of this placement, but for what cannot be measured.
+  /// True if the three contacts of a basis are those of this placement, but for what cannot be measured.
   [[nodiscard]] bool all_touch(const Basis& basis, const AngleSearch::Incumbent& found) const {
     const double tolerance = 1e-9 * program_.scale();
     const double c = found.angle.direction.cosine, s = found.angle.direction.sine;

@@ -6,7 +6,7 @@
 
 namespace lekalo::locate {
 
-/// What doubles know about the shapes of a problem, for statements that must hold for the exact shapes.
+/// Holds what doubles know about the shapes of a problem, for statements that must hold for the exact shapes.
 struct Uncertainty {
   double part = 0, blank = 0;  ///< each coordinate is within this of the exact one, mm
   double scale = 0;            ///< largest |coordinate| in the local frame, mm

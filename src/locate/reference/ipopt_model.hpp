@@ -41,7 +41,8 @@ class NonlinearModel {
   void constraints(Stage stage, const Variables& z, double* values) const;
   /// \param values  4 rows(), row after row, the columns in the order of the variables.
   void jacobian(Stage stage, const Variables& z, double* values) const;
-  /// Of the sum of multipliers[r] times constraint r (the objectives are linear).
+  /// Gives the second derivatives of the sum of multipliers[r] times constraint r (the objectives are
+  /// linear).
   void hessian(Stage stage, const Variables& z, const double* multipliers, double* values) const;
 
   /// From the model's translation (of the part's middle, scaled) to a placement in millimetres and back.

@@ -26,18 +26,19 @@ constexpr int kMostGrowths = 12;
 /// Largest allowances are decided to this part of the blank's size, or to the gap where that is larger: where
 /// the deepest point is as far from two edges, bounds get sharper only as fast as boxes get smaller.
 constexpr double kCapGap = 1e-4;
-/// What one decision of a bisection leaves open, as part of what the bisection does.
+/// One decision of a bisection leaves this share of the bisection's own gap open.
 constexpr double kDecisionGap = 0.25;
 /// Units of work after which a search with caps is given up, with the bound it has.
 constexpr std::uint64_t kDecisionWork = 20'000;
-/// What decisions about largest allowances stay below the margin by, as part of the gap of one.
+/// Decisions about largest allowances stay below the margin by this share of the gap of one decision.
 constexpr double kStrictly = 1e-3;
 /// Questions of one bisection that may stay open: each has cost all its work, or is nearer to the truth than
 /// its gap.
 constexpr int kMostUnanswered = 6;
 /// How much less largest allowance is asked for first, in gaps.
 constexpr double kFirstStep = 4;
-/// Of sums of a few numbers, written as decimals and added again by somebody else.
+/// This share of a sum allows for rounding where a few numbers are written as decimals and added again by
+/// somebody else.
 constexpr double kRounding = 0x1p-49;
 /// Samples of the outline for the mean square deviation.
 constexpr double kEvenSamples = 600;
@@ -159,7 +160,7 @@ class DemandLocaliser {
     double tolerance = 0;
   };
 
-  /// Whether the part has to be grown anew for every margin. Rims of finished features do not grow.
+  /// True if the part has to be grown anew for every margin. Rims of finished features do not grow.
   [[nodiscard]] bool scaled() const { return least_scale_ < most_scale_ || finished_; }
   [[nodiscard]] double rounding(const Pose& pose) const {
     return 4 * geom::kEdgeDistanceError * (far_ + std::abs(pose.at.x) + std::abs(pose.at.y)) +
@@ -208,7 +209,7 @@ class DemandLocaliser {
     return options_.run.stop_requested() || result_.work >= options_.run.work_limit;
   }
 
-  /// What the caps of features have left at a pose, rounded down; infinite without caps.
+  /// Gives what the caps of features have left at a pose, rounded down; infinite without caps.
   [[nodiscard]] double left(const Pose& pose) const {
     double least = kInfinity;
     for (const Cap& cap : caps_) {
@@ -254,7 +255,8 @@ class DemandLocaliser {
                   double bound) {
     if (!(bound < result_.margin_bound)) return;
     result_.margin_bound = bound;
-    // Where no cap was asked, none can be the least, however much is added to what it has left.
+    // A search without caps bounds the clearance alone, so its statement holds however much is added to what
+    // the caps have left.
     if (!with_caps) shift = std::max(0.0, found.upper_bound);
     result_.proof = {grown.regions,
                      grown_for,
@@ -353,8 +355,8 @@ class DemandLocaliser {
     Pose pose;
     SmallestLargest what;
   };
-  /// Of the placements with at least `margin` one with the smallest largest allowance, from a pose on that is
-  /// one of them.
+  /// Finds, among the placements with at least `margin`, one with the smallest largest allowance, from a pose
+  /// on that is one of them.
   ///
   /// "Is there one with no more than c?" is answered by a pose, by a proof, or, where c is within what one
   /// decision leaves open, not at all. Then what lies to both sides is asked about.
@@ -467,7 +469,7 @@ class DemandLocaliser {
                    .at;
   }
 
-  /// Of the part alone, rounded down.
+  /// Gives the clearance of the part alone, rounded down.
   [[nodiscard]] double part_clearance(const Pose& pose) const {
     const phi::RegionClearance::Value value = clearance_.at(pose.map());
     const double measured =
@@ -484,8 +486,8 @@ class DemandLocaliser {
     result_.deviation = deviation_at(even_samples(), clearance_, pose_.map());
   }
 
-  /// Where the demands hold the part; where they are not met, each place where the grown part is nearest, by
-  /// the nearest one of the part itself.
+  /// Finds where the demands hold the part. If they are not met, it takes each place where the grown part is
+  /// nearest, and gives it by the nearest point of the part itself.
   void find_contacts() {
     const double margin = std::max(options_.gap, 1e-6 * far_);
     const BlankFromPart map = pose_.map();

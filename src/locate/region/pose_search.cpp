@@ -338,7 +338,7 @@ void PoseSearch::grow_about_points(Known& known, const BlankFromPart& pose) cons
   }
 }
 
-/// Of the pairs of a cell those that can be the least somewhere in it, the lowest ones first.
+/// Keeps those pairs of a cell that can be the least somewhere in it, the lowest ones first.
 void PoseSearch::keep_relevant(Node& node) const {
   const PoseCell& cell = node.cell;
   struct Ranked {

@@ -77,7 +77,8 @@ class PoseSearch {
 
   void run();
 
-  /// What holds the part at a pose: contacts in the order of `within`'s pairs, with multipliers that balance.
+  /// A contact that holds the part at a pose; held_at() gives them by blank edge, then by part edge, with
+  /// multipliers that balance.
   struct Held {
     phi::RegionContact contact;
     double multiplier = 0;
@@ -92,7 +93,7 @@ class PoseSearch {
   [[nodiscard]] const std::vector<CoverNode>& cover() const { return cover_; }
 
  private:
-  /// Where the demand is not met, how much is missing is told to this part of it.
+  /// If the demand is not met, how much is missing need only be known to this part of it.
   static constexpr double kOfWhatIsMissing = 1.0 / 16;
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -115,8 +116,8 @@ class PoseSearch {
   struct Contact {
     geom::Point part, blank, normal;
     double distance = 0;
-    /// Where a cap's edge lies deepest: `distance` is what the cap has left, the normal points from the
-    /// part's point to the blank's.
+    /// The contact is where this cap's edge lies deepest: `distance` is then what the cap has left, and the
+    /// normal points from the part's point to the blank's.
     std::uint32_t cap = kNoCap;
   };
   /// A pair found at a contact. It begins as two points and gets its balls when its curvature matters.

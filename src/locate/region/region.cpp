@@ -127,7 +127,7 @@ class RegionLocaliser {
     return caps;
   }
 
-  /// What rounding and the tolerances take of the gap.
+  /// Rounding and the tolerances take this much of the gap.
   [[nodiscard]] double taken() const {
     return 64 * geom::kEdgeDistanceError * far_ + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
   }

@@ -134,7 +134,7 @@ class Maker {
     return use_no_order();
   }
 
-  /// What the outlines meet in, if the order is no good.
+  /// Returns a place where the outlines meet, if the order is no good.
   Result<std::optional<Crossing>> use_given_order() {
     loops_.clear();
     std::vector<double> spacing;

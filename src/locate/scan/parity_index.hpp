@@ -7,7 +7,8 @@
 
 namespace lekalo::locate {
 
-/// Whether a point has an odd number of outlines around it; exact. The edges are held by horizontal strips.
+/// Tells exactly whether a point has an odd number of outlines around it. The edges are held by horizontal
+/// strips.
 class ParityIndex {
  public:
   static constexpr std::uint32_t kNoLoop = 0xffffffff;

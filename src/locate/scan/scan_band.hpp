@@ -21,8 +21,8 @@ struct GuardedLoop {
   [[nodiscard]] std::uint32_t vertex(std::size_t i) const { return vertices[i % vertices.size()]; }
 };
 
-/// Where a run of edges (first, first + 1, ..., last - 1 of a loop) is replaced by one rectangle along
-/// `along`: all that must stay out lies between `low` and `high` across and `back` and `front` along.
+/// A slab replaces a run of edges (first, first + 1, ..., last - 1 of a loop) by one rectangle along `along`:
+/// all that must stay out lies between `low` and `high` across and `back` and `front` along.
 struct Slab {
   geom::Point along;
   double low = 0, high = 0, back = 0, front = 0;
@@ -33,8 +33,8 @@ struct Slab {
 [[nodiscard]] std::vector<Slab> cover_by_slabs(const geom::Ring& points, const GuardedLoop& loop,
                                                double guard, double tolerance);
 
-/// What lies inside the outlines and outside all slabs; regions of lines. Slabs are made wider by `margin`.
-/// Fails as the Booleans do. Cost: O((n + k) log n), k pairs of slabs that meet.
+/// Gives what lies inside the outlines and outside all slabs; regions of lines. Slabs are made wider by
+/// `margin`. Fails as the Booleans do. Cost: O((n + k) log n), k pairs of slabs that meet.
 [[nodiscard]] Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
                                                                 const std::vector<GuardedLoop>& loops,
                                                                 const std::vector<Slab>& slabs,

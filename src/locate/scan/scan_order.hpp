@@ -32,8 +32,8 @@ using Loop = std::vector<std::uint32_t>;
                                                      const std::vector<std::uint32_t>& sorted, double spread,
                                                      double link);
 
-/// Where two edges of closed outlines meet that should not: neighbours elsewhere than in the point they
-/// share, others anywhere.
+/// Two edges of closed outlines meet here that should not: neighbours elsewhere than in the point they share,
+/// others anywhere.
 struct Crossing {
   std::uint32_t loop_a = 0, edge_a = 0, loop_b = 0, edge_b = 0;
 };
@@ -42,7 +42,7 @@ struct Crossing {
 [[nodiscard]] std::optional<Crossing> first_crossing(const geom::Ring& points,
                                                      const std::vector<Loop>& loops);
 
-/// Whether each loop runs around material: counter-clockwise if an even number of the others is around it,
+/// Makes each loop run around material: counter-clockwise if an even number of the others is around it,
 /// clockwise if an odd one. Turns those around that do not. \pre no two edges meet
 void turn_material_left(const geom::Ring& points, std::vector<Loop>& loops);
 

@@ -24,7 +24,7 @@ struct Sinusoid {
   [[nodiscard]] double slope_at(const Angle& angle) const noexcept {
     return b * angle.direction.cosine - a * angle.direction.sine;
   }
-  /// Whether the crest may lie inside [lo, hi], an interval shorter than pi.
+  /// True if the crest may lie inside [lo, hi], an interval shorter than pi.
   [[nodiscard]] bool may_crest_within(const Angle& lo, const Angle& hi) const noexcept {
     // A slope within rounding of zero counts as a crest: the crest's value is then right to second order.
     const double doubt = 1e-15 * (std::abs(a) + std::abs(b));

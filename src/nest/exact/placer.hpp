@@ -15,7 +15,7 @@ namespace lekalo::nest {
 /// docs/design/nest.md, step 11.
 class Placer {
  public:
-  /// Which of the things that lie on the stock already count.
+  /// Says which of the things that lie on the stock already count.
   enum class Counts : std::uint8_t {
     all,
     features,  ///< the border, defects and zones of the stock, but no locked parts

@@ -7,7 +7,8 @@
 
 namespace lekalo::nest {
 
-/// Which pieces to throw in so that kits get complete (fill, reduce). docs/design/nest-sheets.md, step 4.
+/// The functions here choose which pieces to throw in so that kits get complete (fill, reduce).
+/// docs/design/nest-sheets.md, step 4.
 
 /// Missing items that complete one more kit: the one that is worth most for the area it lacks, blurred by
 /// chance. Empty where no kit can be completed.

@@ -8,7 +8,7 @@
 
 namespace lekalo::nest {
 
-/// Which move has the next turn: the first in a list that may have one and has something to gain.
+/// Chooses which move has the next turn: the first in a list that may have one and has something to gain.
 class Schedule {
  public:
   /// True if a move may have the turn after this one; null: the strand goes on from another state.

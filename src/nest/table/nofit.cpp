@@ -62,7 +62,7 @@ std::pair<double, double> inside_of(const ConvexPiece& polygon, Point start, Poi
     const Point p = polygon[k], edge = polygon[k + 1 == n ? 0 : k + 1] - p;
     const double edge_length = norm(edge);
     if (edge_length == 0) continue;
-    // cross(edge, start + s direction - p) > reserve
+    // The segment is inside this edge where cross(edge, start + s direction - p) / |edge| > reserve.
     const double at_start = cross(edge, start - p) / edge_length - reserve;
     const double rate = cross(edge, direction) / edge_length;
     if (std::abs(rate) < 1e-13) {

@@ -42,7 +42,7 @@ Integer largest_coordinate(const Ring& points) {
   return largest;
 }
 
-/// value / 10^places
+/// Gives an interval around value / 10^places.
 Interval share(const Integer& value, unsigned long places) {
   return rough(value) / rough(power_of_ten(places));
 }

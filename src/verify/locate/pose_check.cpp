@@ -108,7 +108,7 @@ class PoseCheck {
   void check_derived();
   void check_side();
   void check_curve();
-  /// What a certificate is about: for demands the part grown, and caps.
+  /// Says what a certificate is about: for demands the part grown, and caps.
   struct Bounded {
     Span bound, grown_for, shift;
     std::optional<Span> most;
@@ -213,7 +213,7 @@ void PoseCheck::check_shape(const char* role, const Shape& shape) {
   if (const auto fault = fault_of(shape)) find("the outline of the {} is none: {}", role, *fault);
 }
 
-/// Where the input is a region file the shape used must be its shape. How other files become regions is not
+/// Reports a shape that was used and is not that of its region file. How other files become regions is not
 /// rechecked here.
 void PoseCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
   const auto root = parse_json(file.bytes, file.name);
@@ -247,7 +247,7 @@ void PoseCheck::check_clearance() {
   const Span claimed = none ? r_.clearance : r_.clearance + tolerances;  // of the regions as written
   std::optional<ExactShift> shift;
   if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
-  // Where an outline is none nothing is proved by it, and a finding says so already.
+  // An outline that is none proves nothing, and a finding says so already.
   if (!report_.findings.empty()) shift.reset();
   const Span exact = clearance(r_.part, placed_, r_.blank, shift);
   const Span less = none ? exact : exact - tolerances;

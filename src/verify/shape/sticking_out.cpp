@@ -16,8 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Pieces of the outline, and squares, that are looked at before the enclosure stays as wide as it is.
 constexpr std::size_t kMostPieces = 20'000;
 
-// ---- the outline
-// -------------------------------------------------------------------------------------------
+// ---- the outline -----------------------------------------------------------------------------------------
 
 struct Stretch {
   Side piece;

@@ -85,7 +85,7 @@ struct TrimmedContour {
 /// once around its hull, and one of which nothing convex is left. Cost: O(n log n).
 [[nodiscard]] Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance);
 
-/// What a result says of a blank that was trimmed.
+/// Holds what a result says of a blank that was trimmed.
 struct TrimRecord {
   double tolerance = 0, loss = 0;  ///< mm
   geom::Ring contour;              ///< mm, counter-clockwise

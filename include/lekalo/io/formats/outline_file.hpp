@@ -53,7 +53,7 @@ class OutlineFile {
   /// \pre bytes outlive this
   OutlineFile(std::string_view bytes, std::string name, OutlineOptions options);
 
-  /// Whether the file is to be read as a convex outline: it is a convex polygon, or one that only the reader
+  /// True if the file is to be read as a convex outline: it is a convex polygon, or one that only the reader
   /// of convex outlines has the words to refuse. With `only_convex_will_do` that includes polygons that are
   /// not convex.
   [[nodiscard]] bool is_convex(bool only_convex_will_do);

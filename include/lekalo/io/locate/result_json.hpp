@@ -110,7 +110,7 @@ struct LocateDocument {
   std::optional<ComparisonRecord> comparison;
   std::optional<DeviationsRecord> deviations;
 
-  /// Whether convex outlines were placed, by the fast path or a method of reference.
+  /// True if convex outlines were placed, by the fast path or a method of reference.
   [[nodiscard]] bool convex() const noexcept { return std::holds_alternative<locate::AngleProof>(proof); }
 };
 
@@ -122,7 +122,7 @@ struct LocateDocument {
 /// How many intervals of the angle or boxes of poses prove what the document says, that of largest allowances
 /// included.
 [[nodiscard]] std::size_t proof_size(const LocateDocument& document);
-/// Whether the document holds a proof of its bound.
+/// True if the document holds a proof of its bound.
 [[nodiscard]] bool has_proof(const LocateDocument& document) noexcept;
 
 /// The document of a certificate file: all proofs that the document holds.
@@ -133,7 +133,8 @@ struct LocateDocument {
 [[nodiscard]] const char* name_of(nc::RewriteMode mode) noexcept;
 [[nodiscard]] const char* name_of(nc::ScanFrame frame) noexcept;
 
-/// What `verify` and `--compare` need of a written result; what is proved about the rest is verify's matter.
+/// Holds what `verify` and `--compare` need of a written result; what is proved about the rest is verify's
+/// matter.
 struct WrittenResult {
   std::string status, method;
   std::vector<InputRecord> inputs;  ///< role and file only

@@ -62,7 +62,7 @@ struct ScanBlank {
   std::vector<std::string> unknown, dropped;
 };
 
-/// What a result says of a blank that was measured (GuaranteedBlank). Lengths in mm.
+/// Holds what a result says of a blank that was measured (GuaranteedBlank). Lengths are in mm.
 struct ScanRecord {
   std::size_t points = 0;
   bool proved = false, ordered = false;
