@@ -1,42 +1,31 @@
 #!/usr/bin/env python3
 """Holds what a machine can hold of the project's language and of its references.
 
-    check_docs.py voice ROOT [--baseline FILE]
+    check_docs.py voice ROOT
         lines, sentences and headings of the documentation; how comments in the sources begin and end
     check_docs.py references ROOT [--lekalo PROGRAM] [--compiler CXX]
         links, files, names and options that the documentation mentions exist; its code compiles
-    check_docs.py baseline ROOT
-        prints the counts of today's offences against the voice, a line for each folder and rule
 
-Each finding is a line FILE:LINE: and a sentence. The exit status is 1 if there is any, else 0. With a baseline a
-folder may have as many offences against a rule as the file says, and no more.
+Each finding is a line FILE:LINE: and a sentence. The exit status is 1 if there is any, else 0.
 """
 import argparse
 import os
 import sys
 
-from baseline import beyond_baseline, counts
 from references import references
 from voice import voice
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["voice", "references", "baseline"])
+    parser.add_argument("what", choices=["voice", "references"])
     parser.add_argument("root")
-    parser.add_argument("--baseline")
     parser.add_argument("--lekalo")
     parser.add_argument("--compiler")
     words = parser.parse_args()
     words.root = os.path.abspath(words.root)
-    if words.what == "baseline":
-        for (folder, rule), count in sorted(counts(voice(words.root)).items()):
-            print(folder, rule, count)
-        return 0
     if words.what == "voice":
         findings = voice(words.root)
-        if words.baseline:
-            findings = beyond_baseline(findings, words.baseline)
     else:
         lekalo = words.lekalo if words.lekalo and os.path.exists(words.lekalo) else None
         findings = references(words.root, lekalo, words.compiler)

@@ -8,8 +8,6 @@ import os
 import sys
 import tempfile
 
-from baseline import beyond_baseline
-from project import Finding
 from references import references
 from voice import voice
 
@@ -71,6 +69,9 @@ PLANTED = [
     ("src/geom/shape.cpp", "// The function reads", "// Of the functions this reads", "begins with \"Of\""),
     ("src/geom/shape.cpp", "// The function reads a shape.", "// The same.", "begins with \"The same.\""),
     ("src/geom/shape.cpp", "a shape.", "a shape", "ends without a full stop"),
+    ("src/geom/shape.cpp", "", "\n// ---- the shapes that are read ----------\n\nint read_no_shape();\n", ""),
+    ("src/geom/shape.cpp", "", "\n// ---- the shapes that are read\n\nint read_no_shape();\n",
+     "ends without a full stop"),
     ("src/geom/shape.cpp", "reads a shape.", "reads\n// a shape.", "wrap it anew"),
     ("include/lekalo/geom/shape.hpp", "as step 1", "as step 7", "has no step 7"),
     ("include/lekalo/geom/shape.hpp", "\"Goal\"", "\"Aim\"", "docs/design/page.md has no section \"Aim\""),
@@ -125,15 +126,6 @@ def planted(path, old, new):
     return files
 
 
-def check_baseline():
-    """A folder may have the offences of the baseline, and none more."""
-    finding = Finding("src/geom/shape.cpp", 1, "opening", "")
-    with tempfile.TemporaryDirectory() as root:
-        write(root, {"baseline.txt": "# folder rule count\nsrc/geom opening 1\n"})
-        file = os.path.join(root, "baseline.txt")
-        return not beyond_baseline([finding], file) and len(beyond_baseline([finding] * 2, file)) == 2
-
-
 def main():
     compiler = sys.argv[1]
     failures = [f"a clean project is refused: {said}" for said in findings(CLEAN, compiler)]
@@ -143,9 +135,8 @@ def main():
             failures.append(f"planted '{new[:40]}' in {path}; expected '{says}', got {said}")
         if not says and said:
             failures.append(f"'{new[:40]}' in {path} is no violation, and yet: {said}")
-    if not check_baseline():
-        failures.append("the baseline does not count")
-    print("\n".join(failures) if failures else f"{len(PLANTED)} planted violations are noticed")
+    violations = sum(1 for *_, says in PLANTED if says)
+    print("\n".join(failures) if failures else f"{violations} planted violations are noticed")
     return 1 if failures else 0
 
 

@@ -64,6 +64,7 @@ def check_headings(root):
 OPENINGS = ["Of", "What", "Whether", "Where", "Which", "As who"]
 COLUMN_LIMIT = re.compile(r"^ColumnLimit:\s*(\d+)", re.M)
 SHORT_LINE = 40
+SECTION_RULE = re.compile(r"^-{4} \S.* -{4,}$")  # a heading between functions, a line of its own
 TAG = re.compile(r"\\(?:pre|param|return|see)\b[^.]*$")  # the words after a tag need not be a sentence
 
 
@@ -88,6 +89,8 @@ def check_endings(root):
     for path in sources(root):
         for number, block in comment_blocks(lines_of(root, path)):
             text = block[-1].rstrip()
+            if len(block) == 1 and SECTION_RULE.match(text):
+                continue
             if any(is_set_off(line) for line in block) or TAG.search(" ".join(block)):
                 continue
             if not re.search(r"[.:?!;,`}\])]$|\.[\"')]$", text):
