@@ -3,8 +3,9 @@
 
   tools/statements.py [CHECKOUT...]
 
-A statement is a `;` outside parentheses or the `{` that opens a body, after comments, texts and preprocessor
-lines are taken out, so that neither the formatter nor comments change the figure. Folders: include, src, apps,
+A statement is a `;` outside parentheses or the `{` that opens a body, after comments, texts, preprocessor lines,
+namespaces and imports are taken out, so that neither the formatter nor comments nor the cut into files change the
+figure. Folders: include, src, apps,
 bindings and web/src. With several checkouts they stand side by side, which shows whether a change made the
 code larger.
 """
@@ -18,7 +19,9 @@ NOT_CODE = re.compile(
     r'R"(\w*)\((?:.|\n)*?\)\1"'  # raw texts
     r"|//[^\n]*|/\*(?:.|\n)*?\*/"  # comments
     r'|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'|`(?:\\.|[^`\\])*`'  # texts
-    r"|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*",  # preprocessor lines
+    r"|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*"  # preprocessor lines
+    r"|^(?:inline )?namespace[^;{]*\{"
+    r"|^(?:import|export) (?:type )?(?:\{[^}]*\}|\* as \w+|\w+) from[^;]*;|^import [^;]*;",
     re.MULTILINE,
 )
 
