@@ -113,7 +113,7 @@ Result<draw::GreyImage> row_of(const field::FieldGrid& grid) {
   return row;
 }
 
-Result<void> draw(const std::string& pocket, const std::string& figure) {
+Result<void> drawn_model(const std::string& pocket, const std::string& figure) {
   const auto bytes = disk::read_file(pocket);
   if (!bytes) return tl::unexpected(bytes.error());
   const auto file = io::parse_regions(*bytes, pocket);
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "bench_older_model paper-pocket.json FIGURE.png\n");
     return 2;
   }
-  const auto drawn = draw(argv[1], argv[2]);
+  const auto drawn = drawn_model(argv[1], argv[2]);
   if (!drawn) fmt::print(stderr, "{}\n", drawn.error().message);
   return drawn ? 0 : 3;
 }

@@ -26,8 +26,8 @@
 #include "lekalo/io/nesting/nesting_files.hpp"
 #include "lekalo/layout/workspace.hpp"
 #include "lekalo/phi/outline_relation.hpp"
-#include "lekalo/phi/reference_overlap.hpp"
 #include "lekalo/phi/scene.hpp"
+#include "support/reference_overlap.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The reference checks: right where they are right, and wrong where the source's method is known to be.
 
-#include "lekalo/phi/reference_overlap.hpp"
+#include "support/reference_overlap.hpp"
 
 #include <gtest/gtest.h>
 
