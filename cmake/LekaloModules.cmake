@@ -50,6 +50,14 @@ function(lekalo_module NAME)
   set_property(GLOBAL APPEND_STRING PROPERTY LEKALO_LAYERS "${arrows}\n")
 endfunction()
 
+# lekalo_rooms(FOLDER "room: used rooms"...): the rooms of a program. Files beside them may include all of them and be
+# included by all of them.
+function(lekalo_rooms FOLDER)
+  foreach(room IN LISTS ARGN)
+    set_property(GLOBAL APPEND_STRING PROPERTY LEKALO_LAYERS "ROOM ${FOLDER}/${room}\n")
+  endforeach()
+endfunction()
+
 # Writes the arrows for tests/layers/check_layers.cmake.
 function(lekalo_write_layers FILE)
   get_property(layers GLOBAL PROPERTY LEKALO_LAYERS)

@@ -1,6 +1,6 @@
 #include "interrupt.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <signal.h>
 #include <sys/time.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 #include "outputs.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cerrno>
 #include <cstdio>

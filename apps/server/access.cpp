@@ -1,6 +1,6 @@
 #include "access.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 
 #include "messages.hpp"
 #include "room.hpp"
-#include "store.hpp"
+#include "store/store.hpp"
 
 namespace lekalo::server {
 

@@ -1,6 +1,6 @@
 #include "nest_job.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "lekalo/base/joined.hpp"
 #include "lekalo/jobs/nest.hpp"
 
 namespace lekalo::server {
@@ -137,7 +138,7 @@ std::optional<Result<NestRequest>> nest_request(std::string_view line, const Doc
 
 std::string to_text(const NestRequest& request) {
   std::string text = "nest ";
-  if (!request.ids.empty()) text += fmt::format("{} ", fmt::join(request.ids, ","));
+  if (!request.ids.empty()) text += joined(request.ids, ",") + " ";
   text += fmt::format("for {}", request.seconds);
   if (request.seed != 0) text += fmt::format(" seed {}", request.seed);
   return text;

@@ -1,11 +1,11 @@
 #include "room.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
+#include "lekalo/base/joined.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -25,8 +25,8 @@ std::string placements_text(const layout::Document& document, const layout::Chan
   std::string text = "[";
   for (const PlacementChange& one : change.placements) {
     if (text.size() > 1) text += ", ";
-    fmt::format_to(std::back_inserter(text), "{{\"id\": {}, \"after\": {}}}", id_of(one),
-                   one.after ? io::placement_json(document, *one.after) : "null");
+    text += fmt::format("{{\"id\": {}, \"after\": {}}}", id_of(one),
+                        one.after ? io::placement_json(document, *one.after) : "null");
   }
   return text + "]";
 }
@@ -563,8 +563,8 @@ std::string Room::selections_text() const {
   bool first = true;
   for (const auto& [number, client] : clients_) {
     if (client.selected.empty()) continue;
-    fmt::format_to(std::back_inserter(text), "{}{{\"client\": {}, \"ids\": [{}]}}", first ? "" : ", ", number,
-                   fmt::join(client.selected, ", "));
+    text += fmt::format("{}{{\"client\": {}, \"ids\": [{}]}}", first ? "" : ", ", number,
+                        joined(client.selected, ", "));
     first = false;
   }
   return text + "]}";

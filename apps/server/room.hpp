@@ -12,7 +12,7 @@
 #include "job.hpp"
 #include "lekalo/layout/workspace.hpp"
 #include "messages.hpp"
-#include "store.hpp"
+#include "store/store.hpp"
 
 namespace lekalo::server {
 

@@ -1,6 +1,6 @@
 #include "server.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/random.h>
 
 #include <array>
@@ -13,8 +13,8 @@
 #include <memory>
 #include <utility>
 
-#include "service.hpp"
-#include "visit.hpp"
+#include "network/service.hpp"
+#include "network/visit.hpp"
 
 namespace lekalo::server {
 namespace {

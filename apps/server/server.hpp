@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lekalo/base/error.hpp"
-#include "store.hpp"
+#include "store/store.hpp"
 
 namespace lekalo::server {
 

@@ -1,6 +1,6 @@
 #include "lekalo/disk/open_layout.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <optional>

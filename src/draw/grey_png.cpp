@@ -1,6 +1,6 @@
 #include "lekalo/draw/grey_png.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <png.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "layout_tables.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 

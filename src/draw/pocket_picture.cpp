@@ -1,6 +1,6 @@
 #include "lekalo/draw/pocket_picture.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "lekalo/draw/report.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -234,18 +234,18 @@ std::string allowances_csv(const Report& report) {
   std::string text =
       "piece,contour,edge,s_mm,x_part,y_part,x_blank,y_blank,allowance_mm,blank_edge,feature\n";
   std::size_t edge = 0;
-  for_each_contour(report.shapes.part,
-                   [&](std::size_t piece, std::size_t contour, const geom::Contour& edges) {
-                     for (std::size_t k = 0; k < edges.size(); ++k, ++edge) {
-                       const std::string name = csv_field(names[edge]);
-                       for (const locate::OutlinePoint& p : report.edges[edge].samples) {
-                         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", piece,
-                                        contour, number_of(report.shapes.part_edge_numbers, edge), p.along,
-                                        p.in_part.x, p.in_part.y, p.in_blank.x, p.in_blank.y, p.allowance,
-                                        number_of(report.shapes.blank_edge_numbers, p.blank_edge), name);
-                       }
-                     }
-                   });
+  for_each_contour(
+      report.shapes.part, [&](std::size_t piece, std::size_t contour, const geom::Contour& edges) {
+        for (std::size_t k = 0; k < edges.size(); ++k, ++edge) {
+          const std::string name = csv_field(names[edge]);
+          for (const locate::OutlinePoint& p : report.edges[edge].samples) {
+            text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", piece, contour,
+                                number_of(report.shapes.part_edge_numbers, edge), p.along, p.in_part.x,
+                                p.in_part.y, p.in_blank.x, p.in_blank.y, p.allowance,
+                                number_of(report.shapes.blank_edge_numbers, p.blank_edge), name);
+          }
+        }
+      });
   return text;
 }
 

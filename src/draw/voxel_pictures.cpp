@@ -1,6 +1,6 @@
 #include "lekalo/draw/voxel_pictures.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

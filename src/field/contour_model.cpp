@@ -1,6 +1,6 @@
 #include "lekalo/field/contour_model.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "containment.hpp"
 #include "lekalo/geom/boolean.hpp"

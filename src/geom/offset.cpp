@@ -1,6 +1,6 @@
 #include "lekalo/geom/offset.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <utility>

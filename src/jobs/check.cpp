@@ -1,6 +1,6 @@
 #include "lekalo/jobs/check.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

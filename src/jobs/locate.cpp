@@ -1,9 +1,8 @@
 #include "lekalo/jobs/locate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -186,7 +185,7 @@ void add_comparison(const LocateInputs& in, io::LocateDocument& d) {
 std::string deviations_csv(const geom::Ring& probed, const std::vector<double>& deviations) {
   std::string text = "index,x,y,deviation\n";
   for (std::size_t k = 0; k < probed.size(); ++k) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", k, probed[k].x, probed[k].y, deviations[k]);
+    text += fmt::format("{},{},{},{}\n", k, probed[k].x, probed[k].y, deviations[k]);
   }
   return text;
 }

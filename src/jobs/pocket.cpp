@@ -1,6 +1,6 @@
 #include "lekalo/jobs/pocket.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstddef>
 

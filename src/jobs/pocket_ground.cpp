@@ -1,6 +1,6 @@
 #include "pocket_ground.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>

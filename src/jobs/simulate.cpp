@@ -1,6 +1,6 @@
 #include "lekalo/jobs/simulate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "earlier_documents.hpp"
 #include "lekalo/base/version.hpp"

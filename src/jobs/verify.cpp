@@ -1,6 +1,6 @@
 #include "lekalo/jobs/verify.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "lekalo/layout/session.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace lekalo::layout {
 namespace {

@@ -1,6 +1,6 @@
 #include "profile_path.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "lekalo/nc/program.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #include "lekalo/nc/program_writer.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

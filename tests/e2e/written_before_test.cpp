@@ -8,7 +8,7 @@
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/io/svg/svg.hpp"
-#include "server/store.hpp"
+#include "server/store/store.hpp"
 
 /// What lekalo 0.1 wrote (tests/corpus/data/written-0.1) is read, confirmed and opened as it was then.
 namespace lekalo::test {

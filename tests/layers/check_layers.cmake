@@ -13,7 +13,8 @@
 #       its whole name, "M/ROOM/file.hpp": no way round through "../";
 #   (6) below disk no files, clocks, threads of output or standard randomness, below io no unordered containers
 #       either: the same input gives the same bytes;
-#   (7) apps may include any module, but only through public headers; the command line may include the server;
+#   (7) apps may include any module, but only through public headers; the command line may include the server; a
+#       room of a program reaches the rooms that it states, and the files beside the rooms;
 #   (8) no folder of the product holds more than 40 files of its own;
 #   (9) only src/verify/number includes GMP and MPFR: a target without them replaces that room alone;
 #   (10) test names are sentences in CamelCase.
@@ -39,7 +40,7 @@ foreach(line IN LISTS lines)
     list(APPEND modules ${CMAKE_MATCH_1})
   elseif(line MATCHES "^(PUBLIC|PRIVATE) ([a-z]+): ?(.*)$")
     string(REPLACE " " ";" ${CMAKE_MATCH_1}_${CMAKE_MATCH_2} "${CMAKE_MATCH_3}")
-  elseif(line MATCHES "^ROOM ([a-z]+)/([a-z_]+): ?(.*)$")
+  elseif(line MATCHES "^ROOM ([a-z/]+)/([a-z_]+): ?(.*)$")
     set(module ${CMAKE_MATCH_1})
     set(room ${CMAKE_MATCH_2})
     string(REPLACE " " ";" used "${CMAKE_MATCH_3}")
@@ -97,6 +98,19 @@ function(check_room FILE MODULE PATH)
   set(violations "${violations}" PARENT_SCOPE)
 endfunction()
 
+# check_app_room(FILE APP PATH): the same for a program, whose rooms may also reach the files beside them.
+function(check_app_room FILE APP PATH)
+  if(FILE MATCHES "^${APP}/([a-z_]+)/")
+    set(room ${CMAKE_MATCH_1})
+    if(NOT room IN_LIST rooms_${APP})
+      violation("${FILE} lies in a room of ${APP} that CMake does not state")
+    elseif(PATH MATCHES "^([a-z_]+)/" AND NOT CMAKE_MATCH_1 IN_LIST room_${APP}_${room})
+      violation("${FILE} includes ${PATH}: room ${APP}/${room} has no arrow to ${CMAKE_MATCH_1}")
+    endif()
+  endif()
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+
 # check_file(FILE MODULE ALLOWED...): every include of FILE, relative to ROOT.
 function(check_file FILE MODULE)
   set(allowed ${ARGN})
@@ -120,8 +134,8 @@ function(check_file FILE MODULE)
     elseif(path MATCHES "^${MODULE}/[a-z_]+/[a-z_0-9]+[.]hpp$" AND EXISTS ${ROOT}/src/${path})
       check_room(${FILE} ${MODULE} ${path})
     elseif(MODULE STREQUAL "apps" AND EXISTS ${ROOT}/${app}/${path} AND NOT path MATCHES "[.][.]/")
-      continue()
-    elseif(MODULE STREQUAL "apps" AND path MATCHES "^server/[a-z_]+[.]hpp$" AND EXISTS ${ROOT}/apps/${path})
+      check_app_room(${FILE} ${app} ${path})
+    elseif(MODULE STREQUAL "apps" AND path MATCHES "^server/[a-z_/]+[.]hpp$" AND EXISTS ${ROOT}/apps/${path})
       continue()
     elseif(quote STREQUAL "\"" AND (path MATCHES "/" OR NOT EXISTS ${folder}/${path}))
       violation("${FILE} includes \"${path}\": neither lekalo/MODULE/... nor a file beside it")

@@ -8,7 +8,8 @@ set(layers "module base\nPUBLIC base: \nPRIVATE base: \nmodule geom\nPUBLIC geom
   "module phi\nPUBLIC phi: geom\nPRIVATE phi: \nmodule verify\nPUBLIC verify: base\nPRIVATE verify: \n"
   "ROOM verify/number: \n"
   "module io\nPUBLIC io: phi\nPRIVATE io: verify\nROOM io/text: \nROOM io/dxf: text\n"
-  "module disk\nPUBLIC disk: io\nPRIVATE disk: \n")
+  "module disk\nPUBLIC disk: io\nPRIVATE disk: \n"
+  "ROOM apps/cli/options: \nROOM apps/cli/commands: options\n")
 string(CONCAT layers ${layers})
 
 function(plant_clean_tree)
@@ -30,6 +31,8 @@ function(plant_clean_tree)
   file(WRITE ${WORK}/include/lekalo/verify/verify.hpp "#pragma once\n")
   file(WRITE ${WORK}/src/disk/files.cpp "#include <fstream>\n#include \"lekalo/io/dxf/dxf.hpp\"\n")
   file(WRITE ${WORK}/apps/cli/options/words.hpp "#pragma once\n")
+  file(WRITE ${WORK}/apps/cli/outputs.hpp "#pragma once\n")
+  file(WRITE ${WORK}/apps/cli/commands/nest.hpp "#include \"options/words.hpp\"\n#include \"outputs.hpp\"\n")
   file(WRITE ${WORK}/apps/cli/main.cpp "#include \"lekalo/disk/files.hpp\"\n#include \"options/words.hpp\"\n")
 endfunction()
 
@@ -73,6 +76,8 @@ must_catch(src/phi/convex.cpp "#include \"io/text/decimal.hpp\"" "neither lekalo
 must_catch(apps/cli/main.cpp "#include \"options/../main.hpp\"" "neither lekalo/MODULE/... nor a file beside it")
 must_catch(src/verify/verify.cpp "#include \"lekalo/geom/point.hpp\"" "verify has no arrow to geom")
 must_catch(apps/cli/main.cpp "#include \"lekalo/nest/strip.hpp\"" "apps has no arrow to nest")
+must_catch(apps/cli/options/words.hpp "#include \"commands/nest.hpp\"" "room apps/cli/options has no arrow to commands")
+must_catch(apps/cli/extra/new.cpp "#include \"outputs.hpp\"" "lies in a room of apps/cli that CMake does not state")
 must_catch(src/verify/verify.cpp "#include <gmpxx.h>" "only src/verify/number may use GMP and MPFR")
 must_catch(src/phi/convex.cpp "#include <mpfr.h>" "only src/verify/number may use GMP and MPFR")
 must_catch(tests/unit/convex_test.cpp "TEST_F(Convex, finds_the_hull) {}" "is not a name in CamelCase")

@@ -10,7 +10,7 @@
 
 #include "lekalo/layout/check.hpp"
 #include "server/access.hpp"
-#include "server/outbox.hpp"
+#include "server/network/outbox.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::server {

@@ -1,4 +1,4 @@
-#include "server/store.hpp"
+#include "server/store/store.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
 #include "edit_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

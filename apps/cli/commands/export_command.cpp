@@ -1,6 +1,6 @@
 #include "export_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

@@ -1,6 +1,6 @@
 #include "pocket_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "serve_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 #include "layout_input.hpp"
 #include "outputs.hpp"
 #include "server/server.hpp"
-#include "server/store.hpp"
+#include "server/store/store.hpp"
 #include "summary.hpp"
 
 namespace lekalo::cli {

@@ -1,6 +1,6 @@
 #include "show_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"

@@ -1,6 +1,6 @@
 #include "verify_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "lekalo/io/contour/contour_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "contour_points.hpp"
 #include "lekalo/io/text/format.hpp"

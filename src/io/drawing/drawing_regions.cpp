@@ -1,6 +1,6 @@
 #include "lekalo/io/drawing/drawing_regions.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

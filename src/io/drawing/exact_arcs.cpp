@@ -1,6 +1,6 @@
 #include "exact_arcs.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,9 +1,8 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -71,9 +70,7 @@ class DxfWriter {
   }
 
  private:
-  void group(int code, const std::string& value) {
-    fmt::format_to(std::back_inserter(text_), "{:3}\n{}\n", code, value);
-  }
+  void group(int code, const std::string& value) { text_ += fmt::format("{:3}\n{}\n", code, value); }
   void group(int code, const char* value) { group(code, std::string(value)); }
   void group(int code, int value) { group(code, fmt::format("{:6}", value)); }
   void group(int code, double value) { group(code, fmt::format("{}", value)); }

@@ -1,6 +1,6 @@
 #include "lekalo/io/formats/any_layout.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "lekalo/io/formats/outline_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

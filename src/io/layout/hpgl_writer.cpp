@@ -1,6 +1,6 @@
 #include "hpgl_writer.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,12 +105,12 @@ class HpglWriter {
 
   void line(const std::vector<Point>& points) {
     Units at = units(points.front());
-    fmt::format_to(std::back_inserter(text_), "\nPU{},{};PD", at.x, at.y);
+    text_ += fmt::format("\nPU{},{};PD", at.x, at.y);
     bool first = true;
     for (std::size_t i = 1; i < points.size(); ++i) {
       const Units next = units(points[i]);
       if (next == at) continue;
-      fmt::format_to(std::back_inserter(text_), "{}{},{}", first ? "" : ",", next.x, next.y);
+      text_ += fmt::format("{}{},{}", first ? "" : ",", next.x, next.y);
       first = false;
       at = next;
     }
@@ -127,8 +127,8 @@ class HpglWriter {
     }
     const Units at = units(part.label_at);
     // Sizes in centimetres; the label is centred on the pen and ends with the character ETX.
-    fmt::format_to(std::back_inserter(text_), "\nPU{},{};SI{:.3f},{:.3f};LO5;LB{}\x03;", at.x, at.y,
-                   0.07 * part.label_height, 0.1 * part.label_height, text);
+    text_ += fmt::format("\nPU{},{};SI{:.3f},{:.3f};LO5;LB{}\x03;", at.x, at.y, 0.07 * part.label_height,
+                         0.1 * part.label_height, text);
   }
 
   const std::vector<std::string>& only_;

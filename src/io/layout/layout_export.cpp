@@ -1,7 +1,7 @@
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/svg/svg.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,10 +1,11 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 
+#include "lekalo/base/joined.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 
 namespace lekalo::io {
@@ -103,9 +104,8 @@ class WordTaker {
       const std::string layer = value.substr(begin, end - begin);
       if (std::none_of(std::begin(kExportLayers), std::end(kExportLayers),
                        [&](const char* k) { return layer == k; }))
-        return failure(ErrorCode::usage,
-                       fmt::format("{}only {}: the layers are {}", prefix_, value,
-                                   fmt::join(std::begin(kExportLayers), std::end(kExportLayers), ", ")));
+        return failure(ErrorCode::usage, fmt::format("{}only {}: the layers are {}", prefix_, value,
+                                                     joined(kExportLayers, ", ")));
       request_.only.push_back(layer);
       begin = end + 1;
     }

@@ -1,8 +1,7 @@
 // A layout document as JSON text.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include <iterator>
 #include <optional>
 
 #include "io/shape/region_reader.hpp"
@@ -40,7 +39,7 @@ class Fields {
   }
   template <class Integer>
   void integer(const char* key, Integer value) {
-    fmt::format_to(std::back_inserter(field(key)), "{}", value);
+    field(key) += fmt::format("{}", value);
   }
   template <class Integer>
   void integer(const char* key, Integer value, Integer usual) {
@@ -125,7 +124,7 @@ class Writer {
     list("parts", document_.parts, [this](const Part& p) { part(p); });
     list("kits", document_.kits, [this](const Kit& k) { kit(k); });
     list("placements", document_.placements, [this](const Placement& p) { placement(p); });
-    fmt::format_to(std::back_inserter(text_), ",\n\"next_id\": {}}}\n", document_.next_id);
+    text_ += fmt::format(",\n\"next_id\": {}}}\n", document_.next_id);
     return std::move(text_);
   }
 

@@ -1,6 +1,6 @@
 // Strips, sheets and hides of other programs' job files.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // Placements on a strip in the form that other programs share: item, degrees, x, y.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "lekalo/io/scan/scan_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Step 1 of docs/design/shape-tree.md for primitives: from their numbers to regions.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/drawing/drawn_shapes.hpp"
+#include "lekalo/base/joined.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "node.hpp"
 
@@ -87,7 +88,7 @@ Result<std::string> only_one(JsonValue json, const std::string& where,
     if (!found.empty()) return refuse(where, fmt::format("\"{}\" and \"{}\" together; give one", found, key));
     found = key;
   }
-  if (found.empty()) return refuse(where, fmt::format("one of these is missing: {}", fmt::join(keys, ", ")));
+  if (found.empty()) return refuse(where, fmt::format("one of these is missing: {}", joined(keys, ", ")));
   return found;
 }
 

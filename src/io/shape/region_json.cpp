@@ -1,6 +1,6 @@
 #include "lekalo/io/shape/region_json.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "lekalo/io/shape/shape_tree.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Step 1 of docs/design/shape-tree.md: from JSON to a tree of shapes, its words and its numbers.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

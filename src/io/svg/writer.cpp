@@ -1,8 +1,7 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "io/drawing/exact_arcs.hpp"
@@ -106,7 +105,7 @@ class SvgWriter {
 
   template <class... Values>
   void append(fmt::format_string<Values...> form, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), form, std::forward<Values>(values)...);
+    text_ += fmt::format(form, std::forward<Values>(values)...);
   }
 
   void write(const geom::Contour& contour) {

@@ -1,6 +1,6 @@
 #include "lekalo/io/text/excerpt.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

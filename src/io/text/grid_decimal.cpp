@@ -1,8 +1,7 @@
 #include "grid_decimal.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include <iterator>
 #include <string_view>
 
 #include "lekalo/base/assert.hpp"
@@ -76,8 +75,6 @@ void append_rotation_step(std::string& text, std::int64_t steps) {
   append_shortest(text, steps, 52, nearest, [](double c) { return geom::rotation_from_pair(c, 0).c; });
 }
 
-void append_number(std::string& text, double value) {
-  fmt::format_to(std::back_inserter(text), "{}", value + 0.0);
-}
+void append_number(std::string& text, double value) { text += fmt::format("{}", value + 0.0); }
 
 }  // namespace lekalo::io::detail

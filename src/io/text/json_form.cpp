@@ -1,10 +1,11 @@
 #include "json_form.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 
 #include "decimal.hpp"
+#include "lekalo/base/joined.hpp"
 
 namespace lekalo::io::detail {
 
@@ -33,8 +34,7 @@ Result<void> expect_object(JsonValue json, const std::string& where,
     return refuse(where, fmt::format("an object is needed, not {}", json_word(json.kind())));
   for (const JsonValue item : json) {
     if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
-    return refuse(where,
-                  fmt::format("unknown word \"{}\"; known here: {}", item.key(), fmt::join(known, ", ")));
+    return refuse(where, fmt::format("unknown word \"{}\"; known here: {}", item.key(), joined(known, ", ")));
   }
   return {};
 }

@@ -1,11 +1,12 @@
 #include "json_reader.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "decimal.hpp"
+#include "lekalo/base/joined.hpp"
 
 namespace lekalo::io::detail {
 namespace {
@@ -36,7 +37,7 @@ bool JsonReader::expect_object(JsonValue value, std::initializer_list<std::strin
     if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
     if (item.key().substr(0, own_.size()) != own_) {
       refuse(value, fmt::format("unknown field {}; known here: {}, and {}... for notes of your own",
-                                excerpt(item.key()), fmt::join(known, ", "), own_));
+                                excerpt(item.key()), joined(known, ", "), own_));
       return false;
     }
     const auto found = left_out_.find(item.key());

@@ -1,6 +1,6 @@
 #include "lekalo/locate/edge_allowance.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

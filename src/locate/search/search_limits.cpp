@@ -1,6 +1,6 @@
 #include "search_limits.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

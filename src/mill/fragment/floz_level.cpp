@@ -1,6 +1,6 @@
 #include "floz_level.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "allowed_places.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "lekalo/geom/offset.hpp"
 

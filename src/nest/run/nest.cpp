@@ -1,6 +1,6 @@
 #include "lekalo/nest/nest.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

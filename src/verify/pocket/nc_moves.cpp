@@ -1,6 +1,6 @@
 #include "nc_moves.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

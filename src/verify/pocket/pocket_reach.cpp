@@ -1,6 +1,6 @@
 #include "pocket_reach.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "lekalo/verify/simulate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <future>

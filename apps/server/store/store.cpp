@@ -1,7 +1,7 @@
 #include "store.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -401,7 +401,9 @@ tl::unexpected<Error> no_photo(const std::string& stock) {
 }
 
 std::string scale_text(const PhotoScale& scale) {
-  return fmt::format("{} {}", fmt::join(scale.pixels, " "), fmt::join(scale.mm, " "));
+  const auto& [pixels, mm] = scale;
+  return fmt::format("{} {} {} {} {} {} {} {}", pixels[0], pixels[1], pixels[2], pixels[3], mm[0], mm[1],
+                     mm[2], mm[3]);
 }
 
 std::optional<PhotoScale> scale_from(std::string_view text) {

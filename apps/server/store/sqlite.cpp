@@ -1,6 +1,6 @@
 #include "sqlite.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace lekalo::server {
 namespace {

@@ -1,6 +1,6 @@
 #include "talk.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/asio/post.hpp>
 #include <deque>

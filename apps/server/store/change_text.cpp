@@ -1,9 +1,8 @@
 // A change as the store keeps it.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
-#include <iterator>
 
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "store.hpp"
@@ -14,15 +13,15 @@ namespace {
 using layout::Placement;
 
 void append_line(std::string& text, char sign, const Placement& p) {
-  fmt::format_to(std::back_inserter(text), "{}{} {} {} {} {} {} {} {} {} {}\n", sign, p.id, p.part, p.stock,
-                 p.copy, p.rotation.c, p.rotation.s, p.at.x, p.at.y, p.mirrored ? 1 : 0, p.locked ? 1 : 0);
+  text += fmt::format("{}{} {} {} {} {} {} {} {} {} {}\n", sign, p.id, p.part, p.stock, p.copy, p.rotation.c,
+                      p.rotation.s, p.at.x, p.at.y, p.mirrored ? 1 : 0, p.locked ? 1 : 0);
 }
 
 /// A feature is JSON to the end of the line, which has no line ends of its own.
 void append_line(std::string& text, char sign, const layout::FeatureChange& where,
                  const layout::Feature& feature) {
-  fmt::format_to(std::back_inserter(text), "{}{} {} {} {}\n", sign, where.stock, where.index,
-                 static_cast<int>(feature.kind), io::feature_json(feature));
+  text += fmt::format("{}{} {} {} {}\n", sign, where.stock, where.index, static_cast<int>(feature.kind),
+                      io::feature_json(feature));
 }
 
 /// Takes whole numbers, each followed by one given character.

@@ -1,6 +1,6 @@
 #include "visit.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -98,9 +98,14 @@ class Visit : public std::enable_shared_from_this<Visit> {
   void go_on() {
     reply_.emplace(http::status::continue_, version_);
     reply_->prepare_payload();
-    http::async_write(socket_, *reply_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (!error) self->read_body();
-    });
+    write_reply([this] { read_body(); });
+  }
+  /// The compiler builds the writing of a reply once, here.
+  void write_reply(std::function<void()> then) {
+    http::async_write(socket_, *reply_,
+                      [self = shared_from_this(), then = std::move(then)](error_code error, std::size_t) {
+                        if (!error) then();
+                      });
   }
   void read_body() {
     socket_.expires_after(kBodyTime);
@@ -203,10 +208,9 @@ class Visit : public std::enable_shared_from_this<Visit> {
     reply_->prepare_payload();
     if (head_) reply_->body().clear();
     socket_.expires_after(kBodyTime);
-    http::async_write(socket_, *reply_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (error) return;
-      if (self->keep_alive_) return self->read();
-      self->hang_up();
+    write_reply([this] {
+      if (keep_alive_) return read();
+      hang_up();
     });
   }
   /// A body that was not read would otherwise make the system drop the answer with the connection.
