@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/jobs/nest.hpp"
 
 namespace lekalo::server {
@@ -138,7 +138,7 @@ std::optional<Result<NestRequest>> nest_request(std::string_view line, const Doc
 
 std::string to_text(const NestRequest& request) {
   std::string text = "nest ";
-  if (!request.ids.empty()) text += joined(request.ids, ",") + " ";
+  if (!request.ids.empty()) text += joined_text(request.ids, ",") + " ";
   text += fmt::format("for {}", request.seconds);
   if (request.seed != 0) text += fmt::format(" seed {}", request.seed);
   return text;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -564,7 +564,7 @@ std::string Room::selections_text() const {
   for (const auto& [number, client] : clients_) {
     if (client.selected.empty()) continue;
     text += fmt::format("{}{{\"client\": {}, \"ids\": [{}]}}", first ? "" : ", ", number,
-                        joined(client.selected, ", "));
+                        joined_text(client.selected, ", "));
     first = false;
   }
   return text + "]}";

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "lekalo/base/double_of_text.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/layout/command.hpp"
 
 namespace lekalo::layout {
@@ -26,7 +26,7 @@ std::string quoted(std::string_view text) {
   return result + '"';
 }
 
-std::string text_of(const std::vector<std::uint64_t>& ids) { return joined(ids, ","); }
+std::string text_of(const std::vector<std::uint64_t>& ids) { return joined_text(ids, ","); }
 std::string text_of(GridPoint p) {
   return fmt::format("{} {}", geom::mm_from_grid(p.x), geom::mm_from_grid(p.y));
 }

@@ -20,7 +20,7 @@ using geom::Point;
 
 bool is_line(const Edge& edge) { return edge.kind == EdgeKind::line; }
 
-Box joined(const Box& a, const Box& b) {
+Box joined_text(const Box& a, const Box& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
@@ -110,7 +110,7 @@ bool are_equal(const std::vector<Edge>& a, const std::vector<Edge>& b) {
 
 LaidCurve laid_curve(const std::vector<Edge>& edges) {
   LaidCurve made{&edges, curve_box(make_curve(edges.front())), 0, true};
-  for (const Edge& edge : edges) made.box = joined(made.box, curve_box(make_curve(edge)));
+  for (const Edge& edge : edges) made.box = joined_text(made.box, curve_box(make_curve(edge)));
   made.size = norm(made.box.high - made.box.low);
   return made;
 }

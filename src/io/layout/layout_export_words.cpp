@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 
 namespace lekalo::io {
@@ -105,7 +105,7 @@ class WordTaker {
       if (std::none_of(std::begin(kExportLayers), std::end(kExportLayers),
                        [&](const char* k) { return layer == k; }))
         return failure(ErrorCode::usage, fmt::format("{}only {}: the layers are {}", prefix_, value,
-                                                     joined(kExportLayers, ", ")));
+                                                     joined_text(kExportLayers, ", ")));
       request_.only.push_back(layer);
       begin = end + 1;
     }

@@ -11,7 +11,7 @@
 #include "io/text/decimal.hpp"
 #include "layout_outline.hpp"
 #include "layout_reader.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 
@@ -389,7 +389,7 @@ class LayoutReader {
     std::vector<std::string> all;
     if (const auto names = reader_.left_out(); !names.empty())
       all.push_back(fmt::format("{}: fields of your own are not kept when it is written: {}", reader_.name(),
-                                joined(names, ", ")));
+                                joined_text(names, ", ")));
     if (chords_made_ > 0)
       all.push_back(fmt::format("{}: {} {} given as curves alone; chords were made", reader_.name(),
                                 chords_made_, chords_made_ == 1 ? "outline was" : "outlines were"));

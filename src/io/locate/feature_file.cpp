@@ -7,7 +7,7 @@
 
 #include "io/shape/region_reader.hpp"
 #include "io/text/json_form.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -170,9 +170,9 @@ Result<std::vector<Feature>> find_features(const FeatureFile& file, const std::v
         std::sort(known.begin(), known.end());
         known.erase(std::unique(known.begin(), known.end()), known.end());
         std::erase(known, "");
-        return refuse(where,
-                      fmt::format("no edge of the part has the label \"{}\"; there {}", spec.label,
-                                  known.empty() ? "are none" : fmt::format("is: {}", joined(known, ", "))));
+        return refuse(
+            where, fmt::format("no edge of the part has the label \"{}\"; there {}", spec.label,
+                               known.empty() ? "are none" : fmt::format("is: {}", joined_text(known, ", "))));
       }
     }
     features.push_back(std::move(feature));

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/layout/layout_outline.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/nesting/nesting_files.hpp"
 
@@ -185,7 +185,7 @@ void NestingShapes::stock(JsonValue at, Loops loops, layout::Stock& stock) {
   notices.push_back(
       fmt::format("{}: of its holes, {} meet the outline or another hole; they are kept as "
                   "defects that no part tolerates, so that the same places stay forbidden",
-                  place(at), joined(meeting, ", ")));
+                  place(at), joined_text(meeting, ", ")));
 }
 
 void merge_alike(std::vector<layout::Stock>& stocks) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/drawing/drawn_shapes.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "node.hpp"
 
@@ -88,7 +88,8 @@ Result<std::string> only_one(JsonValue json, const std::string& where,
     if (!found.empty()) return refuse(where, fmt::format("\"{}\" and \"{}\" together; give one", found, key));
     found = key;
   }
-  if (found.empty()) return refuse(where, fmt::format("one of these is missing: {}", joined(keys, ", ")));
+  if (found.empty())
+    return refuse(where, fmt::format("one of these is missing: {}", joined_text(keys, ", ")));
   return found;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "decimal.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 
 namespace lekalo::io::detail {
 
@@ -34,7 +34,8 @@ Result<void> expect_object(JsonValue json, const std::string& where,
     return refuse(where, fmt::format("an object is needed, not {}", json_word(json.kind())));
   for (const JsonValue item : json) {
     if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
-    return refuse(where, fmt::format("unknown word \"{}\"; known here: {}", item.key(), joined(known, ", ")));
+    return refuse(where,
+                  fmt::format("unknown word \"{}\"; known here: {}", item.key(), joined_text(known, ", ")));
   }
   return {};
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "decimal.hpp"
-#include "lekalo/base/joined.hpp"
+#include "lekalo/base/joined_text.hpp"
 
 namespace lekalo::io::detail {
 namespace {
@@ -37,7 +37,7 @@ bool JsonReader::expect_object(JsonValue value, std::initializer_list<std::strin
     if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
     if (item.key().substr(0, own_.size()) != own_) {
       refuse(value, fmt::format("unknown field {}; known here: {}, and {}... for notes of your own",
-                                excerpt(item.key()), joined(known, ", "), own_));
+                                excerpt(item.key()), joined_text(known, ", "), own_));
       return false;
     }
     const auto found = left_out_.find(item.key());

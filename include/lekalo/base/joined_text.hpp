@@ -6,10 +6,10 @@
 
 namespace lekalo {
 
-/// Texts or whole numbers in a row, `separator` between them. Stands for fmt::join, which builds the writers of
-/// numbers anew in every file that calls it.
+/// Texts or whole numbers in a row, `separator` between them. Stands for fmt::join, which builds the writers
+/// of numbers anew in every file that calls it.
 template <class Items>
-[[nodiscard]] std::string joined(const Items& items, std::string_view separator) {
+[[nodiscard]] std::string joined_text(const Items& items, std::string_view separator) {
   std::string text;
   bool first = true;
   for (const auto& item : items) {
