@@ -81,7 +81,7 @@ std::vector<Loop> loops_of(const std::vector<GuardedLoop>& loops) {
 class CornerCutter {
  public:
   CornerCutter(const std::vector<geom::Region>& regions, double tolerance)
-      : tolerance_(tolerance), hash_(cell_of(regions), count_of(regions), largest_of(regions)) {
+      : tolerance_(tolerance), hash_(cell_of(regions), geom::edges_in(regions), largest_of(regions)) {
     for (const geom::Region& region : regions) {
       add(region.outer);
       for (const geom::Contour& hole : region.holes) add(hole);
@@ -134,14 +134,6 @@ class CornerCutter {
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  static std::size_t count_of(const std::vector<geom::Region>& regions) {
-    std::size_t count = 0;
-    for (const geom::Region& region : regions) {
-      count += region.outer.size();
-      for (const geom::Contour& hole : region.holes) count += hole.size();
-    }
-    return count;
-  }
   static double largest_of(const std::vector<geom::Region>& regions) {
     double largest = 0;
     for (const geom::Region& region : regions)
@@ -161,7 +153,7 @@ class CornerCutter {
       add(region.outer);
       for (const geom::Contour& hole : region.holes) add(hole);
     }
-    return std::max(2 * length / static_cast<double>(count_of(regions)), longest / 64);
+    return std::max(2 * length / static_cast<double>(geom::edges_in(regions)), longest / 64);
   }
 
   void add(const geom::Contour& contour) {
