@@ -180,28 +180,26 @@ Result<Material> material_of(const std::vector<Region>& regions, detail::KeepRul
 /// A loop that winds the other way is no material, and what its edges sweep is none either. (Edges inside
 /// material sweep what belongs to the result.)
 Result<BooleanResult> grown(const std::vector<Region>& regions, double distance) {
-  const auto material = material_of(
-      regions, [](const Winding& w) { return w[0] < 0; }, false);
-  if (!material) return tl::unexpected(material.error());
+  const auto is_wrong = [](const Winding& w) { return w[0] < 0; };
+  LEKALO_TRY(const auto material, material_of(regions, is_wrong, false));
   Outlines outlines;
-  outlines.add(material->regions, 0);
+  outlines.add(material.regions, 0);
   Brush brush(distance, 1, outlines);
-  for_each_contour(material->regions, [&](const Contour& contour) { brush.sweep(contour); });
+  for_each_contour(material.regions, [&](const Contour& contour) { brush.sweep(contour); });
   return detail::overlay(
-      outlines, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, material->error);
+      outlines, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, material.error);
 }
 
 /// The outside grown into the material. Edges between two pieces, or inside one, are not outside.
 Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance) {
-  const auto material = material_of(
-      regions, [](const Winding& w) { return w[0] < 0 || w[0] > 1; }, true);
-  if (!material) return tl::unexpected(material.error());
+  const auto is_wrong = [](const Winding& w) { return w[0] < 0 || w[0] > 1; };
+  LEKALO_TRY(const auto material, material_of(regions, is_wrong, true));
   Outlines outlines;
-  outlines.add(material->regions, 0);
+  outlines.add(material.regions, 0);
   Brush brush(distance, 1, outlines);
-  for_each_contour(material->regions, [&](const Contour& contour) { brush.sweep(reversed(contour)); });
+  for_each_contour(material.regions, [&](const Contour& contour) { brush.sweep(reversed(contour)); });
   return detail::overlay(
-      outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, material->error);
+      outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, material.error);
 }
 
 /// Adds all points within `distance` of an edge, on the sides asked for.

@@ -245,8 +245,7 @@ class RegionLocaliser {
 }  // namespace
 
 Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOptions& options) {
-  if (auto fine = check_limits(problem.window, options.gap, options.min_allowance); !fine)
-    return tl::unexpected(std::move(fine.error()));
+  LEKALO_CHECK(check_limits(problem.window, options.gap, options.min_allowance));
   if (!(problem.part_tolerance >= 0) || !(problem.blank_tolerance >= 0))
     return failure(ErrorCode::usage, "tolerances must not be negative");
   if (problem.part.empty() || problem.blank.empty())

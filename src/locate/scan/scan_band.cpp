@@ -237,17 +237,15 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
                                                   const std::vector<Slab>& slabs, double margin) {
   std::vector<geom::Region> pieces;
   for (const Slab& slab : slabs) {
-    auto made = geom::make_region(rectangle(slab, margin));
-    if (!made) return tl::unexpected(std::move(made.error()));
-    pieces.push_back(*std::move(made));
+    LEKALO_TRY(auto made, geom::make_region(rectangle(slab, margin)));
+    pieces.push_back(std::move(made));
   }
-  auto band = geom::united(pieces);
-  if (!band) return tl::unexpected(std::move(band.error()));
+  LEKALO_TRY(const auto band, geom::united(pieces));
   // The holes of the band that lie inside the outlines; where parts of the band lie in them, without those.
   const ParityIndex parity(points, loops_of(loops));
   std::vector<geom::Region> faces;
   bool islands = false;
-  for (const geom::Region& piece : band->regions) {
+  for (const geom::Region& piece : band.regions) {
     islands = islands || parity.odd(piece.outer.front().from);
     for (const geom::Contour& hole : piece.holes) {
       if (!parity.odd(hole.front().from)) continue;
@@ -256,11 +254,11 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
     }
   }
   if (!islands || faces.empty()) return faces;
-  auto rest = geom::combine(faces, band->regions, geom::BooleanOperation::subtract, band->edge_error);
-  if (!rest) return tl::unexpected(std::move(rest.error()));
-  std::erase_if(rest->regions,
+  LEKALO_TRY(auto rest,
+             geom::combine(faces, band.regions, geom::BooleanOperation::subtract, band.edge_error));
+  std::erase_if(rest.regions,
                 [&](const geom::Region& piece) { return !parity.odd(piece.outer.front().from); });
-  return std::move(rest->regions);
+  return std::move(rest.regions);
 }
 
 std::vector<geom::Region> cut_corners(const std::vector<geom::Region>& regions, double tolerance) {

@@ -191,9 +191,8 @@ class Grower {
     for (const Front& front : fronts) {
       if (!front.loop) continue;
       const Edge& arc = front.edges.front();
-      auto disc = geom::make_region({{EdgeKind::arc_ccw, arc.from, arc.from, arc.centre}});
-      if (!disc) return tl::unexpected(disc.error());
-      pieces.push_back(std::move(*disc));
+      LEKALO_TRY(auto disc, geom::make_region({{EdgeKind::arc_ccw, arc.from, arc.from, arc.centre}}));
+      pieces.push_back(std::move(disc));
     }
     LEKALO_TRY(auto all, geom::united(pieces));
     const RegionIndex before(growth_.cut.back());

@@ -36,10 +36,8 @@ FrontPasses::FrontPasses(const Piece& piece, ToolMotion& tool, const PocketOptio
       either_way_(o.direction == Direction::any) {}
 
 Result<void> FrontPasses::grow_from(const std::vector<Region>& start) {
-  auto growth = grow(piece_.allowed.index, piece_.fields.regions, piece_.narrow.regions, start, law_,
-                     [this](double mm2) { listener_(planned_ + mm2); });
-  if (!growth) return tl::unexpected(growth.error());
-  growth_ = std::move(*growth);
+  LEKALO_TRY(growth_, grow(piece_.allowed.index, piece_.fields.regions, piece_.narrow.regions, start, law_,
+                           [this](double mm2) { listener_(planned_ + mm2); }));
   planned_ += area_of(reached());
   count_ += fronts().size();
   tool_.set_growth(growth_);

@@ -200,7 +200,7 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
         plan = parts.left.empty() ? Result<PocketPath>(PocketPath{})
                : source           ? floz_level(region, one, starts[i])
                                   : level_path(region, one, parts.cleared, parts.left, tell);
-        if (!plan) return tl::unexpected(plan.error());
+        LEKALO_CHECK(plan);
         planned += geom::area(region);
         tell(0);
         whole.fronts += plan->fronts;
