@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bounded_number.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 #include "lekalo/geom/double_double.hpp"
@@ -14,6 +15,7 @@
 namespace lekalo::io {
 namespace {
 
+using detail::Bounded;
 using geom::DoubleDouble;
 using geom::Edge;
 using geom::EdgeKind;
@@ -27,11 +29,6 @@ constexpr double kDiagonal = 1.41421356237309515 * kRoundingUp;
 double largest(Point p) noexcept { return std::max(std::abs(p.x), std::abs(p.y)); }
 
 bool is_in_range(Point p) noexcept { return largest(p) <= kLargestMillimetres; }
-
-/// A number and how far it is from the exact one.
-struct Bounded {
-  double value = 0, error = 0;
-};
 
 /// Numbers that the predicates cannot take are 0 (kSmallestMillimetres).
 Bounded flushed(Bounded x) noexcept {
