@@ -288,6 +288,24 @@ Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, d
   return make_grid_region(std::move(loops));
 }
 
+GridRegion rectangle(const GridBox& box) {
+  return {{box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}, {0, 4}};
+}
+
+Region region_of_lines(const GridRegion& region) {
+  Region lines;
+  for (std::size_t l = 0; l < region.loops(); ++l) {
+    Contour& contour = l == 0 ? lines.outer : lines.holes.emplace_back();
+    const std::uint32_t begin = region.loop_starts[l], end = region.loop_starts[l + 1];
+    for (std::uint32_t i = begin; i < end; ++i)
+      contour.push_back({EdgeKind::line,
+                         mm_from_grid(region.points[i]),
+                         mm_from_grid(region.points[i + 1 == end ? begin : i + 1]),
+                         {}});
+  }
+  return lines;
+}
+
 GridBox bounds(const GridRegion& region) noexcept {
   return region.points.empty() ? GridBox{} : bounds_of(region.points.data(), region.points.size());
 }

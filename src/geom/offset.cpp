@@ -91,7 +91,7 @@ class Brush {
 
   /// Back along the edge, out to its parallel, along that, and in again.
   void strip(const Edge& edge, const Edge& parallel) {
-    Contour contour = reversed({edge});
+    Contour contour{reversed(edge)};
     contour.push_back(line(edge.from, parallel.from));
     if (!(parallel.from == parallel.to)) contour.push_back(parallel);
     contour.push_back(line(parallel.to, edge.to));
@@ -112,7 +112,7 @@ class Brush {
 
   void along_arc(const Edge& arc) {
     if (reaches_centre(arc)) {
-      Contour contour = reversed({arc});
+      Contour contour{reversed(arc)};
       contour.push_back(line(arc.from, arc.centre));
       contour.push_back(line(arc.centre, arc.to));
       add(contour);
@@ -129,7 +129,7 @@ class Brush {
   }
 
   void along_circle(const Edge& circle) {
-    add(reversed({circle}));
+    add({reversed(circle)});
     if (reaches_centre(circle)) return;
     const double out = circle.kind == EdgeKind::arc_ccw ? radius_ : -radius_;
     const Point from = circle.from + out * unit(circle.from - circle.centre);
@@ -206,7 +206,7 @@ Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance
 void add_rim(const Edge& edge, double distance, std::uint8_t operand, bool both_sides, Outlines& outlines) {
   Brush brush(distance, operand, outlines);
   brush.sweep(edge);
-  if (both_sides) brush.sweep(reversed({edge}).front());
+  if (both_sides) brush.sweep(reversed(edge));
   if (is_circle(edge)) return;
   brush.disc(edge.from);
   brush.disc(edge.to);

@@ -198,6 +198,12 @@ double area(const Region& region) noexcept {
   return sum;
 }
 
+double area(const std::vector<Region>& regions) noexcept {
+  double sum = 0;
+  for (const Region& region : regions) sum += area(region);
+  return sum;
+}
+
 Box bounds(const Contour& contour) noexcept {
   if (contour.empty()) return {};
   Box box{contour[0].from, contour[0].from};
@@ -221,16 +227,16 @@ Box bounds(const Contour& contour) noexcept {
   return box;
 }
 
+Edge reversed(Edge edge) noexcept {
+  std::swap(edge.from, edge.to);
+  if (edge.kind != EdgeKind::line)
+    edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+  return edge;
+}
+
 Contour reversed(const Contour& contour) {
-  const auto other_way = [](Edge edge) {
-    std::swap(edge.from, edge.to);
-    if (edge.kind != EdgeKind::line) {
-      edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
-    }
-    return edge;
-  };
   Contour result(contour.size());
-  std::transform(contour.rbegin(), contour.rend(), result.begin(), other_way);
+  std::transform(contour.rbegin(), contour.rend(), result.begin(), [](const Edge& e) { return reversed(e); });
   return result;
 }
 

@@ -78,12 +78,15 @@ struct Region {
 
 /// Area of the material: outer less holes.
 [[nodiscard]] double area(const Region& region) noexcept;
+/// Their sum: pieces lie apart.
+[[nodiscard]] double area(const std::vector<Region>& regions) noexcept;
 
 /// Corners of the axis-parallel box of the edges, arcs at their mean radius, within 4 u of the largest
 /// coordinate plus radius; both (0, 0) for no edges.
 [[nodiscard]] Box bounds(const Contour& contour) noexcept;
 
-/// The same curve in the other direction, from the same first point; reversed(reversed(c)) == c.
+/// The same curve in the other direction; of a contour from the same first point. reversed(reversed(c)) == c.
+[[nodiscard]] Edge reversed(Edge edge) noexcept;
 [[nodiscard]] Contour reversed(const Contour& contour);
 
 }  // namespace lekalo::geom

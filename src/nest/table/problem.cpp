@@ -90,28 +90,13 @@ void add(SearchOutline& to, SearchOutline more) {
   std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(to.pieces));
 }
 
-geom::Region drawn(const GridRegion& region) {
-  geom::Region result;
-  for (std::size_t l = 0; l < region.loops(); ++l) {
-    geom::Contour contour;
-    const auto loop = loop_of(region, l);
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      contour.push_back({geom::EdgeKind::line,
-                         geom::mm_from_grid(loop[k]),
-                         geom::mm_from_grid(loop[(k + 1) % loop.size()]),
-                         {}});
-    (l == 0 ? result.outer : result.holes.emplace_back()) = std::move(contour);
-  }
-  return result;
-}
-
 /// The areas of a part that need more than a quality. It is the whole part where that cannot be told, which
 /// is the safe side.
 SearchOutline demanding_more(const layout::Part& part, int than, bool mirrored) {
   std::vector<geom::Region> content, strict;
   for (const layout::PartArea& area : part.areas)
-    (area.quality > than ? strict : content).push_back(drawn(area.outline.polygon));
-  const std::vector<geom::Region> whole = {drawn(part.outline.polygon)};
+    (area.quality > than ? strict : content).push_back(geom::region_of_lines(area.outline.polygon));
+  const std::vector<geom::Region> whole = {geom::region_of_lines(part.outline.polygon)};
   std::vector<geom::Region> pieces;
   const auto combined = [](const std::vector<geom::Region>& a, const std::vector<geom::Region>& b,
                            geom::BooleanOperation operation, std::vector<geom::Region>& to) {
