@@ -22,7 +22,7 @@ cases::Sketch loose_parts(std::int64_t side, double gap) {
         edge.from = edge.from + by;
         edge.to = edge.to + by;
         edge.centre = edge.centre + by;
-        edges.push_back(random.below(2) == 0 ? geom::reversed({edge}).front() : edge);
+        edges.push_back(random.below(2) == 0 ? geom::reversed(edge) : edge);
       }
     }
   }

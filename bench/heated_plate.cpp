@@ -166,9 +166,8 @@ struct RoundHole {
 
 Result<Plate> plate_with(const std::vector<geom::Region>& pockets, geom::Box border,
                          std::function<double(Point)> within) {
-  const auto model =
-      field::ContourModel::make(pockets, {kSampling, field::Logic::quadratic, field::FlozForm::normalised});
-  if (!model) return tl::unexpected(model.error());
+  LEKALO_TRY(const auto model, field::ContourModel::make(pockets, {kSampling, field::Logic::quadratic,
+                                                                   field::FlozForm::normalised}));
   Plate plate;
   // Nodes off the round numbers of drawings: a node on the outline has no sign.
   const auto count = [](double length) { return static_cast<std::size_t>(length / kPitch) + 5; };
@@ -176,7 +175,7 @@ Result<Plate> plate_with(const std::vector<geom::Region>& pockets, geom::Box bor
   plate.nodes = {origin, kPitch, count(size.x), count(size.y)};
   plate.cells = {origin + Point{kPitch / 2, kPitch / 2}, kPitch, plate.nodes.columns - 1,
                  plate.nodes.rows - 1};
-  const field::FieldGrid grid = field::sample(*model, plate.nodes);
+  const field::FieldGrid grid = field::sample(model, plate.nodes);
   plate.model.assign(grid.value.begin(), grid.value.end());
   plate.within = std::move(within);
   for (std::size_t n = 0; n < plate.cells.size(); ++n) plate.cut.push_back(cut_cell(plate, n));
@@ -184,9 +183,8 @@ Result<Plate> plate_with(const std::vector<geom::Region>& pockets, geom::Box bor
 }
 
 Result<State> heated(const Plate& plate, const std::function<double(Point)>& density) {
-  const auto heat = temperature(plate, density);
-  if (!heat) return tl::unexpected(heat.error());
-  State state{*heat, Numbers(plate.cells.size(), 0), {}};
+  LEKALO_TRY(const auto heat, temperature(plate, density));
+  State state{heat, Numbers(plate.cells.size(), 0), {}};
   std::vector<Element> elements{element_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}})};  // the first: whole cells
   std::vector<std::size_t> kind(plate.cells.size(), 0);
   const auto each_cell = [&](auto&& act) {
@@ -215,9 +213,7 @@ Result<State> heated(const Plate& plate, const std::function<double(Point)>& den
       for (std::size_t i = 0; i < 8; ++i) force[2 * at[i / 2] + i % 2] += by[i];
     });
   };
-  auto moved = solved(forces, inverse, load);
-  if (!moved) return tl::unexpected(moved.error());
-  state.moved = std::move(*moved);
+  LEKALO_TRY(state.moved, solved(forces, inverse, load));
   const Strain b = strain_at({0.5, 0.5});
   each_cell([&](std::size_t n, const std::array<std::size_t, 4>& at) {
     std::array<double, 3> e{-kExpansion * state.temperature[n], -kExpansion * state.temperature[n], 0};
@@ -251,24 +247,22 @@ std::vector<std::vector<Point>> outlines_of(const Plate& plate) {
 
 Result<void> check_round_hole() {
   using Hole = RoundHole;
-  const auto disc = geom::make_region({{geom::EdgeKind::arc_ccw, {Hole::r, 0}, {Hole::r, 0}, {0, 0}}});
-  if (!disc) return tl::unexpected(disc.error());
-  const auto plate = plate_with({*disc}, {{-Hole::R, -Hole::R}, {Hole::R, Hole::R}},
-                                [](Point p) { return Hole::R - geom::norm(p); });
-  if (!plate) return tl::unexpected(plate.error());
-  const auto found = heated(*plate, [](Point) { return kHeat / (2 * kPi * Hole::r); });
-  if (!found) return tl::unexpected(found.error());
+  LEKALO_TRY(const auto disc,
+             geom::make_region({{geom::EdgeKind::arc_ccw, {Hole::r, 0}, {Hole::r, 0}, {0, 0}}}));
+  LEKALO_TRY(const auto plate, plate_with({disc}, {{-Hole::R, -Hole::R}, {Hole::R, Hole::R}},
+                                          [](Point p) { return Hole::R - geom::norm(p); }));
+  LEKALO_TRY(const auto found, heated(plate, [](Point) { return kHeat / (2 * kPi * Hole::r); }));
   double off_heat = 0, off_stress = 0, off_moved = 0;
-  for (std::size_t n = 0; n < plate->cells.size(); ++n) {
-    const double s = geom::norm(plate->cell(n));
+  for (std::size_t n = 0; n < plate.cells.size(); ++n) {
+    const double s = geom::norm(plate.cell(n));
     // Not beside the rim: nodes are held there, a staircase; a block's border is straight.
-    if (!plate->cut[n].whole || s > Hole::R - 4 * kPitch) continue;
-    off_heat = std::max(off_heat, std::abs(found->temperature[n] - Hole::heat(s)) / Hole::heat(Hole::r));
-    off_stress = std::max(off_stress, std::abs(found->stress[n] - Hole::stress(s)) / Hole::stress(Hole::r));
+    if (!plate.cut[n].whole || s > Hole::R - 4 * kPitch) continue;
+    off_heat = std::max(off_heat, std::abs(found.temperature[n] - Hole::heat(s)) / Hole::heat(Hole::r));
+    off_stress = std::max(off_stress, std::abs(found.stress[n] - Hole::stress(s)) / Hole::stress(Hole::r));
   }
-  for (const auto& line : outlines_of(*plate))
+  for (const auto& line : outlines_of(plate))
     for (const Point p : line) {
-      const Point off = moved_at(*plate, *found, p) - (Hole::moved(geom::norm(p)) / geom::norm(p)) * p;
+      const Point off = moved_at(plate, found, p) - (Hole::moved(geom::norm(p)) / geom::norm(p)) * p;
       off_moved = std::max(off_moved, geom::norm(off) / std::abs(Hole::moved(Hole::r)));
     }
   const std::string sentence = fmt::format(

@@ -100,33 +100,26 @@ void append(draw::GreyImage& row, const draw::GreyImage& image) {
 }
 
 Result<draw::GreyImage> row_of(const field::FieldGrid& grid) {
-  const auto models = draw::voxel_pngs(field::voxel_images(grid));
-  if (!models) return tl::unexpected(models.error());
-  const auto value = draw::value_png(grid);
-  if (!value) return tl::unexpected(value.error());
+  LEKALO_TRY(const auto models, draw::voxel_pngs(field::voxel_images(grid)));
+  LEKALO_TRY(const auto value, draw::value_png(grid));
   draw::GreyImage row;
-  for (const std::string& png : {(*models)[0], (*models)[1], (*models)[2], (*models)[3], *value}) {
-    const auto image = draw::parse_grey_png(png, "picture");
-    if (!image) return tl::unexpected(image.error());
-    append(row, *image);
+  for (const std::string& png : {models[0], models[1], models[2], models[3], value}) {
+    LEKALO_TRY(const auto image, draw::parse_grey_png(png, "picture"));
+    append(row, image);
   }
   return row;
 }
 
 Result<void> drawn_model(const std::string& pocket, const std::string& figure) {
-  const auto bytes = disk::read_file(pocket);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const auto file = io::parse_regions(*bytes, pocket);
-  if (!file) return tl::unexpected(file.error());
+  LEKALO_TRY(const auto bytes, disk::read_file(pocket));
+  LEKALO_TRY(const auto file, io::parse_regions(bytes, pocket));
   mill::PocketOptions options;
   options.method = mill::Method::floz_quadratic, options.whole = true;
-  const auto floz = mill::floz_field(file->regions, options, kNodes);
-  if (!floz) return tl::unexpected(floz.error());
-  const std::vector<double> distances =
-      field::signed_distances(geom::RegionIndex(file->regions), floz->frame);
+  LEKALO_TRY(const auto floz, mill::floz_field(file.regions, options, kNodes));
+  const std::vector<double> distances = field::signed_distances(geom::RegionIndex(file.regions), floz.frame);
   std::vector<field::FieldGrid> grids;
   for (const Logic logic : {Logic::linear, Logic::quadratic}) {
-    grids.push_back(sampled(floz->frame, logic));
+    grids.push_back(sampled(floz.frame, logic));
     if (const std::size_t wrong = wrong_signs(grids.back(), distances); wrong > 0)
       return failure(
           ErrorCode::bad_input,
@@ -134,20 +127,18 @@ Result<void> drawn_model(const std::string& pocket, const std::string& figure) {
                       "is that of paper-pocket.json",
                       pocket, wrong, distances.size()));
   }
-  grids.push_back(*floz);
+  grids.push_back(floz);
   draw::GreyImage all;
   for (const field::FieldGrid& grid : grids) {
-    const auto row = row_of(grid);
-    if (!row) return tl::unexpected(row.error());
-    if (all.columns > 0) all.pixels.insert(all.pixels.end(), kGap * row->columns, 255);
-    all.columns = row->columns, all.bits = row->bits;
-    all.pixels.insert(all.pixels.end(), row->pixels.begin(), row->pixels.end());
+    LEKALO_TRY(const auto row, row_of(grid));
+    if (all.columns > 0) all.pixels.insert(all.pixels.end(), kGap * row.columns, 255);
+    all.columns = row.columns, all.bits = row.bits;
+    all.pixels.insert(all.pixels.end(), row.pixels.begin(), row.pixels.end());
   }
   all.rows = all.pixels.size() / all.columns;
-  const auto png = draw::grey_png(all);
-  if (!png) return tl::unexpected(png.error());
+  LEKALO_TRY(const auto png, draw::grey_png(all));
   disk::AtomicFiles files;
-  if (auto added = files.add(figure, *png); !added) return added;
+  LEKALO_CHECK(files.add(figure, png));
   return files.commit();
 }
 

@@ -147,24 +147,22 @@ class Figure {
 };
 
 Result<void> draw(const std::string& pocket, const std::string& path) {
-  if (auto checked = check_round_hole(); !checked) return checked;
-  const auto bytes = disk::read_file(pocket);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const auto file = io::parse_regions(*bytes, pocket);
-  if (!file) return tl::unexpected(file.error());
-  geom::Box block = geom::bounds(file->regions.front().outer);
+  LEKALO_CHECK(check_round_hole());
+  LEKALO_TRY(const auto bytes, disk::read_file(pocket));
+  LEKALO_TRY(const auto file, io::parse_regions(bytes, pocket));
+  geom::Box block = geom::bounds(file.regions.front().outer);
   block = {block.low - Point{kMargin, kMargin}, block.high + Point{kMargin, kMargin}};
-  const auto plate = plate_with(file->regions, block, [block](Point p) {
+  const auto within = [block](Point p) {
     return std::min({p.x - block.low.x, block.high.x - p.x, p.y - block.low.y, block.high.y - p.y});
-  });
-  if (!plate) return tl::unexpected(plate.error());
+  };
+  LEKALO_TRY(const auto plate, plate_with(file.regions, block, within));
   const std::array<std::function<double(Point)>, 2> sources{
       [](Point p) {
         const double d = geom::norm(p - kPlace) / kSpread;
         return kHeat * std::exp(-d * d / 2) / (kSpread * std::sqrt(2 * kPi));
       },
       [](Point p) { return geom::norm(p - kPlace) <= kStretch / 2 ? kHeat / kStretch : 0; }};
-  Figure figure(*plate, block);
+  Figure figure(plate, block);
   const Point size = block.high - block.low, corner{6, 24}, next{size.x + 10, size.y + 22};
   figure.text({corner.x, 7},
               fmt::format("{:g} W per mm of depth enter the outline where it is red: left at a "
@@ -173,19 +171,19 @@ Result<void> draw(const std::string& pocket, const std::string& path) {
   figure.text({corner.x, 13.5},
               fmt::format("Blue: the outline moved by the expansion, {:g} times.", kFactor));
   for (std::size_t k = 0; k < sources.size(); ++k) {
-    const auto found = heated(*plate, sources[k]);
+    const auto found = heated(plate, sources[k]);
     if (!found) return failure(found.error().code, fmt::format("{}: {}", pocket, found.error().message));
     std::vector<char> some, whole;
-    for (const Cell& cell : plate->cut)
+    for (const Cell& cell : plate.cut)
       some.push_back(cell.material.empty() ? 0 : 1), whole.push_back(cell.whole ? 1 : 0);
-    const Numbers heat = carried_on(*plate, found->temperature, some);
-    const Numbers stress = carried_on(*plate, found->stress, whole);
+    const Numbers heat = carried_on(plate, found->temperature, some);
+    const Numbers stress = carried_on(plate, found->stress, whole);
     const auto heat_of = [&](std::size_t n) { return heat[n]; };
     double hottest = 0, farthest = 0;
     for (const auto& line : figure.outlines())
       for (const Point p : line) {
-        hottest = std::max(hottest, between(plate->cells, heat_of, p));
-        farthest = std::max(farthest, geom::norm(moved_at(*plate, *found, p)));
+        hottest = std::max(hottest, between(plate.cells, heat_of, p));
+        farthest = std::max(farthest, geom::norm(moved_at(plate, *found, p)));
       }
     const double most = *std::max_element(stress.begin(), stress.end());
     fmt::print("at most {:.1f} K, {:.1f} MPa, outline moved by {:.4f} mm\n", hottest, most, farthest);
@@ -207,7 +205,7 @@ Result<void> draw(const std::string& pocket, const std::string& path) {
       "height=\"{1:g}mm\" font-family=\"sans-serif\" font-size=\"4.8\">\n<rect width=\"100%\" "
       "height=\"100%\" fill=\"#fff\"/>\n{2}</svg>\n",
       foot.x + 26, foot.y + next.y + 6, figure.body());
-  if (auto added = files.add(path, svg); !added) return added;
+  LEKALO_CHECK(files.add(path, svg));
   return files.commit();
 }
 

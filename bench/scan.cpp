@@ -60,11 +60,7 @@ void chain(benchmark::State& state, bool shuffle) {
     const locate::RegionResult result = locate::locate_regions(problem, {}).value();
     clearance = result.best.clearance;
     optimal = result.status == locate::Status::optimal ? 1 : 0;
-    edges = 0;
-    for (const geom::Region& r : made->blank.regions) {
-      edges += static_cast<double>(r.outer.size());
-      for (const auto& hole : r.holes) edges += static_cast<double>(hole.size());
-    }
+    edges = static_cast<double>(geom::edges_in(made->blank.regions));
     loss = made->blank.loss;
     ordered = made->blank.ordered ? 1 : 0;
   }

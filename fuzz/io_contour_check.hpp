@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/io/contour/contour_file.hpp"
+#include "support/ring_distance.hpp"
 
 namespace lekalo::fuzz {
 
@@ -45,7 +45,7 @@ inline void check_convex(const io::ContourFile& file, const io::ConvexContour& c
   if (n * m > 100'000) return;
   const double size = geom::largest_coordinate(file.points);
   for (const geom::Point p : file.points) {
-    must(geom::distance_to_boundary(p, contour.polygon.vertices()) <=
+    must(cases::distance_to_boundary(p, contour.polygon.vertices()) <=
          contour.coordinate_error - file.coordinate_error + 4e-15 * size);
   }
 }

@@ -109,8 +109,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   must(!found->regions.empty());
   must(!geom::fault_of(found->regions));
-  const auto flat = geom::flatten(found->regions);
-  must(found->curve_of_edge.size() * geom::kFlatEdgeStride == flat.edges.size());
+  must(found->curve_of_edge.size() == geom::edges_in(found->regions));
   for (const std::uint32_t curve : found->curve_of_edge) must(curve < drawing.curves.size());
   must(found->curve_tolerance <= options.curve_tolerance);
   must(found->tolerance >= 0 &&

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = geom::make_region(region.outer, region.holes);
     must(again.has_value() && *again == region);
   }
-  must(file->name_of_edge.size() == geom::flatten(file->regions).edges.size() / geom::kFlatEdgeStride);
+  must(file->name_of_edge.size() == geom::edges_in(file->regions));
   for (const std::uint32_t name : file->name_of_edge) must(name == io::kNoName || name < file->names.size());
   return 0;
 }

@@ -148,31 +148,30 @@ void AtomicFiles::discard() noexcept {
 }
 
 Result<void> AtomicFiles::add(const std::string& path, std::string_view bytes) {
-  const auto target = behind_links(path);
-  if (!target) return tl::unexpected(target.error());
+  LEKALO_TRY(const auto target, behind_links(path));
   struct stat old {};
-  const bool replaces = ::stat(target->c_str(), &old) == 0;
+  const bool replaces = ::stat(target.c_str(), &old) == 0;
   if (!replaces && errno != ENOENT) return trouble(ErrorCode::environment, path, "cannot be written");
   if (replaces && !S_ISREG(old.st_mode)) {
     return failure(ErrorCode::environment,
                    fmt::format("{}: cannot be written: it is not a plain file", path));
   }
   // Renaming would get around a file's own write protection.
-  if (replaces && ::access(target->c_str(), W_OK) != 0) {
+  if (replaces && ::access(target.c_str(), W_OK) != 0) {
     return trouble(ErrorCode::environment, path, "cannot be written");
   }
   for (const Pending& other : pending_) {
     struct stat earlier {};
     const bool same =
-        *target == other.target || (replaces && ::stat(other.target.c_str(), &earlier) == 0 &&
-                                    earlier.st_dev == old.st_dev && earlier.st_ino == old.st_ino);
+        target == other.target || (replaces && ::stat(other.target.c_str(), &earlier) == 0 &&
+                                   earlier.st_dev == old.st_dev && earlier.st_ino == old.st_ino);
     if (same) return failure(ErrorCode::usage, fmt::format("{}: named for two outputs", path));
   }
 
   std::string temporary;
-  Descriptor file(create_beside(*target, temporary));
+  Descriptor file(create_beside(target, temporary));
   if (file.number() < 0) return trouble(ErrorCode::environment, path, "cannot be written");
-  pending_.push_back({temporary, *target, {}, replaces});
+  pending_.push_back({temporary, target, {}, replaces});
   if (!write_all(file.number(), bytes) || (replaces && !keep_attributes(file.number(), old)) ||
       ::fsync(file.number()) != 0 || !file.close()) {
     const auto why = trouble(ErrorCode::environment, path, "cannot be written");

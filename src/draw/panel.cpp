@@ -58,19 +58,6 @@ class Panel {
   void path(const geom::Ring& line, bool closed, const Paint& paint, const char* kind = "") {
     items_.push_back(PathItem{{line}, closed, paint, {kind, ""}});
   }
-  static Paint filled(Colour colour) {
-    Paint paint;
-    paint.fill = colour;
-    paint.fill_alpha = 1;
-    return paint;
-  }
-  static Paint stroked(Colour colour, double width, double dash = 0) {
-    Paint paint;
-    paint.stroke = colour;
-    paint.width = width;
-    paint.dash = dash;
-    return paint;
-  }
 
   void heading() {
     y_ += 4.5;

@@ -65,10 +65,9 @@ class Drawing {
 
   /// Twice the area over the perimeter: less than the width of a long shape.
   [[nodiscard]] bool is_thin() const {
-    double area = 0, length = 0;
-    for (const geom::Region& region : report_.shapes.part) area += geom::area(region);
+    double length = 0;
     for (const locate::EdgeAllowance& edge : report_.edges) length += edge.length;
-    return !(2 * area / length * view_.scale > 2 * kBand);
+    return !(2 * geom::area(report_.shapes.part) / length * view_.scale > 2 * kBand);
   }
 
   void shapes() {

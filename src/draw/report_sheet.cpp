@@ -4,21 +4,6 @@
 
 namespace lekalo::draw {
 
-Paint filled(Colour colour) {
-  Paint paint;
-  paint.fill = colour;
-  paint.fill_alpha = 1;
-  return paint;
-}
-
-Paint stroked(Colour colour, double width, double dash) {
-  Paint paint;
-  paint.stroke = colour;
-  paint.width = width;
-  paint.dash = dash;
-  return paint;
-}
-
 void Sheet::text(double x, double baseline, double width, const std::string& words, const TextStyle& style) {
   constexpr double kSmallest = 0.8;
   const double room = width / (style.bold ? kReportBoldWider : 1);

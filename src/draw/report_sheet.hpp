@@ -16,9 +16,6 @@ inline constexpr double kReportBody = 2.9, kReportSmall = 2.4, kReportLine = 4.1
 /// Bold letters are wider than plain ones.
 inline constexpr double kReportBoldWider = 1.1;
 
-[[nodiscard]] Paint filled(Colour colour);
-[[nodiscard]] Paint stroked(Colour colour, double width, double dash = 0);
-
 struct TextStyle {
   double size = kReportBody;
   Colour colour = kInk;

@@ -28,6 +28,19 @@ struct Paint {
   double dash = 0;  ///< length of dashes and of the gaps between them; 0: solid
   bool round = false;
 };
+[[nodiscard]] inline Paint filled(Colour colour) {
+  Paint paint;
+  paint.fill = colour;
+  paint.fill_alpha = 1;
+  return paint;
+}
+[[nodiscard]] inline Paint stroked(Colour colour, double width, double dash = 0) {
+  Paint paint;
+  paint.stroke = colour;
+  paint.width = width;
+  paint.dash = dash;
+  return paint;
+}
 
 /// Says what a primitive shows, for people who look into the file and for tests: becomes class and title in
 /// SVG.

@@ -28,11 +28,6 @@ Ring cut(const Ring& ring, Signed inside) {
 
 }  // namespace
 
-geom::Box joined(const geom::Box& a, const geom::Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 View fitted(const geom::Box& box, const Rect& paper) {
   const Point size = box.high - box.low;
   // Through division by the paper, so that a box without width or height still gives a finite scale.

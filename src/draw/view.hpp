@@ -37,7 +37,6 @@ struct View {
   }
 };
 
-[[nodiscard]] geom::Box joined(const geom::Box& a, const geom::Box& b);
 /// The view that shows the box in the middle of the rectangle, as large as it goes.
 [[nodiscard]] View fitted(const geom::Box& box, const Rect& paper);
 

@@ -39,27 +39,4 @@ VoxelImages voxel_images(const FieldGrid& grid, std::uint16_t palette) {
   return result;
 }
 
-Jet read_node(const VoxelImages& images, std::size_t i, std::size_t j) {
-  const std::size_t n = j * images.frame.columns + i;
-  std::array<double, 4> plane{};
-  for (std::size_t k = 0; k < 4; ++k)
-    plane[k] = 2.0 * static_cast<double>(images.images[k][n]) / static_cast<double>(images.palette) - 1;
-  const Unit unit = unit_of(images.frame);
-  const geom::Point at = (1 / unit.length) * (images.frame.node(i, j) - unit.middle);
-  const geom::Point gradient{-plane[0] / plane[2], -plane[1] / plane[2]};
-  return {unit.length * (dot(gradient, at) - plane[3] / plane[2]), gradient};
-}
-
-ReadingError reading_error(const VoxelImages& images, std::size_t i, std::size_t j, const Jet& node) {
-  const Unit unit = unit_of(images.frame);
-  const geom::Point at = (1 / unit.length) * (images.frame.node(i, j) - unit.middle);
-  const double u = node.value / unit.length, d = u - dot(node.gradient, at);
-  const double k = std::sqrt(dot(node.gradient, node.gradient) + 1 + d * d);
-  const double qk = k / images.palette;
-  constexpr double kRounding = 1e-12;
-  if (!(qk < 1)) return {HUGE_VAL, HUGE_VAL};
-  return {unit.length * (qk * (std::abs(at.x) + std::abs(at.y) + std::abs(u) + 1) / (1 - qk) + kRounding),
-          qk * (1 + norm(node.gradient)) / (1 - qk) + kRounding};
-}
-
 }  // namespace lekalo::field

@@ -9,8 +9,6 @@
 namespace lekalo::geom::detail {
 namespace {
 
-Box grown(Box box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
-
 /// A vertex that a piece passes through.
 struct Stop {
   std::uint32_t piece, vertex;

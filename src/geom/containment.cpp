@@ -14,7 +14,7 @@ std::vector<Box> boxes_of(const std::vector<const Contour*>& contours) {
   for (const Contour* contour : contours) {
     const Box box = bounds(*contour);
     const double margin = kEdgeDistanceError * (norm(box.low) + norm(box.high));
-    boxes.push_back({box.low - Point{margin, margin}, box.high + Point{margin, margin}});
+    boxes.push_back(grown(box, margin));
   }
   return boxes;
 }

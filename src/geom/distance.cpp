@@ -1,10 +1,6 @@
 #include "lekalo/geom/distance.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "lekalo/geom/predicates.hpp"
 
 namespace lekalo::geom {
 
@@ -36,21 +32,6 @@ double distance_to_segment(Point p, Point a, Point b) noexcept {
   if (foot.before_a()) return norm(foot.to_p);
   if (foot.beyond_b()) return norm(p - b);
   return std::abs(cross(foot.along, foot.to_p)) / std::sqrt(foot.dot_along);
-}
-
-double distance_between_segments(Point a, Point b, Point c, Point d) noexcept {
-  if (segment_relation(a, b, c, d) != SegmentRelation::disjoint) return 0;
-  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
-                   distance_to_segment(d, a, b)});
-}
-
-double distance_to_boundary(Point p, const Ring& ring) noexcept {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i == 0 ? ring.size() - 1 : i - 1];
-    least = std::min(least, distance_to_segment(p, a, ring[i]));
-  }
-  return least;
 }
 
 }  // namespace lekalo::geom

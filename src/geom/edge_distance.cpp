@@ -146,8 +146,7 @@ ClosestPoints closest_points(const Curve& a, const Curve& b) noexcept {
 
 Box curve_box(const Curve& curve) noexcept {
   const Edge& edge = curve.edge;
-  Box box{{std::min(edge.from.x, edge.to.x), std::min(edge.from.y, edge.to.y)},
-          {std::max(edge.from.x, edge.to.x), std::max(edge.from.y, edge.to.y)}};
+  Box box = box_of(edge.from, edge.to);
   if (!is_line(curve)) {
     if (faces(curve, {1, 0})) box.high.x = std::max(box.high.x, edge.centre.x + curve.radius);
     if (faces(curve, {-1, 0})) box.low.x = std::min(box.low.x, edge.centre.x - curve.radius);
@@ -157,7 +156,7 @@ Box curve_box(const Curve& curve) noexcept {
   const double far = std::max(
       {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y), curve.radius});
   const double margin = kEdgeDistanceError * far;
-  return {box.low - Point{margin, margin}, box.high + Point{margin, margin}};
+  return grown(box, margin);
 }
 
 }  // namespace lekalo::geom

@@ -57,15 +57,16 @@ void thin(Loop& loop) {
   loop = std::move(kept);
 }
 
-std::optional<Error> fault_of_loop(const Loop& loop, std::size_t index) {
-  const auto fault = [](std::string message) { return Error{ErrorCode::bad_input, std::move(message)}; };
+Result<void> check_reach(const Loop& loop, std::size_t index) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     constexpr std::int64_t kMost = kGridLimit / 4;
     if (loop[i].x < -kMost || loop[i].x > kMost || loop[i].y < -kMost || loop[i].y > kMost)
-      return fault(fmt::format("{}: point {} at {} mm is further from the origin than {} mm; check the units",
-                               loop_name(index), i, place(loop[i]), mm_from_grid(kMost)));
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("{}: point {} at {} mm is further from the origin than {} mm; check the units",
+                      loop_name(index), i, place(loop[i]), mm_from_grid(kMost)));
   }
-  return std::nullopt;
+  return {};
 }
 
 struct Segment {
@@ -73,8 +74,8 @@ struct Segment {
   std::uint32_t loop = 0, index = 0;
 };
 
-/// The first two edges that meet or come nearer than the resolution without being neighbours.
-std::optional<Error> fault_between(const GridRegion& region) {
+/// Refuses edges that meet or come nearer than the resolution without being neighbours; names the first two.
+Result<void> check_meetings(const GridRegion& region) {
   std::vector<Segment> edges;
   std::vector<Box> boxes;
   for (std::size_t l = 0; l < region.loops(); ++l) {
@@ -100,14 +101,14 @@ std::optional<Error> fault_between(const GridRegion& region) {
                       (!b_then_a && nearer_than_resolution(b.to, a.from, a.to));
     if (near) first = {i, j};
   });
-  if (!first) return std::nullopt;
+  if (!first) return {};
   const Segment &a = edges[first->first], &b = edges[first->second];
-  return Error{
+  return failure(
       ErrorCode::bad_input,
       fmt::format("{}: edge {} from {} and {} edge {} from {} (mm) cross, touch or come nearer than {:.1g} "
                   "mm; an outline may not meet itself",
                   loop_name(a.loop), a.index, place(a.from), a.loop == b.loop ? "its own" : loop_name(b.loop),
-                  b.index, place(b.from), mm_from_grid(kGridResolution))};
+                  b.index, place(b.from), mm_from_grid(kGridResolution)));
 }
 
 PointLocation locate_in_loop(const GridPoint* points, std::size_t n, GridPoint p) noexcept {
@@ -144,8 +145,9 @@ GridBox bounds_of(const GridPoint* points, std::size_t n) noexcept {
   return box;
 }
 
-/// Loops that do not meet: one point tells where a whole loop lies.
-std::optional<Error> fault_of_nesting(const GridRegion& region) {
+/// Refuses holes outside the outline or in each other. Loops do not meet: one point tells where a whole loop
+/// lies.
+Result<void> check_nesting(const GridRegion& region) {
   const auto inside = [&](std::size_t hole, std::size_t loop) {
     return locate_in_loop(loop_begin(region, loop), loop_size(region, loop), *loop_begin(region, hole)) ==
            PointLocation::inside;
@@ -158,18 +160,18 @@ std::optional<Error> fault_of_nesting(const GridRegion& region) {
   }
   for (std::size_t h = 1; h < region.loops(); ++h)
     if (!inside(h, 0))
-      return Error{ErrorCode::bad_input, fmt::format("{}: it lies outside the outline, at {} mm",
-                                                     loop_name(h), place(*loop_begin(region, h)))};
+      return failure(ErrorCode::bad_input, fmt::format("{}: it lies outside the outline, at {} mm",
+                                                       loop_name(h), place(*loop_begin(region, h))));
   std::optional<std::pair<std::size_t, std::size_t>> nested;
   BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     if (i == 0 || (nested && std::pair<std::size_t, std::size_t>{i, j} > *nested)) return;
     if (inside(i, j)) nested = {i, j};
     if (inside(j, i)) nested = {j, i};
   });
-  if (!nested) return std::nullopt;
+  if (!nested) return {};
   const auto [inner, outer] = *nested;
-  return Error{ErrorCode::bad_input, fmt::format("{}: it lies inside {}, at {} mm", loop_name(inner),
-                                                 loop_name(outer), place(*loop_begin(region, inner)))};
+  return failure(ErrorCode::bad_input, fmt::format("{}: it lies inside {}, at {} mm", loop_name(inner),
+                                                   loop_name(outer), place(*loop_begin(region, inner))));
 }
 
 constexpr std::size_t kMostChords = 4'000'000;
@@ -257,7 +259,7 @@ Result<GridRegion> make_grid_region(std::vector<Loop> loops) {
   GridRegion region;
   for (std::size_t l = 0; l < loops.size(); ++l) {
     Loop& loop = loops[l];
-    if (auto fault = fault_of_loop(loop, l)) return tl::unexpected(std::move(*fault));
+    LEKALO_CHECK(check_reach(loop, l));
     thin(loop);
     if (loop.size() < 3)
       return failure(ErrorCode::bad_input, fmt::format("{}: it has {} different points; an area needs three",
@@ -268,8 +270,8 @@ Result<GridRegion> make_grid_region(std::vector<Loop> loops) {
     region.points.insert(region.points.end(), loop.begin(), loop.end());
     region.loop_starts.push_back(static_cast<std::uint32_t>(region.points.size()));
   }
-  if (auto fault = fault_between(region)) return tl::unexpected(std::move(*fault));
-  if (auto fault = fault_of_nesting(region)) return tl::unexpected(std::move(*fault));
+  LEKALO_CHECK(check_meetings(region));
+  LEKALO_CHECK(check_nesting(region));
   return region;
 }
 
@@ -284,6 +286,24 @@ Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, d
     loops.push_back(std::move(loop));
   }
   return make_grid_region(std::move(loops));
+}
+
+GridRegion rectangle(const GridBox& box) {
+  return {{box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}, {0, 4}};
+}
+
+Region region_of_lines(const GridRegion& region) {
+  Region lines;
+  for (std::size_t l = 0; l < region.loops(); ++l) {
+    Contour& contour = l == 0 ? lines.outer : lines.holes.emplace_back();
+    const std::uint32_t begin = region.loop_starts[l], end = region.loop_starts[l + 1];
+    for (std::uint32_t i = begin; i < end; ++i)
+      contour.push_back({EdgeKind::line,
+                         mm_from_grid(region.points[i]),
+                         mm_from_grid(region.points[i + 1 == end ? begin : i + 1]),
+                         {}});
+  }
+  return lines;
 }
 
 GridBox bounds(const GridRegion& region) noexcept {

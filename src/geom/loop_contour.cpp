@@ -24,13 +24,6 @@ struct Made {
   bool from_whole = false, to_whole = false;  ///< begins or ends where its outline edge does
 };
 
-Edge turned(Edge edge) {
-  std::swap(edge.from, edge.to);
-  if (edge.kind != EdgeKind::line)
-    edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
-  return edge;
-}
-
 /// Direction in which an edge leaves its start or arrives at its end; a unit vector.
 Point tangent(const Edge& edge, Point at) {
   if (edge.kind == EdgeKind::line) return (1 / norm(edge.to - edge.from)) * (edge.to - edge.from);
@@ -120,7 +113,7 @@ class LoopReader {
   void add_run(std::size_t begin, std::size_t end) {
     const Step &first = steps_[begin], &last = steps_[end - 1];
     const std::uint32_t origin = first.origin;
-    const Edge edge = first.forwards ? outlines_.edges[origin] : turned(outlines_.edges[origin]);
+    const Edge edge = first.forwards ? outlines_.edges[origin] : reversed(outlines_.edges[origin]);
     const bool all = end - begin == last_stretch(origin) + 1 - first_stretch(origin);
     if (all && (edge.from == edge.to || (begin_of(first) == edge.from && end_of(last) == edge.to))) {
       const double radius = edge.kind == EdgeKind::line ? 0 : arc_radius(edge);

@@ -91,7 +91,7 @@ class Brush {
 
   /// Back along the edge, out to its parallel, along that, and in again.
   void strip(const Edge& edge, const Edge& parallel) {
-    Contour contour = reversed({edge});
+    Contour contour{reversed(edge)};
     contour.push_back(line(edge.from, parallel.from));
     if (!(parallel.from == parallel.to)) contour.push_back(parallel);
     contour.push_back(line(parallel.to, edge.to));
@@ -112,7 +112,7 @@ class Brush {
 
   void along_arc(const Edge& arc) {
     if (reaches_centre(arc)) {
-      Contour contour = reversed({arc});
+      Contour contour{reversed(arc)};
       contour.push_back(line(arc.from, arc.centre));
       contour.push_back(line(arc.centre, arc.to));
       add(contour);
@@ -129,7 +129,7 @@ class Brush {
   }
 
   void along_circle(const Edge& circle) {
-    add(reversed({circle}));
+    add({reversed(circle)});
     if (reaches_centre(circle)) return;
     const double out = circle.kind == EdgeKind::arc_ccw ? radius_ : -radius_;
     const Point from = circle.from + out * unit(circle.from - circle.centre);
@@ -180,35 +180,33 @@ Result<Material> material_of(const std::vector<Region>& regions, detail::KeepRul
 /// A loop that winds the other way is no material, and what its edges sweep is none either. (Edges inside
 /// material sweep what belongs to the result.)
 Result<BooleanResult> grown(const std::vector<Region>& regions, double distance) {
-  const auto material = material_of(
-      regions, [](const Winding& w) { return w[0] < 0; }, false);
-  if (!material) return tl::unexpected(material.error());
+  const auto is_wrong = [](const Winding& w) { return w[0] < 0; };
+  LEKALO_TRY(const auto material, material_of(regions, is_wrong, false));
   Outlines outlines;
-  outlines.add(material->regions, 0);
+  outlines.add(material.regions, 0);
   Brush brush(distance, 1, outlines);
-  for_each_contour(material->regions, [&](const Contour& contour) { brush.sweep(contour); });
+  for_each_contour(material.regions, [&](const Contour& contour) { brush.sweep(contour); });
   return detail::overlay(
-      outlines, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, material->error);
+      outlines, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, material.error);
 }
 
 /// The outside grown into the material. Edges between two pieces, or inside one, are not outside.
 Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance) {
-  const auto material = material_of(
-      regions, [](const Winding& w) { return w[0] < 0 || w[0] > 1; }, true);
-  if (!material) return tl::unexpected(material.error());
+  const auto is_wrong = [](const Winding& w) { return w[0] < 0 || w[0] > 1; };
+  LEKALO_TRY(const auto material, material_of(regions, is_wrong, true));
   Outlines outlines;
-  outlines.add(material->regions, 0);
+  outlines.add(material.regions, 0);
   Brush brush(distance, 1, outlines);
-  for_each_contour(material->regions, [&](const Contour& contour) { brush.sweep(reversed(contour)); });
+  for_each_contour(material.regions, [&](const Contour& contour) { brush.sweep(reversed(contour)); });
   return detail::overlay(
-      outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, material->error);
+      outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, material.error);
 }
 
 /// Adds all points within `distance` of an edge, on the sides asked for.
 void add_rim(const Edge& edge, double distance, std::uint8_t operand, bool both_sides, Outlines& outlines) {
   Brush brush(distance, operand, outlines);
   brush.sweep(edge);
-  if (both_sides) brush.sweep(reversed({edge}).front());
+  if (both_sides) brush.sweep(reversed(edge));
   if (is_circle(edge)) return;
   brush.disc(edge.from);
   brush.disc(edge.to);

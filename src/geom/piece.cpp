@@ -98,10 +98,7 @@ void append_pieces(const Edge& edge, std::uint32_t origin, double slack, std::ve
   append_line(stops.back(), last, origin, true, pieces);
 }
 
-Box box_of(const Piece& piece) noexcept {
-  return {{std::min(piece.from.x, piece.to.x), std::min(piece.from.y, piece.to.y)},
-          {std::max(piece.from.x, piece.to.x), std::max(piece.from.y, piece.to.y)}};
-}
+Box box_of(const Piece& piece) noexcept { return box_of(piece.from, piece.to); }
 
 double side(const Piece& piece, Point p) noexcept {
   if (is_arc(piece)) {

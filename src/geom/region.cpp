@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
-#include "lekalo/base/assert.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -184,9 +183,24 @@ Result<Region> make_region(Contour outer, std::vector<Contour> holes) {
 
 double signed_area(const Contour& contour) noexcept { return area_with_error(contour).value; }
 
+std::size_t edges_in(const std::vector<Region>& regions) noexcept {
+  std::size_t edges = 0;
+  for (const Region& region : regions) {
+    edges += region.outer.size();
+    for (const Contour& hole : region.holes) edges += hole.size();
+  }
+  return edges;
+}
+
 double area(const Region& region) noexcept {
   double sum = signed_area(region.outer);
   for (const Contour& hole : region.holes) sum += signed_area(hole);
+  return sum;
+}
+
+double area(const std::vector<Region>& regions) noexcept {
+  double sum = 0;
+  for (const Region& region : regions) sum += area(region);
   return sum;
 }
 
@@ -213,60 +227,17 @@ Box bounds(const Contour& contour) noexcept {
   return box;
 }
 
+Edge reversed(Edge edge) noexcept {
+  std::swap(edge.from, edge.to);
+  if (edge.kind != EdgeKind::line)
+    edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+  return edge;
+}
+
 Contour reversed(const Contour& contour) {
-  const auto other_way = [](Edge edge) {
-    std::swap(edge.from, edge.to);
-    if (edge.kind != EdgeKind::line) {
-      edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
-    }
-    return edge;
-  };
   Contour result(contour.size());
-  std::transform(contour.rbegin(), contour.rend(), result.begin(), other_way);
+  std::transform(contour.rbegin(), contour.rend(), result.begin(), [](const Edge& e) { return reversed(e); });
   return result;
-}
-
-FlatRegions flatten(const std::vector<Region>& regions) {
-  FlatRegions flat;
-  const auto append = [&flat](const Contour& contour) {
-    for (const Edge& e : contour) {
-      const double direction = e.kind == EdgeKind::line ? 0 : e.kind == EdgeKind::arc_ccw ? 1 : -1;
-      flat.edges.insert(flat.edges.end(),
-                        {e.from.x, e.from.y, e.to.x, e.to.y, e.centre.x, e.centre.y, direction});
-    }
-    flat.contour_starts.push_back(static_cast<std::uint32_t>(flat.edges.size() / kFlatEdgeStride));
-  };
-  for (const Region& region : regions) {
-    append(region.outer);
-    for (const Contour& hole : region.holes) append(hole);
-    flat.piece_starts.push_back(static_cast<std::uint32_t>(flat.contour_starts.size() - 1));
-  }
-  return flat;
-}
-
-std::vector<Region> unflatten(const FlatRegions& flat) {
-  const auto edge = [&flat](std::size_t i) {
-    const double* v = flat.edges.data() + i * kFlatEdgeStride;
-    const EdgeKind kind = v[6] == 0 ? EdgeKind::line : v[6] > 0 ? EdgeKind::arc_ccw : EdgeKind::arc_cw;
-    return Edge{kind, {v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}};
-  };
-  const auto contour = [&](std::size_t c) {
-    LEKALO_ASSERT(flat.contour_starts[c + 1] * kFlatEdgeStride <= flat.edges.size());
-    Contour edges;
-    for (std::size_t i = flat.contour_starts[c]; i < flat.contour_starts[c + 1]; ++i)
-      edges.push_back(edge(i));
-    return edges;
-  };
-  std::vector<Region> regions;
-  for (std::size_t p = 0; p + 1 < flat.piece_starts.size(); ++p) {
-    Region region;
-    region.outer = contour(flat.piece_starts[p]);
-    for (std::size_t c = flat.piece_starts[p] + 1; c < flat.piece_starts[p + 1]; ++c) {
-      region.holes.push_back(contour(c));
-    }
-    regions.push_back(std::move(region));
-  }
-  return regions;
 }
 
 }  // namespace lekalo::geom

@@ -8,11 +8,6 @@
 namespace lekalo::geom {
 namespace {
 
-Box joined(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 /// How often a ray from p to the right crosses an edge.
 int crosses_line(const Edge& line, Point p) {
   if ((line.from.y <= p.y) == (line.to.y <= p.y)) return 0;

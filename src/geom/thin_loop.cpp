@@ -228,11 +228,10 @@ class Probe {
     double by = reach + track.radius;
     if (!track.round) {
       const Point to = track.from + track.length * track.direction;
-      box = {{std::min(track.from.x, to.x), std::min(track.from.y, to.y)},
-             {std::max(track.from.x, to.x), std::max(track.from.y, to.y)}};
+      box = box_of(track.from, to);
       by = reach;
     }
-    return {box.low - Point{by, by}, box.high + Point{by, by}};
+    return grown(box, by);
   }
 
   const std::vector<Piece>& chain_;

@@ -61,11 +61,7 @@ Result<std::string> picture_of(const LocateJob& job, const LocateInputs& in, con
 /// Those of the demands, and one of all other edges.
 std::vector<draw::ReportFeature> all_features(const io::DemandRecord& demands,
                                               const std::vector<geom::Region>& part) {
-  std::size_t edges = 0;
-  for (const geom::Region& region : part) {
-    edges += region.outer.size();
-    for (const geom::Contour& hole : region.holes) edges += hole.size();
-  }
+  const std::size_t edges = geom::edges_in(part);
   std::vector<bool> taken(edges, false);
   std::vector<draw::ReportFeature> features;
   for (const locate::Feature& f : demands.features) {

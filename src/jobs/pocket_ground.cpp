@@ -49,9 +49,7 @@ Result<geom::Region> strip_beyond(const geom::Edge& edge, double width) {
   const double radius = geom::arc_radius(edge);
   const double other = edge.kind == EdgeKind::arc_ccw ? radius + width : std::max(0.0, radius - width);
   const auto moved = [&](Point p) { return edge.centre + (other / radius) * (p - edge.centre); };
-  geom::Edge back = edge;
-  std::swap(back.from, back.to);
-  back.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
+  const geom::Edge back = geom::reversed(edge);
   geom::Contour contour;
   if (other > 0) {
     contour = {{EdgeKind::line, edge.from, moved(edge.from), {}},

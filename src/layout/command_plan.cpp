@@ -238,7 +238,7 @@ class Planner {
     if (c.sheet) {
       LEKALO_CHECK(known_sheet(document_, *c.sheet));
     }
-    if (auto fault = fault_of(c.direction)) return tl::unexpected(std::move(*fault));
+    LEKALO_CHECK(check_direction(c.direction));
     const geom::Point direction = unit_vector(c.direction);
     Workspace work = workspace_;
     std::vector<Sheet> sheets = c.sheet ? std::vector{*c.sheet} : sheets_in_use();
@@ -300,7 +300,7 @@ class Planner {
   }
 
   Result<Outcome> operator()(const AddFeatureCommand& c) const {
-    if (auto fault = fault_of_stock(c.stock)) return tl::unexpected(std::move(*fault));
+    LEKALO_CHECK(check_stock(c.stock));
     const Stock& stock = document_.stocks[c.stock];
     if (c.id.empty() || c.id.size() > kLongestFeatureId || !is_plain_text(c.id))
       return malformed(fmt::format("the id of a {} has 1 to {} bytes of UTF-8 without control characters",
@@ -311,7 +311,7 @@ class Planner {
     if (feature_count(stock, c.kind) >= kMostFeatures)
       return wrong(
           fmt::format("stock '{}' has {} {}s; no more are kept", stock.id, kMostFeatures, name_of(c.kind)));
-    if (auto fault = fault_of_grade(c.kind, c.grade)) return tl::unexpected(std::move(*fault));
+    LEKALO_CHECK(check_grade(c.kind, c.grade));
     LEKALO_TRY(auto outline, drawn_outline(c.loops));
     return of_feature({c.stock, static_cast<std::uint32_t>(feature_count(stock, c.kind)), std::nullopt,
                        Feature{c.kind, c.id, c.grade, std::move(outline)}});
@@ -342,7 +342,7 @@ class Planner {
 
   Result<Outcome> operator()(const GradeFeatureCommand& c) const {
     return changed_feature(c, [&](Feature& feature) -> Result<void> {
-      if (auto fault = fault_of_grade(c.kind, c.grade)) return tl::unexpected(std::move(*fault));
+      LEKALO_CHECK(check_grade(c.kind, c.grade));
       feature.grade = c.grade;
       return {};
     });
@@ -360,20 +360,20 @@ class Planner {
     return Outcome{std::move(within), {}, false};
   }
 
-  std::optional<Error> fault_of_stock(std::uint32_t stock) const {
-    if (stock < document_.stocks.size()) return std::nullopt;
-    return Error{ErrorCode::usage, fmt::format("there is no stock number {}", stock)};
+  Result<void> check_stock(std::uint32_t stock) const {
+    if (stock < document_.stocks.size()) return {};
+    return failure(ErrorCode::usage, fmt::format("there is no stock number {}", stock));
   }
   static tl::unexpected<Error> malformed(std::string message) {
     return failure(ErrorCode::bad_input, std::move(message));
   }
-  static std::optional<Error> fault_of_grade(FeatureKind kind, int grade) {
+  static Result<void> check_grade(FeatureKind kind, int grade) {
     const bool defect = kind == FeatureKind::defect;
     const int low = defect ? 1 : 0, high = defect ? kMostSeverity : kMostQuality;
-    if (grade >= low && grade <= high) return std::nullopt;
-    return Error{ErrorCode::bad_input,
-                 fmt::format("the {} of a {} is a whole number from {} to {}, not {}",
-                             defect ? "severity" : "quality", name_of(kind), low, high, grade)};
+    if (grade >= low && grade <= high) return {};
+    return failure(ErrorCode::bad_input,
+                   fmt::format("the {} of a {} is a whole number from {} to {}, not {}",
+                               defect ? "severity" : "quality", name_of(kind), low, high, grade));
   }
   static Result<Outline> drawn_outline(const std::vector<std::vector<GridPoint>>& loops) {
     std::size_t points = 0;
@@ -387,7 +387,7 @@ class Planner {
   /// The feature that a command names, before and (as yet) after.
   template <class Named>
   Result<FeatureChange> feature_named(const Named& c) const {
-    if (auto fault = fault_of_stock(c.stock)) return tl::unexpected(std::move(*fault));
+    LEKALO_CHECK(check_stock(c.stock));
     const Stock& stock = document_.stocks[c.stock];
     const auto index = find_feature(stock, c.kind, c.id);
     if (!index) return wrong(fmt::format("stock '{}' has no {} '{}'", stock.id, name_of(c.kind), c.id));
@@ -434,11 +434,11 @@ class Planner {
     return true;
   }
 
-  static std::optional<Error> fault_of(GridPoint direction) {
-    if (direction == GridPoint{}) return Error{ErrorCode::usage, "a direction of no length"};
+  static Result<void> check_direction(GridPoint direction) {
+    if (direction == GridPoint{}) return failure(ErrorCode::usage, "a direction of no length");
     if (!on_grid(direction, geom::kGridLimit))
-      return Error{ErrorCode::usage, "a direction beyond the limits of the grid"};
-    return std::nullopt;
+      return failure(ErrorCode::usage, "a direction beyond the limits of the grid");
+    return {};
   }
 
   double reach_of(const Group& group) const {
@@ -450,13 +450,12 @@ class Planner {
 
   Result<Placements> shifted(const std::vector<std::uint64_t>& ids, GridPoint by,
                              const std::optional<Sheet>& to) const {
-    auto placements = movable(workspace_, ids);
-    if (!placements) return placements;
+    LEKALO_TRY(auto placements, movable(workspace_, ids));
     if (!on_grid(by, geom::kGridLimit)) return wrong("a shift beyond the limits of the grid");
     if (to) {
       LEKALO_CHECK(known_sheet(document_, *to));
     }
-    for (Placement& placement : *placements) {
+    for (Placement& placement : placements) {
       placement.at = placement.at + by;
       if (to) placement.stock = to->stock, placement.copy = to->copy;
     }
@@ -481,11 +480,10 @@ class Planner {
 
   /// Placements on one sheet that lie clear of everything else, and a direction.
   Result<Placements> startable(const std::vector<std::uint64_t>& ids, GridPoint direction) const {
-    auto placements = movable(workspace_, ids);
-    if (!placements) return placements;
-    LEKALO_CHECK(common_sheet(*placements));
-    if (auto fault = fault_of(direction)) return tl::unexpected(std::move(*fault));
-    if (!Group(workspace_, *placements).is_clear())
+    LEKALO_TRY(auto placements, movable(workspace_, ids));
+    LEKALO_CHECK(common_sheet(placements));
+    LEKALO_CHECK(check_direction(direction));
+    if (!Group(workspace_, placements).is_clear())
       return failure(
           ErrorCode::refuted,
           fmt::format("placement {} breaks a rule where it lies; sliding needs a valid place to start from",

@@ -53,43 +53,14 @@ void add_missing(std::uint32_t part, const Share& share, std::int64_t kits, Piec
   if (either > there) missing.push_back({part, either - there, std::nullopt});
 }
 
-geom::Region region_of(const geom::GridRegion& outline) {
-  std::vector<geom::Contour> contours;
-  for (std::size_t l = 0; l < outline.loops(); ++l) {
-    geom::Contour contour;
-    const std::uint32_t begin = outline.loop_starts[l], end = outline.loop_starts[l + 1];
-    for (std::uint32_t i = begin; i < end; ++i)
-      contour.push_back({geom::EdgeKind::line,
-                         geom::mm_from_grid(outline.points[i]),
-                         geom::mm_from_grid(outline.points[i + 1 == end ? begin : i + 1]),
-                         {}});
-    contours.push_back(std::move(contour));
-  }
-  geom::Region region{std::move(contours.front()), {}};
-  region.holes.assign(std::make_move_iterator(contours.begin() + 1), std::make_move_iterator(contours.end()));
-  return region;
-}
-
-double area_of(const std::vector<geom::Region>& regions) {
-  double sum = 0;
-  for (const geom::Region& region : regions) sum += geom::area(region);
-  return sum;
-}
-
 /// Area of the stock's defects within `material`, each point once.
 double lost_to_defects(const Stock& stock, const geom::GridRegion& material) {
   if (stock.defects.empty()) return 0;
   std::vector<geom::Region> defects;
-  for (const Defect& defect : stock.defects) defects.push_back(region_of(defect.outline.polygon));
-  const auto lost = geom::combine({region_of(material)}, defects, geom::BooleanOperation::intersect);
-  return lost ? area_of(lost->regions) : 0;
-}
-
-geom::GridRegion rectangle(const geom::GridBox& box) {
-  geom::GridRegion region;
-  region.points = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
-  region.loop_starts = {0, 4};
-  return region;
+  for (const Defect& defect : stock.defects) defects.push_back(geom::region_of_lines(defect.outline.polygon));
+  const auto lost =
+      geom::combine({geom::region_of_lines(material)}, defects, geom::BooleanOperation::intersect);
+  return lost ? geom::area(lost->regions) : 0;
 }
 
 SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const Placement*>& placements) {

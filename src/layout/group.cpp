@@ -15,11 +15,6 @@ using geom::Point;
 
 constexpr std::uint32_t kAllLayers = kPartLayer | kBorderLayer | kDefectLayer | kZoneLayer;
 
-Point in_doubles(GridPoint p) noexcept { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
-GridPoint nearest_step(Point p) noexcept {
-  return {static_cast<std::int64_t>(std::nearbyint(p.x)), static_cast<std::int64_t>(std::nearbyint(p.y))};
-}
-
 std::vector<std::uint64_t> ids_of(const std::vector<Placement>& placements) {
   std::vector<std::uint64_t> ids;
   for (const Placement& placement : placements) ids.push_back(placement.id);
@@ -66,6 +61,12 @@ void append_contacts(const GridRegion& points, GridPoint points_at, const GridRe
 }
 
 }  // namespace
+
+Point in_doubles(GridPoint p) noexcept { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+
+GridPoint nearest_step(Point p) noexcept {
+  return {static_cast<std::int64_t>(std::nearbyint(p.x)), static_cast<std::int64_t>(std::nearbyint(p.y))};
+}
 
 Point unit_vector(GridPoint direction) noexcept {
   const Point d = in_doubles(direction);

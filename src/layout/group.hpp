@@ -52,6 +52,9 @@ class Group {
   bool allowed_;  ///< by the rules that no motion changes
 };
 
+/// A vector in steps as doubles, the nearest vector of whole steps (ties to even), and the direction of one.
+[[nodiscard]] geom::Point in_doubles(geom::GridPoint p) noexcept;
+[[nodiscard]] geom::GridPoint nearest_step(geom::Point p) noexcept;
 [[nodiscard]] geom::Point unit_vector(geom::GridPoint direction) noexcept;
 
 }  // namespace lekalo::layout

@@ -16,11 +16,6 @@ using geom::GridPoint;
 using geom::GridRegion;
 using geom::Point;
 
-Point in_doubles(GridPoint p) noexcept { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
-GridPoint nearest_step(Point p) noexcept {
-  return {static_cast<std::int64_t>(std::nearbyint(p.x)), static_cast<std::int64_t>(std::nearbyint(p.y))};
-}
-
 /// An edge of the part and one of a neighbour that it could lie against.
 struct Facing {
   double distance = 0;  ///< steps

@@ -150,14 +150,6 @@ class Corner {
   std::vector<GridPoint> rays_;
 };
 
-GridBox box_of(const Edge& e) noexcept {
-  return {{std::min(e.from.x, e.to.x), std::min(e.from.y, e.to.y)},
-          {std::max(e.from.x, e.to.x), std::max(e.from.y, e.to.y)}};
-}
-bool boxes_meet(const GridBox& a, const GridBox& b) noexcept {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 }  // namespace
 
 std::optional<geom::Point> common_corner(const std::vector<const GridRegion*>& inside,
@@ -179,7 +171,7 @@ std::optional<geom::Point> common_corner(const std::vector<const GridRegion*>& i
   for (const auto* list : {&inside, &without})
     for (const GridRegion* region : *list) {
       visit_edges(*region, [&](const Edge& edge) {
-        const GridBox box = box_of(edge);
+        const GridBox box = geom::box_of(edge.from, edge.to);
         if (boxes_meet(box, window)) near.push_back({edge, box, outline});
       });
       ++outline;
@@ -187,7 +179,7 @@ std::optional<geom::Point> common_corner(const std::vector<const GridRegion*>& i
   Corner corner(inside, without);
   for (const Near& a : near) {
     const FractionPoint q{a.edge.from, {}, 0, 1};
-    if (boxes_meet({a.edge.from, a.edge.from}, window) && corner.begins_at(q)) return q.rounded();
+    if (geom::boxes_meet({a.edge.from, a.edge.from}, window) && corner.begins_at(q)) return q.rounded();
   }
   for (std::size_t i = 0; i < near.size(); ++i)
     for (std::size_t j = i + 1; j < near.size(); ++j) {

@@ -13,13 +13,6 @@ using geom::GridPoint;
 using geom::GridRegion;
 using geom::Int128;
 
-GridRegion rectangle(const GridBox& box) {
-  GridRegion region;
-  region.points = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
-  region.loop_starts = {0, 4};
-  return region;
-}
-
 class FreeSpace {
  public:
   FreeSpace(const Workspace& workspace, Sheet sheet, const GridBox& within)

@@ -23,8 +23,6 @@ double largest_number(const Curve& curve) {
   return largest;
 }
 
-Box grown(Box box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
-
 Box box_of(const Curve& curve) {
   return grown(geom::curve_box(curve), radii_difference(curve.edge) + 0x1p-40 * largest_number(curve));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lekalo/geom/double_double.hpp"
+#include "lekalo/geom/pose.hpp"
 
 namespace lekalo::phi {
 namespace {
@@ -53,21 +54,6 @@ DoubleDouble signed_distance(const PointDD& p, Point a, Point b) {
 
 }  // namespace
 
-double phi(const ConvexPolygon& part, const ConvexPolygon& blank, const geom::BlankFromPart& pose,
-           NearestPair* nearest) noexcept {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < blank.size(); ++k) {
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const double value = signed_distance(pose(part[i]), blank[k], blank[blank.next(k)]);
-      if (value < least) {
-        least = value;
-        if (nearest != nullptr) *nearest = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)};
-      }
-    }
-  }
-  return least;
-}
-
 Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& blank, double x, double y,
                               double theta) noexcept {
   const auto pose = geom::BlankFromPart::from_angle(theta, {x, y});
@@ -80,7 +66,7 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
         {scale, std::abs(part[i].x), std::abs(part[i].y), std::abs(placed[i].x), std::abs(placed[i].y)});
   }
   for (const Point& p : blank.vertices()) scale = std::max({scale, std::abs(p.x), std::abs(p.y)});
-  // Doubles say which pairs can be the least; they are right within 32 u scale (see phi), so every pair
+  // Doubles say which pairs can be the least; they are right within 32 u scale, so every pair
   // within twice that of the least double value is computed again with 32 digits.
   const double margin = 64 * kUnit * scale;
 

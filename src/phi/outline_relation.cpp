@@ -22,16 +22,6 @@ struct Edge {
   GridPoint before, from, to;
 };
 
-/// Open or closed boxes are the same here: what touches is looked at.
-bool boxes_meet(const GridBox& a, const GridBox& b, std::int64_t margin = 0) noexcept {
-  return a.low.x - margin <= b.high.x && b.low.x - margin <= a.high.x && a.low.y - margin <= b.high.y &&
-         b.low.y - margin <= a.high.y;
-}
-
-GridBox box_of(GridPoint p, GridPoint q) noexcept {
-  return {{std::min(p.x, q.x), std::min(p.y, q.y)}, {std::max(p.x, q.x), std::max(p.y, q.y)}};
-}
-
 /// The edges of a region, moved, whose boxes come within `margin` of `window`.
 std::vector<Edge> edges_near(const GridRegion& region, GridPoint shift, const GridBox& window,
                              std::int64_t margin = 0) {

@@ -18,10 +18,6 @@ using geom::GridRegion;
 GridBox grown(GridBox box, std::int64_t by) noexcept {
   return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
 }
-bool meet(const GridBox& a, const GridBox& b) noexcept {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 /// The same region with every loop begun at its least point, holes in order: equal for equal outlines.
 GridRegion in_normal_order(const GridRegion& region) {
   const auto less = [](GridPoint a, GridPoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
@@ -480,7 +476,7 @@ std::vector<BodyIndex> Scene::near(const GridBox& box, std::int64_t reach, std::
   const GridBox window = grown(box, reach);
   visit_near(
       window, next_question(),
-      [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
+      [&](const Placed& body) { return (body.layers & layers) != 0 && boxes_meet(body.box, window); },
       [&](BodyIndex index) {
         found.push_back(index);
         return false;
@@ -494,7 +490,7 @@ std::vector<BodyIndex> Scene::at(GridPoint p, std::uint32_t layers) const {
   const GridBox window{p, p};
   visit_near(
       window, next_question(),
-      [&](const Placed& body) { return (body.layers & layers) != 0 && meet(body.box, window); },
+      [&](const Placed& body) { return (body.layers & layers) != 0 && boxes_meet(body.box, window); },
       [&](BodyIndex index) {
         const Body& body = bodies_[index];
         if (locate_point(outline(body.shape), p - body.at) != geom::PointLocation::outside)
@@ -540,7 +536,7 @@ NearestBody Scene::nearest(const Probe& probe, std::int64_t within) const {
     visit_near(
         window, next_question(),
         [&](const Placed& body) {
-          return (body.layers & q.layers) != 0 && body.rank > q.tolerates && meet(body.box, window);
+          return (body.layers & q.layers) != 0 && body.rank > q.tolerates && boxes_meet(body.box, window);
         },
         look_at);
     if (best_mm <= geom::mm_from_grid(reach) || reach >= within) break;

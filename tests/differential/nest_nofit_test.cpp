@@ -12,8 +12,8 @@ namespace {
 using geom::GridPoint;
 using geom::GridRegion;
 
-Shape shape_of(const GridRegion& region) {
-  Shape shape;
+SearchOutline shape_of(const GridRegion& region) {
+  SearchOutline shape;
   for (std::size_t l = 0; l < region.loops(); ++l) {
     std::vector<geom::Point> loop;
     for (std::uint32_t k = region.loop_starts[l]; k < region.loop_starts[l + 1]; ++k)
@@ -124,8 +124,8 @@ TEST(NoFit, FindsASlotJustWideEnough) {
 TEST(NoFit, WideListsSayTheSame) {
   for (std::size_t i = 0; i < cases::case_count(20); ++i) {
     Random random(cases::seed(), 700 + i);
-    const Shape a = shape_of(cases::random_part(random, i).outline.polygon),
-                b = shape_of(cases::random_part(random, i + 1).outline.polygon);
+    const SearchOutline a = shape_of(cases::random_part(random, i).outline.polygon),
+                        b = shape_of(cases::random_part(random, i + 1).outline.polygon);
     const NoFit narrow(a, b, 1, 1024), wide(a, b, 1, 1024, {}, {}, false, 0);
     for (int k = 0; k < 200; ++k) {
       const double x = random.uniform(-70, 70), y = random.uniform(-70, 70);
@@ -142,15 +142,15 @@ TEST(NoFit, KeepsEveryEdgeOfABorderOfVeryMany) {
   constexpr int kAcross = 100, kUp = 82;
   const auto lozenge_at = [](double x, double y) {
     const std::vector<geom::Point> loop = {{x - 1, y}, {x, y - 1}, {x + 1, y}, {x, y + 1}};
-    return Shape{{loop}, {loop}};
+    return SearchOutline{{loop}, {loop}};
   };
-  Shape all;
+  SearchOutline all;
   for (int k = 0; k < kAcross * kUp; ++k) {
-    const Shape one = lozenge_at(10.0 * (k % kAcross), 10.0 * (k / kAcross));
+    const SearchOutline one = lozenge_at(10.0 * (k % kAcross), 10.0 * (k / kAcross));
     all.loops.push_back(one.loops[0]);
     all.pieces.push_back(one.pieces[0]);
   }
-  const Shape square = shape_of(cases::outline_of({cases::box_loop(0, 0, 2, 2)}).polygon);
+  const SearchOutline square = shape_of(cases::outline_of({cases::box_loop(0, 0, 2, 2)}).polygon);
   const NoFit table(all, square, 0, 16'384);
   EXPECT_GT(table.border().size(), NoFit::kMostNarrow);
   const NoFit alone(lozenge_at(0, 0), square, 0, 1024);

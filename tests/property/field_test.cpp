@@ -7,6 +7,7 @@
 #include "lekalo/field/grid.hpp"
 #include "lekalo/field/voxel_model.hpp"
 #include "support/cases.hpp"
+#include "support/voxel_reader.hpp"
 
 namespace lekalo::field {
 namespace {
@@ -192,8 +193,8 @@ TEST(VoxelImages, ValueAndGradientAreReadBackWithinTheStatedError) {
       const std::size_t i = n % frame.columns, j = n / frame.columns;
       const Jet node{static_cast<double>(grid.value[n]),
                      {static_cast<double>(grid.dx[n]), static_cast<double>(grid.dy[n])}};
-      const Jet read = read_node(images, i, j);
-      const ReadingError error = reading_error(images, i, j, node);
+      const Jet read = cases::read_node(images, i, j);
+      const cases::ReadingError error = cases::reading_error(images, i, j, node);
       EXPECT_LE(std::abs(read.value - node.value), error.value);
       EXPECT_LE(norm(read.gradient - node.gradient), 1.5 * error.gradient);
       EXPECT_FALSE(palette == 65535 && node.value > 0 && error.value > 0.05);

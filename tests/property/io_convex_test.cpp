@@ -3,11 +3,11 @@
 #include <cmath>
 #include <set>
 
-#include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/io/contour/contour_file.hpp"
 #include "support/cases.hpp"
 #include "support/io_contours.hpp"
+#include "support/ring_distance.hpp"
 
 namespace lekalo {
 namespace {
@@ -46,7 +46,7 @@ void check_consistent(const io::ContourFile& file, const io::ConvexContour& cont
   const double moved =
       contour.coordinate_error - file.coordinate_error + 1e-15 * geom::largest_coordinate(file.points);
   for (const geom::Point p : file.points) {
-    EXPECT_LE(geom::distance_to_boundary(p, contour.polygon.vertices()), moved);
+    EXPECT_LE(cases::distance_to_boundary(p, contour.polygon.vertices()), moved);
   }
 }
 

@@ -19,7 +19,6 @@ using cases::canonical;
 using cases::case_count;
 using cases::edges_of;
 using cases::random_regions;
-using cases::reversed;
 using cases::seed;
 using cases::shifted;
 using geom::Contour;
@@ -27,6 +26,7 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 using geom::Region;
+using geom::reversed;
 
 TEST(DrawingRegionsLaws, LooseShuffledReversedCurvesComeBackAsTheSameRegions) {
   for (std::uint64_t index = 0; index < case_count(60); ++index) {

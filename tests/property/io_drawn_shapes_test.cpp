@@ -225,16 +225,5 @@ TEST(IoDrawnShapes, DirectionsAreWithinTheirErrorAndQuartersAreExact) {
   }
 }
 
-TEST(IoDrawnShapes, EndsOfSplinesThatAreNotClampedAreOnThem) {
-  Spline spline{2, {0, 1, 2, 3, 4, 5}, {{0, 0}, {2, 0}, {2, 2}}, {}};
-  EXPECT_EQ(first_point(spline), (Point{1, 0}));
-  EXPECT_EQ(last_point(spline), (Point{2, 1}));
-  spline.weights = {1, 3, 1};
-  EXPECT_EQ(first_point(spline), (Point{1.5, 0}));
-  spline.knots = {0, 0, 0, 1, 1, 1};
-  EXPECT_EQ(first_point(spline), (Point{0, 0}));
-  EXPECT_EQ(last_point(spline), (Point{2, 2}));
-}
-
 }  // namespace
 }  // namespace lekalo::io

@@ -288,12 +288,7 @@ TEST(GuaranteedBlank, DenseNoisyScansLieInsideTheTrueBlank) {
     // Errors of 4.5 times 0.02 inwards, the guard, the simplification, and corners cut between points that
     // are 6 guards apart.
     EXPECT_LE(compared.deepest, 0.09 + 0.04 + options.simplify + 0.5 * blank->widest);
-    std::size_t edges = 0;
-    for (const Region& r : blank->regions) {
-      edges += r.outer.size();
-      for (const auto& hole : r.holes) edges += hole.size();
-    }
-    EXPECT_LE(edges, 2500U);
+    EXPECT_LE(geom::edges_in(blank->regions), 2500U);
     // Clearance at the known pose: below the true one, and by no more than the stated loss and the guard.
     const auto in_truth = phi::RegionClearance(one.part, truth).at(one.pose()),
                in_blank = phi::RegionClearance(one.part, blank->regions).at(one.pose());

@@ -16,6 +16,7 @@
 #include "lekalo/mill/pocket.hpp"
 #include "mill/fragment/floz_level.hpp"
 #include "support/cases.hpp"
+#include "support/voxel_reader.hpp"
 
 // The source's method and its parts: fragments, tracing, pictures of the model.
 
@@ -274,8 +275,7 @@ TEST(IoVoxelPictures, ValueAndGradientAreReadBackFromThePicturesAlone) {
     const field::VoxelImages images = field::voxel_images(*grid, palette);
     const auto bytes = draw::voxel_pngs(images);
     ASSERT_TRUE(bytes) << bytes.error().message;
-    const std::array<std::string, 4> names{"a.png", "b.png", "c.png", "d.png"};
-    const auto read = draw::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], (*bytes)[2], (*bytes)[3]}, names);
+    const auto read = cases::parse_voxel_pngs(*bytes);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->images, images.images);
     EXPECT_EQ(read->palette, palette);
@@ -284,16 +284,16 @@ TEST(IoVoxelPictures, ValueAndGradientAreReadBackFromThePicturesAlone) {
       const std::size_t i = n % grid->frame.columns, j = n / grid->frame.columns;
       const field::Jet node{static_cast<double>(grid->value[n]),
                             {static_cast<double>(grid->dx[n]), static_cast<double>(grid->dy[n])}};
-      const field::ReadingError error = field::reading_error(*read, i, j, node);
-      EXPECT_LE(std::abs(field::read_node(*read, i, j).value - node.value), error.value);
+      const cases::ReadingError error = cases::reading_error(*read, i, j, node);
+      EXPECT_LE(std::abs(cases::read_node(*read, i, j).value - node.value), error.value);
     }
-    const auto swapped = draw::parse_voxel_pngs({(*bytes)[1], (*bytes)[0], (*bytes)[2], (*bytes)[3]}, names);
+    auto [a, b, c, d] = *bytes;
+    const auto swapped = cases::parse_voxel_pngs({b, a, c, d});
     ASSERT_FALSE(swapped);
-    EXPECT_NE(swapped.error().message.find("a.png"), std::string::npos);
-    std::string damaged = (*bytes)[2];
-    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
-    EXPECT_FALSE(draw::parse_voxel_pngs({(*bytes)[0], (*bytes)[1], damaged, (*bytes)[3]}, names));
-    EXPECT_FALSE(draw::parse_voxel_pngs({(*bytes)[0], "", (*bytes)[2], (*bytes)[3]}, names));
+    EXPECT_EQ(swapped.error().message.front(), 'A');
+    c[c.size() / 2] = static_cast<char>(c[c.size() / 2] ^ 1);
+    EXPECT_FALSE(cases::parse_voxel_pngs({a, b, c, d}));
+    EXPECT_FALSE(cases::parse_voxel_pngs({a, "", c, d}));
   }
 }
 

@@ -42,8 +42,6 @@ inline std::vector<geom::Contour> canonical(const std::vector<geom::Region>& reg
   return contours;
 }
 
-inline geom::Edge reversed(const geom::Edge& edge) { return geom::reversed({edge}).front(); }
-
 inline geom::Edge shifted(geom::Edge edge, geom::Point by) {
   edge.from = edge.from + by;
   edge.to = edge.to + by;

@@ -105,8 +105,7 @@ inline GrownCase grown_case(std::uint64_t seed, std::uint64_t index, const Stock
   made.shapes.shift = {random.uniform(-30, 30), random.uniform(-30, 30)};
   const geom::BlankFromPart pose = made.shapes.pose();
 
-  const geom::FlatRegions flat = geom::flatten(made.shapes.part);
-  std::vector<double> allowances(flat.contour_starts.back());
+  std::vector<double> allowances(geom::edges_in(made.shapes.part));
   for (double& allowance : allowances) allowance = random.uniform(stock.least, stock.most);
   allowances[random.below(allowances.size())] = stock.least;
   std::vector<geom::Region> blank = geom::offset_edges(made.shapes.part, allowances).value().regions;

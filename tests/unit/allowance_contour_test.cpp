@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
-#include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/locate/allowance.hpp"
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
+#include "support/ring_distance.hpp"
 
 namespace {
 
@@ -40,7 +40,7 @@ double least(const std::vector<locate::AllowanceSample>& samples) {
 
 /// What the tree answers quickly, edge by edge.
 double brute_force(Point p, const Ring& ring) {
-  const double distance = geom::distance_to_boundary(p, ring);
+  const double distance = cases::distance_to_boundary(p, ring);
   switch (geom::locate_point(ring, p)) {
     case geom::PointLocation::boundary:
       return 0;

@@ -20,8 +20,7 @@ DrawnRegions made(const Sketch& sketch, const DrawingOptions& options = {}) {
   EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
   if (!result) return {};
   EXPECT_EQ(geom::fault_of(result->regions), std::nullopt);
-  EXPECT_EQ(result->curve_of_edge.size(),
-            geom::flatten(result->regions).edges.size() / geom::kFlatEdgeStride);
+  EXPECT_EQ(result->curve_of_edge.size(), geom::edges_in(result->regions));
   return *std::move(result);
 }
 std::string refusal(const Sketch& sketch, const DrawingOptions& options = {}) {

@@ -24,7 +24,7 @@ ShapeFile read(const std::string& shape) {
   EXPECT_FALSE(geom::fault_of(file->regions).has_value()) << shape;
   EXPECT_GT(file->tolerance, 0);
   EXPECT_LT(file->tolerance, 1e-8);
-  EXPECT_EQ(file->name_of_edge.size(), geom::flatten(file->regions).edges.size() / geom::kFlatEdgeStride);
+  EXPECT_EQ(file->name_of_edge.size(), geom::edges_in(file->regions));
   return *std::move(file);
 }
 

@@ -133,7 +133,7 @@ TEST(MillLevel, AMirrorTurnsSidesAndDirections) {
   const geom::RegionIndex index(*other);
   EXPECT_TRUE(index.contains({-3, 0.5}));
   EXPECT_FALSE(index.contains({3, 0.5}));
-  EXPECT_NEAR(area_of(*other), 3, 1e-12);
+  EXPECT_NEAR(geom::area(*other), 3, 1e-12);
   const PathMove arc{.to = {2, 1}, .shape = EdgeKind::arc_ccw, .centre = {1, 1}};
   const PocketPath path = mirrored(PocketPath{{arc}, 1});
   EXPECT_EQ(path.moves[0].to, (Point{-2, 1}));

@@ -16,11 +16,10 @@ namespace lekalo::draw {
 /// allowance along the outline. Of convex contours (as regions of lines) and of regions alike.
 /// docs/design/picture.md.
 
-/// A named group of edges of the part, numbered through all pieces and contours, each outer contour before
-/// its holes, and what is demanded of it, mm.
+/// A named group of edges of the part, and what is demanded of it, mm.
 struct ReportFeature {
   std::string name;
-  std::vector<std::uint32_t> edges;
+  std::vector<std::uint32_t> edges;  ///< their numbers (geom::Region)
   std::optional<double> minimum, target, maximum;
 };
 

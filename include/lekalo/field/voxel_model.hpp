@@ -23,16 +23,4 @@ struct VoxelImages {
 /// \pre palette > 1
 [[nodiscard]] VoxelImages voxel_images(const FieldGrid& grid, std::uint16_t palette = 65535);
 
-/// Value and gradient at a node, from the pictures alone.
-[[nodiscard]] Jet read_node(const VoxelImages& images, std::size_t i, std::size_t j);
-
-/// How far read_node may be from the grid's own value (mm) and each component of its gradient, at a node with
-/// this value and gradient: with q = 1 / palette the rounding of each n_i and k = 1 / |n_C|, q k (|X| + |Y| +
-/// |U| + 1) / (1 - q k) half diagonals, and q k (1 + |gradient|) / (1 - q k).
-struct ReadingError {
-  double value = 0, gradient = 0;
-};
-[[nodiscard]] ReadingError reading_error(const VoxelImages& images, std::size_t i, std::size_t j,
-                                         const Jet& node);
-
 }  // namespace lekalo::field

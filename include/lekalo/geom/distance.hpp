@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lekalo/geom/point.hpp"
-#include "lekalo/geom/polygon.hpp"
 
 namespace lekalo::geom {
 
@@ -17,10 +16,5 @@ inline constexpr double kDistanceError = 0xCp-53;
 /// true one and half a unit in the last place of its coordinates.
 [[nodiscard]] Point nearest_on_segment(Point p, Point a, Point b) noexcept;
 [[nodiscard]] double distance_to_segment(Point p, Point a, Point b) noexcept;
-/// Exactly 0 where the segments cross or touch (decided by segment_relation).
-[[nodiscard]] double distance_between_segments(Point a, Point b, Point c, Point d) noexcept;
-/// From p to the nearest boundary point of the ring (never negative, inside or out); infinite for an empty
-/// ring. Cost: O(n).
-[[nodiscard]] double distance_to_boundary(Point p, const Ring& ring) noexcept;
 
 }  // namespace lekalo::geom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,15 @@ struct GridBox {
   GridPoint low, high;
   friend constexpr bool operator==(const GridBox&, const GridBox&) = default;
 };
+/// The box with corners at a and b.
+[[nodiscard]] inline GridBox box_of(GridPoint a, GridPoint b) noexcept {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+/// True if the boxes, borders included, have a point in common or come as near as `margin` in x and in y.
+[[nodiscard]] inline bool boxes_meet(const GridBox& a, const GridBox& b, std::int64_t margin = 0) noexcept {
+  return a.low.x - margin <= b.high.x && b.low.x - margin <= a.high.x && a.low.y - margin <= b.high.y &&
+         b.low.y - margin <= a.high.y;
+}
 
 /// One bounded piece of the plane with straight edges between grid points: outer loop counter-clockwise,
 /// holes clockwise, material on the left of every edge. Loop l is points [loop_starts[l], loop_starts[l +
@@ -55,6 +65,11 @@ enum class ChordSide {
 /// below 2^-16 mm. Cost: O(chords log chords).
 [[nodiscard]] Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side,
                                                        double tolerance);
+
+/// The box as a region. \pre it has an area
+[[nodiscard]] GridRegion rectangle(const GridBox& box);
+/// The same outline in millimetres, as a region of lines. Exact.
+[[nodiscard]] Region region_of_lines(const GridRegion& region);
 
 /// Both (0, 0) for no points.
 [[nodiscard]] GridBox bounds(const GridRegion& region) noexcept;

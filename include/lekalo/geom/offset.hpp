@@ -27,10 +27,10 @@ namespace lekalo::geom {
 /// by lines and arcs, and sides that two of them share cancel.
 [[nodiscard]] Result<BooleanResult> offset(const std::vector<Region>& regions, double distance);
 
-/// The same with a distance for each edge, numbered as flatten() does: with those above 0 all points within
-/// the distance of the edge are added; below 0 all points within it are taken off first (the rim along the
-/// edge); 0 leaves the edge alone. Corners between edges get the larger of the two. Errors as offset(). \pre
-/// as many distances as edges, finite
+/// The same with a distance for each edge, in the order of their numbers: with those above 0 all points
+/// within the distance of the edge are added; below 0 all points within it are taken off first (the rim along
+/// the edge); 0 leaves the edge alone. Corners between edges get the larger of the two. Errors as offset().
+/// \pre edges_in(regions) distances, finite
 [[nodiscard]] Result<BooleanResult> offset_edges(const std::vector<Region>& regions,
                                                  const std::vector<double>& distances);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -36,6 +37,19 @@ struct Box {
   friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 [[nodiscard]] Box bounds(const Ring& ring) noexcept;
+/// The box with corners at a and b.
+[[nodiscard]] inline Box box_of(Point a, Point b) noexcept {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+/// The least box around both.
+[[nodiscard]] inline Box joined(const Box& a, const Box& b) noexcept {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+/// The box with every side moved outwards by so many mm.
+[[nodiscard]] inline Box grown(const Box& box, double by) noexcept {
+  return {box.low - Point{by, by}, box.high + Point{by, by}};
+}
 
 /// Largest absolute coordinate of a ring, 0 for an empty one.
 [[nodiscard]] double largest_coordinate(const Ring& ring) noexcept;

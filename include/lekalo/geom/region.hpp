@@ -43,7 +43,8 @@ using Contour = std::vector<Edge>;
 [[nodiscard]] double arc_sweep(const Edge& arc) noexcept;
 
 /// One bounded piece of the plane: outer contour counter-clockwise, holes clockwise, material on the left of
-/// every edge. Several pieces are a std::vector<Region>.
+/// every edge. Several pieces are a std::vector<Region>. Wherever their edges have numbers, these run from 0
+/// through all pieces and contours, each outer contour before its holes.
 struct Region {
   Contour outer;
   std::vector<Contour> holes;
@@ -72,30 +73,20 @@ struct Region {
 /// formula in double-double arithmetic, plus r^2 (phi - sin phi) / 2 for each arc.
 [[nodiscard]] double signed_area(const Contour& contour) noexcept;
 
+/// How many edges the pieces have, one above the largest number of an edge. O(contours).
+[[nodiscard]] std::size_t edges_in(const std::vector<Region>& regions) noexcept;
+
 /// Area of the material: outer less holes.
 [[nodiscard]] double area(const Region& region) noexcept;
+/// Their sum: pieces lie apart.
+[[nodiscard]] double area(const std::vector<Region>& regions) noexcept;
 
 /// Corners of the axis-parallel box of the edges, arcs at their mean radius, within 4 u of the largest
 /// coordinate plus radius; both (0, 0) for no edges.
 [[nodiscard]] Box bounds(const Contour& contour) noexcept;
 
-/// The same curve in the other direction, from the same first point; reversed(reversed(c)) == c.
+/// The same curve in the other direction; of a contour from the same first point. reversed(reversed(c)) == c.
+[[nodiscard]] Edge reversed(Edge edge) noexcept;
 [[nodiscard]] Contour reversed(const Contour& contour);
-
-/// The flat form that kernels take, also in a browser: per edge kFlatEdgeStride doubles
-/// (from.x, from.y, to.x, to.y, centre.x, centre.y, direction), direction 0 for a line, +1 for a
-/// counter-clockwise arc, -1 for a clockwise one. Contour c is edges [contour_starts[c], contour_starts[c +
-/// 1]); piece p is contours [piece_starts[p], piece_starts[p + 1]), its outer contour first.
-struct FlatRegions {
-  std::vector<double> edges;
-  std::vector<std::uint32_t> contour_starts = {0};
-  std::vector<std::uint32_t> piece_starts = {0};
-};
-inline constexpr std::size_t kFlatEdgeStride = 7;
-
-/// \pre fewer than 2^32 edges
-[[nodiscard]] FlatRegions flatten(const std::vector<Region>& regions);
-/// unflatten(flatten(r)) == r. \pre made by flatten
-[[nodiscard]] std::vector<Region> unflatten(const FlatRegions& flat);
 
 }  // namespace lekalo::geom

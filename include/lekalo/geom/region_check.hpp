@@ -20,7 +20,7 @@ namespace lekalo::geom {
 /// Cost: O((n + k) log n) for n edges and k pairs whose boxes meet.
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<Region>& regions);
 
-/// Two edges that cross or touch, numbered through all pieces and contours as flatten() does, a < b.
+/// The numbers of two edges that cross or touch, a < b.
 struct MeetingEdges {
   std::uint32_t a = 0, b = 0;
   Point at;  ///< mm, on a

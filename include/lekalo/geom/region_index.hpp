@@ -10,10 +10,8 @@
 namespace lekalo::geom {
 
 /// The edges of regions in order, with a tree of boxes over them: neighbours along a contour are neighbours
-/// in the plane, so the order itself is the tree. Building: O(n); memory: about 200 bytes an edge.
-///
-/// Edges are numbered through all pieces and contours, each outer contour before its holes, as flatten()
-/// does.
+/// in the plane, so the order of their numbers (Region) is itself the tree. Building: O(n); memory: about 200
+/// bytes an edge.
 class RegionIndex {
  public:
   /// \pre regions made by make_region, of disjoint insides; fewer than 2^31 edges

@@ -20,7 +20,7 @@ namespace lekalo::locate {
 /// Edges of the part that have a demand of their own.
 struct Feature {
   std::string name;
-  std::vector<std::uint32_t> edges;  ///< numbered through all pieces and contours as in Touch
+  std::vector<std::uint32_t> edges;  ///< their numbers (geom::Region)
   double minimum = 0;                ///< no point has less allowance, mm, >= 0
   std::optional<double> target;      ///< what the most even placement aims at, mm, >= 0
   std::optional<double> maximum;     ///< no point has more, mm, > minimum

@@ -15,8 +15,6 @@ namespace lekalo::locate {
 /// blank's boundary, negative outside the blank's material. (allowance.hpp measures point contours of any
 /// shape, also ones that cross themselves, and decides sides exactly; here every edge has its extremes,
 /// proved.)
-///
-/// Edges are numbered through all pieces and contours, each outer contour before its holes (Touch).
 
 /// A point of the part's outline and the material over it.
 struct OutlinePoint {

@@ -24,8 +24,7 @@ struct Outline {
   /// Regions of lines and arcs, mm, made by make_region. May be empty where `convex` is there.
   std::vector<geom::Region> regions;
   double tolerance = 0;  ///< the true outline lies within this of that of `regions`, mm
-  /// The layer or the primitive that each edge comes from, "" for none; edges are numbered as in Touch.
-  /// Empty: no edge has one.
+  /// The layer or the primitive that each edge comes from, "" for none. Empty: no edge has one.
   std::vector<std::string> labels;
   /// The same outline where it is a convex polygon; two of them may be placed by the fast path.
   std::optional<ConvexOutline> convex;

@@ -24,8 +24,8 @@ struct Contact {
   double multiplier = 0;
 };
 
-/// A place that holds a placement: where the part is nearest to the blank's boundary. Edges are numbered
-/// through all pieces and contours, each outer contour before its holes, in the order of the regions given.
+/// A place that holds a placement: where the part is nearest to the blank's boundary. Edges have the numbers
+/// of the regions given (geom::Region).
 struct Touch {
   std::uint32_t part_edge = 0;  ///< of convex outlines the vertex that touches, at which that edge begins
   std::uint32_t blank_edge = 0;

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "lekalo/geom/polygon.hpp"
-#include "lekalo/geom/pose.hpp"
 
 namespace lekalo::phi {
 
@@ -23,16 +22,11 @@ struct Enclosure {
 /// chi_k the signed distance to the line of edge k, positive inwards. Positive: D lies inside B with that
 /// minimum allowance; zero: they touch; negative: D crosses the boundary of B.
 ///
-/// Plain double arithmetic: within 32 u M of the true value, u = 2^-53, M the largest absolute coordinate of
-/// blank, part and t. For reports use clearance_enclosure.
-/// Cost: O(n m). Source: spec of the method of phi-functions, model (5)-(7) of the localisation article.
-[[nodiscard]] double phi(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
-                         const geom::BlankFromPart& pose, NearestPair* nearest = nullptr) noexcept;
-
-/// The same value for the rotation by the *exact* angle `theta` (not its rounded sine and cosine) and the
-/// given doubles, enclosed by error-bounded double-double arithmetic: high - low is a few units in the last
-/// place of the value, plus 1e-30 M. This is what locate reports (low) and what tests compare with the
-/// checker. |theta| <= geom::kMaxAngle. Cost: O(n + m).
+/// It is taken for the rotation by the *exact* angle `theta` (not its rounded sine and cosine) and the given
+/// doubles, enclosed by error-bounded double-double arithmetic: high - low is a few units in the last place
+/// of the value, plus 1e-30 M, M the largest absolute coordinate of blank, part, x and y. This is what locate
+/// reports (low) and what tests compare with the checker. |theta| <= geom::kMaxAngle. Cost: O(n + m). Source:
+/// spec of the method of phi-functions, model (5)-(7) of the localisation article.
 [[nodiscard]] Enclosure clearance_enclosure(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                                             double x, double y, double theta) noexcept;
 

@@ -10,7 +10,7 @@ namespace lekalo::phi {
 
 /// A place where the boundaries of a placed part and of its blank come close.
 struct RegionContact {
-  std::uint32_t part_edge = 0, blank_edge = 0;  ///< numbered as in RegionIndex
+  std::uint32_t part_edge = 0, blank_edge = 0;  ///< their numbers (geom::Region)
   geom::Point part, blank;                      ///< the two points, each in its own frame
   double distance = 0;                          ///< mm, not negative
 };

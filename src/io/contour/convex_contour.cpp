@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "contour_points.hpp"
-#include "convex_outline.hpp"
+#include "hulled_contour.hpp"
 #include "lekalo/geom/predicates.hpp"
 
 namespace lekalo::io {
@@ -20,7 +20,7 @@ struct Stray {
 /// Measures every point between corners against its segment.
 class StraightRuns {
  public:
-  StraightRuns(const Outline& outline, double tolerance) : outline_(outline), tolerance_(tolerance) {
+  StraightRuns(const HulledContour& outline, double tolerance) : outline_(outline), tolerance_(tolerance) {
     const std::vector<std::size_t>& corners = outline.corners;
     for (std::size_t k = 0; k < corners.size(); ++k) look_at(corners[k], corners[(k + 1) % corners.size()]);
   }
@@ -50,21 +50,21 @@ class StraightRuns {
     if (advance < -tolerance_ && runs_back_at_ == outline_.ring.size()) runs_back_at_ = position;
   }
 
-  const Outline& outline_;
+  const HulledContour& outline_;
   double tolerance_;
   Stray worst_;
   std::size_t runs_back_at_ = outline_.ring.size();
 };
 
 /// The other position with the same coordinates, or the number of points.
-std::size_t twin(const Outline& outline, std::size_t position) {
+std::size_t twin(const HulledContour& outline, std::size_t position) {
   for (std::size_t i = 0; i < outline.ring.size(); ++i) {
     if (i != position && outline.point(i) == outline.point(position)) return i;
   }
   return outline.ring.size();
 }
 
-tl::unexpected<Error> refuse_stray(const Outline& outline, const Stray& stray) {
+tl::unexpected<Error> refuse_stray(const HulledContour& outline, const Stray& stray) {
   const std::string& name = outline.file->name;
   if (const std::size_t other = twin(outline, stray.position); other != outline.ring.size()) {
     return refuse(name,
@@ -102,7 +102,7 @@ std::size_t ConvexContour::file_edge(std::size_t polygon_edge) const {
 
 Result<ConvexContour> make_convex(const ContourFile& file) {
   const double tolerance = kCollinearErrors * file.coordinate_error;  // docs/design/io.md, step 2
-  LEKALO_TRY(const auto outline, make_outline(file, tolerance));
+  LEKALO_TRY(const auto outline, find_hull(file, tolerance));
   const std::vector<std::size_t>& corners = outline.corners;
   const StraightRuns runs(outline, tolerance);
   if (runs.worst().distance > tolerance) return refuse_stray(outline, runs.worst());

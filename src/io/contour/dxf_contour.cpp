@@ -95,7 +95,7 @@ class DxfReader {
       if (group_.code == 999) continue;  // a comment
       if (!at(0, "SECTION"))
         return refuse_here(fmt::format("a section is wanted here, not {}", excerpt(group_.value)));
-      if (auto done = read_section(); !done) return done;
+      LEKALO_CHECK(read_section());
     }
   }
 
@@ -118,7 +118,7 @@ class DxfReader {
       if (section != "HEADER") continue;
       if (group_.code == 9) variable = group_.value;
       if (variable == "$INSUNITS" && group_.code == 70) {
-        if (auto done = read_unit(); !done) return done;
+        LEKALO_CHECK(read_unit());
       }
     }
   }
@@ -150,7 +150,7 @@ class DxfReader {
              : group_.value == "LINE"     ? read_line()
                                           : refuse_entity();
     }
-    if (!more) return tl::unexpected(more.error());
+    LEKALO_CHECK(more);
     return refuse_line(file_.name, begin, "the section ENTITIES does not end; the file is not complete");
   }
 

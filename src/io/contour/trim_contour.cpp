@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "contour_points.hpp"
-#include "convex_outline.hpp"
+#include "hulled_contour.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 
@@ -38,7 +38,7 @@ struct Sides {
   double outside = 0;  ///< how far hull corners that were left out lie outside, mm
 };
 
-Sides measure_sides(const Outline& outline) {
+Sides measure_sides(const HulledContour& outline) {
   const std::vector<std::size_t>& corners = outline.corners;
   Sides all;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -174,7 +174,7 @@ Result<TrimmedContour> trim_to_convex(const ContourFile& file, double tolerance)
   // Sides between corners closer to straight than this meet nowhere in particular.
   const double rounding = kHalfUlp * geom::largest_coordinate(file.points);
   const double straight = std::max(kCollinearErrors * file.coordinate_error, 16 * rounding);
-  LEKALO_TRY(const auto outline, make_outline(file, straight));
+  LEKALO_TRY(const auto outline, find_hull(file, straight));
 
   const Sides measured = measure_sides(outline);
   const Side& worst = *std::max_element(measured.sides.begin(), measured.sides.end(),

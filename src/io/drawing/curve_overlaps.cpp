@@ -20,12 +20,6 @@ using geom::Point;
 
 bool is_line(const Edge& edge) { return edge.kind == EdgeKind::line; }
 
-Box joined_text(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-Box wider(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
-
 /// Bound on how far the points of arc b are from arc a, if that is at most `limit`.
 std::optional<double> arc_on_arc(const Curve& b, const Curve& a, double limit) {
   if (!(b.radius > 0) || !(a.radius > 0)) return std::nullopt;
@@ -110,7 +104,7 @@ bool are_equal(const std::vector<Edge>& a, const std::vector<Edge>& b) {
 
 LaidCurve laid_curve(const std::vector<Edge>& edges) {
   LaidCurve made{&edges, curve_box(make_curve(edges.front())), 0, true};
-  for (const Edge& edge : edges) made.box = joined_text(made.box, curve_box(make_curve(edge)));
+  for (const Edge& edge : edges) made.box = joined(made.box, curve_box(make_curve(edge)));
   made.size = norm(made.box.high - made.box.low);
   return made;
 }
@@ -121,7 +115,7 @@ std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, doub
   for (std::uint32_t i = 0; i < curves.size(); ++i) {
     if (!curves[i].used) continue;
     numbers.push_back(i);
-    boxes.push_back(wider(curves[i].box, reach));
+    boxes.push_back(grown(curves[i].box, reach));
   }
   // The larger curve is kept, because only the smaller one can lie on the other whole; of equal ones the
   // first.
@@ -134,7 +128,7 @@ std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, doub
     // Most pairs are neighbours along an outline: the shorter one's box does not fit in the other's.
     if (!before(a, b)) std::swap(a, b);
     // A curve whose copy is a little longer still counts as the copy.
-    const Box room = wider(curves[a].box, 2 * reach);
+    const Box room = grown(curves[a].box, 2 * reach);
     const Box& box = curves[b].box;
     if (!(box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x &&
           box.high.y <= room.high.y))
@@ -159,7 +153,7 @@ std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, doub
 
 std::vector<Overlap> overlapping_ends(const std::vector<LooseEnd>& ends, double reach) {
   std::vector<Box> boxes;
-  for (const LooseEnd& end : ends) boxes.push_back(wider(curve_box(make_curve(end.line)), reach));
+  for (const LooseEnd& end : ends) boxes.push_back(grown(curve_box(make_curve(end.line)), reach));
   std::vector<std::array<std::uint32_t, 2>> pairs;
   geom::BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     if (ends[i].curve != ends[j].curve) pairs.push_back({i, j});
@@ -178,7 +172,7 @@ std::vector<Overlap> overlapping_ends(const std::vector<LooseEnd>& ends, double 
     if (other == p) continue;
     taken[i] = taken[j] = true;
     found.push_back({ends[i].curve, ends[j].curve, ends[i].at_end, ends[j].at_end,
-                     far + rounding(wider(curve_box(a), reach))});
+                     far + rounding(grown(curve_box(a), reach))});
   }
   return found;
 }

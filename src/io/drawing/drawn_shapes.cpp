@@ -1,10 +1,9 @@
 #include "drawn_shapes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
+#include "bounded_number.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/assert.hpp"
 #include "lekalo/geom/double_double.hpp"
@@ -14,6 +13,7 @@
 namespace lekalo::io {
 namespace {
 
+using detail::Bounded;
 using geom::DoubleDouble;
 using geom::Edge;
 using geom::EdgeKind;
@@ -27,11 +27,6 @@ constexpr double kDiagonal = 1.41421356237309515 * kRoundingUp;
 double largest(Point p) noexcept { return std::max(std::abs(p.x), std::abs(p.y)); }
 
 bool is_in_range(Point p) noexcept { return largest(p) <= kLargestMillimetres; }
-
-/// A number and how far it is from the exact one.
-struct Bounded {
-  double value = 0, error = 0;
-};
 
 /// Numbers that the predicates cannot take are 0 (kSmallestMillimetres).
 Bounded flushed(Bounded x) noexcept {
@@ -154,29 +149,6 @@ std::optional<BoundedShape> image_of_spline(const Affine& map, const Spline& spl
   return shape;
 }
 
-/// Evaluates a spline by de Boor's algorithm, with rational poles as (w x, w y, w).
-Point spline_point(const Spline& spline, double t, std::size_t span) {
-  struct Homogeneous {
-    double x, y, w;
-  };
-  const std::size_t p = spline.degree;
-  std::array<Homogeneous, kHighestDegree + 1> d{};
-  for (std::size_t j = 0; j <= p; ++j) {
-    const Point pole = spline.poles[span - p + j];
-    const double w = spline.weights.empty() ? 1 : spline.weights[span - p + j];
-    d[j] = {w * pole.x, w * pole.y, w};
-  }
-  for (std::size_t r = 1; r <= p; ++r) {
-    for (std::size_t j = p; j >= r; --j) {
-      const double low = spline.knots[span - p + j], high = spline.knots[span + 1 + j - r];
-      const double a = high > low ? (t - low) / (high - low) : 0;
-      d[j] = {(1 - a) * d[j - 1].x + a * d[j].x, (1 - a) * d[j - 1].y + a * d[j].y,
-              (1 - a) * d[j - 1].w + a * d[j].w};
-    }
-  }
-  return {d[p].x / d[p].w, d[p].y / d[p].w};
-}
-
 }  // namespace
 
 Direction direction_of_degrees(double degrees) noexcept {
@@ -213,8 +185,6 @@ BoundedPoint image(const Affine& map, const BoundedPoint& p) noexcept {
   const double error = std::max(x.error, y.error) + map.size() * p.error + entries + map.shift_error;
   return {{x.value, y.value}, error * kRoundingUp};
 }
-
-Point vector_image(const Affine& map, Point v) noexcept { return bounded_image_of_vector(map, v).value; }
 
 Affine composed(const Affine& outer, const Affine& inner) noexcept {
   const Bounded xx = combination(outer.xx, inner.xx, outer.xy, inner.yx, 0);
@@ -334,28 +304,6 @@ BoundedShape conic(const EllipseArc& arc, double error) {
 Point point_at(const EllipseArc& arc, double t) noexcept {
   const auto [sine, cosine] = geom::sincos(t);
   return arc.centre + (cosine * arc.u + sine * arc.v);
-}
-
-Point first_point(const Shape& shape) {
-  if (const auto* edge = std::get_if<Edge>(&shape)) return edge->from;
-  if (const auto* ellipse = std::get_if<EllipseArc>(&shape)) return ellipse->from;
-  const Spline& spline = std::get<Spline>(shape);
-  const std::size_t p = spline.degree;
-  if (spline.knots[1] == spline.knots[p]) return spline.poles.front();
-  std::size_t span = p;
-  while (span + 1 < spline.poles.size() && spline.knots[span + 1] == spline.knots[p]) ++span;
-  return spline_point(spline, spline.knots[p], span);
-}
-
-Point last_point(const Shape& shape) {
-  if (const auto* edge = std::get_if<Edge>(&shape)) return edge->to;
-  if (const auto* ellipse = std::get_if<EllipseArc>(&shape)) return ellipse->to;
-  const Spline& spline = std::get<Spline>(shape);
-  const std::size_t p = spline.degree, n = spline.poles.size();
-  if (spline.knots[n] == spline.knots[n + p - 1]) return spline.poles.back();
-  std::size_t span = n - 1;
-  while (span > p && spline.knots[span] == spline.knots[n]) --span;
-  return spline_point(spline, spline.knots[n], span);
 }
 
 }  // namespace lekalo::io

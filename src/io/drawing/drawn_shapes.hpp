@@ -46,7 +46,6 @@ struct Affine {
   [[nodiscard]] double size() const noexcept;
 };
 [[nodiscard]] BoundedPoint image(const Affine& map, const BoundedPoint& p) noexcept;
-[[nodiscard]] geom::Point vector_image(const Affine& map, geom::Point v) noexcept;
 /// First `inner`, then `outer`.
 [[nodiscard]] Affine composed(const Affine& outer, const Affine& inner) noexcept;
 
@@ -81,9 +80,5 @@ struct Affine {
 
 /// The ellipse's point at a parameter.
 [[nodiscard]] geom::Point point_at(const EllipseArc& arc, double t) noexcept;
-
-/// First and last point of a shape; of a spline that is not clamped, computed.
-[[nodiscard]] geom::Point first_point(const Shape& shape);
-[[nodiscard]] geom::Point last_point(const Shape& shape);
 
 }  // namespace lekalo::io

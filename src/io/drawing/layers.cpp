@@ -14,13 +14,8 @@ constexpr std::size_t kMostNamed = 12;
 
 char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-bool same_name(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return folded(x) == folded(y); });
-}
-
 bool is_among(const std::string& name, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(), [&](const auto& n) { return same_name(name, n); });
+  return std::any_of(names.begin(), names.end(), [&](const auto& n) { return same_layer(name, n); });
 }
 
 std::string names_of(const std::vector<Layer>& layers) {
@@ -33,11 +28,16 @@ std::string names_of(const std::vector<Layer>& layers) {
 
 }  // namespace
 
+bool same_layer(const std::string& a, const std::string& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return folded(x) == folded(y); });
+}
+
 Result<LayerChoice> choose_layers(const Drawing& drawing, const DrawingOptions& options) {
   for (const auto* names : {&options.take, &options.leave}) {
     for (const std::string& name : *names) {
       if (std::any_of(drawing.layers.begin(), drawing.layers.end(),
-                      [&](const Layer& layer) { return same_name(layer.name, name); }))
+                      [&](const Layer& layer) { return same_layer(layer.name, name); }))
         continue;
       return failure(ErrorCode::bad_input,
                      fmt::format("{}: no curve is on a layer {}; there are {}", drawing.name, excerpt(name),

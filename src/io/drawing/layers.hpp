@@ -8,6 +8,9 @@
 
 namespace lekalo::io {
 
+/// Two names mean one layer, in drawings that do not tell the cases of A to Z apart.
+[[nodiscard]] bool same_layer(const std::string& a, const std::string& b);
+
 /// The layers that count, and a sentence about those that do not.
 struct LayerChoice {
   std::vector<bool> taken;  ///< by layer

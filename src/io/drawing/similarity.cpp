@@ -150,6 +150,4 @@ double largest_of(const Region& region) noexcept {
   return size;
 }
 
-Box grown(const Box& box, double by) noexcept { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
-
 }  // namespace lekalo::io::detail

@@ -49,7 +49,5 @@ inline constexpr double kShortest = 0x1p-47;
 [[nodiscard]] double largest_of(const geom::Box& box) noexcept;
 /// The largest magnitude of a coordinate of its edges' ends and centres.
 [[nodiscard]] double largest_of(const geom::Region& region) noexcept;
-/// The box that reaches `by` further on every side.
-[[nodiscard]] geom::Box grown(const geom::Box& box, double by) noexcept;
 
 }  // namespace lekalo::io::detail

@@ -128,7 +128,7 @@ class Expansion {
                            fmt::format("blocks are nested more than {} deep; explode them", kDeepestNesting));
       }
       if (known == weights_.end()) {
-        if (auto done = weigh(*inner, depth + 1); !done) return done;
+        LEKALO_CHECK(weigh(*inner, depth + 1));
         known = weights_.find(inner);
       }
       weight.cost = sum(weight.cost, product(copies_of(insertion), known->second.cost));
@@ -173,12 +173,12 @@ class Expansion {
       for (; next < insertions.size() &&
              insertions[next].before <= static_cast<std::size_t>(&curve - curves.data());
            ++next) {
-        if (auto done = insert(insertions[next], map, inherited, frozen); !done) return done;
+        LEKALO_CHECK(insert(insertions[next], map, inherited, frozen));
       }
-      if (auto done = add(curve, map, inherited, frozen); !done) return done;
+      LEKALO_CHECK(add(curve, map, inherited, frozen));
     }
     for (; next < insertions.size(); ++next) {
-      if (auto done = insert(insertions[next], map, inherited, frozen); !done) return done;
+      LEKALO_CHECK(insert(insertions[next], map, inherited, frozen));
     }
     return {};
   }
@@ -218,7 +218,7 @@ class Expansion {
       for (std::uint32_t column = 0; column < insertion.columns; ++column) {
         const Affine local = placement(insertion, block.base, column, row);
         const Affine all = map == nullptr ? local : composed(*map, local);
-        if (auto done = place(block.curves, block.insertions, &all, layer, hides); !done) return done;
+        LEKALO_CHECK(place(block.curves, block.insertions, &all, layer, hides));
       }
     }
     return {};

@@ -43,7 +43,7 @@ Result<void> DxfEntities::read_circle(DxfBlock& into) {
   static constexpr Wanted kWanted[] = {
       {10, true, true}, {20, true, true}, {30, true, false}, {40, true, true}};
   Numbers numbers;
-  if (auto done = read_numbers(kWanted, numbers); !done) return done;
+  LEKALO_CHECK(read_numbers(kWanted, numbers));
   if (!at_.ok() || is_out_of_sight(into)) return {};
   const BoundedPoint centre = numbers.point(10, 20);
   const Millimetres radius = numbers.get(40);
@@ -62,7 +62,7 @@ Result<void> DxfEntities::read_arc(DxfBlock& into) {
   static constexpr Wanted kWanted[] = {{10, true, true}, {20, true, true},  {30, true, false},
                                        {40, true, true}, {50, false, true}, {51, false, true}};
   Numbers numbers;
-  if (auto done = read_numbers(kWanted, numbers); !done) return done;
+  LEKALO_CHECK(read_numbers(kWanted, numbers));
   if (!at_.ok() || is_out_of_sight(into)) return {};
   const BoundedPoint centre = numbers.point(10, 20);
   const Millimetres radius = numbers.get(40), begin = numbers.get(50), end = numbers.get(51);
@@ -88,7 +88,7 @@ Result<void> DxfEntities::read_ellipse(DxfBlock& into) {
                                        {11, true, true},  {21, true, true},   {31, true, false},
                                        {40, false, true}, {41, false, false}, {42, false, false}};
   Numbers numbers;
-  if (auto done = read_numbers(kWanted, numbers); !done) return done;
+  LEKALO_CHECK(read_numbers(kWanted, numbers));
   if (!at_.ok() || is_out_of_sight(into)) return {};
   const BoundedPoint centre = numbers.point(10, 20), axis = numbers.point(11, 21);
   const Millimetres ratio = numbers.get(40), low = numbers.get(41), high = numbers.get(42, {kTurn, 1e-15});

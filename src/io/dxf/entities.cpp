@@ -205,7 +205,7 @@ Result<void> DxfEntities::read_line(DxfBlock& into) {
   static constexpr Wanted kWanted[] = {{10, true, true}, {20, true, true}, {30, true, false},
                                        {11, true, true}, {21, true, true}, {31, true, false}};
   Numbers numbers;
-  if (auto done = read_numbers(kWanted, numbers); !done) return done;
+  LEKALO_CHECK(read_numbers(kWanted, numbers));
   if (!at_.ok() || is_out_of_sight(into)) return {};
   // Its ends are points of the drawing, whatever its extrusion direction.
   return add(into, {}, line_between(numbers.point(10, 20), numbers.point(11, 21)));

@@ -29,7 +29,7 @@ Result<void> DxfEntities::add_polyline(DxfBlock& into, const Affine& plane, bool
     if (!(reach <= 2 * kLargestMillimetres)) {
       return refuse_entity(fmt::format("has a bulge that reaches beyond {:g} mm", kLargestMillimetres));
     }
-    if (auto done = add(into, plane, std::move(*shape)); !done) return done;
+    LEKALO_CHECK(add(into, plane, std::move(*shape)));
   }
   if (into.curves.size() == before) count_unread(into, "of no length");
   return {};
@@ -112,7 +112,7 @@ Result<void> DxfEntities::read_polyline(DxfBlock& into) {
     }
   }
   const Common polyline = common_;
-  if (auto done = read_vertices(flags); !done) return done;
+  LEKALO_CHECK(read_vertices(flags));
   common_ = polyline;
   if (!at_.ok() || is_out_of_sight(into)) return {};
   if ((flags & kMeshes) != 0) {
@@ -141,7 +141,7 @@ Result<void> DxfEntities::read_vertices(unsigned flags) {
     common_.type = at_.value();
     common_.line = at_.line();
     Numbers numbers;
-    if (auto done = read_numbers(kWanted, numbers); !done) return done;
+    LEKALO_CHECK(read_numbers(kWanted, numbers));
     if (!at_.ok() || (flags & kMeshes) != 0) continue;
     if (!numbers.has(10) || !numbers.has(20)) return refuse_entity("has no place; the file is damaged");
     const double vertex_flags = numbers.get(70).value;

@@ -92,7 +92,7 @@ class DxfDrawing {
   Result<void> read_tables() {
     while (at_.ok() && !at_.at(0, "ENDSEC")) {
       if (at_.at(0, "LAYER")) {
-        if (auto done = read_layer(); !done) return done;
+        LEKALO_CHECK(read_layer());
       } else {
         at_.next();
       }
@@ -154,7 +154,7 @@ class DxfDrawing {
         at_.next();
         continue;
       }
-      if (auto done = read_block(); !done) return done;
+      LEKALO_CHECK(read_block());
     }
     return {};
   }
@@ -180,7 +180,7 @@ class DxfDrawing {
         return refuse_line(at_.name(), at_.line(),
                            fmt::format("a BLOCK begins here before the one of line {} ends", block.line));
       }
-      if (auto done = entities_->read(block); !done) return done;
+      LEKALO_CHECK(entities_->read(block));
     }
     if (!at_.ok()) return {};
     if (!at_.at(0, "ENDBLK")) {
@@ -202,7 +202,7 @@ class DxfDrawing {
       return refuse_line(at_.name(), at_.line(), "an entity is wanted here (group code 0)");
     }
     while (at_.ok() && !at_.at(0, "ENDSEC")) {
-      if (auto done = entities_->read(model_); !done) return done;
+      LEKALO_CHECK(entities_->read(model_));
     }
     return {};
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/drawing/exact_arcs.hpp"
+#include "io/drawing/layers.hpp"
 #include "io/drawing/written_contours.hpp"
 #include "io/text/decimal.hpp"
 #include "stated_arcs.hpp"
@@ -20,14 +21,6 @@ using geom::EdgeKind;
 using geom::Point;
 
 constexpr std::size_t kLongestName = 255;
-
-char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Layers of a drawing are the same whatever the case of A to Z.
-bool same_name(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return folded(x) == folded(y); });
-}
 
 /// Refuses names that DXF cannot hold; nothing where the name will do.
 std::optional<tl::unexpected<Error>> fault_of_name(const std::string& name) {
@@ -304,7 +297,7 @@ class DxfWriter {
 
 Result<std::string> dxf_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras,
                                 LengthUnit unit) {
-  LEKALO_TRY(const auto drawing, written_drawing(regions, extras, same_name));
+  LEKALO_TRY(const auto drawing, written_drawing(regions, extras, same_layer));
   for (const std::string& name : drawing.layers)
     if (auto fault = fault_of_name(name)) return *fault;
   return DxfWriter(drawing, unit).write();

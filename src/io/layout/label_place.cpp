@@ -59,7 +59,7 @@ LabelPlace label_place(const geom::GridRegion& outline) {
   const geom::GridBox box = bounds(outline);
   LabelPlace best{geom::mm_from_grid(
                       box.low + geom::GridPoint{(box.high.x - box.low.x) / 2, (box.high.y - box.low.y) / 2}),
-                  0, geom::mm_from_grid(box.high.y - box.low.y)};
+                  0};
   double widest = -1;
   for (int row = 1; row < kRows; ++row) {
     const double y = row_of(box, row, kRows);

@@ -25,22 +25,6 @@ using layout::Sheet;
 constexpr double kLargestLetter = 6, kSmallestLetter = 0.5;  // mm
 constexpr double kLongestGrainLine = 150;                    // mm
 
-geom::Region region_of(const GridRegion& polygon) {
-  const auto contour = [&](std::size_t loop) {
-    geom::Contour edges;
-    const std::uint32_t begin = polygon.loop_starts[loop], end = polygon.loop_starts[loop + 1];
-    for (std::uint32_t i = begin; i < end; ++i)
-      edges.push_back({geom::EdgeKind::line,
-                       geom::mm_from_grid(polygon.points[i]),
-                       geom::mm_from_grid(polygon.points[i + 1 == end ? begin : i + 1]),
-                       {}});
-    return edges;
-  };
-  geom::Region region{contour(0), {}};
-  for (std::size_t loop = 1; loop < polygon.loops(); ++loop) region.holes.push_back(contour(loop));
-  return region;
-}
-
 struct Motion {
   geom::GridRotation rotation;
   bool mirrored = false;
@@ -82,7 +66,7 @@ geom::Region placed(const layout::Outline& outline, bool with_arcs, const Motion
     auto region = geom::make_region(moved(outline.curves.front().outer, motion), std::move(holes));
     if (region) return *std::move(region);
   }
-  return region_of(
+  return geom::region_of_lines(
       geom::moved(geom::turned(outline.polygon, motion.rotation, motion.mirrored), motion.shift));
 }
 
@@ -212,7 +196,7 @@ class SheetMaker {
       length = std::max(length, bounds(outline).high.x - shift.x - box.low.x);
     const GridPoint low = box.low + shift,
                     high{low.x + std::min(length, box.high.x - box.low.x), box.high.y + shift.y};
-    return region_of({{low, {high.x, low.y}, high, {low.x, high.y}}, {0, 4}});
+    return geom::region_of_lines(geom::rectangle({low, high}));
   }
 
   static void sort_inner_first(std::vector<PlacedShape>& parts, const std::vector<GridRegion>& outlines) {

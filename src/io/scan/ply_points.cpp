@@ -125,8 +125,8 @@ class PlyReader {
 
   Result<void> read(bool wants_z, const std::function<Result<void>(const PlyPoint&, std::size_t)>& take,
                     std::vector<std::string>& notices) {
-    if (auto done = read_header(); !done) return done;
-    if (auto done = find_coordinates(wants_z); !done) return done;
+    LEKALO_CHECK(read_header());
+    LEKALO_CHECK(find_coordinates(wants_z));
     for (const Element& element : elements_) {
       if (element.name != "vertex") {
         if (element.rows > 0)
@@ -138,7 +138,7 @@ class PlyReader {
       if (element.name == "vertex") {
         return encoding_ == Encoding::ascii ? read_ascii(element, take) : read_binary(element, take);
       }
-      if (auto done = skip(element); !done) return done;
+      LEKALO_CHECK(skip(element));
     }
     return refuse(name_, "there is no element vertex in this PLY");
   }
@@ -311,7 +311,7 @@ class PlyReader {
         point.xyz[axis] = number->value;
         point.error = std::max(point.error, number->error);
       }
-      if (auto taken = take(point, static_cast<std::size_t>(row)); !taken) return taken;
+      LEKALO_CHECK(take(point, static_cast<std::size_t>(row)));
     }
     return {};
   }
@@ -346,7 +346,7 @@ class PlyReader {
         }
       }
       rest_.remove_prefix(stride);
-      if (auto taken = take(point, row); !taken) return taken;
+      LEKALO_CHECK(take(point, row));
     }
     return {};
   }

@@ -16,18 +16,13 @@ using geom::Ring;
 
 namespace {
 
-Box box_around(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 Extent extent_of_union(const std::vector<ShapeNode>& children) {
   Extent all;
   all.empty = true;
   for (const ShapeNode& child : children) {
     if (child.extent.empty) continue;
     if (!child.extent.bounded) return child.extent;
-    all.box = all.empty ? child.extent.box : box_around(all.box, child.extent.box);
+    all.box = all.empty ? child.extent.box : joined(all.box, child.extent.box);
     all.empty = false;
   }
   return all;

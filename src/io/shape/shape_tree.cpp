@@ -29,13 +29,6 @@ namespace {
 /// centre's distance and by the change of the radius, which is at most twice that.
 constexpr double kOutlinePerPoint = 3;
 
-Edge turned(Edge edge) {
-  std::swap(edge.from, edge.to);
-  if (edge.kind != EdgeKind::line)
-    edge.kind = edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw : EdgeKind::arc_ccw;
-  return edge;
-}
-
 Contour rectangle(Point a, Point b, Point c, Point d) {
   return {{EdgeKind::line, a, b, {}},
           {EdgeKind::line, b, c, {}},
@@ -100,7 +93,7 @@ class Evaluator {
         LEKALO_TRY(auto first, run(node.children[0], window));
         if (node.children.size() == 1) return first;
         LEKALO_TRY(auto rest, run_all(node, 1, window));
-        for (NamedEdge& source : rest.sources) source.edge = turned(source.edge);
+        for (NamedEdge& source : rest.sources) source.edge = reversed(source.edge);
         return combined(std::move(first), std::move(rest), BooleanOperation::subtract, node);
       }
       case ShapeKind::primitive:
@@ -180,7 +173,7 @@ class Evaluator {
     Evaluated out{std::move(regions), node.map.factor * inner.edge_error + rounding, inner.sharpness, {}};
     for (const NamedEdge& source : inner.sources) {
       const Edge edge = image(node.map, source.edge);
-      out.sources.push_back({node.map.mirrors ? turned(edge) : edge, source.name});
+      out.sources.push_back({node.map.mirrors ? reversed(edge) : edge, source.name});
     }
     return out;
   }

@@ -132,10 +132,6 @@ class Builder {
   std::size_t depth_ = 0, skipping_ = 0;
 };
 
-bool begins_with(std::string_view bytes, std::string_view start) {
-  return bytes.substr(0, start.size()) == start;
-}
-
 }  // namespace
 
 const std::string* SvgElement::attribute(std::string_view key) const noexcept {
@@ -154,7 +150,7 @@ Result<SvgDocument> read_svg_document(std::string_view bytes, const std::string&
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, why));
   };
   if (bytes.empty()) return refuse("the file is empty");
-  if (begins_with(bytes, "\x1f\x8b"))
+  if (bytes.starts_with("\x1f\x8b"))
     return refuse("this SVG is compressed (.svgz); unpack it with gunzip first");
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree);

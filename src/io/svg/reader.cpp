@@ -53,7 +53,7 @@ class SvgReader {
   Result<Drawing> run(std::optional<LengthUnit> unit) {
     const SvgElement& root = document_.elements.front();
     const auto page = page_of(root, unit);
-    if (!page) return tl::unexpected(fault(root, page.error()).value());
+    if (!page) return fault(root, page.error());
     drawing_.unit = page->unit;
     drawing_.millimetres_per_unit = page->millimetres_per_unit;
     if (!page->notice.empty()) drawing_.notices.push_back(page->notice);
@@ -67,22 +67,20 @@ class SvgReader {
                       "lies; the origin is that corner",
                       drawing_.name));
     context.viewport = page->viewport;
-    if (auto failed = moved(root, context)) return tl::unexpected(*std::move(failed));
+    LEKALO_CHECK(moved(root, context));
     see(root, context);
-    if (auto failed = children(root, context)) return tl::unexpected(*std::move(failed));
+    LEKALO_CHECK(children(root, context));
     if (unfit_arcs_ > 0) drawing_.notices.push_back(unfit_arcs_sentence(unfit_arcs_, drawing_.name));
     for (auto& [what, unread] : unread_) drawing_.unread.push_back(std::move(unread));
     return std::move(drawing_);
   }
 
  private:
-  using Failure = std::optional<Error>;
-
-  [[nodiscard]] Failure fault(const SvgElement& element, const std::string& why) const {
+  [[nodiscard]] tl::unexpected<Error> fault(const SvgElement& element, const std::string& why) const {
     const std::string* id = element.attribute("id");
-    return Error{ErrorCode::bad_input,
-                 fmt::format("{}, line {}, {}{}: {}", drawing_.name, element.line, element.name,
-                             id == nullptr ? "" : " " + excerpt(*id), why)};
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}, line {}, {}{}: {}", drawing_.name, element.line, element.name,
+                               id == nullptr ? "" : " " + excerpt(*id), why));
   }
 
   void count_unread(const std::string& what, const SvgElement& element) {
@@ -92,7 +90,7 @@ class SvgReader {
   }
 
   /// Applies the attribute "transform", within the map so far.
-  Failure moved(const SvgElement& element, Context& context) {
+  Result<void> moved(const SvgElement& element, Context& context) {
     if (const auto property = geometry_in_style(element)) {
       return fault(element,
                    fmt::format("its style attribute says {}, which is not read; save the drawing with "
@@ -100,17 +98,17 @@ class SvgReader {
                                *property));
     }
     const std::string* text = element.attribute("transform");
-    if (text == nullptr) return std::nullopt;
+    if (text == nullptr) return {};
     const auto map = read_svg_transform(*text);
     if (!map) return fault(element, "transform: " + map.error());
     return placed(element, *map, context);
   }
 
-  Failure placed(const SvgElement& element, const Affine& inner, Context& context) {
+  Result<void> placed(const SvgElement& element, const Affine& inner, Context& context) {
     context.map = composed(context.map, inner);
     const double largest =
         std::max({context.map.size(), std::abs(context.map.shift.x), std::abs(context.map.shift.y)});
-    if (largest <= kLargestMillimetres) return std::nullopt;
+    if (largest <= kLargestMillimetres) return {};
     return fault(element, fmt::format("it is moved or enlarged beyond {:g}", kLargestMillimetres));
   }
 
@@ -127,13 +125,12 @@ class SvgReader {
     return "";
   }
 
-  Failure children(const SvgElement& element, const Context& context) {
-    for (const std::uint32_t child : element.children)
-      if (auto failed = draw(document_.elements[child], context)) return failed;
-    return std::nullopt;
+  Result<void> children(const SvgElement& element, const Context& context) {
+    for (const std::uint32_t child : element.children) LEKALO_CHECK(draw(document_.elements[child], context));
+    return {};
   }
 
-  Failure draw(const SvgElement& element, Context context) {
+  Result<void> draw(const SvgElement& element, Context context) {
     if (++drawn_ > kMostElements)
       return fault(element, fmt::format("more than {} elements, copies counted", kMostElements));
     const std::string& name = element.name;
@@ -141,22 +138,22 @@ class SvgReader {
       for (const std::uint32_t child : element.children)
         if (is_in(kResources, document_.elements[child].name))
           count_unread(document_.elements[child].name, document_.elements[child]);
-      return std::nullopt;
+      return {};
     }
-    if (is_in(kSilent, name)) return std::nullopt;
+    if (is_in(kSilent, name)) return {};
     see(element, context);
     if (is_svg_shape(name)) {
-      if (auto failed = moved(element, context)) return failed;
+      LEKALO_CHECK(moved(element, context));
       return shape(element, context);
     }
     const bool group = name == "g" || name == "a" || name == "switch";
     if (!group && name != "svg" && name != "use") {
       count_unread(name, element);
-      return std::nullopt;
+      return {};
     }
     if (++context.depth > kDeepestNesting)
       return fault(element, fmt::format("groups and uses are nested more than {} deep", kDeepestNesting));
-    if (auto failed = moved(element, context)) return failed;
+    LEKALO_CHECK(moved(element, context));
     if (name == "use") return use(element, context);
     if (name == "svg") return viewport(element, element, context);
     if (name == "g") enter_layer(element, context);
@@ -172,7 +169,7 @@ class SvgReader {
   }
 
   /// Draws the first child of a switch that asks for nothing special.
-  Failure choose(const SvgElement& element, const Context& context) {
+  Result<void> choose(const SvgElement& element, const Context& context) {
     for (const std::uint32_t index : element.children) {
       const SvgElement& child = document_.elements[index];
       const std::string* extensions = child.attribute("requiredExtensions");
@@ -181,12 +178,12 @@ class SvgReader {
       return draw(child, context);
     }
     count_unread("switch", element);
-    return std::nullopt;
+    return {};
   }
 
   /// Draws the content of an svg or symbol element; `place` has its corner and size (a use, or the element
   /// itself).
-  Failure viewport(const SvgElement& element, const SvgElement& place, Context context) {
+  Result<void> viewport(const SvgElement& element, const SvgElement& place, Context context) {
     const bool by_use = &element != &place;
     const auto side = [&](const char* key, Along along, const Bounded& otherwise) -> Read<Bounded> {
       const std::string* text = place.attribute(key);
@@ -201,14 +198,12 @@ class SvgReader {
       return fault(place, !width    ? "width: " + width.error()
                           : !height ? "height: " + height.error()
                                     : box.error());
-    if (!by_use) {
-      if (auto failed = shifted(element, context)) return failed;
-    }
+    if (!by_use) LEKALO_CHECK(shifted(element, context));
     if (*box) {
-      if (!(width->value > 0 && height->value > 0)) return std::nullopt;  // by the standard nothing is drawn
+      if (!(width->value > 0 && height->value > 0)) return {};  // by the standard nothing is drawn
       const auto map = fit(element, **box, *width, *height);
       if (!map) return fault(element, map.error());
-      if (auto failed = placed(element, *map, context)) return failed;
+      LEKALO_CHECK(placed(element, *map, context));
       context.viewport = {(*box)->width, (*box)->height};
     } else {
       context.viewport = {*width, *height};
@@ -217,7 +212,7 @@ class SvgReader {
   }
 
   /// Moves the map by the attributes x and y.
-  Failure shifted(const SvgElement& element, Context& context) {
+  Result<void> shifted(const SvgElement& element, Context& context) {
     Affine shift;
     for (const char* key : {"x", "y"}) {
       const std::string* text = element.attribute(key);
@@ -231,24 +226,24 @@ class SvgReader {
     return placed(element, shift, context);
   }
 
-  Failure use(const SvgElement& element, Context context) {
+  Result<void> use(const SvgElement& element, Context context) {
     const std::string* target = element.attribute("href");
     if (target == nullptr) target = element.attribute("xlink:href");
     if (target == nullptr || target->empty() || target->front() != '#') {
       count_unread("use (of another file)", element);
-      return std::nullopt;
+      return {};
     }
     const SvgElement* used = document_.by_id(target->substr(1));
     if (used == nullptr)
       return fault(element, fmt::format("there is no element {} to use", excerpt(*target)));
-    if (auto failed = shifted(element, context)) return failed;
+    LEKALO_CHECK(shifted(element, context));
     if (used->name != "symbol" && used->name != "svg") return draw(*used, context);
     see(*used, context);
-    if (auto failed = moved(*used, context)) return failed;
+    LEKALO_CHECK(moved(*used, context));
     return viewport(*used, element, context);
   }
 
-  Failure shape(const SvgElement& element, const Context& context) {
+  Result<void> shape(const SvgElement& element, const Context& context) {
     auto shapes = read_svg_shape(element, context.viewport);
     if (!shapes) return fault(element, shapes.error());
     if (const std::string* exact = element.attribute(kExactArcs))
@@ -267,7 +262,7 @@ class SvgReader {
     }
     if (placed_shapes.empty()) {
       count_unread(element.name + " (without length)", element);
-      return std::nullopt;
+      return {};
     }
     const std::string* id = element.attribute("id");
     const auto entity = static_cast<std::uint32_t>(drawing_.entities.size());
@@ -275,7 +270,7 @@ class SvgReader {
     const std::uint32_t layer = layer_index(context.layer, !context.shown || !context.visible);
     for (BoundedShape& one : placed_shapes)
       drawing_.curves.push_back({std::move(one.shape), entity, layer, one.error});
-    return std::nullopt;
+    return {};
   }
 
   /// Lines and arcs of which rounding left nothing.

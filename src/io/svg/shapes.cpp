@@ -75,7 +75,7 @@ class ShapeReader {
   Shapes line() {
     const BoundedPoint from = point_of(length_or_zero("x1", Along::x), length_or_zero("y1", Along::y)),
                        to = point_of(length_or_zero("x2", Along::x), length_or_zero("y2", Along::y));
-    return joined_text({from, to}, false);
+    return joined({from, to}, false);
   }
 
   Shapes poly(bool closed) {
@@ -95,10 +95,10 @@ class ShapeReader {
       points.push_back(point_of(*x, *y));
       scanner.skip_comma();
     }
-    return joined_text(points, closed && points.size() > 2);
+    return joined(points, closed && points.size() > 2);
   }
 
-  static Shapes joined_text(const std::vector<BoundedPoint>& points, bool closed) {
+  static Shapes joined(const std::vector<BoundedPoint>& points, bool closed) {
     Shapes shapes;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (i + 1 == points.size() && !closed) break;
@@ -117,8 +117,7 @@ class ShapeReader {
     if (!ry) ry = rx;
     const Bounded right = plus(x, *width), bottom = plus(y, *height);
     if (!rx || !(rx->value > 0 && ry->value > 0)) {
-      return joined_text({point_of(x, y), point_of(right, y), point_of(right, bottom), point_of(x, bottom)},
-                         true);
+      return joined({point_of(x, y), point_of(right, y), point_of(right, bottom), point_of(x, bottom)}, true);
     }
     const Bounded half{0.5, 0};
     if (2 * rx->value > width->value) rx = times(half, *width);

@@ -1,25 +1,18 @@
 #include "refusal.hpp"
 
 namespace lekalo::io {
-namespace {
-
-bool begins_with(std::string_view bytes, std::string_view mark) {
-  return bytes.substr(0, mark.size()) == mark;
-}
-
-}  // namespace
 
 std::string wrong_encoding(std::string_view bytes) {
   using namespace std::string_view_literals;
-  if (begins_with(bytes, "AutoCAD Binary DXF"sv)) {
+  if (bytes.starts_with("AutoCAD Binary DXF"sv)) {
     return "this is a binary DXF; save it as ASCII DXF (R2000 or later)";
   }
-  const bool dwg = bytes.size() >= 6 && begins_with(bytes, "AC10"sv) && bytes[4] >= '0' && bytes[4] <= '9' &&
+  const bool dwg = bytes.size() >= 6 && bytes.starts_with("AC10"sv) && bytes[4] >= '0' && bytes[4] <= '9' &&
                    bytes[5] >= '0' && bytes[5] <= '9' && (bytes.size() == 6 || bytes[6] == '\0');
   if (dwg) return "this is a DWG drawing; save it as ASCII DXF (R2000 or later)";
   const bool zero_first = bytes.size() >= 4 && bytes[0] == '\0' && bytes[2] == '\0';
   const bool zero_second = bytes.size() >= 4 && bytes[1] == '\0' && bytes[3] == '\0';
-  if (begins_with(bytes, "\xff\xfe"sv) || begins_with(bytes, "\xfe\xff"sv) || zero_first || zero_second) {
+  if (bytes.starts_with("\xff\xfe"sv) || bytes.starts_with("\xfe\xff"sv) || zero_first || zero_second) {
     return "this is text in UTF-16; save it as UTF-8 (or plain ASCII)";
   }
   if (bytes.find('\0') != std::string_view::npos) return "this is not a text file, it holds zero bytes";

@@ -92,7 +92,7 @@ class TextReader {
         row_.after_a_gap = row_.after_a_gap || trimmed(whole).empty();
         continue;
       }
-      if (auto done = read_line(line); !done) return done;
+      LEKALO_CHECK(read_line(line));
     }
     return {};
   }

@@ -103,17 +103,17 @@ class EdgeSearch {
   EdgeAllowance measure(std::size_t stretches, double tolerance) {
     EdgeAllowance found;
     found.length = track_.length();
-    const Touch touch = nearest_of(placed_);
-    if (touch.distance > rounding_) side_ = blank_.contains(pose_(track_.at(0))) ? 1 : -1;
+    const NearestPoint closest = nearest_of(placed_);
+    if (closest.distance > rounding_) side_ = blank_.contains(pose_(track_.at(0))) ? 1 : -1;
     for (std::size_t k = 0; k <= stretches; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(stretches);
       found.samples.push_back(at(share * found.length, k == 0 ? 0 : found.samples.back().blank_edge));
     }
     const double error = rounding_ + track_.slack();
     if (side_ != 0) {  // the whole edge on one side: one extreme by formula
-      const OutlinePoint nearest = at(track_.along(pose_.inverse()(touch.point)), touch.blank_edge);
+      const OutlinePoint nearest = at(track_.along(pose_.inverse()(closest.point)), closest.blank_edge);
       const Extreme farthest = search(found.samples, side_, tolerance);
-      const double near = side_ * touch.distance, far = side_ * farthest.bound;
+      const double near = side_ * closest.distance, far = side_ * farthest.bound;
       found.least = side_ > 0 ? nearest : farthest.point;
       found.most = side_ > 0 ? farthest.point : nearest;
       found.least_low = (side_ > 0 ? near : far) - error;
@@ -128,16 +128,16 @@ class EdgeSearch {
   }
 
  private:
-  struct Touch {
+  struct NearestPoint {
     double distance = kInfinity;
     Point point;  ///< of the part, blank frame
     std::uint32_t blank_edge = 0;
   };
-  [[nodiscard]] Touch nearest_of(const Curve& curve) const {
+  [[nodiscard]] NearestPoint nearest_of(const Curve& curve) const {
     const geom::Box box = geom::curve_box(curve);
     const Point middle = 0.5 * (box.low + box.high);
     const double radius = 0.5 * norm(box.high - box.low);
-    Touch best;
+    NearestPoint best;
     double limit = kInfinity;
     blank_.visit_within(middle, radius, limit, [&](std::uint32_t j) {
       const geom::ClosestPoints close = closest_points(curve, blank_.curves()[j]);
@@ -181,8 +181,8 @@ class EdgeSearch {
     }
     if (side_ == 0 && at_a < 0 && at_b < 0 && most > std::max(at_a, at_b)) {
       // Wholly on the other side, if it does not meet the boundary.
-      const Touch touch = nearest_of(stretch_of(a, b));
-      if (touch.distance > rounding_) most = std::min(most, -touch.distance);
+      const NearestPoint closest = nearest_of(stretch_of(a, b));
+      if (closest.distance > rounding_) most = std::min(most, -closest.distance);
     }
     return std::max({most, at_a, at_b});
   }

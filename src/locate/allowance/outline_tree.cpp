@@ -14,15 +14,6 @@ namespace {
 using geom::Box;
 using geom::Point;
 
-Box box_of(Point a, Point b) {
-  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-}
-
-Box joined(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 double distance_to_box(Point p, const Box& box) {
   return geom::norm({std::max({box.low.x - p.x, p.x - box.high.x, 0.0}),
                      std::max({box.low.y - p.y, p.y - box.high.y, 0.0})});

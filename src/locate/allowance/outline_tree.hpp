@@ -9,8 +9,9 @@
 namespace lekalo::locate::detail {
 
 /// Boxes over runs of consecutive edges of a closed outline, halved down to single edges. Consecutive edges
-/// lie close together, so no sorting is needed. Answers exactly what geom::distance_to_boundary and
-/// geom::locate_point answer, in O(log n) for outlines that are not wild.
+/// lie close together, so no sorting is needed. Answers exactly what the least
+/// geom::distance_to_segment of all edges and geom::locate_point say, in O(log n) for outlines that are not
+/// wild.
 class OutlineTree {
  public:
   /// At least three points. Cost: O(n).

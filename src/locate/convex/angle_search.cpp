@@ -40,7 +40,8 @@ void for_pieces(const AngleInterval& interval, const std::function<void(const Co
                ? interval.left
                : interval.right;
   };
-  Crossings at = crossings(interval.left.bound, interval.right.bound, interval.lo.theta, interval.hi.theta);
+  CrossingAngles at =
+      crossings(interval.left.bound, interval.right.bound, interval.lo.theta, interval.hi.theta);
   if (at.count == 2 && at.theta[0] > at.theta[1]) std::swap(at.theta[0], at.theta[1]);
   const Basis& whole = better(interval.lo, interval.hi);
   if (at.count == 0 || max_over(whole.bound, interval.lo, interval.hi) <= interval.upper) {
@@ -89,7 +90,7 @@ void AngleSearch::bound(AngleInterval& interval) {
     while (crest > interval.hi.theta) crest -= kTurn;
     if (crest > interval.lo.theta && crest < interval.hi.theta) consider(Angle::of(crest));
   }
-  const Crossings at = crossings(f, g, interval.lo.theta, interval.hi.theta);
+  const CrossingAngles at = crossings(f, g, interval.lo.theta, interval.hi.theta);
   for (int i = 0; i < at.count; ++i) consider(Angle::of(at.theta[static_cast<std::size_t>(i)]));
 }
 

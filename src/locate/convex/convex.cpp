@@ -246,8 +246,7 @@ class Localiser {
 }  // namespace
 
 Result<ConvexResult> locate_convex(const ConvexProblem& problem, const ConvexOptions& options) {
-  if (auto fine = check_limits(problem.window, options.gap, options.min_allowance); !fine)
-    return tl::unexpected(std::move(fine.error()));
+  LEKALO_CHECK(check_limits(problem.window, options.gap, options.min_allowance));
   if (!(problem.part_coordinate_error >= 0) || !(problem.blank_coordinate_error >= 0))
     return failure(ErrorCode::usage, "coordinate errors must not be negative");
   return Localiser(problem, options).run();

@@ -201,7 +201,7 @@ class Registration {
 };
 
 Result<void> check_options(const IcpOptions& options) {
-  if (auto window = check_window(options.window); !window) return window;
+  LEKALO_CHECK(check_window(options.window));
   if (options.max_iterations < 1) {
     return failure(ErrorCode::usage,
                    fmt::format("ICP needs at least 1 iteration, not {}.", options.max_iterations));
@@ -219,7 +219,7 @@ Result<void> check_options(const IcpOptions& options) {
 
 Result<ReferenceResult> locate_icp(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                                    const IcpOptions& options) {
-  if (auto valid = check_options(options); !valid) return tl::unexpected(valid.error());
+  LEKALO_CHECK(check_options(options));
   const OutlineMoments of_part = outline_moments(part), of_blank = outline_moments(blank);
   const Registration registration(part, blank, options);
 

@@ -297,7 +297,7 @@ class Multistart {
 
 Result<void> check_options(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                            const IpoptOptions& options) {
-  if (auto window = check_window(options.window); !window) return window;
+  LEKALO_CHECK(check_window(options.window));
   if (options.starts < 1) {
     return failure(ErrorCode::usage, fmt::format("IPOPT needs at least 1 start, not {}.", options.starts));
   }
@@ -313,7 +313,7 @@ Result<void> check_options(const geom::ConvexPolygon& part, const geom::ConvexPo
 
 Result<ReferenceResult> locate_ipopt(const geom::ConvexPolygon& part, const geom::ConvexPolygon& blank,
                                      const IpoptOptions& options) {
-  if (auto valid = check_options(part, blank, options); !valid) return tl::unexpected(valid.error());
+  LEKALO_CHECK(check_options(part, blank, options));
   return Multistart(part, blank, options).run();
 }
 

@@ -280,9 +280,9 @@ bool PoseSearch::add_contacts(Node& node, double theta, Point pivot, double with
   const double same = 1e-9 * scale_;
   const auto near = [&](Point a, Point b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) < same; };
   double least = kInfinity;
-  for (const Contact& contact : contacts_) least = std::min(least, contact.distance);
+  for (const PoseContact& contact : contacts_) least = std::min(least, contact.distance);
   bool added = false;
-  for (const Contact& contact : contacts_) {
+  for (const PoseContact& contact : contacts_) {
     if (contact.distance > least + within) continue;
     Known known;
     known.pair = {{contact.part, 0}, {contact.blank, 0}};
@@ -377,8 +377,8 @@ void PoseSearch::bound_closely(Node& node) {
       pivot = cell.pivot + Point{solution.z[0], solution.z[1]};
     }
     if (round == kRounds) break;
-    const Found found = measure(theta, pivot, within);
-    const std::vector<Contact> here = contacts_;
+    const MeasuredPose found = measure(theta, pivot, within);
+    const std::vector<PoseContact> here = contacts_;
     offer(found, size(cell));
     if (closed(node.upper)) return;
     contacts_ = here;
@@ -399,7 +399,7 @@ void PoseSearch::bound_closely(Node& node) {
   keep_relevant(node);
 }
 
-PoseSearch::Found PoseSearch::measure(double theta, Point pivot, double margin) {
+PoseSearch::MeasuredPose PoseSearch::measure(double theta, Point pivot, double margin) {
   ++work_;
   const BlankFromPart pose = pose_at(theta, pivot);
   const phi::RegionClearance::Value value = clearance_.at(pose, margin, &touching_);
@@ -410,13 +410,13 @@ PoseSearch::Found PoseSearch::measure(double theta, Point pivot, double margin) 
     if (!(distance > 1e-9 * scale_)) continue;  // no direction to be had
     contacts_.push_back({touching.part, touching.blank, (1 / distance) * out, distance, kNoCap});
   }
-  Found found{theta, pivot, value.distance, value.inside};
+  MeasuredPose found{theta, pivot, value.distance, value.inside};
   if (!value.inside) measure_crossing(pose, found);
   if (!caps_.empty()) measure_caps(pose, margin, found);
   return found;
 }
 
-void PoseSearch::measure_caps(const BlankFromPart& pose, double margin, Found& found) {
+void PoseSearch::measure_caps(const BlankFromPart& pose, double margin, MeasuredPose& found) {
   for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
     const double most = caps_[cap].most;
     const double deepest = clearance_.deepest(pose, caps_[cap].edges, 0.125 * goal_.gap, margin, deepest_);
@@ -429,8 +429,8 @@ void PoseSearch::measure_caps(const BlankFromPart& pose, double margin, Found& f
   }
 }
 
-void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
-  std::vector<Contact> crossing;
+void PoseSearch::measure_crossing(const BlankFromPart& pose, MeasuredPose& found) {
+  std::vector<PoseContact> crossing;
   const auto add = [&](Point part, Point blank, double depth) {
     const Point in = blank - pose(part);
     if (depth > 1e-9 * scale_) crossing.push_back({part, blank, (1 / depth) * in, -depth, kNoCap});
@@ -469,7 +469,7 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
     if (!(pair.distance > 1e-9 * scale_)) deepest(pair.part_edge, pair.blank_edge);
   const std::size_t kept = std::min(crossing.size(), kMostCrossings);
   std::partial_sort(crossing.begin(), crossing.begin() + static_cast<std::ptrdiff_t>(kept), crossing.end(),
-                    [](const Contact& a, const Contact& b) {
+                    [](const PoseContact& a, const PoseContact& b) {
                       if (a.distance != b.distance) return a.distance < b.distance;
                       return a.part.x != b.part.x ? a.part.x < b.part.x : a.part.y < b.part.y;
                     });
@@ -480,7 +480,7 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, Found& found) {
   contacts_.insert(contacts_.begin(), crossing.begin(), crossing.end());
 }
 
-void PoseSearch::offer(const Found& found, double trust) {
+void PoseSearch::offer(const MeasuredPose& found, double trust) {
   if (!(found.value > best_.value)) return;
   best_ = found;
   polish(found, trust);
@@ -488,14 +488,14 @@ void PoseSearch::offer(const Found& found, double trust) {
 
 /// Climbs from a pose: solve the program of its contacts in a box, go there, and halve the box where that
 /// does not help.
-void PoseSearch::polish(Found found, double trust) {
+void PoseSearch::polish(MeasuredPose found, double trust) {
   constexpr int kMostSteps = 40;
   double margin = 2 * trust;
   found = measure(found.theta, found.pivot, margin);
   for (int step = 0; step < kMostSteps && !contacts_.empty(); ++step) {
     const geom::SinCos turn = geom::sincos(found.theta);
     std::vector<CellRow> rows;
-    for (const Contact& contact : contacts_) {
+    for (const PoseContact& contact : contacts_) {
       const Point c = contact.part;
       const Point p{turn.cosine * c.x - turn.sine * c.y, turn.sine * c.x + turn.cosine * c.y};
       rows.push_back(
@@ -505,9 +505,9 @@ void PoseSearch::polish(Found found, double trust) {
     const double theta_low = root_.theta - root_.half_theta, theta_high = root_.theta + root_.half_theta;
     const CellSolution solution = solve_cell(rows, trusted(trust));
     if (!(solution.bound > found.value + 0.1 * goal_.gap)) break;
-    const std::vector<Contact> here = contacts_;
+    const std::vector<PoseContact> here = contacts_;
     const double theta = std::clamp(found.theta + solution.z[2] / reach_, theta_low, theta_high);
-    const Found next = measure(theta, found.pivot + Point{solution.z[0], solution.z[1]}, margin);
+    const MeasuredPose next = measure(theta, found.pivot + Point{solution.z[0], solution.z[1]}, margin);
     if (next.value > found.value) {
       const double gained = next.value - found.value, hoped = solution.bound - found.value;
       found = next;
@@ -525,24 +525,24 @@ std::array<PoseSearch::Node, 2> PoseSearch::split(const Node& node) {
   const PoseCell& cell = node.cell;
   const double turn = reach_ * cell.half_theta;
   std::array<Node, 2> half{node, node};
-  CoverNode::Axis axis;
+  CoverTree::Axis axis;
   double at = 0;
   if (turn >= cell.half_x && turn >= cell.half_y) {
-    axis = CoverNode::Axis::theta, at = cell.theta;
+    axis = CoverTree::Axis::theta, at = cell.theta;
     for (int side = 0; side < 2; ++side) {
       PoseCell& c = half[static_cast<std::size_t>(side)].cell;
       c.half_theta = 0.5 * cell.half_theta;
       c.theta = cell.theta + (side == 0 ? -c.half_theta : c.half_theta);
     }
   } else if (cell.half_x >= cell.half_y) {
-    axis = CoverNode::Axis::x, at = cell.pivot.x;
+    axis = CoverTree::Axis::x, at = cell.pivot.x;
     for (int side = 0; side < 2; ++side) {
       PoseCell& c = half[static_cast<std::size_t>(side)].cell;
       c.half_x = 0.5 * cell.half_x;
       c.pivot.x = cell.pivot.x + (side == 0 ? -c.half_x : c.half_x);
     }
   } else {
-    axis = CoverNode::Axis::y, at = cell.pivot.y;
+    axis = CoverTree::Axis::y, at = cell.pivot.y;
     for (int side = 0; side < 2; ++side) {
       PoseCell& c = half[static_cast<std::size_t>(side)].cell;
       c.half_y = 0.5 * cell.half_y;
@@ -570,7 +570,7 @@ void PoseSearch::report_progress(const PoseCell& closed_cell) {
   run_.progress({work_, std::min(1.0, closed_share_)});
 }
 
-std::vector<PoseSearch::Held> PoseSearch::held_at(const Found& found) {
+std::vector<PoseSearch::Held> PoseSearch::held_at(const MeasuredPose& found) {
   const double margin = std::max(goal_.gap, 1e-6 * scale_);
   (void)measure(found.theta, found.pivot, margin);
   const BlankFromPart pose = pose_at(found.theta, found.pivot);
@@ -651,7 +651,7 @@ void PoseSearch::climb_from_anywhere() {
   const int count = root_.half_theta > 0 ? kHopelessClimbs : 1;
   for (int k = 0; k < count; ++k) {
     const double share = (2 * k + 1.0) / count - 1;
-    const Found start = measure(root_.theta + share * root_.half_theta, root_.pivot, fine_);
+    const MeasuredPose start = measure(root_.theta + share * root_.half_theta, root_.pivot, fine_);
     if (start.value > best_.value) best_ = start;
     polish(start, 0.25 * scale_);
   }

@@ -8,6 +8,7 @@
 #include "cell_program.hpp"
 #include "distance_grid.hpp"
 #include "lekalo/base/run_control.hpp"
+#include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
 #include "locate/search/sinusoid.hpp"
 #include "tangent_balls.hpp"
@@ -45,8 +46,7 @@ struct CellProof {
 
 /// One node of the subdivision that a search made. Leaves carry the proof of their bound.
 struct CoverNode {
-  enum class Axis : std::uint8_t { leaf, theta, x, y };
-  Axis axis = Axis::leaf;
+  CoverTree::Axis axis = CoverTree::Axis::leaf;
   double at = 0;                    ///< where it is split
   std::uint32_t low = 0, high = 0;  ///< children
   CellProof proof;
@@ -57,7 +57,7 @@ struct CoverNode {
 /// edges.
 class PoseSearch {
  public:
-  struct Found {
+  struct MeasuredPose {
     double theta = 0;
     geom::Point pivot;  ///< in the blank's frame
     double value = 0;   ///< the objective as measured; not yet rounded down
@@ -84,9 +84,9 @@ class PoseSearch {
     double multiplier = 0;
     std::uint32_t cap = kNoCap;
   };
-  [[nodiscard]] std::vector<Held> held_at(const Found& found);
+  [[nodiscard]] std::vector<Held> held_at(const MeasuredPose& found);
 
-  [[nodiscard]] const Found& best() const { return best_; }
+  [[nodiscard]] const MeasuredPose& best() const { return best_; }
   [[nodiscard]] double upper() const { return upper_; }
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] std::uint64_t work() const { return work_; }
@@ -113,7 +113,7 @@ class PoseSearch {
   /// A place where the outlines come close, or cross: `distance` is negative where the part's point lies
   /// outside the blank or the blank's point inside the part. The normal points from the blank's outside to
   /// its material, in the blank's frame.
-  struct Contact {
+  struct PoseContact {
     geom::Point part, blank, normal;
     double distance = 0;
     /// The contact is where this cap's edge lies deepest: `distance` is then what the cap has left, and the
@@ -143,11 +143,11 @@ class PoseSearch {
   void grow(Known& known) const;
   void grow_about_points(Known& known, const geom::BlankFromPart& pose) const;
   void keep_relevant(Node& node) const;
-  Found measure(double theta, geom::Point pivot, double margin);
-  void measure_crossing(const geom::BlankFromPart& pose, Found& found);
-  void measure_caps(const geom::BlankFromPart& pose, double margin, Found& found);
-  void offer(const Found& found, double trust);
-  void polish(Found found, double trust);
+  MeasuredPose measure(double theta, geom::Point pivot, double margin);
+  void measure_crossing(const geom::BlankFromPart& pose, MeasuredPose& found);
+  void measure_caps(const geom::BlankFromPart& pose, double margin, MeasuredPose& found);
+  void offer(const MeasuredPose& found, double trust);
+  void polish(MeasuredPose found, double trust);
   void climb_from_anywhere();
   void report_progress(const PoseCell& closed_cell);
   std::array<Node, 2> split(const Node& node);
@@ -172,10 +172,10 @@ class PoseSearch {
   DistanceGrid blank_grid_, part_grid_;
   std::vector<Known> known_;
   std::vector<CoverNode> cover_;
-  std::vector<Contact> contacts_;
+  std::vector<PoseContact> contacts_;
   std::vector<phi::RegionContact> touching_, deepest_;
   std::vector<CellRow> rows_;
-  Found best_;
+  MeasuredPose best_;
   double upper_ = 0;
   bool finished_ = false;
   std::uint64_t work_ = 0, next_report_ = 0;

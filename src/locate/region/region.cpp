@@ -158,7 +158,7 @@ class RegionLocaliser {
   }
 
   /// The pose in the file's coordinates, its doubles fixed first and its clearance measured at those.
-  [[nodiscard]] Placement placement(const PoseSearch::Found& found, bool mirrored) const {
+  [[nodiscard]] Placement placement(const PoseSearch::MeasuredPose& found, bool mirrored) const {
     const Point pivot = BlankFromPart::from_angle(found.theta, {}, mirrored).rotate(part_origin_);
     Placement placement{found.pivot.x + blank_origin_.x - pivot.x, found.pivot.y + blank_origin_.y - pivot.y,
                         found.theta, 0};
@@ -207,7 +207,7 @@ class RegionLocaliser {
       const CoverNode& node = search.cover()[open.back()];
       open.pop_back();
       switch (node.axis) {
-        case CoverNode::Axis::leaf: {
+        case CoverTree::Axis::leaf: {
           tree.nodes.push_back({CoverTree::Axis::leaf, 0, static_cast<std::uint32_t>(tree.terms.size()),
                                 static_cast<std::uint32_t>(node.proof.terms)});
           for (std::size_t j = 0; j < node.proof.terms; ++j) {
@@ -219,13 +219,13 @@ class RegionLocaliser {
           }
           continue;
         }
-        case CoverNode::Axis::theta:
+        case CoverTree::Axis::theta:
           tree.nodes.push_back({CoverTree::Axis::theta, node.at, 0, 0});
           break;
-        case CoverNode::Axis::x:
+        case CoverTree::Axis::x:
           tree.nodes.push_back({CoverTree::Axis::x, node.at + blank_origin_.x, 0, 0});
           break;
-        case CoverNode::Axis::y:
+        case CoverTree::Axis::y:
           tree.nodes.push_back({CoverTree::Axis::y, node.at + blank_origin_.y, 0, 0});
           break;
       }
@@ -245,8 +245,7 @@ class RegionLocaliser {
 }  // namespace
 
 Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOptions& options) {
-  if (auto fine = check_limits(problem.window, options.gap, options.min_allowance); !fine)
-    return tl::unexpected(std::move(fine.error()));
+  LEKALO_CHECK(check_limits(problem.window, options.gap, options.min_allowance));
   if (!(problem.part_tolerance >= 0) || !(problem.blank_tolerance >= 0))
     return failure(ErrorCode::usage, "tolerances must not be negative");
   if (problem.part.empty() || problem.blank.empty())

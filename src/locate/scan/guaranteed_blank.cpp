@@ -92,11 +92,11 @@ class Maker {
   }
 
   Result<GuaranteedBlank> make() {
-    if (auto done = leave_out(); !done) return tl::unexpected(std::move(done.error()));
-    if (auto done = find_order(); !done) return tl::unexpected(std::move(done.error()));
+    LEKALO_CHECK(leave_out());
+    LEKALO_CHECK(find_order());
     turn_material_left(points_, loops_);
     guard_loops();
-    if (auto done = cut_out(); !done) return tl::unexpected(std::move(done.error()));
+    LEKALO_CHECK(cut_out());
     measure_loss();
     state_assumptions();
     made_.outlines = std::move(loops_);
@@ -115,13 +115,12 @@ class Maker {
 
   Result<void> find_order() {
     if (options_.order != PointOrder::none) {
-      auto crossing = use_given_order();
-      if (!crossing) return tl::unexpected(std::move(crossing.error()));
-      if (!*crossing) {
+      LEKALO_TRY(const auto crossing, use_given_order());
+      if (!crossing) {
         made_.ordered = true;
         return {};
       }
-      const Crossing c = **crossing;
+      const Crossing c = *crossing;
       const Point a = points_[loops_[c.loop_a][c.edge_a]], b = points_[loops_[c.loop_b][c.edge_b]];
       const std::string where = fmt::format(
           "the outline through the points in file order meets itself: the edges that begin at {} and "
@@ -183,9 +182,7 @@ class Maker {
     made_.step =
         options_.step.value_or(std::max(kStepInSpacings * made_.median_spacing, kStepInGuards * made_.guard));
     const double spread = std::max(kSpreadInGuards * made_.guard, kSpreadInSteps * made_.step);
-    auto loops = order_points(points_, sorted, spread, made_.step + 2 * spread);
-    if (!loops) return tl::unexpected(std::move(loops.error()));
-    loops_ = *std::move(loops);
+    LEKALO_TRY(loops_, order_points(points_, sorted, spread, made_.step + 2 * spread));
     if (const auto c = first_crossing(points_, loops_)) {
       return bad(
           fmt::format("the contours cannot be told from each other near {}: outlines through neighbouring "
@@ -280,9 +277,8 @@ class Maker {
         const auto cover = cover_by_slabs(points_, loop, made_.guard, 0.5 * options_.simplify);
         slabs.insert(slabs.end(), cover.begin(), cover.end());
       }
-      auto regions = inside_of_slabs(points_, guarded_, slabs, margin);
-      if (!regions) return tl::unexpected(std::move(regions.error()));
-      made_.regions = cut_corners(*regions, 0.5 * options_.simplify);
+      LEKALO_TRY(const auto regions, inside_of_slabs(points_, guarded_, slabs, margin));
+      made_.regions = cut_corners(regions, 0.5 * options_.simplify);
       if (made_.regions.empty()) {
         return bad(
             fmt::format("nothing of the blank is proved to be material: the outline loses up to {:.4g} mm on "
@@ -428,8 +424,8 @@ void Maker::state_assumptions() {
 }  // namespace
 
 Result<GuaranteedBlank> guaranteed_blank(const ScanPoints& scan, const ScanOptions& options) {
-  if (auto checked = check_options(options); !checked) return tl::unexpected(std::move(checked.error()));
-  if (auto checked = check_points(scan); !checked) return tl::unexpected(std::move(checked.error()));
+  LEKALO_CHECK(check_options(options));
+  LEKALO_CHECK(check_points(scan));
   if (scan.points.size() < 3)
     return bad(fmt::format("{} points; three are needed to enclose material", scan.points.size()));
   return Maker(scan, options).make();

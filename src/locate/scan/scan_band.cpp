@@ -81,7 +81,7 @@ std::vector<Loop> loops_of(const std::vector<GuardedLoop>& loops) {
 class CornerCutter {
  public:
   CornerCutter(const std::vector<geom::Region>& regions, double tolerance)
-      : tolerance_(tolerance), hash_(cell_of(regions), count_of(regions), largest_of(regions)) {
+      : tolerance_(tolerance), hash_(cell_of(regions), geom::edges_in(regions), largest_of(regions)) {
     for (const geom::Region& region : regions) {
       add(region.outer);
       for (const geom::Contour& hole : region.holes) add(hole);
@@ -134,14 +134,6 @@ class CornerCutter {
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  static std::size_t count_of(const std::vector<geom::Region>& regions) {
-    std::size_t count = 0;
-    for (const geom::Region& region : regions) {
-      count += region.outer.size();
-      for (const geom::Contour& hole : region.holes) count += hole.size();
-    }
-    return count;
-  }
   static double largest_of(const std::vector<geom::Region>& regions) {
     double largest = 0;
     for (const geom::Region& region : regions)
@@ -161,7 +153,7 @@ class CornerCutter {
       add(region.outer);
       for (const geom::Contour& hole : region.holes) add(hole);
     }
-    return std::max(2 * length / static_cast<double>(count_of(regions)), longest / 64);
+    return std::max(2 * length / static_cast<double>(geom::edges_in(regions)), longest / 64);
   }
 
   void add(const geom::Contour& contour) {
@@ -245,17 +237,15 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
                                                   const std::vector<Slab>& slabs, double margin) {
   std::vector<geom::Region> pieces;
   for (const Slab& slab : slabs) {
-    auto made = geom::make_region(rectangle(slab, margin));
-    if (!made) return tl::unexpected(std::move(made.error()));
-    pieces.push_back(*std::move(made));
+    LEKALO_TRY(auto made, geom::make_region(rectangle(slab, margin)));
+    pieces.push_back(std::move(made));
   }
-  auto band = geom::united(pieces);
-  if (!band) return tl::unexpected(std::move(band.error()));
+  LEKALO_TRY(const auto band, geom::united(pieces));
   // The holes of the band that lie inside the outlines; where parts of the band lie in them, without those.
   const ParityIndex parity(points, loops_of(loops));
   std::vector<geom::Region> faces;
   bool islands = false;
-  for (const geom::Region& piece : band->regions) {
+  for (const geom::Region& piece : band.regions) {
     islands = islands || parity.odd(piece.outer.front().from);
     for (const geom::Contour& hole : piece.holes) {
       if (!parity.odd(hole.front().from)) continue;
@@ -264,11 +254,11 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
     }
   }
   if (!islands || faces.empty()) return faces;
-  auto rest = geom::combine(faces, band->regions, geom::BooleanOperation::subtract, band->edge_error);
-  if (!rest) return tl::unexpected(std::move(rest.error()));
-  std::erase_if(rest->regions,
+  LEKALO_TRY(auto rest,
+             geom::combine(faces, band.regions, geom::BooleanOperation::subtract, band.edge_error));
+  std::erase_if(rest.regions,
                 [&](const geom::Region& piece) { return !parity.odd(piece.outer.front().from); });
-  return std::move(rest->regions);
+  return std::move(rest.regions);
 }
 
 std::vector<geom::Region> cut_corners(const std::vector<geom::Region>& regions, double tolerance) {

@@ -95,7 +95,7 @@ class Links {
                                  ends.size(), place(at(ends.front()))));
     }
     while (!ends.empty()) {
-      if (auto joined = join_nearest(ends); !joined) return joined;
+      LEKALO_CHECK(join_nearest(ends));
     }
     return {};
   }
@@ -246,8 +246,8 @@ std::vector<std::uint32_t> lonely_points(const geom::Ring& points, double reach)
 Result<std::vector<Loop>> order_points(const geom::Ring& points, const std::vector<std::uint32_t>& sorted,
                                        double spread, double link) {
   Links links(points, spread_points(points, sorted, spread));
-  if (auto linked = links.link_relative_neighbours(link); !linked) return tl::unexpected(linked.error());
-  if (auto joined = links.join_loose_ends(); !joined) return tl::unexpected(joined.error());
+  LEKALO_CHECK(links.link_relative_neighbours(link));
+  LEKALO_CHECK(links.join_loose_ends());
   return links.loops();
 }
 

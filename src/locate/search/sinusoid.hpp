@@ -43,20 +43,20 @@ struct Sinusoid {
 /// Angles strictly inside (lo, hi), an interval shorter than pi, where f and g are equal: none, one or two,
 /// in no order. Solved by the half-angle substitution about the middle, which keeps its digits on short
 /// intervals.
-struct Crossings {
+struct CrossingAngles {
   std::array<double, 2> theta{};
   int count = 0;
 };
 
-[[nodiscard]] inline Crossings crossings(const Sinusoid& f, const Sinusoid& g, double lo,
-                                         double hi) noexcept {
+[[nodiscard]] inline CrossingAngles crossings(const Sinusoid& f, const Sinusoid& g, double lo,
+                                              double hi) noexcept {
   const double middle = lo + 0.5 * (hi - lo);
   const geom::SinCos sc = geom::sincos(middle);
   const double mean = f.mean - g.mean, a0 = f.a - g.a, b0 = f.b - g.b;
   const double a = a0 * sc.cosine + b0 * sc.sine, b = b0 * sc.cosine - a0 * sc.sine;
   // mean + a cos(phi) + b sin(phi) = 0 with z = tan(phi / 2): (mean - a) z^2 + 2 b z + (mean + a) = 0.
   const double discriminant = a * a + b * b - mean * mean;
-  Crossings found;
+  CrossingAngles found;
   if (!(discriminant >= 0)) return found;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   const auto add = [&](double numerator, double denominator) {

@@ -169,12 +169,11 @@ Result<std::vector<Region>> divided(const Region& region, const Chord& chord, do
   const Point along = side * chord.direction;
   const Point a = chord.at - size * along, b = chord.at + size * along;
   const Point left = size * geom::perpendicular(along);
-  auto half = geom::make_region({{EdgeKind::line, a, b, {}},
-                                 {EdgeKind::line, b, b + left, {}},
-                                 {EdgeKind::line, b + left, a + left, {}},
-                                 {EdgeKind::line, a + left, a, {}}});
-  if (!half) return tl::unexpected(half.error());
-  LEKALO_TRY(const auto pieces, geom::combine({region}, {*half}, geom::BooleanOperation::intersect));
+  LEKALO_TRY(const auto half, geom::make_region({{EdgeKind::line, a, b, {}},
+                                                 {EdgeKind::line, b, b + left, {}},
+                                                 {EdgeKind::line, b + left, a + left, {}},
+                                                 {EdgeKind::line, a + left, a, {}}}));
+  LEKALO_TRY(const auto pieces, geom::combine({region}, {half}, geom::BooleanOperation::intersect));
   const Point beside =
       chord.at + (0.5 * chord.length) * chord.direction + (1e-6 * chord.length) * geom::perpendicular(along);
   for (const Region& piece : pieces.regions) {

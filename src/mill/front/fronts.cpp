@@ -177,7 +177,7 @@ class Grower {
       if (fronts.empty()) continue;
       add(std::move(fronts), before);
       growth_.cut.push_back(std::move(cut));
-      listener_(area_of(growth_.cut.back()));
+      listener_(geom::area(growth_.cut.back()));
     }
     return growth_.fronts.size() > first;
   }
@@ -191,9 +191,8 @@ class Grower {
     for (const Front& front : fronts) {
       if (!front.loop) continue;
       const Edge& arc = front.edges.front();
-      auto disc = geom::make_region({{EdgeKind::arc_ccw, arc.from, arc.from, arc.centre}});
-      if (!disc) return tl::unexpected(disc.error());
-      pieces.push_back(std::move(*disc));
+      LEKALO_TRY(auto disc, geom::make_region({{EdgeKind::arc_ccw, arc.from, arc.from, arc.centre}}));
+      pieces.push_back(std::move(disc));
     }
     LEKALO_TRY(auto all, geom::united(pieces));
     const RegionIndex before(growth_.cut.back());
@@ -418,7 +417,7 @@ std::vector<Edge> around_corner(const std::vector<Edge>& edges, std::size_t corn
 
 std::vector<Edge> pass_along(const Front& front, bool back, const FieldWalls& walls,
                              const RegionIndex& before, double step) {
-  std::vector<Edge> edges = back ? turned_back(front.edges) : front.edges;
+  std::vector<Edge> edges = back ? geom::reversed(front.edges) : front.edges;
   if (front.closed) return edges;
   std::size_t begin = 0, end = edges.size();
   double run = 0, gap = 0;

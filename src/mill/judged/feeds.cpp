@@ -17,11 +17,11 @@ using geom::Point;
 
 constexpr double kAround = 1;  // mm of path before and after a load
 
-struct Piece {
+struct MovePart {
   std::size_t move = 0;
   double begin = 0, end = 0;  ///< shares of the move
   double length = 0, feed = 0;
-  bool joined = false;  ///< the piece before leads here without a motion between
+  bool joined = false;  ///< the part before leads here without a motion between
 };
 
 /// The six feeds to choose from, ascending.
@@ -50,23 +50,23 @@ double stepped(double feed, const std::array<double, 6>& steps) {
   return best;
 }
 
-/// Gives each piece the least feed of the path within kAround of it, as far as the motion is not interrupted.
-void look_around(std::vector<Piece>& pieces) {
-  std::vector<double> least(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    double feed = pieces[i].feed, way = 0;
-    for (std::size_t k = i + 1; k < pieces.size() && pieces[k].joined && way < kAround; ++k) {
-      feed = std::min(feed, pieces[k].feed);
-      way += pieces[k].length;
+/// Gives each part the least feed of the path within kAround of it, as far as the motion is not interrupted.
+void look_around(std::vector<MovePart>& parts) {
+  std::vector<double> least(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    double feed = parts[i].feed, way = 0;
+    for (std::size_t k = i + 1; k < parts.size() && parts[k].joined && way < kAround; ++k) {
+      feed = std::min(feed, parts[k].feed);
+      way += parts[k].length;
     }
     way = 0;
-    for (std::size_t k = i; k > 0 && pieces[k].joined && way < kAround; --k) {
-      feed = std::min(feed, pieces[k - 1].feed);
-      way += pieces[k - 1].length;
+    for (std::size_t k = i; k > 0 && parts[k].joined && way < kAround; --k) {
+      feed = std::min(feed, parts[k - 1].feed);
+      way += parts[k - 1].length;
     }
     least[i] = feed;
   }
-  for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i].feed = least[i];
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].feed = least[i];
 }
 
 PathMove part_of(const PathMove& move, Point from, double from_z, double share) {
@@ -89,7 +89,7 @@ PathMove part_of(const PathMove& move, Point from, double from_z, double share) 
 PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<MoveLoad>>& loads,
                       const FeedOptions& o) {
   const std::array<double, 6> steps = steps_of(o);
-  std::vector<Piece> pieces;
+  std::vector<MovePart> parts;
   for (std::size_t i = 0; i < path.moves.size() && i < loads.size(); ++i) {
     const PathMove::Kind kind = path.moves[i].kind;
     if (kind != PathMove::Kind::cut && kind != PathMove::Kind::lead) continue;
@@ -97,36 +97,36 @@ PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<Move
     for (const MoveLoad& load : loads[i]) whole += load.length;
     if (!(whole > 0)) continue;
     for (const MoveLoad& load : loads[i]) {
-      Piece piece;
-      piece.move = i;
-      piece.begin = so_far / whole;
+      MovePart part;
+      part.move = i;
+      part.begin = so_far / whole;
       so_far += load.length;
-      piece.end = &load == &loads[i].back() ? 1 : so_far / whole;
-      piece.length = load.length;
-      piece.feed = stepped(wanted_feed(load.engagement_deg, o), steps);
-      piece.joined = !pieces.empty() && (pieces.back().move == i || pieces.back().move + 1 == i);
-      pieces.push_back(piece);
+      part.end = &load == &loads[i].back() ? 1 : so_far / whole;
+      part.length = load.length;
+      part.feed = stepped(wanted_feed(load.engagement_deg, o), steps);
+      part.joined = !parts.empty() && (parts.back().move == i || parts.back().move + 1 == i);
+      parts.push_back(part);
     }
   }
-  look_around(pieces);
+  look_around(parts);
   PocketPath result;
   result.fronts = path.fronts;
   std::size_t next = 0;
   for (std::size_t i = 0; i < path.moves.size(); ++i) {
     const PathMove& move = path.moves[i];
-    if (i == 0 || next == pieces.size() || pieces[next].move != i) {
+    if (i == 0 || next == parts.size() || parts[next].move != i) {
       result.moves.push_back(move);
       continue;
     }
     const Point from = path.moves[i - 1].to;
     const double from_z = path.moves[i - 1].z;
-    for (; next < pieces.size() && pieces[next].move == i; ++next) {
-      const bool changes = next + 1 == pieces.size() || pieces[next + 1].move != i ||
-                           pieces[next + 1].feed != pieces[next].feed;
+    for (; next < parts.size() && parts[next].move == i; ++next) {
+      const bool changes =
+          next + 1 == parts.size() || parts[next + 1].move != i || parts[next + 1].feed != parts[next].feed;
       if (!changes) continue;
-      PathMove part = part_of(move, from, from_z, pieces[next].end);
-      part.feed = pieces[next].feed;
-      result.moves.push_back(part);
+      PathMove shorter = part_of(move, from, from_z, parts[next].end);
+      shorter.feed = parts[next].feed;
+      result.moves.push_back(shorter);
     }
   }
   return result;

@@ -150,7 +150,7 @@ class Ramping {
       rise_or_sink(end, above);
       for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
         PathMove back = part->move;
-        const Edge edge = turned_back(part->edge);
+        const Edge edge = geom::reversed(part->edge);
         back.kind = Kind::link, back.shape = edge.kind, back.to = edge.to, back.z = above;
         add(back);
       }

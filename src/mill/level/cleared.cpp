@@ -99,8 +99,8 @@ Result<std::vector<Region>> cleared_places(const std::vector<EarlierCut>& cuts, 
         .second;
   };
   const auto add = [&](Result<Region> piece) -> Result<void> {
-    if (!piece) return tl::unexpected(piece.error());
-    pieces.push_back(std::move(*piece));
+    LEKALO_CHECK(piece);
+    pieces.push_back(*std::move(piece));
     return {};
   };
   for (const EarlierCut& cut : cuts) {

@@ -95,7 +95,7 @@ Result<void> Corners::cut_beyond(std::size_t outer, const Front& zone, bool& bac
   if (peel.passes.empty()) return cut_beyond(peel.inner, zone, back, tool);
   if (back) std::reverse(peel.passes.begin(), peel.passes.end());
   for (const Front& pass : peel.passes) {
-    const std::vector<Edge> edges = back && either_way_ ? turned_back(pass.edges) : pass.edges;
+    const std::vector<Edge> edges = back && either_way_ ? geom::reversed(pass.edges) : pass.edges;
     tool.link(edges.front().from);
     tool.go(ToolMotion::Kind::cut, edges);
     bool next = !back;

@@ -105,10 +105,9 @@ Entry widest_disc(const std::vector<Region>& places, double tool_radius) {
 
 Result<std::vector<Region>> start_region(const Entry& entry, const Piece& piece) {
   const Point edge = entry.centre + Point{std::max(entry.disc, kLeastDisc), 0};
-  auto disc = geom::make_region({{EdgeKind::arc_ccw, edge, edge, entry.centre}});
-  if (!disc) return tl::unexpected(disc.error());
-  if (entry.disc >= kLeastDisc) return std::vector<Region>{*disc};
-  LEKALO_TRY(auto clipped, geom::combine({*disc}, piece.allowed.regions, geom::BooleanOperation::intersect));
+  LEKALO_TRY(const auto disc, geom::make_region({{EdgeKind::arc_ccw, edge, edge, entry.centre}}));
+  if (entry.disc >= kLeastDisc) return std::vector<Region>{disc};
+  LEKALO_TRY(auto clipped, geom::combine({disc}, piece.allowed.regions, geom::BooleanOperation::intersect));
   return clipped.regions;
 }
 

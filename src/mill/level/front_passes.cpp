@@ -22,7 +22,7 @@ constexpr double kSubtree = 0.05;  // mm of way for a mm of fronts that wait for
 
 /// The edges of a front in the direction of travel.
 std::vector<Edge> along(const Front& front, bool back) {
-  return back ? turned_back(front.edges) : front.edges;
+  return back ? geom::reversed(front.edges) : front.edges;
 }
 
 }  // namespace
@@ -36,11 +36,9 @@ FrontPasses::FrontPasses(const Piece& piece, ToolMotion& tool, const PocketOptio
       either_way_(o.direction == Direction::any) {}
 
 Result<void> FrontPasses::grow_from(const std::vector<Region>& start) {
-  auto growth = grow(piece_.allowed.index, piece_.fields.regions, piece_.narrow.regions, start, law_,
-                     [this](double mm2) { listener_(planned_ + mm2); });
-  if (!growth) return tl::unexpected(growth.error());
-  growth_ = std::move(*growth);
-  planned_ += area_of(reached());
+  LEKALO_TRY(growth_, grow(piece_.allowed.index, piece_.fields.regions, piece_.narrow.regions, start, law_,
+                           [this](double mm2) { listener_(planned_ + mm2); }));
+  planned_ += geom::area(reached());
   count_ += fronts().size();
   tool_.set_growth(growth_);
   waiting_.assign(fronts().size(), 0.0);
@@ -131,7 +129,7 @@ Front FrontPasses::begun_like_before(const Front& front, bool back) const {
     if (!(norm(pass.corner - begin) < 1e-2)) continue;
     const auto wall = way_along_wall(piece_.fields.index, pass.from, begin, kWallWay * law_.step);
     if (!wall) continue;
-    const std::vector<Edge> more = back ? turned_back(*wall) : *wall;
+    const std::vector<Edge> more = back ? geom::reversed(*wall) : *wall;
     given.edges.insert(back ? given.edges.end() : given.edges.begin(), more.begin(), more.end());
     break;
   }

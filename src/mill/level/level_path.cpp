@@ -144,8 +144,7 @@ Result<PocketPath> level_path(const Region& allowed, const PocketOptions& option
   PocketOptions turned = options;
   turned.direction = Direction::climb;
   const auto other = mirrored({allowed}), start = mirrored(cleared), rest = mirrored(left);
-  for (const auto* made : {&other, &start, &rest})
-    if (!*made) return tl::unexpected(made->error());
+  for (const auto* made : {&other, &start, &rest}) LEKALO_CHECK(*made);
   LEKALO_TRY(auto path, climb_or_any(other->front(), turned, *start, *rest, listener));
   return mirrored(std::move(path));
 }

@@ -183,7 +183,7 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
   LEKALO_TRY(const auto starts, starts_of(pieces, o));
   double plans = 0;
   for (std::size_t k = 0; k < cleared.size(); ++k) plans += k == 0 || cleared[k] != cleared[k - 1] ? 1 : 0;
-  const double to_plan = plans * area_of(pieces);
+  const double to_plan = plans * geom::area(pieces);
   double planned = 0, told = 0;
   const AreaListener tell = [&](double mm2) {
     told = std::max(told, std::min(1.0, (planned + mm2) / to_plan));
@@ -200,7 +200,7 @@ Result<PocketPath> pocket_path(const std::vector<Region>& pockets, const PocketO
         plan = parts.left.empty() ? Result<PocketPath>(PocketPath{})
                : source           ? floz_level(region, one, starts[i])
                                   : level_path(region, one, parts.cleared, parts.left, tell);
-        if (!plan) return tl::unexpected(plan.error());
+        LEKALO_CHECK(plan);
         planned += geom::area(region);
         tell(0);
         whole.fronts += plan->fronts;

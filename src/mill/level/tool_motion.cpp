@@ -104,8 +104,8 @@ void ToolMotion::link_over_grid(Point to) {
     const PathMove& move = moves_[i - 1];
     if (i < 2 || move.z != -depth_ || moves_[i - 2].z != -depth_) break;
     const Point begin = moves_[i - 2].to;
-    back.push_back(turned_back(move.shape == EdgeKind::line ? Edge{EdgeKind::line, begin, move.to, {}}
-                                                            : arc_of(move, begin)));
+    back.push_back(geom::reversed(move.shape == EdgeKind::line ? Edge{EdgeKind::line, begin, move.to, {}}
+                                                               : arc_of(move, begin)));
     length += length_of(back.back());
     if (length > kMostBack) break;
   }

@@ -41,7 +41,7 @@ std::optional<std::vector<Edge>> way_along_wall(const geom::RegionIndex& walls, 
     // circle is walked from its seam on.
     for (std::uint32_t walked = 0; walked <= count && length < most; ++walked) {
       Edge edge = walls.curves()[e].edge;
-      if (back) edge = turned_back(edge);
+      if (back) edge = geom::reversed(edge);
       const Edge rest{edge.kind, at, edge.to, edge.centre};
       if (e == goal.edge) {
         const Edge last{edge.kind, at, to, edge.centre};

@@ -122,7 +122,7 @@ Result<void> cut_wall(ToolMotion& tool, Corners& corners, const WallStart& start
         tool.go(Kind::cut, ends ? edge : Edge{edge.kind, edge.from, stop, edge.centre});
         edge.from = ends ? edge.to : stop;
       }
-      if (auto cut = corners.cut(corner, tool); !cut) return cut;
+      LEKALO_CHECK(corners.cut(corner, tool));
       tool.link(stop);
     }
     if (!(edge.from == edge.to)) tool.go(Kind::cut, edge);
@@ -169,7 +169,7 @@ Result<void> cut_walls(ToolMotion& tool, Corners& corners, const Piece& piece,
   while (!left.empty()) {
     const WallStart start = wall_start(walls, left, stops, ends, piece, tool.at());
     std::erase(left, start.contour);
-    if (auto cut = cut_wall(tool, corners, start, stops); !cut) return cut;
+    LEKALO_CHECK(cut_wall(tool, corners, start, stops));
   }
   return {};
 }

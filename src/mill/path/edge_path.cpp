@@ -21,12 +21,6 @@ double length_of(const std::vector<Edge>& edges) {
   return length;
 }
 
-double area_of(const std::vector<geom::Region>& regions) {
-  double sum = 0;
-  for (const geom::Region& region : regions) sum += geom::area(region);
-  return sum;
-}
-
 Point place_at(const Edge& edge, double share) {
   if (share <= 0) return edge.from;
   if (share >= 1) return edge.to;
@@ -46,20 +40,6 @@ Point heading_at(const Edge& edge, Point at) {
                     : edge.kind == EdgeKind::arc_ccw ? perpendicular(at - edge.centre)
                                                      : -perpendicular(at - edge.centre);
   return (1 / norm(way)) * way;
-}
-
-Edge turned_back(const Edge& edge) {
-  const EdgeKind kind = edge.kind == EdgeKind::line      ? EdgeKind::line
-                        : edge.kind == EdgeKind::arc_ccw ? EdgeKind::arc_cw
-                                                         : EdgeKind::arc_ccw;
-  return {kind, edge.to, edge.from, edge.centre};
-}
-
-std::vector<Edge> turned_back(const std::vector<Edge>& edges) {
-  std::vector<Edge> back;
-  back.reserve(edges.size());
-  for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge) back.push_back(turned_back(*edge));
-  return back;
 }
 
 std::vector<Point> places_on(const std::vector<Edge>& edges, double spacing) {

@@ -9,16 +9,12 @@ namespace lekalo::mill {
 
 [[nodiscard]] double length_of(const geom::Edge& edge);
 [[nodiscard]] double length_of(const std::vector<geom::Edge>& edges);
-/// The area of all regions together, mm2. \pre they do not overlap
-[[nodiscard]] double area_of(const std::vector<geom::Region>& regions);
 /// The place at a share of an edge's length, in [0, 1].
 [[nodiscard]] geom::Point place_at(const geom::Edge& edge, double share);
 /// The stretch between two shares. \pre 0 <= from < to <= 1
 [[nodiscard]] geom::Edge part_of(const geom::Edge& edge, double from, double to);
 /// The direction of travel at a place of the edge.
 [[nodiscard]] geom::Point heading_at(const geom::Edge& edge, geom::Point at);
-[[nodiscard]] geom::Edge turned_back(const geom::Edge& edge);
-[[nodiscard]] std::vector<geom::Edge> turned_back(const std::vector<geom::Edge>& edges);
 /// Places on the edges no further than `spacing` apart, both ends among them.
 [[nodiscard]] std::vector<geom::Point> places_on(const std::vector<geom::Edge>& edges, double spacing);
 

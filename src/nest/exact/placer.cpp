@@ -17,15 +17,15 @@ std::int64_t in_steps(double mm) { return std::llround(mm * static_cast<double>(
 }  // namespace
 
 Placer::Placer(const Problem& problem, const Items& items, Random random, Counts counts)
-    : problem_(problem), items_(items), random_(random), counts_(counts), sheets_(problem.bins().size()) {}
+    : problem_(problem), items_(items), random_(random), counts_(counts), scenes_(problem.bins().size()) {}
 
 void Placer::load(const State& state) {
   state_ = state;
-  for (auto& sheet : sheets_) sheet.reset();
+  for (auto& scene : scenes_) scene.reset();
 }
 
-Placer::Sheet& Placer::sheet(std::uint32_t b) {
-  if (sheets_[b]) return *sheets_[b];
+Placer::BinScene& Placer::scene_of(std::uint32_t b) {
+  if (scenes_[b]) return *scenes_[b];
   const layout::Document& document = problem_.document();
   const Bin& bin = problem_.bins()[b];
   const layout::Stock& stock = document.stocks[bin.stock];
@@ -36,9 +36,9 @@ Placer::Sheet& Placer::sheet(std::uint32_t b) {
     const double length = std::max(state_.ends[b] - bin.box.x0, 2 * area / (bin.box.y1 - bin.box.y0));
     world.high.x = std::min(world.high.x, world.low.x + in_steps(length) + 1);
   }
-  Sheet& made = sheets_[b].emplace(Sheet{phi::Scene(world, 2 * items_.movable() + 64),
-                                         std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone),
-                                         {}});
+  BinScene& made = scenes_[b].emplace(BinScene{phi::Scene(world, 2 * items_.movable() + 64),
+                                               std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone),
+                                               {}});
   made.scene.put(
       {.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorder, .container = true});
   if (counts_ == Counts::border) return made;
@@ -67,7 +67,7 @@ Placer::Sheet& Placer::sheet(std::uint32_t b) {
   return made;
 }
 
-phi::ShapeIndex Placer::shape(Sheet& in, std::uint32_t form, std::uint32_t part) {
+phi::ShapeIndex Placer::shape(BinScene& in, std::uint32_t form, std::uint32_t part) {
   phi::ShapeIndex& index = in.shapes[form];
   const Form& f = problem_.forms()[form];
   if (index == kNone)
@@ -78,7 +78,7 @@ phi::ShapeIndex Placer::shape(Sheet& in, std::uint32_t form, std::uint32_t part)
 
 void Placer::put(std::size_t i) {
   const Spot& spot = state_.spots[i];
-  Sheet& in = *sheets_[spot.bin];
+  BinScene& in = *scenes_[spot.bin];
   const layout::Document& document = problem_.document();
   const layout::Part& part = document.parts[items_.parts[i]];
   in.scene.put({.shape = shape(in, spot.form, items_.parts[i]),
@@ -89,7 +89,7 @@ void Placer::put(std::size_t i) {
 
 Placer::Range Placer::range_of(std::size_t i, std::uint32_t form, std::uint32_t b) {
   if (!problem_.follows_grain(form, b)) return {1, 0, 1, 0};
-  Sheet& in = sheet(b);
+  BinScene& in = scene_of(b);
   const Bin& bin = problem_.bins()[b];
   const layout::Document& document = problem_.document();
   const geom::GridBox& box = in.scene.box(shape(in, form, items_.parts[i]));
@@ -116,7 +116,7 @@ bool Placer::is_free(std::size_t i, std::uint32_t form, std::uint32_t b, geom::G
   if (too_far_from_partner(problem_, items_, state_, i,
                            {geom::mm_from_grid(at.x), geom::mm_from_grid(at.y), form, b}) > 0)
     return false;
-  Sheet& in = sheet(b);
+  BinScene& in = scene_of(b);
   phi::Probe probe{.shape = shape(in, form, p), .at = at};
   probe.layers = kPart, probe.gap = layout::gap_between(document, part, part);
   if (in.scene.forbidden(probe)) return false;
@@ -152,7 +152,7 @@ bool Placer::place_low(std::size_t i, std::uint32_t bin, std::size_t samples) {
   geom::GridPoint best;
   std::uint32_t best_form = forms.first;
   double best_cost = std::numeric_limits<double>::infinity();
-  Sheet& in = sheet(bin);
+  BinScene& in = scene_of(bin);
   for (std::size_t k = 0; k < samples; ++k) {
     const std::uint32_t form =
         forms.first + static_cast<std::uint32_t>(random_.below(forms.last - forms.first));
@@ -212,7 +212,7 @@ void Placer::open_bin(std::uint32_t bin) { state_.open_bins.push_back(bin); }
 
 void Placer::close_bin(std::uint32_t bin) {
   std::erase(state_.open_bins, bin);
-  sheets_[bin].reset();
+  scenes_[bin].reset();
 }
 
 }  // namespace lekalo::nest

@@ -39,7 +39,7 @@ class Placer {
   void set_end(std::uint32_t bin, double x1) { state_.ends[bin] = x1; }
 
  private:
-  struct Sheet {
+  struct BinScene {
     phi::Scene scene;
     std::vector<phi::ShapeIndex> shapes;  ///< by form
     std::vector<std::uint32_t> zones;     ///< by body: the index of its zone
@@ -47,8 +47,8 @@ class Placer {
   struct Range {
     std::int64_t x0, x1, y0, y1;
   };
-  Sheet& sheet(std::uint32_t bin);
-  phi::ShapeIndex shape(Sheet& in, std::uint32_t form, std::uint32_t part);
+  BinScene& scene_of(std::uint32_t bin);
+  phi::ShapeIndex shape(BinScene& in, std::uint32_t form, std::uint32_t part);
   Range range_of(std::size_t i, std::uint32_t form, std::uint32_t bin);
   bool is_free(std::size_t i, std::uint32_t form, std::uint32_t bin, geom::GridPoint at);
   void put(std::size_t i);
@@ -58,7 +58,7 @@ class Placer {
   Random random_;
   Counts counts_;
   State state_;
-  std::vector<std::optional<Sheet>> sheets_;  ///< by bin, made when first asked about
+  std::vector<std::optional<BinScene>> scenes_;  ///< by bin, made when first asked about
   std::uint64_t work_ = 0;
 };
 

@@ -55,8 +55,7 @@ std::string_view name_of(Reason reason) noexcept {
 }
 
 Result<Nested> nest(const layout::Document& document, const Options& options, const RunControl& control) {
-  if (Result<void> fine = check_document(document, options.from_given); !fine)
-    return tl::unexpected(fine.error());
+  LEKALO_CHECK(check_document(document, options.from_given));
   SearchOptions search;
   search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
   search.given_angles = options.from_given;

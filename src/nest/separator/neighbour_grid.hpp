@@ -25,20 +25,20 @@ class NeighbourGrid {
                   y1 = 0;  ///< the last ones are included; x1 < x0 where there are none
     friend bool operator==(const Cells&, const Cells&) = default;
   };
-  struct Bin {
+  struct Grid {
     Box box;
     std::uint32_t columns = 0, rows = 0;
     std::vector<std::vector<std::uint32_t>> cells;
   };
-  struct Item {
+  struct Listed {
     std::uint32_t bin = 0;
     Cells cells;
   };
-  Cells cells_of(const Bin& bin, const Box& box) const noexcept;
+  Cells cells_of(const Grid& grid, const Box& box) const noexcept;
 
-  double per_mm_;  ///< cells a millimetre
-  std::vector<Bin> bins_;
-  std::vector<Item> items_;
+  double per_mm_;            ///< cells a millimetre
+  std::vector<Grid> grids_;  ///< by bin
+  std::vector<Listed> items_;
 };
 
 }  // namespace lekalo::nest

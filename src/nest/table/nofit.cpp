@@ -106,7 +106,8 @@ struct Contact {
 
 /// Adds the shifts at which a corner of one shape, that is no dent, lies on an edge of the other from
 /// outside.
-void add_contacts(const Shape& edges_of, const Shape& corners_of, bool edges_move, std::vector<Contact>& to) {
+void add_contacts(const SearchOutline& edges_of, const SearchOutline& corners_of, bool edges_move,
+                  std::vector<Contact>& to) {
   for (const auto& loop : edges_of.loops) {
     for (std::size_t e = 0; e < loop.size(); ++e) {
       const Point a = loop[e], b = loop[(e + 1) % loop.size()];
@@ -162,8 +163,9 @@ void visit_gaps(const Intervals& intervals, double length, double rounding, Visi
 
 /// The border of the region of shifts at which two shapes overlap: the contacts, less what lies inside a
 /// sum.
-std::vector<NoFit::Segment> border_of(const Shape& a, const Shape& b, const std::vector<Sum>& sums,
-                                      double size, const NoFit::IsFree& is_free) {
+std::vector<NoFit::Segment> border_of(const SearchOutline& a, const SearchOutline& b,
+                                      const std::vector<Sum>& sums, double size,
+                                      const NoFit::IsFree& is_free) {
   const double outward = 1e-10 * size, reserve = 1e-11 * size;
   std::vector<Contact> contacts;
   add_contacts(a, b, false, contacts);
@@ -198,8 +200,8 @@ std::vector<NoFit::Segment> border_of(const Shape& a, const Shape& b, const std:
 
 }  // namespace
 
-Shape turned(const Shape& shape, double c, double s) {
-  Shape result = shape;
+SearchOutline turned(const SearchOutline& outline, double c, double s) {
+  SearchOutline result = outline;
   const auto turn = [&](Point& p) { p = {c * p.x - s * p.y, s * p.x + c * p.y}; };
   for (auto& loop : result.loops)
     for (Point& p : loop) turn(p);
@@ -208,8 +210,8 @@ Shape turned(const Shape& shape, double c, double s) {
   return result;
 }
 
-NoFit::NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free,
-             const Box& window, bool with_areas, std::size_t most_narrow)
+NoFit::NoFit(const SearchOutline& a, const SearchOutline& b, double gap, std::size_t cells,
+             const IsFree& is_free, const Box& window, bool with_areas, std::size_t most_narrow)
     : gap_(gap) {
   // nest.md, step 1: the sums of convex pieces, the border, and the raster over both.
   std::vector<Sum> sums;

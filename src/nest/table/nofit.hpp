@@ -12,7 +12,7 @@ namespace lekalo::nest {
 
 /// An outline as the search sees it: its loops, and convex pieces that cover it. Outer loops run
 /// counter-clockwise, those of holes clockwise.
-struct Shape {
+struct SearchOutline {
   std::vector<std::vector<geom::Point>> loops;
   std::vector<ConvexPiece> pieces;
 };
@@ -27,8 +27,8 @@ struct Box {
     return x0 < other.x1 && x1 > other.x0 && y0 < other.y1 && y1 > other.y0;
   }
 };
-/// The shape turned about the origin by an angle of this cosine and sine.
-[[nodiscard]] Shape turned(const Shape& shape, double c, double s);
+/// The outline turned about the origin by an angle of this cosine and sine.
+[[nodiscard]] SearchOutline turned(const SearchOutline& outline, double c, double s);
 
 /// A table that says how deep an outline b, moved by t, lies in an outline a. The shifts at which they
 /// overlap, or come nearer than a gap, form a region; the depth is the distance of t from the region's
@@ -47,8 +47,9 @@ class NoFit {
   /// not \param window   nobody asks about places where b reaches out of this; empty: b may be anywhere
   /// \param with_areas  makes common_area() answer
   /// \param most_narrow  for tests: at most kMostNarrow
-  NoFit(const Shape& a, const Shape& b, double gap, std::size_t cells, const IsFree& is_free = {},
-        const Box& window = {}, bool with_areas = false, std::size_t most_narrow = kMostNarrow);
+  NoFit(const SearchOutline& a, const SearchOutline& b, double gap, std::size_t cells,
+        const IsFree& is_free = {}, const Box& window = {}, bool with_areas = false,
+        std::size_t most_narrow = kMostNarrow);
 
   /// The depth at a shift, mm; 0 where the two do not overlap.
   [[nodiscard]] double depth(double x, double y) const noexcept {

@@ -18,16 +18,16 @@ namespace {
 using geom::GridRegion;
 using geom::Point;
 
-Shape shape_of(const GridRegion& region) {
-  Shape shape;
+SearchOutline outline_of(const GridRegion& region) {
+  SearchOutline outline;
   for (std::size_t l = 0; l < region.loops(); ++l) {
     std::vector<Point> loop;
     for (std::uint32_t k = region.loop_starts[l]; k < region.loop_starts[l + 1]; ++k)
       loop.push_back(geom::mm_from_grid(region.points[k]));
-    shape.loops.push_back(std::move(loop));
+    outline.loops.push_back(std::move(loop));
   }
-  shape.pieces = convex_pieces(region);
-  return shape;
+  outline.pieces = convex_pieces(region);
+  return outline;
 }
 
 double hull_area(std::vector<Point> points) {
@@ -50,7 +50,7 @@ double hull_area(std::vector<Point> points) {
 }
 
 /// A frame around a loop: a region whose only hole it is.
-Shape frame_around(const std::vector<geom::GridPoint>& loop, std::int64_t width) {
+SearchOutline frame_around(const std::vector<geom::GridPoint>& loop, std::int64_t width) {
   geom::GridPoint low = loop[0], high = loop[0];
   for (const geom::GridPoint p : loop) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -62,7 +62,7 @@ Shape frame_around(const std::vector<geom::GridPoint>& loop, std::int64_t width)
   frame.points = {low, {high.x, low.y}, high, {low.x, high.y}};
   frame.points.insert(frame.points.end(), loop.rbegin(), loop.rend());
   frame.loop_starts = {0, 4, static_cast<std::uint32_t>(frame.points.size())};
-  return shape_of(frame);
+  return outline_of(frame);
 }
 
 GridRegion region_of(std::vector<geom::GridPoint> loop) {
@@ -85,33 +85,18 @@ bool is_rectangle(const std::vector<geom::GridPoint>& loop) {
   return true;
 }
 
-void add(Shape& to, Shape more) {
+void add(SearchOutline& to, SearchOutline more) {
   std::move(more.loops.begin(), more.loops.end(), std::back_inserter(to.loops));
   std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(to.pieces));
 }
 
-geom::Region drawn(const GridRegion& region) {
-  geom::Region result;
-  for (std::size_t l = 0; l < region.loops(); ++l) {
-    geom::Contour contour;
-    const auto loop = loop_of(region, l);
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      contour.push_back({geom::EdgeKind::line,
-                         geom::mm_from_grid(loop[k]),
-                         geom::mm_from_grid(loop[(k + 1) % loop.size()]),
-                         {}});
-    (l == 0 ? result.outer : result.holes.emplace_back()) = std::move(contour);
-  }
-  return result;
-}
-
 /// The areas of a part that need more than a quality. It is the whole part where that cannot be told, which
 /// is the safe side.
-Shape demanding_more(const layout::Part& part, int than, bool mirrored) {
+SearchOutline demanding_more(const layout::Part& part, int than, bool mirrored) {
   std::vector<geom::Region> content, strict;
   for (const layout::PartArea& area : part.areas)
-    (area.quality > than ? strict : content).push_back(drawn(area.outline.polygon));
-  const std::vector<geom::Region> whole = {drawn(part.outline.polygon)};
+    (area.quality > than ? strict : content).push_back(geom::region_of_lines(area.outline.polygon));
+  const std::vector<geom::Region> whole = {geom::region_of_lines(part.outline.polygon)};
   std::vector<geom::Region> pieces;
   const auto combined = [](const std::vector<geom::Region>& a, const std::vector<geom::Region>& b,
                            geom::BooleanOperation operation, std::vector<geom::Region>& to) {
@@ -125,12 +110,12 @@ Shape demanding_more(const layout::Part& part, int than, bool mirrored) {
     return true;
   };
   const auto oriented = [&](const GridRegion& region) {
-    return shape_of(geom::turned(region, geom::GridRotation{}, mirrored));
+    return outline_of(geom::turned(region, geom::GridRotation{}, mirrored));
   };
   bool fine = true;
   if (part.quality > than) fine = combined(whole, content, geom::BooleanOperation::subtract, pieces);
   if (fine && !strict.empty()) fine = combined(whole, strict, geom::BooleanOperation::intersect, pieces);
-  Shape shape;
+  SearchOutline outline;
   for (const geom::Region& piece : pieces) {
     if (!fine) break;
     std::vector<std::vector<geom::GridPoint>> loops;
@@ -144,11 +129,11 @@ Shape demanding_more(const layout::Part& part, int than, bool mirrored) {
     for (const geom::Contour& hole : piece.holes) add_loop(hole);
     const auto region = geom::make_grid_region(std::move(loops));
     if (region)
-      add(shape, oriented(*region));
+      add(outline, oriented(*region));
     else if (geom::norm(piece.outer[0].to - piece.outer[0].from) > 1e-3)
       fine = false;
   }
-  return fine ? shape : oriented(part.outline.polygon);
+  return fine ? outline : oriented(part.outline.polygon);
 }
 
 }  // namespace
@@ -217,8 +202,8 @@ void Problem::add_parts() {
       SearchShape shape;
       shape.part = p;
       shape.whole =
-          shape_of(simplified(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
-                              tuning::kSimplify * std::sqrt(hull_areas_.back()), tuning::kEnoughCorners));
+          outline_of(simplified(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
+                                tuning::kSimplify * std::sqrt(hull_areas_.back()), tuning::kEnoughCorners));
       for (const int quality : qualities)
         shape.demanding.emplace_back(quality, demanding_more(part, quality, mirrored == 1));
       shapes_.push_back(std::move(shape));
@@ -248,7 +233,7 @@ void Problem::add_parts() {
   }
 }
 
-std::uint32_t Problem::obstacle_form(SearchShape::Kind kind, int level, Shape shape) {
+std::uint32_t Problem::obstacle_form(SearchShape::Kind kind, int level, SearchOutline shape) {
   SearchShape made;
   made.kind = kind;
   made.level = level;
@@ -264,7 +249,7 @@ void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   using Kind = SearchShape::Kind;
   const layout::Stock& stock = document_->stocks[s];
   const auto outer = loop_of(stock.outline.polygon, 0);
-  Shape border;
+  SearchOutline border;
   if (!is_rectangle(outer)) {
     const double size = std::max(bin.box.x1 - bin.box.x0, bin.box.y1 - bin.box.y0);
     border = frame_around(outer, geom::grid_from_mm(size));
@@ -272,15 +257,15 @@ void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   for (std::size_t l = 1; l < stock.outline.polygon.loops(); ++l) {
     auto hole = loop_of(stock.outline.polygon, l);
     std::reverse(hole.begin(), hole.end());
-    add(border, shape_of(region_of(std::move(hole))));
+    add(border, outline_of(region_of(std::move(hole))));
   }
-  std::map<int, Shape> defects, zones;
+  std::map<int, SearchOutline> defects, zones;
   for (const layout::Defect& defect : stock.defects)
     add(defects[defect.severity],
-        shape_of(simplified(defect.outline.polygon, tuning::kSimplifyDefect, tuning::kEnoughCorners)));
+        outline_of(simplified(defect.outline.polygon, tuning::kSimplifyDefect, tuning::kEnoughCorners)));
   for (const layout::QualityZone& zone : stock.zones)
-    add(zones[zone.quality], shape_of(zone.outline.polygon));
-  const auto put = [&](Kind kind, int level, Shape shape) {
+    add(zones[zone.quality], outline_of(zone.outline.polygon));
+  const auto put = [&](Kind kind, int level, SearchOutline shape) {
     bin.obstacles.push_back({obstacle_form(kind, level, std::move(shape)), 0, 0});
     shapes_.back().window = bin.box;
   };
@@ -323,8 +308,8 @@ void Problem::add_locked() {
       if (form == forms_.size()) {
         SearchShape shape;
         shape.part = placement.part;
-        shape.whole = shape_of(geom::turned(document.parts[placement.part].outline.polygon,
-                                            geom::GridRotation{}, placement.mirrored));
+        shape.whole = outline_of(geom::turned(document.parts[placement.part].outline.polygon,
+                                              geom::GridRotation{}, placement.mirrored));
         shapes_.push_back(std::move(shape));
         add_form(static_cast<std::uint32_t>(shapes_.size() - 1), placement.rotation, placement.mirrored);
       }
@@ -466,16 +451,16 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
   const SearchShape& q = shapes_[b.shape];
   const auto [c, s] = relative_pairs_[relative];
   double gap = 0;
-  const Shape* of_p = &p.whole;
-  const Shape* of_q = &q.whole;
-  static const Shape nothing;
+  const SearchOutline* of_p = &p.whole;
+  const SearchOutline* of_q = &q.whole;
+  static const SearchOutline nothing;
   const auto against = [&](const SearchShape& part, const SearchShape& other) {
     const layout::Part& rules = document_->parts[part.part];
     if (other.kind == SearchShape::Kind::border)
       gap = geom::mm_from_grid(layout::border_gap_of(*document_, rules));
     if (other.kind == SearchShape::Kind::defect)
       gap = geom::mm_from_grid(layout::defect_gap_of(*document_, rules));
-    const Shape* of_part = &part.whole;
+    const SearchOutline* of_part = &part.whole;
     if (other.kind == SearchShape::Kind::defect && other.level <= rules.tolerated_severity)
       of_part = &nothing;
     if (other.kind == SearchShape::Kind::zone) {
@@ -508,7 +493,7 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
                                   {geom::grid_from_mm(shift.x), geom::grid_from_mm(shift.y)});
     };
   }
-  const Shape turned_q = turned(*of_q, c, s);
+  const SearchOutline turned_q = turned(*of_q, c, s);
   const bool of_parts = p.kind == SearchShape::Kind::part && q.kind == SearchShape::Kind::part;
   // A table of something that belongs to the stock covers the stock, not only the part.
   const Box window = p.kind == SearchShape::Kind::part ? Box{} : p.window;

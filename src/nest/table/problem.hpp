@@ -21,11 +21,11 @@ namespace lekalo::nest {
 struct SearchShape {
   enum class Kind : std::uint8_t { part, border, defect, zone };
   Kind kind = Kind::part;
-  Shape whole;
+  SearchOutline whole;
   std::uint32_t part = 0;  ///< index, for shapes of parts
   int level = 0;           ///< severity of a defect, quality of a zone
   /// For shapes of parts, by quality: the areas that need more than a zone of that quality has.
-  std::vector<std::pair<int, Shape>> demanding;
+  std::vector<std::pair<int, SearchOutline>> demanding;
   Box window;  ///< for shapes of the stock: the box within which parts can be at all
 };
 
@@ -139,7 +139,7 @@ class Problem {
   void find_grain();
   void add_stock_obstacles(std::uint32_t stock, Bin& bin);
   void add_relative_angles();
-  std::uint32_t obstacle_form(SearchShape::Kind kind, int level, Shape shape);
+  std::uint32_t obstacle_form(SearchShape::Kind kind, int level, SearchOutline shape);
   std::uint32_t angle_index(geom::GridRotation rotation);
   void add_form(std::uint32_t shape, geom::GridRotation rotation, bool mirrored);
 

@@ -198,7 +198,7 @@ Result<void> AngleCheck::read_files() {
     LEKALO_TRY(to, make_outline(units.of(contour), name));
     return {};
   };
-  if (auto ok = outline(part, inputs_.part.name, scene_.part); !ok) return ok;
+  LEKALO_CHECK(outline(part, inputs_.part.name, scene_.part));
   if (auto ok = outline(blank, inputs_.blank.name, scene_.file_blank); !ok || !result_.trim) return ok;
   return outline(result_.trim->contour, inputs_.result.name + ": field trim.contour",
                  scene_.trimmed.emplace());

@@ -39,8 +39,6 @@ class EdgeLines {
   [[nodiscard]] const Outline& outline() const { return blank_; }
   /// About the size of the blank: 2^flat_scale() makes lengths doubles of moderate size, whatever the units.
   [[nodiscard]] long flat_scale() const { return flat_scale_; }
-  /// File index of the next point that was not dropped.
-  [[nodiscard]] std::size_t next_kept(std::size_t k) const { return next_kept_[k]; }
 
  private:
   /// `near`: a hull edge to look from for what lies outside.
@@ -50,7 +48,7 @@ class EdgeLines {
   Precision precision_;
   long flat_scale_ = 0;
   std::vector<bool> dropped_;
-  std::vector<std::size_t> next_kept_;               ///< per file point
+  std::vector<std::size_t> next_kept_;               ///< per file point: the next one not dropped
   std::vector<std::size_t> under_;                   ///< per file point: hull edge it lies under
   std::vector<std::optional<EdgeLine>> lines_;       ///< per file point
   std::vector<std::optional<EdgeLine>> hull_lines_;  ///< per hull edge

@@ -337,7 +337,7 @@ class DxfReader {
   }
 
   Result<void> read_polyline(const DxfEntity& entity, Contour& contour) const {
-    if (auto ok = check_plane(entity); !ok) return ok;
+    LEKALO_CHECK(check_plane(entity));
     bool closed = false;
     for (const DxfPair& pair : entity.pairs) {
       if (pair.code != 10 && pair.code != 20 && pair.code != 42 && pair.code != 70) continue;

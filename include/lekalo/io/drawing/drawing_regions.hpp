@@ -38,8 +38,8 @@ struct DrawnRegions {
   /// Made by make_region, free of faults (fault_of of geom/region_check.hpp): outlines that hold material and
   /// their holes, by containment; in the order of their first curves in the file.
   std::vector<geom::Region> regions;
-  /// For every edge, numbered as flatten() does, the curve it came from (into Drawing::curves); a line that
-  /// closes a gap counts to the curve before it.
+  /// For every edge the curve it came from (into Drawing::curves); a line that closes a gap counts to the
+  /// curve before it.
   std::vector<std::uint32_t> curve_of_edge;
 
   /// mm, rounded up; the outlines of `regions` and the curves that the file means lie within `tolerance` of

@@ -6,9 +6,8 @@ namespace lekalo::io {
 
 /// The place where an outline has room for its name.
 struct LabelPlace {
-  geom::Point at;        ///< mm, in the material: the middle of the widest of a few rows
-  double width_mm = 0;   ///< of the material there
-  double height_mm = 0;  ///< of the whole outline
+  geom::Point at;       ///< mm, in the material: the middle of the widest of a few rows
+  double width_mm = 0;  ///< of the material there
 };
 /// \pre not empty
 [[nodiscard]] LabelPlace label_place(const geom::GridRegion& outline);

@@ -29,8 +29,8 @@ struct ShapeFile {
   /// transforms and Booleans counted.
   double tolerance = 0;
   std::vector<std::string> names;  ///< given in the file, each once, in the order of their first use
-  /// For every edge, numbered as flatten() does, the name of the primitive that it comes from, or of the
-  /// nearest node above it that has one; into `names`, or kNoName. Booleans keep no record of this: an edge
+  /// For every edge the name of the primitive that it comes from, or of the nearest node above it that has
+  /// one; into `names`, or kNoName. Booleans keep no record of this: an edge
   /// counts to the first primitive of the file with an edge on the same line or circle at its middle, in the
   /// same direction.
   std::vector<std::uint32_t> name_of_edge;

@@ -1,4 +1,4 @@
-#include "convex_outline.hpp"
+#include "hulled_contour.hpp"
 
 #include <fmt/core.h>
 
@@ -151,7 +151,7 @@ double distance_to_segment_up(Point p, Point a, Point b) {
   return std::abs(depth_left_of_line_up(p, a, b));
 }
 
-std::string Outline::name(std::size_t position) const {
+std::string HulledContour::name(std::size_t position) const {
   const std::size_t index = ring[position];
   const Point p = file->points[index];
   const std::string place =
@@ -159,8 +159,8 @@ std::string Outline::name(std::size_t position) const {
   return fmt::format("point {} ({}{}, {} mm)", index, place, p.x, p.y);
 }
 
-Result<Outline> make_outline(const ContourFile& file, double tolerance) {
-  Outline outline;
+Result<HulledContour> find_hull(const ContourFile& file, double tolerance) {
+  HulledContour outline;
   outline.file = &file;
   outline.ring = without_duplicates(file.points, outline.duplicates);
   const std::size_t n = outline.ring.size();

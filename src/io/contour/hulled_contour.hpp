@@ -17,7 +17,7 @@ inline constexpr double kCollinearErrors = 3;
 /// A contour and the corners of its convex hull. `ring` holds the file indices without duplicates, turned to
 /// run counter-clockwise; `corners` positions in `ring`, ascending: a strictly convex polygon,
 /// counter-clockwise.
-struct Outline {
+struct HulledContour {
   const ContourFile* file = nullptr;
   std::vector<std::size_t> ring, duplicates, corners;
   bool reversed = false;
@@ -34,7 +34,7 @@ struct Outline {
 /// between those that stay around it. Fails with ErrorCode::bad_input for a contour no wider than the
 /// tolerance, and for one that does not run once around the corners. Cost: O(n log n). \pre file outlives the
 /// outline
-[[nodiscard]] Result<Outline> make_outline(const ContourFile& file, double tolerance);
+[[nodiscard]] Result<HulledContour> find_hull(const ContourFile& file, double tolerance);
 
 /// The distance from p to the segment ab, never below the exact one, and 0 only where that is 0; relative
 /// error 1e-15.
