@@ -1,8 +1,5 @@
 #include "grid_decimal.hpp"
 
-#include <fmt/format.h>
-
-#include <iterator>
 #include <string_view>
 
 #include "lekalo/base/assert.hpp"
@@ -74,10 +71,6 @@ void append_gap(std::string& text, std::int64_t steps) {
 
 void append_rotation_step(std::string& text, std::int64_t steps) {
   append_shortest(text, steps, 52, nearest, [](double c) { return geom::rotation_from_pair(c, 0).c; });
-}
-
-void append_number(std::string& text, double value) {
-  fmt::format_to(std::back_inserter(text), "{}", value + 0.0);
 }
 
 }  // namespace lekalo::io::detail
