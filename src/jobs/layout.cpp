@@ -10,15 +10,14 @@
 namespace lekalo::jobs {
 
 Result<Layout> open_layout(File file, const io::PartOptions& parts, const io::FindItems& find) {
-  LEKALO_TRY(io::LayoutFile read, io::read_any_layout(file.bytes, file.name, parts, find));
+  LEKALO_TRY(io::AnyLayout read, io::read_any_layout(file.bytes, file.name, parts, find));
   Layout layout;
   layout.sha256 = io::sha256(file.bytes);
   layout.document = std::move(read.document);
   layout.notices = std::move(read.notices);
-  layout.form = io::nesting_form(file.bytes);
-  if (layout.form == io::NestingForm::strip) layout.instance_name = io::file_name(file.name);
-  if (layout.form == io::NestingForm::placements)
-    layout.instance_name = io::instance_of_placements(file.bytes, file.name).value_or("");
+  layout.form = read.form;
+  layout.instance_name =
+      read.form == io::NestingForm::strip ? io::file_name(file.name) : std::move(read.instance);
   layout.name = std::move(file.name);
   if (file.bytes.find("lekalo-layout/1") != std::string::npos) layout.bytes = std::move(file.bytes);
   return layout;
