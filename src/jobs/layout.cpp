@@ -6,6 +6,7 @@
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "report_document.hpp"
 
 namespace lekalo::jobs {
 
@@ -27,17 +28,14 @@ std::string layout_bytes(const Layout& layout) {
   return layout.bytes.empty() ? io::write_layout(layout.document) : layout.bytes;
 }
 
-Json begin_layout_json(const char* format, const std::string& status, const Layout& layout) {
-  Json inputs = Json::array();
-  inputs.push_back({{"role", "layout"}, {"path", io::as_utf8(layout.name)}, {"sha256", layout.sha256}});
-  return {{"format", {{"name", format}, {"version", 1}}},
-          {"status", status},
-          {"units", "mm"},
-          {"inputs", std::move(inputs)},
-          {"warnings", layout.notices},
-          {"seed", 0},
-          {"work", layout.document.placements.size()},
-          {"version", kVersion}};
+io::JsonWriter begin_layout_json(const char* format, const std::string& status, const Layout& layout,
+                                 std::uint64_t seed, std::uint64_t work) {
+  io::JsonWriter json = begin_document(format);
+  json.fields({{"status", status}, {"units", "mm"}}).key("inputs").begin_list();
+  json.object({{"role", "layout"}, {"path", layout.name}, {"sha256", layout.sha256}});
+  json.end().key("warnings").list(layout.notices);
+  json.fields({{"seed", seed}, {"work", work}, {"version", kVersion}});
+  return json;
 }
 
 }  // namespace lekalo::jobs
