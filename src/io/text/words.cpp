@@ -1,10 +1,6 @@
 #include "lekalo/io/text/words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdint>
-#include <iterator>
 #include <vector>
 
 namespace lekalo::io {
@@ -74,7 +70,8 @@ void append(std::string& text, char32_t code) {
 
 /// The escape of JSON for one unit of UTF-16.
 void append_escape(std::string& text, char32_t unit) {
-  fmt::format_to(std::back_inserter(text), "\\u{:04x}", static_cast<std::uint32_t>(unit));
+  text += "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) text += "0123456789abcdef"[(unit >> shift) & 0xF];
 }
 
 char32_t shown(char32_t code) {
