@@ -5,24 +5,36 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "lekalo/base/double_of_text.hpp"
+#include "lekalo/io/text/json_writer.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/layout.hpp"
 
 namespace lekalo::server {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::JsonWriter;
 
-ApiAnswer json_answer(int status, const Json& json) {
-  return {
-      status, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n", "application/json", {}, {},
-      {}};
+ApiAnswer json_answer(int status, JsonWriter& json) {
+  return {status, json.take() + "\n", "application/json", {}, {}, {}};
+}
+
+ApiAnswer json_answer(int status, std::initializer_list<io::JsonField> fields) {
+  JsonWriter json(io::JsonLayout::compact);
+  return json_answer(status, json.object(fields));
+}
+
+/// An object of one list.
+template <class Items, class Write>
+ApiAnswer list_answer(const char* key, const Items& items, const Write& write) {
+  JsonWriter json(io::JsonLayout::compact);
+  json.begin_object().key(key).list(items, [&](const auto& item) { write(json, item); }).end();
+  return json_answer(200, json);
 }
 
 ApiAnswer trouble(const Error& error) {
@@ -39,14 +51,13 @@ ApiAnswer trouble(const Error& error) {
 ApiAnswer list_layouts(Store& store) {
   const Result<std::vector<LayoutSummary>> layouts = store.list();
   if (!layouts) return trouble(layouts.error());
-  Json list = Json::array();
-  for (const LayoutSummary& one : *layouts)
-    list.push_back({{"id", one.id},
-                    {"name", one.name},
-                    {"revision", one.revision},
-                    {"placements", one.placements},
-                    {"changed", one.changed}});
-  return json_answer(200, {{"layouts", std::move(list)}});
+  return list_answer("layouts", *layouts, [](JsonWriter& json, const LayoutSummary& one) {
+    json.object({{"id", one.id},
+                 {"name", one.name},
+                 {"revision", one.revision},
+                 {"placements", one.placements},
+                 {"changed", one.changed}});
+  });
 }
 
 /// The name that a request gives, or the sentence why not.
@@ -95,40 +106,42 @@ ApiAnswer create_layout(Store& store, const Target& target, const std::string& b
   if (given_up) return api_error(503, *name + ": nobody waits for it any more");
   const Result<LayoutId> id = store.create(*name, file->document);
   if (!id) return trouble(id.error());
-  return json_answer(201,
-                     {{"id", *id}, {"stocks", file->document.stocks.size()}, {"notices", file->notices}});
+  JsonWriter json(io::JsonLayout::compact);
+  json.begin_object().fields({{"id", *id}, {"stocks", file->document.stocks.size()}});
+  json.key("notices").list(file->notices).end();
+  return json_answer(201, json);
 }
 
 ApiAnswer history(Store& store, LayoutId id) {
   const Result<std::vector<HistoryEntry>> entries = store.history(id);
   if (!entries) return trouble(entries.error());
-  Json list = Json::array();
-  for (const HistoryEntry& entry : *entries)
-    list.push_back({{"revision", entry.revision},
-                    {"at", entry.at},
-                    {"author", entry.author},
-                    {"text", entry.text},
-                    {"kind", name_of(entry.kind)},
-                    {"undone", entry.undone}});
-  return json_answer(200, {{"entries", std::move(list)}});
+  return list_answer("entries", *entries, [](JsonWriter& json, const HistoryEntry& entry) {
+    json.object({{"revision", entry.revision},
+                 {"at", entry.at},
+                 {"author", entry.author},
+                 {"text", entry.text},
+                 {"kind", name_of(entry.kind)},
+                 {"undone", entry.undone}});
+  });
 }
 
 /// The notes as the value of a header: as many as fit into one, and a word about the rest.
 std::string notes_json(const std::vector<std::string>& notes) {
   if (notes.empty()) return {};
   constexpr std::size_t kMost = 8000;
-  const auto text = [](const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); };
-  Json list = Json::array();
+  JsonWriter json(io::JsonLayout::compact);
+  json.begin_list();
   std::size_t size = 0;
   for (std::size_t i = 0; i < notes.size(); ++i) {
-    size += text(notes[i]).size() + 2;
+    size += io::ascii_json(io::json_string(notes[i])).size() + 2;
     if (size > kMost) {
-      list.push_back(fmt::format("... and {} more; lekalo export says all", notes.size() - i));
+      json.value(fmt::format("... and {} more; lekalo export says all", notes.size() - i));
       break;
     }
-    list.push_back(notes[i]);
+    json.value(notes[i]);
   }
-  return text(list);
+  json.end();
+  return io::ascii_json(json.take());
 }
 
 /// A form that an export can have: its word, and what its file is.
@@ -213,12 +226,12 @@ ApiAnswer rename_layout(const ChangeRoom& change_room, LayoutId id, const Target
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
   const Result<void> done = change_room(id, [&](Room& room) { return room.rename(*name); });
-  return done ? json_answer(200, Json::object()) : trouble(done.error());
+  return done ? json_answer(200, {}) : trouble(done.error());
 }
 
 ApiAnswer remove_layout(const ChangeRoom& change_room, LayoutId id) {
   const Result<void> done = change_room(id, [](Room& room) { return room.remove(); });
-  return done ? json_answer(200, Json::object()) : trouble(done.error());
+  return done ? json_answer(200, {}) : trouble(done.error());
 }
 
 /// "x,y,x,y" of two points that are not one, within +-`most`.
@@ -253,14 +266,10 @@ Result<PhotoScale> scale_in(const Target& target) {
 ApiAnswer list_photos(Store& store, LayoutId id) {
   const Result<std::vector<Photo>> photos = store.photos(id);
   if (!photos) return trouble(photos.error());
-  Json list = Json::array();
-  for (const Photo& one : *photos)
-    list.push_back({{"stock", one.stock},
-                    {"type", one.type},
-                    {"bytes", one.bytes},
-                    {"pixels", one.scale.pixels},
-                    {"mm", one.scale.mm}});
-  return json_answer(200, {{"photos", std::move(list)}});
+  return list_answer("photos", *photos, [](JsonWriter& json, const Photo& one) {
+    json.begin_object().fields({{"stock", one.stock}, {"type", one.type}, {"bytes", one.bytes}});
+    json.key("pixels").list(one.scale.pixels).key("mm").list(one.scale.mm).end();
+  });
 }
 
 ApiAnswer photo(Store& store, const ChangeRoom& change_room, const std::string& method, LayoutId id,
@@ -288,7 +297,7 @@ ApiAnswer photo(Store& store, const ChangeRoom& change_room, const std::string& 
       done = change_room(id, [&](Room& room) { return room.set_photo(given, body); });
     }
   }
-  return done ? json_answer(200, Json::object()) : trouble(done.error());
+  return done ? json_answer(200, {}) : trouble(done.error());
 }
 
 }  // namespace

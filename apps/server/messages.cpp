@@ -5,30 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "lekalo/base/plain_text.hpp"
+#include "lekalo/io/text/json_events.hpp"
 
 namespace lekalo::server {
 namespace {
 
-using Json = nlohmann::json;
-
-/// Takes one flat object as the parser meets its parts. It stands beside the reader of io on purpose:
-/// messages come from strangers, so no tree is built and the first thing that does not belong ends the
-/// reading; and its sentences name fields, as the protocol has it, where those of io name the lines of a
-/// file.
-class MessageReader : public nlohmann::json_sax<Json> {
+/// Takes one flat object as the parser meets its parts. It builds no tree, because messages come from
+/// strangers: the first thing that does not belong ends the reading. And its sentences name fields, as the
+/// protocol has it, where those of JsonReader name the lines of a file.
+class MessageReader final : public io::JsonEvents {
  public:
   bool null() override { return wrong_type(); }
   bool boolean(bool) override { return wrong_type(); }
-  bool number_integer(number_integer_t) override { return stop("is negative; it has to be a whole number"); }
-  bool number_float(number_float_t, const string_t&) override {
-    return stop("is no whole number below 2^53");
-  }
-  bool binary(binary_t&) override { return wrong_type(); }
-  bool number_unsigned(number_unsigned_t value) override {
+  bool number(double, std::string_view) override { return stop("is no whole number below 2^53"); }
+  bool integer(std::int64_t number) override {
+    if (number < 0) return stop("is negative; it has to be a whole number");
+    const auto value = static_cast<std::uint64_t>(number);
     if (value > kLargestCount) return stop("is no whole number below 2^53");
     if (in_list_) {
       if (ids_.size() == kMostSelected) return stop(fmt::format("has more than {} ids", kMostSelected));
@@ -39,26 +34,26 @@ class MessageReader : public nlohmann::json_sax<Json> {
     seq_ = value;
     return true;
   }
-  bool string(string_t& value) override {
+  bool text(std::string_view value) override {
     if (!in_object_ || in_list_) return wrong_type();
     if (key_ == "type") {
-      type_ = std::move(value);
+      type_ = value;
     } else if (key_ == "mode") {
-      mode_ = std::move(value);
+      mode_ = value;
     } else if (key_ == "text") {
-      text_ = std::move(value);
+      text_ = value;
     } else {
       return wrong_type();
     }
     return true;
   }
-  bool start_object(std::size_t) override {
+  bool begin_object() override {
     if (in_object_) return wrong_type();
     in_object_ = true;
     return true;
   }
-  bool key(string_t& value) override {
-    key_ = std::move(value);
+  bool key(std::string_view value) override {
+    key_ = value;
     const auto known = std::find(kKeys.begin(), kKeys.end(), key_);
     if (known == kKeys.end()) {
       fault_ = "the message has a field that is not known";
@@ -70,18 +65,17 @@ class MessageReader : public nlohmann::json_sax<Json> {
     return true;
   }
   bool end_object() override { return true; }
-  bool start_array(std::size_t) override {
+  bool begin_list() override {
     if (!in_object_ || in_list_ || key_ != "ids") return wrong_type();
     in_list_ = true;
     return true;
   }
-  bool end_array() override {
+  bool end_list() override {
     in_list_ = false;
     return true;
   }
-  bool parse_error(std::size_t position, const std::string&, const Json::exception&) override {
-    if (fault_.empty()) fault_ = fmt::format("the message is no JSON: trouble at byte {}", position);
-    return false;
+  void broken(const io::JsonBreak& at) override {
+    if (fault_.empty()) fault_ = fmt::format("the message is no JSON: trouble at byte {}", at.byte);
   }
 
   [[nodiscard]] Result<ClientMessage> message() {
@@ -152,7 +146,7 @@ Result<ClientMessage> parse_client_message(std::string_view bytes) {
     return failure(ErrorCode::bad_input, fmt::format("the message has more than {} bytes", kLargestMessage));
   MessageReader reader;
   // Its word is in the reader, which keeps the first fault.
-  static_cast<void>(Json::sax_parse(bytes.begin(), bytes.end(), &reader));
+  static_cast<void>(io::parse_json(bytes, reader));
   return reader.message();
 }
 

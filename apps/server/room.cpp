@@ -8,12 +8,13 @@
 #include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
-#include "lekalo/io/text/words.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 #include "nest_job.hpp"
 
 namespace lekalo::server {
 namespace {
 
+using io::JsonWriter;
 using layout::Placement;
 using layout::PlacementChange;
 
@@ -21,14 +22,28 @@ std::uint64_t id_of(const PlacementChange& change) {
   return change.after ? change.after->id : change.before->id;
 }
 
-std::string placements_text(const layout::Document& document, const layout::Change& change) {
-  std::string text = "[";
-  for (const PlacementChange& one : change.placements) {
-    if (text.size() > 1) text += ", ";
-    text += fmt::format("{{\"id\": {}, \"after\": {}}}", id_of(one),
-                        one.after ? io::placement_json(document, *one.after) : "null");
-  }
-  return text + "]";
+/// The message of a type; its object is open.
+JsonWriter begin_message(const char* type) {
+  JsonWriter json(io::JsonLayout::spaced);
+  json.begin_object().field("type", type);
+  return json;
+}
+
+std::string end_message(JsonWriter& json) {
+  json.end();
+  return json.take();
+}
+
+void write_placements(JsonWriter& json, const layout::Document& document, const layout::Change& change) {
+  json.key("placements").list(change.placements, [&](const PlacementChange& one) {
+    json.begin_object().field("id", id_of(one)).key("after");
+    one.after ? void(json.raw() += io::placement_json(document, *one.after)) : void(json.value(nullptr));
+    json.end();
+  });
+}
+
+void write_features(JsonWriter& json, const layout::Document& document, const layout::Change& change) {
+  json.key("features").raw() += io::features_json(document, change.features);
 }
 
 std::vector<Placement> placed_by(const layout::Change& change) {
@@ -52,10 +67,6 @@ std::string brief(const std::string& text) {
   return text.substr(0, end) + " ...";
 }
 
-std::string features_text(const layout::Document& document, const layout::Change& change) {
-  return io::features_json(document, change.features);
-}
-
 /// The violations of all parts with the features that a change leaves behind. \pre carried out
 std::vector<layout::Violation> violations_with(const layout::Workspace& workspace,
                                                const layout::Change& change) {
@@ -75,13 +86,15 @@ Outgoing message(ClientNumber to, std::string text, Loss loss = Loss::never) {
 }
 
 std::string refused(std::uint64_t seq, const std::string& why, const std::string& violations = "[]") {
-  return fmt::format("{{\"type\": \"refused\", \"seq\": {}, \"message\": {}, \"violations\": {}}}", seq,
-                     io::json_string(why), violations);
+  JsonWriter json = begin_message("refused");
+  json.fields({{"seq", seq}, {"message", why}}).key("violations").raw() += violations;
+  return end_message(json);
 }
 
-/// \param more  further fields, each after a comma
-std::string done(std::uint64_t seq, Revision revision, const std::string& more = {}) {
-  return fmt::format("{{\"type\": \"done\", \"seq\": {}, \"revision\": {}{}}}", seq, revision, more);
+JsonWriter begin_done(std::uint64_t seq, Revision revision) {
+  JsonWriter json = begin_message("done");
+  json.fields({{"seq", seq}, {"revision", revision}});
+  return json;
 }
 
 /// Numbers of placements are never given again while others may speak of them, so going back keeps them.
@@ -201,13 +214,15 @@ Outbound Room::command(ClientNumber client, const CommandMessage& said) {
 Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
                          layout::Change change, bool stopped) {
   Outbound out;
-  std::string more = stopped ? ", \"stopped\": true" : "";
   if (said.preview) {
     out.push_back(message(client, preview_text(said.seq, change)));
     return out;
   }
   if (change.is_nothing()) {
-    out.push_back(message(client, done(said.seq, revision_, ", \"nothing\": true" + more)));
+    JsonWriter json = begin_done(said.seq, revision_);
+    json.field("nothing", true);
+    if (stopped) json.field("stopped", true);
+    out.push_back(message(client, end_message(json)));
     return out;
   }
   StoredChange stored;
@@ -218,10 +233,12 @@ Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const 
     out.push_back(message(client, refused(said.seq, kept.error().message)));
     return out;
   }
+  JsonWriter json = begin_done(said.seq, revision_);
+  if (stopped) json.field("stopped", true);
   // A defect is where it is: admitted, and what lies on it is named.
   if (!change.features.empty())
-    more += ", \"violations\": " + io::violations_json(document(), violations_with(workspace_, change));
-  out.insert(out.begin(), message(client, done(said.seq, revision_, more)));
+    json.key("violations").raw() += io::violations_json(document(), violations_with(workspace_, change));
+  out.insert(out.begin(), message(client, end_message(json)));
   Stack& stack = stack_of(clients_[client]);
   stack.done.push_back(revision_);
   stack.undone.clear();
@@ -257,12 +274,10 @@ Outbound Room::job_progress(JobNumber job, double fraction, std::optional<double
   Outbound out;
   const auto at = running_.find(job);
   if (at == running_.end()) return out;
-  out.push_back(message(at->second.client,
-                        fmt::format("{{\"type\": \"progress\", \"seq\": {}, \"fraction\": {:.4f}, "
-                                    "\"seconds_left\": {}}}",
-                                    at->second.said.seq, fraction,
-                                    seconds_left ? fmt::format("{:.1f}", *seconds_left) : "null"),
-                        Loss::as_newer));
+  JsonWriter json = begin_message("progress");
+  json.field("seq", at->second.said.seq).key("fraction").raw() += fmt::format("{:.4f}", fraction);
+  json.key("seconds_left").raw() += seconds_left ? fmt::format("{:.1f}", *seconds_left) : "null";
+  out.push_back(message(at->second.client, end_message(json), Loss::as_newer));
   return out;
 }
 
@@ -270,10 +285,9 @@ Outbound Room::job_improved(JobNumber job, const layout::Change& change) const {
   Outbound out;
   const auto at = running_.find(job);
   if (at == running_.end()) return out;
-  out.push_back(message(at->second.client,
-                        fmt::format("{{\"type\": \"improved\", \"seq\": {}, \"placements\": {}}}",
-                                    at->second.said.seq, placements_text(document(), change)),
-                        Loss::as_newer));
+  JsonWriter json = begin_message("improved");
+  write_placements(json.field("seq", at->second.said.seq), document(), change);
+  out.push_back(message(at->second.client, end_message(json), Loss::as_newer));
   return out;
 }
 
@@ -335,7 +349,8 @@ Outbound Room::undo(ClientNumber client, const UndoMessage& said) {
   if (said.redo) next.change = reversed(next.change, next_id);
   if (Result<void> fine = check_standing(*stored, next.change); !fine) return refuse(fine.error().message);
   if (Result<void> kept = commit(client, std::move(next), out); !kept) return refuse(kept.error().message);
-  out.insert(out.begin(), message(client, done(said.seq, revision_)));
+  JsonWriter json = begin_done(said.seq, revision_);
+  out.insert(out.begin(), message(client, end_message(json)));
   to.push_back(from.back());
   from.pop_back();
   return out;
@@ -350,9 +365,11 @@ std::string Room::preview_text(std::uint64_t seq, const layout::Change& change) 
     shown = io::violations_json(document(), violations);
     layout::take_back(workspace_, change);
   }
-  return fmt::format(
-      "{{\"type\": \"preview\", \"seq\": {}, \"placements\": {}, \"features\": {}, \"violations\": {}}}", seq,
-      placements_text(document(), change), features_text(document(), change), shown);
+  JsonWriter json = begin_message("preview");
+  write_placements(json.field("seq", seq), document(), change);
+  write_features(json, document(), change);
+  json.key("violations").raw() += shown;
+  return end_message(json);
 }
 
 Result<std::string> Room::later_change(std::uint64_t id, Revision since) {
@@ -455,12 +472,13 @@ Result<void> Room::commit(ClientNumber client, StoredChange change, Outbound& ou
     last_touch_[id_of(one)] = {revision_, who(client), change.text};
   for (const layout::FeatureChange& one : change.change.features)
     last_draw_[feature_key(one.stock, one.either())] = {revision_, who(client), change.text};
-  to_all(fmt::format("{{\"type\": \"change\", \"revision\": {}, \"client\": {}, \"text\": {}, \"kind\": "
-                     "\"{}\", \"placements\": {}, \"features\": {}, \"next_id\": {}}}",
-                     revision_, client, io::json_string(change.text), name_of(change.kind),
-                     placements_text(document(), change.change), features_text(document(), change.change),
-                     document().next_id),
-         Loss::as_newer, out);
+  JsonWriter json = begin_message("change");
+  json.fields(
+      {{"revision", revision_}, {"client", client}, {"text", change.text}, {"kind", name_of(change.kind)}});
+  write_placements(json, document(), change.change);
+  write_features(json, document(), change.change);
+  json.field("next_id", document().next_id);
+  to_all(end_message(json), Loss::as_newer, out);
   return {};
 }
 
@@ -498,7 +516,8 @@ Result<Outbound> Room::rename(const std::string& name) {
   Outbound out;
   LEKALO_CHECK(store_.rename(id_, name));
   name_ = name;
-  to_all(fmt::format("{{\"type\": \"name\", \"name\": {}}}", io::json_string(name)), Loss::as_newer, out);
+  JsonWriter json = begin_message("name");
+  to_all(end_message(json.field("name", name)), Loss::as_newer, out);
   return out;
 }
 
@@ -522,15 +541,16 @@ Result<Outbound> Room::remove_photo(const std::string& stock) {
 
 Outbound Room::photo_changed(const std::string& stock, bool image) const {
   Outbound out;
-  to_all(fmt::format("{{\"type\": \"photos\", \"stock\": {}, \"image\": {}}}", io::json_string(stock), image),
-         Loss::as_newer, out);
+  JsonWriter json = begin_message("photos");
+  to_all(end_message(json.fields({{"stock", stock}, {"image", image}})), Loss::as_newer, out);
   return out;
 }
 
 Result<Outbound> Room::remove() {
   Outbound out;
   LEKALO_CHECK(store_.remove(id_));
-  to_all("{\"type\": \"bye\", \"message\": \"the layout was deleted\"}", Loss::never, out);
+  JsonWriter json = begin_message("bye");
+  to_all(end_message(json.field("message", "the layout was deleted")), Loss::never, out);
   clients_.clear();
   removed_ = true;
   return out;
@@ -553,21 +573,20 @@ void Room::to_all(const std::string& text, Loss loss, Outbound& out) const {
 }
 
 std::string Room::layout_text(ClientNumber client) const {
-  return fmt::format(
-      "{{\"type\": \"layout\", \"client\": {}, \"revision\": {}, \"name\": {}, \"document\": {}}}", client,
-      revision_, io::json_string(name_), io::write_layout(document()));
+  JsonWriter json = begin_message("layout");
+  json.fields({{"client", client}, {"revision", revision_}, {"name", name_}});
+  json.key("document").raw() += io::write_layout(document());
+  return end_message(json);
 }
 
 std::string Room::selections_text() const {
-  std::string text = "{\"type\": \"selections\", \"clients\": [";
-  bool first = true;
-  for (const auto& [number, client] : clients_) {
-    if (client.selected.empty()) continue;
-    text += fmt::format("{}{{\"client\": {}, \"ids\": [{}]}}", first ? "" : ", ", number,
-                        joined_text(client.selected, ", "));
-    first = false;
-  }
-  return text + "]}";
+  JsonWriter json = begin_message("selections");
+  json.key("clients").begin_list();
+  for (const auto& [number, client] : clients_)
+    if (!client.selected.empty())
+      json.begin_object().field("client", number).key("ids").list(client.selected).end();
+  json.end();
+  return end_message(json);
 }
 
 }  // namespace lekalo::server

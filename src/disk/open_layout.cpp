@@ -48,7 +48,7 @@ io::FindItems items_near(std::string path, std::string instance) {
   };
 }
 
-Result<io::LayoutFile> open_layout(const std::string& path, const OpenOptions& options) {
+Result<io::AnyLayout> open_layout(const std::string& path, const OpenOptions& options) {
   LEKALO_TRY(const std::string bytes, read_file(path));
   return io::read_any_layout(bytes, path, options.parts, items_near(path, options.instance));
 }

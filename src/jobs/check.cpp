@@ -67,17 +67,14 @@ Result<Checked> check(const Layout& layout) {
 }
 
 std::string check_json(const Layout& layout, const Checked& checked) {
-  Json json = begin_layout_json("lekalo-check",
-                                !checked.agree()  ? "refuted"
-                                : checked.valid() ? "valid"
-                                                  : "violations",
-                                layout);
-  json["valid"] = checked.valid();
-  json["checked_by"] = {"engine", "verify"};
-  json["disagreements"] = checked.disagreements;
-  json["violations"] = Json::parse(io::violations_json(layout.document, checked.violations));
-  json["run"] = Json::object();
-  return document_text(json);
+  const char* const status = !checked.agree() ? "refuted" : checked.valid() ? "valid" : "violations";
+  io::JsonWriter json =
+      begin_layout_json("lekalo-check", status, layout, 0, layout.document.placements.size());
+  json.field("valid", checked.valid()).key("checked_by").list({"engine", "verify"});
+  json.key("disagreements").list(checked.disagreements);
+  io::write_violations(json.key("violations"), layout.document, checked.violations);
+  json.key("run").object({});
+  return end_document(json);
 }
 
 Result<void> confirm_layout(const layout::Document& document, std::string_view bytes) {

@@ -6,19 +6,19 @@
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "report_document.hpp"
 
 namespace lekalo::jobs {
 
 Result<Layout> open_layout(File file, const io::PartOptions& parts, const io::FindItems& find) {
-  LEKALO_TRY(io::LayoutFile read, io::read_any_layout(file.bytes, file.name, parts, find));
+  LEKALO_TRY(io::AnyLayout read, io::read_any_layout(file.bytes, file.name, parts, find));
   Layout layout;
   layout.sha256 = io::sha256(file.bytes);
   layout.document = std::move(read.document);
   layout.notices = std::move(read.notices);
-  layout.form = io::nesting_form(file.bytes);
-  if (layout.form == io::NestingForm::strip) layout.instance_name = io::file_name(file.name);
-  if (layout.form == io::NestingForm::placements)
-    layout.instance_name = io::instance_of_placements(file.bytes, file.name).value_or("");
+  layout.form = read.form;
+  layout.instance_name =
+      read.form == io::NestingForm::strip ? io::file_name(file.name) : std::move(read.instance);
   layout.name = std::move(file.name);
   if (file.bytes.find("lekalo-layout/1") != std::string::npos) layout.bytes = std::move(file.bytes);
   return layout;
@@ -28,17 +28,14 @@ std::string layout_bytes(const Layout& layout) {
   return layout.bytes.empty() ? io::write_layout(layout.document) : layout.bytes;
 }
 
-Json begin_layout_json(const char* format, const std::string& status, const Layout& layout) {
-  Json inputs = Json::array();
-  inputs.push_back({{"role", "layout"}, {"path", io::as_utf8(layout.name)}, {"sha256", layout.sha256}});
-  return {{"format", {{"name", format}, {"version", 1}}},
-          {"status", status},
-          {"units", "mm"},
-          {"inputs", std::move(inputs)},
-          {"warnings", layout.notices},
-          {"seed", 0},
-          {"work", layout.document.placements.size()},
-          {"version", kVersion}};
+io::JsonWriter begin_layout_json(const char* format, const std::string& status, const Layout& layout,
+                                 std::uint64_t seed, std::uint64_t work) {
+  io::JsonWriter json = begin_document(format);
+  json.fields({{"status", status}, {"units", "mm"}}).key("inputs").begin_list();
+  json.object({{"role", "layout"}, {"path", layout.name}, {"sha256", layout.sha256}});
+  json.end().key("warnings").list(layout.notices);
+  json.fields({{"seed", seed}, {"work", work}, {"version", kVersion}});
+  return json;
 }
 
 }  // namespace lekalo::jobs

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
 #include <string>
 
+#include "lekalo/io/text/json_writer.hpp"
 #include "lekalo/jobs/layout.hpp"
 
 namespace lekalo::jobs {
 
-using Json = nlohmann::ordered_json;
-
-/// The members that the JSON of every job on a layout begins with.
-[[nodiscard]] Json begin_layout_json(const char* format, const std::string& status, const Layout& layout);
+/// The JSON of a job on a layout with the fields that it begins with; its object is open.
+[[nodiscard]] io::JsonWriter begin_layout_json(const char* format, const std::string& status,
+                                               const Layout& layout, std::uint64_t seed, std::uint64_t work);
 
 }  // namespace lekalo::jobs

@@ -86,41 +86,30 @@ Result<Confirmed> confirmed(const Document& given, const Document& found) {
   return layout;
 }
 
-Json remnant_of(const layout::SheetUse& use) {
-  if (!(use.remnant.low.x < use.remnant.high.x)) return nullptr;
-  return {geom::mm_from_grid(use.remnant.low.x), geom::mm_from_grid(use.remnant.low.y),
-          geom::mm_from_grid(use.remnant.high.x), geom::mm_from_grid(use.remnant.high.y)};
+void write(io::JsonWriter& json, const layout::SheetUse& use, const Document& document) {
+  json.begin_object().fields({{"stock", document.stocks[use.sheet.stock].id},
+                              {"copy", use.sheet.copy},
+                              {"parts", use.parts},
+                              {"density", use.density()},
+                              {"length", use.used_length_mm}});
+  json.key("remnant");
+  if (use.remnant.low.x < use.remnant.high.x) {
+    const geom::Point low = geom::mm_from_grid(use.remnant.low), high = geom::mm_from_grid(use.remnant.high);
+    json.list({low.x, low.y, high.x, high.y});
+  } else {
+    json.value(nullptr);
+  }
+  json.end();
 }
 
-Json stocks_of(const Nested& nested) {
-  Json stocks = Json::array();
-  for (const layout::SheetUse& use : nested.completeness.sheets)
-    stocks.push_back({{"stock", nested.document.stocks[use.sheet.stock].id},
-                      {"copy", use.sheet.copy},
-                      {"parts", use.parts},
-                      {"density", use.density()},
-                      {"length", use.used_length_mm},
-                      {"remnant", remnant_of(use)}});
-  return stocks;
-}
-
-Json kits_of(const Nested& nested) {
-  Json kits = Json::array();
+void write_kits(io::JsonWriter& json, const Nested& nested) {
+  json.begin_list();
   for (std::size_t i = 0; i < nested.document.kits.size(); ++i)
-    kits.push_back({{"kit", nested.document.kits[i].id},
-                    {"complete", nested.completeness.kits[i].complete},
-                    {"wanted", nested.document.kits[i].demand},
-                    {"value", nested.document.kits[i].value}});
-  return kits;
-}
-
-Json unplaced_of(const Nested& nested) {
-  Json unplaced = Json::array();
-  for (const nest::Unplaced& u : nested.unplaced)
-    unplaced.push_back({{"part", nested.document.parts[u.part].id},
-                        {"count", u.count},
-                        {"reason", nest::name_of(u.reason)}});
-  return unplaced;
+    json.object({{"kit", nested.document.kits[i].id},
+                 {"complete", nested.completeness.kits[i].complete},
+                 {"wanted", nested.document.kits[i].demand},
+                 {"value", nested.document.kits[i].value}});
+  json.end();
 }
 
 }  // namespace
@@ -168,18 +157,22 @@ Result<Nested> nest(const Document& document, const NestOptions& options, const 
 
 std::string nest_json(const Layout& given, const NestOptions& options, const Nested& nested,
                       double cpu_seconds) {
-  Json json = begin_layout_json("lekalo-nest", nested.unplaced.empty() ? "complete" : "incomplete", given);
-  json["seed"] = options.seed;
-  json["work"] = nested.work;
-  json["merges"] = nested.merges;
-  json["density"] = nested.completeness.density;
-  json["cost"] = nested.completeness.cost;
-  if (nested.completeness.sheets.size() == 1) json["length"] = nested.completeness.sheets[0].used_length_mm;
-  json["stocks"] = stocks_of(nested);
-  json["kits"] = kits_of(nested);
-  json["unplaced"] = unplaced_of(nested);
-  json["run"] = {{"cpu_seconds", cpu_seconds}, {"threads", options.threads}};
-  return document_text(json);
+  io::JsonWriter json = begin_layout_json("lekalo-nest", nested.unplaced.empty() ? "complete" : "incomplete",
+                                          given, options.seed, nested.work);
+  json.fields({{"merges", nested.merges},
+               {"density", nested.completeness.density},
+               {"cost", nested.completeness.cost}});
+  const auto& sheets = nested.completeness.sheets;
+  if (sheets.size() == 1) json.field("length", sheets[0].used_length_mm);
+  json.key("stocks").list(sheets, [&](const layout::SheetUse& use) { write(json, use, nested.document); });
+  write_kits(json.key("kits"), nested);
+  json.key("unplaced").list(nested.unplaced, [&](const nest::Unplaced& u) {
+    json.object({{"part", nested.document.parts[u.part].id},
+                 {"count", u.count},
+                 {"reason", nest::name_of(u.reason)}});
+  });
+  json.key("run").object({{"cpu_seconds", cpu_seconds}, {"threads", options.threads}});
+  return end_document(json);
 }
 
 }  // namespace lekalo::jobs

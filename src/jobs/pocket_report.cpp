@@ -10,8 +10,6 @@
 namespace lekalo::jobs {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double kLasting = 0.2;  // mm, as the checker has it for its largest engagement
 
 double rounded(double value) { return std::round(value * 1000) / 1000; }
@@ -24,15 +22,11 @@ ReportedStretch reported(geom::Point from, geom::Point to, double z, double leng
           rounded(degrees)};
 }
 
-Json json_of(const std::vector<ReportedStretch>& stretches) {
-  Json list = Json::array();
-  for (const ReportedStretch& s : stretches)
-    list.push_back({{"from", {s.from.x, s.from.y}},
-                    {"to", {s.to.x, s.to.y}},
-                    {"z", s.z},
-                    {"length_mm", s.length_mm},
-                    {"engagement_deg", s.engagement_deg}});
-  return list;
+void write(io::JsonWriter& json, const std::vector<ReportedStretch>& stretches) {
+  json.list(stretches, [&](const ReportedStretch& s) {
+    json.begin_object().key("from").list({s.from.x, s.from.y}).key("to").list({s.to.x, s.to.y});
+    json.fields({{"z", s.z}, {"length_mm", s.length_mm}, {"engagement_deg", s.engagement_deg}}).end();
+  });
 }
 
 }  // namespace
@@ -71,21 +65,22 @@ std::vector<ReportedStretch> reported_ramps(const std::vector<mill::Ramp>& ramps
 
 std::string pocket_json(const PocketJob& job, const Pocketed& made) {
   const PocketOptions& o = job.options;
-  Json json{
-      {"format", {{"name", "lekalo-pocket"}, {"version", 1}}},
-      {"units", "mm"},
-      {"inputs", records_with_earlier(Json::array({file_record("pocket", job.outline.file)}), job.after)},
-      {"outputs", Json::array({file_record("program", {job.written_as, made.program})})},
-      {"tool_mm", o.path.tool_diameter},
-      {"step_over", o.path.step_over},
-      {"depth_mm", o.path.depth},
-      {"stock_to_leave_mm", o.path.stock_to_leave}};
-  if (o.rest_of > 0) json["rest_of_mm"] = o.rest_of;
-  json.update(report_fields(made.report));
-  json["hot_cuts"] = json_of(made.hot_cuts);
-  json["ramps"] = json_of(made.ramps);
-  json["version"] = kVersion;
-  return document_text(json);
+  io::JsonWriter json = begin_document("lekalo-pocket");
+  json.field("units", "mm").key("inputs").begin_list();
+  write_file(json, "pocket", job.outline.file);
+  write_earlier(json, job.after);
+  json.end().key("outputs").begin_list();
+  write_file(json, "program", {job.written_as, made.program});
+  json.end().fields({{"tool_mm", o.path.tool_diameter},
+                     {"step_over", o.path.step_over},
+                     {"depth_mm", o.path.depth},
+                     {"stock_to_leave_mm", o.path.stock_to_leave}});
+  if (o.rest_of > 0) json.field("rest_of_mm", o.rest_of);
+  write_report(json, made.report);
+  write(json.key("hot_cuts"), made.hot_cuts);
+  write(json.key("ramps"), made.ramps);
+  json.field("version", kVersion);
+  return end_document(json);
 }
 
 }  // namespace lekalo::jobs

@@ -1,26 +1,26 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "lekalo/io/text/json_writer.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/simulate.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::jobs {
 
+/// The JSON of a job, which begins with the name of its format; its object is open.
+[[nodiscard]] io::JsonWriter begin_document(const char* format);
+/// Closes the object, and hands out the text.
+[[nodiscard]] std::string end_document(io::JsonWriter& json);
+
 /// A file as reports name it: its role, its name and the digest of its bytes.
-[[nodiscard]] nlohmann::ordered_json file_record(const char* role, const File& file);
+void write_file(io::JsonWriter& json, const char* role, const File& file);
+/// The same of programs that ran before, into a list that is open.
+void write_earlier(io::JsonWriter& json, const std::vector<EarlierProgram>& earlier);
 
-/// The records of `first`, and after them those of the programs that ran before.
-[[nodiscard]] nlohmann::ordered_json records_with_earlier(nlohmann::ordered_json first,
-                                                          const std::vector<EarlierProgram>& earlier);
-
-/// The checker's figures under their names in docs/formats.md.
-[[nodiscard]] nlohmann::ordered_json report_fields(const verify::SimulateReport& report);
-
-/// The text of a finished document; bytes that are not UTF-8 become U+FFFD.
-[[nodiscard]] std::string document_text(const nlohmann::ordered_json& document);
+/// The checker's figures under their names in docs/formats.md, into an object that is open.
+void write_report(io::JsonWriter& json, const verify::SimulateReport& report);
 
 }  // namespace lekalo::jobs

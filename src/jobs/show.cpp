@@ -13,11 +13,11 @@ Shown show(const layout::Document& document) {
 }
 
 std::string show_json(const Layout& layout, const Shown& shown) {
-  Json json = begin_layout_json("lekalo-show", "shown", layout);
-  json.update(Json::parse(io::completeness_json(layout.document, shown.completeness)));
-  json["violations"] = shown.violations.size();
-  json["run"] = Json::object();
-  return document_text(json);
+  io::JsonWriter json =
+      begin_layout_json("lekalo-show", "shown", layout, 0, layout.document.placements.size());
+  io::write_completeness(json, layout.document, shown.completeness);
+  json.field("violations", shown.violations.size()).key("run").object({});
+  return end_document(json);
 }
 
 std::optional<PictureForm> picture_form(std::string_view name) noexcept {

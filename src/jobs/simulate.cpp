@@ -12,18 +12,16 @@ namespace lekalo::jobs {
 namespace {
 
 std::string report_json(const SimulateJob& job, const verify::SimulateReport& r) {
-  using Json = nlohmann::ordered_json;
-  Json json{
-      {"format", {{"name", "lekalo-simulate"}, {"version", 1}}},
-      {"units", "mm"},
-      {"inputs",
-       records_with_earlier(
-           Json::array({file_record("program", job.program), file_record("pocket", job.pocket)}), job.after)},
-      {"tool_mm", job.machining.tool_diameter},
-      {"stock_to_leave_mm", job.machining.stock_to_leave}};
-  json.update(report_fields(r));
-  json["version"] = kVersion;
-  return document_text(json);
+  io::JsonWriter json = begin_document("lekalo-simulate");
+  json.field("units", "mm").key("inputs").begin_list();
+  write_file(json, "program", job.program);
+  write_file(json, "pocket", job.pocket);
+  write_earlier(json, job.after);
+  json.end().fields(
+      {{"tool_mm", job.machining.tool_diameter}, {"stock_to_leave_mm", job.machining.stock_to_leave}});
+  write_report(json, r);
+  json.field("version", kVersion);
+  return end_document(json);
 }
 
 std::string samples_csv(const verify::SimulateReport& r) {

@@ -13,8 +13,6 @@
 namespace lekalo::jobs {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Finds what a result names and compares digests.
 class Evidence {
  public:
@@ -93,23 +91,23 @@ class Evidence {
   }
 
   [[nodiscard]] std::string report_json(const verify::LocateReport& report) const {
-    Json inputs = Json::array(
-        {file_record("result", result_), file_record("part", part_), file_record("blank", blank_)});
-    if (certificate_) inputs.push_back(file_record("certificate", *certificate_));
-    return document_text({{"format", {{"name", "lekalo-verify"}, {"version", 1}}},
-                          {"status", name_of(report.verdict)},
-                          {"units", "mm"},
-                          {"inputs", std::move(inputs)},
-                          {"warnings", report.notes},
-                          {"seed", 0},
-                          {"work", report.intervals},
-                          {"version", kVersion},
-                          {"clearance_low", report.clearance_low},
-                          {"clearance_high", report.clearance_high},
-                          {"bound_high", report.bound_high.empty() ? Json(nullptr) : Json(report.bound_high)},
-                          {"intervals", report.intervals},
-                          {"findings", report.findings},
-                          {"run", Json::object()}});
+    io::JsonWriter json = begin_document("lekalo-verify");
+    json.fields({{"status", name_of(report.verdict)}, {"units", "mm"}}).key("inputs").begin_list();
+    write_file(json, "result", result_);
+    write_file(json, "part", part_);
+    write_file(json, "blank", blank_);
+    if (certificate_) write_file(json, "certificate", *certificate_);
+    json.end().key("warnings").list(report.notes);
+    json.fields({{"seed", 0},
+                 {"work", report.intervals},
+                 {"version", kVersion},
+                 {"clearance_low", report.clearance_low},
+                 {"clearance_high", report.clearance_high}});
+    json.key("bound_high");
+    report.bound_high.empty() ? json.value(nullptr) : json.value(report.bound_high);
+    json.field("intervals", report.intervals).key("findings").list(report.findings);
+    json.key("run").object({});
+    return end_document(json);
   }
 
   const File& result_;

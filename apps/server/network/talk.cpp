@@ -1,14 +1,12 @@
 #include "talk.hpp"
 
-#include <fmt/core.h>
-
 #include <boost/asio/post.hpp>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "lekalo/io/text/words.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 #include "messages.hpp"
 #include "outbox.hpp"
 #include "web_socket.hpp"
@@ -71,7 +69,8 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   }
   void say_trouble(const std::string& type, const std::string& sentence) {
     // The sentences are ours, but may hold what came from outside.
-    say(fmt::format("{{\"type\": \"{}\", \"message\": {}}}", type, io::json_string(sentence)));
+    io::JsonWriter json(io::JsonLayout::spaced);
+    say(json.object({{"type", type}, {"message", sentence}}).take());
   }
   /// Sends everything that waits, then closes.
   void close_after(WebSocket::Close code) {

@@ -19,6 +19,6 @@ struct OpenOptions {
 [[nodiscard]] io::FindItems items_near(std::string path, std::string instance);
 
 /// io::read_any_layout of a file; the items of a file of placements are read from the disk too.
-[[nodiscard]] Result<io::LayoutFile> open_layout(const std::string& path, const OpenOptions& options = {});
+[[nodiscard]] Result<io::AnyLayout> open_layout(const std::string& path, const OpenOptions& options = {});
 
 }  // namespace lekalo::disk

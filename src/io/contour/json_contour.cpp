@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contour_points.hpp"
-#include "io/text/json_events.hpp"
+#include "lekalo/io/text/json_events.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kEdgeGap = 1e-6;
 /// Listens to the parser and keeps the points. It takes events and no tree, because only these carry a
 /// number's own text, which decides whether it is a double exactly, and because five million points stay
 /// small so.
-class ContourListener final : public detail::JsonEvents {
+class ContourListener final : public JsonEvents {
  public:
   ContourListener(const std::string& name, LengthUnit unit) {
     file_.name = name;
@@ -109,7 +109,7 @@ class ContourListener final : public detail::JsonEvents {
     return count_item();
   }
 
-  void broken(const detail::JsonBreak& at) override {
+  void broken(const JsonBreak& at) override {
     const std::string number = at.token.substr(0, at.token.find_last_not_of(" \t\r\n,]}") + 1);
     fault_ = fmt::format("line {}: {}", at.line,
                          at.number_too_large
@@ -242,7 +242,7 @@ Result<ContourFile> read_json_contour(std::string_view bytes, const std::string&
                                       std::optional<LengthUnit> user_says) {
   const auto listen = [&](LengthUnit unit) {
     ContourListener listener(name, unit);
-    const bool complete = detail::parse_json(bytes, listener);
+    const bool complete = parse_json(bytes, listener);
     return std::pair(complete, std::move(listener));
   };
   const LengthUnit assumed = user_says.value_or(LengthUnit::millimetre);

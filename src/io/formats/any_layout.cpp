@@ -24,46 +24,48 @@ tl::unexpected<Error> no_layout(const std::string& path) {
 }
 
 /// Reads a file of placements, and the items that `find` has for it.
-Result<LayoutFile> read_placed(const detail::JsonTree& tree, const std::string& name,
-                               const PartOptions& parts, const FindItems& find) {
+Result<AnyLayout> read_placed(const detail::JsonTree& tree, const std::string& name, const PartOptions& parts,
+                              const FindItems& find) {
   if (!find)
     return failure(ErrorCode::bad_input,
                    name +
                        ": placements whose items are in another file; make one layout of both with lekalo "
                        "export, and give that");
-  const Result<ItemsFile> file = find(detail::instance_of_tree(tree, name));
-  if (!file) return tl::unexpected(file.error());
-  auto items = read_nesting(file->bytes, file->name, parts.unit);
-  if (!items) return items;
-  auto placed = detail::read_placements_tree(tree, name, std::move(items->document), parts.unit);
-  if (placed) placed->notices.insert(placed->notices.begin(), items->notices.begin(), items->notices.end());
-  return placed;
+  const Result<std::string> said = detail::instance_of_tree(tree, name);
+  LEKALO_TRY(const ItemsFile file, find(said));
+  LEKALO_TRY(LayoutFile items, read_nesting(file.bytes, file.name, parts.unit));
+  LEKALO_TRY(LayoutFile placed,
+             detail::read_placements_tree(tree, name, std::move(items.document), parts.unit));
+  placed.notices.insert(placed.notices.begin(), items.notices.begin(), items.notices.end());
+  return AnyLayout{std::move(placed), NestingForm::placements, said.value_or("")};
 }
 
 }  // namespace
 
-Result<LayoutFile> read_any_layout(std::string_view bytes, const std::string& name, const PartOptions& parts,
-                                   const FindItems& find) {
+Result<AnyLayout> read_any_layout(std::string_view bytes, const std::string& name, const PartOptions& parts,
+                                  const FindItems& find) {
   const Format format = format_by_content(bytes);
   if (format == Format::json) {
-    const auto tree = detail::JsonTree::parse(bytes, name);
-    if (!tree) return tl::unexpected(tree.error());
-    const detail::JsonValue root = tree->root();
-    if (root.find("format")) return detail::read_layout_tree(*tree, name);
-    if (const auto form = detail::form_of(*tree)) {
-      return *form == NestingForm::placements ? read_placed(*tree, name, parts, find)
-                                              : detail::read_nesting_tree(*tree, name, *form, parts.unit);
+    LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
+    const detail::JsonValue root = tree.root();
+    if (root.find("format")) {
+      LEKALO_TRY(LayoutFile layout, detail::read_layout_tree(tree, name));
+      return AnyLayout{std::move(layout), std::nullopt, {}};
+    }
+    if (const auto form = detail::form_of(tree)) {
+      if (*form == NestingForm::placements) return read_placed(tree, name, parts, find);
+      LEKALO_TRY(LayoutFile job, detail::read_nesting_tree(tree, name, *form, parts.unit));
+      return AnyLayout{std::move(job), *form, {}};
     }
     if (!root.find("shape") && !root.find("outer") && !root.find("pieces")) return no_layout(name);
   } else if (format == Format::unknown) {
     return no_layout(name);
   }
-  auto read = read_parts(bytes, name, parts);
-  if (!read) return tl::unexpected(read.error());
-  LayoutFile file;
-  file.document.parts = std::move(read->parts);
-  file.document.stocks = std::move(read->stocks);
-  file.notices = std::move(read->notices);
+  LEKALO_TRY(auto read, read_parts(bytes, name, parts));
+  AnyLayout file;
+  file.document.parts = std::move(read.parts);
+  file.document.stocks = std::move(read.stocks);
+  file.notices = std::move(read.notices);
   return file;
 }
 

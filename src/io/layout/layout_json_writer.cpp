@@ -1,15 +1,12 @@
 // A layout document as JSON text.
 
-#include <fmt/core.h>
-
 #include <optional>
 
-#include "io/shape/region_reader.hpp"
 #include "io/text/grid_decimal.hpp"
 #include "layout_outline.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
-#include "lekalo/io/text/words.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -17,92 +14,78 @@ namespace {
 using namespace layout;
 using detail::append_gap;
 using detail::append_mm;
-using detail::append_number;
-using detail::append_outline;
 
-/// Fields of one object, on one line.
+/// The fields that layouts have, in an object that this opens; those that are as usual are left out.
 class Fields {
  public:
-  explicit Fields(std::string& text) : text_(text) { text_ += '{'; }
-  /// The text that the field's value is to be appended to.
-  std::string& field(const char* key) {
-    if (!first_) text_ += ", ";
-    first_ = false;
-    text_ += '"';
-    text_ += key;
-    text_ += "\": ";
-    return text_;
-  }
-  void text(const char* key, const std::string& value) { field(key) += json_string(value); }
+  explicit Fields(JsonWriter& json) : json_(json) { json_.begin_object(); }
+  JsonWriter& field(const char* key) { return json_.key(key); }
+  void text(const char* key, std::string_view value) { json_.field(key, value); }
   void name(const std::string& value) {
     if (!value.empty()) text("name", value);
   }
   template <class Integer>
   void integer(const char* key, Integer value) {
-    field(key) += fmt::format("{}", value);
+    json_.field(key, value);
   }
   template <class Integer>
   void integer(const char* key, Integer value, Integer usual) {
     if (value != usual) integer(key, value);
   }
-  void number(const char* key, double value) { append_number(field(key), value); }
+  void number(const char* key, double value) { json_.field(key, value + 0.0); }  // 0 for -0
   void number(const char* key, double value, double usual) {
     if (value != usual) number(key, value);
   }
   void truth(const char* key, bool value) {
-    if (value) field(key) += "true";
+    if (value) json_.field(key, true);
   }
   void quality(int value) { value == kBestQuality ? text("quality", "best") : integer("quality", value); }
+  void mm(const char* key, std::int64_t steps) { append_mm(field(key).raw(), steps); }
   void gap(const char* key, std::optional<std::int64_t> value) {
-    if (value) append_gap(field(key), *value);
+    if (value) append_gap(field(key).raw(), *value);
   }
-  void outline(const Outline& outline) { append_outline(field("outline"), outline); }
-  void close() { text_ += '}'; }
+  void turn(const char* key, std::int64_t steps) { detail::append_rotation_step(field(key).raw(), steps); }
+  void outline(const Outline& outline) { detail::write_outline(field("outline"), outline); }
+  void close() { json_.end(); }
 
  private:
-  std::string& text_;
-  bool first_ = true;
+  JsonWriter& json_;
 };
 
-/// Items on lines of their own, or on one where `before` is empty.
+/// A list with a line for each item, after so many blanks; its bracket ends the last of them.
 template <class Item, class Write>
-void append_list(std::string& text, const std::vector<Item>& items, const char* before, const Write& write) {
-  text += '[';
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0) text += *before == '\0' ? ", " : ",";
-    text += before;
-    write(items[i]);
-  }
-  text += ']';
+void list_of_lines(JsonWriter& json, const std::vector<Item>& items, std::size_t indent, const Write& write) {
+  json.list(items, [&](const Item& item) {
+    json.line(indent);
+    write(item);
+  });
 }
 
-/// \param part, stock  their ids, quoted
-void append_placement(std::string& text, const Placement& placement, const std::string& part,
-                      const std::string& stock) {
-  Fields fields(text);
+void write_placement(JsonWriter& json, const Document& document, const Placement& placement) {
+  Fields fields(json);
   fields.integer("id", placement.id);
-  fields.field("part") += part;
-  fields.field("stock") += stock;
+  fields.text("part", document.parts[placement.part].id);
+  fields.text("stock", document.stocks[placement.stock].id);
   fields.integer("copy", placement.copy, std::int64_t{0});
-  detail::append_rotation_step(fields.field("c"), placement.rotation.c);
-  detail::append_rotation_step(fields.field("s"), placement.rotation.s);
-  append_mm(fields.field("x"), placement.at.x);
-  append_mm(fields.field("y"), placement.at.y);
+  fields.turn("c", placement.rotation.c);
+  fields.turn("s", placement.rotation.s);
+  fields.mm("x", placement.at.x);
+  fields.mm("y", placement.at.y);
   fields.truth("mirrored", placement.mirrored);
   fields.truth("locked", placement.locked);
   fields.close();
 }
 
-void append_defect(std::string& text, const std::string& id, int severity, const Outline& outline) {
-  Fields fields(text);
+void write_defect(JsonWriter& json, const std::string& id, int severity, const Outline& outline) {
+  Fields fields(json);
   fields.text("id", id);
   fields.integer("severity", severity);
   fields.outline(outline);
   fields.close();
 }
 
-void append_zone(std::string& text, const std::string& id, int quality, const Outline& outline) {
-  Fields fields(text);
+void write_zone(JsonWriter& json, const std::string& id, int quality, const Outline& outline) {
+  Fields fields(json);
   fields.text("id", id);
   fields.integer("quality", quality);
   fields.outline(outline);
@@ -111,33 +94,30 @@ void append_zone(std::string& text, const std::string& id, int quality, const Ou
 
 class Writer {
  public:
-  explicit Writer(const Document& document) : document_(document) {
-    for (const Part& part : document.parts) part_ids_.push_back(json_string(part.id));
-    for (const Stock& stock : document.stocks) stock_ids_.push_back(json_string(stock.id));
-  }
+  explicit Writer(const Document& document) : document_(document) {}
 
   std::string write() {
-    text_ = "{\"format\": \"lekalo-layout/1\", \"units\": \"mm\"";
-    if (!document_.name.empty()) text_ += ", \"name\": " + json_string(document_.name);
+    json_.begin_object().fields({{"format", "lekalo-layout/1"}, {"units", "mm"}});
+    if (!document_.name.empty()) json_.field("name", document_.name);
+    json_.line(0);
     rules(document_.rules);
     list("stocks", document_.stocks, [this](const Stock& s) { stock(s); });
     list("parts", document_.parts, [this](const Part& p) { part(p); });
     list("kits", document_.kits, [this](const Kit& k) { kit(k); });
-    list("placements", document_.placements, [this](const Placement& p) { placement(p); });
-    text_ += fmt::format(",\n\"next_id\": {}}}\n", document_.next_id);
-    return std::move(text_);
+    list("placements", document_.placements,
+         [this](const Placement& p) { write_placement(json_, document_, p); });
+    json_.line(0).field("next_id", document_.next_id).end();
+    return json_.take() + "\n";
   }
 
  private:
   template <class Item, class Write>
   void list(const char* key, const std::vector<Item>& items, const Write& write) {
-    text_ += fmt::format(",\n\"{}\": ", key);
-    append_list(text_, items, "\n ", write);
+    list_of_lines(json_.line(0).key(key), items, 1, write);
   }
 
   void rules(const Rules& rules) {
-    text_ += ",\n\"rules\": ";
-    Fields fields(text_);
+    Fields fields(json_.key("rules"));
     fields.gap("gap", rules.gap);
     fields.gap("border_gap", rules.border_gap);
     fields.gap("defect_gap", rules.defect_gap);
@@ -145,7 +125,7 @@ class Writer {
   }
 
   void stock(const Stock& stock) {
-    Fields fields(text_);
+    Fields fields(json_);
     fields.text("id", stock.id);
     fields.name(stock.name);
     fields.text("kind", stock.kind == StockKind::strip   ? "strip"
@@ -156,28 +136,28 @@ class Writer {
     if (stock.grain_degrees) fields.number("grain_deg", *stock.grain_degrees);
     if (stock.kind == StockKind::strip) {
       const geom::GridBox box = geom::bounds(stock.outline.polygon);
-      append_mm(fields.field("height"), box.high.y);
-      if (!stock.open_length) append_mm(fields.field("length"), box.high.x);
+      fields.mm("height", box.high.y);
+      if (!stock.open_length) fields.mm("length", box.high.x);
     } else {
       fields.outline(stock.outline);
     }
     if (!stock.defects.empty())
-      append_list(fields.field("defects"), stock.defects, "\n  ",
-                  [this](const Defect& d) { append_defect(text_, d.id, d.severity, d.outline); });
+      list_of_lines(fields.field("defects"), stock.defects, 2,
+                    [this](const Defect& d) { write_defect(json_, d.id, d.severity, d.outline); });
     if (!stock.zones.empty())
-      append_list(fields.field("zones"), stock.zones, "\n  ",
-                  [this](const QualityZone& z) { append_zone(text_, z.id, z.quality, z.outline); });
+      list_of_lines(fields.field("zones"), stock.zones, 2,
+                    [this](const QualityZone& z) { write_zone(json_, z.id, z.quality, z.outline); });
     fields.close();
   }
 
   void part(const Part& part) {
-    Fields fields(text_);
+    Fields fields(json_);
     fields.text("id", part.id);
     fields.name(part.name);
     fields.integer("demand", part.demand);
     if (part.quality != kAnyQuality) fields.quality(part.quality);
     if (!part.rotations.empty())
-      append_list(fields.field("rotations"), part.rotations, "", [this](const AngleRange& r) { range(r); });
+      fields.field("rotations").list(part.rotations, [this](const AngleRange& r) { range(r); });
     fields.truth("mirror", part.may_mirror);
     if (part.grain) {
       Fields grain(fields.field("grain"));
@@ -192,80 +172,87 @@ class Writer {
     fields.gap("defect_gap", part.defect_gap);
     fields.outline(part.outline);
     if (!part.areas.empty())
-      append_list(fields.field("areas"), part.areas, "\n  ", [this](const PartArea& a) { area(a); });
+      list_of_lines(fields.field("areas"), part.areas, 2, [this](const PartArea& a) { area(a); });
     fields.close();
   }
 
   void range(const AngleRange& range) {
-    if (range.from == range.to) return append_number(text_, range.from);
-    Fields fields(text_);
+    if (range.from == range.to) {
+      json_.value(range.from + 0.0);
+      return;
+    }
+    Fields fields(json_);
     fields.number("from", range.from);
     fields.number("to", range.to);
     fields.close();
   }
 
   void area(const PartArea& area) {
-    Fields fields(text_);
+    Fields fields(json_);
     fields.quality(area.quality);
     fields.outline(area.outline);
     fields.close();
   }
 
   void kit(const Kit& kit) {
-    Fields fields(text_);
+    Fields fields(json_);
     fields.text("id", kit.id);
     fields.name(kit.name);
     fields.integer("demand", kit.demand);
     fields.number("value", kit.value, 1);
-    append_list(fields.field("pieces"), kit.pieces, "", [this](const KitPiece& p) { piece(p); });
+    fields.field("pieces").list(kit.pieces, [this](const KitPiece& p) { piece(p); });
     fields.close();
   }
 
   void piece(const KitPiece& piece) {
-    Fields fields(text_);
-    fields.field("part") += part_ids_[piece.part];
+    Fields fields(json_);
+    fields.text("part", document_.parts[piece.part].id);
     fields.integer("count", piece.count, std::int64_t{1});
-    if (piece.mirrored) fields.field("mirrored") += *piece.mirrored ? "true" : "false";
+    if (piece.mirrored) fields.field("mirrored").value(*piece.mirrored);
     fields.close();
   }
 
-  void placement(const Placement& p) { append_placement(text_, p, part_ids_[p.part], stock_ids_[p.stock]); }
-
   const Document& document_;
-  std::vector<std::string> part_ids_, stock_ids_;
-  std::string text_;
+  JsonWriter json_{JsonLayout::spaced};
 };
+
+void write_feature(JsonWriter& json, const Feature& feature) {
+  (feature.kind == FeatureKind::defect ? write_defect : write_zone)(json, feature.id, feature.grade,
+                                                                    feature.outline);
+}
+
+/// The text of one value that `write(json)` writes.
+template <class Write>
+std::string text_of(const Write& write) {
+  JsonWriter json(JsonLayout::spaced);
+  write(json);
+  return json.take();
+}
 
 }  // namespace
 
 std::string write_layout(const Document& document) { return Writer(document).write(); }
 
 std::string placement_json(const Document& document, const Placement& placement) {
-  std::string text;
-  append_placement(text, placement, json_string(document.parts[placement.part].id),
-                   json_string(document.stocks[placement.stock].id));
-  return text;
+  return text_of([&](JsonWriter& json) { write_placement(json, document, placement); });
 }
 
 std::string feature_json(const Feature& feature) {
-  std::string text;
-  (feature.kind == FeatureKind::defect ? append_defect : append_zone)(text, feature.id, feature.grade,
-                                                                      feature.outline);
-  return text;
+  return text_of([&](JsonWriter& json) { write_feature(json, feature); });
 }
 
 std::string features_json(const Document& document, const std::vector<FeatureChange>& changes) {
-  std::string text;
-  append_list(text, changes, "", [&](const FeatureChange& one) {
-    Fields fields(text);
-    fields.text("stock", document.stocks[one.stock].id);
-    fields.text("kind", std::string(name_of(one.either().kind)));
-    fields.text("id", one.either().id);
-    fields.integer("index", one.index);
-    fields.field("after") += one.after ? feature_json(*one.after) : "null";
-    fields.close();
+  return text_of([&](JsonWriter& json) {
+    json.list(changes, [&](const FeatureChange& one) {
+      json.begin_object().fields({{"stock", document.stocks[one.stock].id},
+                                  {"kind", name_of(one.either().kind)},
+                                  {"id", one.either().id},
+                                  {"index", one.index}});
+      json.key("after");
+      one.after ? write_feature(json, *one.after) : void(json.value(nullptr));
+      json.end();
+    });
   });
-  return text;
 }
 
 }  // namespace lekalo::io

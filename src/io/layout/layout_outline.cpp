@@ -85,16 +85,15 @@ std::optional<geom::Region> read_curves(JsonReader& reader, JsonValue value) {
   return std::nullopt;
 }
 
-void append_loop(std::string& text, const GridRegion& region, std::size_t loop) {
-  text += '[';
+void write_loop(JsonWriter& json, const GridRegion& region, std::size_t loop) {
+  json.begin_list();
   for (std::uint32_t i = region.loop_starts[loop]; i < region.loop_starts[loop + 1]; ++i) {
-    text += i == region.loop_starts[loop] ? "[" : ", [";
-    append_mm(text, region.points[i].x);
-    text += ", ";
-    append_mm(text, region.points[i].y);
-    text += ']';
+    json.begin_list();
+    append_mm(json.raw(), region.points[i].x);
+    append_mm(json.raw(), region.points[i].y);
+    json.end();
   }
-  text += ']';
+  json.end();
 }
 
 }  // namespace
@@ -190,23 +189,20 @@ Outline read_outline(JsonReader& reader, JsonValue value, geom::ChordSide side, 
   return outline;
 }
 
-void append_outline(std::string& text, const Outline& outline) {
-  text += R"({"polygon": {"outer": )";
-  append_loop(text, outline.polygon, 0);
+void write_outline(JsonWriter& json, const Outline& outline) {
+  json.begin_object().key("polygon").begin_object().key("outer");
+  write_loop(json, outline.polygon, 0);
   if (outline.polygon.loops() > 1) {
-    text += ", \"holes\": [";
-    for (std::size_t l = 1; l < outline.polygon.loops(); ++l) {
-      if (l > 1) text += ", ";
-      append_loop(text, outline.polygon, l);
-    }
-    text += ']';
+    json.key("holes").begin_list();
+    for (std::size_t l = 1; l < outline.polygon.loops(); ++l) write_loop(json, outline.polygon, l);
+    json.end();
   }
-  text += '}';
+  json.end();
   if (!outline.curves.empty()) {
-    text += ", \"curves\": " + region_text(outline.curves[0]) + ", \"chord_tolerance\": ";
-    append_number(text, outline.chord_tolerance_mm);
+    write_region(json.key("curves"), outline.curves[0]);
+    json.field("chord_tolerance", outline.chord_tolerance_mm);
   }
-  text += '}';
+  json.end();
 }
 
 }  // namespace lekalo::io::detail

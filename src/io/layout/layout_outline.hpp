@@ -6,6 +6,7 @@
 
 #include "io/text/json_reader.hpp"
 #include "lekalo/geom/grid_region.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 #include "lekalo/layout/document.hpp"
 
 namespace lekalo::io::detail {
@@ -14,7 +15,7 @@ namespace lekalo::io::detail {
 /// chords on `side` and counted in `chords_made`.
 [[nodiscard]] layout::Outline read_outline(JsonReader& reader, JsonValue value, geom::ChordSide side,
                                            std::size_t& chords_made);
-void append_outline(std::string& text, const layout::Outline& outline);
+void write_outline(JsonWriter& json, const layout::Outline& outline);
 
 /// The points [x, y] of a loop that this list holds, file units times mm_per_unit; counted into `points` up
 /// to kMostOutlinePoints.

@@ -1,26 +1,31 @@
-#include <nlohmann/json.hpp>
-
 #include "lekalo/io/layout/layout_messages.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 
 namespace lekalo::io {
-using Json = nlohmann::ordered_json;
+
+void write_violations(JsonWriter& json, const layout::Document& document,
+                      const std::vector<layout::Violation>& violations) {
+  json.list(violations, [&](const layout::Violation& v) {
+    json.begin_object().fields({{"kind", name_of(v.kind)}, {"a", v.a}});
+    v.b == 0 ? json.field("b", nullptr) : json.field("b", v.b);
+    json.fields({{"stock", document.stocks[v.stock].id}, {"copy", v.copy}});
+    if (const std::string feature = feature_id(document, v); !feature.empty()) json.field("feature", feature);
+    json.field("amount_mm", v.amount_mm);
+    json.key("at").list({v.at.x, v.at.y});
+    json.key("direction");
+    if (v.direction == geom::Point{})
+      json.value(nullptr);
+    else
+      json.list({v.direction.x, v.direction.y});
+    json.end();
+  });
+}
 
 std::string violations_json(const layout::Document& document,
                             const std::vector<layout::Violation>& violations) {
-  Json list = Json::array();
-  for (const layout::Violation& v : violations) {
-    Json one{{"kind", name_of(v.kind)},
-             {"a", v.a},
-             {"b", v.b == 0 ? Json(nullptr) : Json(v.b)},
-             {"stock", document.stocks[v.stock].id},
-             {"copy", v.copy}};
-    if (const std::string feature = feature_id(document, v); !feature.empty()) one["feature"] = feature;
-    one["amount_mm"] = v.amount_mm;
-    one["at"] = {v.at.x, v.at.y};
-    one["direction"] = v.direction == geom::Point{} ? Json(nullptr) : Json{v.direction.x, v.direction.y};
-    list.push_back(std::move(one));
-  }
-  return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+  JsonWriter json(JsonLayout::compact);
+  write_violations(json, document, violations);
+  return json.take();
 }
 
 }  // namespace lekalo::io

@@ -8,6 +8,7 @@
 
 namespace lekalo::io::detail {
 
+/// Returns nothing for other JSON.
 [[nodiscard]] std::optional<NestingForm> form_of(const JsonTree& tree);
 
 /// read_nesting and read_placements of bytes that are a tree already. \pre its form is not placements

@@ -317,11 +317,6 @@ Result<LayoutFile> read_nesting_tree(const JsonTree& tree, const std::string& na
 
 }  // namespace detail
 
-std::optional<NestingForm> nesting_form(std::string_view bytes) {
-  const auto tree = detail::JsonTree::parse(bytes, "");
-  return tree ? detail::form_of(*tree) : std::nullopt;
-}
-
 Result<LayoutFile> read_nesting(std::string_view bytes, const std::string& name,
                                 std::optional<LengthUnit> unit) {
   LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));

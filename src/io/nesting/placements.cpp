@@ -12,7 +12,7 @@
 #include "io/text/decimal.hpp"
 #include "io/text/grid_decimal.hpp"
 #include "io/text/json_reader.hpp"
-#include "lekalo/io/text/words.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 
 namespace lekalo::io {
 namespace detail {
@@ -140,7 +140,7 @@ Result<std::string> write_placements(const layout::Document& document, std::size
                                "write the layout itself",
                                excerpt(strip.id)));
   const std::vector<std::int64_t> numbers = detail::item_numbers(document);
-  std::string lines;
+  std::vector<const layout::Placement*> placed;
   std::int64_t length = 0;
   double area = 0;
   for (const layout::Placement& placement : document.placements) {
@@ -153,25 +153,29 @@ Result<std::string> write_placements(const layout::Document& document, std::size
     const layout::Part& part = document.parts[placement.part];
     length = std::max(length, geom::bounds(layout::placed_outline(part, placement)).high.x);
     area += geom::area_mm2(part.outline.polygon);
-    lines += fmt::format("{}\n  {{\"item\": {}, \"rotation\": ", lines.empty() ? "" : ",",
-                         numbers[placement.part]);
-    detail::append_number(lines, geom::degrees_of(placement.rotation));
-    detail::append_mm(lines += ", \"x\": ", placement.at.x);
-    detail::append_mm(lines += ", \"y\": ", placement.at.y);
-    lines += '}';
+    placed.push_back(&placement);
   }
-  if (lines.empty())
+  if (placed.empty())
     return failure(ErrorCode::bad_input, fmt::format("nothing lies on the strip {}", excerpt(strip.id)));
   const std::int64_t height = geom::bounds(strip.outline.polygon).high.y;
-  std::string text = "{\n \"instance\": " + json_string(instance);
-  detail::append_mm(text += ",\n \"strip_height\": ", height);
-  detail::append_mm(text += ",\n \"length\": ", length);
+  JsonWriter json(JsonLayout::spaced);
+  json.begin_object().line(1).field("instance", instance);
+  detail::append_mm(json.line(1).key("strip_height").raw(), height);
+  detail::append_mm(json.line(1).key("length").raw(), length);
   const double room = geom::mm_from_grid(height) * geom::mm_from_grid(length);
-  if (length > 0) detail::append_number(text += ",\n \"density\": ", area / room);
-  text +=
-      ",\n \"note\": \"a part's outline is turned about the origin by rotation (degrees, "
-      "counter-clockwise), then moved by x, y (mm)\",\n \"placements\": [";
-  return text + lines + "\n ]\n}\n";
+  if (length > 0) json.line(1).field("density", area / room + 0.0);
+  json.line(1).field("note",
+                     "a part's outline is turned about the origin by rotation (degrees, "
+                     "counter-clockwise), then moved by x, y (mm)");
+  json.line(1).key("placements").list_of_lines(placed, 2, 1, [&](const layout::Placement* placement) {
+    json.begin_object().fields(
+        {{"item", numbers[placement->part]}, {"rotation", geom::degrees_of(placement->rotation) + 0.0}});
+    detail::append_mm(json.key("x").raw(), placement->at.x);
+    detail::append_mm(json.key("y").raw(), placement->at.y);
+    json.end();
+  });
+  json.line(0).end();
+  return json.take() + "\n";
 }
 
 }  // namespace lekalo::io

@@ -39,28 +39,17 @@ double coordinate_error(const std::vector<Region>& regions, LengthUnit unit) {
   return largest_coordinate(regions) * (unit == LengthUnit::inch ? 0x4p-53 : 0x1p-53);
 }
 
-template <class T, class Write>
-std::string list_json(const std::vector<T>& items, const std::string& indent, const Write& write) {
-  if (items.empty()) return "[]";
-  std::string text = "[";
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    text += (i == 0 ? "\n" : ",\n") + indent + " " + write(items[i]);
-  }
-  return text + "\n" + indent + "]";
-}
-
-std::string region_json(const Region& region, const std::string& indent, const std::vector<Edge>& open) {
-  const auto edge = [&](const Edge& e) {
-    std::string text = detail::edge_text(e);
-    if (std::find(open.begin(), open.end(), e) != open.end())
-      text.insert(text.size() - 1, ", \"open\": true");
-    return text;
+/// The fields of a region, on lines of their own after so many blanks, and their items after one more.
+void write_fields(JsonWriter& json, const Region& region, std::size_t indent, const std::vector<Edge>& open) {
+  const auto write_contour = [&](const Contour& contour, std::size_t inside) {
+    json.list_of_lines(contour, inside + 1, inside, [&](const Edge& e) {
+      detail::write_edge(json, e, std::find(open.begin(), open.end(), e) != open.end());
+    });
   };
-  const auto contour = [&](const std::string& more) {
-    return [&edge, inner = indent + more](const Contour& c) { return list_json(c, inner, edge); };
-  };
-  return fmt::format("{0}\"outer\": {1},\n{0}\"holes\": {2}", indent, contour("")(region.outer),
-                     list_json(region.holes, indent, contour(" ")));
+  json.line(indent).key("outer");
+  write_contour(region.outer, indent);
+  json.line(indent).key("holes").list_of_lines(region.holes, indent + 1, indent,
+                                               [&](const Contour& hole) { write_contour(hole, indent + 1); });
 }
 
 }  // namespace
@@ -98,10 +87,18 @@ Result<RegionFile> parse_regions(std::string_view bytes, const std::string& name
 
 std::string regions_json(const std::vector<Region>& regions, const std::vector<Edge>& open) {
   LEKALO_ASSERT(!regions.empty());
-  const auto piece = [&](const Region& r) { return "{\n" + region_json(r, "   ", open) + "\n  }"; };
-  const std::string body = regions.size() == 1 ? region_json(regions[0], " ", open)
-                                               : " \"pieces\": " + list_json(regions, " ", piece);
-  return "{\n \"units\": \"mm\",\n" + body + "\n}\n";
+  JsonWriter json(JsonLayout::spaced);
+  json.begin_object().line(1).field("units", "mm");
+  if (regions.size() == 1) {
+    write_fields(json, regions[0], 1, open);
+  } else {
+    json.line(1).key("pieces").list_of_lines(regions, 2, 1, [&](const Region& region) {
+      write_fields(json.begin_object(), region, 3, open);
+      json.line(2).end();
+    });
+  }
+  json.line(0).end();
+  return json.take() + "\n";
 }
 
 }  // namespace lekalo::io

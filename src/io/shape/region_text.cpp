@@ -1,7 +1,5 @@
 #include "region_text.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 
 namespace lekalo::io::detail {
@@ -11,32 +9,45 @@ using geom::Contour;
 using geom::Edge;
 using geom::Point;
 
-// A "-0" would be read back as the integer 0.
-std::string number(double v) { return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v); }
+void write_coordinate(JsonWriter& json, double v) {
+  // A "-0" would be read back as the integer 0.
+  if (v == 0 && std::signbit(v))
+    json.raw() += "-0.0";
+  else
+    json.value(v);
+}
 
-std::string point(Point p) { return fmt::format("[{}, {}]", number(p.x), number(p.y)); }
+void write_point(JsonWriter& json, const char* key, Point p) {
+  json.key(key).begin_list();
+  write_coordinate(json, p.x);
+  write_coordinate(json, p.y);
+  json.end();
+}
 
-std::string contour_text(const Contour& contour) {
-  std::string text = "[";
-  for (const Edge& edge : contour) text += (text.size() == 1 ? "" : ", ") + edge_text(edge);
-  return text + "]";
+void write_contour(JsonWriter& json, const Contour& contour) {
+  json.list(contour, [&](const Edge& edge) { write_edge(json, edge); });
 }
 
 }  // namespace
 
-std::string edge_text(const Edge& e) {
-  if (e.kind == geom::EdgeKind::line) {
-    return fmt::format(R"({{"line": {{"from": {}, "to": {}}}}})", point(e.from), point(e.to));
+void write_edge(JsonWriter& json, const Edge& e, bool open) {
+  const bool line = e.kind == geom::EdgeKind::line;
+  json.begin_object().key(line ? "line" : "arc").begin_object();
+  write_point(json, "from", e.from);
+  write_point(json, "to", e.to);
+  if (!line) {
+    write_point(json, "centre", e.centre);
+    json.field("ccw", e.kind == geom::EdgeKind::arc_ccw);
   }
-  return fmt::format(R"({{"arc": {{"from": {}, "to": {}, "centre": {}, "ccw": {}}}}})", point(e.from),
-                     point(e.to), point(e.centre), e.kind == geom::EdgeKind::arc_ccw);
+  json.end();
+  if (open) json.field("open", true);
+  json.end();
 }
 
-std::string region_text(const geom::Region& region) {
-  std::string text = "{\"outer\": " + contour_text(region.outer) + ", \"holes\": [";
-  for (std::size_t h = 0; h < region.holes.size(); ++h)
-    text += (h == 0 ? "" : ", ") + contour_text(region.holes[h]);
-  return text + "]}";
+void write_region(JsonWriter& json, const geom::Region& region) {
+  write_contour(json.begin_object().key("outer"), region.outer);
+  json.key("holes").list(region.holes, [&](const Contour& hole) { write_contour(json, hole); });
+  json.end();
 }
 
 }  // namespace lekalo::io::detail

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <string>
-
 #include "lekalo/geom/region.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 
 namespace lekalo::io::detail {
 
-/// An edge of the JSON form of regions, on one line; numbers are the shortest decimals of their doubles.
-[[nodiscard]] std::string edge_text(const geom::Edge& edge);
-/// A region, on one line.
-[[nodiscard]] std::string region_text(const geom::Region& region);
+/// An edge of the JSON form of regions. \param open  adds `"open": true`
+void write_edge(JsonWriter& json, const geom::Edge& edge, bool open = false);
+void write_region(JsonWriter& json, const geom::Region& region);
 
 }  // namespace lekalo::io::detail

@@ -1,7 +1,5 @@
 #include "grid_decimal.hpp"
 
-#include <fmt/core.h>
-
 #include <string_view>
 
 #include "lekalo/base/assert.hpp"
@@ -74,7 +72,5 @@ void append_gap(std::string& text, std::int64_t steps) {
 void append_rotation_step(std::string& text, std::int64_t steps) {
   append_shortest(text, steps, 52, nearest, [](double c) { return geom::rotation_from_pair(c, 0).c; });
 }
-
-void append_number(std::string& text, double value) { text += fmt::format("{}", value + 0.0); }
 
 }  // namespace lekalo::io::detail

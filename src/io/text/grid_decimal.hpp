@@ -13,7 +13,5 @@ void append_mm(std::string& text, std::int64_t steps);
 void append_gap(std::string& text, std::int64_t steps);
 /// A cosine or sine in steps of 2^-52. \pre |steps| <= 2^53
 void append_rotation_step(std::string& text, std::int64_t steps);
-/// The shortest decimal of a double; 0 for -0. \pre finite
-void append_number(std::string& text, double value);
 
 }  // namespace lekalo::io::detail

@@ -1,4 +1,4 @@
-#include "json_events.hpp"
+#include "lekalo/io/text/json_events.hpp"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace lekalo::io::detail {
+namespace lekalo::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -37,7 +37,7 @@ class Translation {
     constexpr int kNumberTooLarge = 406;
     const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(position, bytes_.size()));
     // The parser reports the end of the text one beyond the last byte.
-    listener_.broken({1 + static_cast<std::size_t>(std::count(bytes_.begin(), end, '\n')), token,
+    listener_.broken({1 + static_cast<std::size_t>(std::count(bytes_.begin(), end, '\n')), position, token,
                       error.id == kNumberTooLarge, position > bytes_.size()});
     return false;
   }
@@ -54,4 +54,4 @@ bool parse_json(std::string_view bytes, JsonEvents& listener) {
   return Json::sax_parse(bytes.begin(), bytes.end(), &translation);
 }
 
-}  // namespace lekalo::io::detail
+}  // namespace lekalo::io

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "json_events.hpp"
 #include "lekalo/io/text/excerpt.hpp"
+#include "lekalo/io/text/json_events.hpp"
 
 namespace lekalo::io::detail {
 

@@ -1,8 +1,6 @@
 #include "lekalo/io/text/words.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace lekalo::io {
@@ -18,30 +16,37 @@ int continuation_bytes(unsigned char lead) {
   return -1;
 }
 
-/// Takes one character off the front; bytes that are not UTF-8 give U+FFFD one by one.
-char32_t take_character(std::string_view& text) {
+/// The character that a text begins with, or else the longest piece that could have become one.
+struct Beginning {
+  char32_t code = kReplacement;
+  std::size_t bytes = 1;
+  bool whole = false;
+};
+
+/// \pre text is not empty
+Beginning beginning_of(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   const int more = continuation_bytes(lead);
-  if (more < 0 || text.size() <= static_cast<std::size_t>(more)) {
-    text.remove_prefix(1);
-    return kReplacement;
-  }
+  if (more < 0) return {};
   char32_t code = more == 0 ? lead : static_cast<char32_t>(lead & (0x3F >> more));
-  for (int i = 1; i <= more; ++i) {
-    const auto byte = static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
-    if ((byte & 0xC0) != 0x80) {
-      text.remove_prefix(1);
-      return kReplacement;
-    }
+  // Longer forms than needed, surrogates and what lies beyond Unicode show in the second byte.
+  unsigned low = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+  unsigned high = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  for (std::size_t i = 1; i <= static_cast<std::size_t>(more); ++i) {
+    const unsigned byte = i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+    if (byte < low || byte > high) return {kReplacement, i, false};
     code = (code << 6) | (byte & 0x3F);
+    low = 0x80;
+    high = 0xBF;
   }
-  constexpr char32_t kSmallest[] = {0, 0x80, 0x800, 0x10000};
-  if (code < kSmallest[more] || (code >= 0xD800 && code <= 0xDFFF) || code > 0x10FFFF) {
-    text.remove_prefix(1);
-    return kReplacement;
-  }
-  text.remove_prefix(static_cast<std::size_t>(more) + 1);
-  return code;
+  return {code, static_cast<std::size_t>(more) + 1, true};
+}
+
+/// Takes one character off the front; bytes that are not UTF-8 give U+FFFD one by one.
+char32_t take_character(std::string_view& text) {
+  const Beginning first = beginning_of(text);
+  text.remove_prefix(first.whole ? first.bytes : 1);
+  return first.code;
 }
 
 void append(std::string& text, char32_t code) {
@@ -61,6 +66,12 @@ void append(std::string& text, char32_t code) {
     byte(0x80 | ((code >> 6) & 0x3F));
     byte(0x80 | (code & 0x3F));
   }
+}
+
+/// The escape of JSON for one unit of UTF-16.
+void append_escape(std::string& text, char32_t unit) {
+  text += "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) text += "0123456789abcdef"[(unit >> shift) & 0xF];
 }
 
 char32_t shown(char32_t code) {
@@ -108,12 +119,45 @@ std::string to_utf8(const std::vector<char32_t>& codes) {
 }  // namespace
 
 std::string json_string(std::string_view text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string quoted = "\"";
+  for (const char c : as_utf8(text)) {
+    constexpr std::string_view kEscaped = "\b\t\n\f\r\"\\", kLetters = "btnfr\"\\";
+    if (const std::size_t at = kEscaped.find(c); at != kEscaped.npos) {
+      quoted += '\\';
+      quoted += kLetters[at];
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      append_escape(quoted, static_cast<unsigned char>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+std::string ascii_json(std::string_view json) {
+  std::string ascii;
+  while (!json.empty()) {
+    const char32_t code = take_character(json);
+    if (code < 0x7F) {
+      ascii += static_cast<char>(code);
+    } else if (code < 0x10000) {
+      append_escape(ascii, code);
+    } else {
+      append_escape(ascii, 0xD7C0 + (code >> 10));
+      append_escape(ascii, 0xDC00 + (code & 0x3FF));
+    }
+  }
+  return ascii;
 }
 
 std::string as_utf8(std::string_view text) {
-  return nlohmann::json::parse(json_string(text)).get<std::string>();
+  std::string clean;
+  while (!text.empty()) {
+    const Beginning first = beginning_of(text);
+    first.whole ? clean.append(text, 0, first.bytes) : clean.append("\xEF\xBF\xBD");
+    text.remove_prefix(first.bytes);
+  }
+  return clean;
 }
 
 std::string clean_text(std::string_view text) { return to_utf8(characters(text)); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
@@ -29,11 +30,15 @@ namespace lekalo::io {
                                         const std::vector<layout::FeatureChange>& changes);
 
 /// A list of violations as `lekalo check --json` has it: docs/formats.md. Cost: O(violations).
+void write_violations(JsonWriter& json, const layout::Document& document,
+                      const std::vector<layout::Violation>& violations);
 [[nodiscard]] std::string violations_json(const layout::Document& document,
                                           const std::vector<layout::Violation>& violations);
 
 /// The pieces that are placed and those that are missing, as `lekalo show --json` has it: docs/cli.md. Cost:
-/// O(parts, kits and sheets).
+/// O(parts, kits and sheets). \pre of write_completeness: an object is open, which gets the fields
+void write_completeness(JsonWriter& json, const layout::Document& document,
+                        const layout::Completeness& completeness);
 [[nodiscard]] std::string completeness_json(const layout::Document& document,
                                             const layout::Completeness& completeness);
 /// Its "kits" alone. Cost: O(kits).

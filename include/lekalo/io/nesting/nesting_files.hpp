@@ -21,8 +21,6 @@ enum class NestingForm {
   hides,      ///< "Items" and "Objects": hides with holes and quality zones
   placements  ///< "placements" of the items of a strip file, their "instance"
 };
-/// Returns nothing for other JSON, and for bytes that are no JSON.
-[[nodiscard]] std::optional<NestingForm> nesting_form(std::string_view bytes);
 
 /// Reads strips, sheets and hides. The files do not say their unit: `unit` does, millimetres if absent.
 ///

@@ -9,10 +9,13 @@ namespace lekalo::io {
 
 /// Words as they are written into files and pictures: any bytes become text that XML and JSON hold.
 
-/// The text itself where it is UTF-8, else with U+FFFD for what is not.
+/// The text itself where it is UTF-8, else with a U+FFFD for each piece that is not: the longest that could
+/// have begun a character, or a byte.
 [[nodiscard]] std::string as_utf8(std::string_view text);
 /// JSON text of a string; bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string json_string(std::string_view text);
+/// The same JSON in ASCII alone, for headers of HTTP: every other character, and DEL, as \u escapes.
+[[nodiscard]] std::string ascii_json(std::string_view json);
 
 /// The text with everything that is not UTF-8 or that XML forbids replaced by U+FFFD; line ends and tabs
 /// become blanks.

@@ -5,11 +5,12 @@
 #include <string>
 #include <string_view>
 
-namespace lekalo::io::detail {
+namespace lekalo::io {
 
 /// The place where a text stops being JSON.
 struct JsonBreak {
   std::size_t line = 1;           ///< 1-based
+  std::size_t byte = 1;           ///< 1-based; one beyond the last where the text ends early
   std::string token;              ///< the characters that the parser could not take
   bool number_too_large = false;  ///< they are a number beyond doubles
   bool ends_early = false;        ///< they are the end of the text
@@ -21,7 +22,9 @@ class JsonEvents {
  public:
   virtual bool null() = 0;
   virtual bool boolean(bool value) = 0;
+  /// A whole number that is written without point and exponent; -0 is 0.
   virtual bool integer(std::int64_t value) = 0;
+  /// Any other number.
   /// \param text  the number as the file writes it: only its decimal tells whether it is a double exactly
   virtual bool number(double value, std::string_view text) = 0;
   virtual bool text(std::string_view value) = 0;
@@ -36,9 +39,10 @@ class JsonEvents {
   ~JsonEvents() = default;
 };
 
-/// Parses the text and tells the listener. This is the only parser of JSON in io: JsonTree and the points of
-/// a contour listen to it. True when the text is JSON and the listener never ended the parse. It needs no
-/// more memory for lists a million deep than a bit for each.
+/// Parses the text and tells the listener. This is the only parser of JSON in lekalo but for that of the
+/// checker: trees of values, the points of a contour and the messages of clients listen to it. True when the
+/// text is JSON and the listener never ended the parse. It needs no more memory for lists a million deep than
+/// a bit for each.
 [[nodiscard]] bool parse_json(std::string_view bytes, JsonEvents& listener);
 
-}  // namespace lekalo::io::detail
+}  // namespace lekalo::io
