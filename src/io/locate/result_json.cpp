@@ -1,6 +1,6 @@
 #include "lekalo/io/locate/result_json.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
