@@ -17,13 +17,19 @@
 #       room of a program reaches the rooms that it states, and the files beside the rooms;
 #   (8) no folder of the product holds more than 40 files of its own;
 #   (9) only src/verify/number includes GMP and MPFR: a target without them replaces that room alone;
-#   (10) test names are sentences in CamelCase.
+#   (10) test names are sentences in CamelCase;
+#   (11) headers that the compiler needs seconds for stand behind a few files, so that a cold build stays short;
+#   (12) every header may be included twice: "#pragma once" is its first directive.
 cmake_minimum_required(VERSION 3.25)
 
 set(forbidden_below_disk fstream iostream filesystem chrono ctime time.h random)
 set(forbidden_below_io unordered_map unordered_set)
 set(number_headers gmp.h gmpxx.h mpfr.h)
 set(most_files 40)
+# What the header is called, and the only files that may include it.
+set(heavy "^nlohmann/" "^boost/" "^CLI/" "^fmt/format[.]h$")
+set(heavy_places "^src/io/text/json_(events|writer)[.]cpp$" "^apps/server/(network/|server[.]cpp)"
+    "^apps/cli/(options/form|complaint|completion)[.]cpp$" "^src/io/text/json_writer[.]cpp$")
 
 set(violations "")
 set(checked 0)
@@ -117,6 +123,12 @@ function(check_file FILE MODULE)
   file(STRINGS ${ROOT}/${FILE} includes REGEX "^[ \t]*#[ \t]*include")
   get_filename_component(folder ${ROOT}/${FILE} DIRECTORY)
   string(REGEX REPLACE "^([^/]+/[^/]+)/.*" "\\1" app "${FILE}")
+  if(FILE MATCHES "[.]hpp$")
+    file(STRINGS ${ROOT}/${FILE} first REGEX "^[ \t]*#" LIMIT_COUNT 1)
+    if(NOT first STREQUAL "#pragma once")
+      violation("${FILE} does not begin with #pragma once")
+    endif()
+  endif()
   foreach(include IN LISTS includes)
     if(NOT include MATCHES "include[ \t]*([\"<])([^\">]+)[\">]")
       violation("${FILE}: cannot read '${include}'")
@@ -124,6 +136,11 @@ function(check_file FILE MODULE)
     endif()
     set(quote "${CMAKE_MATCH_1}")
     set(path "${CMAKE_MATCH_2}")
+    foreach(name place IN ZIP_LISTS heavy heavy_places)
+      if(path MATCHES "${name}" AND NOT FILE MATCHES "${place}")
+        violation("${FILE} includes <${path}>: the compiler needs long for it; only ${place} may")
+      endif()
+    endforeach()
     if(path MATCHES "^lekalo/([^/]+)/")
       set(used ${CMAKE_MATCH_1})
       if(NOT used IN_LIST allowed)

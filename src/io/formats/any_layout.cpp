@@ -1,7 +1,5 @@
 #include "lekalo/io/formats/any_layout.hpp"
 
-#include <fmt/core.h>
-
 #include <optional>
 #include <utility>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "lekalo/io/shape/shape_tree.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
