@@ -3,41 +3,48 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace lekalo::cli {
 namespace {
 
-std::vector<const CLI::Option*> long_options(const CLI::App& command) {
-  std::vector<const CLI::Option*> found;
-  for (const CLI::Option* option : command.get_options()) {
-    if (!option->get_lnames().empty()) found.push_back(option);
-  }
+/// Without its dashes; empty for a word that is known by its place.
+std::string long_name(const FormOption& option) {
+  const std::size_t dashes = option.names.find("--");
+  return dashes == std::string::npos ? "" : option.names.substr(dashes + 2);
+}
+
+/// Completion offers every flag and option with a long name.
+std::vector<FormOption> long_options(const Form& form) {
+  std::vector<FormOption> found{{kHelpFlag, static_cast<bool*>(nullptr), {}, kHelpFlagHelp, {}}};
+  std::copy_if(form.options.begin(), form.options.end(), std::back_inserter(found),
+               [](const FormOption& option) { return !long_name(option).empty(); });
   return found;
 }
 
 /// "a|b|c" as "a b c"; empty for a type that is not a list of words.
-std::string choices(const CLI::Option& option) {
-  std::string type = option.get_type_name();
-  if (type.find('|') == std::string::npos) return {};
-  std::replace(type.begin(), type.end(), '|', ' ');
-  return type;
+std::string choices(const FormOption& option) {
+  if (option.type.find('|') == std::string::npos) return {};
+  std::string words = option.type;
+  std::replace(words.begin(), words.end(), '|', ' ');
+  return words;
 }
 
-std::string bash_script(const CLI::App& app) {
+std::string bash_script(const std::vector<Form>& forms) {
   std::string commands, words_of_command, words_of_option;
-  for (const CLI::App* command : app.get_subcommands({})) {
+  for (const Form& form : forms) {
     std::string options;
-    for (const CLI::Option* option : long_options(*command)) {
-      options += " --" + option->get_lnames().front();
-      const std::string words = choices(*option);
+    for (const FormOption& option : long_options(form)) {
+      options += " --" + long_name(option);
+      const std::string words = choices(option);
       if (!words.empty()) {
         words_of_option += fmt::format("    --{}) COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return ;;\n",
-                                       option->get_lnames().front(), words);
+                                       long_name(option), words);
       }
     }
-    commands += " " + command->get_name();
-    words_of_command += fmt::format("    {}) words='{}' ;;\n", command->get_name(), options.substr(1));
+    commands += " " + form.name;
+    words_of_command += fmt::format("    {}) words='{}' ;;\n", form.name, options.substr(1));
   }
   return fmt::format(
       "_lekalo() {{\n"
@@ -57,17 +64,17 @@ std::string bash_script(const CLI::App& app) {
       commands.substr(1), words_of_option, words_of_command);
 }
 
-std::string fish_script(const CLI::App& app) {
+std::string fish_script(const std::vector<Form>& forms) {
   std::string script;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    script += fmt::format("complete -c lekalo -n __fish_use_subcommand -f -a {} -d \"{}\"\n",
-                          command->get_name(), command->get_description());
-    for (const CLI::Option* option : long_options(*command)) {
-      const std::string words = choices(*option);
-      script += fmt::format("complete -c lekalo -n '__fish_seen_subcommand_from {}' -l {}{}{} -d \"{}\"\n",
-                            command->get_name(), option->get_lnames().front(),
-                            option->get_expected_min() > 0 ? " -r" : "",
-                            words.empty() ? "" : " -f -a '" + words + "'", option->get_description());
+  for (const Form& form : forms) {
+    script +=
+        fmt::format("complete -c lekalo -n __fish_use_subcommand -f -a {} -d \"{}\"\n", form.name, form.help);
+    for (const FormOption& option : long_options(form)) {
+      const std::string words = choices(option);
+      script +=
+          fmt::format("complete -c lekalo -n '__fish_seen_subcommand_from {}' -l {}{}{} -d \"{}\"\n",
+                      form.name, long_name(option), std::holds_alternative<bool*>(option.to) ? "" : " -r",
+                      words.empty() ? "" : " -f -a '" + words + "'", option.help);
     }
   }
   return script;
@@ -75,11 +82,11 @@ std::string fish_script(const CLI::App& app) {
 
 }  // namespace
 
-Result<std::string> completion_script(const CLI::App& app, const std::string& shell) {
-  if (shell == "bash") return bash_script(app);
+Result<std::string> completion_script(const std::vector<Form>& forms, const std::string& shell) {
+  if (shell == "bash") return bash_script(forms);
   if (shell == "zsh")
-    return "autoload -U +X compinit bashcompinit && compinit && bashcompinit\n" + bash_script(app);
-  if (shell == "fish") return fish_script(app);
+    return "autoload -U +X compinit bashcompinit && compinit && bashcompinit\n" + bash_script(forms);
+  if (shell == "fish") return fish_script(forms);
   return failure(ErrorCode::usage, fmt::format("completion: \"{}\" is not one of bash, zsh, fish", shell));
 }
 

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/contour/contour_file.hpp"
 #include "support/cases.hpp"
 #include "support/io_contours.hpp"
+#include "support/json.hpp"
 #include "support/places.hpp"
 
 // Files of this folder, many written by a DXF library that is not ours (data/contours/generate.py), with what
@@ -20,10 +20,16 @@ namespace {
 
 const std::string kFolder = cases::source_dir() + "/tests/corpus/data/contours/";
 
-nlohmann::json index() { return nlohmann::json::parse(*disk::read_file(kFolder + "index.json")); }
+cases::Json index() { return cases::Json::parse(*disk::read_file(kFolder + "index.json")); }
 
 Result<io::ContourFile> read(const std::string& file) {
   return io::parse_contour(*disk::read_file(kFolder + file), file, std::nullopt);
+}
+
+std::vector<std::size_t> indices(const cases::Json& list) {
+  std::vector<std::size_t> all;
+  for (const cases::Json& one : list) all.push_back(one.get<std::size_t>());
+  return all;
 }
 
 TEST(IoCorpus, HasCases) { EXPECT_GE(index().size(), 20U); }
@@ -49,13 +55,12 @@ TEST(IoCorpus, EachFileIsReadRightOrRefusedWithAClearWord) {
         EXPECT_DOUBLE_EQ(file->points[i].x, scale * expected["points"][i][0].get<double>());
         EXPECT_DOUBLE_EQ(file->points[i].y, scale * expected["points"][i][1].get<double>());
       }
-      EXPECT_EQ(contour->dropped, expected["dropped"].get<std::vector<std::size_t>>());
+      EXPECT_EQ(contour->dropped, indices(expected["dropped"]));
     } else {
       std::vector<std::size_t> kept = contour->file_index_of_vertex, all(file->points.size());
       std::sort(kept.begin(), kept.end());
       std::iota(all.begin(), all.end(), std::size_t{0});
-      EXPECT_EQ(kept,
-                expected["corners"] == "all" ? all : expected["corners"].get<std::vector<std::size_t>>());
+      EXPECT_EQ(kept, expected["corners"] == "all" ? all : indices(expected["corners"]));
     }
   }
 }

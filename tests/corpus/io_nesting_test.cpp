@@ -6,21 +6,21 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "lekalo/disk/files.hpp"
 #include "lekalo/disk/open_layout.hpp"
 #include "lekalo/io/nesting/nesting_files.hpp"
+#include "support/json.hpp"
 #include "support/shared_data.hpp"
 
 namespace lekalo::io {
 namespace {
 
-using Json = nlohmann::json;
+using cases::Json;
 namespace fs = std::filesystem;
 
-Json load(const fs::path& path) { return Json::parse(std::ifstream(path)); }
+Json load(const fs::path& path) { return Json::parse(disk::read_file(path.string()).value()); }
 
 double x_of(const Json& p) { return p.is_array() ? p[0].get<double>() : p["x"].get<double>(); }
 double y_of(const Json& p) { return p.is_array() ? p[1].get<double>() : p["y"].get<double>(); }

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "lekalo/io/svg/svg.hpp"
 #include "support/drawn_measures.hpp"
+#include "support/json.hpp"
 #include "support/places.hpp"
 
 namespace lekalo::io {
@@ -57,14 +57,14 @@ std::vector<Entity> shown_entities(const Drawing& drawing) {
 }
 
 TEST(SvgCorpus, LengthsAreasAndPlacesAreThoseOfAnIndependentReader) {
-  const auto expected = nlohmann::json::parse(text_of("expected.json"));
+  const cases::Json expected = cases::Json::parse(text_of("expected.json"));
   ASSERT_GE(expected.size(), 7u);
-  for (const auto& file : expected.items()) {
-    SCOPED_TRACE(file.key());
-    const std::vector<Entity> entities = shown_entities(drawing_of(file.key()));
-    ASSERT_EQ(entities.size(), file.value().size());
+  for (const std::string& file : expected.keys()) {
+    SCOPED_TRACE(file);
+    const std::vector<Entity> entities = shown_entities(drawing_of(file));
+    ASSERT_EQ(entities.size(), expected[file].size());
     for (std::size_t i = 0; i < entities.size(); ++i) {
-      const auto& want = file.value()[i];
+      const auto& want = expected[file][i];
       const Entity& got = entities[i];
       SCOPED_TRACE(i);
       EXPECT_EQ(got.handle, want["id"].get<std::string>());

@@ -10,20 +10,20 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "support/cases.hpp"
+#include "support/json.hpp"
 #include "support/layout_documents.hpp"
 #include "support/places.hpp"
 
 namespace lekalo::io {
 namespace {
 
-using Json = nlohmann::json;
+using cases::Json;
 
 const std::string kExample = cases::source_dir() + "/tests/corpus/data/layouts/order.json";
 
@@ -103,7 +103,7 @@ TEST(LayoutSchema, RefusesWhatTheReaderRefuses) {
                              {"/placements/1/locked", "1"},
                              {"/next_id", "0"}}) {
     Json changed = example;
-    changed[Json::json_pointer(wrong.place)] = Json::parse(wrong.value);
+    changed.at(wrong.place) = Json::parse(wrong.value);
     texts.push_back(changed.dump());
     const auto read = read_layout(texts.back(), "wrong.json");
     EXPECT_FALSE(read.has_value()) << wrong.place;

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "lekalo/disk/files.hpp"
@@ -17,6 +16,7 @@
 #include "lekalo/io/svg/svg.hpp"
 #include "support/drawn_measures.hpp"
 #include "support/drawn_region_cases.hpp"
+#include "support/json.hpp"
 #include "support/places.hpp"
 
 // Written drawings as others see them: DXF as ezdxf and OGR do, SVG as svgelements does
@@ -25,8 +25,8 @@
 namespace lekalo::io {
 namespace {
 
+using cases::Json;
 using geom::EdgeKind;
-using nlohmann::json;
 
 std::string python(const char* library) {
   for (const char* name : {"python3", "/usr/bin/python3"})
@@ -34,7 +34,7 @@ std::string python(const char* library) {
   return {};
 }
 
-json seen_by_others(const std::string& interpreter, const std::string& file,
+Json seen_by_others(const std::string& interpreter, const std::string& file,
                     const std::string& script = "written_oracle.py", const std::string& word = "") {
   FILE* pipe = popen(
       fmt::format("{} -B {}/tests/support/{} {} '{}'", interpreter, cases::source_dir(), script, word, file)
@@ -45,7 +45,7 @@ json seen_by_others(const std::string& interpreter, const std::string& file,
   std::array<char, 65536> buffer{};
   for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
     text.append(buffer.data(), n);
-  return pclose(pipe) == 0 ? json::parse(text, nullptr, false) : json(nullptr);
+  return pclose(pipe) == 0 ? Json::parse(text) : Json(nullptr);
 }
 
 struct WrittenFile {
@@ -90,18 +90,18 @@ TEST(DrawingWriterOracle, EzdxfFindsNothingToRepairAndTheSameNumbers) {
   const auto text = dxf_drawing(regions);
   ASSERT_TRUE(text.has_value()) << text.error().message;
   const WrittenFile written("written.dxf", *text);
-  const json seen = seen_by_others(interpreter, written.path);
+  const Json seen = seen_by_others(interpreter, written.path);
   ASSERT_TRUE(seen.is_object()) << "written_oracle.py failed";
   EXPECT_EQ(seen["version"], "AC1021");  // for the Cyrillic name
   EXPECT_EQ(seen["insunits"], 4);
-  EXPECT_EQ(seen["errors"], json::array());
+  EXPECT_EQ(seen["errors"], Json::array());
   std::size_t k = 0;
   const auto check = [&](const geom::Contour& contour, const std::string& layer) {
     ASSERT_LT(k, seen["entities"].size());
-    const json& entity = seen["entities"][k];
+    const Json& entity = seen["entities"][k];
     EXPECT_EQ(entity["layer"], layer);
     if (seen["ogr"].is_array()) {
-      const json& line = seen["ogr"][k];
+      const Json& line = seen["ogr"][k];
       EXPECT_EQ(line["closed"], true);
       // OGR 3.6 takes names in files of 2007 for ISO 8859-1.
       EXPECT_TRUE(k == 0 || line["layer"] == layer);
@@ -115,7 +115,7 @@ TEST(DrawingWriterOracle, EzdxfFindsNothingToRepairAndTheSameNumbers) {
     const geom::Edge& first = contour.front();
     if (first.from == first.to) {
       EXPECT_EQ(entity["type"], "CIRCLE");
-      EXPECT_EQ(entity["centre"], json({first.centre.x, first.centre.y}));
+      EXPECT_EQ(entity["centre"], Json({first.centre.x, first.centre.y}));
       EXPECT_NEAR(entity["radius"].get<double>(), geom::arc_radius(first), 1e-12);
       return;
     }
@@ -123,7 +123,7 @@ TEST(DrawingWriterOracle, EzdxfFindsNothingToRepairAndTheSameNumbers) {
     EXPECT_EQ(entity["closed"], true);
     std::size_t v = 0;
     for (const geom::Edge& edge : contour) {
-      const json& vertex = entity["vertices"][v++];
+      const Json& vertex = entity["vertices"][v++];
       EXPECT_EQ(vertex[0], edge.from.x);
       EXPECT_EQ(vertex[1], edge.from.y);
       const double bulge = vertex[2];
@@ -164,7 +164,7 @@ TEST(DrawingWriterOracle, EzdxfFindsTheSameLengthsAndAreas) {
   ASSERT_FALSE(interpreter.empty()) << "python3-ezdxf is not installed (tools/setup.sh installs it)";
   const auto regions = random_regions_on_layers();
   const WrittenFile written("written.dxf", *dxf_drawing(regions));
-  const json seen = seen_by_others(interpreter, written.path, "dxf_oracle.py", "ezdxf");
+  const Json seen = seen_by_others(interpreter, written.path, "dxf_oracle.py", "ezdxf");
   ASSERT_TRUE(seen.is_object()) << "dxf_oracle.py failed";
   std::map<std::pair<std::string, std::string>, cases::DrawnMeasures> wanted;
   for (const LayeredRegion& one : regions) {
@@ -176,9 +176,9 @@ TEST(DrawingWriterOracle, EzdxfFindsTheSameLengthsAndAreas) {
       sum.area += circle ? std::abs(measures.area) : measures.area;  // a CIRCLE has no direction
     }
   }
-  const json& listed = seen[written.path];
+  const Json& listed = seen[written.path];
   ASSERT_EQ(listed.size(), wanted.size());
-  for (const json& theirs : listed) {
+  for (const Json& theirs : listed) {
     const auto& ours = wanted.at({theirs["type"], theirs["layer"]});
     EXPECT_NEAR(theirs["length"].get<double>(), ours.length, 1e-9 * ours.length) << theirs.dump();
     EXPECT_NEAR(theirs["area"].get<double>(), ours.area, 1e-9 * std::abs(ours.area)) << theirs.dump();
@@ -190,13 +190,13 @@ TEST(DrawingWriterOracle, SvgelementsFindsTheSameLengthsAndAreas) {
   ASSERT_FALSE(interpreter.empty()) << "python3-svgelements is not installed (tools/setup.sh installs it)";
   const auto regions = random_regions_on_layers();
   const WrittenFile written("written.svg", *svg_drawing(regions));
-  const json seen = seen_by_others(interpreter, written.path);
+  const Json seen = seen_by_others(interpreter, written.path);
   ASSERT_TRUE(seen.is_array()) << "written_oracle.py failed";
   std::size_t k = 0;
   for (const LayeredRegion& one : regions) {
     for (const geom::Contour& contour : cases::contours_of({one.region})) {
       ASSERT_LT(k, seen.size());
-      const json& theirs = seen[k++];
+      const Json& theirs = seen[k++];
       const auto ours = measures_of(contour);
       EXPECT_NEAR(theirs["length"].get<double>(), ours.length, 1e-9 * ours.length) << one.layer;
       EXPECT_NEAR(std::abs(theirs["area"].get<double>()), std::abs(ours.area), 1e-9 * std::abs(ours.area))

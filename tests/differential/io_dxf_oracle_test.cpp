@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "lekalo/io/drawing/drawing.hpp"
 #include "lekalo/io/dxf/dxf.hpp"
 #include "support/drawn_curves.hpp"
+#include "support/json.hpp"
 #include "support/places.hpp"
 
 // Drawings against ezdxf (curve by curve, blocks and arrays expanded) and OGR (lengths and boxes of its
@@ -26,7 +26,7 @@
 namespace lekalo {
 namespace {
 
-using nlohmann::json;
+using cases::Json;
 
 std::vector<std::string> corpus() {
   std::vector<std::string> files;
@@ -50,7 +50,7 @@ std::string python_with(const std::string& library) {
   return {};
 }
 
-json listing(const std::string& python, const std::string& library, const std::vector<std::string>& files) {
+Json listing(const std::string& python, const std::string& library, const std::vector<std::string>& files) {
   std::string command =
       fmt::format("{} {}/tests/support/dxf_oracle.py {}", python, cases::source_dir(), library);
   for (const std::string& file : files) command += " '" + file + "'";
@@ -60,7 +60,7 @@ json listing(const std::string& python, const std::string& library, const std::v
   std::array<char, 65536> buffer{};
   for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
     text.append(buffer.data(), n);
-  return pclose(pipe) == 0 ? json::parse(text, nullptr, false) : json(nullptr);
+  return pclose(pipe) == 0 ? Json::parse(text) : Json(nullptr);
 }
 
 struct Sum {
@@ -72,7 +72,7 @@ TEST(IoDxfOracle, EzdxfFindsTheSameCurvesLengthsPlacesAndAreas) {
   const std::string python = python_with("ezdxf");
   ASSERT_FALSE(python.empty()) << "python3-ezdxf is not installed (tools/setup.sh installs it)";
   const auto files = corpus();
-  const json oracle = listing(python, "ezdxf", files);
+  const Json oracle = listing(python, "ezdxf", files);
   ASSERT_TRUE(oracle.is_object()) << "dxf_oracle.py failed";
   std::size_t compared = 0;
   for (const std::string& file : files) {
@@ -93,7 +93,7 @@ TEST(IoDxfOracle, EzdxfFindsTheSameCurvesLengthsPlacesAndAreas) {
     }
     const double scale = drawing->millimetres_per_unit;
     ASSERT_EQ(found.size(), oracle[file].size()) << oracle[file].dump();
-    for (const json& theirs : oracle[file]) {
+    for (const Json& theirs : oracle[file]) {
       const auto ours = found.find({theirs["type"], theirs["layer"]});
       ASSERT_NE(ours, found.end()) << theirs.dump();
       const auto& [curves, total] = ours->second;
@@ -115,7 +115,7 @@ TEST(IoDxfOracle, OgrFindsTheSameLengthsAndBoxesOnEachLayer) {
   const std::string python = python_with("ogr");
   ASSERT_FALSE(python.empty()) << "python3-gdal is not installed (tools/setup.sh installs it)";
   const auto files = corpus();
-  const json oracle = listing(python, "ogr", files);
+  const Json oracle = listing(python, "ogr", files);
   ASSERT_TRUE(oracle.is_object()) << "dxf_oracle.py failed";
   std::size_t compared = 0;
   for (const std::string& file : files) {
@@ -143,7 +143,7 @@ TEST(IoDxfOracle, OgrFindsTheSameLengthsAndBoxesOnEachLayer) {
       }
     }
     const double scale = drawing->millimetres_per_unit;
-    for (const json& theirs : oracle[file]) {
+    for (const Json& theirs : oracle[file]) {
       const auto layer = theirs["layer"].get<std::string>();
       // OGR takes UTF-8 names of new drawings for the code page of old ones.
       if (std::any_of(layer.begin(), layer.end(),

@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "lekalo/io/layout/layout_export.hpp"
 #include "support/cases.hpp"
+#include "support/json.hpp"
 #include "support/layout_documents.hpp"
 #include "support/places.hpp"
 
@@ -21,7 +21,7 @@
 namespace lekalo::io {
 namespace {
 
-using nlohmann::json;
+using cases::Json;
 
 std::string python() {
   for (const char* name : {"python3", "/usr/bin/python3"})
@@ -29,7 +29,7 @@ std::string python() {
   return {};
 }
 
-json listed(const std::string& interpreter, const std::string& text) {
+Json listed(const std::string& interpreter, const std::string& text) {
   const auto path =
       std::filesystem::temp_directory_path() / fmt::format("lekalo_export_oracle_{}.dxf", getpid());
   std::ofstream(path, std::ios::binary) << text;
@@ -44,7 +44,7 @@ json listed(const std::string& interpreter, const std::string& text) {
       said.append(buffer.data(), n);
   const bool fine = pipe != nullptr && pclose(pipe) == 0;
   std::filesystem::remove(path);
-  return fine ? json::parse(said, nullptr, false)[path.string()] : json(nullptr);
+  return fine ? Json::parse(said)[path.string()] : Json(nullptr);
 }
 
 /// A circle has no direction in DXF, so the sums of ezdxf's areas count holes that are circles as material.
@@ -65,10 +65,10 @@ TEST(LayoutExportOracle, EzdxfFindsTheOutlinesOnTheirLayers) {
     const auto request = read_export_words(ExportForm::dxf, {{"unit", index % 2 == 0 ? "mm" : "inch"}}, "");
     const auto made = export_layout(document, "random", *request);
     if (!made) continue;  // nothing placed, or too far away for the format
-    const json seen = listed(interpreter, made->files[0].bytes);
+    const Json seen = listed(interpreter, made->files[0].bytes);
     ASSERT_TRUE(seen.is_array()) << "dxf_oracle.py failed";
     std::map<std::string, double> area, length;
-    for (const json& entry : seen) {
+    for (const Json& entry : seen) {
       area[entry["layer"]] += entry["area"].get<double>() * per_unit * per_unit;
       length[entry["layer"]] += entry["length"].get<double>() * per_unit;
     }

@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,6 +25,7 @@
 #include "lekalo/verify/layout.hpp"
 #include "support/cases.hpp"
 #include "support/crowded_layouts.hpp"
+#include "support/json.hpp"
 #include "support/layout_cases.hpp"
 #include "support/places.hpp"
 #include "support/shared_data.hpp"
@@ -33,7 +33,7 @@
 namespace lekalo {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using cases::Json;
 using layout::Document;
 using layout::Session;
 using layout::Violation;
@@ -64,7 +64,7 @@ class Cases {
     for (const Violation& v : layout::check(document)) {
       const std::string feature = feature_of(document, v);
       const bool directed = v.direction.x != 0 || v.direction.y != 0;
-      violations.push_back({{"kind", layout::name_of(v.kind)},
+      violations.push_back({{"kind", std::string(layout::name_of(v.kind))},
                             {"a", v.a},
                             {"b", v.b == 0 ? Json(nullptr) : Json(v.b)},
                             {"feature", feature.empty() ? Json(nullptr) : Json(feature)},
@@ -90,7 +90,7 @@ class Cases {
       text.append(buffer.data(), n);
     const bool done = pipe != nullptr && pclose(pipe) == 0;
     std::filesystem::remove(path);
-    return done ? Json::parse(text, nullptr, false) : Json(nullptr);
+    return done ? Json::parse(text) : Json(nullptr);
   }
 
  private:
@@ -111,7 +111,9 @@ std::map<std::string, std::size_t> agree(const Cases& cases) {
   std::printf("%s layouts: found %s, %s relations that hold, %s too close to call\n",
               said["documents"].dump().c_str(), said["found"].dump().c_str(), said["absent"].dump().c_str(),
               said["close"].dump().c_str());
-  return said["found"].get<std::map<std::string, std::size_t>>();
+  std::map<std::string, std::size_t> found;
+  for (const std::string& kind : said["found"].keys()) found[kind] = said["found"][kind].get<std::size_t>();
+  return found;
 }
 
 geom::GridPoint middle_of(const geom::GridBox& box) {

@@ -13,13 +13,13 @@
 namespace lekalo {
 namespace {
 
-using cases::LayoutJson;
+using cases::Json;
 
-LayoutJson contour_json(const geom::Contour& contour) {
-  LayoutJson list = LayoutJson::array();
-  const auto point = [](geom::Point p) { return LayoutJson{p.x, p.y}; };
+Json contour_json(const geom::Contour& contour) {
+  Json list = Json::array();
+  const auto point = [](geom::Point p) { return Json{p.x, p.y}; };
   for (const geom::Edge& e : contour) {
-    LayoutJson inner{{"from", point(e.from)}, {"to", point(e.to)}};
+    Json inner{{"from", point(e.from)}, {"to", point(e.to)}};
     const bool arc = e.kind != geom::EdgeKind::line;
     if (arc) inner["centre"] = point(e.centre), inner["ccw"] = e.kind == geom::EdgeKind::arc_ccw;
     list.push_back({{arc ? "arc" : "line", inner}});
@@ -27,7 +27,7 @@ LayoutJson contour_json(const geom::Contour& contour) {
   return list;
 }
 
-LayoutJson outline_json(const geom::GridRegion& polygon, const geom::Region& curves, double tolerance) {
+Json outline_json(const geom::GridRegion& polygon, const geom::Region& curves, double tolerance) {
   std::vector<cases::Points> loops;
   for (std::size_t l = 0; l < polygon.loops(); ++l) {
     auto& loop = loops.emplace_back();
@@ -36,8 +36,8 @@ LayoutJson outline_json(const geom::GridRegion& polygon, const geom::Region& cur
       loop.emplace_back(p.x, p.y);
     }
   }
-  LayoutJson outline = cases::outline_json(loops[0], {loops.begin() + 1, loops.end()});
-  outline["curves"] = {{"outer", contour_json(curves.outer)}, {"holes", LayoutJson::array()}};
+  Json outline = cases::outline_json(loops[0], {loops.begin() + 1, loops.end()});
+  outline["curves"] = {{"outer", contour_json(curves.outer)}, {"holes", Json::array()}};
   for (const geom::Contour& hole : curves.holes) outline["curves"]["holes"].push_back(contour_json(hole));
   outline["chord_tolerance"] = tolerance;
   return outline;
@@ -61,9 +61,9 @@ TEST(LayoutChordsDifferential, TheCheckerTakesTheChordsThatAreMadeAndNoOthers) {
             for (const geom::ChordSide side : {geom::ChordSide::grow, geom::ChordSide::shrink}) {
               const auto polygon = geom::grid_region_of_curves(region, side, tolerance);
               if (!polygon) continue;  // chords of one contour may meet another
-              const LayoutJson outline = outline_json(*polygon, region, tolerance);
+              const Json outline = outline_json(*polygon, region, tolerance);
               const auto verdict = [&](bool of_part) {
-                LayoutJson layout = cases::empty_layout();
+                Json layout = cases::empty_layout();
                 if (of_part)
                   cases::add_part(layout, "a", outline);
                 else

@@ -6,8 +6,8 @@
 
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "support/json.hpp"
 #include "support/places.hpp"
 #include "support/verify_cases.hpp"
 
@@ -23,7 +23,7 @@ std::string temporary(const std::string& name, const std::string& text) {
   return path;
 }
 
-nlohmann::json recheck(const Files& files) {
+cases::Json recheck(const Files& files) {
   const std::string command =
       fmt::format("python3 {}/tests/support/recheck.py {} {} {}", cases::source_dir(),
                   temporary("result.json", files.result()), temporary(files.part_name, files.part),
@@ -33,7 +33,7 @@ nlohmann::json recheck(const Files& files) {
   std::string text;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
   pclose(pipe);
-  return nlohmann::json::parse(text, nullptr, false);
+  return text.empty() ? cases::Json() : cases::Json::parse(text);
 }
 
 /// |a - b| / max(|a|, 1e-300), in 200 bits.
@@ -51,7 +51,7 @@ double relative_difference(const std::string& a, const std::string& b) {
 void compare_opinions(const Files& files, const std::string& what) {
   const auto report = check(files);
   ASSERT_TRUE(report) << what << ": " << report.error().message;
-  const nlohmann::json other = recheck(files);
+  const cases::Json other = recheck(files);
   ASSERT_TRUE(other.is_object()) << what << ": recheck.py said nothing; is python3 there?";
   EXPECT_EQ(report->verdict == Verdict::refuted, !other["wrong"].empty())
       << what << "\nverify: " << findings(report) << "recheck.py: " << other["wrong"].dump();

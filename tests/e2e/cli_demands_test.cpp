@@ -29,7 +29,7 @@ class Demands : public testing::Test {
   /// The result with one field changed is refuted.
   void expect_lie_is_seen(const std::string& path, const Json& value) {
     Json wrong = Json::parse(read_bytes(folder_ / "out.json"));
-    wrong[Json::json_pointer(path)] = value;
+    wrong.at(path) = value;
     write_bytes(folder_ / "wrong.json", wrong.dump());
     EXPECT_EQ(run(folder_.path(), {"verify", "wrong.json"}).status, 4) << path;
   }
@@ -96,7 +96,7 @@ TEST_F(Demands, TheSecondCriterionGivesUpNoMoreThanAllowed) {
   EXPECT_EQ(verified(), 0);
   for (const char* const k : {"0", "2"}) {
     const std::string point = std::string("/demands/trade_off/") + k;
-    const Json& written = largest[Json::json_pointer(point)];
+    const Json& written = largest.at(point);
     expect_lie_is_seen(point + "/margin", written["margin"].get<double>() + 0.02);
     expect_lie_is_seen(point + "/largest", written["largest"].get<double>() - 0.02);
     expect_lie_is_seen(point + "/x", written["x"].get<double>() + 3);
@@ -146,7 +146,7 @@ TEST_F(Demands, TheThirdCriterionKeepsTheSecondAndLiesAboutBothAreSeen) {
   const std::string tree = "/largest_certificate/trees/0/";
   expect_lie_is_seen(tree + "theta", Json::array({0, 6}));
   expect_lie_is_seen(tree + "x", Json::array({0, 100}));
-  Json nodes = result[Json::json_pointer(tree + "nodes")];
+  Json nodes = result.at(tree + "nodes");
   ASSERT_GT(nodes.size(), 10U);
   Json fewer = nodes;
   fewer.erase(fewer.size() - 1);
@@ -154,11 +154,11 @@ TEST_F(Demands, TheThirdCriterionKeepsTheSecondAndLiesAboutBothAreSeen) {
   // The bound raised to what the best has, with a tree that would prove it if balls were larger.
   Json wrong = result;
   for (const char* const key : {"most", "bound"}) {
-    Json& value = wrong[Json::json_pointer(at + (key == std::string("most") ? "proof/most" : key))];
+    Json& value = wrong.at(at + (key == std::string("most") ? "proof/most" : key));
     value = number(value) + 0.9 * (number(second["found"]) - number(second["bound"]));
   }
   std::size_t caps = 0;
-  for (Json& node : wrong[Json::json_pointer(tree + "nodes")])
+  for (Json& node : wrong.at(tree + "nodes"))
     if (node.is_object())
       for (Json& contact : node["contacts"])
         if (contact.size() == 8) contact[5] = number(contact[5]) + 0.1, ++caps;

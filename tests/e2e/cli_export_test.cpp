@@ -10,14 +10,13 @@ namespace lekalo::test {
 namespace {
 
 using cases::add_part;
-using cases::LayoutJson;
 using cases::outline_json;
 using cases::place;
 using cases::rectangle;
 
 /// Two sheets of a hundred, two plates on the first and one on the second.
-LayoutJson plates() {
-  LayoutJson layout = cases::empty_layout();
+Json plates() {
+  Json layout = cases::empty_layout();
   layout["stocks"][0]["count"] = 2;
   add_part(layout, "plate", outline_json(rectangle(0, 0, 30, 20), {rectangle(5, 5, 10, 10)}));
   place(layout, "plate", 10, 10);
@@ -79,7 +78,7 @@ TEST(CliExport, SheetsAreFilesOfTheirOwnAllOrNone) {
 
 TEST(CliExport, WhatCannotBeCutWritesNothingAndNamesBoth) {
   const TemporaryFolder folder;
-  LayoutJson layout = plates();
+  Json layout = plates();
   place(layout, "plate", 10, 30.2);
   write_bytes(folder / "plates.json", layout.dump());
   const Ran ran = run(folder.path(), Words{"export", "plates.json", "-o", "cut.nc"} + kCut);
@@ -115,7 +114,7 @@ TEST(CliExport, WrongCommandLinesAreRefusedInOneSentence) {
 TEST(CliExport, TheProgramPassesOurOwnReaderAndLocate) {
   const TemporaryFolder folder;
   write_plate(folder);
-  LayoutJson layout = cases::empty_layout();
+  Json layout = cases::empty_layout();
   add_part(layout, "plate", outline_json(rectangle(0, 0, 60, 30), {rectangle(20, 10, 10, 10)}));
   place(layout, "plate", 5, 5);
   write_bytes(folder / "layout.json", layout.dump());

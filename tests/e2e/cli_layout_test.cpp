@@ -13,7 +13,6 @@ namespace lekalo::test {
 namespace {
 
 using cases::add_part;
-using cases::LayoutJson;
 using cases::outline_json;
 using cases::place;
 using cases::rectangle;
@@ -21,18 +20,18 @@ using cases::rectangle;
 const std::string kShoes = cases::source_dir() + "/examples/layouts/shoes";
 
 /// A sheet of 100 x 100 with a hole, a defect and a bad zone; squares of 10 and one that must lie straight.
-LayoutJson plain() {
-  LayoutJson layout = cases::empty_layout();
-  LayoutJson& sheet = layout["stocks"][0];
+Json plain() {
+  Json layout = cases::empty_layout();
+  Json& sheet = layout["stocks"][0];
   sheet["outline"] = outline_json(rectangle(0, 0, 100, 100), {rectangle(45, 45, 10, 10)});
   sheet["grain_deg"] = 0;
   sheet["defects"] = {{{"id", "cut"}, {"severity", 2}, {"outline", outline_json(rectangle(70, 10, 5, 5))}}};
   sheet["zones"] = {{{"id", "belly"}, {"quality", 1}, {"outline", outline_json(rectangle(0, 90, 100, 10))}}};
   layout["rules"] = {{"gap", 2}, {"border_gap", 1}, {"defect_gap", 3}};
-  LayoutJson& square = add_part(layout, "square", outline_json(rectangle(0, 0, 10, 10)));
+  Json& square = add_part(layout, "square", outline_json(rectangle(0, 0, 10, 10)));
   square["quality"] = 1;
   square["demand"] = 3;
-  LayoutJson& collar = add_part(layout, "collar", outline_json(rectangle(0, 0, 20, 5)));
+  Json& collar = add_part(layout, "collar", outline_json(rectangle(0, 0, 20, 5)));
   collar["rotations"] = {0, 180, {{"from", 85}, {"to", 95}}};
   collar["grain"] = {{"deg", 0}, {"tolerance_deg", 5}};
   collar["quality"] = 2;
@@ -40,8 +39,8 @@ LayoutJson plain() {
 }
 
 /// Every kind of violation once.
-LayoutJson broken() {
-  LayoutJson layout = plain();
+Json broken() {
+  Json layout = plain();
   place(layout, "square", 5, 5);                       // 1
   place(layout, "square", 12, 5);                      // 2: overlaps 1 by 3
   place(layout, "square", 5, 17);                      // 3
@@ -58,7 +57,7 @@ LayoutJson broken() {
   return layout;
 }
 
-void write_layout(const TemporaryFolder& folder, const std::string& name, const LayoutJson& layout) {
+void write_layout(const TemporaryFolder& folder, const std::string& name, const Json& layout) {
   write_bytes(folder / name, layout.dump());
 }
 
@@ -71,7 +70,7 @@ std::string sentence(const Ran& ran) {
 
 TEST(CliLayout, CheckSaysThatAValidLayoutIsValid) {
   const TemporaryFolder folder;
-  LayoutJson layout = plain();
+  Json layout = plain();
   place(layout, "square", 5, 5);
   place(layout, "square", 17, 5);  // at the gap of 2 exactly
   place(layout, "collar", 78, 60, 90)["x_note"] = "turned";
@@ -169,11 +168,11 @@ struct Bad {
 };
 
 TEST(CliLayout, BadFilesGetOneSentenceAndLeaveNothing) {
-  const auto changed = [](const std::string& at, const LayoutJson& value) {
-    LayoutJson layout = plain();
+  const auto changed = [](const std::string& at, const Json& value) {
+    Json layout = plain();
     place(layout, "square", 5, 5);
     layout["kits"] = {{{"id", "pair"}, {"pieces", {{{"part", "square"}}}}}};
-    layout[LayoutJson::json_pointer(at)] = value;
+    layout.at(at) = value;
     return layout.dump();
   };
   const std::string outer = "/parts/0/outline/polygon/outer";
@@ -184,7 +183,7 @@ TEST(CliLayout, BadFilesGetOneSentenceAndLeaveNothing) {
       {"unknown part", changed("/placements/0/part", "sole"), "placements[0].part: there is no part 'sole'"},
       {"unknown stock", changed("/placements/0/stock", "roof"),
        "placements[0].stock: there is no stock 'roof'"},
-      {"kit of nothing", changed("/kits/0/pieces", LayoutJson::array()), "kits[0]"},
+      {"kit of nothing", changed("/kits/0/pieces", Json::array()), "kits[0]"},
       {"kit of unknown", changed("/kits/0/pieces/0/part", "lace"),
        "kits[0].pieces[0].part: there is no part"},
       {"mirrored kit", changed("/kits/0/pieces/0/mirrored", true), "kits[0].pieces[0]"},
@@ -271,7 +270,7 @@ TEST(CliLayout, WrongWordsAreUsageErrors) {
 
 TEST(CliLayout, ShowDrawsInThreeFormsAndCounts) {
   const TemporaryFolder folder;
-  LayoutJson layout = plain();
+  Json layout = plain();
   layout["name"] = "Order 7 <&>";
   layout["kits"] = {{{"id", "pair"}, {"demand", 2}, {"pieces", {{{"part", "square"}, {"count", 2}}}}}};
   for (int i = 0; i < 3; ++i) place(layout, "square", 5 + 12 * i, 5);
@@ -403,7 +402,7 @@ TEST(CliLayout, EditCarriesOutTheCommandsOfTheShoes) {
 
 TEST(CliLayout, TheSameCommandsGiveTheSameBytes) {
   const TemporaryFolder folder;
-  LayoutJson layout = plain();
+  Json layout = plain();
   place(layout, "square", 5, 5);
   place(layout, "collar", 30, 30);
   write_layout(folder, "order.json", layout);
@@ -423,7 +422,7 @@ TEST(CliLayout, TheSameCommandsGiveTheSameBytes) {
 
 TEST(CliLayout, EditRefusesWhatBreaksARuleAndWritesNothing) {
   const TemporaryFolder folder;
-  LayoutJson layout = plain();
+  Json layout = plain();
   place(layout, "square", 5, 5);
   place(layout, "square", 20, 5);
   write_layout(folder, "order.json", layout);

@@ -6,12 +6,11 @@ namespace lekalo::test {
 namespace {
 
 using cases::add_part;
-using cases::LayoutJson;
 using cases::outline_json;
 using cases::rectangle;
 
-LayoutJson order() {
-  LayoutJson layout = cases::empty_layout();
+Json order() {
+  Json layout = cases::empty_layout();
   layout["stocks"][0]["outline"] = outline_json(rectangle(0, 0, 100, 100));
   add_part(layout, "square", outline_json(rectangle(0, 0, 30, 30)))["demand"] = 5;
   add_part(layout, "bar", outline_json(rectangle(0, 0, 60, 10)))["demand"] = 3;
@@ -54,7 +53,7 @@ TEST(CliNest, CtrlCKeepsTheBest) {
 
 TEST(CliNest, SaysWhatIsNotPlacedAndWhy) {
   const TemporaryFolder folder;
-  LayoutJson layout = order();
+  Json layout = order();
   add_part(layout, "long", outline_json(rectangle(0, 0, 200, 5)))["demand"] = 2;
   write_bytes(folder / "order.json", layout.dump());
   const Ran ran = run(folder.path(), {"nest", "order.json", "--work", "1000", "--json"});

@@ -11,6 +11,8 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <csignal>
+#include <fstream>
 #include <mutex>
 #include <optional>
 
@@ -163,7 +165,8 @@ class Client {
       for (const Json& stock : said["document"]["stocks"])
         for (const auto& [list, kind] : {std::pair{"defects", "defect"}, {"zones", "zone"}})
           if (stock.contains(list))
-            for (const Json& one : stock[list]) features_[{stock["id"], kind}].push_back(one);
+            for (const Json& one : stock[list])
+              features_[{stock["id"].get<std::string>(), kind}].push_back(one);
     } else if (said["type"] == "change") {
       EXPECT_EQ(said["revision"].get<long>(), revision_ + 1);
       revision_ = said["revision"];
@@ -174,7 +177,7 @@ class Client {
           placements_[one["id"]] = one["after"];
       }
       for (const Json& one : said["features"]) {
-        auto& list = features_[{one["stock"], one["kind"]}];
+        auto& list = features_[{one["stock"].get<std::string>(), one["kind"].get<std::string>()}];
         const auto at = std::find_if(list.begin(), list.end(),
                                      [&](const Json& known) { return known["id"] == one["id"]; });
         if (one["after"].is_null())

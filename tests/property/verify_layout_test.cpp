@@ -19,13 +19,13 @@ namespace {
 using cases::add_part;
 using cases::crowded;
 using cases::empty_layout;
-using cases::LayoutJson;
+using cases::Json;
 using cases::outline_json;
 using cases::place;
 using cases::Points;
 using cases::rectangle;
 
-std::vector<LayoutViolation> violations(const LayoutJson& layout) {
+std::vector<LayoutViolation> violations(const Json& layout) {
   const auto checked = verify_layout({"layout.json", layout.dump()});
   EXPECT_TRUE(checked) << checked.error().message;
   return checked ? checked->violations : std::vector<LayoutViolation>{};
@@ -33,8 +33,8 @@ std::vector<LayoutViolation> violations(const LayoutJson& layout) {
 
 /// The whole sheet, and all that lies on it, under x, y -> f(x, y) of the plane.
 template <class F>
-void change_outline(LayoutJson& outline, F f) {
-  const auto change = [&](LayoutJson& loop) {
+void change_outline(Json& outline, F f) {
+  const auto change = [&](Json& loop) {
     for (auto& p : loop) {
       const auto [x, y] = f(p[0].get<double>(), p[1].get<double>());
       p = {x, y};
@@ -45,8 +45,8 @@ void change_outline(LayoutJson& outline, F f) {
     for (auto& hole : outline["polygon"]["holes"]) change(hole);
 }
 template <class F>
-LayoutJson changed_stock(LayoutJson layout, F f) {
-  LayoutJson& stock = layout["stocks"][0];
+Json changed_stock(Json layout, F f) {
+  Json& stock = layout["stocks"][0];
   change_outline(stock["outline"], f);
   for (const char* list : {"defects", "zones"})
     for (auto& feature : stock[list]) change_outline(feature["outline"], f);
@@ -61,7 +61,7 @@ TEST(VerifyLayoutProperty, MovedTurnedAndMirroredDocumentsSayTheSame) {
   Random random(cases::seed(), 4101);
   std::array<int, 11> seen{};
   for (std::size_t i = 0; i < cases::case_count(100); ++i) {
-    const LayoutJson layout = crowded(random);
+    const Json layout = crowded(random);
     const auto expected = violations(layout);
     for (const LayoutViolation& v : expected) ++seen[static_cast<std::size_t>(v.kind)];
 
@@ -73,14 +73,14 @@ TEST(VerifyLayoutProperty, MovedTurnedAndMirroredDocumentsSayTheSame) {
               expected);
 
     // A quarter turn of sheet and parts: angles of parts are then a quarter more.
-    LayoutJson turned = changed_stock(layout, [](double x, double y) { return std::pair{-y, x}; });
+    Json turned = changed_stock(layout, [](double x, double y) { return std::pair{-y, x}; });
     turned["stocks"][0]["grain_deg"] = turned["stocks"][0]["grain_deg"].get<double>() + 90;
     for (auto& part : turned["parts"]) part["rotations"] = {90, 180, {{"from", 260}, {"to", 290}}};
     for (auto& at : turned["placements"]) at["rotation_deg"] = at["rotation_deg"].get<double>() + 90;
     EXPECT_EQ(violations(turned), expected);
 
     // Mirrored parts in a mirrored sheet: M R(a) p = R(-a) M p.
-    LayoutJson mirrored = changed_stock(layout, [](double x, double y) { return std::pair{-x, y}; });
+    Json mirrored = changed_stock(layout, [](double x, double y) { return std::pair{-x, y}; });
     mirrored["stocks"][0]["grain_deg"] = 180 - mirrored["stocks"][0]["grain_deg"].get<double>();
     const auto flip = [](double x, double y) { return std::pair{-x, y}; };
     for (auto& part : mirrored["parts"]) {
@@ -93,9 +93,9 @@ TEST(VerifyLayoutProperty, MovedTurnedAndMirroredDocumentsSayTheSame) {
     EXPECT_EQ(violations(mirrored), expected);
 
     // Points in another order, loops the other way.
-    LayoutJson other = layout;
+    Json other = layout;
     for (auto& part : other["parts"]) {
-      LayoutJson& loop = part["outline"]["polygon"]["outer"];
+      Json& loop = part["outline"]["polygon"]["outer"];
       std::reverse(loop.begin(), loop.end());
       std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     }
@@ -106,8 +106,8 @@ TEST(VerifyLayoutProperty, MovedTurnedAndMirroredDocumentsSayTheSame) {
 }
 
 /// Hexagons in touch, 100 mm wide stock, nothing wrong.
-LayoutJson tight(std::size_t rows, std::size_t columns) {
-  LayoutJson layout = empty_layout();
+Json tight(std::size_t rows, std::size_t columns) {
+  Json layout = empty_layout();
   add_part(layout, "h", outline_json({{0, 0}, {4, -2}, {8, 0}, {8, 5}, {4, 7}, {0, 5}}));
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column)
@@ -118,13 +118,13 @@ LayoutJson tight(std::size_t rows, std::size_t columns) {
 }
 
 TEST(VerifyLayoutProperty, NoLieOfOneStepIsBelieved) {
-  const LayoutJson honest = tight(8, 8);
+  const Json honest = tight(8, 8);
   ASSERT_TRUE(violations(honest).empty());
   Random random(cases::seed(), 4102);
   for (std::size_t i = 0; i < cases::case_count(200); ++i) {
-    LayoutJson lie = honest;
+    Json lie = honest;
     const std::size_t inner = (1 + random.below(6)) * 8 + 1 + random.below(6);
-    LayoutJson& at = lie["placements"][inner];
+    Json& at = lie["placements"][inner];
     switch (random.below(4)) {
       case 0:
         at["x"] = at["x"].get<double>() + (random.below(2) == 0 ? 0x1p-20 : -0x1p-20);
@@ -145,7 +145,7 @@ TEST(VerifyLayoutProperty, NoLieOfOneStepIsBelieved) {
 }
 
 TEST(VerifyLayoutProperty, ManyParts) {
-  LayoutJson layout = tight(20, 25);
+  Json layout = tight(20, 25);
   EXPECT_TRUE(violations(layout).empty());
   layout["rules"] = {{"gap", 0x1p-20}};
   // Each touches two in its row and two in the next, but at the ends of rows.

@@ -22,35 +22,34 @@ namespace lekalo::io {
 namespace {
 
 using cases::add_part;
-using cases::LayoutJson;
+using cases::Json;
 using cases::outline_json;
 using cases::place;
 using cases::rectangle;
 
-LayoutJson circle_json(double x, double y, double r, bool ccw = true) {
-  return LayoutJson::array(
+Json circle_json(double x, double y, double r, bool ccw = true) {
+  return Json::array(
       {{{"arc", {{"from", {x + r, y}}, {"to", {x + r, y}}, {"centre", {x, y}}, {"ccw", ccw}}}}});
 }
 
 /// Two sheets: a washer with a disc in its hole, a D of a line and an arc, turned and mirrored; a plate with
 /// a square hole on the second.
-LayoutJson sample() {
-  LayoutJson layout = cases::empty_layout();
-  LayoutJson& sheet = layout["stocks"][0];
+Json sample() {
+  Json layout = cases::empty_layout();
+  Json& sheet = layout["stocks"][0];
   sheet["count"] = 3;
   sheet["defects"] = {{{"id", "knot"}, {"severity", 1}, {"outline", outline_json(rectangle(90, 90, 5, 5))}}};
   sheet["zones"] = {{{"id", "edge"}, {"quality", 1}, {"outline", outline_json(rectangle(0, 95, 100, 5))}}};
-  LayoutJson& washer =
+  Json& washer =
       add_part(layout, "washer",
                {{"curves", {{"outer", circle_json(0, 0, 20)}, {"holes", {circle_json(0, 0, 12, false)}}}}});
   washer["grain"] = {{"deg", 90}, {"tolerance_deg", 90}};
   add_part(layout, "disc", {{"curves", {{"outer", circle_json(0, 0, 8)}}}})["name"] = "Диск";
-  LayoutJson half = LayoutJson::array(
-      {{{"line", {{"from", {0, -15}}, {"to", {0, 15}}}}},
-       {{"arc", {{"from", {0, 15}}, {"to", {0, -15}}, {"centre", {0, 0}}, {"ccw", true}}}}});
+  Json half =
+      Json::array({{{"line", {{"from", {0, -15}}, {"to", {0, 15}}}}},
+                   {{"arc", {{"from", {0, 15}}, {"to", {0, -15}}, {"centre", {0, 0}}, {"ccw", true}}}}});
   add_part(layout, "d", {{"curves", {{"outer", half}}}})["mirror"] = true;
-  LayoutJson& plate =
-      add_part(layout, "plate", outline_json(rectangle(0, 0, 30, 20), {rectangle(5, 5, 10, 10)}));
+  Json& plate = add_part(layout, "plate", outline_json(rectangle(0, 0, 30, 20), {rectangle(5, 5, 10, 10)}));
   plate["areas"] = {{{"quality", 0}, {"outline", outline_json(rectangle(20, 5, 5, 5))}}};
   place(layout, "washer", 25, 25);
   place(layout, "disc", 26, 25.5);
@@ -60,7 +59,7 @@ LayoutJson sample() {
   return layout;
 }
 
-layout::Document document_of(const LayoutJson& layout) {
+layout::Document document_of(const Json& layout) {
   auto read = read_layout(layout.dump(), "layout");
   if (!read) throw std::logic_error("test input: " + read.error().message);
   return std::move(read->document);
@@ -316,7 +315,7 @@ TEST(LayoutExport, GcodeOfEachSheetNamesItsPlacements) {
 }
 
 TEST(LayoutExport, AStripIsAsLongAsItIsUsed) {
-  LayoutJson layout = cases::empty_layout();
+  Json layout = cases::empty_layout();
   layout["stocks"][0] = {{"id", "s"}, {"kind", "strip"}, {"height", 50}};
   add_part(layout, "p", outline_json(rectangle(0, 0, 30, 20)));
   place(layout, "p", 12, 5);
@@ -363,14 +362,14 @@ TEST(LayoutExport, WordsThatWillNotDoAreRefusedInOneSentence) {
 }
 
 TEST(LayoutExport, LayoutsThatWillNotDoAreRefusedInOneSentence) {
-  const auto trouble = [](const LayoutJson& layout, ExportForm form, const std::vector<ExportWord>& words) {
+  const auto trouble = [](const Json& layout, ExportForm form, const std::vector<ExportWord>& words) {
     const auto request = read_export_words(form, words, "--");
     if (!request) return request.error().message;
     const auto made = export_layout(document_of(layout), "x", *request);
     return made ? std::string("none") : made.error().message;
   };
   const std::vector<ExportWord> cut{{"kerf", "0.2"}, {"feed", "900"}};
-  LayoutJson layout = sample();
+  Json layout = sample();
   EXPECT_NE(trouble(layout, ExportForm::dxf, {{"sheet", "t"}}).find("there is no sheet t"),
             std::string::npos);
   for (const char* copy : {"s#0", "s#4", "s#", "s#1x", "s#99999999999999999999"})
@@ -384,7 +383,7 @@ TEST(LayoutExport, LayoutsThatWillNotDoAreRefusedInOneSentence) {
             std::string::npos);
   place(layout, "plate", 20.5, 60.5, 10);
   EXPECT_NE(trouble(layout, ExportForm::gcode, cut).find("placements 4 and 6 overlap"), std::string::npos);
-  layout["placements"] = LayoutJson::array();
+  layout["placements"] = Json::array();
   EXPECT_NE(trouble(layout, ExportForm::svg, {}).find("nothing is placed"), std::string::npos);
   place(layout, "plate", 0, 0);
   place(layout, "plate", 30.15, 0);

@@ -1,15 +1,15 @@
 #include "lekalo/io/layout/layout_json.hpp"
+#include "support/json.hpp"
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace lekalo::io {
 namespace {
 
-using Json = nlohmann::json;
+using cases::Json;
 
 constexpr const char* kLayout = R"({"format": "lekalo-layout/1", "units": "mm",
  "stocks": [{"id": "roll", "kind": "strip", "height": 100},
@@ -158,7 +158,7 @@ TEST(LayoutJson, RefusesWithPlaceAndNumber) {
   };
   for (const Wrong& wrong : all) {
     Json json = Json::parse(kLayout);
-    json[Json::json_pointer(wrong.place)] = Json::parse(wrong.value);
+    json.at(wrong.place) = Json::parse(wrong.value);
     const std::string message = message_of(json.dump());
     EXPECT_EQ(message.rfind("plan.json: ", 0), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -184,7 +184,7 @@ TEST(LayoutJson, RefusesWhatIsMissing) {
         {"/placements/0", "rotation_deg", "placements[0]: \"c\" and \"s\", or \"rotation_deg\", are missing"},
         {"/placements/1", "s", "placements[1]: \"c\" and \"s\""}}) {
     Json json = Json::parse(kLayout);
-    json[Json::json_pointer(missing.place)].erase(missing.key);
+    json.at(missing.place).erase(missing.key);
     const std::string message = message_of(json.dump());
     EXPECT_NE(message.find(missing.expected), std::string::npos) << message;
     EXPECT_NE(message.find("missing"), std::string::npos) << message;

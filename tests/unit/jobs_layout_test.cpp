@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,17 +10,16 @@
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/layout.hpp"
 #include "lekalo/jobs/show.hpp"
+#include "support/json.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::jobs {
 namespace {
 
-using Json = nlohmann::json;
+using cases::Json;
 
 /// Squares of 10 at (20, 40) and (60, 40) on a sheet of 100, as a file.
-Layout two_squares() {
-  return open_layout({"squares.json", io::write_layout(cases::two_squares())}).value();
-}
+Layout two_squares() { return open_layout({"squares.json", io::write_layout(cases::two_squares())}).value(); }
 
 TEST(JobsLayout, IsOpenedWithItsNameDigestAndOwnBytes) {
   const std::string bytes = io::write_layout(cases::two_squares()) + "\n\n";
@@ -35,8 +33,8 @@ TEST(JobsLayout, IsOpenedWithItsNameDigestAndOwnBytes) {
 }
 
 TEST(JobsLayout, AJobOfAnotherProgramBecomesALayout) {
-  const auto strip = open_layout(
-      {"jobs/strip.json", R"({"name": "s", "strip_height": 100, "items": [{"id": 0, "demand": 1,
+  const auto strip =
+      open_layout({"jobs/strip.json", R"({"name": "s", "strip_height": 100, "items": [{"id": 0, "demand": 1,
         "allowed_orientations": [0], "shape": {"type": "simple_polygon",
         "data": [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]}}]})"});
   ASSERT_TRUE(strip) << strip.error().message;

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/jobs/simulate.hpp"
+#include "support/json.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -37,7 +37,7 @@ TEST(JobsPocket, TheReportIsThatOfTheProgramHandedOut) {
   EXPECT_EQ(judged->report.coverage_percent, made->report.coverage_percent);
   EXPECT_EQ(judged->report.seconds, made->report.seconds);
   EXPECT_LE(judged->report.gouge_mm, 0.005);
-  EXPECT_EQ(nlohmann::json::parse(made->json)["coverage_percent"], made->report.coverage_percent);
+  EXPECT_EQ(cases::Json::parse(made->json)["coverage_percent"], made->report.coverage_percent);
 }
 
 TEST(JobsPocket, WhatWasNotAskedForIsNotMade) {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "lekalo/disk/files.hpp"
+#include "support/json.hpp"
 #include "support/places.hpp"
 
 namespace lekalo::jobs {
@@ -37,7 +37,7 @@ TEST_F(JobsVerify, AResultIsConfirmedFromWhatTheFinderGives) {
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_EQ(done->report.verdict, verify::Verdict::confirmed);
   EXPECT_TRUE(done->report.findings.empty());
-  EXPECT_EQ(nlohmann::json::parse(done->json)["status"], "confirmed");
+  EXPECT_EQ(cases::Json::parse(done->json)["status"], "confirmed");
 }
 
 TEST_F(JobsVerify, OtherBytesThanTheResultNamesAreAFinding) {

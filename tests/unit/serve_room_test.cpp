@@ -4,20 +4,20 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "lekalo/layout/check.hpp"
 #include "server/access.hpp"
 #include "server/network/outbox.hpp"
+#include "support/json.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::server {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using cases::Json;
 
 /// Squares of 10 at (20, 40) and (60, 40) on a sheet of 100; two clients.
 class TwoClients : public testing::Test {
@@ -132,7 +132,7 @@ TEST_F(TwoClients, AreRefusedToUndoWhatALaterCommandStandsOn) {
   command(2, "move 1 by 0 5");
   auto heard = say(1, UndoMessage{1, false});
   ASSERT_EQ(heard[0]["type"], "refused");
-  const std::string why = heard[0]["message"];
+  const std::string why = heard[0]["message"].get<std::string>();
   EXPECT_NE(why.find("client 2"), std::string::npos) << why;
   EXPECT_NE(why.find("move 1 by 0 5"), std::string::npos) << why;
   EXPECT_EQ(say(2, UndoMessage{1, false})[0]["type"], "done");
@@ -243,7 +243,7 @@ TEST_F(TwoClients, UndoDefectsUnlessALaterCommandStandsOnThem) {
   command(2, "grade-defect sheet scar 3");
   auto heard = say(1, UndoMessage{1, false});
   ASSERT_EQ(heard[0]["type"], "refused");
-  std::string why = heard[0]["message"];
+  std::string why = heard[0]["message"].get<std::string>();
   EXPECT_NE(why.find("client 2 changed defect 'scar' by 'grade-defect"), std::string::npos) << why;
   EXPECT_EQ(say(2, UndoMessage{1, false})[1]["features"][0]["after"]["severity"], 1);
   EXPECT_EQ(say(1, UndoMessage{2, false})[0]["type"], "done");
@@ -254,14 +254,14 @@ TEST_F(TwoClients, UndoDefectsUnlessALaterCommandStandsOnThem) {
   command(2, "move 1 by 0.5 0");
   heard = say(1, UndoMessage{4, false});
   ASSERT_EQ(heard[0]["type"], "refused");
-  why = heard[0]["message"];
+  why = heard[0]["message"].get<std::string>();
   EXPECT_NE(why.find("move 1 by 0.5 0"), std::string::npos) << why;
   // A defect where the part had been.
   command(2, "move 2 by 0 20");
   command(1, "add-defect sheet spot 1 outline 62 42 64 42 64 44");
   heard = say(2, UndoMessage{1, false});
   ASSERT_EQ(heard[0]["type"], "refused");
-  why = heard[0]["message"];
+  why = heard[0]["message"].get<std::string>();
   EXPECT_NE(why.find("add-defect"), std::string::npos) << why;
 }
 

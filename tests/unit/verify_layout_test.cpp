@@ -15,7 +15,7 @@ namespace {
 
 using cases::add_part;
 using cases::empty_layout;
-using cases::LayoutJson;
+using cases::Json;
 using cases::outline_json;
 using cases::place;
 using cases::Points;
@@ -36,12 +36,11 @@ std::string verdict(const std::string& bytes) {
   }
   return text;
 }
-std::string verdict(const LayoutJson& layout) { return verdict(layout.dump()); }
+std::string verdict(const Json& layout) { return verdict(layout.dump()); }
 
 /// Of two parts, the second one moved, turned about the origin first.
-std::string of_two(const LayoutJson& first, const LayoutJson& second, double x, double y,
-                   double degrees = 0) {
-  LayoutJson layout = empty_layout();
+std::string of_two(const Json& first, const Json& second, double x, double y, double degrees = 0) {
+  Json layout = empty_layout();
   add_part(layout, "a", first);
   add_part(layout, "b", second);
   place(layout, "a", 40, 40);
@@ -49,9 +48,9 @@ std::string of_two(const LayoutJson& first, const LayoutJson& second, double x, 
   return verdict(layout);
 }
 
-const LayoutJson kSquare = outline_json(rectangle(0, 0, 10, 10));
-const LayoutJson kRing = outline_json(rectangle(0, 0, 30, 30), {rectangle(10, 10, 10, 10)});
-const LayoutJson kTriangle = outline_json({{0, 0}, {10, 0}, {0, 10}});
+const Json kSquare = outline_json(rectangle(0, 0, 10, 10));
+const Json kRing = outline_json(rectangle(0, 0, 30, 30), {rectangle(10, 10, 10, 10)});
+const Json kTriangle = outline_json({{0, 0}, {10, 0}, {0, 10}});
 constexpr double kStep = 0x1p-20;
 
 TEST(VerifyLayout, TouchingIsNotOverlapping) {
@@ -94,7 +93,7 @@ TEST(VerifyLayout, OverlapsWithoutAVertexInside) {
 
 TEST(VerifyLayout, GapsAreExact) {
   const auto with_gap = [](double gap, double x, double y) {
-    LayoutJson layout = empty_layout();
+    Json layout = empty_layout();
     layout["rules"] = {{"gap", gap}};
     add_part(layout, "a", kSquare);
     place(layout, "a", 40, 40);
@@ -110,7 +109,7 @@ TEST(VerifyLayout, GapsAreExact) {
   EXPECT_EQ(with_gap(3, 9, 0), "overlap 1 2") << "not a gap as well";
   EXPECT_EQ(with_gap(3 + kStep / 1024, 13, 0), "gap 1 2") << "gaps are rounded up";
 
-  LayoutJson own = empty_layout();
+  Json own = empty_layout();
   own["rules"] = {{"gap", 3}};
   add_part(own, "a", kSquare)["gap"] = 0;
   add_part(own, "b", kSquare)["gap"] = 2;
@@ -124,7 +123,7 @@ TEST(VerifyLayout, GapsAreExact) {
   own["stocks"][1]["id"] = "t";
   EXPECT_EQ(verdict(own), "") << "on different stocks";
 
-  LayoutJson hole = empty_layout();
+  Json hole = empty_layout();
   hole["rules"] = {{"gap", 3}};
   add_part(hole, "a", kRing);
   add_part(hole, "b", outline_json(rectangle(0, 0, 4, 4)));
@@ -136,10 +135,10 @@ TEST(VerifyLayout, GapsAreExact) {
 }
 
 TEST(VerifyLayout, Borders) {
-  LayoutJson layout = empty_layout();
+  Json layout = empty_layout();
   layout["stocks"][0]["outline"] = outline_json(rectangle(0, 0, 100, 100), {rectangle(40, 40, 10, 10)});
   add_part(layout, "a", kSquare);
-  LayoutJson& at = place(layout, "a", 0, 0);
+  Json& at = place(layout, "a", 0, 0);
   const auto moved = [&](double x, double y) {
     at["x"] = x, at["y"] = y;
     return verdict(layout);
@@ -166,7 +165,7 @@ TEST(VerifyLayout, Borders) {
 }
 
 TEST(VerifyLayout, Defects) {
-  LayoutJson layout = empty_layout();
+  Json layout = empty_layout();
   layout["stocks"][0]["defects"] = {{{
                                          "id",
                                          "d",
@@ -174,7 +173,7 @@ TEST(VerifyLayout, Defects) {
                                      {"severity", 2},
                                      {"outline", outline_json(rectangle(50, 50, 4, 4))}}};
   add_part(layout, "a", kSquare);
-  LayoutJson& at = place(layout, "a", 40, 50);
+  Json& at = place(layout, "a", 40, 50);
   EXPECT_EQ(verdict(layout), "");
   at["x"] = 40 + kStep;
   EXPECT_EQ(verdict(layout), "defect 1 d");
@@ -191,13 +190,13 @@ TEST(VerifyLayout, Defects) {
 }
 
 TEST(VerifyLayout, ZonesAndAreas) {
-  LayoutJson layout = empty_layout();
+  Json layout = empty_layout();
   layout["stocks"][0]["zones"] = {
       {{"id", "z"}, {"quality", 2}, {"outline", outline_json(rectangle(50, 0, 50, 100))}}};
-  LayoutJson& part = add_part(layout, "a", kSquare);
-  LayoutJson& at = place(layout, "a", 45, 0);  // its right half in the zone
-  const auto area = [](const LayoutJson& quality, const Points& points) {
-    return LayoutJson{{"quality", quality}, {"outline", outline_json(points)}};
+  Json& part = add_part(layout, "a", kSquare);
+  Json& at = place(layout, "a", 45, 0);  // its right half in the zone
+  const auto area = [](const Json& quality, const Points& points) {
+    return Json{{"quality", quality}, {"outline", outline_json(points)}};
   };
   EXPECT_EQ(verdict(layout), "") << "any quality";
   part["quality"] = 2;
@@ -246,9 +245,9 @@ TEST(VerifyLayout, ZonesAndAreas) {
 }
 
 TEST(VerifyLayout, AnglesMirrorsGrainsCopies) {
-  LayoutJson layout = empty_layout();
-  LayoutJson& part = add_part(layout, "a", kSquare);
-  LayoutJson& at = place(layout, "a", 50, 50);
+  Json layout = empty_layout();
+  Json& part = add_part(layout, "a", kSquare);
+  Json& at = place(layout, "a", 50, 50);
   const auto turned = [&](double degrees) {
     at["rotation_deg"] = degrees;
     return verdict(layout);
@@ -299,7 +298,7 @@ TEST(VerifyLayout, AnglesMirrorsGrainsCopies) {
 }
 
 TEST(VerifyLayout, TheOrderOfViolations) {
-  LayoutJson layout = empty_layout();
+  Json layout = empty_layout();
   layout["stocks"][0]["count"] = 2;
   add_part(layout, "a", kSquare)["rotations"] = {90};
   place(layout, "a", -5, 0)["id"] = 9;
@@ -313,10 +312,10 @@ TEST(VerifyLayout, TheOrderOfViolations) {
 }
 
 TEST(VerifyLayout, Strips) {
-  LayoutJson layout = empty_layout();
+  Json layout = empty_layout();
   layout["stocks"][0] = {{"id", "s"}, {"kind", "strip"}, {"height", 20}, {"length", 50}};
   add_part(layout, "a", kSquare);
-  LayoutJson& at = place(layout, "a", 40, 10);
+  Json& at = place(layout, "a", 40, 10);
   EXPECT_EQ(verdict(layout), "");
   at["x"] = 40 + kStep;
   EXPECT_EQ(verdict(layout), "outside 1");
@@ -328,7 +327,7 @@ TEST(VerifyLayout, Strips) {
 }
 
 /// A part of one arc and one line, both ways of chords: the upper half of a circle of radius 10.
-LayoutJson half_disc(bool outside, double radius_factor = 1) {
+Json half_disc(bool outside, double radius_factor = 1) {
   Points points{{10, 0}};
   const int pieces = 16;
   const double pi = 3.141592653589793;
@@ -343,7 +342,7 @@ LayoutJson half_disc(bool outside, double radius_factor = 1) {
     }
   }
   points.push_back({-10, 0});
-  LayoutJson outline = outline_json(points);
+  Json outline = outline_json(points);
   outline["curves"] = {{"outer",
                         {{{"arc", {{"from", {10, 0}}, {"to", {-10, 0}}, {"centre", {0, 0}}, {"ccw", true}}}},
                          {{"line", {{"from", {-10, 0}}, {"to", {10, 0}}}}}}}};
@@ -352,13 +351,13 @@ LayoutJson half_disc(bool outside, double radius_factor = 1) {
 }
 
 TEST(VerifyLayout, ChordsLieOnTheirSideOfTheArcs) {
-  const auto part = [](const LayoutJson& outline) {
-    LayoutJson layout = empty_layout();
+  const auto part = [](const Json& outline) {
+    Json layout = empty_layout();
     add_part(layout, "a", outline);
     return verdict(layout);
   };
-  const auto stock = [](const LayoutJson& outline) {
-    LayoutJson layout = empty_layout();
+  const auto stock = [](const Json& outline) {
+    Json layout = empty_layout();
     layout["stocks"][0]["outline"] = outline;
     return verdict(layout);
   };
@@ -373,11 +372,11 @@ TEST(VerifyLayout, ChordsLieOnTheirSideOfTheArcs) {
   EXPECT_PRED2(says, part(half_disc(true, 1.01)), "farther from an arc");
   EXPECT_PRED2(says, stock(half_disc(false, 0.99)), "farther from an arc");
   EXPECT_PRED2(says, stock(half_disc(false, 1.000002)), "reaches out of an arc");
-  LayoutJson backwards = half_disc(true);
-  LayoutJson& loop = backwards["polygon"]["outer"];
+  Json backwards = half_disc(true);
+  Json& loop = backwards["polygon"]["outer"];
   std::reverse(loop.begin(), loop.end());
   EXPECT_EQ(part(backwards), "") << "loops may run either way";
-  LayoutJson changed = half_disc(true);
+  Json changed = half_disc(true);
   changed["polygon"]["outer"][5][0] = -3.0;
   EXPECT_PRED2(says, part(changed), "arc");
   changed = half_disc(true);
@@ -395,13 +394,13 @@ TEST(VerifyLayout, ChordsLieOnTheirSideOfTheArcs) {
 }
 
 TEST(VerifyLayout, WhatIsNoLayout) {
-  const auto refused = [](const LayoutJson& layout, const std::string& words) {
+  const auto refused = [](const Json& layout, const std::string& words) {
     const std::string sentence = verdict(layout);
     EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
     EXPECT_EQ(sentence.find("layout.json: "), 0U);
   };
-  const auto with_part = [&](const LayoutJson& outline, const std::string& words) {
-    LayoutJson layout = empty_layout();
+  const auto with_part = [&](const Json& outline, const std::string& words) {
+    Json layout = empty_layout();
     add_part(layout, "a", outline);
     refused(layout, words);
   };
@@ -415,15 +414,15 @@ TEST(VerifyLayout, WhatIsNoLayout) {
             "is inside hole");
   with_part(outline_json(rectangle(0, 0, 9, 9), {rectangle(5, 5, 9, 1)}), "cross");
   with_part(outline_json(rectangle(0, 0, 300000, 9)), "parts[0].outline.polygon.outer[1]");
-  with_part(LayoutJson::object(), "no polygon");
-  with_part(LayoutJson::array(), "not an object");
+  with_part(Json::object(), "no polygon");
+  with_part(Json::array(), "not an object");
 
-  LayoutJson layout = empty_layout();
+  Json layout = empty_layout();
   add_part(layout, "a", kSquare);
   place(layout, "a", 0, 0);
-  const auto changed = [&](const std::string& pointer, const LayoutJson& value, const std::string& words) {
-    LayoutJson other = layout;
-    other[LayoutJson::json_pointer(pointer)] = value;
+  const auto changed = [&](const std::string& pointer, const Json& value, const std::string& words) {
+    Json other = layout;
+    other.at(pointer) = value;
     refused(other, words);
   };
   changed("/format", "lekalo-layout/2", "lekalo-layout/1");
@@ -436,12 +435,12 @@ TEST(VerifyLayout, WhatIsNoLayout) {
   changed("/placements/0/copy", -1, "whole number");
   changed("/placements/0/mirrored", "no", "neither true nor false");
   changed("/parts/0/gap", -1, "not from 0");
-  changed("/parts/0/rotations", LayoutJson::array(), "can never lie");
+  changed("/parts/0/rotations", Json::array(), "can never lie");
   changed("/parts/0/quality", "good", "whole number");
   changed("/parts/1", layout["parts"][0], "of another");
   changed("/stocks/0/kind", "roll", "strip, sheet or hide");
   changed("/next_id", 1, "next_id");
-  LayoutJson other = layout;
+  Json other = layout;
   other["placements"].push_back(layout["placements"][0]);
   other["placements"][0]["id"] = other["placements"][1]["id"] = 3;
   refused(other, "id of another");

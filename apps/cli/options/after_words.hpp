@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "form.hpp"
 #include "option_words.hpp"
 #include "options.hpp"
 
@@ -25,11 +26,10 @@ inline void read_after(WordReader& read, const std::vector<std::string>& words,
   }
 }
 
-inline void add_after(CLI::App& app, std::vector<std::string>& words) {
-  app.add_option("--after", words,
-                 "A program that ran before, and its tool's diameter in mm; again for more, in their order")
-      ->type_name("FILE:MM")
-      ->allow_extra_args(false);
+inline void add_after(const OptionAdder& add, std::vector<std::string>& words) {
+  add("--after", words, "FILE:MM",
+      "A program that ran before, and its tool's diameter in mm; again for more, in their order")
+      .one_word_a_time = true;
 }
 
 }  // namespace lekalo::cli

@@ -8,11 +8,11 @@ namespace {
 
 /// A layout that is read, told and drawn.
 template <class Options>
-Typed add_drawn(CLI::App& app, const char* footer) {
+Typed add_drawn(Form& form, const char* footer) {
   auto words = std::make_shared<LayoutWords>();
-  add_layout_source(app, *words);
-  add_layout_outputs(app, *words);
-  app.footer(footer);
+  add_layout_source(form, *words);
+  add_layout_outputs(form, *words);
+  form.footer = footer;
   return [words]() -> Result<Command> {
     LEKALO_CHECK(fine_picture(words->picture));
     return to_layout_source(*words).map([&](LayoutSource&& source) {
@@ -23,16 +23,16 @@ Typed add_drawn(CLI::App& app, const char* footer) {
 
 }  // namespace
 
-Typed add_check_form(CLI::App& app) {
+Typed add_check_form(Form& form) {
   return add_drawn<CheckOptions>(
-      app,
+      form,
       "Exit codes: 0 valid, 1 violations, 2 wrong command line, 3 a file cannot be read,\n"
       "4 the engine and the independent checker do not agree, 5 disk or memory.");
 }
 
-Typed add_show_form(CLI::App& app) {
+Typed add_show_form(Form& form) {
   return add_drawn<ShowOptions>(
-      app,
+      form,
       "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"
       "5 disk or memory.");
 }

@@ -22,12 +22,12 @@ struct ExportWords {
   std::vector<io::ExportWord> machine;  ///< words that io::read_export_words understands
 };
 
-void add_machine_words(CLI::App& command, ExportWords& w) {
+void add_machine_words(Form& form, ExportWords& w) {
   for (const io::ExportWordHelp& help : io::export_words()) w.machine.emplace_back(help.name, "");
+  const OptionAdder add(form, "For machines and other programs");
   for (std::size_t i = 0; i < w.machine.size(); ++i)
-    command.add_option("--" + w.machine[i].first, w.machine[i].second, io::export_words()[i].help)
-        ->type_name(io::export_words()[i].type)
-        ->group("For machines and other programs");
+    add("--" + w.machine[i].first, w.machine[i].second, io::export_words()[i].type,
+        io::export_words()[i].help);
 }
 
 Result<Command> to_export(const ExportWords& w) {
@@ -52,18 +52,18 @@ Result<Command> to_export(const ExportWords& w) {
 
 }  // namespace
 
-Typed add_export_form(CLI::App& app) {
+Typed add_export_form(Form& form) {
   auto words = std::make_shared<ExportWords>();
-  add_layout_source(app, words->layout);
-  app.add_option("--format", words->format, list_of(kExportFormats, "|"))->type_name("FORM");
-  app.add_option("-o,--output", words->output, "Write to this file [stdout]")->type_name("FILE");
-  app.add_option("--instance-name", words->instance_name,
-                 "What placements give as the file of their items [as the input says, or itself]")
-      ->type_name("NAME");
-  add_machine_words(app, *words);
-  app.footer(
+  add_layout_source(form, words->layout);
+  const OptionAdder add(form);
+  add("--format", words->format, "FORM", list_of(kExportFormats, "|"));
+  add("-o,--output", words->output, "FILE", "Write to this file [stdout]");
+  add("--instance-name", words->instance_name, "NAME",
+      "What placements give as the file of their items [as the input says, or itself]");
+  add_machine_words(form, *words);
+  form.footer =
       "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"
-      "5 disk or memory.");
+      "5 disk or memory.";
   return [words] { return to_export(*words); };
 }
 

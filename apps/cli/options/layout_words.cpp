@@ -5,29 +5,24 @@
 
 namespace lekalo::cli {
 
-void add_layout_source(CLI::App& command, LayoutWords& w, bool required) {
-  command
-      .add_option("layout", w.path,
-                  "A layout, a job or placements of a nesting program, a drawing, regions: told apart by "
-                  "content")
-      ->required(required)
-      ->type_name("FILE");
-  const WordAdder add(command, "Reading");
+void add_layout_source(Form& form, LayoutWords& w, bool required) {
+  OptionAdder{form}(
+      "layout", w.path, "FILE",
+      "A layout, a job or placements of a nesting program, a drawing, regions: told apart by content")
+      .required = required;
+  const OptionAdder add(form, "Reading");
   add("--instance", w.instance, "FILE", "Of placements: the file of the items, when not where they say");
   add("--units", w.units, list_of(kUnits, "|"), "Of files that do not say theirs [mm]");
   add("--chord-tolerance", w.chords, "MM", "How far chords lie from the arcs of drawings [0.01]");
   add("--join", w.join, "MM", "Loose ends of drawings this near to each other are joined [0.01]");
-  command.add_option("--layers", w.layers, "Layers of a drawing that hold parts [all that are shown]")
-      ->type_name("NAME")
-      ->delimiter(',')
-      ->group("Reading");
+  add("--layers", w.layers, "NAME", "Layers of a drawing that hold parts [all that are shown]").delimiter =
+      ',';
 }
 
-void add_layout_outputs(CLI::App& command, LayoutWords& w) {
-  command.add_option("--picture", w.picture, "Draw it: .svg, .png or .pdf")
-      ->type_name("FILE")
-      ->group("Output");
-  command.add_flag("--json", w.json, "Print the report as JSON on stdout")->group("Output");
+void add_layout_outputs(Form& form, LayoutWords& w) {
+  const OptionAdder add(form, "Output");
+  add("--picture", w.picture, "FILE", "Draw it: .svg, .png or .pdf");
+  add("--json", w.json, "Print the report as JSON on stdout");
 }
 
 Result<LayoutSource> to_layout_source(const LayoutWords& w) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <CLI/App.hpp>
-
+#include "form.hpp"
 #include "options.hpp"
 
 namespace lekalo::cli {
@@ -13,8 +12,8 @@ struct LayoutWords {
   bool json = false;
 };
 
-void add_layout_source(CLI::App& command, LayoutWords& words, bool required = true);
-void add_layout_outputs(CLI::App& command, LayoutWords& words);
+void add_layout_source(Form& form, LayoutWords& words, bool required = true);
+void add_layout_outputs(Form& form, LayoutWords& words);
 
 [[nodiscard]] Result<LayoutSource> to_layout_source(const LayoutWords& words);
 /// Fails with ErrorCode::usage unless a picture can be drawn under this name. An empty name passes: no

@@ -238,20 +238,16 @@ constexpr const char* kLocateFooter =
     "file\n"
     "is written; with 1 no NC program is. Angles on the command line are degrees, in JSON radians.";
 
-void add_input_options(CLI::App& locate, LocateWords& w) {
-  const WordAdder add(locate, "What to place");
+void add_input_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "What to place");
   add("--part", w.part, "FILE",
       "The part: points (.csv .txt .xyz), drawing (.dxf .svg), or .json: regions, primitives")
-      ->required();
+      .required = true;
   add("--blank", w.blank, "FILE",
       "The blank: its outline in the same formats, or a scan (also .ply, see below)")
-      ->required();
-  locate.add_option("--part-layers", w.part_layers, "Layers of the part's drawing [all that are shown]")
-      ->type_name("NAME")
-      ->group("What to place");
-  locate.add_option("--blank-layers", w.blank_layers, "Layers of the blank's drawing [all that are shown]")
-      ->type_name("NAME")
-      ->group("What to place");
+      .required = true;
+  add("--part-layers", w.part_layers, "NAME", "Layers of the part's drawing [all that are shown]");
+  add("--blank-layers", w.blank_layers, "NAME", "Layers of the blank's drawing [all that are shown]");
   add("--join", w.join, "MM", "Loose ends of a drawing this near are joined [0.01]");
   add("--curve-tolerance", w.curve, "MM", "Lines and arcs may be this far from an ellipse or spline [0.001]");
   add("--units", w.units, list_of(kUnits, "|"), "Unit of contour files that do not name theirs [mm]");
@@ -260,8 +256,8 @@ void add_input_options(CLI::App& locate, LocateWords& w) {
   add("--compare", w.compare, "FILE", "Result of an earlier probing: report the shift since then");
 }
 
-void add_scan_options(CLI::App& locate, LocateWords& w) {
-  const WordAdder add(locate, "A blank from a scan");
+void add_scan_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "A blank from a scan");
   add("--uncertainty", w.uncertainty, "MM", "The blank is a scan; standard uncertainty of one point");
   add("--coverage", w.coverage, "K", "The surface lies within K times that of each point [2]");
   add("--min-radius", w.min_radius, "MM", "No dent of the blank is sharper than this radius");
@@ -274,13 +270,10 @@ void add_scan_options(CLI::App& locate, LocateWords& w) {
   add("--slice-thickness", w.slice_thickness, "MM", "and this far up and down together");
 }
 
-void add_search_options(CLI::App& locate, LocateWords& w) {
-  const WordAdder add(locate, "How to search");
+void add_search_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "How to search");
   add("--min-allowance", w.min_allowance, "MM", "Least material demanded between part and blank surface [0]");
-  locate.add_option("--window", w.window, "Only angles from the first to the second, degrees [0 360]")
-      ->expected(2)
-      ->type_name("DEG")
-      ->group("How to search");
+  add("--window", w.window, "DEG", "Only angles from the first to the second, degrees [0 360]").count = 2;
   add("--gap", w.gap, "MM",
       "Stop when no other placement can be better by more than this [1e-9; 1e-3 where a shape is not "
       "convex]");
@@ -303,8 +296,8 @@ void add_search_options(CLI::App& locate, LocateWords& w) {
   add("--time", w.time, "SECONDS", "Stop after this time with the best so far; not reproducible");
 }
 
-void add_program_options(CLI::App& locate, LocateWords& w) {
-  const WordAdder add(locate, "NC program");
+void add_program_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "NC program");
   add("--nc", w.nc, "FILE", "ISO/RS-274 program written in the part's frame");
   add("--nc-out", w.nc_out, "FILE", "The program for the blank as it lies");
   add("--nc-mode", w.nc_mode, list_of(kModes, "|"),
@@ -316,8 +309,8 @@ void add_program_options(CLI::App& locate, LocateWords& w) {
       "Coordinates in which the blank was probed [machine]");
 }
 
-void add_output_options(CLI::App& locate, LocateWords& w) {
-  const WordAdder add(locate, "Output");
+void add_output_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "Output");
   add("-o,--output", w.output, "FILE", "Write the result as JSON to this file");
   add("--picture", w.picture, "FILE", "Draw blank, part and allowance: .svg or .png");
   add("--report", w.report, "FILE",
@@ -328,19 +321,19 @@ void add_output_options(CLI::App& locate, LocateWords& w) {
   add("--certificate", w.certificate, "FILE", "Write the proof to this file instead of into the result");
   add("--deviations", w.deviations, "FILE",
       "CSV: signed distance of every probed point from the placed part");
-  locate.add_flag("--json", w.json, "Print the result as JSON on stdout")->group("Output");
+  add("--json", w.json, "Print the result as JSON on stdout");
 }
 
 }  // namespace
 
-Typed add_locate_form(CLI::App& app) {
+Typed add_locate_form(Form& form) {
   auto words = std::make_shared<LocateWords>();
-  add_input_options(app, *words);
-  add_scan_options(app, *words);
-  add_search_options(app, *words);
-  add_program_options(app, *words);
-  add_output_options(app, *words);
-  app.footer(kLocateFooter);
+  add_input_options(form, *words);
+  add_scan_options(form, *words);
+  add_search_options(form, *words);
+  add_program_options(form, *words);
+  add_output_options(form, *words);
+  form.footer = kLocateFooter;
   return [words] { return to_options(*words).map([](LocateOptions&& o) { return Command(std::move(o)); }); };
 }
 

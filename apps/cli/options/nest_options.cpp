@@ -45,30 +45,28 @@ Result<Command> to_nest(const NestWords& w) {
 
 }  // namespace
 
-Typed add_nest_form(CLI::App& app) {
+Typed add_nest_form(Form& form) {
   auto words = std::make_shared<NestWords>();
   NestWords& w = *words;
-  add_layout_source(app, w.layout);
-  app.add_option("-o,--output", w.output, "Write the layout to this file [stdout]")->type_name("FILE");
-  app.add_option("--stream", w.stream, "Replace this file with every better layout as it is found")
-      ->type_name("FILE");
-  const WordAdder add(app, "Search");
+  add_layout_source(form, w.layout);
+  const OptionAdder write(form);
+  write("-o,--output", w.output, "FILE", "Write the layout to this file [stdout]");
+  write("--stream", w.stream, "FILE", "Replace this file with every better layout as it is found");
+  const OptionAdder add(form, "Search");
   add("--time", w.time, "SECONDS", "Stop after this time; the report's work repeats it [60 without --work]");
   add("--work", w.work, "N", "Stop after about N candidate places: same bytes on every machine");
   add("--threads", w.threads, "N", "Changes the speed, not the result [2]");
   add("--seed", w.seed, "S", "Seed of all random choices [0]");
   add("--angles", w.angles, "N", "Angles to try of parts that may be turned anyhow [24]");
   add("--pairs", w.pairs, "MM", "Left and right pieces of a kit lie so near one another, middle to middle");
-  app.add_flag("--from-scratch", w.from_scratch,
-               "Drop what lies there and is not locked, instead of improving it")
-      ->group("Search");
-  app.footer(
+  add("--from-scratch", w.from_scratch, "Drop what lies there and is not locked, instead of improving it");
+  form.footer =
       "Locked placements stay. Others are where the search begins, and the result is no worse; what is "
       "wanted\n"
       "and not there is added. Ctrl-C keeps the best so far. What is written passes lekalo check.\n"
       "Exit codes: 0 everything is placed, 1 some pieces are not, 2 wrong command line, 3 a file cannot be\n"
-      "read or nested, 4 the layout found did not pass the check (please report), 5 disk or memory.");
-  add_layout_outputs(app, w.layout);
+      "read or nested, 4 the layout found did not pass the check (please report), 5 disk or memory.";
+  add_layout_outputs(form, w.layout);
   return [words] { return to_nest(*words); };
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
 #include <array>
 #include <charconv>
 #include <string>
@@ -74,21 +73,6 @@ class WordReader {
     if (complaint_.empty()) complaint_ = complaint;
   }
   std::string complaint_;
-};
-
-/// Adds options whose words are read after parsing, under one heading of the help.
-class WordAdder {
- public:
-  explicit WordAdder(CLI::App& app, const char* heading = nullptr) : app_(&app), heading_(heading) {}
-  CLI::Option* operator()(const char* name, std::string& word, const std::string& type,
-                          const char* help) const {
-    CLI::Option* const option = app_->add_option(name, word, help)->type_name(type);
-    return heading_ == nullptr ? option : option->group(heading_);
-  }
-
- private:
-  CLI::App* app_;
-  const char* heading_;
 };
 
 inline constexpr double kLargestLength = 1e9;      // mm: a thousand kilometres, beyond any machine

@@ -1,21 +1,18 @@
 #include "options.hpp"
 
-#include <CLI/CLI.hpp>
-
-#include "complaint.hpp"
+#include "command_line.hpp"
 #include "completion.hpp"
-#include "lekalo/base/version.hpp"
 #include "option_forms.hpp"
 
 namespace lekalo::cli {
 namespace {
 
-struct Form {
+struct CommandForm {
   const char* name;
   const char* help;
-  Typed (*add)(CLI::App& app);
+  Typed (*add)(Form& form);
 };
-constexpr Form kForms[] = {
+constexpr CommandForm kForms[] = {
     {"locate", "Place a part in a probed blank with the largest possible minimum allowance, and prove it",
      add_locate_form},
     {"verify", "Recheck a result against its files with exact arithmetic, independently of the solver",
@@ -31,56 +28,28 @@ constexpr Form kForms[] = {
     {"serve", "Correct layouts in a browser, with a live exact check", add_serve_form},
 };
 
-std::string first_empty_option(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_expected_min() == 0) continue;  // flags
-    for (const std::string& word : option->results()) {
-      if (word.empty()) return option->get_name();
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<Command> parse_command_line(int argc, char** argv) {
-  CLI::App app(
-      "lekalo: geometry for cutting shops, with proofs: parts in blanks, layouts on sheets and hides.",
-      "lekalo");
-  app.set_version_flag("--version", std::string("lekalo ") + kVersion, "Print the version and stop");
-  app.footer("lekalo COMMAND --help explains a command.");
-  app.require_subcommand(1);
-
-  std::vector<std::pair<CLI::App*, Typed>> commands;
-  for (const Form& form : kForms) {
-    CLI::App& command = *app.add_subcommand(form.name, form.help);
-    commands.emplace_back(&command, form.add(command));
+  std::vector<Form> forms;
+  std::vector<Typed> typed;
+  for (const CommandForm& command : kForms) {
+    Form& form = forms.emplace_back(Form{command.name, command.help, {}, {}});
+    typed.push_back(command.add(form));
   }
   std::string shell;
-  CLI::App& completion = *app.add_subcommand("completion", "Print a completion script for a shell");
-  completion.add_option("shell", shell, "bash, zsh or fish")->required()->type_name("SHELL");
-  completion.footer("For bash: eval \"$(lekalo completion bash)\"");
-
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForVersion& version) {
-    return PrintText{std::string(version.what()) + "\n"};
-  } catch (const CLI::CallForHelp&) {
-    return PrintText{app.help()};
-  } catch (const CLI::ParseError& error) {
-    return failure(ErrorCode::usage, complaint(app, error, argc, argv));
-  }
-  for (const CLI::App* command : app.get_subcommands()) {
-    const std::string empty = first_empty_option(*command);
-    if (!empty.empty()) {
-      return failure(ErrorCode::usage, empty + ": the value is empty (see lekalo --help)");
-    }
-  }
-  for (const auto& [command, typed] : commands)
-    if (*command) return typed();
-  return completion_script(app, shell).map([](std::string&& text) {
-    return Command(PrintText{std::move(text)});
+  Form& completion = forms.emplace_back(Form{"completion", "Print a completion script for a shell", {}, {}});
+  OptionAdder{completion}("shell", shell, "SHELL", "bash, zsh or fish").required = true;
+  completion.footer = "For bash: eval \"$(lekalo completion bash)\"";
+  typed.push_back([&] {
+    return completion_script(forms, shell).map([](std::string&& text) {
+      return Command(PrintText{std::move(text)});
+    });
   });
+
+  LEKALO_TRY(const Asked asked, read_command_line(forms, argc, argv));
+  if (const auto* const text = std::get_if<std::string>(&asked)) return PrintText{*text};
+  return typed[std::get<std::size_t>(asked)]();
 }
 
 }  // namespace lekalo::cli

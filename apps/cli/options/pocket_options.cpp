@@ -150,21 +150,20 @@ Result<Command> to_pocket(const PocketWords& w) {
 
 }  // namespace
 
-Typed add_pocket_form(CLI::App& app) {
+Typed add_pocket_form(Form& form) {
   auto words = std::make_shared<PocketWords>();
   PocketWords& w = *words;
-  app.add_option("pocket", w.pocket,
-                 "The pockets' outlines: JSON regions, DXF or SVG, a tree of primitives, points")
-      ->required()
-      ->type_name("FILE");
-  const WordAdder add(app);
-  add("--tool", w.tool, "MM", "Diameter of the tool")->required();
-  add("--depth", w.depth, "MM", "Of the pocket, below Z 0")->required();
+  const OptionAdder add(form);
+  add("pocket", w.pocket, "FILE",
+      "The pockets' outlines: JSON regions, DXF or SVG, a tree of primitives, points")
+      .required = true;
+  add("--tool", w.tool, "MM", "Diameter of the tool").required = true;
+  add("--depth", w.depth, "MM", "Of the pocket, below Z 0").required = true;
   add("--stepdown", w.step_down, "MM", "Depth of one level at most; levels are equally deep [one level]");
   add("--stepover", w.step_over, "PERCENT", "Of the tool's diameter, from 1% to 50% [40%]");
   add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
   add("--floor-stock", w.floor_stock, "MM", "What stays on the floor [0]");
-  add_after(app, w.after);
+  add_after(add, w.after);
   add("--rest", w.rest, "MM", "Instead: suppose a larger tool cut all it can, as lekalo pocket would");
   add("--cut", w.direction, "WORD", "climb, conventional or any [any]");
   add("--ramp-angle", w.ramp_angle, "DEGREES",
@@ -173,52 +172,43 @@ Typed add_pocket_form(CLI::App& app) {
   add("-o,--output", w.output, "FILE", "Write the program to this file [stdout]");
   add("--picture", w.picture, "FILE", "Draw the path coloured by engagement (.svg or .png)");
   add("--animation", w.animation, "FILE", "Write a page that plays the cut (.html)");
-  app.add_flag("--json", w.json, "Print the report as JSON on stdout");
-  const WordAdder feeds(app, "Feeds");
+  add("--json", w.json, "Print the report as JSON on stdout");
+  const OptionAdder feeds(form, "Feeds");
   feeds("--feed", w.feed, "MM/MIN", "In the cut [1500]");
   feeds("--feed-per-tooth", w.feed_per_tooth, "MM", "Instead of --feed, with --teeth and --spindle");
   feeds("--teeth", w.teeth, "N", "Of the tool");
   feeds("--feed-max", w.most_feed, "MM/MIN", "Up to this where less is cut: feeds follow the engagement");
   feeds("--plunge-feed", w.plunge_feed, "MM/MIN", "Straight down [300]");
   feeds("--link-feed", w.link_feed, "MM/MIN", "At depth through what is cut already [5000]");
-  const WordAdder program(app, "Program");
+  const OptionAdder program(form, "Program");
   program("--post", w.post, "WORD",
-          fmt::format("{} [{}]", nc::post_names(", ", " or "), nc::posts().front().name).c_str());
+          fmt::format("{} [{}]", nc::post_names(", ", " or "), nc::posts().front().name));
   program("--output-units", w.output_units, "WORD", "Of the program: mm or inch [mm]");
   program("--work-offset", w.work_offset, "WORD", "G54 to G59 [G54]");
   program("--tool-number", w.tool_number, "N", "Change to this tool first, with its length");
   program("--spindle", w.spindle, "REV/MIN", "Start the spindle, clockwise [left alone]");
   program("--coolant", w.coolant, "WORD", "off, mist or flood [off]");
   program("--tolerance", w.tolerance, "MM", "Of lines and arcs instead of the path's points [0.002]");
-  const WordAdder reading(app, "Reading");
+  const OptionAdder reading(form, "Reading");
   reading("--units", w.units, "WORD", "Of a file that does not say: mm or inch [mm]");
   reading("--join", w.join, "MM", "Ends of a drawing's curves this near are joined [0.01]");
-  app.add_option("--layer", w.layers, "Outlines on this layer of a drawing; again for more [all shown]")
-      ->type_name("NAME")
-      ->group("Reading");
-  app.add_option("--island-layer", w.island_layers, "What this layer encloses stays")
-      ->type_name("NAME")
-      ->group("Reading");
-  app.add_option("--open-layer", w.open_layers, "Edges on this layer are no walls: beyond is air")
-      ->type_name("NAME")
-      ->group("Reading");
-  const WordAdder source(app, "The source's method, for comparison");
+  reading("--layer", w.layers, "NAME", "Outlines on this layer of a drawing; again for more [all shown]");
+  reading("--island-layer", w.island_layers, "NAME", "What this layer encloses stays");
+  reading("--open-layer", w.open_layers, "NAME", "Edges on this layer are no walls: beyond is air");
+  const OptionAdder source(form, "The source's method, for comparison");
   source("--method", w.method, "WORD", "fronts, floz-linear or floz-quadratic [fronts]");
   source("--sampling", w.sampling, "MM", "Longest segment of its model of the outline [3]");
   source("--trace-step", w.trace_step, "MM",
          "Step of its spiral; a turn ends pi steps farther out [by --stepover]");
-  app.add_option("--start", w.starts,
-                 "Begin the spiral of the fragment there at this place; again for others [the peak of each]")
-      ->type_name("X,Y")
-      ->allow_extra_args(false)
-      ->group("The source's method, for comparison");
+  source("--start", w.starts, "X,Y",
+         "Begin the spiral of the fragment there at this place; again for others [the peak of each]")
+      .one_word_a_time = true;
   source("--images", w.images, "PREFIX", "Write the model as PREFIX-A.png to -D.png and PREFIX-value.png");
-  app.add_flag("--whole", w.whole, "One model and one spiral, not one for each convex fragment")
-      ->group("The source's method, for comparison");
-  app.footer(
+  source("--whole", w.whole, "One model and one spiral, not one for each convex fragment");
+  form.footer =
       "Where the tool does not fit is said and drawn; the rest is cut.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 a file cannot be read or the tool fits nowhere,\n"
-      "4 the program found failed its check, 5 disk or memory. lekalo simulate judges any program.");
+      "4 the program found failed its check, 5 disk or memory. lekalo simulate judges any program.";
   return [words] { return to_pocket(*words); };
 }
 

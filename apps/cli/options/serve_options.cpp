@@ -33,20 +33,20 @@ Result<Command> to_serve(const ServeWords& w) {
 
 }  // namespace
 
-Typed add_serve_form(CLI::App& app) {
+Typed add_serve_form(Form& form) {
   auto words = std::make_shared<ServeWords>();
   ServeWords& w = *words;
-  add_layout_source(app, w.layout, false);
-  const WordAdder add(app);
+  add_layout_source(form, w.layout, false);
+  const OptionAdder add(form);
   add("--store", w.store, "FILE",
       "The layouts and all that was done to them [lekalo/layouts.sqlite among the user's data]");
   add("--port", w.port, "N", "0: any that is free [8080]");
   add("--listen", w.listen, "ADDRESS", "Elsewhere than on this machine alone, with a token [127.0.0.1]");
   add("--token", w.token, "TEXT", "What whoever opens the page has to know [made and printed with --listen]");
-  app.footer(
+  form.footer =
       "The first line on stdout is \"listening URL\"; Ctrl-C stops it.\n"
       "Exit codes: 0 stopped, 2 wrong command line, 3 the file cannot be read, 5 the port or the store\n"
-      "cannot be had.");
+      "cannot be had.";
   return [words] { return to_serve(*words); };
 }
 

@@ -36,17 +36,15 @@ Result<Command> to_simulate(const SimulateWords& w) {
 
 }  // namespace
 
-Typed add_simulate_form(CLI::App& app) {
+Typed add_simulate_form(Form& form) {
   auto words = std::make_shared<SimulateWords>();
   SimulateWords& w = *words;
-  app.add_option("program", w.program, "NC program: G0 to G3, G20/G21, G90/G91")
-      ->required()
-      ->type_name("FILE");
-  const WordAdder add(app);
+  const OptionAdder add(form);
+  add("program", w.program, "FILE", "NC program: G0 to G3, G20/G21, G90/G91").required = true;
   add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
-      ->required();
-  add("--tool", w.tool, "MM", "Diameter of the tool")->required();
-  add_after(app, w.after);
+      .required = true;
+  add("--tool", w.tool, "MM", "Diameter of the tool").required = true;
+  add_after(add, w.after);
   add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");
   add("--stepover", w.step_over, "PERCENT", "Of the tool's diameter, for the bound on the time [40%]");
   add("--top", w.top, "MM", "Z of the stock's upper face [0]");
@@ -55,10 +53,10 @@ Typed add_simulate_form(CLI::App& app) {
   add("--samples", w.samples, "FILE", "Write the engagement along the path as CSV");
   add("--picture", w.picture, "FILE", "Draw the path coloured by engagement (.svg or .png)");
   add("--animation", w.animation, "FILE", "Write a page that plays the cut (.html)");
-  app.add_flag("--json", w.json, "Print the report as JSON on stdout");
-  app.footer(
+  add("--json", w.json, "Print the report as JSON on stdout");
+  form.footer =
       "Exit codes: 0 whatever the figures are, 2 wrong command line, 3 a file cannot be read or judged,\n"
-      "5 disk or memory. What the figures mean: docs/design/simulate.md");
+      "5 disk or memory. What the figures mean: docs/design/simulate.md";
   return [words] { return to_simulate(*words); };
 }
 

@@ -1,21 +1,20 @@
 #include <memory>
 
 #include "option_forms.hpp"
-#include "option_words.hpp"
 
 namespace lekalo::cli {
 
-Typed add_verify_form(CLI::App& app) {
+Typed add_verify_form(Form& form) {
   auto o = std::make_shared<VerifyOptions>();
-  app.add_option("result", o->result, "Result written by lekalo locate -o")->required()->type_name("FILE");
-  const WordAdder add(app);
+  const OptionAdder add(form);
+  add("result", o->result, "FILE", "Result written by lekalo locate -o").required = true;
   add("--part", o->part, "FILE", "Where the part file is now, when not where the result says");
   add("--blank", o->blank, "FILE", "Where the blank file is now");
   add("--certificate", o->certificate, "FILE", "Where the certificate file is now");
-  app.add_flag("--json", o->json, "Print the report as JSON on stdout");
-  app.footer(
+  add("--json", o->json, "Print the report as JSON on stdout");
+  form.footer =
       "Exit codes: 0 confirmed, 1 clearance confirmed but there is no proof of the bound, 4 refuted,\n"
-      "2 wrong command line, 3 a file cannot be read.");
+      "2 wrong command line, 3 a file cannot be read.";
   return [o] { return Result<Command>(*o); };
 }
 
