@@ -3,7 +3,6 @@
 
 #include "e2e/cli_run.hpp"
 #include "lekalo/base/parallel.hpp"
-#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/jobs/layout.hpp"
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/pocket.hpp"
@@ -45,9 +44,7 @@ TEST(WithoutThreads, APocketItsJudgementAndItsModelAreTheSameBytes) {
                                       "floz-linear", "--images", "model", "-o", "out.ngc", "--json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   jobs::PocketJob job;
-  job.outline.file = {"cover.json", read_bytes(folder / "cover.json")};
-  job.outline.regions =
-      io::parse_regions(job.outline.file.bytes, "cover.json", {}, &job.outline.open)->regions;
+  job.pocket = {"cover.json", read_bytes(folder / "cover.json")};
   job.options.path.tool_diameter = 8, job.options.path.depth = 2;
   job.options.path.method = mill::Method::floz_linear;
   job.images = true, job.written_as = "out.ngc";
