@@ -67,7 +67,7 @@ std::vector<std::string> comments_of(const PocketJob& job) {
 }
 
 Result<void> add_pictures(const PocketJob& job, const PocketGround& ground, Pocketed& made) {
-  if (job.picture == CutPicture::none && !job.animation) return {};
+  if (!job.picture && !job.animation) return {};
   const mill::PocketOptions& path = job.options.path;
   draw::PocketPicture picture =
       cut_picture_of(job.pocket.name, ground.pockets, path.tool_diameter, path.stock_to_leave, made.report);

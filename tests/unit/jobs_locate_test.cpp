@@ -103,7 +103,7 @@ TEST(JobsLocate, OnlyWhatIsAskedForIsMade) {
   };
   EXPECT_EQ(beside(made(job)), std::vector<std::string>(7));
   job.outputs.certificate = "c.json", job.outputs.deviations = "d.csv", job.outputs.program = "o.nc";
-  job.outputs.picture = PictureFormat::svg, job.outputs.report = ReportFormat::pdf;
+  job.outputs.picture = PictureForm::svg, job.outputs.report = PictureForm::pdf;
   job.outputs.drawing = DrawingFormat::dxf, job.outputs.allowances = true;
   job.program = File{"part.nc", kProgram};
   const Located located = made(job);
@@ -230,6 +230,7 @@ TEST(JobsLocate, ErrorsNameTheFileAndThePlace) {
        },
        ErrorCode::usage,
        {"--trim is for convex contours"}},
+      {[](LocateJob& j) { j.outputs.picture = PictureForm::pdf; }, ErrorCode::usage, {"SVG or PNG"}},
       {[](LocateJob& j) {
          j.earlier = File{"old.json", "{}"};
        },

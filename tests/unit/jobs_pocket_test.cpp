@@ -48,7 +48,7 @@ TEST(JobsPocket, WhatWasNotAskedForIsNotMade) {
   const Result<Pocketed> plain = pocket(job);
   ASSERT_TRUE(plain);
   EXPECT_TRUE(plain->picture.empty() && plain->animation.empty() && plain->images.empty());
-  job.picture = CutPicture::svg, job.animation = true;
+  job.picture = PictureForm::svg, job.animation = true;
   const Result<Pocketed> drawn = pocket(job);
   ASSERT_TRUE(drawn);
   EXPECT_NE(drawn->picture.find("<svg"), std::string::npos);
@@ -116,6 +116,8 @@ TEST(JobsPocket, WhatCannotBeIsRefused) {
   job.options.rest_of = 5;
   EXPECT_NE(message(job).find("is to be larger than this one"), std::string::npos);
   job = plate_job();
+  job.picture = PictureForm::pdf;
+  EXPECT_NE(message(job).find("SVG or PNG"), std::string::npos);
   job.options.path.tool_diameter = 50;
   EXPECT_NE(message(job).find("folder/plate.dxf: "), std::string::npos);
 }

@@ -27,7 +27,7 @@ Result<jobs::PocketJob> read_job(const PocketOptions& o) {
   LEKALO_TRY(job.after, read_earlier(o.after));
   job.options = o;
   job.written_as = o.output;
-  job.picture = picture_form(o.picture);
+  job.picture = jobs::picture_form(o.picture);
   job.animation = !o.animation.empty();
   job.images = !o.images.empty();
   return job;

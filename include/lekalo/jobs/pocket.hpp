@@ -37,7 +37,7 @@ struct PocketJob {
   std::vector<EarlierProgram> after;  ///< \pre empty with options.rest_of
   std::string written_as;             ///< the name of the program's file, for the report
   // Documents beside program and report, made only where they are asked for:
-  CutPicture picture = CutPicture::none;
+  std::optional<PictureForm> picture;  ///< SVG or PNG
   bool animation = false;
   bool images = false;  ///< \pre options.path.method is one of the source's
 };
@@ -76,9 +76,10 @@ struct Pocketed {
 /// The phases are "planning the tool before" (with rest_of), "planning the path", and "checking the program"
 /// once for each whole judgement.
 ///
-/// Errors: bad_input for what io::read_outline and mill::pocket_path refuse, an island (a contour with edges on an island layer)
-/// that lies in no pocket, a layer with no edge on it, a tool before that is not larger, and earlier programs
-/// that the checker cannot read. ErrorCode::refuted where the checker does not let the program pass.
+/// Errors: bad_input for what io::read_outline and mill::pocket_path refuse, an island (a contour with edges
+/// on an island layer) that lies in no pocket, a layer with no edge on it, a tool before that is not larger,
+/// and earlier programs that the checker cannot read. ErrorCode::usage for a picture as PDF, and refuted
+/// where the checker does not let the program pass.
 ///
 /// Cost: planning, and two to six judgements; a pocket of 100 x 60 mm takes about a second.
 [[nodiscard]] Result<Pocketed> pocket(PocketJob job, const PhaseListener& phases = {});
