@@ -153,6 +153,7 @@ TEST(Locate, AnAllowanceOutOfReachIsProvedSoOnBothPaths) {
 TEST(Locate, DemandsAreMetAndTheirProofIsTheProof) {
   Problem problem = plate();
   problem.window = {0, 0};
+  problem.blank = outline(rectangle(90, 80));  // above and below there is more than enough
   problem.demands.emplace();
   problem.demands->minimum = 1;
   problem.demands->features.push_back({"left", {3}, 6, {}, {}, 1, {}});
@@ -197,15 +198,17 @@ TEST(Locate, WhatTheSearchBeneathRefusesComesBackOnEveryPath) {
 }
 
 TEST(Locate, AStoppedSearchHasAPlacementAndABound) {
-  Options options = coarse();
-  options.run.work_limit = 3;
+  const cases::Example example = cases::published_examples()[2];
+  Problem problem{
+      outline(example.part().vertices()), outline(example.blank().vertices()), {}, Mirror::no, {}, {}};
+  Options options;
+  options.run.work_limit = 12;
   for (const bool convex : {true, false}) {
-    Problem problem = plate();
     if (!convex) problem.part.convex.reset();
     const Found result = found(problem, options);
     EXPECT_EQ(result.status, Status::stopped) << convex;
-    EXPECT_GE(result.upper_bound.value_or(0), 5) << convex;
-    EXPECT_LE(result.best.clearance, 5) << convex;
+    EXPECT_GE(result.upper_bound.value_or(0), example.optimum) << convex;
+    EXPECT_LE(result.best.clearance, example.optimum + 1e-9) << convex;
   }
 }
 
