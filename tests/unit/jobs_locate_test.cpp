@@ -211,9 +211,10 @@ TEST(JobsLocate, TheRunCanBeStopped) {
     file->bytes =
         disk::read_file(cases::source_dir() + "/examples/localisation/example-3-" + file->name).value();
   }
-  LocateJob regions = convex;
-  regions.options.mirror = locate::Mirror::yes;
-  for (const LocateJob& job : {convex, regions}) {
+  LocateJob mirrored = convex, either = convex;
+  mirrored.options.mirror = locate::Mirror::yes;
+  either.options.mirror = locate::Mirror::either;  // nothing is left for the second of two searches
+  for (const LocateJob& job : {convex, mirrored, either}) {
     const Result<Located> stopped = locate(job, run);
     ASSERT_TRUE(stopped) << stopped.error().message;
     EXPECT_EQ(stopped->document.status, "stopped");
