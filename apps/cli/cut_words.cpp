@@ -30,11 +30,6 @@ std::string notices(std::vector<jobs::ReportedStretch> stretches, const Line& li
 
 }  // namespace
 
-jobs::CutPicture picture_form(const std::string& path) {
-  if (path.empty()) return jobs::CutPicture::none;
-  return path.ends_with(".png") ? jobs::CutPicture::png : jobs::CutPicture::svg;
-}
-
 std::string report_rows(const verify::SimulateReport& r) {
   std::string text;
   const auto row = [&](const char* name, const std::string& value) {

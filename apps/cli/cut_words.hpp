@@ -8,9 +8,6 @@
 
 namespace lekalo::cli {
 
-/// The form that the ending of a picture's name asks for; none for an empty name.
-[[nodiscard]] jobs::CutPicture picture_form(const std::string& path);
-
 /// The checker's findings for people, a line a figure.
 [[nodiscard]] std::string report_rows(const verify::SimulateReport& report);
 

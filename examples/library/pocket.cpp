@@ -4,17 +4,14 @@
 #include <utility>
 
 #include "lekalo/disk/files.hpp"
-#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/jobs/pocket.hpp"
 
 namespace {
 
 lekalo::Result<lekalo::jobs::Pocketed> clear(const std::string& path) {
   lekalo::jobs::PocketJob job;
-  job.outline.file.name = path;
-  LEKALO_TRY(job.outline.file.bytes, lekalo::disk::read_file(path));
-  LEKALO_TRY(auto pocket, lekalo::io::parse_regions(job.outline.file.bytes, path, {}, &job.outline.open));
-  job.outline.regions = std::move(pocket.regions);
+  job.pocket.name = path;
+  LEKALO_TRY(job.pocket.bytes, lekalo::disk::read_file(path));
   job.options.path.tool_diameter = 6;
   job.options.path.depth = 4;
   job.options.path.step_down = 2;

@@ -98,10 +98,8 @@ void place_labels(const std::vector<Label>& labels, double size, const Obstacles
     const double width = size * io::text_width(label.text), height = 0.8 * size;
     const auto place = places.find(label, width, height);
     if (!place) continue;
-    Paint line;
-    line.stroke = kFaint;
-    line.width = 0.2;
-    items.push_back(PathItem{{{place->leader.a, place->leader.b}}, false, line, {"leader", ""}});
+    items.push_back(
+        PathItem{{{place->leader.a, place->leader.b}}, false, stroked(kFaint, 0.2), {"leader", ""}});
     items.push_back(TextItem{{place->box.x + width / 2, place->box.bottom()},
                              label.text,
                              size,

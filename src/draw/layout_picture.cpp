@@ -57,9 +57,7 @@ std::vector<Ring> rings_of(const geom::GridRegion& outline) {
 }
 
 Paint fill_and_line(Colour fill, double alpha, Colour line, double width) {
-  Paint paint;
-  paint.fill = fill, paint.fill_alpha = alpha, paint.stroke = line, paint.width = width, paint.round = true;
-  return paint;
+  return with_fill(stroked_round(line, width), fill, alpha);
 }
 
 /// Parallel lines at 45 degrees over a box, to be clipped.

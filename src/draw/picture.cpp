@@ -37,14 +37,6 @@ constexpr double kWorthMagnifying = 4;   ///< times the drawing's scale
 constexpr double kMostMagnified = 1e6;
 constexpr double kFinestRounding = 0.2;  ///< mm of paper: rounding must not show in the inset
 
-Paint stroke(Colour colour, double width, double dash = 0) {
-  Paint paint;
-  paint.stroke = colour;
-  paint.width = width;
-  paint.dash = dash;
-  return paint;
-}
-
 class RingComposer {
  public:
   RingComposer(const LocatePicture& picture, const PictureOfRings& rings)
@@ -107,7 +99,7 @@ class RingComposer {
     if (thinnest_scale_ > 0) {
       const Point at = view_(shapes_.samples[shapes_.thinnest].at);
       scene_.items.push_back(
-          DotItem{at, kRing, stroke(kOutside, 0.5), {"thinnest", "the thinnest place, magnified beside"}});
+          DotItem{at, kRing, stroked(kOutside, 0.5), {"thinnest", "the thinnest place, magnified beside"}});
       obstacles.filled.push_back(Rect{at.x - kRing, at.y - kRing, 2 * kRing, 2 * kRing}.ring());
     }
     label_contacts(obstacles);
@@ -138,7 +130,7 @@ class RingComposer {
     const double x = kDrawing.x + 3, y = kPage.bottom() - 6;
     scene_.items.push_back(PathItem{{{{x, y - 1.2}, {x, y}, {x + on_page, y}, {x + on_page, y - 1.2}}},
                                     false,
-                                    stroke(kInk, 0.35),
+                                    stroked(kInk, 0.35),
                                     {"scale-bar", ""}});
     scene_.items.push_back(TextItem{{x + on_page + 2.5, y},
                                     length_scale(length, length).text_with_unit(length),
@@ -150,7 +142,7 @@ class RingComposer {
   }
 
   void frame(const Rect& inset, const std::string& caption) {
-    scene_.items.push_back(PathItem{{inset.ring()}, true, stroke(kFaint, 0.25), {"inset", ""}});
+    scene_.items.push_back(PathItem{{inset.ring()}, true, stroked(kFaint, 0.25), {"inset", ""}});
     const double room = kPanel.width / 2 - 1.5;
     scene_.items.push_back(TextItem{{inset.x, inset.bottom() + kInsetCaption + 1},
                                     caption,
@@ -165,11 +157,9 @@ class RingComposer {
     const Point thin = shapes_.samples[shapes_.thinnest].at;
     const View close{thin + 0.5 * (shapes_.blank_at_thinnest - thin), inset.centre(), thinnest_scale_};
     draw_shapes(shapes_, close, inset, scene_.items);
-    Paint dot;
-    dot.fill = kInk;
-    dot.fill_alpha = 1;
+    const Paint dot = filled(kInk);
     scene_.items.push_back(PathItem{
-        {{close(thin), close(shapes_.blank_at_thinnest)}}, false, stroke(kInk, 0.4), {"thinnest-line", ""}});
+        {{close(thin), close(shapes_.blank_at_thinnest)}}, false, stroked(kInk, 0.4), {"thinnest-line", ""}});
     scene_.items.push_back(DotItem{close(thin), 0.6, dot, {}});
     scene_.items.push_back(DotItem{close(shapes_.blank_at_thinnest), 0.6, dot, {}});
     frame(inset, fmt::format("in the ring, ×{}", magnification_));
@@ -183,13 +173,11 @@ class RingComposer {
     const geom::Box placed = geom::bounds(shapes_.part);
     const Point to = placed.low + 0.5 * (placed.high - placed.low);
     scene_.items.push_back(
-        PathItem{{{far(from), far(to)}}, false, stroke(kStartLine, 0.2), {"start-way", ""}});
-    Paint blank = stroke(kBlankLine, 0.25);
-    blank.fill = kBlankFill;
-    blank.fill_alpha = 1;
+        PathItem{{{far(from), far(to)}}, false, stroked(kStartLine, 0.2), {"start-way", ""}});
+    const Paint blank = with_fill(stroked(kBlankLine, 0.25), kBlankFill);
     small_shape(shapes_.blank, far, inset, blank, "overview-blank");
-    small_shape(shapes_.part, far, inset, stroke(kInk, 0.25), "overview-part");
-    small_shape(shapes_.start, far, inset, stroke(kStartLine, 0.35, 0.9), "start");
+    small_shape(shapes_.part, far, inset, stroked(kInk, 0.25), "overview-part");
+    small_shape(shapes_.start, far, inset, stroked(kStartLine, 0.35, 0.9), "start");
     frame(inset, fmt::format("start: {} mm away", short_number_up(geom::norm(to - from))));
   }
   /// The shape, or a dot where it would be smaller than one.
@@ -231,9 +219,7 @@ Scene empty_scene(const LocatePicture& picture) {
                             io::file_name(picture.blank_name));
   scene.description = fmt::format("{}; minimum allowance {} mm at x {} mm, y {} mm, angle {} rad",
                                   picture.status, p.clearance, p.x, p.y, p.theta);
-  Paint white;
-  white.fill = kPaper, white.fill_alpha = 1;
-  scene.items.push_back(PathItem{{kPage.ring()}, true, white, {"page", ""}});
+  scene.items.push_back(PathItem{{kPage.ring()}, true, filled(kPaper), {"page", ""}});
   return scene;
 }
 

@@ -140,23 +140,16 @@ std::vector<Ring> visible_lines(const Ring& line, const Rect& visible) {
   return lines;
 }
 
-Paint line_of(Colour colour, double width, double dash = 0) {
-  return {.fill = {}, .fill_alpha = 0, .stroke = colour, .width = width, .dash = dash, .round = false};
-}
-Paint fill_of(Colour colour, double alpha = 1) {
-  return {.fill = colour, .fill_alpha = alpha, .stroke = {}, .width = 0, .dash = 0, .round = false};
-}
-
 void draw_band(const Located& shapes, const View& view, const Rect& visible, double width,
                std::vector<Item>& items) {
   for (const Piece& piece : band_pieces(shapes, view)) {
     const std::vector<Ring> lines = visible_lines(piece.line, visible);
     if (lines.empty()) continue;
     if (piece.level < 0) {
-      items.push_back(PathItem{lines, false, line_of(kOutsideBase, width), {"allowance-outside-base", ""}});
-      items.push_back(PathItem{lines, false, line_of(kOutside, width, 1.6), {"allowance-outside", ""}});
+      items.push_back(PathItem{lines, false, stroked(kOutsideBase, width), {"allowance-outside-base", ""}});
+      items.push_back(PathItem{lines, false, stroked(kOutside, width, 1.6), {"allowance-outside", ""}});
     } else {
-      items.push_back(PathItem{lines, false, line_of(scale_colour(piece.level), width), {"allowance", ""}});
+      items.push_back(PathItem{lines, false, stroked(scale_colour(piece.level), width), {"allowance", ""}});
     }
   }
 }
@@ -216,23 +209,23 @@ void draw_shapes(const Located& shapes, const View& view, const Rect& visible, s
   items.push_back(ClipBegin{{visible.ring()}});
   // The blank is painted over the part, so what it leaves uncovered of the part is what sticks out.
   if (shapes.sticks_out())
-    items.push_back(PathItem{{part}, true, fill_of({250, 190, 196}), {"part-outside", ""}});
-  items.push_back(PathItem{{blank}, true, fill_of(kBlankFill), {"blank", "blank"}});
+    items.push_back(PathItem{{part}, true, filled({250, 190, 196}), {"part-outside", ""}});
+  items.push_back(PathItem{{blank}, true, filled(kBlankFill), {"blank", "blank"}});
   items.push_back(ClipBegin{{blank}});
-  items.push_back(PathItem{{part}, true, fill_of(kPaper), {"part", "part at the result"}});
+  items.push_back(PathItem{{part}, true, filled(kPaper), {"part", "part at the result"}});
   items.push_back(ClipEnd{});
   if (!thin) items.push_back(ClipBegin{{part}});
   draw_band(shapes, view, visible, thin ? kThinBand : 2 * kBand, items);
   if (!thin) items.push_back(ClipEnd{});
-  items.push_back(PathItem{{blank}, true, line_of(kBlankLine, 0.3), {"blank-outline", ""}});
-  items.push_back(PathItem{{part}, true, line_of(kInk, thin ? 0.12 : 0.28), {"part-outline", ""}});
+  items.push_back(PathItem{{blank}, true, stroked(kBlankLine, 0.3), {"blank-outline", ""}});
+  items.push_back(PathItem{{part}, true, stroked(kInk, thin ? 0.12 : 0.28), {"part-outline", ""}});
   items.push_back(ClipEnd{});
 }
 
 void draw_start(const Located& shapes, const View& view, const Rect& visible, std::vector<Item>& items) {
   items.push_back(PathItem{{on_paper(shapes.start, view, visible)},
                            true,
-                           line_of(kStartLine, 0.35, 1.3),
+                           stroked(kStartLine, 0.35, 1.3),
                            {"start", "part at the start"}});
 }
 
@@ -242,21 +235,21 @@ void draw_contacts(const PictureOfRings& rings, const std::vector<ContactLine>& 
   for (const ContactLine& line : lines) {
     const auto edge = clipped({view(line.edge_from), view(line.edge_to)}, visible.grown(5));
     if (edge) {
-      items.push_back(PathItem{{{edge->a, edge->b}}, false, line_of(kInk, 0.5), {"contact-edge", ""}});
+      items.push_back(PathItem{{{edge->a, edge->b}}, false, stroked(kInk, 0.5), {"contact-edge", ""}});
     }
   }
   for (const ContactLine& line : lines) {
     const locate::Contact& contact = rings.contacts[line.index];
     const Point vertex = view(line.vertex), foot = view(line.foot);
-    Paint stroke = line_of(kInk, 0.5);
+    Paint stroke = stroked(kInk, 0.5);
     stroke.round = true;
     items.push_back(
         PathItem{{{vertex, foot}}, false, stroke, {"contact", "contact " + contact_label(rings, contact)}});
-    Paint dot = fill_of(kPaper);
+    Paint dot = filled(kPaper);
     dot.stroke = kInk;
     dot.width = 0.4;
     items.push_back(DotItem{vertex, 0.8, dot, {"contact-vertex", ""}});
-    items.push_back(DotItem{foot, 0.4, fill_of(kInk), {"contact-foot", ""}});
+    items.push_back(DotItem{foot, 0.4, filled(kInk), {"contact-foot", ""}});
   }
   items.push_back(ClipEnd{});
 }

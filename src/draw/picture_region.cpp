@@ -27,14 +27,6 @@ constexpr double kSag = 0.01;        ///< of an arc's chord, mm of paper
 constexpr double kSampleStep = 0.5;  ///< along the part's outline, mm of paper
 constexpr double kBand = 1.3;        ///< width of the coloured outline, mm of paper
 
-Paint stroke(Colour colour, double width) {
-  Paint paint;
-  paint.stroke = colour;
-  paint.width = width;
-  paint.round = true;
-  return paint;
-}
-
 class RegionComposer {
  public:
   RegionComposer(const LocatePicture& picture, const PictureOfRegions& regions)
@@ -93,8 +85,7 @@ class RegionComposer {
   }
 
   void draw_blank() {
-    Paint paint = stroke(kBlankLine, 0.3);
-    paint.fill = kBlankFill, paint.fill_alpha = 1;
+    const Paint paint = with_fill(stroked_round(kBlankLine, 0.3), kBlankFill);
     std::vector<Ring> lines;
     for (const Ring& ring : region_rings(regions_.blank, kSag / view_.scale, 1e300))
       lines.push_back(paper(ring));
@@ -102,11 +93,9 @@ class RegionComposer {
   }
 
   void draw_part() {
-    Paint paint;
-    paint.fill = kPaper, paint.fill_alpha = 0.55;
     std::vector<Ring> lines;
     for (const Ring& ring : outline_) lines.push_back(paper(ring));
-    scene_.items.push_back(PathItem{std::move(lines), true, paint, {"part", "placed part"}});
+    scene_.items.push_back(PathItem{std::move(lines), true, filled(kPaper, 0.55), {"part", "placed part"}});
     for (std::size_t r = 0; r < outline_.size(); ++r) {
       const std::size_t n = outline_[r].size();
       // Stretches of one colour in one stroke.
@@ -119,7 +108,7 @@ class RegionComposer {
         } while (k < n && step_of(r, k) == colour);
         scene_.items.push_back(PathItem{{std::move(stretch)},
                                         false,
-                                        stroke(colour < 0 ? kOutside : scale_colour(colour), kBand),
+                                        stroked_round(colour < 0 ? kOutside : scale_colour(colour), kBand),
                                         {colour < 0 ? "outside" : "allowance", ""}});
       }
     }
@@ -133,13 +122,13 @@ class RegionComposer {
   void draw_contacts() {
     for (const locate::Touch& contact : regions_.contacts) {
       const Point a = view_(pose_(contact.part)), b = view_(contact.blank);
-      Paint dot;
-      dot.fill = kInk, dot.fill_alpha = 1;
-      scene_.items.push_back(
-          PathItem{{{a, b}}, false, stroke(kInk, 0.4), {"contact", fmt::format("{} mm", contact.distance)}});
+      const Paint dot = filled(kInk);
+      scene_.items.push_back(PathItem{
+          {{a, b}}, false, stroked_round(kInk, 0.4), {"contact", fmt::format("{} mm", contact.distance)}});
       scene_.items.push_back(DotItem{a, 0.7, dot, {"contact-part", ""}});
       scene_.items.push_back(DotItem{b, 0.7, dot, {"contact-blank", ""}});
-      scene_.items.push_back(DotItem{0.5 * (a + b), 2.4, stroke(kOutside, 0.35), {"contact-ring", ""}});
+      scene_.items.push_back(
+          DotItem{0.5 * (a + b), 2.4, stroked_round(kOutside, 0.35), {"contact-ring", ""}});
     }
   }
 
@@ -197,10 +186,8 @@ class RegionComposer {
     const double height = 42;
     for (int k = 0; k < kColourSteps; ++k) {
       const double top = y_ + height * (kColourSteps - 1 - k) / kColourSteps;
-      Paint paint;
-      paint.fill = scale_colour(k), paint.fill_alpha = 1;
       const Rect bar{kPanel.x, top, 6, height / kColourSteps + 0.05};
-      scene_.items.push_back(PathItem{{bar.ring()}, true, paint, {"scale", ""}});
+      scene_.items.push_back(PathItem{{bar.ring()}, true, filled(scale_colour(k)), {"scale", ""}});
     }
     constexpr int kTicks = 4;
     for (int k = 0; k <= kTicks; ++k) {
@@ -210,10 +197,8 @@ class RegionComposer {
           {kPanel.x + 8, at + 1}, fmt::format("{:.3f}", value), 2.8, Anchor::start, kInk, false, {}});
     }
     if (low_ < 0) {
-      Paint paint;
-      paint.fill = kOutside, paint.fill_alpha = 1;
       const Rect bar{kPanel.x, y_ + height + 2, 6, 3};
-      scene_.items.push_back(PathItem{{bar.ring()}, true, paint, {"scale", ""}});
+      scene_.items.push_back(PathItem{{bar.ring()}, true, filled(kOutside), {"scale", ""}});
       scene_.items.push_back(TextItem{{kPanel.x + 8, y_ + height + 4.6},
                                       fmt::format("sticks out, up to {:.3f}", -low_),
                                       2.8,

@@ -25,17 +25,6 @@ constexpr Colour kEntry{32, 122, 76}, kAir{150, 158, 168};
 constexpr double kAirDegrees = 3, kMostDegrees = 180;
 constexpr int kBands = 12;  // of engagement, each of one colour
 
-Paint line_of(Colour colour, double width) {
-  Paint paint;
-  paint.stroke = colour, paint.width = width, paint.round = true;
-  return paint;
-}
-Paint fill_of(Colour colour, double alpha) {
-  Paint paint;
-  paint.fill = colour, paint.fill_alpha = alpha;
-  return paint;
-}
-
 /// Makes low engagement dark and cold, and high engagement bright and warm.
 Colour band_colour(int band) {
   return scale_colour(kColourSteps - 1 - band * (kColourSteps - 1) / (kBands - 1));
@@ -60,19 +49,19 @@ class Composer {
   Scene compose() && {
     scene_.title = "lekalo pocket: " + picture_.name;
     scene_.description = fmt::format("tool {:g} mm", picture_.tool_diameter);
-    add(PathItem{{kPage.ring()}, true, fill_of(kPaper, 1), {"page", ""}});
-    Paint material = fill_of(kBlankFill, 1);
+    add(PathItem{{kPage.ring()}, true, filled(kPaper), {"page", ""}});
+    Paint material = filled(kBlankFill);
     material.stroke = kBlankLine, material.width = 0.35;
     add(PathItem{paper_rings(picture_.pockets), true, material, {"pocket", "the pocket"}});
     if (!picture_.fragments.empty()) {
-      Paint dashed = line_of(kGrey, 0.3);
+      Paint dashed = stroked_round(kGrey, 0.3);
       dashed.dash = 1.2;
       add(PathItem{paper_rings(picture_.fragments), true, dashed, {"fragments", "convex fragments"}});
     }
     draw_path();
     draw_unreachable();
     for (const Point p : picture_.uncut)
-      add(DotItem{view_(p), 1.4, line_of(kOutside, 0.4), {"uncut", "not cut"}});
+      add(DotItem{view_(p), 1.4, stroked_round(kOutside, 0.4), {"uncut", "not cut"}});
     scale_bar();
     draw_panel();
     return std::move(scene_);
@@ -122,7 +111,7 @@ class Composer {
           : wanted == -1 ? fmt::format("engagement below {:g} degrees", kAirDegrees)
                          : fmt::format("engagement {:g} to {:g} degrees", wanted * kMostDegrees / kBands,
                                        (wanted + 1) * kMostDegrees / kBands);
-      add(PathItem{std::move(lines), false, line_of(colour, width(wanted)), {"path", title}});
+      add(PathItem{std::move(lines), false, stroked_round(colour, width(wanted)), {"path", title}});
     }
   }
 
@@ -148,12 +137,12 @@ class Composer {
   void draw_unreachable() {
     if (picture_.unreachable.empty()) return;
     const std::vector<Ring> rings = paper_rings(picture_.unreachable);
-    add(PathItem{rings, true, fill_of(kOutside, 0.25), {"unreachable", "the tool does not fit in here"}});
+    add(PathItem{rings, true, filled(kOutside, 0.25), {"unreachable", "the tool does not fit in here"}});
     add(ClipBegin{rings});
     std::vector<Ring> lines;
     for (double x = kDrawing.x - kDrawing.height; x < kDrawing.right(); x += 1.2)
       lines.push_back({{x, kDrawing.bottom()}, {x + kDrawing.height, kDrawing.y}});
-    add(PathItem{std::move(lines), false, line_of(kOutside, 0.2), {"hatch", ""}});
+    add(PathItem{std::move(lines), false, stroked_round(kOutside, 0.2), {"hatch", ""}});
     add(ClipEnd{});
   }
 
@@ -162,7 +151,7 @@ class Composer {
     const double x = kDrawing.x + 3, y = kPage.bottom() - 6;
     add(PathItem{{{{x, y - 1.2}, {x, y}, {x + on_page, y}, {x + on_page, y - 1.2}}},
                  false,
-                 line_of(kInk, 0.35),
+                 stroked_round(kInk, 0.35),
                  {"scale-bar", ""}});
     text(x + on_page + 2.5, y, length_scale(length, length).text_with_unit(length), 3.1);
   }
@@ -182,7 +171,7 @@ class Composer {
     const double width = kPanel.width / kBands;
     for (int band = 0; band < kBands; ++band) {
       const Rect box{kPanel.x + band * width, y + 1.5, width, 4};
-      add(PathItem{{box.ring()}, true, fill_of(band_colour(band), 1), {"scale", ""}});
+      add(PathItem{{box.ring()}, true, filled(band_colour(band)), {"scale", ""}});
     }
     for (int degrees = 0; degrees <= 180; degrees += 45)
       text(kPanel.x + kPanel.width * degrees / kMostDegrees, y + 8.6, fmt::format("{}°", degrees), 2.5,
@@ -191,7 +180,7 @@ class Composer {
                             : Anchor::middle);
     y += 13;
     const auto key = [&](Colour colour, const char* words, double line) {
-      add(PathItem{{{{kPanel.x, y}, {kPanel.x + 6, y}}}, false, line_of(colour, line), {"key", ""}});
+      add(PathItem{{{{kPanel.x, y}, {kPanel.x + 6, y}}}, false, stroked_round(colour, line), {"key", ""}});
       text(kPanel.x + 8, y + 0.9, words, 2.6);
       y += 4.4;
     };

@@ -201,9 +201,7 @@ class Drawing {
     std::vector<Label> labels;
     for (const locate::MissingPlace& place : report_.missing) {
       const Point at = view_(place.in_blank);
-      Paint ring = stroked(kOutside, 0.4);
-      ring.fill = kPaper, ring.fill_alpha = 1;
-      items_.push_back(DotItem{at, 0.8, ring, {"missing-place", ""}});
+      items_.push_back(DotItem{at, 0.8, with_fill(stroked(kOutside, 0.4), kPaper), {"missing-place", ""}});
       labels.push_back(
           {at, away_from_middle(at),
            length_text(place.depth, std::max(3, look_.table_decimals - 1), Rounding::up) + " missing",

@@ -25,20 +25,22 @@ struct Paint {
   double fill_alpha = 0;
   Colour stroke;
   double width = 0;
-  double dash = 0;  ///< length of dashes and of the gaps between them; 0: solid
-  bool round = false;
+  double dash = 0;     ///< length of dashes and of the gaps between them; 0: solid
+  bool round = false;  ///< ends and corners of the line
 };
-[[nodiscard]] inline Paint filled(Colour colour) {
-  Paint paint;
-  paint.fill = colour;
-  paint.fill_alpha = 1;
+[[nodiscard]] inline Paint with_fill(Paint paint, Colour colour, double alpha = 1) {
+  paint.fill = colour, paint.fill_alpha = alpha;
   return paint;
 }
+[[nodiscard]] inline Paint filled(Colour colour, double alpha = 1) { return with_fill({}, colour, alpha); }
 [[nodiscard]] inline Paint stroked(Colour colour, double width, double dash = 0) {
   Paint paint;
-  paint.stroke = colour;
-  paint.width = width;
-  paint.dash = dash;
+  paint.stroke = colour, paint.width = width, paint.dash = dash;
+  return paint;
+}
+[[nodiscard]] inline Paint stroked_round(Colour colour, double width) {
+  Paint paint = stroked(colour, width);
+  paint.round = true;
   return paint;
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <thread>
 #include <vector>
 
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/field/grid.hpp"
 
 /// The parts that all fillings of grids by tiles share.
@@ -60,19 +59,6 @@ inline Terms terms(float x, float y, float along_x, float along_y, float length,
   return {f, u, t > 0 ? small : sum, root};
 }
 
-/// Calls act(number) for 0 .. count - 1, each once, on `threads` threads. Which does which changes nothing.
-template <class Act>
-void share_out(std::size_t count, unsigned threads, const Act& act) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) act(i);
-  };
-  std::vector<std::thread> others;
-  for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
-}
-
 /// The places where the chords cross each row of nodes, ascending: inside is to the right of an odd number.
 class Signs {
  public:
@@ -109,7 +95,8 @@ class Signs {
   std::vector<std::vector<double>> crossings_;
 };
 
-/// Calls act(tile) for the tiles of kTop nodes along a side, each once.
+/// Calls act(tile) for the tiles of kTop nodes along a side, each once. Which thread does which changes
+/// nothing.
 template <class Act>
 void each_top_tile(const GridFrame& frame, unsigned threads, const Act& act) {
   const std::size_t across = (frame.columns + kTop - 1) / kTop, up = (frame.rows + kTop - 1) / kTop;

@@ -8,9 +8,9 @@
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/locate/allowance.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "locate_checked.hpp"
 #include "locate_documents.hpp"
 #include "locate_inputs.hpp"
-#include "locate_search.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -215,9 +215,9 @@ const char* name_of(LocateMethod method) noexcept {
   return "icp";
 }
 
-Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwatch& stopwatch) {
+Result<Located> locate_checked(const Searcher& searcher, const LocateJob& job) {
   LEKALO_TRY(const LocateInputs in, read_inputs(job));
-  LEKALO_TRY(Search search, searched(in.problem, job.options, run, stopwatch));
+  LEKALO_TRY(Search search, searcher(in.problem, job.options));
   Located made;
   made.document = document_of(job, in, std::move(search));
   claim_what_just_fits(job, made.document);
@@ -229,6 +229,14 @@ Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwa
   made.result = io::result_json(made.document);
   LEKALO_CHECK(self_check(job, made));
   return made;
+}
+
+Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwatch& stopwatch) {
+  return locate_checked(
+      [&](const locate::Problem& problem, const LocateOptions& options) {
+        return searched(problem, options, run, stopwatch);
+      },
+      job);
 }
 
 }  // namespace lekalo::jobs

@@ -55,7 +55,9 @@ Result<std::string> picture_of(const LocateJob& job, const LocateInputs& in, con
     picture.outlines = rings_of(in, d);
   else
     picture.outlines = regions_of(d);
-  return job.outputs.picture == PictureFormat::svg ? draw::picture_svg(picture) : draw::picture_png(picture);
+  if (job.outputs.picture == PictureForm::pdf)
+    return failure(ErrorCode::usage, "a placement is drawn as SVG or PNG; reports are written as PDF too");
+  return job.outputs.picture == PictureForm::svg ? draw::picture_svg(picture) : draw::picture_png(picture);
 }
 
 /// Those of the demands, and one of all other edges.
@@ -95,27 +97,27 @@ Result<draw::ReportShapes> shapes_of(const LocateInputs& in, const io::LocateDoc
                             part.edge_numbers, blank.edge_numbers};
 }
 
-Result<std::string> page_of(const draw::Report& report, ReportFormat format) {
-  if (format == ReportFormat::pdf) return draw::report_pdf(report);
-  return format == ReportFormat::png ? draw::report_png(report) : draw::report_svg(report);
+Result<std::string> page_of(const draw::Report& report, PictureForm form) {
+  if (form == PictureForm::pdf) return draw::report_pdf(report);
+  return form == PictureForm::png ? draw::report_png(report) : draw::report_svg(report);
 }
 
 Result<void> add_reports(const LocateOutputs& wanted, const LocateInputs& in, Located& made) {
-  const bool page = wanted.report != ReportFormat::none, drawing = wanted.drawing != DrawingFormat::none;
-  if (!page && !drawing && !wanted.allowances) return {};
+  const bool drawing = wanted.drawing != DrawingFormat::none;
+  if (!wanted.report && !drawing && !wanted.allowances) return {};
   const io::LocateDocument& d = made.document;
   LEKALO_TRY(draw::ReportShapes shapes, shapes_of(in, d));
   if (drawing) {
     LEKALO_TRY(made.drawing,
                placed_drawing(wanted.drawing, shapes.part, shapes.blank, d.placement, d.mirrored));
   }
-  if (!page && !wanted.allowances) return {};
+  if (!wanted.report && !wanted.allowances) return {};
   std::vector<draw::ReportFeature> features;
   if (d.demands && !d.demands->features.empty()) features = all_features(*d.demands, d.part);
   LEKALO_TRY(const draw::Report report, draw::make_report(d, std::move(shapes), std::move(features)));
   if (wanted.allowances) made.allowances = draw::allowances_csv(report);
-  if (page) {
-    LEKALO_TRY(made.report, page_of(report, wanted.report));
+  if (wanted.report) {
+    LEKALO_TRY(made.report, page_of(report, *wanted.report));
   }
   return {};
 }
@@ -123,7 +125,7 @@ Result<void> add_reports(const LocateOutputs& wanted, const LocateInputs& in, Lo
 }  // namespace
 
 Result<void> add_pictures(const LocateJob& job, const LocateInputs& in, Located& made) {
-  if (job.outputs.picture != PictureFormat::none) {
+  if (job.outputs.picture) {
     LEKALO_TRY(made.picture, picture_of(job, in, made.document));
   }
   return add_reports(job.outputs, in, made);

@@ -40,25 +40,26 @@ Result<CutBefore> cut_by_programs(const PocketJob& job) {
 }
 
 /// Supposes that a larger tool has cut what this job would cut with it.
-Result<CutBefore> cut_by_larger_tool(const PocketJob& job, const PhaseListener& phases) {
+Result<CutBefore> cut_by_larger_tool(const PocketJob& job, const io::ReadOutline& outline,
+                                     const PhaseListener& phases) {
   PocketOptions first = job.options;
   if (!(first.rest_of > first.path.tool_diameter))
     return failure(ErrorCode::bad_input,
                    fmt::format("--rest {:g}: the tool before is to be larger than this one, {:g} mm",
                                first.rest_of, first.path.tool_diameter));
   first.path.tool_diameter = first.rest_of;
-  LEKALO_TRY(const PocketGround ground, pocket_ground(job.outline, first));
+  LEKALO_TRY(const PocketGround ground, pocket_ground(job.pocket.name, outline, first));
   const Result<mill::PocketPath> path =
       mill::pocket_path(ground.extended, first.path, {}, begin_phase(phases, "planning the tool before"));
   if (!path)
-    return failure(path.error().code, fmt::format("{}: --rest {:g}: {}", job.outline.file.name, first.rest_of,
-                                                  path.error().message));
+    return failure(path.error().code,
+                   fmt::format("{}: --rest {:g}: {}", job.pocket.name, first.rest_of, path.error().message));
   return CutBefore{{{{"the program of the tool before", mill::program_of(*path, {})}, first.rest_of}},
                    mill::cuts_of(*path, first.rest_of)};
 }
 
 std::vector<std::string> comments_of(const PocketJob& job) {
-  const std::string& name = job.outline.file.name;
+  const std::string& name = job.pocket.name;
   const mill::PocketOptions& path = job.options.path;
   return {"lekalo pocket " + name.substr(name.find_last_of('/') + 1),
           fmt::format("tool {:g} mm depth {:g} mm stock to leave {:g} mm", path.tool_diameter, path.depth,
@@ -66,10 +67,10 @@ std::vector<std::string> comments_of(const PocketJob& job) {
 }
 
 Result<void> add_pictures(const PocketJob& job, const PocketGround& ground, Pocketed& made) {
-  if (job.picture == CutPicture::none && !job.animation) return {};
+  if (!job.picture && !job.animation) return {};
   const mill::PocketOptions& path = job.options.path;
-  draw::PocketPicture picture = cut_picture_of(job.outline.file.name, job.outline.regions, path.tool_diameter,
-                                               path.stock_to_leave, made.report);
+  draw::PocketPicture picture =
+      cut_picture_of(job.pocket.name, ground.pockets, path.tool_diameter, path.stock_to_leave, made.report);
   if (path.method != mill::Method::fronts && !path.whole) {
     LEKALO_TRY(picture.fragments, mill::convex_fragments(ground.extended));
   }
@@ -95,12 +96,13 @@ Result<void> add_images(const PocketJob& job, const PocketGround& ground, Pocket
 
 /// \pre the comments of the program are those of this job
 Result<Pocketed> made_and_judged(const PocketJob& job, const PhaseListener& phases) {
-  LEKALO_TRY(const PocketGround ground, pocket_ground(job.outline, job.options));
+  LEKALO_TRY(io::ReadOutline outline, pocket_outline(job));
+  LEKALO_TRY(const PocketGround ground, pocket_ground(job.pocket.name, outline, job.options));
   LEKALO_TRY(const CutBefore before,
-             job.options.rest_of > 0 ? cut_by_larger_tool(job, phases) : cut_by_programs(job));
+             job.options.rest_of > 0 ? cut_by_larger_tool(job, outline, phases) : cut_by_programs(job));
   Result<mill::PocketPath> path = mill::pocket_path(ground.extended, job.options.path, before.cuts,
                                                     begin_phase(phases, "planning the path"));
-  if (!path) return failure(path.error().code, job.outline.file.name + ": " + path.error().message);
+  if (!path) return failure(path.error().code, job.pocket.name + ": " + path.error().message);
   LEKALO_TRY(JudgedProgram judged,
              judged_program(std::move(*path), job, ground, earlier_documents(before.programs), phases));
   Pocketed made;
@@ -108,7 +110,7 @@ Result<Pocketed> made_and_judged(const PocketJob& job, const PhaseListener& phas
   made.report = std::move(judged.report);
   made.hot_cuts = hot_cuts(made.report, job.options.path.step_over);
   made.ramps = reported_ramps(judged.ramps);
-  made.notices = job.outline.notices;
+  made.notices = std::move(outline.notices);
   made.json = pocket_json(job, made);
   LEKALO_CHECK(add_pictures(job, ground, made));
   LEKALO_CHECK(add_images(job, ground, made));

@@ -19,11 +19,12 @@ bool is_listed(const std::vector<std::string>& layers, const std::string& label)
   return std::find(layers.begin(), layers.end(), label) != layers.end();
 }
 
-Result<void> check_known(const PocketOutline& outline, const std::vector<std::string>& layers) {
+Result<void> check_known(const std::string& name, const locate::Outline& outline,
+                         const std::vector<std::string>& layers) {
   for (const std::string& layer : layers)
     if (!is_listed(outline.labels, layer))
       return failure(ErrorCode::bad_input,
-                     fmt::format("{}: no outline has an edge on the layer \"{}\"", outline.file.name, layer));
+                     fmt::format("{}: no outline has an edge on the layer \"{}\"", name, layer));
   return {};
 }
 
@@ -66,18 +67,22 @@ Result<geom::Region> strip_beyond(const geom::Edge& edge, double width) {
 /// Goes through the edges of an outline in the order of their labels.
 class GroundMaker {
  public:
-  GroundMaker(const PocketOutline& outline, const PocketOptions& options)
-      : outline_(outline), options_(options), all_(outline.regions) {}
+  GroundMaker(const std::string& name, const io::ReadOutline& read, const PocketOptions& options)
+      : name_(name),
+        outline_(read.outline),
+        said_open_(read.open),
+        options_(options),
+        all_(read.outline.regions) {}
 
   Result<PocketGround> made() {
     for (const geom::Region& region : outline_.regions) {
       LEKALO_CHECK(look_at(region.outer, true));
       for (const geom::Contour& hole : region.holes) LEKALO_CHECK(look_at(hole, false));
     }
-    PocketGround ground{outline_.regions, io::regions_json(outline_.regions, open_)};
+    PocketGround ground{outline_.regions, outline_.regions, io::regions_json(outline_.regions, open_)};
     if (open_.empty()) return ground;
     Result<geom::BooleanResult> whole = geom::united(all_);
-    if (!whole) return failure(whole.error().code, outline_.file.name + ": " + whole.error().message);
+    if (!whole) return failure(whole.error().code, name_ + ": " + whole.error().message);
     ground.extended = std::move(whole->regions);
     return ground;
   }
@@ -85,18 +90,18 @@ class GroundMaker {
  private:
   Result<void> look_at(const geom::Contour& contour, bool outer) {
     for (const geom::Edge& edge : contour) {
-      const std::string label = outline_.labels.empty() ? "" : outline_.labels[edge_++];
+      const std::string& label = outline_.labels[edge_++];
       if (outer && is_listed(options_.island_layers, label))
         return failure(ErrorCode::bad_input,
                        fmt::format("{}: the island on layer \"{}\" at ({:.6g}, {:.6g}) lies in no pocket",
-                                   outline_.file.name, label, edge.from.x, edge.from.y));
+                                   name_, label, edge.from.x, edge.from.y));
       if (is_listed(options_.open_layers, label) || is_said_open(edge)) LEKALO_CHECK(open(edge));
     }
     return {};
   }
 
   [[nodiscard]] bool is_said_open(const geom::Edge& edge) const {
-    return std::any_of(outline_.open.begin(), outline_.open.end(),
+    return std::any_of(said_open_.begin(), said_open_.end(),
                        [&](const geom::Edge& said) { return are_same(said, edge); });
   }
 
@@ -104,15 +109,16 @@ class GroundMaker {
     Result<geom::Region> strip =
         strip_beyond(edge, options_.path.tool_diameter / 2 + options_.path.stock_to_leave);
     if (!strip)
-      return failure(strip.error().code,
-                     fmt::format("{}: the open edge at ({:.6g}, {:.6g}): {}", outline_.file.name, edge.from.x,
-                                 edge.from.y, strip.error().message));
+      return failure(strip.error().code, fmt::format("{}: the open edge at ({:.6g}, {:.6g}): {}", name_,
+                                                     edge.from.x, edge.from.y, strip.error().message));
     open_.push_back(edge);
     all_.push_back(std::move(*strip));
     return {};
   }
 
-  const PocketOutline& outline_;
+  const std::string& name_;
+  const locate::Outline& outline_;
+  const std::vector<geom::Edge>& said_open_;
   const PocketOptions& options_;
   std::size_t edge_ = 0;
   std::vector<geom::Region> all_;  ///< the pockets, then the strips beyond open edges
@@ -121,10 +127,19 @@ class GroundMaker {
 
 }  // namespace
 
-Result<PocketGround> pocket_ground(const PocketOutline& outline, const PocketOptions& options) {
+Result<io::ReadOutline> pocket_outline(const PocketJob& job) {
+  io::OutlineOptions how = job.options.outline;
+  if (!how.layers.empty())
+    for (const auto* layers : {&job.options.island_layers, &job.options.open_layers})
+      how.layers.insert(how.layers.end(), layers->begin(), layers->end());
+  return io::read_outline(job.pocket.bytes, job.pocket.name, how);
+}
+
+Result<PocketGround> pocket_ground(const std::string& name, const io::ReadOutline& outline,
+                                   const PocketOptions& options) {
   for (const auto* layers : {&options.island_layers, &options.open_layers})
-    LEKALO_CHECK(check_known(outline, *layers));
-  return GroundMaker(outline, options).made();
+    LEKALO_CHECK(check_known(name, outline.outline, *layers));
+  return GroundMaker(name, outline, options).made();
 }
 
 }  // namespace lekalo::jobs

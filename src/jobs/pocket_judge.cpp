@@ -94,7 +94,7 @@ class Judge {
           ErrorCode::refuted,
           fmt::format("{}: the program found would cut {:.4f} mm into what stays, or {:.3f} mm in rapid "
                       "motion; nothing is written, please report the pocket",
-                      job_.outline.file.name, report->gouge_mm, report->rapid_cut_mm));
+                      job_.pocket.name, report->gouge_mm, report->rapid_cut_mm));
     return report;
   }
 

@@ -67,7 +67,7 @@ std::string pocket_json(const PocketJob& job, const Pocketed& made) {
   const PocketOptions& o = job.options;
   io::JsonWriter json = begin_document("lekalo-pocket");
   json.field("units", "mm").key("inputs").begin_list();
-  write_file(json, "pocket", job.outline.file);
+  write_file(json, "pocket", job.pocket);
   write_earlier(json, job.after);
   json.end().key("outputs").begin_list();
   write_file(json, "program", {job.written_as, made.program});

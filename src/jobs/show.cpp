@@ -20,13 +20,6 @@ std::string show_json(const Layout& layout, const Shown& shown) {
   return end_document(json);
 }
 
-std::optional<PictureForm> picture_form(std::string_view name) noexcept {
-  if (name.ends_with(".svg")) return PictureForm::svg;
-  if (name.ends_with(".png")) return PictureForm::png;
-  if (name.ends_with(".pdf")) return PictureForm::pdf;
-  return std::nullopt;
-}
-
 Result<std::string> layout_picture(const layout::Document& document, std::string_view title,
                                    const std::vector<layout::Violation>& violations, PictureForm form) {
   const layout::Completeness completeness = layout::completeness(layout::Workspace(document));

@@ -33,7 +33,7 @@ std::string samples_csv(const verify::SimulateReport& r) {
 }
 
 Result<void> add_pictures(const SimulateJob& job, Simulated& done) {
-  if (job.picture == CutPicture::none && !job.animation) return {};
+  if (!job.picture && !job.animation) return {};
   std::vector<geom::Edge> open;
   LEKALO_TRY(const io::RegionFile pocket, io::parse_regions(job.pocket.bytes, job.pocket.name, {}, &open));
   const draw::PocketPicture picture =

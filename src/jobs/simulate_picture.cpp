@@ -72,9 +72,11 @@ draw::PocketPicture cut_picture_of(const std::string& pocket_path, const std::ve
   return picture;
 }
 
-Result<std::string> drawn(const draw::PocketPicture& picture, CutPicture form) {
-  if (form == CutPicture::png) return draw::pocket_png(picture);
-  return form == CutPicture::svg ? draw::pocket_svg(picture) : "";
+Result<std::string> drawn(const draw::PocketPicture& picture, std::optional<PictureForm> form) {
+  if (form == PictureForm::pdf)
+    return failure(ErrorCode::usage, "what a program cuts is drawn as SVG or PNG");
+  if (form == PictureForm::png) return draw::pocket_png(picture);
+  return form ? draw::pocket_svg(picture) : "";
 }
 
 }  // namespace lekalo::jobs

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace lekalo::jobs {
                                                  double tool_diameter, double stock_to_leave,
                                                  const verify::SimulateReport& report);
 
-/// The picture's bytes in a form; none for CutPicture::none.
-[[nodiscard]] Result<std::string> drawn(const draw::PocketPicture& picture, CutPicture form);
+/// The picture's bytes in a form, none where none is asked for.
+[[nodiscard]] Result<std::string> drawn(const draw::PocketPicture& picture, std::optional<PictureForm> form);
 
 }  // namespace lekalo::jobs

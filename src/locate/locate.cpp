@@ -61,9 +61,7 @@ Result<Found> by_poses(const RegionProblem& shapes, const RegionOptions& search)
 }
 
 Result<Found> by_demands(const Demands& demands, const RegionProblem& shapes, const RegionOptions& search) {
-  Result<DemandResult> r = locate_demands(
-      {shapes, demands.features, demands.minimum, demands.criterion, demands.give_up, demands.trade_off},
-      search);
+  Result<DemandResult> r = locate_demands({demands, shapes}, search);
   LEKALO_CHECK(r);
   Found found;
   found.status = r->status, found.best = r->best, found.mirrored = r->mirrored, found.work = r->work;

@@ -17,14 +17,18 @@
 #       room of a program reaches the rooms that it states, and the files beside the rooms;
 #   (8) no folder of the product holds more than 40 files of its own;
 #   (9) only src/verify/number includes GMP and MPFR: a target without them replaces that room alone;
-#   (10) test names are sentences in CamelCase;
-#   (11) headers that the compiler needs seconds for stand behind a few files, so that a cold build stays short;
-#   (12) every header may be included twice: "#pragma once" is its first directive.
+#   (10) only src/base/parallel.cpp starts threads, and only apps may beside it: compiled without them the library
+#       gives the same bytes;
+#   (11) test names are sentences in CamelCase;
+#   (12) headers that the compiler needs seconds for stand behind a few files, so that a cold build stays short;
+#   (13) every header may be included twice: "#pragma once" is its first directive.
 cmake_minimum_required(VERSION 3.25)
 
 set(forbidden_below_disk fstream iostream filesystem chrono ctime time.h random)
 set(forbidden_below_io unordered_map unordered_set)
 set(number_headers gmp.h gmpxx.h mpfr.h)
+set(thread_headers thread mutex shared_mutex condition_variable future semaphore latch barrier stop_token execution
+    pthread.h)
 set(most_files 40)
 # What the header is called, and the only files that may include it.
 set(heavy "^nlohmann/" "^boost/" "^CLI/" "^fmt/format[.]h$")
@@ -162,6 +166,8 @@ function(check_file FILE MODULE)
       violation("${FILE} includes <${path}>: below io nothing may depend on the order of a hash")
     elseif(path IN_LIST number_headers AND NOT FILE MATCHES "^src/verify/number/")
       violation("${FILE} includes <${path}>: only src/verify/number may use GMP and MPFR")
+    elseif(path IN_LIST thread_headers AND NOT MODULE STREQUAL "apps" AND NOT FILE STREQUAL "src/base/parallel.cpp")
+      violation("${FILE} includes <${path}>: below the apps only src/base/parallel.cpp may use threads")
     endif()
   endforeach()
   math(EXPR checked "${checked} + 1")

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/jobs/simulate.hpp"
+#include "support/io_contours.hpp"
 #include "support/json.hpp"
 
 namespace lekalo::jobs {
@@ -15,11 +15,14 @@ const std::string kPlate =
     R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[30,0]}},{"line":{"from":[30,0],"to":[30,20]}},)"
     R"({"line":{"from":[30,20],"to":[0,20]}},{"line":{"from":[0,20],"to":[0,0]}}]})";
 
+/// The plate as a drawing, its upper edge on the layer OPEN.
+const std::string kDrawnPlate =
+    io_cases::dxf_entities(io_cases::line({0, 0}, {30, 0}, 0) + io_cases::line({30, 0}, {30, 20}, 0) +
+                           io_cases::line({30, 20}, {0, 20}, 0, "OPEN") + io_cases::line({0, 20}, {0, 0}, 0));
+
 PocketJob plate_job() {
   PocketJob job;
-  job.outline.file = {"folder/plate.json", kPlate};
-  job.outline.regions = io::parse_regions(kPlate, "plate.json")->regions;
-  job.outline.labels = {"", "", "OPEN", ""};
+  job.pocket = {"folder/plate.dxf", kDrawnPlate};
   job.options.path.tool_diameter = 6;
   job.options.path.depth = 2;
   return job;
@@ -45,11 +48,11 @@ TEST(JobsPocket, WhatWasNotAskedForIsNotMade) {
   const Result<Pocketed> plain = pocket(job);
   ASSERT_TRUE(plain);
   EXPECT_TRUE(plain->picture.empty() && plain->animation.empty() && plain->images.empty());
-  job.picture = CutPicture::svg, job.animation = true;
+  job.picture = PictureForm::svg, job.animation = true;
   const Result<Pocketed> drawn = pocket(job);
   ASSERT_TRUE(drawn);
   EXPECT_NE(drawn->picture.find("<svg"), std::string::npos);
-  EXPECT_NE(drawn->picture.find(">plate.json<"), std::string::npos);
+  EXPECT_NE(drawn->picture.find(">plate.dxf<"), std::string::npos);
   EXPECT_NE(drawn->animation.find("<html"), std::string::npos);
   EXPECT_EQ(drawn->program, plain->program);
 }
@@ -84,12 +87,25 @@ TEST(JobsPocket, BeyondAnOpenEdgeTheToolMayStand) {
   EXPECT_LE(open->report.gouge_mm, 0.005);
 }
 
+TEST(JobsPocket, LayersOfIslandsAndOpenEdgesAreReadToo) {
+  PocketJob job = plate_job();
+  job.options.open_layers = {"OPEN"};
+  const Result<Pocketed> all = pocket(job);
+  job.options.outline.layers = {"CUT"};
+  const Result<Pocketed> some = pocket(job);
+  ASSERT_TRUE(all && some);
+  EXPECT_EQ(some->program, all->program);
+}
+
 TEST(JobsPocket, WhatCannotBeIsRefused) {
   const auto message = [](const PocketJob& job) {
     const Result<Pocketed> made = pocket(job);
     return made ? "made" : made.error().message;
   };
   PocketJob job = plate_job();
+  job.pocket = {"folder/plate.json", kPlate.substr(0, 60)};
+  EXPECT_NE(message(job).find("folder/plate.json"), std::string::npos);
+  job = plate_job();
   job.options.island_layers = {"ISLAND"};
   EXPECT_NE(message(job).find("no outline has an edge on the layer \"ISLAND\""), std::string::npos);
   job.options.island_layers = {"OPEN"};
@@ -98,8 +114,10 @@ TEST(JobsPocket, WhatCannotBeIsRefused) {
   job.options.rest_of = 5;
   EXPECT_NE(message(job).find("is to be larger than this one"), std::string::npos);
   job = plate_job();
+  job.picture = PictureForm::pdf;
+  EXPECT_NE(message(job).find("SVG or PNG"), std::string::npos);
   job.options.path.tool_diameter = 50;
-  EXPECT_NE(message(job).find("folder/plate.json: "), std::string::npos);
+  EXPECT_NE(message(job).find("folder/plate.dxf: "), std::string::npos);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "interrupt.hpp"
 #include "lekalo/disk/files.hpp"
 #include "outputs.hpp"
-#include "pocket_input.hpp"
 #include "summary.hpp"
 
 namespace lekalo::cli {
@@ -23,11 +22,12 @@ Result<void> check_paths(const PocketOptions& o) {
 
 Result<jobs::PocketJob> read_job(const PocketOptions& o) {
   jobs::PocketJob job;
-  LEKALO_TRY(job.outline, read_pocket_outline(o));
+  job.pocket.name = o.pocket;
+  LEKALO_TRY(job.pocket.bytes, disk::read_file(o.pocket));
   LEKALO_TRY(job.after, read_earlier(o.after));
   job.options = o;
   job.written_as = o.output;
-  job.picture = picture_form(o.picture);
+  job.picture = jobs::picture_form(o.picture);
   job.animation = !o.animation.empty();
   job.images = !o.images.empty();
   return job;

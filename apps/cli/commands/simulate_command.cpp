@@ -26,7 +26,7 @@ Result<jobs::SimulateJob> read_job(const SimulateOptions& o) {
   LEKALO_TRY(job.pocket.bytes, disk::read_file(o.pocket));
   LEKALO_TRY(job.after, read_earlier(o.after));
   job.machining = o.machining;
-  job.picture = picture_form(o.picture);
+  job.picture = jobs::picture_form(o.picture);
   job.animation = !o.animation.empty();
   job.samples = !o.samples.empty();
   return job;

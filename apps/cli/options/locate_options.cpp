@@ -166,16 +166,12 @@ void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) 
   const std::string ending = std::filesystem::path(o.picture).extension().string();
   read.require(o.picture.empty() || ending == ".svg" || ending == ".png",
                fmt::format("--picture: the name \"{}\" ends neither in .svg nor in .png", o.picture));
-  if (!o.picture.empty())
-    o.outputs.picture = ending == ".svg" ? jobs::PictureFormat::svg : jobs::PictureFormat::png;
+  o.outputs.picture = jobs::picture_form(o.picture);
   const std::string page = std::filesystem::path(o.report).extension().string();
   read.require(
       o.report.empty() || page == ".svg" || page == ".pdf" || page == ".png",
       fmt::format("--report: the name \"{}\" ends neither in .svg nor in .pdf nor in .png", o.report));
-  if (!o.report.empty())
-    o.outputs.report = page == ".pdf"   ? jobs::ReportFormat::pdf
-                       : page == ".png" ? jobs::ReportFormat::png
-                                        : jobs::ReportFormat::svg;
+  o.outputs.report = jobs::picture_form(o.report);
   read.require(o.drawing.empty() || o.drawing.ends_with(".dxf") || o.drawing.ends_with(".svg"),
                fmt::format("--drawing: the name \"{}\" ends neither in .dxf nor in .svg", o.drawing));
   if (!o.drawing.empty())

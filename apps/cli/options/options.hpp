@@ -18,9 +18,6 @@
 
 namespace lekalo::cli {
 
-/// How a part's or a blank's file is read.
-using ShapeOptions = io::OutlineOptions;
-
 /// Holds what `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
   std::string part, blank, nc, compare, features;
@@ -66,7 +63,6 @@ struct PocketOptions : jobs::PocketOptions {
   std::string picture, animation;  ///< may be empty
   std::string images;              ///< prefix of the M-images of the source's methods; may be empty
   bool json = false;
-  ShapeOptions shape;
   std::vector<EarlierFile> after;
 };
 

@@ -131,14 +131,14 @@ Result<Command> to_pocket(const PocketWords& w) {
   if (!w.units.empty()) {
     LengthUnit unit{};
     read.choice("--units", w.units, kUnits, unit);
-    o.shape.units = unit;
+    o.outline.units = unit;
   }
   if (!w.join.empty()) {
     double join = 0;
     read.number("--join", w.join, 0.0, kLargestLength, "a length from 0 mm on", join);
-    o.shape.join = join;
+    o.outline.join = join;
   }
-  o.shape.layers = w.layers;
+  o.outline.layers = w.layers;
   o.island_layers = w.island_layers, o.open_layers = w.open_layers;
   read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
                "--picture " + w.picture + ": the name has to end in .svg or .png");

@@ -11,6 +11,7 @@
 #include "lekalo/io/formats/outline_file.hpp"
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/jobs/file.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/reference.hpp"
 #include "lekalo/nc/rewrite.hpp"
@@ -42,17 +43,15 @@ struct LocateOptions {
   nc::RewriteOptions rewrite;
 };
 
-enum class PictureFormat { none, svg, png };
-enum class ReportFormat { none, svg, pdf, png };
 enum class DrawingFormat { none, dxf, svg };
 
 /// Says what is made beside the result. Names are those by which the result calls these documents.
 struct LocateOutputs {
-  std::string certificate;  ///< empty: the proof stands in the result, if it is not too long
-  std::string deviations;   ///< the distance of every probed point as CSV; empty: not made
-  std::string program;      ///< of the rewritten program; \pre not empty where the job has one
-  PictureFormat picture = PictureFormat::none;
-  ReportFormat report = ReportFormat::none;
+  std::string certificate;             ///< empty: the proof stands in the result, if it is not too long
+  std::string deviations;              ///< the distance of every probed point as CSV; empty: not made
+  std::string program;                 ///< of the rewritten program; \pre not empty where the job has one
+  std::optional<PictureForm> picture;  ///< SVG or PNG
+  std::optional<PictureForm> report;
   bool allowances = false;  ///< the allowance along the outline as CSV
   DrawingFormat drawing =
       DrawingFormat::none;  ///< the blank and the part as it lies, on layers BLANK and PART
@@ -96,6 +95,7 @@ using Stopwatch = std::function<double()>;
 /// search. `run` is for the search: its unit of work is that of the method.
 ///
 /// Errors: bad_input and usage as of the readers and searches, and for what only convex outlines can have;
+/// usage for a picture as PDF;
 /// program_refused as of nc::rewrite_program; environment where a drawing library fails; refuted where the
 /// checker does not confirm the result, which is a mistake of ours. Cost: that of the search and about as
 /// much for the check.

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
-#include "lekalo/geom/region.hpp"
+#include "lekalo/geom/point.hpp"
+#include "lekalo/io/formats/outline_file.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/phases.hpp"
 #include "lekalo/jobs/simulate.hpp"
@@ -16,18 +17,10 @@
 
 namespace lekalo::jobs {
 
-/// The outlines of a file of pockets, as its reader gives them.
-struct PocketOutline {
-  File file;
-  std::vector<geom::Region> regions;  ///< mm, made by make_region, without faults
-  /// The layer of every edge, outer contours before their holes; "" where an edge is on none. May be empty.
-  std::vector<std::string> labels;
-  std::vector<geom::Edge> open;      ///< edges that the file itself says are no walls
-  std::vector<std::string> notices;  ///< what the reader noticed, a sentence each
-};
-
 /// How a pocket is to be cleared.
 struct PocketOptions {
+  /// How the file is read. Where `layers` names some, those of islands and open edges are read too.
+  io::OutlineOptions outline;
   mill::PocketOptions path;
   mill::ProgramOptions program;            ///< \pre in range; its comments are replaced
   std::vector<std::string> island_layers;  ///< what edges on these layers enclose stays
@@ -39,12 +32,12 @@ struct PocketOptions {
 };
 
 struct PocketJob {
-  PocketOutline outline;
+  File pocket;  ///< the outlines of the pockets, in any form that io::OutlineFile reads
   PocketOptions options;
   std::vector<EarlierProgram> after;  ///< \pre empty with options.rest_of
   std::string written_as;             ///< the name of the program's file, for the report
   // Documents beside program and report, made only where they are asked for:
-  CutPicture picture = CutPicture::none;
+  std::optional<PictureForm> picture;  ///< SVG or PNG
   bool animation = false;
   bool images = false;  ///< \pre options.path.method is one of the source's
 };
@@ -83,9 +76,10 @@ struct Pocketed {
 /// The phases are "planning the tool before" (with rest_of), "planning the path", and "checking the program"
 /// once for each whole judgement.
 ///
-/// Errors: bad_input for what mill::pocket_path refuses, an island (a contour with edges on an island layer)
-/// that lies in no pocket, a layer with no edge on it, a tool before that is not larger, and earlier programs
-/// that the checker cannot read. ErrorCode::refuted where the checker does not let the program pass.
+/// Errors: bad_input for what io::read_outline and mill::pocket_path refuse, an island (a contour with edges
+/// on an island layer) that lies in no pocket, a layer with no edge on it, a tool before that is not larger,
+/// and earlier programs that the checker cannot read. ErrorCode::usage for a picture as PDF, and refuted
+/// where the checker does not let the program pass.
 ///
 /// Cost: planning, and two to six judgements; a pocket of 100 x 60 mm takes about a second.
 [[nodiscard]] Result<Pocketed> pocket(PocketJob job, const PhaseListener& phases = {});

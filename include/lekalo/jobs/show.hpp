@@ -1,12 +1,12 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/jobs/layout.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
 
@@ -23,10 +23,6 @@ struct Shown {
 
 /// The figures as "lekalo-show" JSON (docs/cli.md) with an empty member "run", ending in a line end.
 [[nodiscard]] std::string show_json(const Layout& layout, const Shown& shown);
-
-enum class PictureForm { svg, png, pdf };
-/// The form that the ending of a file's name says: .svg, .png or .pdf; none for others.
-[[nodiscard]] std::optional<PictureForm> picture_form(std::string_view name) noexcept;
 
 /// The layout on one page (draw/layout_picture.hpp) with these violations marked; PDF has pages of tables
 /// behind it. `title` may be any bytes, what is not UTF-8 becomes U+FFFD.

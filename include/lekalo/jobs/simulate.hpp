@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/phases.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::jobs {
@@ -16,9 +18,6 @@ struct EarlierProgram {
   double tool_diameter = 0;  ///< mm, above 0
 };
 
-/// The form of a picture of what a program cuts.
-enum class CutPicture { none, svg, png };
-
 /// A program to be judged against the pocket that it is to clear.
 struct SimulateJob {
   File program;
@@ -26,7 +25,7 @@ struct SimulateJob {
   std::vector<EarlierProgram> after;
   verify::SimulateOptions machining;
   // Documents beside the report, made only where they are asked for:
-  CutPicture picture = CutPicture::none;
+  std::optional<PictureForm> picture;  ///< SVG or PNG
   bool animation = false;
   bool samples = false;
 };
@@ -42,7 +41,7 @@ struct Simulated {
 
 /// Follows the program with the independent checker and says what it cuts. The only phase is
 /// "following the program". Errors and cost are those of verify::simulate; a picture adds
-/// ErrorCode::environment for a drawing library that fails.
+/// ErrorCode::environment for a drawing library that fails, and usage for one as PDF.
 [[nodiscard]] Result<Simulated> simulate(const SimulateJob& job, const PhaseListener& phases = {});
 
 }  // namespace lekalo::jobs

@@ -39,13 +39,17 @@ enum class Criterion {
   even
 };
 
-struct DemandProblem {
-  RegionProblem shapes;  ///< without caps
+/// Holds what is asked for beside the largest clearance.
+struct Demands {
   std::vector<Feature> features;
   double minimum = 0;  ///< of edges that belong to no feature, mm, >= 0
   Criterion criterion = Criterion::smallest;
   double give_up = 0;         ///< of the margin, for the second and third criterion, mm, >= 0
   std::size_t trade_off = 0;  ///< points of the curve to compute, 0 or at least 2
+};
+
+struct DemandProblem : Demands {
+  RegionProblem shapes;  ///< without caps
 };
 
 /// A placement on the curve of smallest against largest allowance.

@@ -15,15 +15,6 @@ namespace lekalo::locate {
 /// Certified global localisation: where does the part lie best in the blank, and why is no placement better?
 /// The searches beneath are locate_convex, locate_regions and locate_demands.
 
-/// Holds what is asked for beside the largest clearance (demand.hpp).
-struct Demands {
-  std::vector<Feature> features;
-  double minimum = 0;  ///< of edges that belong to no feature, mm, >= 0
-  Criterion criterion = Criterion::smallest;
-  double give_up = 0;         ///< of the margin, for the second and third criterion, mm, >= 0
-  std::size_t trade_off = 0;  ///< points of the curve to compute, 0 or at least 2
-};
-
 struct Problem {
   Outline part, blank;
   AngleWindow window;

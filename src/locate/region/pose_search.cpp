@@ -616,7 +616,8 @@ void PoseSearch::run() {
   std::uint64_t divided = 0, next_dive = kFirstDive;
   while (!open.empty()) {
     if (closed(open.front().upper) || best_.value >= goal_.enough) break;
-    if (work_ >= run_.work_limit || run_.stop_requested()) {
+    // The root is always divided: before that nothing bounds it.
+    if (divided > 0 && (work_ >= run_.work_limit || run_.stop_requested())) {
       finished_ = false;
       break;
     }

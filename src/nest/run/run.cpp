@@ -5,8 +5,8 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <thread>
 
+#include "lekalo/base/parallel.hpp"
 #include "nest/exact/builder.hpp"
 #include "nest/exact/reason.hpp"
 #include "nest/exact/settle.hpp"
@@ -62,14 +62,7 @@ class Run {
  private:
   template <class Task>
   void each_strand(Task task) {
-    if (options_.threads < 2 || strands_.size() < 2) {
-      for (std::size_t k = 0; k < strands_.size(); ++k) task(*strands_[k], k);
-      return;
-    }
-    std::vector<std::thread> threads;
-    for (std::size_t k = 1; k < strands_.size(); ++k) threads.emplace_back([&, k] { task(*strands_[k], k); });
-    task(*strands_[0], 0);
-    for (std::thread& thread : threads) thread.join();
+    share_out(strands_.size(), options_.threads, [&](std::size_t k) { task(*strands_[k], k); });
   }
 
   bool is_over() const { return control_.stop_requested() || best_.work >= control_.work_limit; }

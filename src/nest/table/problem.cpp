@@ -345,9 +345,7 @@ void Problem::add_relative_angles() {
       relative_[i * angles_.size() + j] = static_cast<std::uint32_t>(k);
     }
   relative_count_ = relative_pairs_.size();
-  const std::size_t count = shapes_.size() * shapes_.size();
-  rows_ = std::make_unique<std::atomic<Row*>[]>(count);
-  for (std::size_t k = 0; k < count; ++k) rows_[k].store(nullptr, std::memory_order_relaxed);
+  rows_ = std::vector<MadeOnce<Row>>(shapes_.size() * shapes_.size());
 }
 
 std::uint32_t Problem::angle_index(geom::GridRotation rotation) {
@@ -499,18 +497,9 @@ const NoFit& Problem::make_table(std::size_t pair, std::size_t relative, const F
   const Box window = p.kind == SearchShape::Kind::part ? Box{} : p.window;
   const std::size_t cells = of_parts ? cells_ : tuning::kStockCells * cells_;
   auto made = std::make_unique<NoFit>(*of_p, turned_q, gap, cells, is_free, window, of_parts);
-  const std::lock_guard lock(making_);
-  Row* row = rows_[pair].load(std::memory_order_acquire);
-  if (row == nullptr) {
-    owned_rows_.push_back(std::make_unique<Row>(relative_count_));
-    row = owned_rows_.back().get();
-    rows_[pair].store(row, std::memory_order_release);
-  }
-  std::atomic<const NoFit*>& entry = (*row)[relative];
-  if (const NoFit* other = entry.load(std::memory_order_acquire)) return *other;
-  entry.store(made.get(), std::memory_order_release);
-  owned_.push_back(std::move(made));
-  return *owned_.back();
+  Row* const row = rows_[pair].find();
+  Row& kept = row != nullptr ? *row : rows_[pair].keep(std::make_unique<Row>(relative_count_));
+  return kept[relative].keep(std::move(made));
 }
 
 }  // namespace lekalo::nest

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
+#include "made_once.hpp"
 #include "nest/tuning/tuning.hpp"
 #include "nofit.hpp"
 
@@ -123,12 +121,12 @@ class Problem {
 
  private:
   /// The tables of a pair of shapes, by difference of angles. Each is made when it is first asked for.
-  using Row = std::vector<std::atomic<const NoFit*>>;
+  using Row = std::vector<MadeOnce<const NoFit>>;
   const NoFit& table(const Form& a, const Form& b) const {
     const std::size_t pair = std::size_t{a.shape} * shapes_.size() + b.shape;
     const std::size_t relative = relative_[a.angle * angles_.size() + b.angle];
-    if (const Row* row = rows_[pair].load(std::memory_order_acquire))
-      if (const NoFit* found = (*row)[relative].load(std::memory_order_acquire)) return *found;
+    if (const Row* row = rows_[pair].find())
+      if (const NoFit* found = (*row)[relative].find()) return *found;
     return make_table(pair, relative, a, b);
   }
   const NoFit& make_table(std::size_t pair, std::size_t relative, const Form& a, const Form& b) const;
@@ -157,10 +155,7 @@ class Problem {
   std::vector<std::uint32_t> relative_;
   std::vector<std::pair<double, double>> relative_pairs_;
   std::size_t relative_count_ = 1, cells_ = 0;
-  mutable std::unique_ptr<std::atomic<Row*>[]> rows_;
-  mutable std::vector<std::unique_ptr<Row>> owned_rows_;
-  mutable std::vector<std::unique_ptr<NoFit>> owned_;
-  mutable std::mutex making_;
+  mutable std::vector<MadeOnce<Row>> rows_;  ///< by pair of shapes
 };
 
 }  // namespace lekalo::nest

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <future>
 
 #include "cut_path.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/parallel.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -134,11 +134,11 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
     measure_gouge(path, reach, report);
     find_unreachable(reach, radius, report);
   };
-  std::future<void> left =
-      std::async(o.threads > 1 ? std::launch::async : std::launch::deferred, measure_what_is_left);
-  const std::vector<Removed> removed =
-      measure_engagement(path, reach.air(), radius, o.spacing, report, progress);
-  left.get();
+  std::vector<Removed> removed;
+  const auto measure_what_is_cut = [&] {
+    removed = measure_engagement(path, reach.air(), radius, o.spacing, report, progress);
+  };
+  share_out(2, o.threads, [&](std::size_t k) { k == 0 ? measure_what_is_cut() : measure_what_is_left(); });
   report.seconds = machine_seconds(moves, o);
   const double feed = cutting_feed(moves, report.samples);
   if (feed > 0) {
