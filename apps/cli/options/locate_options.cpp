@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "lekalo/io/formats/drawing_formats.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 
@@ -241,7 +242,9 @@ constexpr const char* kLocateFooter =
 void add_input_options(CLI::App& locate, LocateWords& w) {
   const WordAdder add(locate, "What to place");
   add("--part", w.part, "FILE",
-      "The part: points (.csv .txt .xyz), drawing (.dxf .svg), or .json: regions, primitives")
+      fmt::format("The part: points (.csv .txt .xyz), drawing ({}), or .json: regions, primitives",
+                  io::drawing_endings(" "))
+          .c_str())
       ->required();
   add("--blank", w.blank, "FILE",
       "The blank: its outline in the same formats, or a scan (also .ply, see below)")

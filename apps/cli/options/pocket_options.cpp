@@ -4,6 +4,7 @@
 
 #include "after_words.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
@@ -154,7 +155,8 @@ Typed add_pocket_form(CLI::App& app) {
   auto words = std::make_shared<PocketWords>();
   PocketWords& w = *words;
   app.add_option("pocket", w.pocket,
-                 "The pockets' outlines: JSON regions, DXF or SVG, a tree of primitives, points")
+                 fmt::format("The pockets' outlines: JSON regions, {}, a tree of primitives, points",
+                             io::drawing_names(", ", " or ")))
       ->required()
       ->type_name("FILE");
   const WordAdder add(app);

@@ -10,7 +10,7 @@
 #include "io/nesting/forms.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
-#include "lekalo/io/text/format.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -20,7 +20,8 @@ tl::unexpected<Error> no_layout(const std::string& path) {
                  path +
                      ": no layout; known are \"format\": \"lekalo-layout/1\", jobs of nesting programs "
                      "(strip_height and items; bin_types and item_types; Items and Objects; placements), "
-                     "regions (outer or pieces), trees of primitives (shape), DXF and SVG drawings");
+                     "regions (outer or pieces), trees of primitives (shape), " +
+                     drawing_names(", ", " and ") + " drawings");
 }
 
 /// Reads a file of placements, and the items that `find` has for it.
@@ -44,8 +45,7 @@ Result<LayoutFile> read_placed(const detail::JsonTree& tree, const std::string& 
 
 Result<LayoutFile> read_any_layout(std::string_view bytes, const std::string& name, const PartOptions& parts,
                                    const FindItems& find) {
-  const Format format = format_by_content(bytes);
-  if (format == Format::json) {
+  if (kJsonFormat.begins_so(bytes)) {
     const auto tree = detail::JsonTree::parse(bytes, name);
     if (!tree) return tl::unexpected(tree.error());
     const detail::JsonValue root = tree->root();
@@ -55,7 +55,7 @@ Result<LayoutFile> read_any_layout(std::string_view bytes, const std::string& na
                                               : detail::read_nesting_tree(*tree, name, *form, parts.unit);
     }
     if (!root.find("shape") && !root.find("outer") && !root.find("pieces")) return no_layout(name);
-  } else if (format == Format::unknown) {
+  } else if (drawing_format_by_content(bytes) == nullptr) {
     return no_layout(name);
   }
   auto read = read_parts(bytes, name, parts);
