@@ -77,6 +77,28 @@ says(${EXTENDED} said locate --part ${plt}/part.plt --blank ${plt}/blank.plt -o 
 names("${said}" "\"status\": \"optimal\"")
 says(${LEKALO} said verify plt.json)
 
+# ---- the criterion: help and refusals name it, its choice is another one, and the checker does not call that confirmed
+set(parts --part ${SOURCES}/examples/regions/bracket.json --blank ${SOURCES}/examples/regions/casting.json --gap 0.02)
+says(${EXTENDED} help locate --help)
+names("${help}" "smallest|largest|even|left")
+names("${help}" "the most even, or the one furthest to the left")
+ends(2 ${LEKALO} said locate ${parts} --criterion left)
+ends(2 ${EXTENDED} said locate ${parts} --criterion right)
+names("${said}" "smallest, largest, even, left")
+says(${EXTENDED} said locate ${parts} --criterion left --give-up 0.5 -o left.json)
+names("${said}" "does not know the criterion left")
+says(${EXTENDED} said locate ${parts} -o smallest.json)
+foreach(result left smallest)
+  file(READ ${WORK}/${result}.json document)
+  string(JSON x_${result} GET "${document}" x)
+endforeach()
+demand("the criterion that was added has not moved the part: x is ${x_left}" x_left LESS x_smallest)
+foreach(program LEKALO EXTENDED)
+  ends(1 ${${program}} said verify left.json)
+  names("${said}" "Incomplete: ")
+  names("${said}" "the criterion \"left\" is none that this checker knows")
+endforeach()
+
 # ---- more than two lines are noticed --------------------------------------------------------------------------------
 file(COPY ${SOURCES}/tests/extending/lay_over.py DESTINATION ${WORK}/planted)
 file(WRITE ${WORK}/planted/greedy/lines.txt

@@ -19,8 +19,8 @@ namespace lekalo::locate {
 struct Demands {
   std::vector<Feature> features;
   double minimum = 0;  ///< of edges that belong to no feature, mm, >= 0
-  Criterion criterion = Criterion::smallest;
-  double give_up = 0;         ///< of the margin, for the second and third criterion, mm, >= 0
+  Criterion criterion = criteria().front();
+  double give_up = 0;         ///< of the margin, for criteria that go on from the largest, mm, >= 0
   std::size_t trade_off = 0;  ///< points of the curve to compute, 0 or at least 2
 };
 

@@ -303,18 +303,6 @@ const char* name_of(locate::Mirror mirror) {
 
 Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
 
-const char* name_of(locate::Criterion criterion) {
-  switch (criterion) {
-    case locate::Criterion::smallest:
-      return "smallest";
-    case locate::Criterion::largest:
-      return "largest";
-    case locate::Criterion::even:
-      break;
-  }
-  return "even";
-}
-
 Json to_json(const locate::Feature& f) {
   return {{"name", f.name},
           {"edges", f.edges},
@@ -351,7 +339,7 @@ Json to_json(const DemandRecord& d) {
   for (const locate::TradeOff& point : d.curve) curve.push_back(to_json(point));
   return {{"minimum", d.minimum},
           {"features", std::move(features)},
-          {"criterion", name_of(d.criterion)},
+          {"criterion", d.criterion.name},
           {"give_up", d.give_up},
           {"margin", d.margin},
           {"margin_bound", d.margin_bound},
