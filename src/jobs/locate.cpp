@@ -62,6 +62,11 @@ io::DemandRecord record_of(const locate::Demands& asked, locate::DemandResult&& 
   return record;
 }
 
+/// The checker knows the criteria of lekalo, and not those that somebody added.
+bool leaves_choice_open(const io::LocateDocument& d) {
+  return d.demands && d.demands->margin_found >= 0 && !verify::knows_criterion(d.demands->criterion.name);
+}
+
 io::LocateDocument document_of(const LocateJob& job, const LocateInputs& in, Search&& search) {
   const locate::Problem& p = in.problem;
   locate::Found& found = search.found;
@@ -86,6 +91,11 @@ io::LocateDocument document_of(const LocateJob& job, const LocateInputs& in, Sea
   d.blank = p.blank.regions, d.blank_tolerance = p.blank.tolerance, d.scan = in.blank.scan;
   d.mirror = p.mirror, d.locked = p.locked;
   if (found.demands) d.demands = record_of(*p.demands, std::move(*found.demands));
+  if (leaves_choice_open(d))
+    d.warnings.push_back(fmt::format(
+        "the checker does not know the criterion {}: what it keeps of the margin is rechecked, its "
+        "choice is not",
+        d.demands->criterion.name));
   return d;
 }
 
@@ -138,8 +148,9 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
     inputs.result.bytes = with_proof;
   }
   const Result<verify::LocateReport> report = verify::verify_locate(inputs);
-  const auto wanted =
-      job.options.method == LocateMethod::certified ? verify::Verdict::confirmed : verify::Verdict::unproved;
+  const auto wanted = job.options.method != LocateMethod::certified ? verify::Verdict::unproved
+                      : leaves_choice_open(made.document)           ? verify::Verdict::incomplete
+                                                                    : verify::Verdict::confirmed;
   if (report && report->verdict == wanted) return {};
   const std::string why =
       !report ? "self-check: " + report.error().message

@@ -82,6 +82,8 @@ class Evidence {
     switch (verdict) {
       case verify::Verdict::confirmed:
         return "confirmed";
+      case verify::Verdict::incomplete:
+        return "incomplete";
       case verify::Verdict::unproved:
         return "unproved";
       case verify::Verdict::refuted:

@@ -13,7 +13,7 @@
 namespace lekalo {
 namespace {
 
-using locate::Criterion;
+using locate::criterion_named;
 
 io::LocateDocument document_of(const locate::DemandProblem& problem, const locate::DemandResult& r) {
   io::LocateDocument d;
@@ -70,7 +70,7 @@ locate::DemandProblem problem_of(const cases::RegionCase& one, std::size_t i) {
   locate::Feature side{"side", {}, 0.05, 0.5, {}, i % 2 == 0 ? 1.0 : 2.5, {}};
   for (std::uint32_t k = 0; k < one.part[0].outer.size() / 2; ++k) side.edges.push_back(k);
   if (i % 5 != 4) problem.features = {side};
-  problem.criterion = i % 2 == 0 ? Criterion::largest : Criterion::even;
+  problem.criterion = i % 2 == 0 ? *criterion_named("largest") : *criterion_named("even");
   return problem;
 }
 

@@ -260,7 +260,7 @@ TEST_F(LocateDemands, ThenTheLargestAllowanceIsTheSmallest) {
     DemandProblem problem = problem_of(one);
     problem.features.clear(), problem.minimum = 0;
     const DemandResult first = solved(problem);
-    problem.criterion = Criterion::largest, problem.give_up = 0.3 * first.margin;
+    problem.criterion = *criterion_named("largest"), problem.give_up = 0.3 * first.margin;
     problem.trade_off = 3;
     const DemandResult r = solved(problem);
     EXPECT_LE(r.largest, first.largest + 1e-6);
@@ -290,9 +290,9 @@ TEST_F(LocateDemands, TheMostEvenKeepsWhatTheOtherCriteriaFound) {
       if (demands) problem.features[0].scale = 2, problem.features[0].target = 1;
       const DemandResult first = solved(problem);
       problem.give_up = 0.5 * first.margin;
-      problem.criterion = Criterion::largest;
+      problem.criterion = *criterion_named("largest");
       const DemandResult second = solved(problem);
-      problem.criterion = Criterion::even;
+      problem.criterion = *criterion_named("even");
       const DemandResult r = solved(problem);
       expect_second_holds(problem, first, r, i);
       ASSERT_TRUE(second.second.has_value());
@@ -312,7 +312,7 @@ TEST_F(LocateDemands, NothingGivenUpTheLargestAllowanceIsStillBounded) {
     SCOPED_TRACE(one.name);
     DemandProblem problem = problem_of(one);
     const DemandResult first = solved(problem);
-    problem.criterion = Criterion::even;
+    problem.criterion = *criterion_named("even");
     const DemandResult r = solved(problem);
     expect_second_holds(problem, first, r, i);
     EXPECT_EQ(r.second->margin, first.margin);
@@ -323,7 +323,7 @@ TEST_F(LocateDemands, NothingGivenUpTheLargestAllowanceIsStillBounded) {
 TEST_F(LocateDemands, WhatIsStoppedSaysSo) {
   DemandProblem problem = problem_of(near_net(0));
   const DemandResult first = solved(problem);
-  problem.criterion = Criterion::even;
+  problem.criterion = *criterion_named("even");
   RegionOptions options;
   options.gap = 2e-3;
   options.run.work_limit = first.work + 1;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "extending/move/src/nest/moves/one_millimetre_less.hpp"
 #include "lekalo/layout/check.hpp"
 #include "nest/exact/builder.hpp"
 #include "nest/exact/settle.hpp"
@@ -10,31 +11,6 @@
 
 namespace lekalo::nest {
 namespace {
-
-/// Asks for a strip that is shorter by one millimetre, a few times: the whole of a move.
-class OneMillimetreLess final : public Move {
- public:
-  bool begin(Search&) override { return failures_ < 3; }
-  Outcome attempt(Search& search) override {
-    const Box& strip = search.problem.bins()[kStrip].box;
-    const double length = strip_length(search.problem, search.items, search.best.state);
-    search.separator.load(search.best.state);
-    search.separator.set_limits(kStrip, strip.x0 + length - 1, strip.y1);
-    search.begin_separation();
-    return Outcome::under_way;
-  }
-  Outcome step(Search& search) override { return search.after_pass(search.separator.pass(), {20, 1}); }
-  Outcome on_valid(Search& search) override {
-    search.current = {search.separator.state(), search.merit_of(search.separator.state())};
-    if (!(search.current.merit < search.best.merit)) return Outcome::failed;
-    search.keep_if_best();
-    return Outcome::under_way;
-  }
-  Outcome on_failure(Search&) override { return ++failures_ < 3 ? Outcome::under_way : Outcome::over; }
-
- private:
-  int failures_ = 0;
-};
 
 /// Four squares of 10 mm, far apart on a strip 10 mm high.
 class Row : public testing::Test {

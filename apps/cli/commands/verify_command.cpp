@@ -53,6 +53,7 @@ int exit_status_of(verify::Verdict verdict) {
   switch (verdict) {
     case verify::Verdict::confirmed:
       return 0;
+    case verify::Verdict::incomplete:
     case verify::Verdict::unproved:
       return 1;
     case verify::Verdict::refuted:
@@ -65,6 +66,9 @@ const char* sentence_of(verify::Verdict verdict) {
   switch (verdict) {
     case verify::Verdict::confirmed:
       return "Confirmed: the clearance and the bound hold.\n";
+    case verify::Verdict::incomplete:
+      return "Incomplete: the clearance and the bound hold, but the choice of the placement was not "
+             "rechecked.\n";
     case verify::Verdict::unproved:
       return "Unproved: the clearance holds, but there is no certificate for a bound.\n";
     case verify::Verdict::refuted:

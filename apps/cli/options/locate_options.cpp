@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "lekalo/io/formats/drawing_formats.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 
@@ -24,9 +25,6 @@ constexpr std::array kScanFrames{Word<nc::ScanFrame>{"machine", nc::ScanFrame::m
 constexpr std::array kMirrors{Word<locate::Mirror>{"no", locate::Mirror::no},
                               Word<locate::Mirror>{"yes", locate::Mirror::yes},
                               Word<locate::Mirror>{"either", locate::Mirror::either}};
-constexpr std::array kCriteria{Word<locate::Criterion>{"smallest", locate::Criterion::smallest},
-                               Word<locate::Criterion>{"largest", locate::Criterion::largest},
-                               Word<locate::Criterion>{"even", locate::Criterion::even}};
 
 /// As typed.
 struct LocateWords {
@@ -57,6 +55,25 @@ void read_window(const std::vector<std::string>& words, WordReader& read, Locate
   }
 }
 
+/// The names of the criteria that go on from the first one, or what they favour, in one text.
+std::string later_criteria(std::string_view locate::Criterion::*said, std::string_view last_separator) {
+  std::string list;
+  const auto later = locate::criteria().subspan(1);
+  for (const locate::Criterion& criterion : later) {
+    if (!list.empty()) list += &criterion == &later.back() ? last_separator : ", ";
+    list += criterion.*said;
+  }
+  return list;
+}
+
+void read_criterion(const std::string& word, WordReader& read, locate::Criterion& criterion) {
+  if (word.empty()) return;
+  const locate::Criterion* const known = locate::criterion_named(word);
+  read.require(known != nullptr,
+               fmt::format("--criterion: \"{}\" is not one of {}", word, locate::criterion_names(", ")));
+  if (known != nullptr) criterion = *known;
+}
+
 void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read_window(words.window, read, o);
   if (!words.gap.empty())
@@ -69,11 +86,11 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
       read.number(option, *word, -kLargestLength, kLargestLength, "a coordinate in mm up to 1e9",
                   to->emplace());
   o.features = words.features;
-  read.choice("--criterion", words.criterion, kCriteria, o.job.criterion);
+  read_criterion(words.criterion, read, o.job.criterion);
   read.number("--give-up", words.give_up, 0.0, kLargestLength, "a length in mm of 0 or more", o.job.give_up);
-  read.require(
-      words.give_up.empty() || o.job.criterion != locate::Criterion::smallest,
-      "--give-up is for --criterion largest and even: what they may take off the smallest allowance");
+  read.require(words.give_up.empty() || o.job.criterion.choose != nullptr,
+               fmt::format("--give-up is for --criterion {}: what they may take off the smallest allowance",
+                           later_criteria(&locate::Criterion::name, " and ")));
   read.number("--trade-off", words.trade_off, std::size_t{2}, std::size_t{100},
               "a whole number from 2 to 100", o.job.trade_off);
   read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
@@ -237,7 +254,8 @@ constexpr const char* kLocateFooter =
 void add_input_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "What to place");
   add("--part", w.part, "FILE",
-      "The part: points (.csv .txt .xyz), drawing (.dxf .svg), or .json: regions, primitives")
+      fmt::format("The part: points (.csv .txt .xyz), drawing ({}), or .json: regions, primitives",
+                  io::drawing_endings(" ")))
       .required = true;
   add("--blank", w.blank, "FILE",
       "The blank: its outline in the same formats, or a scan (also .ply, see below)")
@@ -278,8 +296,10 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--lock-y", w.lock_y, "MM", "y of the placement is given");
   add("--features", w.features, "FILE",
       "Demands by feature: minimum, target, maximum, scale, finished (JSON)");
-  add("--criterion", w.criterion, list_of(kCriteria, "|"),
-      "After the largest smallest allowance: the smallest largest one, or the most even [smallest]");
+  add("--criterion", w.criterion, locate::criterion_names("|"),
+      fmt::format("After the largest smallest allowance: {} [{}]",
+                  later_criteria(&locate::Criterion::favours, ", or "), locate::criteria().front().name)
+          .c_str());
   add("--give-up", w.give_up, "MM", "What the second criterion may take off the smallest allowance [0]");
   add("--trade-off", w.trade_off, "N", "Also N points of the curve of smallest against largest allowance");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");

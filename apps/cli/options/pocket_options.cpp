@@ -4,6 +4,7 @@
 
 #include "after_words.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
@@ -155,7 +156,8 @@ Typed add_pocket_form(Form& form) {
   PocketWords& w = *words;
   const OptionAdder add(form);
   add("pocket", w.pocket, "FILE",
-      "The pockets' outlines: JSON regions, DXF or SVG, a tree of primitives, points")
+      fmt::format("The pockets' outlines: JSON regions, {}, a tree of primitives, points",
+                  io::drawing_names(", ", " or ")))
       .required = true;
   add("--tool", w.tool, "MM", "Diameter of the tool").required = true;
   add("--depth", w.depth, "MM", "Of the pocket, below Z 0").required = true;

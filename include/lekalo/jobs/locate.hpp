@@ -32,7 +32,7 @@ struct LocateOptions {
   double min_allowance = 0;                         ///< mm, >= 0
   locate::Mirror mirror = locate::Mirror::no;
   locate::LockedShift locked;
-  locate::Criterion criterion = locate::Criterion::smallest;
+  locate::Criterion criterion = locate::criteria().front();
   double give_up = 0;                  ///< mm, >= 0: what later criteria may take off the margin
   std::size_t trade_off = 0;           ///< points of the trade-off curve, 0 or at least 2
   std::optional<double> alternatives;  ///< mm, >= 0: also list placements that lose at most this
@@ -67,7 +67,9 @@ struct LocateJob {
   std::vector<std::string> warnings = {};  ///< what the caller has to say; the result repeats it first
 };
 
-/// A placement that the independent checker has confirmed. Documents that were not asked for are empty.
+/// A placement that the independent checker has confirmed, all but the choice of a criterion that it does not
+/// know (verify::knows_criterion), which a warning in the document says. Documents that were not asked for
+/// are empty.
 struct Located {
   io::LocateDocument document;
   std::string result;  ///< `document` as bytes: what was checked

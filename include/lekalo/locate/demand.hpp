@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/locate/criterion.hpp"
 #include "lekalo/locate/region.hpp"
 
 namespace lekalo::locate {
@@ -30,21 +31,12 @@ struct Feature {
   std::optional<double> finished;
 };
 
-/// Each goes on from the one before, so that what was best there is lost by no more than stated.
-enum class Criterion {
-  smallest,  ///< the largest margin
-  largest,   ///< then, of the placements that give up at most `give_up` of it, the smallest largest allowance
-  /// then, of those with a largest allowance of at most SmallestLargest::kept, the least mean square
-  /// deviation of the allowance from its targets (or its mean)
-  even
-};
-
 /// Holds what is asked for beside the largest clearance.
 struct Demands {
   std::vector<Feature> features;
   double minimum = 0;  ///< of edges that belong to no feature, mm, >= 0
-  Criterion criterion = Criterion::smallest;
-  double give_up = 0;         ///< of the margin, for the second and third criterion, mm, >= 0
+  Criterion criterion = criteria().front();
+  double give_up = 0;         ///< of the margin, for criteria that go on from the largest, mm, >= 0
   std::size_t trade_off = 0;  ///< points of the curve to compute, 0 or at least 2
 };
 
@@ -81,13 +73,13 @@ struct LargestProof : DemandProof {
   double most = 0;
 };
 
-/// Holds what the second criterion found.
+/// Holds what was found of the smallest largest allowance.
 struct SmallestLargest {
   double margin = 0;  ///< placements with at least that were compared: the largest found less `give_up`
   double found = 0;   ///< the smallest largest allowance found among them, rounded up, mm
   double bound = 0;   ///< none of them that keeps the maxima has less, mm
   double gap = 0;     ///< what `found` - `bound` was to become, mm
-  double kept = 0;    ///< the third criterion goes up to that: `bound` + `gap`, or `found` if that is more
+  double kept = 0;    ///< later criteria go up to that: `bound` + `gap`, or `found` if that is more
   std::optional<LargestProof> proof;  ///< of `bound`; none where that is 0
 };
 
@@ -105,7 +97,7 @@ struct DemandResult {
   double margin_found = 0;  ///< the largest margin found: `margin`, unless another criterion gave some up
   double margin_gap = 0;    ///< what margin_bound - margin_found was to become
   double largest = 0;       ///< largest allowance of an edge that is not finished, rounded up, mm
-  std::optional<SmallestLargest> second;  ///< with Criterion::largest and even, where the demands are met
+  std::optional<SmallestLargest> second;  ///< where the criterion asks for it and the demands are met
   double deviation =
       0;  ///< root of the mean square deviation of the allowance from its targets, mm, as measured
   std::vector<Touch> contacts;  ///< of the part itself, near or deep where the demands hold it
@@ -119,7 +111,7 @@ struct DemandResult {
 /// ErrorCode::usage for numbers out of range, edges that the part does not have or that two features claim,
 /// and as locate_regions. bad_input where the grown part cannot be drawn (geom/offset.hpp).
 /// Deterministic. Cost: one search of locate_regions; with scales three to eight of them; with maxima that
-/// bind, or for the second and third criterion, about twelve that end early; every point of the curve as
+/// bind, or for the smallest largest allowance, about twelve that end early; every point of the curve as
 /// many.
 [[nodiscard]] Result<DemandResult> locate_demands(const DemandProblem& problem, const RegionOptions& options);
 

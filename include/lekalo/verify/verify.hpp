@@ -24,10 +24,16 @@ struct LocateInputs {
 };
 
 enum class Verdict {
-  confirmed,  ///< clearance, bound and certificate hold
-  unproved,   ///< the clearance holds; there is no certificate to check the bound with
-  refuted     ///< something written is not true
+  confirmed,   ///< clearance, bound and certificate hold
+  incomplete,  ///< they hold, but the placement was chosen by a criterion that the checker does not know
+  unproved,    ///< the clearance holds; there is no certificate to check the bound with
+  refuted      ///< something written is not true
 };
+
+/// True for the criteria of `lekalo locate` whose choice among placements is rechecked. Of the others is held
+/// what holds for all: they give up no more of the margin, and of a smallest largest allowance, than the
+/// result says.
+[[nodiscard]] bool knows_criterion(std::string_view name) noexcept;
 
 struct LocateReport {
   Verdict verdict = Verdict::refuted;

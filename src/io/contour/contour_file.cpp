@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "contour_points.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
 #include "lekalo/io/text/format.hpp"
 #include "lekalo/io/text/words.hpp"
 
@@ -12,16 +13,10 @@ namespace {
 
 Result<ContourFile> dispatch(std::string_view bytes, const std::string& name,
                              std::optional<LengthUnit> unit) {
-  switch (format_by_ending(name)) {
-    case Format::points:
-      return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
-    case Format::json:
-      return read_json_contour(bytes, name, unit);
-    case Format::dxf:
-      return read_dxf_contour(bytes, name, unit);
-    default:
-      break;
-  }
+  if (kPointsFormat.is_named_so(name))
+    return read_text_contour(bytes, name, unit.value_or(LengthUnit::millimetre));
+  if (kJsonFormat.is_named_so(name)) return read_json_contour(bytes, name, unit);
+  if (drawing_dxf().file.is_named_so(name)) return read_dxf_contour(bytes, name, unit);
   const std::string ending = ending_of(name);
   return refuse(name,
                 fmt::format("contours are read from .csv, .txt, .xyz, .json and .dxf files, not from {}",

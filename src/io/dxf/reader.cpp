@@ -9,6 +9,7 @@
 #include "header.hpp"
 #include "io/text/refusal.hpp"
 #include "layers.hpp"
+#include "lekalo/io/dxf/dxf.hpp"
 #include "stated_arcs.hpp"
 #include "text.hpp"
 
@@ -258,6 +259,10 @@ Result<Drawing> parse_dxf(std::string_view bytes, const std::string& name, std::
   if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
   if (bytes.empty()) return refuse(name, "the file is empty");
   return DxfDrawing(bytes, name, unit).read();
+}
+
+DrawingFormat drawing_dxf() {
+  return {.file = {.name = "DXF", .endings = {".dxf"}, .first_bytes = "0123456789"}, .parse = parse_dxf};
 }
 
 }  // namespace lekalo::io

@@ -8,7 +8,7 @@
 #include "io/nesting/forms.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
-#include "lekalo/io/text/format.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -18,7 +18,8 @@ tl::unexpected<Error> no_layout(const std::string& path) {
                  path +
                      ": no layout; known are \"format\": \"lekalo-layout/1\", jobs of nesting programs "
                      "(strip_height and items; bin_types and item_types; Items and Objects; placements), "
-                     "regions (outer or pieces), trees of primitives (shape), DXF and SVG drawings");
+                     "regions (outer or pieces), trees of primitives (shape), " +
+                     drawing_names(", ", " and ") + " drawings");
 }
 
 /// Reads a file of placements, and the items that `find` has for it.
@@ -42,8 +43,7 @@ Result<AnyLayout> read_placed(const detail::JsonTree& tree, const std::string& n
 
 Result<AnyLayout> read_any_layout(std::string_view bytes, const std::string& name, const PartOptions& parts,
                                   const FindItems& find) {
-  const Format format = format_by_content(bytes);
-  if (format == Format::json) {
+  if (kJsonFormat.begins_so(bytes)) {
     LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
     const detail::JsonValue root = tree.root();
     if (root.find("format")) {
@@ -56,7 +56,7 @@ Result<AnyLayout> read_any_layout(std::string_view bytes, const std::string& nam
       return AnyLayout{std::move(job), *form, {}};
     }
     if (!root.find("shape") && !root.find("outer") && !root.find("pieces")) return no_layout(name);
-  } else if (format == Format::unknown) {
+  } else if (drawing_format_by_content(bytes) == nullptr) {
     return no_layout(name);
   }
   LEKALO_TRY(auto read, read_parts(bytes, name, parts));

@@ -4,10 +4,10 @@
 
 #include <utility>
 
-#include "drawing_file.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/io/drawing/drawing_regions.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/shape/shape_tree.hpp"
 
@@ -79,10 +79,9 @@ OutlineFile::OutlineFile(std::string_view bytes, std::string name, OutlineOption
     : bytes_(bytes), name_(std::move(name)), options_(std::move(options)), form_(form()) {}
 
 OutlineFile::Form OutlineFile::form() const {
-  const Format format = format_by_ending(name_);
-  if (options_.scan || format == Format::ply) return Form::scan;
-  if (format == Format::dxf || format == Format::svg) return Form::drawing;
-  if (format != Format::json) return Form::points;
+  if (options_.scan || kPlyFormat.is_named_so(name_)) return Form::scan;
+  if (drawing_format_by_ending(name_) != nullptr) return Form::drawing;
+  if (!kJsonFormat.is_named_so(name_)) return Form::points;
   const auto says = [&](std::string_view word) { return bytes_.find(word) != std::string_view::npos; };
   if (says("\"shape\"")) return Form::tree;
   return says("\"outer\"") || says("\"pieces\"") ? Form::regions : Form::points;
@@ -136,7 +135,7 @@ Result<ReadOutline> OutlineFile::read_tree() const {
 }
 
 Result<ReadOutline> OutlineFile::read_drawing() const {
-  LEKALO_TRY(const Drawing drawing, parse_drawing(format_by_ending(name_), bytes_, name_, options_.units));
+  LEKALO_TRY(const Drawing drawing, drawing_format_by_ending(name_)->parse(bytes_, name_, options_.units));
   DrawingOptions how;
   if (options_.join) how.join_tolerance = *options_.join;
   if (options_.curve) how.curve_tolerance = *options_.curve;

@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "drawing_file.hpp"
 #include "io/layout/layout_outline.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/shape/shape_tree.hpp"
@@ -71,8 +71,11 @@ bool is_export(const Drawing& drawing) {
          });
 }
 
-Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, DrawingOptions options) {
+Result<DrawnParts> of_drawing(const DrawingFormat& format, std::string_view bytes, const std::string& name,
+                              const PartOptions& how) {
+  const Result<Drawing> drawing = format.parse(bytes, name, how.unit);
   LEKALO_CHECK(drawing);
+  DrawingOptions options = how.drawing;
   DrawnParts made;
   if (options.take.empty() && options.leave.empty() && is_export(*drawing)) {
     made.notices.push_back(
@@ -96,7 +99,8 @@ Result<DrawnParts> of_drawing(const Result<Drawing>& drawing, bool is_svg, Drawi
     edge += edges_of(region);
     const std::string& layer = drawing->layers[curve.layer].name;
     const std::string& handle = drawing->entities[curve.entity].handle;
-    made.parts.push_back({std::move(region), is_svg && !handle.empty() ? handle : layer, layer});
+    made.parts.push_back(
+        {std::move(region), format.handles_are_names && !handle.empty() ? handle : layer, layer});
   }
   return made;
 }
@@ -123,10 +127,11 @@ Result<DrawnParts> of_regions(std::string_view bytes, const std::string& name, c
 }
 
 Result<DrawnParts> drawn_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
-  const Format format = format_by_content(bytes);
-  if (format != Format::json)
-    return of_drawing(parse_drawing(format, bytes, name, options.unit), format == Format::svg,
-                      options.drawing);
+  if (!kJsonFormat.begins_so(bytes)) {
+    // The first reader has the words to refuse what begins like no drawing.
+    const DrawingFormat* const format = drawing_format_by_content(bytes);
+    return of_drawing(format != nullptr ? *format : drawing_formats().front(), bytes, name, options);
+  }
   LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
   return tree.root().find("shape") ? of_tree(bytes, name, options) : of_regions(bytes, name, options);
 }

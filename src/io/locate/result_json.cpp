@@ -204,18 +204,6 @@ const char* name_of(locate::Mirror mirror) {
   return "either";
 }
 
-const char* name_of(locate::Criterion criterion) {
-  switch (criterion) {
-    case locate::Criterion::smallest:
-      return "smallest";
-    case locate::Criterion::largest:
-      return "largest";
-    case locate::Criterion::even:
-      break;
-  }
-  return "even";
-}
-
 void write(JsonWriter& json, const locate::Feature& f) {
   json.begin_object().field("name", f.name).key("edges").list(f.edges);
   json.fields({{"minimum", f.minimum},
@@ -254,7 +242,7 @@ void write(JsonWriter& json, const locate::SmallestLargest& second) {
 void write(JsonWriter& json, const DemandRecord& d) {
   json.begin_object().field("minimum", d.minimum);
   json.key("features").list(d.features, [&](const locate::Feature& one) { write(json, one); });
-  json.fields({{"criterion", name_of(d.criterion)},
+  json.fields({{"criterion", d.criterion.name},
                {"give_up", d.give_up},
                {"margin", d.margin},
                {"margin_bound", d.margin_bound},

@@ -9,6 +9,7 @@
 
 #include "io/contour/contour_points.hpp"
 #include "io/text/rows.hpp"
+#include "lekalo/io/text/format.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "ply_points.hpp"
 
@@ -116,12 +117,12 @@ Result<ScanFile> parse_scan(std::string_view bytes, const std::string& name, std
             "a slice at height {} mm, {} mm thick: the height must be finite and the thickness above 0",
             slice->height, slice->thickness));
   }
-  const std::string ending = ending_of(name);
   ScanReader reader(name, unit.value_or(LengthUnit::millimetre), slice);
-  if (ending == ".ply") return reader.read_ply(bytes);
+  if (kPlyFormat.is_named_so(name)) return reader.read_ply(bytes);
   if (const std::string fault = wrong_encoding(bytes); !fault.empty()) return refuse(name, fault);
   if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
-  if (ending == ".csv" || ending == ".txt" || ending == ".xyz") return reader.read_text(bytes);
+  if (kPointsFormat.is_named_so(name)) return reader.read_text(bytes);
+  const std::string ending = ending_of(name);
   return refuse(name, fmt::format("scans are read from .csv, .txt, .xyz and .ply files, not from {}",
                                   ending.empty() ? "a name without ending" : excerpt(ending)));
 }

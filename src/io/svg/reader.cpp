@@ -303,4 +303,10 @@ Result<Drawing> parse_svg(std::string_view bytes, const std::string& name, std::
   return SvgReader(document, name).run(unit);
 }
 
+DrawingFormat drawing_svg() {
+  return {.file = {.name = "SVG", .endings = {".svg"}, .first_bytes = "<"},
+          .parse = parse_svg,
+          .handles_are_names = true};
+}
+
 }  // namespace lekalo::io

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "even_placement.hpp"
+#include "choice.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/phi/region.hpp"
 #include "locate/search/search_limits.hpp"
@@ -90,7 +90,7 @@ Result<void> check_features(const DemandProblem& problem, std::size_t edges) {
   return {};
 }
 
-class DemandLocaliser {
+class DemandLocaliser final : public Choice {
  public:
   DemandLocaliser(const DemandProblem& problem, const RegionOptions& options)
       : problem_(problem),
@@ -126,21 +126,74 @@ class DemandLocaliser {
     if (result_.margin >= 0 && problem_.trade_off > 0) {
       if (Result<void> done = trace_curve(); !done) return tl::unexpected(std::move(done.error()));
     }
-    if (result_.margin >= 0 && problem_.criterion != Criterion::smallest) {
-      const double keep = std::max(0.0, result_.margin - problem_.give_up);
-      auto smallest = smallest_largest(keep, pose_);
-      if (!smallest) return tl::unexpected(std::move(smallest.error()));
-      pose_ = smallest->pose;
-      result_.second = std::move(smallest->what);
-      SmallestLargest& second = *result_.second;
-      const bool closed = second.found - second.bound <= second.gap;
-      if (!closed && result_.status == Status::optimal) result_.status = Status::stopped;
-      second.kept = std::max(second.found, second.bound + second.gap);
-      if (problem_.criterion == Criterion::even) make_even(second);
-    }
+    if (result_.margin >= 0 && problem_.criterion.choose != nullptr)
+      LEKALO_CHECK(problem_.criterion.choose(*this));
     finish();
     return std::move(result_);
   }
+
+  // Criteria ask from here on (choice.hpp).
+  [[nodiscard]] const Pose& pose() const override { return pose_; }
+
+  [[nodiscard]] bool allows(const Placement& at) const override {
+    const LockedShift& locked = shapes_.locked;
+    if (!(window().from <= at.theta && at.theta <= window().to) || at.x != locked.x.value_or(at.x) ||
+        at.y != locked.y.value_or(at.y))
+      return false;
+    const Pose there{at, pose_.mirrored};
+    return margin_at(there) >= margin_to_keep() &&
+           (!result_.second || depth(there, free_edges_) <= result_.second->kept);
+  }
+
+  bool take(const Placement& at) override {
+    const bool allowed = allows(at);
+    if (allowed) pose_.at = at;
+    return allowed;
+  }
+
+  Result<void> take_smallest_largest() override {
+    LEKALO_TRY(Second smallest, smallest_largest(margin_to_keep(), pose_));
+    pose_ = smallest.pose;
+    result_.second = std::move(smallest.what);
+    SmallestLargest& second = *result_.second;
+    const bool closed = second.found - second.bound <= second.gap;
+    if (!closed && result_.status == Status::optimal) result_.status = Status::stopped;
+    second.kept = std::max(second.found, second.bound + second.gap);
+    return {};
+  }
+
+  [[nodiscard]] const phi::RegionClearance& clearance() const override { return clearance_; }
+
+  [[nodiscard]] EvenSamples samples() const override {
+    EvenSamples samples;
+    double length = 0;
+    for (const geom::Curve& curve : free_edges_)
+      length +=
+          curve.edge.kind == geom::EdgeKind::line ? curve.length : curve.radius * geom::arc_sweep(curve.edge);
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+      if (!demand_[k].finished) samples.add(edges_[k], length / kEvenSamples, demand_[k].target);
+    return samples;
+  }
+
+  [[nodiscard]] double spare() const override {
+    return std::max(0.0, margin_at(pose_) - margin_to_keep()) * least_scale_;
+  }
+
+  [[nodiscard]] std::vector<LocalCap> caps() const override {
+    std::vector<LocalCap> caps;
+    if (result_.second) caps.push_back({free_edges_, result_.second->kept});
+    for (const Cap& cap : caps_) {
+      caps.push_back({{}, cap.most});
+      for (const Edge& edge : cap.edges) caps.back().edges.push_back(geom::make_curve(edge));
+    }
+    return caps;
+  }
+
+  [[nodiscard]] std::array<bool, 3> free() const override {
+    return {!shapes_.locked.x, !shapes_.locked.y, window().to > window().from};
+  }
+
+  [[nodiscard]] AngleWindow window() const override { return shapes_.window; }
 
  private:
   struct Demand {
@@ -148,17 +201,13 @@ class DemandLocaliser {
     bool finished = false;
     std::optional<double> target;
   };
-  struct Pose {
-    Placement at;
-    bool mirrored = false;
-    [[nodiscard]] BlankFromPart map() const {
-      return BlankFromPart::from_angle(at.theta, {at.x, at.y}, mirrored);
-    }
-  };
   struct Grown {
     std::vector<Region> regions;
     double tolerance = 0;
   };
+
+  /// The largest margin less all that may be given up; result_.margin is the largest one until finish().
+  [[nodiscard]] double margin_to_keep() const { return std::max(0.0, result_.margin - problem_.give_up); }
 
   /// True if the part has to be grown anew for every margin. Rims of finished features do not grow.
   [[nodiscard]] bool scaled() const { return least_scale_ < most_scale_ || finished_; }
@@ -439,36 +488,6 @@ class DemandLocaliser {
     return {};
   }
 
-  [[nodiscard]] EvenSamples even_samples() const {
-    EvenSamples samples;
-    double length = 0;
-    for (const geom::Curve& curve : free_edges_)
-      length +=
-          curve.edge.kind == geom::EdgeKind::line ? curve.length : curve.radius * geom::arc_sweep(curve.edge);
-    for (std::size_t k = 0; k < edges_.size(); ++k)
-      if (!demand_[k].finished) samples.add(edges_[k], length / kEvenSamples, demand_[k].target);
-    return samples;
-  }
-
-  /// From the best pose of the second criterion on, giving up nothing of what was reached before but what is
-  /// stated.
-  void make_even(const SmallestLargest& second) {
-    const auto allowed = [&](const Placement& at) {
-      const Pose pose{at, pose_.mirrored};
-      return margin_at(pose) >= second.margin && depth(pose, free_edges_) <= second.kept;
-    };
-    const AngleWindow& window = shapes_.window;
-    const double spare = std::max(0.0, margin_at(pose_) - second.margin) * least_scale_;
-    std::vector<LocalCap> caps{{free_edges_, second.kept}};
-    for (const Cap& cap : caps_) {
-      caps.push_back({{}, cap.most});
-      for (const Edge& edge : cap.edges) caps.back().edges.push_back(geom::make_curve(edge));
-    }
-    pose_.at = most_even(even_samples(), clearance_, caps, pose_.at, pose_.mirrored, spare,
-                         {!shapes_.locked.x, !shapes_.locked.y, window.to > window.from}, window, allowed)
-                   .at;
-  }
-
   /// Gives the clearance of the part alone, rounded down.
   [[nodiscard]] double part_clearance(const Pose& pose) const {
     const phi::RegionClearance::Value value = clearance_.at(pose.map());
@@ -483,7 +502,7 @@ class DemandLocaliser {
     if (result_.margin >= 0) result_.margin = margin_at(pose_);
     result_.largest = depth(pose_, free_edges_);
     find_contacts();
-    result_.deviation = deviation_at(even_samples(), clearance_, pose_.map());
+    result_.deviation = deviation_at(samples(), clearance_, pose_.map());
   }
 
   /// Finds where the demands hold the part. If they are not met, it takes each place where the grown part is

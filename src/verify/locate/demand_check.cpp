@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lekalo/verify/verify.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
@@ -53,6 +54,10 @@ std::optional<WrittenSecond> read_second(Json value, std::string& complaint) {
 
 }  // namespace
 
+bool knows_criterion(std::string_view name) noexcept {
+  return name == "smallest" || name == "largest" || name == "even";
+}
+
 WrittenDemands read_demands(Json value, std::string& complaint) {
   WrittenDemands d;
   Fields fields(value, "demands", complaint);
@@ -72,8 +77,6 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
                          {"largest", &d.largest_as_written}})
     *to = fields.number(key);
   d.criterion = fields.text("criterion");
-  if (d.criterion != "smallest" && d.criterion != "largest" && d.criterion != "even")
-    fields.complain("demands.criterion is none of \"smallest\", \"largest\", \"even\"");
   d.second = read_second(fields.get("smallest_largest"), complaint);
   fields.each("trade_off", [&](Json item, const std::string& path) {
     Fields point(item, path, complaint);
@@ -261,6 +264,10 @@ void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most
   }
 }
 
+bool DemandCheck::leaves_choice_open() const {
+  return sgn(d_.margin_found.digits) >= 0 && !knows_criterion(d_.criterion);
+}
+
 void DemandCheck::check_criteria(bool optimal) {
   if (above(d_.margin_found, d_.margin_bound_as_written))
     find("margin_found {} is above margin_bound", approximate(d_.margin_found));
@@ -274,10 +281,16 @@ void DemandCheck::check_criteria(bool optimal) {
     if (compare(d_.margin_as_written, d_.margin_found) != 0) find("margin_found is not margin");
     return;
   }
-  if (!d_.second) return find("smallest_largest is missing, the second criterion");
-  const WrittenSecond& s = *d_.second;
   Decimal kept = d_.margin_found - d_.give_up;
   if (sgn(kept.digits) < 0) kept = Decimal{};
+  if (!d_.second) {
+    if (!leaves_choice_open()) return find("smallest_largest is missing, the second criterion");
+    if (above(kept, d_.margin_as_written) && differ(d_.margin_as_written, kept, d_.margin_found))
+      find("the margin {} is below {}, margin_found less give_up", approximate(d_.margin_as_written),
+           approximate(kept));
+    return;
+  }
+  const WrittenSecond& s = *d_.second;
   if (differ(s.margin, kept, d_.margin_found))
     find("smallest_largest.margin {} is not margin_found less give_up", approximate(s.margin));
   if (above(s.margin, d_.margin_as_written))
@@ -287,7 +300,7 @@ void DemandCheck::check_criteria(bool optimal) {
   const bool open = above(s.found - s.bound, s.gap);
   if (open ? differ(s.kept, s.found, s.gap) : differ(s.kept - s.bound, s.gap, s.kept))
     find("smallest_largest.kept {} is neither bound and gap nor found", approximate(s.kept));
-  const Decimal& limit = d_.criterion == "even" ? s.kept : s.found;
+  const Decimal& limit = d_.criterion == "largest" ? s.found : s.kept;
   if (above(d_.largest_as_written, limit))
     find("largest {} is above {}, which the second criterion found", approximate(d_.largest_as_written),
          approximate(limit));

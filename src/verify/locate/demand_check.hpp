@@ -61,6 +61,10 @@ class DemandCheck {
   /// \param optimal  whether the result claims that the gaps are closed
   void check_criteria(bool optimal);
 
+  /// True if the placement was chosen by a criterion that is not known, so that check_criteria leaves open
+  /// whether it is the one that the criterion looks for.
+  [[nodiscard]] bool leaves_choice_open() const;
+
   /// A certificate is checked with these growths and caps: by how much each side of the part is grown for a
   /// margin, and the caps with `shift` added; for that of largest allowances also one for all that is not
   /// finished.

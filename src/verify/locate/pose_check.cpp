@@ -81,9 +81,16 @@ class PoseCheck {
     if (!complaint_.empty())
       return bad(inputs_.certificate ? inputs_.certificate->name : inputs_.result.name);
     check_status();
+    const bool open = demands && demands->leaves_choice_open();
+    if (open)
+      report_.notes.push_back(fmt::format(
+          "the criterion \"{}\" is none that this checker knows, so it was not rechecked that the "
+          "placement is the one that the criterion looks for",
+          excerpt(r_.demands->criterion)));
     report_.verdict = !report_.findings.empty() ? Verdict::refuted
-                      : proved                  ? Verdict::confirmed
-                                                : Verdict::unproved;
+                      : !proved                 ? Verdict::unproved
+                      : open                    ? Verdict::incomplete
+                                                : Verdict::confirmed;
     return std::move(report_);
   }
 

@@ -8,6 +8,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/drawing/drawing_format.hpp"
 #include "lekalo/io/drawing/written_drawing.hpp"
 
 namespace lekalo::io {
@@ -22,6 +23,9 @@ namespace lekalo::io {
 /// silence. Cost: O(bytes + curves).
 [[nodiscard]] Result<Drawing> parse_dxf(std::string_view bytes, const std::string& name,
                                         std::optional<LengthUnit> unit = std::nullopt);
+
+/// How DXF files are told from others, with that reader.
+[[nodiscard]] DrawingFormat drawing_dxf();
 
 /// DXF, AutoCAD 2000 (AC1015) in ASCII, millimetres: a closed LWPOLYLINE with bulges for every contour, a
 /// CIRCLE for a full circle. Numbers are the shortest decimals that read back to the same double. Where a

@@ -65,7 +65,7 @@ struct DeviationsRecord {
 struct DemandRecord {
   double minimum = 0;
   std::vector<locate::Feature> features;
-  locate::Criterion criterion = locate::Criterion::smallest;
+  locate::Criterion criterion = locate::criteria().front();
   double give_up = 0;
   double margin = 0, margin_bound = 0, margin_found = 0, margin_gap = 0, largest = 0, deviation = 0;
   /// Its proof without `grown`; without certificate: there is none, or it is in certificate_file.

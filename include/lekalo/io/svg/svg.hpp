@@ -8,6 +8,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/io/drawing/drawing.hpp"
+#include "lekalo/io/drawing/drawing_format.hpp"
 #include "lekalo/io/drawing/written_drawing.hpp"
 
 namespace lekalo::io {
@@ -32,6 +33,9 @@ namespace lekalo::io {
 /// nothing. Cost: O(bytes + curves).
 [[nodiscard]] Result<Drawing> parse_svg(std::string_view bytes, const std::string& name,
                                         std::optional<LengthUnit> unit = std::nullopt);
+
+/// How SVG files are told from others, with that reader.
+[[nodiscard]] DrawingFormat drawing_svg();
 
 /// SVG 1.1 in millimetres: a path or circle for every contour, in a group for every layer that follows
 /// another. The page begins at the origin, or at the whole millimetre to the left of and below all that is

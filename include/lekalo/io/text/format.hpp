@@ -1,25 +1,30 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
 namespace lekalo::io {
 
-/// The forms of files that hold outlines. One table (src/io/text/format.cpp) says how each is told apart; who
-/// reads a file asks here and then calls the reader of the form.
-enum class Format {
-  points,  ///< lines of numbers: .csv, .txt, .xyz
-  json,    ///< regions, trees of primitives, points, layouts and jobs
-  dxf,
-  svg,
-  ply,  ///< measured points
-  unknown
+/// How the files of one format are told from others; whoever reads a file asks here and then calls the
+/// reader. The formats of drawings stand with their readers (io/formats/drawing_formats.hpp has the list),
+/// the other formats that hold outlines stand here.
+struct FileFormat {
+  std::string_view name;                      ///< for sentences: "DXF"
+  std::array<std::string_view, 3> endings{};  ///< of file names, small letters with the point; unused: empty
+  std::string_view first_bytes{};             ///< any of them begins such a file; empty: none is its own
+
+  /// By the ending of the file's name, in any case.
+  [[nodiscard]] bool is_named_so(const std::string& file_name) const;
+  /// By the first byte after blanks and a byte order mark.
+  [[nodiscard]] bool begins_so(std::string_view bytes) const;
 };
 
-/// By the ending of the name, in any case.
-[[nodiscard]] Format format_by_ending(const std::string& name);
-
-/// By the first byte after blanks and a byte order mark. Points and PLY are not told apart so: `unknown`.
-[[nodiscard]] Format format_by_content(std::string_view bytes);
+/// Lines of numbers.
+inline constexpr FileFormat kPointsFormat{"points", {".csv", ".txt", ".xyz"}};
+/// Regions, trees of primitives, points, layouts and jobs.
+inline constexpr FileFormat kJsonFormat{"JSON", {".json"}, "{["};
+/// Measured points.
+inline constexpr FileFormat kPlyFormat{"PLY", {".ply"}};
 
 }  // namespace lekalo::io

@@ -1,0 +1,157 @@
+// How a criterion that somebody adds is held to what it may give up, and what the checker says of it.
+
+#include "lekalo/locate/criterion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "extending/criterion/src/locate/region/criterion_left.cpp"  // the addition of that test, unlisted
+#include "lekalo/jobs/locate.hpp"
+#include "lekalo/jobs/verify.hpp"
+
+namespace lekalo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using locate::Choice;
+using locate::Placement;
+
+std::string box(int width, int height) {
+  const auto line = [](int x0, int y0, int x1, int y1) {
+    return Json{{"line", {{"from", {x0, y0}}, {"to", {x1, y1}}}}};
+  };
+  return Json{{"units", "mm"},
+              {"outer",
+               {line(0, 0, width, 0), line(width, 0, width, height), line(width, height, 0, height),
+                line(0, height, 0, 0)}}}
+      .dump();
+}
+
+Result<void> choose_what_is_not_allowed(Choice& choice) {
+  const Placement first = choice.pose().at;
+  EXPECT_TRUE(choice.allows(first));
+  for (const Placement& wrong :
+       {Placement{first.x - 30, first.y, first.theta, 0}, Placement{first.x, first.y + 1.5, first.theta, 0},
+        Placement{first.x, first.y, first.theta + 0.01, 0}})
+    EXPECT_FALSE(choice.take(wrong));
+  EXPECT_EQ(choice.pose().at.x, first.x);
+  EXPECT_EQ(choice.pose().at.y, first.y);
+  EXPECT_EQ(choice.pose().at.theta, first.theta);
+  Placement lower = first;
+  lower.y -= 0.5;
+  EXPECT_TRUE(choice.take(lower));
+  return {};
+}
+
+/// A part of 4 mm then lies in a corner of the blank, and deeper on the way to its middle.
+Result<void> choose_less_than_the_smallest_largest(Choice& choice) {
+  LEKALO_CHECK(choice.take_smallest_largest());
+  Placement inwards = choice.pose().at;
+  inwards.x += inwards.x < 18 ? 1.5 : -1.5;
+  inwards.y += inwards.y < 8 ? 1.5 : -1.5;
+  EXPECT_FALSE(choice.take(inwards));
+  return {};
+}
+
+/// A part of 10 mm in a blank of 40 by 20, which stays as it is turned: the margin is 5 wherever x is from 5
+/// to 25.
+class Criteria : public testing::Test {
+ protected:
+  Criteria() {
+    job_.options.window_to_deg = 0;
+    job_.options.give_up = 1;
+  }
+  [[nodiscard]] Result<jobs::Verified> verified(const std::string& result) const {
+    return jobs::verify(
+        {"r.json", result},
+        [&](const std::string& role, const std::string&) -> Result<std::optional<jobs::File>> {
+          return role == "part" ? job_.part : job_.blank;
+        });
+  }
+  jobs::LocateJob job_{.part = {"part.json", box(10, 10)}, .blank = {"blank.json", box(40, 20)}};
+};
+
+TEST_F(Criteria, AStrangersChoiceIsHandedOutAndNotCalledConfirmed) {
+  job_.options.criterion = locate::criterion_left();
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_NEAR(made->document.placement.x, 4, 2e-3);
+  ASSERT_FALSE(made->document.warnings.empty());
+  EXPECT_NE(made->document.warnings.back().find("does not know the criterion left"), std::string::npos);
+
+  const auto report = verified(made->result);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->report.verdict, verify::Verdict::incomplete);
+  EXPECT_EQ(Json::parse(report->json)["status"], "incomplete");
+  EXPECT_TRUE(
+      std::any_of(report->report.notes.begin(), report->report.notes.end(), [](const std::string& note) {
+        return note.find("the criterion \"left\" is none that this checker knows") != std::string::npos;
+      }));
+}
+
+TEST_F(Criteria, AStrangerWhoGivesUpMoreThanTheResultSaysIsRefuted) {
+  job_.options.criterion = locate::criterion_left();
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  for (const auto& [place, number] : {std::pair{"/demands/give_up", 0.9}, {"/demands/margin_found", 5.2}}) {
+    Json lie = Json::parse(made->result);
+    lie[Json::json_pointer(place)] = number;
+    const auto report = verified(lie.dump());
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->report.verdict, verify::Verdict::refuted) << place;
+  }
+}
+
+TEST_F(Criteria, ACriterionThatTakesNothingIsConfirmedWhereTheDemandsAreNotMet) {
+  job_.options.min_allowance = 6;  // there are 5
+  job_.options.criterion = locate::criterion_left();
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_LT(made->document.demands->margin, 0);
+  const auto report = verified(made->result);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->report.verdict, verify::Verdict::confirmed);
+}
+
+TEST_F(Criteria, WhatIsNotAllowedIsNotTaken) {
+  job_.options.criterion = {.name = "wrong", .favours = "", .choose = choose_what_is_not_allowed};
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_FALSE(made->document.demands->second.has_value());
+}
+
+TEST_F(Criteria, TheSmallestLargestAllowanceIsKeptByWhoAsksForIt) {
+  job_.part.bytes = box(4, 4), job_.options.give_up = 6;
+  job_.options.criterion = {.name = "wrong", .favours = "", .choose = choose_less_than_the_smallest_largest};
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_TRUE(made->document.demands->second.has_value());
+  EXPECT_NEAR(made->document.demands->second->found, 6, 0.02);
+  EXPECT_EQ(verified(made->result)->report.verdict, verify::Verdict::incomplete);
+
+  Json lie = Json::parse(made->result);
+  lie["demands"]["largest"] = 7;
+  EXPECT_EQ(verified(lie.dump())->report.verdict, verify::Verdict::refuted);
+}
+
+TEST_F(Criteria, TheFirstOfTheListDoesNotGoOnAndAllOthersDo) {
+  for (const locate::Criterion& criterion : locate::criteria()) {
+    EXPECT_EQ(criterion.choose == nullptr, &criterion == &locate::criteria().front()) << criterion.name;
+    EXPECT_EQ(locate::criterion_named(criterion.name), &criterion);
+  }
+  EXPECT_EQ(locate::criterion_named("none such"), nullptr);
+}
+
+TEST_F(Criteria, TheCheckerAndTheListUseTheSameWords) {
+  for (const char* const name : {"smallest", "largest", "even"}) {
+    EXPECT_NE(locate::criterion_named(name), nullptr) << name;
+    EXPECT_TRUE(verify::knows_criterion(name)) << name;
+  }
+  EXPECT_FALSE(verify::knows_criterion(""));
+  EXPECT_FALSE(verify::knows_criterion("Largest"));
+}
+
+}  // namespace
+}  // namespace lekalo
