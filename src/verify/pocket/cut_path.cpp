@@ -27,7 +27,7 @@ std::vector<Stroke> strokes_of(const Move& move, double longest) {
   return strokes;
 }
 
-/// Adds the share of the stroke between two shares of its way.
+/// Adds the part of the stroke between two shares of its length.
 void add_part(const Stroke& stroke, double begin, double end, Cut cut, CutPath& path) {
   const Place from = at_share(stroke, begin), to = at_share(stroke, end);
   cut.stroke = beginning(until(stroke, to), from);
