@@ -8,13 +8,14 @@
 
 namespace lekalo::cli {
 
-/// The form that the ending of a picture's name asks for; none for an empty name.
+/// Returns the form that the ending of a picture's name asks for; none for an empty name.
 [[nodiscard]] jobs::CutPicture picture_form(const std::string& path);
 
-/// The checker's findings for people, a line a figure.
+/// Returns the checker's findings for people, one figure a line.
 [[nodiscard]] std::string report_rows(const verify::SimulateReport& report);
 
-/// A line for each of the hottest stretches, and how many more there are.
+/// Returns a line for each of the hottest stretches, and one that says how many more there are.
+/// ramp_notices() does the same for ramps.
 [[nodiscard]] std::string hot_cut_notices(std::vector<jobs::ReportedStretch> cuts);
 [[nodiscard]] std::string ramp_notices(std::vector<jobs::ReportedStretch> ramps);
 

@@ -10,13 +10,13 @@
 
 namespace lekalo::jobs {
 
-/// A judged program for a picture, named as the last part of the pocket's path.
+/// Returns what a picture of a judged program shows. Its name is the last part of the pocket's path.
 [[nodiscard]] draw::PocketPicture cut_picture_of(const std::string& pocket_path,
                                                  const std::vector<geom::Region>& pockets,
                                                  double tool_diameter, double stock_to_leave,
                                                  const verify::SimulateReport& report);
 
-/// The picture's bytes in a form; none for CutPicture::none.
+/// Returns the picture's bytes in a form, and no bytes for CutPicture::none.
 [[nodiscard]] Result<std::string> drawn(const draw::PocketPicture& picture, CutPicture form);
 
 }  // namespace lekalo::jobs
