@@ -24,8 +24,10 @@ inline constexpr const char* kExportLayers[] = {"CUT", "MARK", "LABEL", "SHEET",
 
 struct ExportRequest {
   ExportForm form = ExportForm::dxf;
-  std::string sheet;              ///< STOCK or STOCK#COPY, copies from 1; empty: all in use
-  std::vector<std::string> only;  ///< layers to write, from kExportLayers; empty: all. G-code has none
+  /// STOCK or STOCK#COPY, with copies from 1; empty for all in use.
+  std::string sheet;
+  /// The layers to write, from kExportLayers; empty for all. G-code has none.
+  std::vector<std::string> only;
   LengthUnit unit = LengthUnit::millimetre;  ///< DXF and G-code only
   double chord_tolerance_mm = 0.02;          ///< HPGL only
   nc::ProfileOptions profile;                ///< G-code only
@@ -45,12 +47,14 @@ struct ExportWordHelp {
                                                       const std::string& prefix);
 
 struct ExportedFile {
-  std::string sheet;  ///< like `ExportRequest::sheet`; empty if the file holds all sheets
+  /// Like `ExportRequest::sheet`; empty if the file holds all sheets.
+  std::string sheet;
   std::string bytes;
 };
 struct Exported {
-  std::vector<ExportedFile> files;  ///< DXF and SVG one, HPGL and G-code one for each sheet
-  std::vector<std::string> notes;   ///< one sentence each
+  /// DXF and SVG give one file, HPGL and G-code one for each sheet.
+  std::vector<ExportedFile> files;
+  std::vector<std::string> notes;  ///< one sentence each
 };
 
 /// \param name  of the layout, for titles and comments
