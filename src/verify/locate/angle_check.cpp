@@ -243,6 +243,7 @@ void AngleCheck::check_dropped(const char* role, const Outline& outline,
   }
 }
 
+/// Step 7.
 void AngleCheck::check_trim() {
   if (!scene_.trimmed) return;
   const Outline& trimmed = *scene_.trimmed;
@@ -331,6 +332,7 @@ void AngleCheck::check_difference(const char* field, const Decimal& written, con
   }
 }
 
+/// Step 8: gap, shortfall and the clearance of the program must follow from the numbers they come from.
 void AngleCheck::check_derived() {
   const ResultDocument& r = result_;
   if (r.gap.has_value() != r.upper_bound.has_value()) {
@@ -353,6 +355,7 @@ void AngleCheck::check_derived() {
   }
 }
 
+/// Step 8: the contacts may be no further than the closest pair by more than a tolerance.
 void AngleCheck::check_contacts(EdgeLines& edges) {
   const Pose pose = pose_of(result_.best);
   const Ring& corners = scene_.blank().points;
@@ -380,6 +383,7 @@ void AngleCheck::check_contacts(EdgeLines& edges) {
   }
 }
 
+/// Steps 5 and 6.
 Result<bool> AngleCheck::check_certificate(EdgeLines& edges) {
   std::optional<Json> intervals = result_.certificate;
   const std::string& name =

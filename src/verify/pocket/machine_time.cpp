@@ -86,6 +86,7 @@ class Turned {
 
 }  // namespace
 
+/// Step 11 of docs/design/simulate.md.
 double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o) {
   const std::vector<Piece> pieces = pieces_of(moves, o);
   if (pieces.empty()) return 0;

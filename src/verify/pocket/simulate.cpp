@@ -98,6 +98,8 @@ struct Job {
   CutPath path;
 };
 
+/// Steps 1, 4, 6 and 9 of docs/design/simulate.md: the strokes of the program and of those before it, the
+/// open edges, and where the tool's middle may be.
 Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
                      const std::vector<EarlierProgram>& earlier) {
   LEKALO_CHECK(check(o, earlier));
@@ -130,12 +132,15 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   SimulateReport report;
   report.retracts = path.retracts;
   report.turning_rad = turning_of(path);
-  // The two measurements run side by side, so each fills other members of the report.
+  // Two measurements run side by side, so each fills other members of the report: engagement (steps 2, 3, 5
+  // and 7), and what is left.
   const auto measure_what_is_left = [&] {
+    // Step 8.
     measure_coverage(path, reach, radius, report);
     report.left_before_mm2 = report.reachable_mm2;
     if (!path.before.empty()) report.left_before_mm2 = left_before(path, reach, radius);
     measure_gouge(path, reach, report);
+    // Step 10.
     find_unreachable(reach, radius, report);
   };
   std::future<void> left =
