@@ -14,7 +14,7 @@ enum class ToStep {
   nearest,  ///< ties to even
   up        ///< gaps
 };
-/// Nothing when |mm| is above `most` mm.
+/// Returns the length in steps, or nothing when |mm| is above `most` mm.
 [[nodiscard]] std::optional<std::int64_t> steps_of(double mm, ToStep how, double most);
 
 /// A rotation in multiples of 2^-52.
