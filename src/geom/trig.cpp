@@ -9,8 +9,8 @@
 namespace lekalo::geom {
 namespace {
 
-// The four constants sum to pi/2. The first three have 33 bits, so that their products with a quarter-turn
-// count below 2^20 are exact; all four together are within 1e-48 of pi/2.
+// Step 4 of docs/design/geometry.md. The four constants sum to pi/2. The first three have 33 bits, so that
+// their products with a quarter-turn count below 2^20 are exact; all four together are within 1e-48 of pi/2.
 constexpr std::array<double, 4> kHalfPi = {0x1.921fb54400000p+0, 0x1.0b4611a600000p-34, 0x1.3198a2e000000p-69,
                                            0x1.b839a252049c1p-104};
 constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;

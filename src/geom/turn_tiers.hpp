@@ -5,8 +5,9 @@
 
 namespace lekalo::geom::detail {
 
-/// The tiers of `turn` after turn_filter. Each has its own entry, so that tests can ask which one answered
-/// and hold each against the next. A tier that cannot decide answers kUndecided.
+/// Step 2 of docs/design/geometry.md: the tiers of `turn` after turn_filter. Each has its own entry, so that
+/// tests can ask which one answered and hold each against the next. A tier that cannot decide answers
+/// kUndecided.
 
 [[nodiscard]] constexpr int sign_of(double v) noexcept { return (v > 0) - (v < 0); }
 

@@ -44,7 +44,8 @@ struct Side {
   Vec first, last;
   /// True for a side that is no wall of a pocket.
   bool open = false;
-  /// False for a line that joins an arc to its end, which the file does not have.
+  /// The ends as the file has them. `written` is false for a line that joins an arc to its end, which the
+  /// file does not have.
   bool written = true;
   Vec written_from, written_to;
 };
