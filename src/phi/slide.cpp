@@ -171,7 +171,7 @@ SlideEnd slide(const SlidePath& path, std::vector<double> events,
   if (!blocked && path.length > open) ask(path.length);
   // Step 3: halving. At the end the points of the way at `open` and `shut` are the same or neighbours. The
   // place that was reached lies beside the one, and nothing beside the other is valid. So some neighbour of
-  // the place is not valid, and the gap is kept with less than 1.5 steps to spare.
+  // the place is not valid, and the gap is kept with less than sqrt(2) steps to spare.
   while (blocked && shut - open > 0.5) ask(open + (shut - open) / 2);
   return {reached, open, blocked};
 }
