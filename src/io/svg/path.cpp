@@ -226,7 +226,7 @@ BoundedShape bezier(std::vector<BoundedPoint> points) {
 struct ChordHeight {
   /// The radius is enlarged where it was too small for the chord.
   Bounded half_chord, radius;
-  /// From the chord to the centre, not below 0.
+  /// The distance from the chord to the centre, not below 0.
   Bounded height;
 };
 ChordHeight height_over(const Bounded& dx, const Bounded& dy, const Bounded& radius) {

@@ -39,7 +39,7 @@ struct ContourRecord {
   LengthUnit unit = LengthUnit::millimetre;
   /// The points in mm, in file order; none is dropped.
   geom::Ring points;
-  /// Indices of points that are no corners of the outline.
+  /// Indices of the points that are no corners of the outline.
   std::vector<std::size_t> dropped;
   std::optional<TrimRecord> trim;
 };
@@ -66,11 +66,13 @@ class OutlineFile {
   /// not convex.
   [[nodiscard]] bool is_convex(bool only_convex_will_do);
 
-  /// The outline as regions of lines and arcs; bad_input where outlines cross or touch, with the place.
+  /// Returns the outline as regions of lines and arcs; bad_input where outlines cross or touch, with the
+  /// place.
   [[nodiscard]] Result<ReadOutline> as_regions();
 
-  /// The outline as a convex polygon: of points as make_convex says; with `trim` in mm it is cut inwards as
-  /// trim_to_convex says, and then its own points have numbers in results.
+  /// Returns the outline as a convex polygon: points are read as make_convex says. With `trim` in mm the
+  /// outline is cut inwards as trim_to_convex says, and results then number the points of the trimmed
+  /// outline.
   [[nodiscard]] Result<ReadOutline> as_convex(std::optional<double> trim = {});
 
  private:
@@ -92,7 +94,7 @@ class OutlineFile {
   std::optional<Result<ContourFile>> points_;
 };
 
-/// The outline in a file as regions.
+/// Returns the outline in a file as regions.
 [[nodiscard]] inline Result<ReadOutline> read_outline(std::string_view bytes, const std::string& name,
                                                       const OutlineOptions& options) {
   return OutlineFile(bytes, name, options).as_regions();
