@@ -1,4 +1,4 @@
-// A change as the store keeps it.
+// Writes and reads a change as the store keeps it.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ void append_line(std::string& text, char sign, const Placement& p) {
                  p.copy, p.rotation.c, p.rotation.s, p.at.x, p.at.y, p.mirrored ? 1 : 0, p.locked ? 1 : 0);
 }
 
-/// A feature is JSON to the end of the line, which has no line ends of its own.
+/// Writes a feature as JSON, which has no line ends of its own and therefore goes on to the end of the line.
 void append_line(std::string& text, char sign, const layout::FeatureChange& where,
                  const layout::Feature& feature) {
   fmt::format_to(std::back_inserter(text), "{}{} {} {} {}\n", sign, where.stock, where.index,

@@ -43,6 +43,7 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
                          const std::string& name) {
   CutPath path;
   path.deepest = top;
+  // `down` is true while the tool is below `top`. A cut that begins while it is false is a new entry.
   bool down = false;
   std::size_t entries = 0;
   for (const Move& move : moves) {
