@@ -8,10 +8,11 @@
 
 namespace lekalo::cli {
 
-/// The checker's findings for people, a line a figure.
+/// Returns the checker's findings for people, one figure a line.
 [[nodiscard]] std::string report_rows(const verify::SimulateReport& report);
 
-/// A line for each of the hottest stretches, and how many more there are.
+/// Returns a line for each of the hottest stretches, and one that says how many more there are.
+/// ramp_notices() does the same for ramps.
 [[nodiscard]] std::string hot_cut_notices(std::vector<jobs::ReportedStretch> cuts);
 [[nodiscard]] std::string ramp_notices(std::vector<jobs::ReportedStretch> ramps);
 

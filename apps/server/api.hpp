@@ -18,26 +18,31 @@ struct ApiAnswer {
   int status = 200;
   std::string body;
   std::string type = "application/json";
-  std::string file_name;  ///< not empty: to be saved under this name
-  std::string allow;      ///< with 405: the methods that there are
-  std::string notes;      ///< what is to be known of a file: a JSON array of sentences, ASCII; may be empty
+  /// The name under which a browser saves the body; empty when it does not.
+  std::string file_name;
+  /// With status 405, the methods that the path has.
+  std::string allow;
+  /// Notes about a file that was read: a JSON array of sentences in ASCII, or empty.
+  std::string notes;
 };
 
-/// Most bytes of a photograph.
+/// The most bytes of a photograph.
 inline constexpr std::size_t kLargestPhoto = std::size_t{16} << 20;
-/// The type of an image by its first bytes: "image/png", "image/jpeg", or "" for all others.
+/// Returns the type of an image by its first bytes: "image/png", "image/jpeg", or "" for all others.
 [[nodiscard]] std::string image_type(std::string_view bytes);
-/// The most bytes of body that a request may have; 0: none.
+/// Returns the most bytes of body that a request may have, 0 when it may have none.
 [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view path);
 
 [[nodiscard]] ApiAnswer api_error(int status, const std::string& sentence);
 
-/// Runs a change of a layout where nobody else changes it, with the layout opened, and hands what it says to
-/// the clients.
+/// Runs a change of a layout where nobody else changes it. The layout is opened for that, and what the change
+/// says goes to the clients.
 using ChangeRoom = std::function<Result<void>(LayoutId, const std::function<Result<Outbound>(Room&)>&)>;
 
-/// Answers a request whose path begins with /api. \param method  as HTTP has it \param given_up  set when
-/// nobody waits for the answer any more: a file that is read by then makes no layout
+/// Answers a request whose path begins with /api.
+/// \param method  as HTTP has it
+/// \param given_up  set when nobody waits for the answer any more. A file that has been read by then makes no
+/// layout.
 [[nodiscard]] ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
                                    const Target& target, const std::string& body,
                                    const std::atomic<bool>& given_up);

@@ -30,11 +30,11 @@ std::vector<layout::PlacementChange> difference(const std::vector<Placement>& fr
   return changes;
 }
 
-/// Compacts sheet by sheet, as the command does, and tells of the layout after each: it is better than the
-/// one before.
+/// Compacts sheet by sheet, as the command does. Each sheet makes the layout better than it was, so the job
+/// tells of the layout after each.
 Result<layout::Change> compact_all(const layout::Document& document, const JobContext& context,
                                    layout::CompactCommand command, layout::Mode mode) {
-  std::map<Sheet, double> sheets;  // with how many parts
+  std::map<Sheet, double> sheets;  // each with its number of parts
   double all = 0, done = 0;
   for (const Placement& placement : document.placements)
     if (placement.copy >= 0 && placement.copy < document.stocks[placement.stock].count)

@@ -14,22 +14,26 @@
 
 namespace lekalo::server {
 
-/// Work of more than a moment. It runs on a thread of its own and on a copy of the document, so that the
-/// layout stays open for everyone; what it finds is carried out at the end, as one command, if it still can
-/// be.
+/// A job is work of more than a moment. It runs on a thread of its own and on a copy of the document, so that
+/// the layout stays open for everyone. What the job finds is carried out at the end, as one command, if that
+/// is still possible.
 
-/// A job gets this beside the document: its stop flag and listener, and who takes better layouts.
+/// The things that a job gets beside the document: its stop flag and listener, and a function that takes
+/// better layouts.
 struct JobContext {
-  RunControl run;  ///< stopped, the job gives the best it has
-  /// A layout better than any before, as the change that leads to it from the document. May be empty.
+  /// When this stops the job, the job gives the best it has.
+  RunControl run;
+  /// Takes a layout that is better than any before, as the change that leads to it from the document. May be
+  /// empty.
   std::function<void(const layout::Change&)> improved;
 };
 using Job = std::function<Result<layout::Change>(const layout::Document&, const JobContext&)>;
 
-/// The job that a command is; none for commands that take a moment.
+/// Returns the job that carries out a command; none for commands that take only a moment.
 [[nodiscard]] std::optional<Job> job_of(const layout::Command& command, layout::Mode mode);
 
-/// The change of placements that leads from one document to another, which has the same stocks and parts.
+/// Returns the change of placements that leads from one document to another, which has the same stocks and
+/// parts.
 [[nodiscard]] layout::Change change_between(const layout::Document& from, const layout::Document& to);
 
 using JobNumber = std::uint64_t;

@@ -103,7 +103,7 @@ class Deadline {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool over_ = false;
-  std::thread thread_;  // the last one: it uses the others
+  std::thread thread_;  // stands last, because it uses the others
 };
 
 Result<layout::Change> run(const Document& document, const NestRequest& request, const JobContext& context) {

@@ -16,58 +16,62 @@
 
 namespace lekalo::server {
 
-/// Number of a connection, unique while the server runs.
+/// The number of a connection, unique while the server runs.
 using ClientNumber = std::uint64_t;
 
 /// Says whether a message may be left out when a client reads slower than others write.
 enum class Loss : std::uint8_t {
-  never,     ///< an answer
-  as_newer,  ///< the state of a moment; a fresh `layout` takes the place of all of them
-  fresh      ///< that `layout`
+  never,     ///< an answer must arrive
+  as_newer,  ///< the state of a moment; a fresh `layout` replaces all of these
+  fresh      ///< a fresh `layout` itself
 };
 
 struct Outgoing {
   ClientNumber to = 0;
-  std::shared_ptr<const std::string> text;  ///< shared by all who get it
+  /// The text is shared by all clients who get it.
+  std::shared_ptr<const std::string> text;
   Loss loss = Loss::never;
 };
 using Outbound = std::vector<Outgoing>;
 
-/// One layout that is open: its state, its clients, and what each of them is to hear. It knows no network;
-/// one call at a time. Nothing is said to be done before the store has it.
+/// One layout that is open: its state, its clients, and what each of them is to be told. A room knows nothing
+/// of the network, and takes one call at a time. It tells nobody that something is done before the store has
+/// it.
 class Room {
  public:
   Room(Store& store, LayoutId id, StoredLayout layout);
 
-  /// A client comes in and gets the layout. `author` names whoever sits there across connections and
-  /// restarts, so that undo goes on where it was; empty: nobody, what it does can be undone until it leaves.
+  /// Lets a client in and gives it the layout. `author` names whoever sits there across connections and
+  /// restarts, so that undo goes on where it was. When it is empty, what the client does can be undone until
+  /// it leaves.
   [[nodiscard]] Result<Outbound> join(ClientNumber client, const std::string& author);
   [[nodiscard]] Outbound leave(ClientNumber client);
   [[nodiscard]] Outbound handle(ClientNumber client, const ClientMessage& message);
   /// Says whether a long command of this client is under way. Its further commands then have to wait.
   [[nodiscard]] bool is_busy(ClientNumber client) const;
-  /// Jobs that are to be run now, each once; the three below are told of them.
+  /// Returns the jobs that are to be run now, each of them once. The room is told of them by job_progress,
+  /// job_improved and job_ended.
   [[nodiscard]] std::vector<JobStart> take_jobs();
-  /// The client that started the job; 0 for a job that has ended.
+  /// Returns the client that started the job; 0 for a job that has ended.
   [[nodiscard]] ClientNumber client_of(JobNumber job) const;
   [[nodiscard]] Outbound job_progress(JobNumber job, double fraction,
                                       std::optional<double> seconds_left) const;
   [[nodiscard]] Outbound job_improved(JobNumber job, const layout::Change& change) const;
-  /// Carries out what it found, or has it begin again where others changed what it builds on.
+  /// Carries out what a job found, or lets the job begin again where others changed what it builds on.
   [[nodiscard]] Outbound job_ended(JobNumber job, const Result<layout::Change>& found);
 
-  /// The layout as it is now, to one who missed some of it.
+  /// Returns the layout as it is now, for a client that missed some of it.
   [[nodiscard]] Outbound resend(ClientNumber client) const;
 
-  /// Makes the state of that revision the newest one. A state that is the newest already gives no new
+  /// Makes the state of that revision the newest one. A state that already is the newest gives no new
   /// revision.
   [[nodiscard]] Result<Outbound> restore(Revision revision);
   [[nodiscard]] Result<Outbound> rename(const std::string& name);
-  /// Keeps a photograph of a stock, its scale alone, or takes it away; everyone is told.
+  /// These three keep a photograph of a stock, change its scale, or take it away, and tell everyone.
   [[nodiscard]] Result<Outbound> set_photo(const Photo& photo, const std::string& image);
   [[nodiscard]] Result<Outbound> set_photo_scale(const std::string& stock, const PhotoScale& scale);
   [[nodiscard]] Result<Outbound> remove_photo(const std::string& stock);
-  /// Deletes the layout, from the store too. Everyone in the room is told.
+  /// Deletes the layout, from the store too, and tells everyone in the room.
   [[nodiscard]] Result<Outbound> remove();
 
   [[nodiscard]] Revision revision() const noexcept { return revision_; }
@@ -81,15 +85,18 @@ class Room {
   };
   struct Client {
     std::string author;
-    Stack own;  ///< of one without an author
+    /// The stack of a client that has no author.
+    Stack own;
     std::vector<std::uint64_t> selected;
   };
-  /// A long command under way.
+  /// A long command that is under way.
   struct Running {
     ClientNumber client = 0;
     CommandMessage said;
-    std::string text;                        ///< for the history
-    std::optional<layout::Command> command;  ///< none for one that is no command of a layout
+    /// The command as the history names it.
+    std::string text;
+    /// The layout's command; none for a request that is no command of a layout (nest_job.hpp).
+    std::optional<layout::Command> command;
     Job job;
     std::shared_ptr<std::atomic<bool>> stop;
     int attempts = 0;
@@ -101,28 +108,29 @@ class Room {
   };
 
   [[nodiscard]] Outbound command(ClientNumber client, const CommandMessage& message);
-  /// Answers a command that is planned: shown, or carried out.
+  /// Answers a command whose change is planned: the change is shown or carried out.
   [[nodiscard]] Outbound carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
                                    layout::Change change, bool stopped = false);
   void start(Running running);
   void stop(ClientNumber client, const StopMessage& message);
-  /// A change that was planned on an earlier state, in this one; none where that is not possible any more.
+  /// Returns a change that was planned on an earlier state as a change of this state; none where that is not
+  /// possible any more.
   [[nodiscard]] std::optional<layout::Change> rebased(const layout::Change& change, layout::Mode mode) const;
   [[nodiscard]] Outbound undo(ClientNumber client, const UndoMessage& message);
   [[nodiscard]] Outbound select(ClientNumber client, const SelectMessage& message);
   [[nodiscard]] Stack& stack_of(Client& client);
   [[nodiscard]] std::string who(ClientNumber client) const;
   [[nodiscard]] std::string preview_text(std::uint64_t seq, const layout::Change& change);
-  /// The end of a sentence: who changed the placement or the feature last.
+  /// Returns the end of a sentence that says who changed the placement or the feature last.
   [[nodiscard]] Result<std::string> later_change(std::uint64_t id, Revision since);
   [[nodiscard]] Result<std::string> later_change(std::uint32_t stock, const layout::Feature& feature,
                                                  Revision since);
   [[nodiscard]] Result<std::string> later_change(const std::string& what, const Toucher* known,
                                                  Revision since,
                                                  const std::function<bool(const layout::Change&)>& touches);
-  /// Why a change cannot be put in place of the state that is there, or nothing.
+  /// Says why a change cannot be put in place of the present state; success where it can.
   [[nodiscard]] Result<void> check_standing(const StoredChange& command, const layout::Change& wanted);
-  /// Store first, then the state, then everyone hears of it.
+  /// Puts a change into the store first, then into the state, and then tells everyone.
   [[nodiscard]] Result<void> commit(ClientNumber client, StoredChange change, Outbound& out);
   [[nodiscard]] Outbound photo_changed(const std::string& stock, bool image) const;
   void to_all(const std::string& text, Loss loss, Outbound& out) const;
@@ -140,8 +148,8 @@ class Room {
   std::vector<JobStart> starting_;
   JobNumber last_job_ = 0;
   std::map<std::string, Stack> stacks_;                    ///< by author
-  std::unordered_map<std::uint64_t, Toucher> last_touch_;  ///< by placement, since the room is open
-  std::unordered_map<std::string, Toucher> last_draw_;     ///< by feature, likewise
+  std::unordered_map<std::uint64_t, Toucher> last_touch_;  ///< by placement, since the room was opened
+  std::unordered_map<std::string, Toucher> last_draw_;     ///< by feature, since the room was opened
 };
 
 }  // namespace lekalo::server

@@ -5,14 +5,16 @@
 
 namespace lekalo::server {
 
-/// Estimates how long something still takes, from how far it was when: by its latest pace (2 s, or a quarter
-/// of all its time where that is more), so that a slow end is not promised to be as quick as the beginning,
-/// and nothing is said where nothing moves.
+/// Estimates how long a piece of work still takes, from how far it was at which time. The latest pace counts
+/// (that of 2 s, or of a quarter of all its time where that is more). So a slow end is not promised to be as
+/// quick as the beginning, and nothing is said where nothing moves.
 class TimeLeft {
  public:
-  /// \param at seconds of any clock, never less than before \param fraction in [0, 1]
+  /// Takes a new state of the work.
+  /// \param at  seconds of any clock, never less than before
+  /// \param fraction  in [0, 1]
   void take(double at, double fraction);
-  /// Seconds; none: nobody can tell.
+  /// Returns the seconds that are left; none where nobody can tell.
   [[nodiscard]] std::optional<double> seconds() const noexcept { return seconds_; }
 
  private:

@@ -11,7 +11,8 @@ class Painter {
  public:
   explicit Painter(cairo_t* canvas) : canvas_(canvas) {
     cairo_set_line_join(canvas, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_fill_rule(canvas, CAIRO_FILL_RULE_WINDING);  // SVG's default
+    // SVG fills by this rule, so pictures of both kinds look alike.
+    cairo_set_fill_rule(canvas, CAIRO_FILL_RULE_WINDING);
   }
 
   void operator()(const PathItem& item) const {

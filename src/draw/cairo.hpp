@@ -19,7 +19,7 @@ using Surface = std::unique_ptr<cairo_surface_t, FreeCairo>;
 /// Paints the scene on a canvas whose unit is a millimetre of paper.
 void paint_scene(const Scene& scene, cairo_t* canvas);
 
-/// Appends to the std::string `text`.
+/// Appends bytes to `text`, which is a std::string.
 cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count);
 
 }  // namespace lekalo::draw

@@ -41,9 +41,11 @@ int scale_step(double value, double low, double high) {
 
 ColourRange colour_range(double least, double greatest, double rounding, double size) {
   ColourRange range{std::max(0.0, least), std::max(0.0, greatest)};
-  // An even allowance would stretch differences nobody can measure over all colours: it is shown as one.
+  // An even allowance is shown in one colour, because differences that nobody can measure would otherwise be
+  // stretched over all colours.
   if (!(range.high - range.low > 0.02 * range.high)) range.low = 0;
-  // No allowance anywhere: all of it thin, on a scale that fits the size of the blank.
+  // If there is no allowance anywhere, all of it is shown as thin, on a scale that fits the size of the
+  // blank.
   if (!(range.high > rounding)) range.high = 0.01 * size;
   return range;
 }

@@ -8,24 +8,24 @@ inline constexpr Colour kInk{31, 36, 43}, kGrey{96, 105, 116}, kFaint{160, 168, 
     kPaper{255, 255, 255}, kBlankFill{228, 233, 239}, kBlankLine{110, 122, 136}, kStartLine{70, 130, 180},
     kOutside{208, 0, 27}, kOutsideBase{20, 20, 20}, kGood{32, 122, 76}, kDoubt{150, 105, 10};
 
-/// Colours of the scale are this many, so that a contour is drawn in few pieces.
+/// The scale has this many colours, so that a contour is drawn in few pieces.
 inline constexpr int kColourSteps = 64;
 
-/// Colour of step 0 (thin: bright orange) to kColourSteps - 1 (thick: dark blue). Lightness falls evenly from
-/// thin to thick, so the order survives every kind of colour blindness and a grey printer; the hue runs from
-/// warm to cold. Between nine colours of equal steps in OKLCh (lightness 0.76 to 0.32, hue 62 to -88
-/// degrees).
+/// Returns the colour of a step, from 0 (thin: bright orange) to kColourSteps - 1 (thick: dark blue).
+/// Lightness falls evenly from thin to thick, so the order survives every kind of colour blindness and a grey
+/// printer; the hue runs from warm to cold. The colours lie between nine colours of equal steps in OKLCh
+/// (lightness 0.76 to 0.32, hue 62 to -88 degrees).
 [[nodiscard]] Colour scale_colour(int step);
 
-/// The step for a value of the range, clamped.
+/// Returns the step for a value, clamped to the range.
 [[nodiscard]] int scale_step(double value, double low, double high);
 
-/// The colours of a picture stand for values in this range, mm, low < high.
+/// The range of values, in mm, for which the colours of a picture stand; low < high.
 struct ColourRange {
   double low = 0, high = 1;
 };
-/// For allowances from `least` to `greatest` in a blank of this size; what is below 0 has no colour of the
-/// scale.
+/// Returns the range for allowances from `least` to `greatest` in a blank of this size. An allowance below 0
+/// has no colour of the scale.
 [[nodiscard]] ColourRange colour_range(double least, double greatest, double rounding, double size);
 
 }  // namespace lekalo::draw

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostSide = 30'000, kMostPixels = 100'000'000;
 
-/// The library's calls work on this. The library leaves them by longjmp on trouble, so nothing with a
-/// destructor lives in their functions.
+/// The bytes that the library's calls work on. The library leaves its calls by longjmp on trouble, so nothing
+/// with a destructor lives in the functions that call it.
 struct Stream {
   std::string_view rest;
   std::string* written = nullptr;
@@ -43,7 +43,7 @@ struct Head {
   int bits = 0, colour = 0;
 };
 
-/// False when the library complained.
+/// Returns false when the library complained.
 bool read_head(png_structp png, png_infop info, Head& head) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, kMostSide, kMostSide);

@@ -11,18 +11,22 @@ namespace lekalo::draw {
 
 /// A text that belongs to a point of the drawing and should stand off it in a direction.
 struct Label {
-  geom::Point at;       ///< paper
-  geom::Point outward;  ///< direction on the paper in which there is room, any length above 0
+  geom::Point at;  ///< paper
+  /// The direction on the paper in which there is room, of any length above 0.
+  geom::Point outward;
   std::string text;
   const char* kind = "contact-label";
   Colour colour = kInk;
-  bool any_side = false;  ///< rather on another side than nowhere
+  /// True when the label may stand on another side, if there is no room on this one.
+  bool any_side = false;
 };
 
-/// Labels keep off these closed lines on paper.
+/// Closed lines on paper that labels keep off.
 struct Obstacles {
-  std::vector<geom::Ring> filled;  ///< no label on the line or inside
-  std::vector<geom::Ring> lines;   ///< no label on the line
+  /// No label stands on the line or inside.
+  std::vector<geom::Ring> filled;
+  /// No label stands on the line.
+  std::vector<geom::Ring> lines;
 };
 
 /// Finds places for labels within `page`, one after the other, clear of the obstacles, of other labels and of

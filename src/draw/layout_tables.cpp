@@ -115,7 +115,7 @@ class Pages {
 
   void put(const Table& table) {
     if (table.rows.empty()) return;
-    // A heading alone at the foot of a page helps nobody.
+    // A heading alone at the foot of a page is avoided, because it says nothing there.
     if (pages_.empty() || y_ + kTableGap + 3 * kRow > kColumn.bottom()) begin_page();
     begin_table(table, table.heading);
     for (const Row& row : table.rows) {

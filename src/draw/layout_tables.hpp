@@ -7,8 +7,8 @@
 
 namespace lekalo::draw {
 
-/// Pages of 297 x 210 mm with a row for every sheet in use, every part and every kit with what it lacks:
-/// nothing is left out, however many there are.
+/// Returns pages of 297 x 210 mm with a row for every sheet in use, every part and every kit with what it
+/// lacks. Nothing is left out, however many there are.
 [[nodiscard]] std::vector<Scene> layout_tables(const LayoutPicture& picture);
 
 }  // namespace lekalo::draw

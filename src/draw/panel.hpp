@@ -8,8 +8,8 @@
 
 namespace lekalo::draw {
 
-/// Title, names, status, numbers, colour scale and legend, from the top of `room` downwards. Returns where
-/// they end.
+/// Draws title, names, status, numbers, colour scale and legend, from the top of `room` downwards. Returns
+/// where they end.
 double draw_panel(const LocatePicture& picture, const PictureOfRings& rings, const Located& shapes,
                   const Rect& room, std::vector<Item>& items);
 

@@ -19,7 +19,8 @@ Result<std::string> scene_pdf(const Scene& scene, const std::vector<Scene>& more
   set(CAIRO_PDF_METADATA_TITLE, scene.title);
   set(CAIRO_PDF_METADATA_SUBJECT, scene.description);
   set(CAIRO_PDF_METADATA_CREATOR, std::string("lekalo ") + kVersion);
-  // The hour is not among the input: same input, same bytes.
+  // The date is left out, because the hour is not part of the input and the same input must give the same
+  // bytes.
   set(CAIRO_PDF_METADATA_CREATE_DATE, "");
   cairo_status_t status = CAIRO_STATUS_SUCCESS;
   {

@@ -8,10 +8,10 @@ namespace lekalo::draw {
 
 inline constexpr Rect kPage{0, 0, 250, 160};  ///< mm of paper
 
-/// White paper with title and description: what both kinds of pictures begin with.
+/// Returns white paper with title and description, with which both kinds of pictures begin.
 [[nodiscard]] Scene empty_scene(const LocatePicture& picture);
 
-/// The picture of a localisation of regions.
+/// Returns the picture of a localisation of regions.
 [[nodiscard]] Scene composed_regions(const LocatePicture& picture, const PictureOfRegions& regions);
 
 }  // namespace lekalo::draw

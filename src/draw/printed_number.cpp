@@ -23,7 +23,8 @@ bool wrong_side(const std::string& text, double value, Rounding rounding) {
          (rounding == Rounding::up && parsed(text) < value);
 }
 
-/// Fixed-point or, with `scientific`, d.dde-x: the nearest, or the next on the side asked for.
+/// Writes a number fixed-point or, with `scientific`, as d.dde-x: the nearest such number, or the next one on
+/// the side asked for.
 std::string directed(double value, int decimals, Rounding rounding, bool scientific) {
   const auto write = [&](double v) {
     return scientific ? fmt::format("{:.{}e}", v, decimals) : fmt::format("{:.{}f}", v, decimals);
@@ -32,7 +33,8 @@ std::string directed(double value, int decimals, Rounding rounding, bool scienti
   if (!wrong_side(text, value, rounding)) return text;
   const double exponent = scientific ? std::floor(std::log10(std::abs(value))) : 0;
   const double last_place = std::pow(10.0, exponent - decimals);
-  // Half a unit further the nearest is the next on that side, where the sum is not rounded back.
+  // The number nearest to the value half a unit further is the next one on that side, unless the sum is
+  // rounded back. Then a whole unit is added.
   for (const double units : {0.5, 1.0}) {
     const double shift = rounding == Rounding::down ? -units * last_place : units * last_place;
     text = write(value + shift);

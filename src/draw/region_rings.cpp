@@ -11,7 +11,8 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-/// Points along an edge, without its end: chords no further than `sag` off and no longer than `step`, mm.
+/// Appends the points along an edge without its end. The chords are no further than `sag` off and no longer
+/// than `step`, mm.
 void append_points(const geom::Edge& edge, double sag, double step, Ring& ring) {
   if (edge.kind == geom::EdgeKind::line) {
     const Point along = edge.to - edge.from;

@@ -7,8 +7,8 @@
 
 namespace lekalo::draw {
 
-/// The contours as points: chords no further than `sag` off their arcs and no longer than `step`, mm, at most
-/// 10,000 an edge. Each outer contour before its holes.
+/// Returns the contours as points, each outer contour before its holes. The chords are no further than `sag`
+/// off their arcs and no longer than `step`, mm, and an edge has at most 10,000 of them.
 [[nodiscard]] std::vector<geom::Ring> region_rings(const std::vector<geom::Region>& regions, double sag,
                                                    double step);
 

@@ -16,9 +16,11 @@ namespace {
 using geom::Point;
 
 constexpr double kSamplesAround = 2000;
-constexpr double kTolerance = 1e-4;        ///< mm, of the extremes
-constexpr double kToleranceOfSize = 1e-6;  ///< for parts so small that 1e-4 mm shows
-constexpr double kLargestOfSize = 1e-10;   ///< for ones so large that doubles cannot
+constexpr double kTolerance = 1e-4;  ///< mm, of the extremes
+/// The same for parts so small that 1e-4 mm shows.
+constexpr double kToleranceOfSize = 1e-6;
+/// The same for parts so large that doubles cannot reach the others.
+constexpr double kLargestOfSize = 1e-10;
 
 template <class Visit>
 void for_each_contour(const std::vector<geom::Region>& regions, Visit&& visit) {
@@ -60,7 +62,7 @@ std::vector<ReportFeature> contours_as_features(const std::vector<geom::Region>&
   return features;
 }
 
-/// The integral of the allowance between samples.
+/// Returns the integral of the allowance over the edge, by trapezoids between the samples.
 double area_over(const locate::EdgeAllowance& edge) {
   double area = 0;
   for (std::size_t k = 0; k + 1 < edge.samples.size(); ++k) {
@@ -93,14 +95,14 @@ FeatureRow row_of(ReportFeature feature, const Report& report) {
   return row;
 }
 
-/// A measurement that misses a demand by no more than its own tolerance does not contradict a result that
-/// says that every demand of a feature is met.
+/// Returns what a measurement may miss a demand by. Missing it by no more than its own tolerance does not
+/// contradict a result that says that every demand of a feature is met.
 double rounding_of(const Report& report) {
   return report.margin && *report.margin >= 0 ? report.tolerance : 0;
 }
 
-/// By its own demand, else by that on the whole part. A part that just fits meets that where the checker says
-/// so: the rounding of the measurement here does not count then.
+/// Judges a feature by its own demand, or else by that on the whole part. A part that just fits meets the
+/// latter where the checker says so. The rounding of the measurement here does not count then.
 void judge(const Report& report, FeatureRow& row) {
   const io::LocateDocument& document = report.document;
   const ReportFeature& demand = row.feature;
@@ -130,13 +132,14 @@ void find_demands(Report& report) {
     for (const std::uint32_t k : row.feature.edges)
       own[k] = std::max(own[k].value_or(*row.feature.minimum), *row.feature.minimum);
   }
-  // A measurement that misses by its rounding what the checker has confirmed is no lack.
+  // A demand that the checker has confirmed counts as met, even if the measurement misses it by its rounding.
   const double whole = whole_is_met(report.document) ? 0 : report.document.min_allowance;
   for (const std::optional<double>& demand : own)
     report.demanded.push_back(demand ? *demand - rounding_of(report) : whole);
 }
 
-/// The worst places of the outline and, where the part sticks out, of its inside, no two close together.
+/// Finds the worst places of the outline and, where the part sticks out, of its inside. No two of them are
+/// close together.
 void find_missing(Report& report) {
   std::vector<locate::MissingPlace> places;
   for (std::size_t k = 0; k < report.edges.size(); ++k) {
@@ -212,7 +215,7 @@ Result<Report> make_report(const io::LocateDocument& document, ReportShapes shap
 
 namespace {
 
-/// RFC 4180.
+/// Quotes a field as RFC 4180 asks for.
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -19,7 +19,7 @@ struct Histogram {
   [[nodiscard]] double width() const { return (high - low) / static_cast<double>(share.size()); }
 };
 
-/// The length over each range of allowances; between samples the allowance is taken to run straight.
+/// Sums the length over each range of allowances. Between samples the allowance is taken to run straight.
 Histogram histogram_of(const Report& report, const ReportLook& look) {
   Histogram h{std::min(look.least, look.range.low), std::max(look.greatest, look.range.high),
               std::vector<double>(kBins)};
@@ -84,7 +84,7 @@ double draw_histogram(const Report& report, const ReportLook& look, const Rect& 
         {"histogram-bar", fmt::format("{} to {} mm: {} %", from, from + h.width(), 100 * h.share[k])}});
   }
   sheet.path({{column.x, base}, {column.right(), base}}, false, stroked(kInk, 0.25), "axis");
-  // The colours of the drawing.
+  // The bar below the histogram has the colours of the drawing.
   const double bar_top = base + 0.6, bar_bottom = bar_top + 2;
   const double from = x_of(look.range.low), to = x_of(look.range.high);
   if (h.low < 0) {
@@ -93,7 +93,7 @@ double draw_histogram(const Report& report, const ReportLook& look, const Rect& 
   }
   if (look.greatest >= 0) {
     for (int k = 0; k < kColourSteps; ++k) {
-      // Each colour reaches to the end of the bar and is covered by the next: no seams.
+      // Each colour reaches to the end of the bar and is covered by the next one, so that there are no seams.
       const double x = from + (to - from) * k / kColourSteps;
       sheet.path({{x, bar_top}, {to, bar_top}, {to, bar_bottom}, {x, bar_bottom}}, true,
                  filled(scale_colour(k)), "scale");

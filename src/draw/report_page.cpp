@@ -15,7 +15,7 @@ constexpr double kBetween = 5;
 constexpr Rect kLeft{kBody.x, 0, 0.5 * (kBody.width - kBetween), 0};
 constexpr Rect kRight{kBody.x + kLeft.width + kBetween, 0, kLeft.width, 0};
 constexpr double kFooter = 4;
-constexpr double kLeastDrawing = 70, kUsualDrawing = 92, kMostDrawing = 150;  ///< height, mm
+constexpr double kLeastDrawing = 70, kUsualDrawing = 92, kMostDrawing = 150;  ///< heights, mm
 
 Colour colour_of_status(const std::string& status) {
   if (status == "optimal") return kGood;
@@ -67,7 +67,7 @@ class Page {
     return kBody.y + 12;
   }
 
-  /// Everything below the drawing; returns where it ends.
+  /// Draws everything below the drawing, and returns where it ends.
   double sections(double top, Sheet& sheet) const {
     const double left =
         draw_proof(report_, kLeft, draw_numbers(report_, look_, kLeft, top, sheet) + 1.5, sheet);
@@ -85,7 +85,7 @@ class Page {
   [[nodiscard]] double most_drawing() const {
     return std::clamp(placement_height(report_, kBody.width), kLeastDrawing, kMostDrawing);
   }
-  /// As much of the lists as leaves the drawing its usual height.
+  /// Keeps as much of the lists as leaves the drawing its usual height.
   void choose_rows(double room) {
     constexpr std::size_t kFewest = 3;
     while (height_below() + std::min(kUsualDrawing, most_drawing()) > room) {

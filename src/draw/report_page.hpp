@@ -7,12 +7,12 @@
 
 namespace lekalo::draw {
 
-/// A4, portrait.
+/// The page is A4, upright.
 inline constexpr Rect kReportPage{0, 0, 210, 297};
 
 [[nodiscard]] Scene report_page(const Report& report);
 
-/// Holds what the sections of the page share.
+/// The choices that all sections of the page share.
 struct ReportLook {
   double least = 0, greatest = 0;  ///< allowance along the outline, mm
   ColourRange range;
@@ -21,17 +21,18 @@ struct ReportLook {
 };
 [[nodiscard]] ReportLook look_of(const Report& report);
 
-/// 'A' to 'Z', then none: contacts after that are not marked.
+/// Returns 'A' to 'Z', and nothing for contacts after that, which are not marked.
 [[nodiscard]] std::string contact_letter(std::size_t index);
 
-/// A length as printed, with its unit.
+/// Returns a length as it is printed, with its unit.
 [[nodiscard]] std::string length_text(double mm, int decimals, Rounding rounding = Rounding::nearest);
 
-/// How high a frame of this width the shapes fill, at most (part and blank may be higher than wide: 10
-/// widths).
+/// Returns the most height that the shapes fill in a frame of this width. Part and blank may be higher than
+/// wide; then it is 10 widths at most.
 [[nodiscard]] double placement_height(const Report& report, double width);
 
-/// The sections. Each draws from `top` downwards in its column and returns where it ends.
+/// The functions below draw the sections. Each draws from `top` downwards in its column and returns where it
+/// ends.
 void draw_placement(const Report& report, const ReportLook& look, const Rect& frame, Sheet& sheet);
 double draw_histogram(const Report& report, const ReportLook& look, const Rect& column, double top,
                       Sheet& sheet);

@@ -12,7 +12,7 @@
 namespace lekalo::draw {
 namespace {
 
-/// Columns by the share of the table's width; numbers are set against their right side.
+/// A column with its share of the table's width. Numbers are set against their right side.
 struct Column {
   const char* title;
   double share;
@@ -32,7 +32,7 @@ class Table {
     for (const Column& one : columns_) words.emplace_back(one.title);
     return row(y, words, {.size = kReportSmall, .colour = kGrey, .kind = "table-title"});
   }
-  /// Cells in order; an empty one is left out.
+  /// Draws a row of cells in order; an empty cell is left out.
   double row(double y, const std::vector<std::string>& cells, const TextStyle& style, Colour last = kInk) {
     double x = room_.x;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -96,7 +96,7 @@ double draw_numbers(const Report& report, const ReportLook& look, const Rect& co
     rows.add("missing", length_text(d.shortfall, look.decimals, Rounding::up), "shortfall", kOutside, true);
   rows.add("x", length_text(p.x, look.decimals), "x");
   rows.add("y", length_text(p.y, look.decimals), "y");
-  // As many digits as move the rim of the part by less than the last digit of x.
+  // The angle has as many digits as move the rim of the part by less than the last digit of x.
   rows.add("angle", decimal(p.theta * kDegreesPerRadian, 7) + "°", "theta-deg");
   if (report.document.mirrored) rows.add("mirrored", "in x, before turning", "mirrored");
   return rows.end();
@@ -154,7 +154,8 @@ double draw_features(const Report& report, const ReportLook& look, const Rect& c
   columns.push_back({"", 2.2});
   Table table(columns, column, sheet);
   y = table.titles(y);
-  // If not all find room, those that lack something are kept first, then the thinnest, in their own order.
+  // If not all find room, those that lack something are kept first and then the thinnest. The rows that are
+  // kept stay in their own order.
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (rows.size() > most_rows) {
@@ -199,7 +200,7 @@ double draw_inputs(const Report& report, const Rect& column, double top, Sheet& 
   double y = sheet.heading(column, top, "Input files and SHA-256 of their bytes");
   for (const io::InputRecord& input : report.document.inputs) {
     y += kReportLine;
-    // 64 hexadecimal digits must not be shortened: they are at most 0.66 of the size wide.
+    // A digest of 64 hexadecimal digits must not be shortened. The digits are at most 0.66 of the size wide.
     constexpr double kDigestSize = 1.95, kDigest = 64 * 0.66 * kDigestSize + 1, kRole = 17;
     sheet.text(column.x, y - 1, kRole - 1, input.role, {.size = kReportSmall, .colour = kGrey});
     std::string words = io::as_utf8(input.file.path);
@@ -219,7 +220,7 @@ double draw_notes(const Report& report, const Rect& column, double top, std::siz
   double y = sheet.heading(column, top, "Assumptions and warnings") + kReportSmall + 0.8;
   std::size_t used = 0, left = report.assumptions.size() + report.document.warnings.size();
   const auto add = [&](const std::string& sentence, Colour colour, const char* kind) {
-    // One line is kept for the word about those that find no room.
+    // One line is kept for the sentence about those that find no room.
     const std::size_t room = most_lines - used - (left > 1 ? 1 : 0);
     if (used >= most_lines || room == 0) return;
     y = sheet.paragraph(column, y, sentence, {.size = kReportSmall, .colour = colour, .kind = kind},

@@ -11,7 +11,7 @@
 namespace lekalo::draw {
 namespace {
 
-/// So long that the digest after it finds room.
+/// Returns the file's name, shortened so that the digest after it finds room.
 std::string name_of(const io::FileRecord& file) {
   return io::shortened(io::file_name(io::as_utf8(file.path)), 30);
 }

@@ -10,7 +10,7 @@
 namespace lekalo::draw {
 namespace {
 
-/// Thousandths of a millimetre of paper, without trailing zeros.
+/// Writes thousandths of a millimetre of paper, without trailing zeros.
 std::string number(double value) {
   std::string text = fmt::format("{:.3f}", value);
   text.erase(text.find_last_not_of('0') + 1);

@@ -8,14 +8,15 @@
 namespace lekalo::geom::detail {
 namespace {
 
-/// Directions closer than this, in radians, are not trusted to order two edges of which one is an arc: their
+/// Two edges of which one is an arc are not ordered by directions closer than this, in radians, because their
 /// ends were snapped.
 constexpr double kNearlyParallel = 1e-4;
 
-/// A half-edge seen from its start.
+/// A half-edge as seen from its start.
 struct Spoke {
   std::uint32_t half_edge = 0, end = 0;
-  Point direction;  ///< of an arc its tangent
+  /// The direction at the start; an arc's is its tangent.
+  Point direction;
   double chord = 0, height = 0;
   bool curved = false;
 };
@@ -44,7 +45,8 @@ class Fan {
   [[nodiscard]] const std::vector<Spoke>& spokes() const noexcept { return spokes_; }
 
  private:
-  /// Directions from straight down over the right to straight up come first, the others last.
+  /// Says which of two groups a direction belongs to. Directions from straight down over the right to
+  /// straight up come first, the others last.
   static bool is_left(Point d) noexcept { return d.x < 0 || (d.x == 0 && d.y > 0); }
 
   [[nodiscard]] Spoke spoke(std::uint32_t h) const {
@@ -66,8 +68,8 @@ class Fan {
     return std::abs(cross(a.direction, b.direction)) <= tolerance * norm(a.direction) * norm(b.direction);
   }
 
-  /// Positive where b leaves on the left of a: decided where they are furthest apart, by the end of the
-  /// shorter, which lies further from the longer than an edge passes from a vertex.
+  /// Returns a positive number where b leaves on the left of a. That is decided where the two are furthest
+  /// apart: the end of the shorter one lies further from the longer one than an edge passes from a vertex.
   [[nodiscard]] double turn_of(const Spoke& a, const Spoke& b) const {
     if (a.end == b.end) return b.height - a.height;
     if (!a.curved && !b.curved) return orientation(centre_, a_.vertices[a.end], a_.vertices[b.end]);

@@ -7,7 +7,7 @@
 
 namespace lekalo::geom::detail {
 
-/// Vertices of a half-edge (2 e along map edge e, 2 e + 1 against it).
+/// Returns the vertex at which a half-edge begins. Half-edge 2 e runs along map edge e, 2 e + 1 against it.
 [[nodiscard]] inline std::uint32_t start_of(const Arrangement& a, std::uint32_t half_edge) noexcept {
   const Stretch& s = a.stretches[a.edges[half_edge / 2].stretch];
   return half_edge % 2 == 0 ? s.from : s.to;
@@ -16,8 +16,8 @@ namespace lekalo::geom::detail {
   return start_of(a, half_edge ^ 1);
 }
 
-/// Sorts half-edges that leave one vertex counter-clockwise, beginning downwards (unless edges run within
-/// rounding of that direction on both sides of it).
+/// Sorts the half-edges that leave one vertex counter-clockwise, beginning downwards. The beginning may be
+/// another one where edges run within rounding of that direction on both sides of it.
 void sort_counter_clockwise(const Arrangement& arrangement, std::uint32_t* begin, std::uint32_t* end);
 
 }  // namespace lekalo::geom::detail

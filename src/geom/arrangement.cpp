@@ -15,6 +15,7 @@ struct Stop {
   double along;
 };
 
+/// Steps 1 and 2 of docs/design/boolean.md.
 class Arranger {
  public:
   Arranger(const Outlines& outlines, double snap) : outlines_(outlines) { made_.snap = snap; }
@@ -34,7 +35,7 @@ class Arranger {
       append_pieces(outlines_.edges[i], i, 0.25 * made_.snap, made_.pieces);
   }
 
-  /// The operands' own points first, so that they stay where they are.
+  /// The points of the operands come first, so that they stay where they are.
   void snap_points() {
     PointTable table(made_.snap, 2 * made_.pieces.size());
     for (const Edge& edge : outlines_.edges) table.snapped(edge.from);
@@ -57,7 +58,7 @@ class Arranger {
     }
   }
 
-  /// Stops piece i at vertex v if it passes through.
+  /// Stops piece i at vertex v if the piece passes through it.
   void consider(std::uint32_t i, std::uint32_t v) {
     const Piece& piece = made_.pieces[i];
     if (v == ends_[i][0] || v == ends_[i][1]) return;
@@ -66,7 +67,8 @@ class Arranger {
     const double at = along(piece, p);
     if (!(at > 0 && at < length_squared(piece))) return;
     // Two pieces from one vertex whose other ends are near each other must not each pass through the end of
-    // the other: the wedge between them would be turned inside out, and open a crack as long as they are.
+    // the other. The wedge between them would be turned inside out, and would open a crack as long as they
+    // are.
     const Point from = made_.vertices[ends_[i][0]], to = made_.vertices[ends_[i][1]];
     const double whole = norm(to - from);
     if (norm(p - from) < whole && norm(p - to) < whole) stops_.push_back({i, v, at});
@@ -107,11 +109,12 @@ class Arranger {
     return to;
   }
 
-  /// Stretches between the same vertices whose middles are closer than two snaps become one edge.
+  /// Makes one edge of stretches between the same vertices whose middles are closer than two snaps.
   void merge_coinciding() {
     struct Candidate {
       std::uint32_t low, high;  ///< vertices
-      double height;            ///< on the left from low to high
+      /// The height of the middle on the left of the way from low to high.
+      double height;
       std::uint32_t stretch;
     };
     std::vector<Candidate> all;
@@ -128,7 +131,8 @@ class Arranger {
     for (std::size_t i = 0; i < all.size();) {
       std::size_t end = i;
       MapEdge edge{all[i].stretch, {}};
-      std::array<std::int32_t, Outlines::kOperands> upwards{};  // from low to high
+      // The weights along the way from low to high.
+      std::array<std::int32_t, Outlines::kOperands> upwards{};
       for (; end < all.size() && all[end].low == all[i].low && all[end].high == all[i].high &&
              all[end].height - all[i].height <= 2 * made_.snap;
            ++end) {
@@ -152,7 +156,8 @@ class Arranger {
 
   const Outlines& outlines_;
   Arrangement made_;
-  std::vector<std::array<std::uint32_t, 2>> ends_;  ///< vertices of pieces
+  /// By piece: its two vertices.
+  std::vector<std::array<std::uint32_t, 2>> ends_;
   std::vector<Stop> stops_;
 };
 

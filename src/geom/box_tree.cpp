@@ -26,7 +26,7 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end) {
     const Box& b = boxes_[i];
     return by_x ? b.low.x + b.high.x : b.low.y + b.high.y;
   };
-  // A total order, so that the halves do not depend on the library's nth_element.
+  // The order is total, so that the halves do not depend on the library's nth_element.
   const auto before = [&](std::uint32_t i, std::uint32_t j) {
     const double a = middle_of(i), b = middle_of(j);
     return a != b ? a < b : i < j;
@@ -34,7 +34,8 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end) {
   const std::uint32_t middle = begin + (end - begin) / 2;
   const auto first = order_.begin();
   std::nth_element(first + begin, first + middle, first + end, before);
-  // nth_element leaves the halves in any order; the order of visits must not depend on the library either.
+  // The library's nth_element leaves each half in any order, and the order of visits must not depend on that
+  // either.
   if (middle - begin <= kLeaf) std::sort(first + begin, first + middle);
   if (end - middle <= kLeaf) std::sort(first + middle, first + end);
   build(begin, middle);

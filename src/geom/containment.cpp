@@ -7,7 +7,7 @@
 namespace lekalo::geom::detail {
 namespace {
 
-/// Grown by more than the rounding of bounds().
+/// Returns the boxes of the contours, grown by more than the rounding of bounds().
 std::vector<Box> boxes_of(const std::vector<const Contour*>& contours) {
   std::vector<Box> boxes;
   boxes.reserve(contours.size());

@@ -6,7 +6,7 @@
 
 namespace lekalo::geom::detail {
 
-/// Union-find; the smallest member stands for its set.
+/// Union-find in which the smallest member stands for its set.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }

@@ -13,7 +13,8 @@ struct Projection {
 
   Projection(Point p, Point a, Point b) noexcept
       : along(b - a), to_p(p - a), dot_p(dot(along, to_p)), dot_along(dot(along, along)) {}
-  // Written so that a segment of one point, where both are 0, is "before a".
+  // The comparison is written so that a segment of one point, where both products are 0, counts as "before
+  // a".
   [[nodiscard]] bool before_a() const noexcept { return !(dot_p > 0); }
   [[nodiscard]] bool beyond_b() const noexcept { return dot_p >= dot_along; }
 };

@@ -19,7 +19,8 @@ void keep_nearer(ClosestPoints& best, Point a, Point b) {
 
 ClosestPoints swapped(const ClosestPoints& c) { return {c.distance, c.b, c.a}; }
 
-/// Ends of each against the whole of the other: the candidates of every pair of edges.
+/// Finds the closest of the pairs of an end of one edge with the whole of the other. Such pairs are
+/// candidates for any two edges.
 ClosestPoints closest_at_ends(const Curve& a, const Curve& b) {
   const std::array<ClosestPoints, 4> candidates{{{0, a.edge.from, nearest_on(b, a.edge.from)},
                                                  {0, a.edge.to, nearest_on(b, a.edge.to)},
@@ -35,12 +36,12 @@ ClosestPoints closest_at_ends(const Curve& a, const Curve& b) {
   return {std::sqrt(least), candidates[best].a, candidates[best].b};
 }
 
-/// The point of an arc in a direction that it faces.
+/// Returns the point of an arc in a direction that it faces.
 Point on_arc(const Curve& arc, Point unit) { return arc.edge.centre + arc.radius * unit; }
 
 ClosestPoints closest_lines(const Curve& a, const Curve& b) {
   const ClosestPoints best = closest_at_ends(a, b);
-  // Lines that cross are no further apart at their ends than half the shorter one is long.
+  // Lines that cross are at their ends no further apart than half the length of the shorter one.
   if (2 * best.distance > std::min(a.length, b.length) * (1 + 1e-9)) return best;
   if (segment_relation(a.edge.from, a.edge.to, b.edge.from, b.edge.to) != SegmentRelation::cross) return best;
   const Point along = a.edge.to - a.edge.from, other = b.edge.to - b.edge.from;
@@ -63,7 +64,7 @@ ClosestPoints closest_line_arc(const Curve& line, const Curve& arc) {
       keep_nearer(best, centre + to_foot, on_arc(arc, (1 / height) * to_foot));
     return best;
   }
-  // The line passes through the circle: between the crossings no distance has a minimum of its own.
+  // The line passes through the circle, and between the two crossings no distance has a minimum of its own.
   const double half = std::sqrt((arc.radius - height) * (arc.radius + height));
   for (const double at : {foot - half, foot + half}) {
     if (!(at >= 0 && at <= length)) continue;
@@ -77,7 +78,8 @@ ClosestPoints closest_arcs(const Curve& a, const Curve& b) {
   ClosestPoints best = closest_at_ends(a, b);
   const Point between = b.edge.centre - a.edge.centre;
   const double apart = norm(between);
-  if (!(apart > 0)) return best;  // concentric: where they face each other an end does
+  // Concentric arcs that face each other do so at an end of one, which was looked at already.
+  if (!(apart > 0)) return best;
   const Point u = (1 / apart) * between;
   const auto pair = [&](Point of_a, Point of_b) {
     if (faces(a, of_a) && faces(b, of_b)) keep_nearer(best, on_arc(a, of_a), on_arc(b, of_b));

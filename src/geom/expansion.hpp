@@ -6,9 +6,9 @@
 
 namespace lekalo::geom::detail {
 
-/// An exact sum of doubles: non-overlapping components in ascending magnitude, zeros left out, so that the
-/// last component has the sign of the sum. Exact as long as nothing overflows (sums of doubles never
-/// underflow). Source: Shewchuk 1997, GROW-EXPANSION (theorem 10) with zero elimination; the code is our own.
+/// An exact sum of doubles. Its components do not overlap, ascend in magnitude and leave zeros out, so the
+/// last component has the sign of the sum. It is exact as long as nothing overflows; sums of doubles never
+/// underflow. Source: Shewchuk 1997, GROW-EXPANSION (theorem 10) with zero elimination; the code is our own.
 template <std::size_t Capacity>
 class Expansion {
  public:

@@ -10,18 +10,20 @@ namespace lekalo::geom {
 
 namespace {
 
-/// value / 2^bits to the nearest integer, ties to even.
+/// Returns the integer nearest to value / 2^bits, ties to even.
 std::int64_t rounded_shift(Int128 value, int bits) noexcept {
-  const Int128 floor = value >> bits;  // arithmetic: towards minus infinity
+  // The shift is arithmetic, so it rounds towards minus infinity.
+  const Int128 floor = value >> bits;
   const Int128 rest = value - (floor << bits), half = Int128{1} << (bits - 1);
   const bool up = rest > half || (rest == half && (floor & 1) != 0);
   return static_cast<std::int64_t>(floor + (up ? 1 : 0));
 }
 
-/// The integer nearest to the sum of the pair, which is below 2^53.
+/// Returns the integer nearest to the sum of the pair, which is below 2^53.
 std::int64_t nearest_integer(DoubleDouble value) noexcept {
   const double whole = std::nearbyint(value.hi);
-  // The rest is half at most; the sum of two parts could be rounded to a half that it is not.
+  // The rest is at most half. The sum of its two parts could be rounded to a half that it is not, so they
+  // stay apart.
   const DoubleDouble rest = two_sum(value.hi - whole, value.lo);
   double up = std::nearbyint(rest.hi);
   if (rest.hi == 0.5 && rest.lo > 0) up = 1;
@@ -29,7 +31,7 @@ std::int64_t nearest_integer(DoubleDouble value) noexcept {
   return static_cast<std::int64_t>(whole) + static_cast<std::int64_t>(up);
 }
 
-/// In steps of a rotation.
+/// Returns a cosine or sine in the steps of a rotation.
 DoubleDouble scaled(DoubleDouble value) noexcept { return {value.hi * 0x1p52, value.lo * 0x1p52}; }
 
 GridPoint direction(GridRotation r) noexcept { return {r.c, r.s}; }
@@ -42,8 +44,8 @@ std::int64_t grid_from_mm(double mm) noexcept {
 std::int64_t grid_from_mm_up(double mm) noexcept { return static_cast<std::int64_t>(std::ceil(mm * 0x1p20)); }
 
 GridRotation rotation_from_degrees(double degrees) noexcept {
-  // The rest within 45 degrees is exact; its radians as a pair; sine and cosine of the pair to first order in
-  // its low part, which is below 2^-53.
+  // The rest within 45 degrees is exact. It becomes a pair of radians, and sine and cosine of the pair are
+  // computed to first order in its low part, which is below 2^-53.
   const double quarters = std::nearbyint(degrees / 90.0);
   const double rest = degrees - quarters * 90.0;
   constexpr DoubleDouble kRadians{0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
@@ -95,7 +97,8 @@ bool is_between(GridRotation rotation, GridRotation from, GridRotation to) noexc
   if (turn_of == 0 && dot(a, b) > 0) return false;
   if (turn_of > 0 || (turn_of == 0 && from_a > 0)) return from_a > 0 && to_b > 0;
   if (turn_of == 0) return false;
-  return from_a > 0 || to_b > 0;  // more than half a turn: not in the rest
+  // The range is more than half a turn, and the rotation is not in what is left of the turn.
+  return from_a > 0 || to_b > 0;
 }
 
 GridPoint turned(GridPoint p, GridRotation r, bool mirrored) noexcept {

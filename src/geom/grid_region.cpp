@@ -34,7 +34,7 @@ bool nearer_than_resolution(GridPoint a, GridPoint b) noexcept {
   return dot(d, d) < kGridResolution * kGridResolution;
 }
 
-/// The answer says, exactly, whether p is nearer to the segment a b than the resolution.
+/// Says, exactly, whether p is nearer to the segment a b than the resolution.
 bool nearer_than_resolution(GridPoint p, GridPoint a, GridPoint b) noexcept {
   const GridPoint along = b - a, to = p - a;
   const Int128 at = dot(to, along), length = dot(along, along);
@@ -48,7 +48,7 @@ bool cross_each_other(GridPoint a, GridPoint b, GridPoint c, GridPoint d) noexce
   return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
 
-/// Points that follow one another too closely become the first of them.
+/// Joins points that follow one another too closely into the first of them.
 void thin(Loop& loop) {
   Loop kept;
   for (const GridPoint p : loop)
@@ -74,7 +74,7 @@ struct Segment {
   std::uint32_t loop = 0, index = 0;
 };
 
-/// Refuses edges that meet or come nearer than the resolution without being neighbours; names the first two.
+/// Refuses edges that meet, or come nearer than the resolution without being neighbours. Names the first two.
 Result<void> check_meetings(const GridRegion& region) {
   std::vector<Segment> edges;
   std::vector<Box> boxes;
@@ -116,7 +116,7 @@ PointLocation locate_in_loop(const GridPoint* points, std::size_t n, GridPoint p
   for (std::size_t i = 0, j = n - 1; i < n; j = i++) {
     const GridPoint a = points[j], b = points[i];
     if ((a.y > p.y) == (b.y > p.y)) {
-      // Both ends on one side, or both level with p, where p may lie on a level edge.
+      // Both ends are on one side, or both are level with p, and then p may lie on the level edge.
       if (a.y == p.y && b.y == p.y && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x))
         return PointLocation::boundary;
       if (b == p) return PointLocation::boundary;
@@ -145,8 +145,8 @@ GridBox bounds_of(const GridPoint* points, std::size_t n) noexcept {
   return box;
 }
 
-/// Refuses holes outside the outline or in each other. Loops do not meet: one point tells where a whole loop
-/// lies.
+/// Refuses a hole that lies outside the outline or in another hole. The loops do not meet, so one point tells
+/// where a whole loop lies.
 Result<void> check_nesting(const GridRegion& region) {
   const auto inside = [&](std::size_t hole, std::size_t loop) {
     return locate_in_loop(loop_begin(region, loop), loop_size(region, loop), *loop_begin(region, hole)) ==
@@ -176,14 +176,14 @@ Result<void> check_nesting(const GridRegion& region) {
 
 constexpr std::size_t kMostChords = 4'000'000;
 
-/// The points of an arc's chords between its ends; see grid_region_of_curves.
+/// The points of an arc's chords between its ends, as grid_region_of_curves states them.
 class ArcChords {
  public:
   ArcChords(const Edge& arc, ChordSide side, double tolerance)
       : arc_(arc), outside_((arc.kind == EdgeKind::arc_ccw) == (side == ChordSide::grow)) {
     const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
     radius_ = outside_ ? std::max(from, to) + kMargin : std::max(0.0, std::min(from, to) - kMargin);
-    // Sagitta of half an angle h: r (1 / cos h - 1) outside, r (1 - cos h) inside.
+    // The sagitta of half an angle h is r (1 / cos h - 1) outside and r (1 - cos h) inside.
     const double room = tolerance - std::abs(from - to) - kMargin;
     const double most = std::max(from, to);
     const double sine_half = std::sqrt(std::min(0.25, std::max(room, kMargin) / (3.0 * most)));
@@ -202,9 +202,9 @@ class ArcChords {
     return at_radius({turn.cosine * out.x - turn.sine * out.y, turn.sine * out.x + turn.cosine * out.y},
                      outside_ ? radius_ / sincos(step_ / 2).cosine : radius_);
   }
-  /// An end that is not on the circle of the chords is joined to it at this point, straight along its
-  /// direction, because the arc may run on the other end's radius from there on. Only where the radii differ
-  /// by more than the margin.
+  /// Returns the point at which an end that is not on the circle of the chords is joined to it, straight
+  /// along its direction, because the arc may run on the other end's radius from there on. There is one only
+  /// where the radii differ by more than the margin.
   [[nodiscard]] std::optional<Point> join(Point end) const noexcept {
     const Point out = end - arc_.centre;
     if (std::abs(norm(out) - radius_) <= 2 * kMargin) return std::nullopt;
@@ -212,7 +212,7 @@ class ArcChords {
   }
 
  private:
-  /// Rounding to the grid, thinning, and the turned vertex's rounding, with 2 steps left.
+  /// Pays for rounding to the grid, for thinning and for rounding the turned vertex, with 2 steps left.
   static constexpr double kMargin = 8 * kGridStep;
   [[nodiscard]] Point at_radius(Point out, double radius) const noexcept {
     return arc_.centre + (radius / norm(out)) * out;

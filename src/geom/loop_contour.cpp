@@ -9,22 +9,23 @@
 namespace lekalo::geom::detail {
 namespace {
 
-/// One stretch of the loop and which way it is run through.
+/// One stretch of the loop, and which way it is run through.
 struct Step {
   std::uint32_t stretch, origin;
   bool forwards;
 };
 
-/// An edge of the contour and where its ends are on the outlines.
+/// An edge of the contour, and where its ends are on the outlines.
 struct Made {
   Edge edge;
   double radius = 0;
   std::uint32_t first_origin = 0, last_origin = 0;
   bool forwards = true;
-  bool from_whole = false, to_whole = false;  ///< begins or ends where its outline edge does
+  /// True where the edge begins or ends where its outline edge does.
+  bool from_whole = false, to_whole = false;
 };
 
-/// Direction in which an edge leaves its start or arrives at its end; a unit vector.
+/// Returns the direction in which an edge leaves its start or arrives at its end, as a unit vector.
 Point tangent(const Edge& edge, Point at) {
   if (edge.kind == EdgeKind::line) return (1 / norm(edge.to - edge.from)) * (edge.to - edge.from);
   const Point out = at - edge.centre, left = (1 / norm(out)) * perpendicular(out);
@@ -36,18 +37,21 @@ double curvature(const Made& m) {
   return m.edge.kind == EdgeKind::arc_ccw ? 1 / m.radius : -1 / m.radius;
 }
 
-/// How far the corner between two edges moves when each moves by `error`.
+/// Returns how far the corner between two edges moves when each of them moves by `error`.
 double corner_shift(const Made& in, const Made& out, double error) {
   const Point back = -tangent(in.edge, in.edge.to), on = tangent(out.edge, out.edge.from);
-  const double half_sine = 0.5 * norm(on - back);  // of half the opening between them
-  const double straight = error / half_sine;       // infinite for a cusp
+  // The sine of half the opening between the two edges.
+  const double half_sine = 0.5 * norm(on - back);
+  // The shift if both edges were straight, which is infinite for a cusp.
+  const double straight = error / half_sine;
   const double bend = std::abs(curvature(out) + curvature(in));
   if (half_sine > 0.1 || bend == 0) return straight;
-  // At distance s they are opening * s + bend * s^2 / 2 apart. Where they bend towards each other, either
-  // that lens is thinner than the error or the first term is the larger.
+  // At distance s the edges are opening * s + bend * s^2 / 2 apart. Where they bend towards each other,
+  // either that lens is thinner than the error or the first term is the larger one.
   return std::min(straight, std::sqrt(4 * error / bend) + error);
 }
 
+/// Step 5 of docs/design/boolean.md: turns the stretches of a loop into edges again.
 class LoopReader {
  public:
   LoopReader(const PlanarMap::Loop& loop, const Outlines& outlines, const Arrangement& a)
@@ -65,7 +69,8 @@ class LoopReader {
     std::rotate(steps_.begin(), earliest, steps_.end());
     std::size_t first = 0;
     while (first < count && continues(steps_[(first + count - 1) % count], steps_[first])) ++first;
-    if (first == count) first = 0;  // a full circle
+    // A full circle continues everywhere.
+    if (first == count) first = 0;
     std::rotate(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(first), steps_.end());
     for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
       end = begin + 1;
@@ -77,7 +82,8 @@ class LoopReader {
   }
 
   [[nodiscard]] bool is_drawn_corner(const Made& a, const Made& b) const {
-    if (a.last_origin == b.first_origin && !(a.to_whole && b.from_whole)) return true;  // cut by us
+    // The two are parts of one edge, which was cut here.
+    if (a.last_origin == b.first_origin && !(a.to_whole && b.from_whole)) return true;
     if (a.forwards != b.forwards || !a.to_whole || !b.from_whole) return false;
     return a.forwards ? outlines_.next[a.last_origin] == b.first_origin
                       : outlines_.next[b.first_origin] == a.last_origin;
@@ -126,7 +132,7 @@ class LoopReader {
     }
   }
 
-  /// Steps of one line, or of one arc.
+  /// Adds the edge that some steps of one line, or of one arc, make up.
   void add_part(std::size_t begin, std::size_t end) {
     const Step &first = steps_[begin], &last = steps_[end - 1];
     const Piece& piece = piece_of(first);
@@ -140,10 +146,12 @@ class LoopReader {
     if (is_arc(piece)) {
       const double chord = norm(m.edge.to - m.edge.from);
       const bool flat = chord < kShortArc * a_.snap || chord * chord < 2 * a_.snap * piece.radius;
-      std::size_t pieces = 1;  // each a quarter turn at most
+      // A piece turns by a quarter at most.
+      std::size_t pieces = 1;
       for (std::size_t i = begin + 1; i < end; ++i)
         if (a_.stretches[steps_[i].stretch].piece != a_.stretches[steps_[i - 1].stretch].piece) ++pieces;
-      if (flat && pieces > 2) {  // nearly once around: its ends alone do not say so
+      // The arc goes nearly once around, which its ends alone do not show.
+      if (flat && pieces > 2) {
         add_part(begin, begin + (end - begin) / 2);
         add_part(begin + (end - begin) / 2, end);
         return;
@@ -159,7 +167,8 @@ class LoopReader {
     made_.push_back(m);
   }
 
-  /// Neighbours that lie on one line exactly, or on one circle, and were not neighbours in the drawing.
+  /// Says whether two neighbours lie on one line exactly, or on one circle, and were not neighbours in the
+  /// drawing.
   [[nodiscard]] bool joins(const Made& a, const Made& b) const {
     if (a.edge.kind != b.edge.kind || is_drawn_corner(a, b)) return false;
     if (a.edge.kind == EdgeKind::line)

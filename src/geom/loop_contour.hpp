@@ -5,10 +5,11 @@
 
 namespace lekalo::geom::detail {
 
-/// A loop as edges again: stretches of one edge joined, whole edges with their own doubles.
+/// A loop as edges again: stretches of one edge are joined, and whole edges have their own doubles.
 struct LoopContour {
   Contour contour;
-  double corner_error = 0;  ///< boolean.hpp, for edges moved by `edge_error`
+  /// The corner_error of boolean.hpp when edges move by `edge_error`.
+  double corner_error = 0;
 };
 [[nodiscard]] LoopContour contour_of(const PlanarMap::Loop& loop, const Outlines& outlines,
                                      const Arrangement& arrangement, double edge_error);

@@ -44,7 +44,7 @@ Result<std::vector<Region>> nest_contours(std::vector<Contour> contours) {
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (owner[i] == i) continue;
     const std::size_t outline = region_of[owner[i]];
-    // Contours that cross can be anything to each other; fault_of names them below.
+    // Contours that cross may seem to hold each other in any way; fault_of names them below.
     if (outline == kNone)
       regions.push_back({contours[i], {}});
     else

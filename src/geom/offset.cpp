@@ -29,8 +29,8 @@ Point direction_at(const Edge& edge, Point at) {
   return edge.kind == EdgeKind::arc_ccw ? left : -left;
 }
 
-/// An arc's ends may miss its mean circle (region.hpp): what joins them to it are edges of their own here, so
-/// that discs are swept along what is meant.
+/// Adds the lines that join an arc's ends to its mean circle, which they may miss (region.hpp), so that discs
+/// are swept along what is meant.
 Contour with_joints(const Contour& contour) {
   Contour made;
   for (const Edge& edge : contour) {
@@ -39,7 +39,8 @@ Contour with_joints(const Contour& contour) {
       continue;
     }
     const double r = arc_radius(edge), off = std::abs(norm(edge.from - edge.centre) - r);
-    constexpr double kRoundedAlready = 0.25 * kEdgeErrorInSnaps * kBooleanSnap;  // of the radius
+    // The ends are off by rounding already by this share of the radius.
+    constexpr double kRoundedAlready = 0.25 * kEdgeErrorInSnaps * kBooleanSnap;
     const Edge arc{edge.kind, edge.centre + r * unit(edge.from - edge.centre),
                    edge.centre + r * unit(edge.to - edge.centre), edge.centre};
     if (off <= kRoundedAlready * r || arc.from == edge.from || arc.to == edge.to || arc.from == arc.to) {
@@ -53,12 +54,12 @@ Contour with_joints(const Contour& contour) {
   return made;
 }
 
-/// A circle of smaller radius than this part of the arc's is its centre: not further off than points that are
-/// snapped together.
+/// A circle whose radius is below this share of the arc's counts as its centre. The points of the circle are
+/// no further apart than points that are snapped together.
 constexpr double kNoRadius = kBooleanSnap;
 
-/// The area that a disc's centre sweeps on the right of contours, as counter-clockwise contours
-/// that cover it.
+/// "Offsets" in docs/design/boolean.md: the area that a disc's centre sweeps on the right of contours,
+/// covered by counter-clockwise contours.
 class Brush {
  public:
   Brush(double radius, std::uint8_t operand, Outlines& outlines)
@@ -72,7 +73,7 @@ class Brush {
       if (!is_circle(edge)) around_corner(edge, contour[i + 1 == contour.size() ? 0 : i + 1]);
     }
   }
-  /// On the right of one edge.
+  /// Sweeps the right of one edge.
   void sweep(const Edge& edge) {
     if (edge.kind == EdgeKind::line)
       along_line(edge);
@@ -89,7 +90,8 @@ class Brush {
  private:
   void add(const Contour& contour) { outlines_.add(contour, operand_); }
 
-  /// Back along the edge, out to its parallel, along that, and in again.
+  /// Adds the strip between an edge and its parallel: back along the edge, out to the parallel, along that,
+  /// and in again.
   void strip(const Edge& edge, const Edge& parallel) {
     Contour contour{reversed(edge)};
     contour.push_back(line(edge.from, parallel.from));
@@ -103,8 +105,8 @@ class Brush {
     strip(edge, line(edge.from + out, edge.to + out));
   }
 
-  /// The brush reaches the centre of an arc whose radius is no larger than its own, so nothing remains but
-  /// the sector.
+  /// Says whether the brush reaches the centre of an arc whose radius is no larger than its own, so that
+  /// nothing remains but the sector.
   [[nodiscard]] bool reaches_centre(const Edge& arc) const {
     const double r = arc_radius(arc);
     return arc.kind == EdgeKind::arc_cw && !(r - radius_ > kNoRadius * r);
@@ -121,7 +123,8 @@ class Brush {
     const double out = arc.kind == EdgeKind::arc_ccw ? radius_ : -radius_;
     Edge parallel{arc.kind, arc.from + out * unit(arc.from - arc.centre),
                   arc.to + out * unit(arc.to - arc.centre), arc.centre};
-    // An arc of a few last places may come out turned round, and would be all of the circle but these.
+    // An arc whose length is a few last places may come out turned round, and would then be nearly the whole
+    // circle.
     if (dot(arc.from - arc.centre, arc.to - arc.centre) > 0 &&
         orientation(arc.centre, parallel.from, parallel.to) != orientation(arc.centre, arc.from, arc.to))
       parallel = line(parallel.from, parallel.to);
@@ -136,13 +139,13 @@ class Brush {
     add({{circle.kind, from, from, circle.centre}});
   }
 
-  /// The sector about a corner that turns left: no strip covers it.
+  /// Sweeps the sector about a corner that turns left, which no strip covers.
   void around_corner(const Edge& in, const Edge& next) {
     const Point corner = in.to, arriving = direction_at(in, corner), leaving = direction_at(next, corner);
     const double turn = cross(arriving, leaving);
     constexpr double kNearlyBack = 1e-9;
-    if (dot(arriving, leaving) < 0 && std::abs(turn) < kNearlyBack)  // a tip: rounding hides its side
-      return disc(corner);
+    // At a tip rounding hides which way the corner turns.
+    if (dot(arriving, leaving) < 0 && std::abs(turn) < kNearlyBack) return disc(corner);
     if (!(turn > 0)) return;
     const Point from = corner + radius_ * right_of(arriving), to = corner + radius_ * right_of(leaving);
     if (!(from == to)) add({line(corner, from), {EdgeKind::arc_ccw, from, to, corner}, line(to, corner)});
@@ -161,8 +164,8 @@ void for_each_contour(const std::vector<Region>& regions, Visit&& visit) {
   }
 }
 
-/// Regions whose edges may be swept. Their union is what counts, but taking it blunts the tips of needles,
-/// which a large disc would show; so it is taken only where edges bound no material.
+/// Regions whose edges may be swept. What counts is their union, but taking it blunts the tips of needles,
+/// which a large disc would show. So it is taken only where edges bound no material.
 struct Material {
   std::vector<Region> regions;
   double error = 0;
@@ -177,8 +180,8 @@ Result<Material> material_of(const std::vector<Region>& regions, detail::KeepRul
   return Material{std::move(whole.regions), whole.corner_error};
 }
 
-/// A loop that winds the other way is no material, and what its edges sweep is none either. (Edges inside
-/// material sweep what belongs to the result.)
+/// Grows regions. A loop that winds the other way is no material, and what its edges sweep is none either.
+/// Edges inside material do no harm, because they sweep what belongs to the result.
 Result<BooleanResult> grown(const std::vector<Region>& regions, double distance) {
   const auto is_wrong = [](const Winding& w) { return w[0] < 0; };
   LEKALO_TRY(const auto material, material_of(regions, is_wrong, false));
@@ -190,7 +193,7 @@ Result<BooleanResult> grown(const std::vector<Region>& regions, double distance)
       outlines, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, material.error);
 }
 
-/// The outside grown into the material. Edges between two pieces, or inside one, are not outside.
+/// Grows the outside into the material. Edges between two pieces, or inside one, have no outside.
 Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance) {
   const auto is_wrong = [](const Winding& w) { return w[0] < 0 || w[0] > 1; };
   LEKALO_TRY(const auto material, material_of(regions, is_wrong, true));

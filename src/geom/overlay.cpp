@@ -13,11 +13,12 @@
 namespace lekalo::geom::detail {
 namespace {
 
-/// Each attempt snaps eight times as far as the one before: 2^21 times at last.
+/// Each attempt snaps eight times as far as the one before, the last 2^21 times as far as the first.
 constexpr int kAttempts = 8;
 constexpr double kCoarser = 8;
 
-/// Outlines and holes of one group are one region. Nothing where a group has two outlines, or holes alone.
+/// Makes one region of the outline and holes of each group. Returns nothing where a group has two outlines,
+/// or holes alone.
 std::optional<std::vector<Region>> regions_of(const std::vector<std::uint32_t>& groups,
                                               std::vector<Contour> contours) {
   std::map<std::uint32_t, std::size_t> owners;
@@ -39,11 +40,16 @@ std::optional<std::vector<Region>> regions_of(const std::vector<std::uint32_t>& 
   return regions;
 }
 
+/// Steps 1 to 5 of docs/design/boolean.md with one snapping distance; nothing where they contradict
+/// themselves.
 std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep, double snap,
                                         double operand_error) {
+  // Steps 1 and 2: pieces, and snapping them.
   const Arrangement arrangement = arrange(outlines, snap);
+  // Step 3: the map of faces, which may contradict itself.
   const auto map = PlanarMap::make(arrangement);
   if (!map) return std::nullopt;
+  // Step 4: faces are kept or dropped, and the kept ones are bounded by loops.
   std::vector<PlanarMap::Loop> loops = map->loops(keep);
   const auto first = [](const PlanarMap::Loop& loop) {
     return *std::min_element(loop.half_edges.begin(), loop.half_edges.end());
@@ -51,6 +57,7 @@ std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep,
   std::sort(loops.begin(), loops.end(),
             [&](const PlanarMap::Loop& a, const PlanarMap::Loop& b) { return first(a) < first(b); });
 
+  // Step 5: contours, which must be regions as they are.
   BooleanResult result;
   result.edge_error = kEdgeErrorInSnaps * snap + operand_error;
   result.corner_error = result.edge_error;
@@ -58,14 +65,15 @@ std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep,
   std::vector<Contour> contours;
   for (const PlanarMap::Loop& loop : loops) {
     LoopContour made = contour_of(loop, outlines, arrangement, result.edge_error);
-    if (PlanarMap::is_thin(arrangement, loop)) continue;  // nothing, or a crack in the material
+    // A thin loop bounds nothing, or a crack in the material.
+    if (PlanarMap::is_thin(arrangement, loop)) continue;
     result.corner_error = std::max(result.corner_error, made.corner_error);
     groups.push_back(loop.group);
     contours.push_back(std::move(made.contour));
   }
   auto regions = regions_of(groups, std::move(contours));
   if (!regions) return std::nullopt;
-  // A loop so thin that rounding could turn it is no region; points further apart may tell.
+  // A loop so thin that rounding could turn it is no region. Snapping coarser points together may resolve it.
   for (const Region& region : *regions) {
     const auto again = make_region(region.outer, region.holes);
     if (!again || !(*again == region)) return std::nullopt;
@@ -79,6 +87,7 @@ std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep,
 Result<BooleanResult> overlay(const Outlines& outlines, KeepRule keep, double operand_error) {
   double snap = kBooleanSnap * extent(outlines);
   if (snap == 0) return BooleanResult{};
+  // Step 3: where the drawing contradicts itself, everything is done again with a coarser snap.
   for (int attempt = 0; attempt < kAttempts; ++attempt, snap *= kCoarser)
     if (auto result = overlay_at(outlines, keep, snap, operand_error)) return *std::move(result);
   return failure(

@@ -6,8 +6,8 @@
 
 namespace lekalo::geom::detail {
 
-/// The regions of all points whose winding numbers `keep` accepts; it must refuse all zeros.
-/// What boolean.hpp says of results, errors and failure holds.
+/// Returns the regions of all points whose winding numbers `keep` accepts; it must refuse all zeros. The
+/// promises of boolean.hpp about results, errors and failure hold.
 [[nodiscard]] Result<BooleanResult> overlay(const Outlines& outlines, KeepRule keep,
                                             double operand_error = 0);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<Point, 4> kAxes{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
-/// Quarter q holds the directions from axis q, included, to axis q + 1.
+/// Returns the quarter of a direction. Quarter q holds the directions from axis q, included, to axis q + 1.
 int quarter(Point direction) noexcept {
   if (direction.x > 0 && direction.y >= 0) return 0;
   if (direction.x <= 0 && direction.y > 0) return 1;
@@ -32,7 +32,8 @@ Crossings of_lines(const Piece& a, const Piece& b) noexcept {
   if (segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::cross) return found;
   const Point da = a.to - a.from, db = b.to - b.from;
   const double turn = cross(da, db);
-  if (turn == 0) return found;  // they cross by less than rounding; their ends are what is near
+  // The lines cross at an angle below rounding, so only their ends can be near.
+  if (turn == 0) return found;
   const double t = cross(b.from - a.from, db) / turn;
   if (!(t >= 0 && t <= 1)) return found;
   found.points[0] = a.from + t * da;
@@ -57,7 +58,8 @@ Crossings of_circles(const Piece& a, const Piece& b) noexcept {
   Crossings found;
   const Point between = b.centre - a.centre;
   const double apart = norm(between);
-  if (!(apart > 0)) return found;  // equal circles meet at the ends of their pieces
+  // Equal circles meet at the ends of their pieces.
+  if (!(apart > 0)) return found;
   const double foot = 0.5 * (apart + (a.radius - b.radius) * (a.radius + b.radius) / apart);
   if (!(std::abs(foot) <= a.radius)) return found;
   const double half = std::sqrt((a.radius - foot) * (a.radius + foot));

@@ -41,7 +41,7 @@ double signed_area(const Arrangement& a, const PlanarMap::Loop& loop) {
   return 0.5 * doubled;
 }
 
-/// The loop, or the loop turned round.
+/// Returns the pieces of the loop, or of the loop turned round.
 std::vector<Piece> chain_of(const Arrangement& a, const PlanarMap::Loop& loop, bool turned) {
   std::vector<Piece> chain;
   for (const std::uint32_t h : loop.half_edges) {
@@ -68,7 +68,7 @@ std::optional<PlanarMap> PlanarMap::make(const Arrangement& arrangement) {
 }
 
 std::uint32_t PlanarMap::next(std::uint32_t half_edge) const noexcept {
-  // At its end turn clockwise from the way back: the next edge around the face on the left.
+  // The next edge around the face on the left is the first one clockwise from the way back.
   const std::uint32_t back = half_edge ^ 1, vertex = start_of(a_, back), place = place_[back];
   return around_[place == around_starts_[vertex] ? around_starts_[vertex + 1] - 1 : place - 1];
 }
@@ -107,7 +107,8 @@ void PlanarMap::find_components() {
   };
   for (std::uint32_t v = 0; v < a_.vertices.size(); ++v) {
     if (around_starts_[v] == around_starts_[v + 1]) continue;
-    std::uint32_t& component = component_[sets.of(v)];  // the smallest of its set: the first to come here
+    // The set is named by its smallest vertex, which is the first of it to come here.
+    std::uint32_t& component = component_[sets.of(v)];
     if (component == kNone) {
       component = static_cast<std::uint32_t>(components_.size());
       components_.push_back({v, 0, 0, 0, 0});
@@ -118,8 +119,8 @@ void PlanarMap::find_components() {
   }
   for (std::uint32_t e = 0; e < a_.edges.size(); ++e) ++components_[component_[start_of(a_, 2 * e)]].edges;
   for (const std::uint32_t h : face_starts_) ++components_[component_[start_of(a_, h)]].faces;
-  // Around its lowest vertex no edge runs down: the outside is where the order ends and begins. Where that
-  // vertex is among others that are hardly apart the order says little, and areas say more.
+  // No edge runs down from the lowest vertex of a component, so the outside is where the order around it ends
+  // and begins. That order says little where the vertex is hardly apart from others, and areas say more.
   for (Component& component : components_)
     component.outside = around_[around_starts_[component.lowest + 1] - 1];
   std::vector<double> least(components_.size(), 0);
@@ -156,8 +157,9 @@ bool PlanarMap::is_planar() const {
          has_one_outside();
 }
 
-/// Turned inside out, an order of edges around vertices is as planar as the right one; but then a face that
-/// is no component's outside is run around clockwise.
+/// Step 3 of docs/design/boolean.md, the last contradiction. An order of edges around vertices that is turned
+/// inside out is as planar as the right one, but then some face that is no component's outside is run around
+/// clockwise.
 bool PlanarMap::has_one_outside() const {
   for (std::uint32_t f = 0; f < face_starts_.size(); ++f) {
     const Loop walk = walk_around(f);
@@ -240,7 +242,8 @@ std::vector<PlanarMap::Loop> PlanarMap::traced_loops(const std::vector<char>& ke
       place[vertex] = static_cast<std::uint32_t>(chain.size());
       chain.push_back(at);
       at = next(at);
-      while (!bounds_material(at)) at = next(at ^ 1);  // on through the material
+      // The way goes on through the material.
+      while (!bounds_material(at)) at = next(at ^ 1);
     }
     close_loop(0);
   }
@@ -249,12 +252,14 @@ std::vector<PlanarMap::Loop> PlanarMap::traced_loops(const std::vector<char>& ke
 
 bool PlanarMap::is_thin(const Arrangement& a, const Loop& loop) {
   const double thinnest = kEdgeErrorInSnaps * a.snap, area = signed_area(a, loop);
-  // A disc of that radius has more area; and inside a chain of length l whose inside is within t of it there
-  // is no more than t l. Between the two area does not tell: a long tail makes any thickness look thin.
+  // A disc of that radius has more area than the first limit. A chain of length l whose inside is within t of
+  // it holds no more than t l. Between the two limits area does not tell, because a long tail makes any
+  // thickness look thin.
   constexpr double kLessThanPi = 3.1, kArcInChords = 1.12;
   if (std::abs(area) <= kLessThanPi * thinnest * thinnest) return true;
   if (std::abs(area) > kArcInChords * thinnest * chord_length(a, loop)) return false;
-  constexpr double kOff = 2;  // what pieces may be off, in snaps: kHot and rounding
+  // Pieces may be off by this many snaps: kHot and rounding.
+  constexpr double kOff = 2;
   return detail::is_thin(chain_of(a, loop, area < 0), thinnest - kOff * a.snap, a.snap);
 }
 
@@ -270,7 +275,7 @@ void PlanarMap::turn_thin_faces(std::vector<char>& kept) const {
     thin.push_back(f);
     walks.push_back(std::move(walk));
   }
-  // Each turn makes the boundary shorter, so it ends.
+  // Each turn makes the boundary shorter, so the loop ends.
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < thin.size(); ++i) {
@@ -299,7 +304,7 @@ void PlanarMap::link_components(const std::vector<char>& kept, std::vector<Loop>
   for (std::uint32_t c = 0; c < components_.size(); ++c) {
     const std::uint32_t outside = face_[components_[c].outside];
     if (kept[outside] == 0) continue;
-    // The material around it belongs to the smallest loop that holds it.
+    // The material around the component belongs to the smallest loop that holds it.
     std::vector<std::uint32_t> crossed;
     cast_ray(c, [&](std::uint32_t e, bool) {
       if (loop_of_edge[e] != kNone) crossed.push_back(loop_of_edge[e]);
@@ -318,6 +323,7 @@ void PlanarMap::link_components(const std::vector<char>& kept, std::vector<Loop>
 
 std::vector<PlanarMap::Loop> PlanarMap::loops(KeepRule keep) const {
   std::vector<char> kept;
+  // Step 4 of docs/design/boolean.md, up to the thin loops, which overlay_at leaves out.
   for (const Winding& winding : winding_) kept.push_back(keep(winding) ? 1 : 0);
   turn_thin_faces(kept);
   std::vector<Loop> loops = traced_loops(kept);

@@ -7,7 +7,8 @@
 
 namespace lekalo::geom::detail {
 
-/// Points of which no two are closer than a snapping distance. Coordinates up to 2^45 times that.
+/// Points of which no two are closer than a snapping distance. Coordinates may be up to 2^45 times that
+/// distance.
 class PointTable {
  public:
   PointTable(double snap, std::size_t expected) : snap_(snap) {
@@ -16,8 +17,8 @@ class PointTable {
     heads_.assign(size, kNone);
   }
 
-  /// The point nearest to p within the snapping distance (the older of two), or p itself, from now on in the
-  /// table.
+  /// Returns the older of two points in the table if p is within the snapping distance of one, and else
+  /// enters p itself.
   std::uint32_t snapped(Point p) {
     const std::int64_t x = cell(p.x), y = cell(p.y);
     std::uint32_t best = kNone;

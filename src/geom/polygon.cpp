@@ -62,7 +62,8 @@ std::vector<std::size_t> convex_hull(const Ring& points) {
   for (const std::size_t i : order) extend(i, 0);
   const std::size_t upper_begin = hull.size() - 1;
   for (std::size_t k = order.size() - 1; k-- > 0;) extend(order[k], upper_begin);
-  hull.pop_back();  // the first point again
+  // The last index is the first point again.
+  hull.pop_back();
   return hull;
 }
 
@@ -81,12 +82,12 @@ std::optional<std::string> corner_fault(const Ring& ring, std::size_t i) {
   return std::string("turns right");
 }
 
-/// True for directions in [pi, 2 pi).
+/// Returns true for directions in [pi, 2 pi).
 bool points_down(Point from, Point to) { return to.y < from.y || (to.y == from.y && to.x < from.x); }
 
-/// The vertex at which a ring of left turns begins its second turn, if it does. Each turn is less than pi, so
-/// the direction of the edges cannot jump over a half plane: one step from a downward to an upward edge is
-/// one full turn.
+/// Returns the vertex at which a ring of left turns begins its second turn, if it does. Each turn is less
+/// than pi, so the direction of the edges cannot jump over a half plane, and one step from a downward to an
+/// upward edge is one full turn.
 std::optional<std::size_t> second_turn(const Ring& ring) {
   const std::size_t n = ring.size();
   std::size_t turns = 0;

@@ -6,7 +6,7 @@ namespace lekalo::geom {
 
 namespace {
 
-/// Order along a line: by x, on a vertical line by y.
+/// Orders points along a line: by x, on a vertical line by y.
 constexpr bool before(Point a, Point b) noexcept { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 SegmentRelation collinear_relation(Point a, Point b, Point c, Point d) noexcept {
@@ -38,7 +38,7 @@ PointLocation locate_point(const double* xy, std::size_t n, Point p) noexcept {
     const Point b{xy[2 * i], xy[2 * i + 1]};
     if (b == p) return PointLocation::boundary;
     if ((a.y > p.y) != (b.y > p.y)) {
-      // The edge crosses the height of p; does it so to the right of p?
+      // The edge crosses the height of p, and the rest asks whether it does so to the right of p.
       if (a.x > p.x && b.x > p.x) {
         inside = !inside;
       } else if (!(a.x < p.x && b.x < p.x)) {
@@ -63,7 +63,8 @@ SegmentRelation segment_relation(Point a, Point b, Point c, Point d) noexcept {
   const int a_side = orientation(c, d, a), b_side = orientation(c, d, b);
   if (a_side * b_side > 0) return SegmentRelation::disjoint;
   if (c_side == 0 && d_side == 0 && a_side == 0 && b_side == 0) return collinear_relation(a, b, c, d);
-  // Each line parts the ends of the other or passes through one: they meet, in an end if a sign is 0.
+  // Each line parts the ends of the other or passes through one. So the segments meet, and they meet in an
+  // end if a sign is 0.
   const bool in_an_end = c_side * d_side * a_side * b_side == 0;
   return in_an_end ? SegmentRelation::touch : SegmentRelation::cross;
 }

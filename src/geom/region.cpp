@@ -18,7 +18,7 @@ namespace lekalo::geom {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
-/// The error of an arc's sweep is direction_angle's 1e-15, and rounding of the dot and cross product before
+/// An arc's sweep is off by direction_angle's 1e-15 and by the rounding of the dot and cross product before
 /// it.
 constexpr double kSweepError = 4e-15;
 
@@ -34,13 +34,13 @@ struct CcwArc {
         to(arc.kind == EdgeKind::arc_ccw ? arc.to : arc.from) {}
 
   [[nodiscard]] bool full() const { return from == to; }
-  /// More than a half turn? Decided exactly.
+  /// Says whether the arc turns by more than a half; decided exactly.
   [[nodiscard]] bool beyond_half() const { return full() || orientation(centre, from, to) < 0; }
-  /// Does it reach the direction of `axis`, a unit vector along x or y? Decided exactly.
+  /// Says whether the arc reaches the direction of `axis`, a unit vector along x or y; decided exactly.
   [[nodiscard]] bool reaches(Point axis) const {
     const Point origin;
     const int from_side = turn(centre, from, origin, axis), to_side = turn(origin, axis, centre, to);
-    // One product of each dot is 0, the other a rounded difference, which keeps its sign.
+    // One product of each dot is 0 and the other is a rounded difference, which keeps its sign.
     const bool at_from = from_side == 0 && dot(from - centre, axis) > 0;
     const bool at_to = to_side == 0 && dot(to - centre, axis) > 0;
     if (full() || at_from || at_to) return true;
@@ -52,16 +52,17 @@ double sweep_of(const CcwArc& t) {
   if (t.full()) return 2 * kPi;
   const Point from = t.from - t.centre, to = t.to - t.centre;
   const double angle = direction_angle(dot(from, to), cross(from, to));
-  // The rounded cross product may miss the sign of a turn close to nothing, a half or a whole; the exact one
+  // The rounded cross product may miss the sign of a turn close to nothing, a half or a whole. The exact one
   // says which side it is on.
   const double size = std::abs(angle);
   return t.beyond_half() ? 2 * kPi - size : size;
 }
 
-/// x - sin(x) for x in [0, 2 pi] without losing the small difference of two near numbers.
+/// Returns x - sin(x) for x in [0, 2 pi] without losing the small difference of two near numbers.
 double angle_minus_sine(double x) {
   if (x > 1) return x - sincos(x).sine;
-  // x^3 / 3! - x^5 / 5! + ..., to x^17: the first term left out is below u of the first for x <= 1.
+  // The series is x^3 / 3! - x^5 / 5! + ..., to x^17: the first term left out is below u of the first one for
+  // x <= 1.
   double sum = 0;
   for (int k = 17; k >= 3; k -= 2) sum = x * x / (k * (k - 1)) * (1 - sum);
   return sum * x;
@@ -71,14 +72,15 @@ struct BoundedArea {
   double value = 0, error = 0;
 };
 
-/// Between an arc's chord and its curve, including the steps between the two radii and their mean.
+/// Returns the area between an arc's chord and its curve, including the steps between the two radii and their
+/// mean.
 BoundedArea area_beside_chord(const Edge& arc) {
   const CcwArc t(arc);
   const double r = arc_radius(arc), sweep = sweep_of(t);
   const double step = norm(t.from - t.centre) - norm(t.to - t.centre);
-  // The second term because r^2 - r_from r_to == (r_from - r_to)^2 / 4.
+  // The second term is there because r^2 - r_from r_to == (r_from - r_to)^2 / 4.
   const double value = (r * r * angle_minus_sine(sweep) + step * step * sincos(sweep).sine / 4) / 2;
-  // kSweepError changes the area by r^2 (1 - cos sweep) / 2 as much.
+  // An error of kSweepError in the sweep changes the area by r^2 (1 - cos sweep) / 2 times as much.
   const double by_sweep = kSweepError * r * r * std::min(1.0, sweep * sweep / 4);
   return {arc.kind == EdgeKind::arc_ccw ? value : -value, by_sweep + 8 * kUnitRoundoff * std::abs(value)};
 }
@@ -217,7 +219,7 @@ Box bounds(const Contour& contour) noexcept {
     const CcwArc arc(edge);
     const double r = arc_radius(edge);
     for (const Point end : {edge.from - edge.centre, edge.to - edge.centre}) {
-      // The end of the curve at the mean radius, where it stands further out than the end given.
+      // The curve at the mean radius may stand further out than the end that is given.
       if (norm(end) < r) include(edge.centre + (r / norm(end)) * end);
     }
     for (const Point axis : {Point{1, 0}, Point{0, 1}, Point{-1, 0}, Point{0, -1}}) {

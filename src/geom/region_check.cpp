@@ -38,13 +38,14 @@ class Names {
   bool several_;
 };
 
-/// The answer says whether two neighbours, one of them an arc, cross again away from the end they share, by
-/// more than kArcConsistency allows the ends of arcs: smooth joints in drawings do, by what their digits
-/// leave.
+/// Says whether two neighbours, one of them an arc, cross again away from the end they share. Only crossings
+/// deeper than kArcConsistency allows for the ends of arcs count, because the digits of drawings leave such
+/// crossings at smooth joints.
 bool cross_again(const Curve& a, const Curve& b, Point shared) {
   if (a.edge.kind == EdgeKind::line) return cross_again(b, a, shared);
   const bool line = b.edge.kind == EdgeKind::line;
-  // The shared end mirrored in the line of the centres, or in the perpendicular from the centre to the line.
+  // The other crossing is the shared end mirrored in the line of the centres, or in the perpendicular from
+  // the centre to the line.
   const Point axis = line ? b.unit : b.edge.centre - a.edge.centre;
   const double squared = dot(axis, axis);
   if (!(squared > 0)) return false;
@@ -109,17 +110,17 @@ class Checker {
   }
 
  private:
-  /// Neighbours along a contour that share an end, as far as is seen (fault_of).
+  /// Says whether two neighbours along a contour meet only at an end they share, as far as fault_of sees it.
   [[nodiscard]] bool joined_only_at_their_end(std::uint32_t i, std::uint32_t j, double limit) const {
     const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
     if (j >= end || (j != i + 1 && (i != begin || j + 1 != end))) return false;
     const Edge &a = curves_[i].edge, &b = curves_[j].edge;
-    // Two edges alone share both ends: where two circles or a circle and a line can meet at all.
+    // Two edges alone share both ends, and two circles, or a circle and a line, meet nowhere else.
     if (end - begin < 3) return true;
     if (a.kind == EdgeKind::line && b.kind == EdgeKind::line)
       return segment_relation(a.from, a.to, b.from, b.to) != SegmentRelation::overlap;
-    // In a contour of three edges the other ends of two neighbours are joined by the third, which is a
-    // neighbour of both and asked about neither.
+    // In a contour of three edges the third one joins the other ends of two neighbours. It is a neighbour of
+    // both, so no other check asks whether the two meet there.
     const bool in_order = j == i + 1;
     if (end - begin == 3 &&
         (is_near(i, in_order ? b.to : b.from, limit) || is_near(j, in_order ? a.from : a.to, limit)))
@@ -131,7 +132,7 @@ class Checker {
   }
 
   [[nodiscard]] std::optional<std::string> misplaced() const {
-    // Contour numbers: piece p begins with its outer contour at outer[p], its holes follow.
+    // Piece p begins with its outer contour, whose number is outer[p], and its holes follow.
     std::vector<std::size_t> outer, piece_of;
     for (std::size_t p = 0; p < regions_.size(); ++p) {
       outer.push_back(piece_of.size());

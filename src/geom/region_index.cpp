@@ -8,18 +8,19 @@
 namespace lekalo::geom {
 namespace {
 
-/// How often a ray from p to the right crosses an edge.
+/// Returns how often a ray from p to the right crosses an edge.
 int crosses_line(const Edge& line, Point p) {
   if ((line.from.y <= p.y) == (line.to.y <= p.y)) return 0;
   const int side = orientation(line.from, line.to, p);
-  return side == (line.from.y < line.to.y ? 1 : -1) ? 1 : 0;  // p on the left of the upward line
+  // The ray crosses where p is on the left of the upward line.
+  return side == (line.from.y < line.to.y ? 1 : -1) ? 1 : 0;
 }
 
-/// The x at which a stretch of an arc, on the right or the left half of its circle, is at height y.
+/// Returns the x at which a stretch of an arc, on the right or the left half of its circle, is at height y.
 ///
-/// An end may miss the circle by half the difference of the radii, and where the circle is nearly level the
-/// circle at the end's height is much further off along the ray. So no further than this quarter of the
-/// stretch reaches: the jump from the end to the circle then stays as near to the arc as its end is.
+/// An end may miss the circle by half the difference of the radii. Where the circle is nearly level, the
+/// circle at the end's height is much further off along the ray. So the x goes no further than this quarter
+/// of the stretch reaches, and the jump from the end to the circle stays as near to the arc as its end is.
 double crossing_of_half(const Curve& arc, Point begin, Point end, bool right, double y) {
   const Point centre = arc.edge.centre;
   const double h = y - centre.y, side = right ? 1 : -1;
@@ -32,9 +33,9 @@ double crossing_of_half(const Curve& arc, Point begin, Point end, bool right, do
 }
 
 int crosses_arc(const Curve& arc, Point p) {
-  // Counter-clockwise an arc runs upwards on the circle's right half and downwards on its left; it is split
+  // A counter-clockwise arc runs upwards on the circle's right half and downwards on its left, so it is split
   // where it is highest and lowest. A turning point exactly at an end does not split. Each stretch is
-  // half-open, so that those that share an end count it once.
+  // half-open, so that stretches that share an end count it once.
   const Edge& edge = arc.edge;
   const Point centre = edge.centre;
   const bool forwards = edge.kind == EdgeKind::arc_ccw;

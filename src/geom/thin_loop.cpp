@@ -15,17 +15,19 @@ namespace {
 using Interval = std::pair<double, double>;
 using Intervals = std::vector<Interval>;
 
-/// Centres of discs that touch one piece or corner: a line, or the circle's part from an angle on
-/// counter-clockwise. Places along it are lengths or angles.
+/// The centres of discs that touch one piece or corner: a line, or the part of a circle that begins at an
+/// angle and runs counter-clockwise. Places along a track are lengths or angles.
 struct Track {
   bool round = false;
-  Point from, direction;  ///< of a line: a unit vector
+  /// A line's start and its direction, a unit vector.
+  Point from, direction;
   Point centre;
   double radius = 0, first = 0;
   double length = 0;
-  double scale = 1;  ///< a length along the piece for one along the track
+  /// The length along the piece for a length of 1 along the track.
+  double scale = 1;
 
-  /// Angles from -margin on, so that rounding does not send the first ones once around.
+  /// Returns angles from -margin on, so that rounding does not send the first ones once around.
   [[nodiscard]] double angle_from_first(double angle) const {
     constexpr double kMargin = 1e-9;
     double beyond = angle - first;
@@ -35,7 +37,7 @@ struct Track {
   }
 };
 
-/// The intervals in which the track is within `reach` of c.
+/// Returns the intervals in which the track is within `reach` of c.
 Intervals in_disc(const Track& track, Point c, double reach) {
   if (!(reach > 0)) return {};
   if (!track.round) {
@@ -58,7 +60,7 @@ Intervals in_disc(const Track& track, Point c, double reach) {
   return {{low, low + 2 * half}, {low - kTurn, low + 2 * half - kTurn}};
 }
 
-/// The intervals of the track on which normal . (y - through) > 0.
+/// Returns the intervals of the track on which normal . (y - through) > 0.
 Intervals in_half_plane(const Track& track, Point through, Point normal) {
   if (!track.round) {
     const double slope = dot(normal, track.direction), begin = dot(normal, track.from - through);
@@ -85,7 +87,7 @@ Intervals both(const Intervals& a, const Intervals& b) {
   return found;
 }
 
-/// The rest of [-kTurn, 2 kTurn] or of a line without some intervals.
+/// Returns what some intervals leave of a line, or of [-kTurn, 2 kTurn].
 Intervals without(const Track& track, Intervals taken) {
   std::sort(taken.begin(), taken.end());
   Intervals left;
@@ -128,8 +130,8 @@ Point tangent(const Piece& piece, Point at) {
   return piece.kind == EdgeKind::arc_ccw ? left : -left;
 }
 
-/// The answer says whether the chain turns right from one piece to the next. At a tip the directions alone do
-/// not tell: there the end of the shorter decides on which side of the longer it is.
+/// Says whether the chain turns right from one piece to the next. At a tip the directions alone do not tell,
+/// so there the end of the shorter piece decides by the side of the longer one it is on.
 bool points_inwards(const Piece& in, const Piece& out, Point arriving, Point leaving) {
   const double turn = cross(arriving, leaving);
   constexpr double kTip = 1e-4;
@@ -140,6 +142,7 @@ bool points_inwards(const Piece& in, const Piece& out, Point arriving, Point lea
   return (in_longer ? side(in, out.to) : side(out, in.from)) < 0;
 }
 
+/// Looks for a disc that fits, as docs/design/boolean.md describes it under Bounds.
 class Probe {
  public:
   Probe(const std::vector<Piece>& chain, double radius, double blur)
@@ -179,7 +182,8 @@ class Probe {
     const bool ccw = piece.kind == EdgeKind::arc_ccw;
     const Point first = (ccw ? piece.from : piece.to) - piece.centre,
                 last = (ccw ? piece.to : piece.from) - piece.centre;
-    // Inside is towards the centre of a counter-clockwise arc, beyond it where the arc is the smaller.
+    // The inside lies towards the centre of a counter-clockwise arc, and beyond the centre where the arc is
+    // smaller than the disc.
     const double from_centre = ccw ? piece.radius - radius_ : piece.radius + radius_;
     track.round = true;
     track.centre = piece.centre;
@@ -203,8 +207,7 @@ class Probe {
     return track;
   }
 
-  /// The track is free when some stretch of the track, longer than rounding makes, is near no piece but its
-  /// own.
+  /// Says whether some stretch of the track, longer than rounding makes, is near no piece but its own.
   [[nodiscard]] bool is_free(const Track& track, std::uint32_t own) const {
     const double reach = radius_ + blur_ / 256;
     Intervals taken;

@@ -9,13 +9,13 @@
 namespace lekalo::geom {
 namespace {
 
-// pi/2 in four pieces. The first three have 33 bits, so that their products with a quarter-turn count below
-// 2^20 are exact; together they stand within 1e-48 of pi/2.
+// Step 4 of docs/design/geometry.md. The four constants sum to pi/2. The first three have 33 bits, so that
+// their products with a quarter-turn count below 2^20 are exact; all four together are within 1e-48 of pi/2.
 constexpr std::array<double, 4> kHalfPi = {0x1.921fb54400000p+0, 0x1.0b4611a600000p-34, 0x1.3198a2e000000p-69,
                                            0x1.b839a252049c1p-104};
 constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 
-/// theta = quarter_turns * pi/2 + rest, |rest| <= pi/4 (and a rounding more).
+/// The reduced angle: theta = quarter_turns * pi/2 + rest, |rest| <= pi/4 (and a rounding more).
 struct Reduced {
   DoubleDouble rest;
   int quadrant = 0;
@@ -48,7 +48,7 @@ Pair turn_quarters(Value sine, Value cosine, int quadrant) noexcept {
 
 constexpr int kTerms = 28;
 
-/// 1/n! for n = 0..27, in double-double; computed by the compiler.
+/// Returns 1/n! for n = 0..27 in double-double, computed by the compiler.
 constexpr std::array<DoubleDouble, kTerms> inverse_factorials() {
   std::array<DoubleDouble, kTerms> values{};
   DoubleDouble value{1.0};
@@ -60,7 +60,8 @@ constexpr std::array<DoubleDouble, kTerms> inverse_factorials() {
 }
 constexpr std::array<DoubleDouble, kTerms> kInverseFactorial = inverse_factorials();
 
-/// sum over n = first, first - 2, ... of (-1)^(n/2) x^n / n!, without the leading power, by Horner in -x^2.
+/// Returns the sum over n = first, first - 2, ... of (-1)^(n/2) x^n / n!, without the leading power, by
+/// Horner in -x^2.
 template <int First, int Last, class Value, class Coefficient>
 Value alternating_series(Value minus_square, Coefficient coefficient) noexcept {
   Value sum = coefficient(First);
@@ -75,8 +76,8 @@ SinCos sincos(double theta) noexcept {
   const double x = reduced.rest.hi, low = reduced.rest.lo;
   const double minus_square = -x * x;
   const auto coefficient = [](int n) { return kInverseFactorial[static_cast<std::size_t>(n)].hi; };
-  // Taylor about 0: on |x| <= pi/4 the first term left out is below 1e-19. The leading terms are added last,
-  // so that only their rounding shows; the low half of the rest enters by the derivative.
+  // The series is Taylor's about 0. On |x| <= pi/4 the first term left out is below 1e-19. The leading terms
+  // are added last, so that only their rounding shows; the low half of the rest enters by the derivative.
   const double sine = x + (x * minus_square * alternating_series<17, 3>(minus_square, coefficient) + low);
   const double cosine = 1.0 + (minus_square * alternating_series<18, 2>(minus_square, coefficient) - x * low);
   return turn_quarters<SinCos>(sine, cosine, reduced.quadrant);
@@ -97,7 +98,8 @@ double direction_angle(double x, double y) noexcept {
   const double ax = x < 0 ? -x : x, ay = y < 0 ? -y : y;
   const bool steep = ay > ax;
   const double tangent = steep ? ax / ay : ay / ax;  // in [0, 1]
-  // atan(tangent) = atan(centre) + atan(u), |u| <= 1/8, the centre the nearest quarter.
+  // The angle is atan(tangent) = atan(centre) + atan(u) with |u| <= 1/8, where the centre is the nearest
+  // quarter.
   constexpr std::array<double, 5> kAtanOfQuarter = {0.0, 0.24497866312686415417, 0.46364760900080611621,
                                                     0.64350110879328438680, 0.78539816339744830962};
   const auto quarter = static_cast<std::size_t>(tangent * 4.0 + 0.5);

@@ -5,8 +5,9 @@
 
 namespace lekalo::geom::detail {
 
-/// The tiers of `turn` after turn_filter, each with its own entry so that tests can ask which one answered
-/// and hold each against the next. A tier that cannot decide answers kUndecided.
+/// Step 2 of docs/design/geometry.md: the tiers of `turn` after turn_filter. Each has its own entry, so that
+/// tests can ask which one answered and hold each against the next. A tier that cannot decide answers
+/// kUndecided.
 
 [[nodiscard]] constexpr int sign_of(double v) noexcept { return (v > 0) - (v < 0); }
 
@@ -21,17 +22,17 @@ struct TurnDifferences {
   }
 };
 
-/// Decides where no difference rounded: neighbouring points of one drawing, and everything on a grid.
+/// Decides where no difference rounded: for neighbouring points of one drawing, and for everything on a grid.
 [[nodiscard]] constexpr int turn_of_exact_differences(const TurnDifferences& t) noexcept {
   if (!t.exact()) return kUndecided;
   const DoubleDouble left = two_product(t.x1.hi, t.y2.hi);
   const DoubleDouble right = two_product(t.y1.hi, t.x2.hi);
-  // hi is the nearest double of a product, and rounding keeps order: where they differ they decide.
+  // `hi` is the nearest double of a product, and rounding keeps order. So the two decide where they differ.
   if (left.hi != right.hi) return left.hi > right.hi ? 1 : -1;
   return sign_of(left.lo - right.lo);
 }
 
-/// Always decides: the sum of the sixteen components of the eight exact products.
+/// Always decides, by the sum of the sixteen components of the eight exact products.
 [[nodiscard]] constexpr int turn_by_expansion(const TurnDifferences& t) noexcept {
   Expansion<16> sum;
   sum.add(two_product(t.x1.lo, t.y2.lo));

@@ -15,7 +15,7 @@ std::string title_of(const Layout& layout, const ExportOptions& options) {
   return layout.document.name.empty() ? io::stem_of(layout.name) : layout.document.name;
 }
 
-/// A fault that lacks the name of the file.
+/// Adds the name of the file to a fault that lacks it.
 tl::unexpected<Error> fault_of(const Layout& layout, const Error& error) {
   if (layout.name.empty()) return tl::unexpected(error);
   return failure(error.code, fmt::format("{}: {}", io::as_utf8(layout.name), error.message));

@@ -9,7 +9,7 @@ namespace lekalo::jobs {
 /// says why there is none.
 [[nodiscard]] Result<void> add_program(const LocateJob& job, Located& made);
 
-/// The picture, the report, the allowances and the drawing that were asked for.
+/// Makes the picture, the report, the allowances and the drawing that were asked for.
 [[nodiscard]] Result<void> add_pictures(const LocateJob& job, const LocateInputs& in, Located& made);
 
 }  // namespace lekalo::jobs

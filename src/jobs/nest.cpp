@@ -17,14 +17,15 @@ namespace {
 using layout::Document;
 using layout::Placement;
 
-/// The placement of this id; none where it is not there.
+/// Returns the placement with this id, or nullptr where there is none.
 const Placement* placement_of(const Document& document, std::uint64_t id) {
   const auto found = std::lower_bound(document.placements.begin(), document.placements.end(), id,
                                       [](const Placement& p, std::uint64_t wanted) { return p.id < wanted; });
   return found != document.placements.end() && found->id == id ? &*found : nullptr;
 }
 
-/// The document with everything but a selection locked and nothing wanted.
+/// Returns the document with everything but a selection locked and nothing wanted, so that the nester moves
+/// the selection alone.
 Document selection_of(Document document, const std::vector<std::uint64_t>& only) {
   for (Placement& p : document.placements) p.locked = !std::binary_search(only.begin(), only.end(), p.id);
   for (layout::Part& part : document.parts) part.demand = 0;
@@ -32,7 +33,7 @@ Document selection_of(Document document, const std::vector<std::uint64_t>& only)
   return document;
 }
 
-/// The given document with the placements of another, and the locks as they were given.
+/// Returns the given document with the placements of another one, and the locks as they were given.
 Document placed_as(Document given, const Document& found) {
   std::vector<Placement> placements = found.placements;
   for (Placement& p : placements)
@@ -132,7 +133,8 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
   search.angles = options.angles;
   search.from_given = options.from_given;
   search.pair_distance = options.pair_distance;
-  Result<void> fine;  // until a better layout is refuted, or nobody takes it
+  // This stays without an error until a check refutes a better layout, or the caller does not take it.
+  Result<void> fine;
   search.improved = [&](const nest::Nested& better) {
     if (options.improved && fine)
       fine = confirmed(document, better.document).and_then([&](const Confirmed& layout) {

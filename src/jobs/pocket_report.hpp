@@ -9,7 +9,7 @@
 
 namespace lekalo::jobs {
 
-/// See Pocketed::hot_cuts.
+/// Returns the stretches that Pocketed::hot_cuts states.
 [[nodiscard]] std::vector<ReportedStretch> hot_cuts(const verify::SimulateReport& report, double step_over);
 [[nodiscard]] std::vector<ReportedStretch> reported_ramps(const std::vector<mill::Ramp>& ramps);
 

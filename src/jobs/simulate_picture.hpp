@@ -11,13 +11,13 @@
 
 namespace lekalo::jobs {
 
-/// A judged program for a picture, named as the last part of the pocket's path.
+/// Returns what a picture of a judged program shows. Its name is the last part of the pocket's path.
 [[nodiscard]] draw::PocketPicture cut_picture_of(const std::string& pocket_path,
                                                  const std::vector<geom::Region>& pockets,
                                                  double tool_diameter, double stock_to_leave,
                                                  const verify::SimulateReport& report);
 
-/// The picture's bytes in a form, none where none is asked for.
+/// Returns the picture's bytes in a form, and no bytes where no form is asked for.
 [[nodiscard]] Result<std::string> drawn(const draw::PocketPicture& picture, std::optional<PictureForm> form);
 
 }  // namespace lekalo::jobs

@@ -33,8 +33,8 @@ Violation set_apart(Violation violation, const phi::Separation& separation) {
   return violation;
 }
 
-/// Nearer to `other` than the gap without overlap: straight away from it is the way to go, out of a defect's
-/// reach as from a stock's border.
+/// Completes a violation of a gap without overlap. The way out is straight away from `other`, be it a defect
+/// or the border of the stock.
 Violation too_near(Violation violation, const GridRegion& outline, const GridRegion& other,
                    std::int64_t gap) {
   const phi::EdgeDistance distance = phi::edge_distance(outline, other);
@@ -65,7 +65,7 @@ std::int64_t own_gap(const Document& document, const Part& part) noexcept {
   return part.gap.value_or(document.rules.gap);
 }
 
-/// A stock's defects and zones, to be asked by box.
+/// A stock's defects and zones, found by their boxes.
 struct Features {
   explicit Features(const Stock& stock) : defects(boxes(stock.defects)), zones(boxes(stock.zones)) {}
   geom::BoxTree defects, zones;
@@ -104,7 +104,8 @@ void add_stock_violations(const Document& document, const Placed& placed, const 
 void add_pair_violations(const Document& document, const std::vector<Placed>& placed,
                          std::vector<Violation>& to) {
   std::vector<geom::Box> boxes;
-  for (const Placed& one : placed)  // the larger of two gaps is below their sum
+  // Each box grows by its own gap, because the larger of two gaps, which counts, is no more than their sum.
+  for (const Placed& one : placed)
     boxes.push_back(grown_box(one.outline, own_gap(document, part_of(document, *one.placement))));
   geom::BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     const bool in_order = placed[i].placement->id < placed[j].placement->id;
@@ -264,7 +265,8 @@ std::vector<Violation> check(const Document& document) {
 std::vector<Violation> check_some(const Document& document, std::span<const Placement> of,
                                   std::span<const Placement> with, Depths depths) {
   std::vector<Violation> violations;
-  std::vector<Placed> placed;  // those of `of` first
+  // The placements of `of` come first.
+  std::vector<Placed> placed;
   for (const std::span<const Placement> some : {of, with})
     for (const Placement& placement : some)
       placed.push_back({&placement, placed_outline(part_of(document, placement), placement)});
@@ -289,7 +291,7 @@ std::vector<Violation> check_some(const Document& document, std::span<const Plac
     add_stock_violations(document, placed[i],
                          features.try_emplace(stock, stock_of(document, of[i])).first->second, depths,
                          violations);
-    // When both are in `of`, the later one meets the other.
+    // Two placements of `of` meet once, when the later one is looked at.
     all.visit_meeting(reach(placed[i]), [&](std::uint32_t j) {
       if (j < i || j >= of.size()) add_pair(placed[i], placed[j]);
     });

@@ -23,7 +23,7 @@ constexpr std::int64_t kMostShift = geom::kGridLimit / 2;
 
 tl::unexpected<Error> wrong(std::string message) { return failure(ErrorCode::usage, std::move(message)); }
 
-/// The placements of these ids that may be changed.
+/// Returns the placements of these ids, all of which must be there and free to be changed.
 Result<Placements> movable(const Workspace& workspace, const std::vector<std::uint64_t>& ids,
                            bool locked_too = false) {
   if (ids.empty()) return wrong("a command without placements; name at least one");
@@ -75,7 +75,7 @@ GridBox placed_box(const Workspace& workspace, const Placement& placement) {
   return bounds(placed_outline(workspace.document().parts[placement.part], placement));
 }
 
-/// Twice the middle of a box, so that it is a grid point.
+/// Returns twice the middle of a box, because that is a grid point.
 GridPoint twice_middle(const GridBox& box) noexcept { return box.low + box.high; }
 
 GridPoint twice_middle(const Workspace& workspace, const Placements& placements) {
@@ -90,8 +90,8 @@ GridPoint twice_middle(const Workspace& workspace, const Placements& placements)
 
 GridPoint halved(GridPoint p) noexcept { return {p.x >> 1, p.y >> 1}; }
 
-/// The rotation that comes from turning further; within half a step of the exact product of the pairs, scaled
-/// back to length 1 by the angle's own pair where the angle is a short decimal.
+/// Returns the rotation after turning further. It is within half a step of the exact product of the pairs,
+/// and where the angle is a short decimal it is scaled back to length 1 by the angle's own pair.
 geom::GridRotation turned_by(geom::GridRotation rotation, double degrees) {
   return geom::rotation_from_degrees(std::remainder(geom::degrees_of(rotation) + degrees, 360.0));
 }
@@ -100,7 +100,8 @@ geom::GridRotation turned_by(geom::GridRotation rotation, double degrees) {
 struct Outcome {
   Placements changed;
   std::vector<std::uint64_t> removed;
-  bool breaks_no_rule = false;  ///< by its nature: no check needed
+  /// True for commands that cannot break a rule, so that nothing need be checked.
+  bool breaks_no_rule = false;
   std::vector<FeatureChange> features = {};
 };
 
@@ -136,7 +137,8 @@ class Planner {
   }
 
   Result<Outcome> operator()(const FlipCommand& c) const {
-    // Mirrored in x after all the rest: the part is mirrored first and turned the other way.
+    // The picture is mirrored in x after the part has been mirrored and turned. That is the same as mirroring
+    // the part once more first, and turning it the other way.
     return about_middle(
         c.ids,
         [](Placement& placement) {
@@ -183,7 +185,8 @@ class Planner {
       return wrong("the second direction has no length, or is too long");
     return moved(c.ids, c.direction, [&](Group& group) {
       group.settle(unit_vector(c.direction));
-      // It settles in turns into the corner: each settling may open the way for the other.
+      // The placements settle into the corner in turns, because settling in one direction may open the way in
+      // the other.
       for (int round = 0; c.then && round < 16; ++round) {
         const GridPoint before = group.placements()[0].at;
         group.slide(unit_vector(*c.then), reach_of(group));
@@ -243,15 +246,16 @@ class Planner {
     Workspace work = workspace_;
     std::vector<Sheet> sheets = c.sheet ? std::vector{*c.sheet} : sheets_in_use();
     constexpr int kMostRounds = 8;
-    // The first round moves most of it and takes as long as two of the others; those that are not needed end
-    // it sooner than was said.
+    // The first round moves most of it and takes as long as two of the others. Progress counts all rounds,
+    // and a sheet that needs fewer ends sooner than was announced.
     constexpr double kShares = kMostRounds + 1;
     std::map<Sheet, double> parts;
     double total = 0;
     for (const Placement& placement : document_.placements) parts[{placement.stock, placement.copy}] += 1;
     for (const Sheet sheet : sheets) total += kShares * parts[sheet];
     std::uint64_t settled = 0;
-    double behind = 0;  // of the sheets that are done
+    // The share of the sheets that are done.
+    double behind = 0;
     bool stopped = false;
     for (std::size_t i = 0; i < sheets.size() && !stopped; ++i) {
       for (int round = 0; round < kMostRounds && !stopped; ++round) {
@@ -326,7 +330,8 @@ class Planner {
       if (!on_grid(box.low + c.by, kMost) || !on_grid(box.high + c.by, kMost))
         return wrong(fmt::format("{} '{}' would leave the range of +-{} mm", name_of(c.kind), c.id,
                                  geom::mm_from_grid(kMost)));
-      // Arcs at doubles would be rounded, and might then reach out of their polygon.
+      // The drawn arcs are left behind. Moved as doubles they would be rounded, and might then reach out of
+      // their polygon.
       feature.outline = {geom::moved(std::move(feature.outline.polygon), c.by), {}, 0};
       return {};
     });
@@ -384,7 +389,7 @@ class Planner {
     LEKALO_TRY(auto polygon, geom::make_grid_region(loops));
     return Outline{std::move(polygon), {}, 0};
   }
-  /// The feature that a command names, before and (as yet) after.
+  /// Returns the change of the feature that a command names, in which it is as yet the same before and after.
   template <class Named>
   Result<FeatureChange> feature_named(const Named& c) const {
     LEKALO_CHECK(check_stock(c.stock));
@@ -414,7 +419,8 @@ class Planner {
     return {sheets.begin(), sheets.end()};
   }
 
-  /// Settles one placement of a workspace. \return whether it went further than a few steps
+  /// Settles one placement of a workspace.
+  /// \return whether it went further than a few steps
   Result<bool> settled_by(Workspace& work, std::uint64_t id, geom::Point direction) const {
     const Placement before = *work.find(id);
     Placement after = before;
@@ -462,7 +468,8 @@ class Planner {
     return placements;
   }
 
-  /// Each placement turned by `turn`, then moved so that the middle of its box goes round the middle of all.
+  /// Turns each placement by `turn`, and then moves it so that the middle of its box goes round the middle of
+  /// all.
   template <class Turn>
   Result<Outcome> about_middle(const std::vector<std::uint64_t>& ids, Turn&& turn,
                                geom::GridRotation rotation, bool mirrored) const {
@@ -470,7 +477,7 @@ class Planner {
     LEKALO_CHECK(common_sheet(placements));
     const GridPoint centre = twice_middle(workspace_, placements);
     for (Placement& placement : placements) {
-      // Its origin turns with the whole about the centre; half steps keep the centre exact.
+      // The placement's origin turns with the whole about the centre. Half steps keep the centre exact.
       const GridPoint origin = placement.at + placement.at - centre;
       turn(placement);
       placement.at = halved(geom::turned(origin, rotation, mirrored) + centre);
@@ -478,7 +485,8 @@ class Planner {
     return limited(std::move(placements));
   }
 
-  /// Placements on one sheet that lie clear of everything else, and a direction.
+  /// Returns placements that lie on one sheet, clear of everything else. Fails where they do not, or where
+  /// the direction has no length.
   Result<Placements> startable(const std::vector<std::uint64_t>& ids, GridPoint direction) const {
     LEKALO_TRY(auto placements, movable(workspace_, ids));
     LEKALO_CHECK(common_sheet(placements));

@@ -116,8 +116,8 @@ class Writer {
   const Document& document_;
 };
 
-/// Reads the words of a line one after the other; the first that does not fit is remembered, and what follows
-/// it is nothing.
+/// Reads the words of a line one after the other. The first word that does not fit is remembered, and
+/// everything read after it is nothing.
 class Reader {
  public:
   Reader(std::string_view line, const Document& document) : rest_(line), document_(document) {}
@@ -146,7 +146,7 @@ class Reader {
     return rest_.starts_with(wanted) &&
            (rest_.size() == wanted.size() || rest_.find_first_of(" \t\r", wanted.size()) == wanted.size());
   }
-  /// Takes the word when it is the next one.
+  /// Takes the next word if it is the wanted one.
   bool take(std::string_view wanted) {
     if (!next_is(wanted)) return false;
     rest_.remove_prefix(wanted.size());
@@ -195,7 +195,7 @@ class Reader {
     return {x, length()};
   }
   std::uint32_t stock() { return index(document_.stocks, "stock"); }
-  /// "outline" and the points of it, and of a hole after each "hole".
+  /// Reads "outline" and its points, and the points of a hole after each "hole".
   std::vector<std::vector<GridPoint>> loops() {
     expect("outline");
     std::vector<std::vector<GridPoint>> found(1);
@@ -249,7 +249,7 @@ class Reader {
     const std::string id = word();
     for (std::size_t i = 0; i < all.size() && fault_.empty(); ++i)
       if (all[i].id == id) return static_cast<std::uint32_t>(i);
-    // Not all: some orders have hundreds.
+    // The sentence does not name all kits, because some orders have hundreds.
     std::string known;
     for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 8); ++i)
       known += (i == 0 ? "" : ", ") + quoted(all[i].id);
@@ -282,7 +282,7 @@ std::optional<Command> feature_command(std::string_view what, FeatureKind kind, 
 }
 
 std::optional<Command> command_named(std::string_view name, Reader& in) {
-  // The order of the words is that of evaluation, so each is read in a statement of its own or a braced list.
+  // Words are read in the order of evaluation, so each is read in a statement of its own or in a braced list.
   if (name == "place") {
     PlaceCommand c;
     c.part = in.part();

@@ -11,7 +11,7 @@
 namespace lekalo::layout {
 namespace {
 
-/// The pieces that one kit takes of a part.
+/// The pieces of one part that one kit takes.
 struct Share {
   std::int64_t upright = 0, mirrored = 0, either = 0;
   void add(std::optional<bool> hand, std::int64_t count) {
@@ -25,7 +25,7 @@ std::map<std::uint32_t, Share> shares_of(const Kit& kit) {
   return shares;
 }
 
-/// Takes what serves either way from the side that has more.
+/// Takes pieces that serve either way, from the side that has more.
 void take_either(PieceCount& pieces, std::int64_t count) {
   const std::int64_t level =
       std::min(count, std::max<std::int64_t>(0, std::abs(pieces.upright - pieces.mirrored)));
@@ -38,7 +38,8 @@ void take_either(PieceCount& pieces, std::int64_t count) {
   if (pieces.mirrored < 0) pieces.upright += pieces.mirrored, pieces.mirrored = 0;
 }
 
-/// The pieces that are missing for `kits` more of them, taken out of `pieces` as far as it is there.
+/// Adds the pieces that are missing for `kits` more kits. The pieces that are there are taken out of
+/// `pieces`.
 void add_missing(std::uint32_t part, const Share& share, std::int64_t kits, PieceCount& pieces,
                  std::vector<MissingPiece>& missing) {
   const auto short_of = [&](std::int64_t wanted, std::int64_t& there, std::optional<bool> mirrored) {
@@ -53,7 +54,7 @@ void add_missing(std::uint32_t part, const Share& share, std::int64_t kits, Piec
   if (either > there) missing.push_back({part, either - there, std::nullopt});
 }
 
-/// Area of the stock's defects within `material`, each point once.
+/// Returns the area of the stock's defects within `material`, where each point counts once.
 double lost_to_defects(const Stock& stock, const geom::GridRegion& material) {
   if (stock.defects.empty()) return 0;
   std::vector<geom::Region> defects;

@@ -33,7 +33,8 @@ FeaturePlace put_in(List& list, std::uint32_t index, const Feature& feature) {
   return {at, !known};
 }
 
-/// Features that stay keep their order, or, where somebody put them in another one, none stays.
+/// Adds the changes from one list of features to another. Features that stay keep their order; where somebody
+/// has put them in another order, none counts as staying.
 template <class List>
 void add_differences(std::uint32_t stock, const List& from, const List& to, std::vector<FeatureChange>& all) {
   if (from == to) return;

@@ -26,7 +26,7 @@ GridBox joined(const GridBox& a, const GridBox& b) noexcept {
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
-/// visit(from, to) for every edge.
+/// Calls visit(from, to) for every edge.
 template <class Visit>
 void for_each_edge(const GridRegion& region, Visit&& visit) {
   for (std::size_t l = 0; l < region.loops(); ++l) {
@@ -36,7 +36,8 @@ void for_each_edge(const GridRegion& region, Visit&& visit) {
   }
 }
 
-/// Directions of the contacts between points of one outline and edges of another, within `reach` steps.
+/// Appends the directions of the contacts between points of one outline and edges of another, within `reach`
+/// steps.
 void append_contacts(const GridRegion& points, GridPoint points_at, const GridRegion& edges,
                      GridPoint edges_at, double reach, std::vector<Point>& directions) {
   const GridBox box = bounds(points);
@@ -53,7 +54,8 @@ void append_contacts(const GridRegion& points, GridPoint points_at, const GridRe
       const double along = dot(out, edge) / size, height = cross(edge, out) / size;
       if (std::abs(height) <= reach && along >= -reach && along <= size + reach)
         directions.push_back((1 / size) * edge);
-      // Around a corner, which is what keeps two vertices apart where there is a gap.
+      // The direction around a corner counts too, because a corner keeps two vertices apart where there is a
+      // gap.
       const double distance = norm(out);
       if (distance > 4 && distance <= reach) directions.push_back((1 / distance) * perpendicular(out));
     }
@@ -180,7 +182,8 @@ std::vector<Point> Group::along_contacts(Point goal) const {
 }
 
 bool Group::follow(Point along, double length, Point goal) {
-  constexpr double kProgress = 8;  // steps; less is standing still
+  // A group that gets on by less than this stands still.
+  constexpr double kProgress = 8;  // steps
   const GridBox around = box();
   Way next = way(along, std::min(length, norm(in_doubles(around.high - around.low)) + 1024));
   std::vector<double> events = next.events;

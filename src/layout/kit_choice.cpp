@@ -8,21 +8,23 @@
 namespace lekalo::layout {
 namespace {
 
-/// Steps of one search, of a length that does not grow with the kits. What a person orders needs some tens.
+/// A search ends after this many steps. A step has a length that does not grow with the kits. What a person
+/// orders needs some tens of steps.
 constexpr std::size_t kMostSteps = 5000, kTakersInAStep = 64;
-/// Kits that compete, times what they compete for, beyond which nothing is searched.
+/// Nothing is searched where the kits that compete, times the supplies they compete for, are more than this.
 constexpr std::size_t kMostTable = 100'000;
-/// Sums of values in another order.
+/// Sums of the same values in another order may differ by this, relatively.
 constexpr double kRounding = 1e-12;
 
-/// How many pieces of a kind there are, and how many of them one kit takes.
+/// The number of pieces of a kind that are there, and how many of them one kit takes.
 struct Supply {
   std::int64_t there = 0;
-  std::vector<std::pair<std::size_t, std::int64_t>> takers;  ///< kit, pieces; ascending by kit
+  /// Each kit and its pieces, ascending by kit.
+  std::vector<std::pair<std::size_t, std::int64_t>> takers;
 };
 
-/// Upright ones, mirrored ones and all of a part: whole kits can be made exactly when none of the three runs
-/// out.
+/// Returns three supplies for a part: its upright pieces, its mirrored ones, and all of them. Whole kits can
+/// be made exactly when none of the three runs out.
 std::vector<Supply> supplies_of(const Document& document, const std::vector<PieceCount>& placed) {
   std::map<std::pair<std::uint32_t, int>, Supply> supplies;
   for (std::size_t k = 0; k < document.kits.size(); ++k)
@@ -45,7 +47,7 @@ std::vector<Supply> supplies_of(const Document& document, const std::vector<Piec
 /// Branch and bound over kits that compete for supplies.
 class Choice {
  public:
-  /// \param most  by kit
+  /// \param most  the kits that can be made at most, by kit
   Choice(const Document& document, const std::vector<Supply>& supplies, std::vector<std::size_t> kits,
          const std::vector<std::int64_t>& most)
       : kits_(std::move(kits)), now_(kits_.size()), best_(kits_.size()), takes_(kits_.size()) {
@@ -62,7 +64,7 @@ class Choice {
     }
   }
 
-  /// The best numbers of kits that were found, by kit of those given.
+  /// Returns the best numbers of kits that were found, by kit of those given.
   const std::vector<std::int64_t>& best() {
     start_with_dear_ones();
     if (kits_.size() * left_.size() > kMostTable) return best_;
@@ -74,7 +76,8 @@ class Choice {
 
  private:
   struct Taker {
-    double each = 0;  ///< value of a piece
+    /// The value of the kit for each piece it takes.
+    double each = 0;
     std::size_t kit = 0;
     std::int64_t count = 0;
   };
@@ -88,7 +91,8 @@ class Choice {
     for (const auto& [supply, count] : takes_[kit]) left_[supply] -= kits * count;
   }
 
-  /// The dearest kits first: something to beat, should the search not come to its end.
+  /// Makes the dearest kits first. This gives the search something to beat, and a result if it does not come
+  /// to its end.
   void start_with_dear_ones() {
     std::vector<std::size_t> order(kits_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -121,7 +125,8 @@ class Choice {
     }
   }
 
-  /// No more can be made of kits from this one on: with fractions of kits, and one supply that ends.
+  /// Returns a value that the kits from this one on cannot exceed: it allows fractions of kits, and minds one
+  /// supply at a time.
   double bound(std::size_t from) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < left_.size(); ++s) {
@@ -138,7 +143,7 @@ class Choice {
     return least;
   }
 
-  /// Many of the first kits come first, so of equals they stay.
+  /// Tries large numbers of the first kits first, so that they stay among equal results.
   void search(std::size_t kit, double value) {
     if (kit == kits_.size()) {
       const bool better = value > best_value_ * (1 + kRounding);
@@ -156,7 +161,7 @@ class Choice {
       const double with = value + values_[kit] * static_cast<double>(count);
       const double most = with + bound(kit + 1);
       const bool may_be_better = most > best_value_ * (1 + kRounding);
-      // Among equals the one that has more of the first kits counts.
+      // Among equal results the one with more of the first kits counts.
       const bool may_be_earlier =
           most >= best_value_ * (1 - kRounding) &&
           std::lexicographical_compare_three_way(
@@ -171,10 +176,14 @@ class Choice {
   std::vector<std::size_t> kits_;
   std::vector<std::int64_t> now_, best_, most_;
   std::vector<double> values_;
-  std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> takes_;  ///< by kit: supply, pieces
-  std::vector<std::int64_t> left_;                                        ///< by supply
-  std::vector<std::vector<Taker>> dearest_first_;                         ///< by supply
-  std::vector<std::vector<double>> free_value_;  ///< by supply, kit: value of those from it on that need none
+  /// By kit: each supply and the pieces taken from it.
+  std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> takes_;
+  /// By supply: the pieces left.
+  std::vector<std::int64_t> left_;
+  /// By supply: its takers.
+  std::vector<std::vector<Taker>> dearest_first_;
+  /// By supply and kit: the value of all kits from that one on that do not need the supply.
+  std::vector<std::vector<double>> free_value_;
   double best_value_ = 0;
   std::size_t takers_ = 0, steps_ = 0;
 };
@@ -188,14 +197,14 @@ std::vector<std::int64_t> most_valuable_kits(const Document& document,
   for (const Kit& kit : document.kits) most.push_back(kit.demand);
   for (const Supply& supply : supplies)
     for (const auto& [kit, count] : supply.takers) most[kit] = std::min(most[kit], supply.there / count);
-  // Nobody competes where there is enough for all.
+  // No kit competes for a supply that has enough for all.
   std::erase_if(supplies, [&](const Supply& supply) {
     std::int64_t wanted = 0;
     for (const auto& [kit, count] : supply.takers) wanted += most[kit] * count;
     return wanted <= supply.there;
   });
-  // Kits that compete for one of the rest hang together.
-  std::vector<std::size_t> before(document.kits.size());  // one of the same group; the first of it: itself
+  // Kits that compete for one of the remaining supplies are chosen together.
+  std::vector<std::size_t> before(document.kits.size());
   std::iota(before.begin(), before.end(), std::size_t{0});
   const auto first_of = [&](std::size_t kit) {
     while (before[kit] != kit) kit = before[kit] = before[before[kit]];

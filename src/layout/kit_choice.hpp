@@ -7,7 +7,8 @@
 
 namespace lekalo::layout {
 
-/// The number of each kit that these pieces make when the kits are to be worth most together: kits_made().
+/// Returns how many of each kit these pieces make when the kits are to be worth most together, for
+/// kits_made().
 [[nodiscard]] std::vector<std::int64_t> most_valuable_kits(const Document& document,
                                                            const std::vector<PieceCount>& placed);
 

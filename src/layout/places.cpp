@@ -48,7 +48,7 @@ double distance(const Line& a, const Line& b) noexcept {
   return std::min({distance(a.from, b), distance(a.to, b), distance(b.from, a), distance(b.to, a)});
 }
 
-/// Turns about a point of the sheet so that `from` shows along `to`; both unit vectors.
+/// Turns a placement about a point of the sheet so that `from` shows along `to`; both are unit vectors.
 Placement turned_about(Placement placement, Point about, Point from, Point to) {
   const double c = dot(from, to), s = cross(from, to);
   const double old_c = static_cast<double>(placement.rotation.c) * 0x1p-52,
@@ -78,7 +78,8 @@ class Snapper {
   }
 
  private:
-  /// Edges within reach whose outer sides face each other within what may be turned.
+  /// Returns the pairs of edges within reach whose outer sides face each other, up to the angle that the part
+  /// may be turned by.
   std::vector<Facing> facing_edges() const {
     std::vector<Facing> pairs;
     const Sheet sheet{placement_.stock, placement_.copy};
@@ -93,7 +94,7 @@ class Snapper {
       const phi::Body& other = scene.body(body);
       const std::int64_t gap = workspace_.gap_to(part, sheet, body);
       for (Line theirs : lines_of(scene.outline(other.shape), other.at)) {
-        // The border's material is inside; what the part must face is its outer side.
+        // The border's material is inside the border, and what the part must face is its outer side.
         if (other.container) std::swap(theirs.from, theirs.to);
         for (const Line& my : mine) {
           const Point a = my.to - my.from, b = theirs.from - theirs.to;
@@ -118,15 +119,19 @@ class Snapper {
       placed = turned_about(placement_, middle, mine_along, along);
       if (!rotation_allowed(workspace_.document().parts[placed.part], placed.rotation)) {
         if (std::abs(cross(mine_along, along)) > 1e-3) return std::nullopt;
-        placed = placement_;  // as parallel as its angles allow
+        // The part stays as parallel as its angles allow.
+        placed = placement_;
       }
     }
-    // My edge runs along `along` with my material on its left; theirs lies on the other side.
+    // The part's edge runs along `along` with the part's material on its left, and the other edge lies on the
+    // other side.
     const Point inwards = perpendicular(along);
     const double height = dot(middle - pair.theirs_from, inwards);
-    constexpr double kReserve = 16;  // steps: slid away afterwards
+    // The part is put this much further away first, and then slides back.
+    constexpr double kReserve = 16;  // steps
     const Point lift = (static_cast<double>(pair.gap) + kReserve - height) * inwards;
-    // Corner to corner where one is near, then without.
+    // Places where a corner meets a corner are tried first, the nearest before the others, and then the place
+    // without such a shift.
     std::vector<double> shifts;
     const double half = norm(mine) / 2, at = dot(middle, along);
     for (const double my_end : {at - half, at + half})
@@ -180,7 +185,7 @@ std::optional<std::vector<Placement>> nearest_place(const Workspace& workspace,
   int ring = 0;
   for (double radius = std::max(16.0, size / 64); radius <= most && radius < best; radius *= 1.25, ++ring) {
     for (int step = 0; step < kDirections; ++step) {
-      // Every other ring lies between the directions of the last.
+      // The directions of a ring lie between those of the ring before.
       const GridPoint direction = direction_of_step(2 * step + ring % 2, 2 * kDirections);
       const GridPoint shift = nearest_step(radius * 0x1p-52 * in_doubles(direction));
       group.jump(dropped + shift - group.placements()[0].at);
@@ -213,7 +218,7 @@ std::vector<Placement> fits_where(const Workspace& workspace, std::uint32_t part
 
   GridBox world = bounds(document.stocks[sheet.stock].outline.polygon);
   if (document.stocks[sheet.stock].open_length) {
-    // Beyond the last part of a strip everything is free: one place there is enough.
+    // Everything is free beyond the last part of a strip, and one place there is enough.
     std::int64_t last = world.low.x;
     for (const Placement& placement : document.placements) {
       if (placement.stock != sheet.stock || placement.copy != sheet.copy) continue;

@@ -15,8 +15,8 @@ using geom::GridRegion;
 using geom::Int128;
 using geom::sign;
 
-/// from + (part / whole) along: a grid point (part 0, whole 1), or where two edges cross. |along| < 2^42,
-/// whole < 2^85, |part| < 2^86.
+/// The point from + (part / whole) along: a grid point (part 0, whole 1), or where two edges cross. |along| <
+/// 2^42, whole < 2^85, |part| < 2^86.
 struct FractionPoint {
   GridPoint from, along;
   Int128 part = 0, whole = 1;
@@ -28,7 +28,7 @@ struct FractionPoint {
   }
 };
 
-/// Sign of q's x (y) less a grid point's: below 2^127.
+/// Returns the sign of q's x (y) less a grid point's; the numbers stay below 2^127.
 int compare_x(const FractionPoint& q, GridPoint p) noexcept {
   return sign(q.whole * (q.from.x - p.x) + q.part * q.along.x);
 }
@@ -57,7 +57,8 @@ void visit_edges(const GridRegion& region, Visit&& visit) {
   }
 }
 
-/// One outline around a point: all of it is material, none, or what lies left of an edge or corner there.
+/// One outline around a point: all of it is material, none of it is, or what lies to the left of an edge or
+/// corner there.
 struct Surroundings {
   bool on_boundary = false, inside = false;
   GridPoint first, last;  ///< directions; material lies counter-clockwise from first to last
@@ -73,19 +74,21 @@ Surroundings surroundings(const GridRegion& region, const FractionPoint& q) {
     const bool level = from_y == 0 && to_y == 0;
     const int side = level ? 0 : turn(edge.from, edge.to, q);
     if (side == 0 && from_x * to_x <= 0) {
-      if (to_x == 0 && to_y == 0) return;  // told by the edge that begins there
+      // The edge that begins at the point tells.
+      if (to_x == 0 && to_y == 0) return;
       found.on_boundary = true;
       found.first = edge.to - edge.from;
       found.last = from_x == 0 && from_y == 0 ? edge.before - edge.from : edge.from - edge.to;
       return;
     }
-    // A ray to the right; an end level with q counts as above it.
+    // The ray goes to the right, and an end level with q counts as above it.
     if ((from_y > 0) != (to_y > 0) && (side > 0) == (to_y <= 0)) found.inside = !found.inside;
   });
   return found;
 }
 
-/// Says whether points just beyond q in direction d, which is along no edge there, are material.
+/// Says whether points just beyond q in direction d are material.
+/// \pre no edge at q runs along d
 bool is_material(const Surroundings& s, GridPoint d) noexcept {
   if (!s.on_boundary) return s.inside;
   const bool after_first = cross(s.first, d) > 0, before_last = cross(d, s.last) > 0;
@@ -95,15 +98,18 @@ bool is_material(const Surroundings& s, GridPoint d) noexcept {
 
 bool upper(GridPoint d) noexcept { return d.y > 0 || (d.y == 0 && d.x > 0); }
 
-/// A direction between a and the next one counter-clockwise, b; any other one where they are the same.
+/// Returns a direction between a and the next one counter-clockwise, b; any direction where they are the
+/// same.
 GridPoint between(GridPoint a, GridPoint b) noexcept {
   const int turn_of = sign(cross(a, b));
-  if (turn_of > 0) return a + b;  // of any lengths
+  // The sum is between the two, whatever their lengths.
+  if (turn_of > 0) return a + b;
   if (turn_of == 0 && dot(a, b) > 0) return -a;
-  return {-a.y, a.x};  // half a turn or more
+  // The two are half a turn or more apart.
+  return {-a.y, a.x};
 }
 
-/// Says whether discs of the set that is searched for touch q.
+/// Step 4 of docs/design/layout-check.md: says whether discs of the set that is searched for touch q.
 class Corner {
  public:
   Corner(const std::vector<const GridRegion*>& inside, const std::vector<const GridRegion*>& without)
@@ -187,7 +193,8 @@ std::optional<geom::Point> common_corner(const std::vector<const GridRegion*>& i
       if (near[i].outline == near[j].outline || !boxes_meet(near[i].box, near[j].box)) continue;
       if (geom::turn(a.from, a.to, b.from) * geom::turn(a.from, a.to, b.to) >= 0 ||
           geom::turn(b.from, b.to, a.from) * geom::turn(b.from, b.to, a.to) >= 0)
-        continue;  // vertices are looked at already
+        // Crossings in a vertex are looked at already.
+        continue;
       const GridPoint along = a.to - a.from, other = b.to - b.from;
       Int128 whole = cross(along, other), part = cross(b.from - a.from, other);
       if (whole < 0) whole = -whole, part = -part;

@@ -8,16 +8,18 @@
 
 namespace lekalo::layout {
 
-/// Says whether some disc lies in all of `inside` and in none of `without` (closed outlines): exact. A corner
-/// of such a set is a vertex of one of the outlines or a point where edges of two cross; around each of these
-/// the directions between the edges are tried. Crossings are fractions, compared in 256 bits. \return one
-/// such corner, in steps. Cost: (vertices and crossings within all boxes of `inside`) times all edges. \pre
-/// coordinates within kGridLimit, edges no longer than kGridLimit
+/// Says exactly whether some disc lies in all of `inside` and in none of `without` (closed outlines). A
+/// corner of such a set is a vertex of one of the outlines or a point where edges of two cross. Around each
+/// of these the directions between the edges are tried. Crossings are fractions, compared in 256 bits. Cost:
+/// (vertices and crossings within all boxes of `inside`) times all edges.
+/// \return one such corner, in steps
+/// \pre coordinates within kGridLimit, edges no longer than kGridLimit
 [[nodiscard]] std::optional<geom::Point> common_corner(const std::vector<const geom::GridRegion*>& inside,
                                                        const std::vector<const geom::GridRegion*>& without);
 
-/// A place where a part with this outline needs better material than a zone of `quality` with this outline
-/// has (a corner of the place, steps); none where it does not. Rule 6 of docs/design/layout.md.
+/// Returns a place where a part with this outline needs better material than a zone of `quality` with this
+/// outline has: a corner of the place, in steps. Returns none where there is no such place. Rule 6 of
+/// docs/design/layout.md.
 [[nodiscard]] std::optional<geom::Point> lacks_quality(const Part& part, const Placement& placement,
                                                        const geom::GridRegion& outline,
                                                        const QualityZone& zone);

@@ -30,15 +30,15 @@ class FreeSpace {
     return true;
   }
 
-  /// The largest rectangle of free cells.
+  /// Returns the largest rectangle of free cells.
   [[nodiscard]] GridBox of_cells() const {
     const GridPoint size = within_.high - within_.low;
     const std::int64_t cell = std::max(size.x, size.y) / kCells + 1;
     const std::int64_t columns = size.x / cell, rows = size.y / cell;
     GridBox best{within_.low, within_.low};
     Int128 most = 0;
-    // Heights of the free columns above each row's base; the largest rectangle under them by a stack of
-    // rising ones.
+    // Each row is the base of columns of free cells with some height. A stack of rising heights finds the
+    // largest rectangle under them.
     std::vector<std::int64_t> height(static_cast<std::size_t>(columns) + 1, 0);
     for (std::int64_t y = 0; y < rows; ++y) {
       for (std::int64_t x = 0; x < columns; ++x) {
@@ -70,7 +70,8 @@ class FreeSpace {
     std::int64_t bad = high ? within_.high.*axis : within_.low.*axis;
     const auto with = [&](std::int64_t value) {
       GridBox tried = box;
-      GridPoint& corner = high ? tried.high : tried.low;  // g++ 12 would assign to a copy of a bare ?:
+      // A bare ?: would do, but g++ 12 would assign to a copy of it.
+      GridPoint& corner = high ? tried.high : tried.low;
       corner.*axis = value;
       return tried;
     };

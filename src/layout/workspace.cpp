@@ -17,14 +17,15 @@ GridBox placed_box(const phi::Scene& scene, phi::ShapeIndex shape, GridPoint at)
   return {scene.box(shape).low + at, scene.box(shape).high + at};
 }
 
-/// Orders placements by id, for searches.
+/// Makes a placement that stands for an id in searches.
 Placement with_id(std::uint64_t id) {
   Placement placement;
   placement.id = id;
   return placement;
 }
 
-/// A scene's index fits what lies on the sheet: an open strip is as long as what is on it.
+/// Returns the world of a sheet's scene. It fits what lies on the sheet, because an open strip is as long as
+/// what is on it.
 GridBox world_of(const Document& document, Sheet sheet) {
   GridBox world = bounds(document.stocks[sheet.stock].outline.polygon);
   if (!document.stocks[sheet.stock].open_length) return world;
@@ -105,7 +106,7 @@ void Workspace::take(SheetScene& in, std::uint64_t id) const {
 const phi::Scene& Workspace::scene(Sheet sheet) const { return sheet_scene(sheet).scene; }
 
 phi::ShapeIndex Workspace::shape(Sheet sheet, const Placement& placement) const {
-  // A scene under construction is asked for its shapes too: it is in the map by then.
+  // A scene under construction is asked for its shapes too, and is in the map by then.
   SheetScene& in = scenes_.contains(sheet) ? scenes_.at(sheet) : sheet_scene(sheet);
   const std::tuple key{placement.part, placement.rotation.c, placement.rotation.s, placement.mirrored};
   if (const auto found = in.shapes.find(key); found != in.shapes.end()) return found->second;
@@ -125,7 +126,8 @@ std::uint32_t Workspace::feature_of(Sheet sheet, phi::BodyIndex body) const {
 
 void Workspace::sort_bodies(Sheet sheet, std::vector<phi::BodyIndex>& bodies) const {
   const SheetScene& in = sheet_scene(sheet);
-  // The border, defects, zones, parts; which body is which depends on what came and went.
+  // The order is border, defects, zones, parts. Which body is which depends on what came and went, so it
+  // cannot be the order.
   const auto key = [&](phi::BodyIndex body) {
     const std::uint64_t id = in.placements[body];
     return id != 0 ? std::tuple{id, 0U, 0U} : std::tuple{id, in.scene.body(body).layers, in.features[body]};
@@ -150,8 +152,8 @@ std::vector<std::uint64_t> Workspace::at(Sheet sheet, GridPoint p) const {
 }
 
 void Workspace::forget_old_shapes(Sheet sheet) {
-  // A scene keeps every shape it was ever asked about; turning a part leaves hundreds behind. The scene is
-  // made anew from the document when it is asked for next.
+  // A scene keeps every shape that it was ever asked about, and turning a part leaves hundreds behind. Beyond
+  // this many it is dropped, and made anew from the document when it is asked for next.
   constexpr std::size_t kSpare = 2000;
   const auto in = scenes_.find(sheet);
   if (in != scenes_.end() &&
@@ -323,7 +325,7 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   ids.reserve(placements.size());
   for (const Placement& placement : placements) ids.push_back(placement.id);
   const Lifted lifted(*this, ids);
-  // They are put in one after the other, each against the scene and those put before it.
+  // The placements are put in one after the other, each against the scene and those put in before it.
   std::size_t clear = 0;
   while (clear < placements.size() && is_clear_of_scene(placements[clear])) {
     put(sheet_scene({placements[clear].stock, placements[clear].copy}), placements[clear]);

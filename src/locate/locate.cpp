@@ -29,7 +29,8 @@ Result<Found> by_angles(const Problem& problem, const Options& options) {
   search.gap = options.gap.value_or(kConvexGap);
   search.min_allowance = options.min_allowance;
   search.alternatives = options.alternatives;
-  search.keep_certificate = false;  // all of it comes through the sink
+  // The certificate comes through the sink, all of it.
+  search.keep_certificate = false;
   search.certificate_sink = [&](const CertificateInterval& interval) {
     proof.intervals.push_back(interval);
     for (Contact& contact : proof.intervals.back().contacts) contact = numbered(contact, problem);

@@ -11,20 +11,22 @@ namespace {
 using geom::GridPoint;
 using geom::Int128;
 
-/// Steps: more than all roundings of the raster's positions together.
+/// All roundings of the raster's positions together are below this many steps.
 constexpr double kMargin = 4;
 
-/// One bit for every cell of a row that is `touched`: the lower one of its two.
+/// Returns one bit for every cell of a row that is `touched`: the lower one of the cell's two bits.
 std::uint64_t touched_of(std::uint64_t row) noexcept { return (row >> 1) & ~row & 0x5555555555555555u; }
 
-/// How many bits are set. \pre only bits of even number are
+/// Returns how many bits are set.
+/// \pre only bits of even number are set
 std::size_t count_even_bits(std::uint64_t bits) noexcept {
   bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
   bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
   return static_cast<std::size_t>((bits * 0x0101010101010101u) >> 56);
 }
 
-/// Gives a cell that is open, and all open ones around it in a grid of `size` x `size` cells, one state.
+/// Gives one state to a cell that is open, and to all open ones that hang together with it by their sides, in
+/// a grid of `size` x `size` cells.
 template <class Get, class Set>
 void flood(int x, int y, int size, unsigned open, Get&& get, Set&& set) {
   std::array<std::uint16_t, 1024> stack;
@@ -102,13 +104,15 @@ void ContactMap::add_contacts(const FlatOutline& vertices, bool reversed_vertice
       GridPoint before = points[i == starts[l] ? last : i - 1], after = points[i == last ? starts[l] : i + 1];
       if (reversed_vertices) std::swap(before, after);
       const GridPoint at = points[i], in = at - before, out = after - at;
-      if (cross(in, out) < 0) continue;  // a dent: it cannot rest on an edge
+      // A corner that is a dent cannot rest on an edge.
+      if (cross(in, out) < 0) continue;
       for (std::size_t m = 0; m + 1 < other_starts.size(); ++m)
         for (std::size_t j = other_starts[m], end = other_starts[m + 1] - 1; j <= end; ++j) {
           GridPoint from = others[j], to = others[j == end ? other_starts[m] : j + 1];
           if (reversed_edges) std::swap(from, to);
           const GridPoint along = to - from;
-          if (cross(along, out) > 0 || cross(along, in) < 0) continue;  // the corner is in the material
+          // The corner would reach into the material beside the edge.
+          if (cross(along, out) > 0 || cross(along, in) < 0) continue;
           const GridPoint start = vertices_move ? from - at : at - from;
           const GridPoint way = vertices_move ? along : -along;
           contacts_.push_back({static_cast<double>(start.x) + offset_x_,
@@ -130,7 +134,8 @@ bool ContactMap::touches(const Contact& c, const Window& w) const noexcept {
   const double spread = (std::abs(c.dx) * half_y + std::abs(c.dy) * half_x) / length;
   if (height - spread > reach) return false;
   if (gap_ <= 0) return true;
-  // All of the window is nearer to the segment than the gap: on its account nothing changes there.
+  // A window that is nearer to the segment than the gap everywhere is not touched, because this segment
+  // changes nothing in it.
   const double along = (c.dx * mx + c.dy * my) / length;
   const double beside = std::max({0.0, -along, along - length});
   return std::sqrt(height * height + beside * beside) + std::sqrt(half_x * half_x + half_y * half_y) >
@@ -236,13 +241,14 @@ std::uint32_t ContactMap::make_block(int cx, int cy) {
   return static_cast<std::uint32_t>(blocks_.size() - 1);
 }
 
+/// Bounds of docs/design/scene.md: collects the lines through contacts that pass a fine cell.
 ContactMap::Leaf ContactMap::make_leaf(int qx, int qy) const {
   const Window window{step_x_ * qx, step_y_ * qy, step_x_ * (qx + 1), step_y_ * (qy + 1)};
   Leaf leaf;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& contact = contacts_[i];
     if (!touches(contact, window)) continue;
-    // One line is enough for all contacts on it.
+    // Contacts on one line need that line only once.
     const auto exact = [](double value) { return static_cast<std::int64_t>(value); };
     const GridPoint way{exact(contact.dx), exact(contact.dy)}, at{exact(contact.x), exact(contact.y)};
     bool is_new = true;
@@ -266,7 +272,7 @@ bool ContactMap::in_leaf(Leaf& leaf, double u, double v, GridPoint shift, const 
   unsigned pattern = 0;
   for (std::size_t k = 0; k < leaf.count; ++k) {
     const Contact& c = contacts_[leaf.lines[k]];
-    // Differences are exact; either product and their difference round once.
+    // Differences are exact; each product rounds once, and so does their difference.
     const double left = c.dx * (v - c.y), right = c.dy * (u - c.x), side = left - right;
     if (std::abs(side) <= 0x1p-51 * (std::abs(left) + std::abs(right))) return pair.forbidden(shift);
     pattern |= (side > 0 ? 1u : 0u) << k;

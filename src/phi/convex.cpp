@@ -18,7 +18,7 @@ using geom::Point;
 
 constexpr double kUnit = 0x1p-53;
 
-/// Signed distance of p to the line a -> b, positive on the left.
+/// Returns the signed distance of p from the line a -> b, positive on the left.
 double signed_distance(Point p, Point a, Point b) noexcept {
   const Point edge = b - a;
   return cross(edge, p - a) / norm(edge);
@@ -30,7 +30,8 @@ struct PointDD {
 PointDD operator-(const PointDD& a, const PointDD& b) { return {a.x - b.x, a.y - b.y}; }
 DoubleDouble cross(const PointDD& a, const PointDD& b) { return a.x * b.y - a.y * b.x; }
 
-/// The placed part in double-double: exact input doubles, the rotation within kSinCosPairError.
+/// The placed part in double-double. The input doubles are exact, and the rotation is within
+/// kSinCosPairError.
 class ExactPlacement {
  public:
   ExactPlacement(double x, double y, double theta)
@@ -66,12 +67,13 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
         {scale, std::abs(part[i].x), std::abs(part[i].y), std::abs(placed[i].x), std::abs(placed[i].y)});
   }
   for (const Point& p : blank.vertices()) scale = std::max({scale, std::abs(p.x), std::abs(p.y)});
-  // Doubles say which pairs can be the least; they are right within 32 u scale, so every pair
+  // Doubles say which pairs can be the least. They are right within 32 u scale, so every pair
   // within twice that of the least double value is computed again with 32 digits.
   const double margin = 64 * kUnit * scale;
 
-  // One turn around both polygons: as the edge's direction turns, so does the vertex that is furthest out.
-  // The walk goes by the direction of the part's edges, which does not suffer from far-away coordinates.
+  // One turn around both polygons suffices, because as the edge's direction turns, so does the vertex that is
+  // furthest out. The walk goes by the direction of the part's edges, which does not suffer from coordinates
+  // far from the origin.
   const auto furthest_from = [&](std::size_t start, Point edge) {
     std::size_t i = start;
     for (std::size_t steps = 0; steps < m; ++steps) {
@@ -111,7 +113,8 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
       }
     };
     consider(outermost[k]);
-    // Distances rise on both sides of the outermost vertex; go on while doubles cannot tell.
+    // Distances rise on both sides of the outermost vertex, so the walk goes on only while doubles cannot
+    // tell.
     for (std::size_t i = part.next(outermost[k]), n = 1; n < m; i = part.next(i), ++n) {
       if (signed_distance(placed[i], a, b) > limit) break;
       consider(i);
@@ -123,8 +126,9 @@ Enclosure clearance_enclosure(const ConvexPolygon& part, const ConvexPolygon& bl
     }
   }
 
-  // Errors: rotation 2 kSinCosPairError scale, then a dozen operations of 16 * 2^-106 each on numbers below 4
-  // scale, multiplied by edge / length <= 1. 1e-28 scale covers them with an order of magnitude to spare.
+  // The rotation is off by 2 kSinCosPairError scale. Then come a dozen operations of 16 * 2^-106 each on
+  // numbers below 4 scale, multiplied by edge / length <= 1. 1e-28 scale covers them with an order of
+  // magnitude to spare.
   const double error = 1e-28 * scale;
   const DoubleDouble low = best - DoubleDouble{error}, high = best + DoubleDouble{error};
   const double inf = std::numeric_limits<double>::infinity();

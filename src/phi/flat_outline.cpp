@@ -23,13 +23,13 @@ void visit_edges(const GridRegion& region, Visit&& visit) {
   }
 }
 
-/// Twice the area of a triangle if its sign is certain, else 0. Differences of coordinates are exact.
+/// Returns twice the area of a triangle if its sign is certain, else 0. Differences of coordinates are exact.
 double certain_turn(double ax, double ay, double bx, double by, double cx, double cy) noexcept {
   const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax), area = left - right;
   return std::abs(area) > 0x1p-51 * (std::abs(left) + std::abs(right)) ? area : 0;
 }
 
-/// Squared, about.
+/// Returns the squared distance, roughly.
 double distance_to_edges(const GridRegion& region, GridPoint p) {
   double least = HUGE_VAL;
   visit_edges(region, [&](GridPoint from, GridPoint to) {
@@ -49,7 +49,7 @@ Overlap quick_overlap(const FlatOutline& a, const FlatOutline& b, GridPoint shif
   constexpr std::size_t kMost = 64;
   std::array<Edge, kMost> near;
   std::size_t count = 0;
-  // The boxes have this in common; edges beyond it meet nothing.
+  // The boxes have this part in common, and edges beyond it meet nothing.
   const double dx = static_cast<double>(shift.x), dy = static_cast<double>(shift.y);
   const double left = std::max(0.0, dx),
                right = std::min(static_cast<double>(a.width), dx + static_cast<double>(b.width));
@@ -87,7 +87,8 @@ Overlap quick_overlap(const FlatOutline& a, const FlatOutline& b, GridPoint shif
     }
   }
   if (touch) return Overlap::unsure;
-  // Outlines that do not meet: one is in the other, or they are apart. Who is in the other's box?
+  // Outlines that do not meet lie in each other or apart. Only an outline whose box lies in the other's can
+  // lie in it.
   const auto held = [](const FlatOutline& holder, const FlatOutline& one, GridPoint at) {
     return at.x >= 0 && at.y >= 0 && at.x + one.width <= holder.width && at.y + one.height <= holder.height &&
            locate_point(holder.region, one.region.points[0] + at) == geom::PointLocation::inside;
@@ -117,7 +118,8 @@ std::vector<GridPoint> inner_points(const FlatOutline& outline) {
   constexpr std::size_t kPoints = 4;
   struct Candidate {
     GridPoint at;
-    double room;  ///< squared distance to the edges and to the points chosen
+    /// The squared distance to the edges and to the points chosen so far.
+    double room;
   };
   std::vector<Candidate> candidates;
   for (std::int64_t y = 1; y <= kAcross; ++y)
@@ -141,7 +143,7 @@ std::vector<GridPoint> inner_points(const FlatOutline& outline) {
 }
 
 std::vector<FlatOutline::Span> covered_spans(const FlatOutline& outline, double row) {
-  // Steps that positions computed here may be off.
+  // Positions computed here may be off by this many steps.
   constexpr double kMargin = 2;
   std::vector<FlatOutline::Span> spans;
   std::vector<std::pair<double, double>> taken;
@@ -150,7 +152,8 @@ std::vector<FlatOutline::Span> covered_spans(const FlatOutline& outline, double 
                  high = (static_cast<double>(j) + 1) * row + kMargin;
     FlatOutline::Span best;
     if (low >= 0 && high <= static_cast<double>(outline.height)) {
-      // `taken` holds the parts of the band that edges pass; between two of them all is material or nothing.
+      // The list holds the parts of the band that edges pass. Between two of them the band is all material or
+      // has none.
       taken.clear();
       visit_edges(outline.region, [&](GridPoint from, GridPoint to) {
         const double x = static_cast<double>(from.x), y = static_cast<double>(from.y);

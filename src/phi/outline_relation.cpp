@@ -17,12 +17,12 @@ using geom::GridRegion;
 using geom::Int128;
 using geom::Point;
 
-/// An edge with what comes before and after it: all that a touching point needs to know.
+/// An edge with the point before it. Whoever looks at a touching point needs no more.
 struct Edge {
   GridPoint before, from, to;
 };
 
-/// The edges of a region, moved, whose boxes come within `margin` of `window`.
+/// Returns the edges of a region, moved, whose boxes come within `margin` of `window`.
 std::vector<Edge> edges_near(const GridRegion& region, GridPoint shift, const GridBox& window,
                              std::int64_t margin = 0) {
   std::vector<Edge> edges;
@@ -49,32 +49,34 @@ struct Sector {
 
 bool same_direction(GridPoint a, GridPoint b) noexcept { return cross(a, b) == 0 && dot(a, b) > 0; }
 
-/// d lies in the half-open sector, `first` included.
+/// Says whether d lies in the half-open sector, which includes `first`.
 bool holds(const Sector& s, GridPoint d) noexcept {
   if (same_direction(s.first, d)) return true;
   const int opening = geom::sign(cross(s.first, s.last));
   const int after_first = geom::sign(cross(s.first, d)), before_last = geom::sign(cross(d, s.last));
   if (opening > 0) return after_first > 0 && before_last > 0;
   if (opening < 0) return after_first > 0 || before_last > 0;
-  return after_first > 0;  // half a turn; a spike (no turn, or a full one) is no simple outline
+  // The sector is half a turn. A spike (no turn, or a full one) is no simple outline.
+  return after_first > 0;
 }
 
-/// Two open sectors have directions in common just when the half-open ones do.
+/// Says whether two open sectors have a direction in common, which they have just when the half-open ones do.
 bool meet(const Sector& a, const Sector& b) noexcept { return holds(a, b.first) || holds(b, a.first); }
 
 Sector at_vertex(const Edge& edge) noexcept { return {edge.to - edge.from, edge.before - edge.from}; }
 Sector along(const Edge& edge) noexcept { return {edge.to - edge.from, edge.from - edge.to}; }
 Sector other_side(const Sector& s) noexcept { return {s.last, s.first}; }
 
-/// p, known to lie on the line of the edge, lies between its ends, ends included.
+/// Says whether p, which must lie on the line of the edge, lies between its ends, ends included.
 bool between_ends(GridPoint p, const Edge& edge) noexcept {
   const GridBox box = box_of(edge.from, edge.to);
   return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
 }
 
-/// The answer says whether the material beside two edges meets at a point both have: where they cross, or
-/// where a vertex of one lies on the other and the directions into the material have some in common. Every
-/// vertex begins one edge, so that looking at beginnings looks at all of them.
+/// Cases (1) and (2) of step 1 of docs/design/layout-check.md: says whether the material beside two edges
+/// meets at a point that both have. They may cross there. Or a vertex of one lies on the other and the
+/// directions into both materials have one in common. Every vertex begins one edge, so it is enough to look
+/// at beginnings.
 bool material_meets(const Edge& a, const Edge& b, bool outside_of_a) noexcept {
   const int b_from = geom::turn(a.from, a.to, b.from), b_to = geom::turn(a.from, a.to, b.to);
   if (b_from * b_to > 0) return false;
@@ -88,8 +90,8 @@ bool material_meets(const Edge& a, const Edge& b, bool outside_of_a) noexcept {
   return a_from == 0 && a.from != b.to && between_ends(a.from, b) && meet(in_a(at_vertex(a)), along(b));
 }
 
-/// The answer says whether two closed outlines have such a point. \param outside_of_a  a's material is what
-/// lies outside it
+/// Says whether two closed outlines have such a point.
+/// \param outside_of_a  a's material is what lies outside it
 bool boundaries_mix(const GridRegion& a, const GridRegion& b, GridPoint shift, bool outside_of_a) {
   const GridBox box_a = bounds(a), box_b = moved(bounds(b), shift);
   if (!boxes_meet(box_a, box_b)) return false;
@@ -108,7 +110,7 @@ bool holds_point(const GridRegion& region, GridPoint p) noexcept {
   return locate_point(region, p) == geom::PointLocation::inside;
 }
 
-/// p lies less than gap from the segment: exact.
+/// Step 3: says exactly whether p lies less than gap from the segment.
 bool nearer_than(GridPoint p, GridPoint from, GridPoint to, std::int64_t gap) noexcept {
   const GridPoint edge = to - from, out = p - from;
   const Int128 squared_gap = Int128{gap} * gap, at = dot(out, edge), length = dot(edge, edge);
@@ -132,7 +134,8 @@ bool have_common_point(const Edge& a, const Edge& b) noexcept {
          boxes_meet(box_of(a.from, a.to), box_of(b.from, b.to));
 }
 
-/// Squared distance in steps, and where on the edge; enough digits for a report, not for a decision.
+/// A squared distance in steps, and the place on the edge. It has digits enough for a report, not for a
+/// decision.
 struct Foot {
   double squared = 0;
   Point at;  ///< steps
@@ -162,6 +165,7 @@ bool interiors_meet(const GridRegion& a, const GridRegion& b, GridPoint shift) {
   if (box_a.low.x >= box_b.high.x || box_b.low.x >= box_a.high.x || box_a.low.y >= box_b.high.y ||
       box_b.low.y >= box_a.high.y)
     return false;
+  // Step 1 of docs/design/layout-check.md, the three cases.
   return boundaries_mix(a, b, shift, false) || holds_point(a, b.points[0] + shift) ||
          holds_point(b, a.points[0] - shift);
 }
@@ -171,6 +175,7 @@ bool lies_within(const GridRegion& container, const GridRegion& b, GridPoint shi
   if (box.low.x < outer.low.x || box.high.x > outer.high.x || box.low.y < outer.low.y ||
       box.high.y > outer.high.y)
     return false;
+  // Step 2 of docs/design/layout-check.md, with the complement of the container.
   if (boundaries_mix(container, b, shift, true)) return false;
   if (locate_point(container, b.points[0] + shift) == geom::PointLocation::outside) return false;
   for (std::size_t hole = 1; hole < container.loops(); ++hole)
@@ -188,8 +193,8 @@ bool edges_nearer_than(const GridRegion& a, const GridRegion& b, std::int64_t ga
     const GridBox box = box_of(edge.from, edge.to);
     for (const Edge& other : near) {
       if (!boxes_meet(box, box_of(other.from, other.to), gap)) continue;
-      // Segments that do not cross are nearest at an end of one; every end begins an edge, but the edge that
-      // begins there may be out of reach of the window, so both ends are asked.
+      // Segments that do not cross are nearest at an end of one. Every end begins an edge, but that edge may
+      // be out of reach of the window, so both ends are asked.
       if (nearer_than(edge.from, other.from, other.to, gap) ||
           nearer_than(edge.to, other.from, other.to, gap) ||
           nearer_than(other.from, edge.from, edge.to, gap) ||
@@ -226,7 +231,8 @@ EdgeDistance edge_distance(const GridRegion& a, const GridRegion& b, GridPoint s
       consider(foot(edge.from, other), edge.from, true);
       consider(foot(other.from, edge), other.from, false);
       if (!(squared > 0) || !have_common_point(edge, other)) continue;
-      // When edges on one line meet, a vertex of one is on the other, and it is found when its turn comes.
+      // When edges on one line meet, a vertex of one is on the other, and the loop finds it when its turn
+      // comes.
       const Int128 parallel = cross(edge.to - edge.from, other.to - other.from);
       if (parallel == 0) continue;
       const Int128 to_crossing = cross(other.from - edge.from, other.to - other.from);

@@ -8,8 +8,8 @@
 
 namespace lekalo::phi {
 
-/// Contact maps of the pairs of outlines that are asked about often, within a bounded amount of memory. What
-/// it forgets is found out again; answers never depend on it.
+/// Contact maps of the pairs of outlines that are asked about often, within a bounded amount of memory. A map
+/// that is forgotten is made again when it is needed, so answers never depend on this memory.
 class PairMemory {
  public:
   using Key = std::uint64_t;
@@ -17,16 +17,17 @@ class PairMemory {
 
   explicit PairMemory(std::size_t most_bytes = std::size_t{128} << 20) : most_bytes_(most_bytes) {}
 
-  /// The pair's map, or none; good until the next call.
+  /// Returns the pair's map, or none. The pointer is good until the next call.
   [[nodiscard]] ContactMap* find(Key key) {
-    // Maps grow as they are asked.
+    // Maps grow as they are asked, so their memory is looked at now and then.
     if (++found_ % kLookEvery == 0) forget_too_much();
     for (std::size_t i = place(key);; i = (i + 1) & (slots_.size() - 1)) {
       if (slots_[i].key == key) return &maps_[slots_[i].map];
       if (slots_[i].key == kNone) return nullptr;
     }
   }
-  /// Counts a question about a pair without a map; true when it has been asked often enough for one.
+  /// Counts a question about a pair without a map; true when the pair has been asked about often enough for
+  /// one.
   [[nodiscard]] bool is_due(Key key);
   ContactMap& add(Key key, const OutlinePair& pair);
   [[nodiscard]] std::size_t bytes() const noexcept;
@@ -35,7 +36,7 @@ class PairMemory {
   static constexpr std::size_t kLookEvery = 1 << 16;
   static constexpr std::size_t kCounters = 1 << 12;
   static constexpr std::uint8_t kOften = 8;
-  /// Questions about one pair, until another one takes the place.
+  /// Counts the questions about one pair, until another pair takes its place.
   struct Counter {
     Key key = kNone;
     std::uint8_t asked = 0;
@@ -50,7 +51,8 @@ class PairMemory {
   void insert(Slot slot);
   void forget_too_much();
 
-  std::size_t most_bytes_;  ///< of all maps, about
+  /// The most bytes that all maps may take, about.
+  std::size_t most_bytes_;
   std::size_t found_ = 0;
   std::vector<Slot> slots_ = std::vector<Slot>(64);
   std::vector<ContactMap> maps_;

@@ -21,7 +21,8 @@ geom::Curve placed(const Curve& curve, const BlankFromPart& pose) noexcept {
   moved.edge.centre = pose(curve.edge.centre);
   moved.first = pose.rotate(curve.first);
   moved.last = pose.rotate(curve.last);
-  if (pose.mirrored) {  // what was counter-clockwise from first to last now is from last to first
+  // A mirrored arc that ran counter-clockwise from first to last runs so from last to first.
+  if (pose.mirrored) {
     std::swap(moved.first, moved.last);
     moved.edge.kind =
         curve.edge.kind == geom::EdgeKind::arc_ccw ? geom::EdgeKind::arc_cw : geom::EdgeKind::arc_ccw;
@@ -39,7 +40,8 @@ RegionClearance::RegionClearance(const std::vector<geom::Region>& part,
 }
 
 bool RegionClearance::inside(const BlankFromPart& pose) const {
-  // The boundaries do not meet: each contour lies on one side of every other, and one point tells which.
+  // The boundaries do not meet, so each contour lies on one side of every other, and one point tells on
+  // which.
   const auto& part_starts = part_.contour_starts();
   for (std::size_t c = 0; c + 1 < part_starts.size(); ++c)
     if (!blank_.contains(pose(part_.curves()[part_starts[c]].edge.from))) return false;
@@ -61,7 +63,7 @@ RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double mar
       const geom::ClosestPoints close = closest_points(moved, blank_.curves()[j]);
       if (close.distance > limit) return;
       if (close.distance < least) least = close.distance, limit = least + margin;
-      // A shared end belongs to the edge that begins there.
+      // A shared end belongs to the edge that begins there, so that it makes one contact and not two.
       const Curve& other = blank_.curves()[j];
       const bool elsewhere =
           (close.a == moved.edge.to && !moved.full) || (close.b == other.edge.to && !other.full);
@@ -89,7 +91,8 @@ RegionContact RegionClearance::nearest(const BlankFromPart& pose, std::uint32_t 
 }
 
 double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const {
-  const auto outside = [&](Point p) {  // how far a point of the part's frame lies outside the blank
+  // Returns how far a point of the part's frame lies outside the blank.
+  const auto outside = [&](Point p) {
     const Point q = pose(p);
     const double distance = blank_.nearest(q).distance;
     return blank_.contains(q) ? -distance : distance;
@@ -112,7 +115,8 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
     if (out + radius <= reached + std::max(tolerance, kRelative * reached)) continue;
     const double to_part = part_.contains(square.centre) ? 0 : part_.nearest(square.centre).distance;
     if (to_part > radius) continue;
-    reached = std::max(reached, out - to_part);  // of the nearest point of the material
+    // The nearest point of the material sticks out by at least this much.
+    reached = std::max(reached, out - to_part);
     const double quarter = 0.5 * square.half;
     for (const double dx : {-quarter, quarter})
       for (const double dy : {-quarter, quarter}) open.push_back({square.centre + Point{dx, dy}, quarter});

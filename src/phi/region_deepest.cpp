@@ -20,7 +20,8 @@ struct Piece {
   Point from, to, centre;
   double radius = 0;  ///< 0 for a line
   std::uint32_t edge = 0;
-  double most = 0;  ///< none of its points lies deeper
+  /// No point of the piece lies deeper than this.
+  double most = 0;
   friend bool operator<(const Piece& a, const Piece& b) { return a.most < b.most; }
 };
 
@@ -31,7 +32,7 @@ Point middle_of(const Piece& piece) {
   return piece.centre + (piece.radius / norm(out)) * out;
 }
 
-/// Corners of a convex set that holds the piece.
+/// The corners of a convex set that holds the piece.
 struct Corners {
   std::array<Point, 3> at;
   std::size_t count = 2;
@@ -44,14 +45,14 @@ Corners corners_of(const Piece& piece) {
   return corners;
 }
 
-/// No point of the piece is further from the curve than this.
+/// Returns a distance that no point of the piece exceeds from the curve.
 double farthest(const Piece& piece, const Corners& corners, const Curve& curve) {
   const auto from_point = [&](Point c) {
     double most = 0;
     for (std::size_t k = 0; k < corners.count; ++k) most = std::max(most, norm(corners.at[k] - c));
     return most;
   };
-  // The distance from a line is a convex function: largest in a corner.
+  // The distance from a line is a convex function, so it is largest in a corner.
   if (curve.edge.kind == EdgeKind::line) {
     double most = 0;
     for (std::size_t k = 0; k < corners.count; ++k)
@@ -65,7 +66,7 @@ double farthest(const Piece& piece, const Corners& corners, const Curve& curve) 
        std::all_of(corners.at.begin(), corners.at.begin() + static_cast<std::ptrdiff_t>(corners.count),
                    [&](Point p) { return faces(curve, p - curve.edge.centre); }));
   if (!in_sector) return ends;
-  // Distances from the arc's centre between `near` and `far`.
+  // The distances from the arc's centre are between `near` and `far`.
   double far = from_point(curve.edge.centre), near = 0;
   if (piece.radius == 0) {
     near = norm(curve.edge.centre -
@@ -120,8 +121,8 @@ class Deepest {
     return open_.empty() ? best_ : std::max(best_, open_.top().most);
   }
 
-  /// Each edge gives the beginnings and middles of its pieces and its deepest place; those near the deepest
-  /// of all are kept.
+  /// Returns the places of all edges that are near the deepest of all. Each edge gives the beginnings and
+  /// middles of its pieces, and its deepest place.
   [[nodiscard]] std::vector<Place> places() {
     std::vector<Place> kept;
     for (const std::vector<Place>* const list : {&first_, &later_})

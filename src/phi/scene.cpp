@@ -18,7 +18,8 @@ using geom::GridRegion;
 GridBox grown(GridBox box, std::int64_t by) noexcept {
   return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
 }
-/// The same region with every loop begun at its least point, holes in order: equal for equal outlines.
+/// Returns the same region with every loop begun at its least point and holes in order, so that equal
+/// outlines give equal regions.
 GridRegion in_normal_order(const GridRegion& region) {
   const auto less = [](GridPoint a, GridPoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
   std::vector<std::vector<GridPoint>> loops;
@@ -50,7 +51,7 @@ std::uint64_t hash(const GridRegion& region) noexcept {
   return value;
 }
 
-/// One of 16 ways to go.
+/// Returns which of 16 ways to go is meant.
 std::size_t direction(GridPoint way) noexcept {
   const std::int64_t x = way.x < 0 ? -way.x : way.x, y = way.y < 0 ? -way.y : way.y;
   const auto bit = [](bool value) { return static_cast<std::size_t>(value); };
@@ -58,25 +59,29 @@ std::size_t direction(GridPoint way) noexcept {
 }
 
 constexpr std::size_t kMostGaps = 255;
-/// One cell of the index is as wide as so many of the cells asked for, because few lists to visit count more
-/// than short ones.
+/// A cell of the index stands for this many of the cells asked for, because a few long lists are visited
+/// faster than many short ones.
 constexpr std::size_t kCellsInOne = 4;
-/// Small cells along the side of one.
+/// There are this many small cells along the side of a cell.
 constexpr std::int32_t kSmall = 12;
-/// Questions after which an outline's inner points are worth finding: not for a shape that is turned away.
+/// The inner points of an outline are worth finding after this many questions; a shape that is turned away is
+/// not asked so often.
 constexpr std::uint8_t kAskedOften = 8;
 /// Bodies wider or higher than this many small cells are not marked in them.
 constexpr double kMostSmall = 256;
 
 }  // namespace
 
-/// Forms are outlines that differ by more than a shift. Made for questions, so copies of a scene make their
-/// own maps.
+/// The findings of questions. Forms are outlines that differ by more than a shift. The memory only speeds
+/// questions up, so a copy of a scene makes maps of its own.
 struct Scene::Memory {
   std::vector<FlatOutline> forms;
-  double row = 1;                                       ///< height of a small cell
-  std::vector<std::vector<FlatOutline::Span>> covers;   ///< by form, of such rows
-  std::multimap<std::uint64_t, std::uint32_t> form_of;  ///< by hash
+  /// The height of a small cell.
+  double row = 1;
+  /// By form: its spans, in rows of that height.
+  std::vector<std::vector<FlatOutline::Span>> covers;
+  /// By hash: the forms that have it.
+  std::multimap<std::uint64_t, std::uint32_t> form_of;
   std::vector<std::int64_t> gaps = {0};
   PairMemory pairs;
 
@@ -97,7 +102,7 @@ struct Scene::Memory {
     return static_cast<std::uint32_t>(forms.size() - 1);
   }
 
-  /// A small number for a gap; kMostGaps for all that are too many.
+  /// Returns a small number for a gap, or kMostGaps when there are too many gaps to number.
   std::size_t gap_number(std::int64_t gap) {
     if (gap == 0) return 0;
     for (std::size_t i = 1; i < gaps.size(); ++i)
@@ -109,8 +114,9 @@ struct Scene::Memory {
 };
 
 struct Scene::Question {
-  GridBox box;    ///< of the probe
-  GridBox reach;  ///< what lies beyond it is out of everybody's gap
+  GridBox box;  ///< of the probe
+  /// A body whose box lies beyond it is out of everybody's gap.
+  GridBox reach;
   std::int64_t widest, gap, tolerates;
   std::uint32_t form, layers;
   BodyIndex except;
@@ -124,7 +130,7 @@ Scene::Scene(const GridBox& world, std::size_t cells) : world_(world), memory_(s
   LEKALO_ASSERT(width >= 1 && height >= 1);
   const double count =
       static_cast<double>(std::clamp<std::size_t>(cells / kCellsInOne, 1, std::size_t{1} << 26));
-  // A world much longer than wide has one row of cells, and no more cells than asked for.
+  // A world that is much longer than wide has one row of cells, and no more cells than asked for.
   const double side = std::max({std::sqrt(width * height / count), width / count, height / count, 1.0});
   per_step_ = 1 / side;
   columns_ = static_cast<std::int32_t>(width * per_step_) + 1;
@@ -195,7 +201,8 @@ std::uint32_t Scene::next_question() const {
 template <class Accept, class Visit>
 bool Scene::visit_cell(std::size_t cell, std::uint32_t question, Accept&& accept, Visit&& visit) const {
   for (const Cell* at = &cells_[cell];; at = &cells_[at->next]) {
-    // First all that count, without a branch, then what takes long.
+    // The first loop collects all bodies that count, without a branch. The second visits them, which takes
+    // long.
     std::array<BodyIndex, std::tuple_size_v<decltype(Cell::bodies)>> some;
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < at->count; ++i) {
@@ -230,7 +237,7 @@ void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
   const FlatOutline& form = memory_->forms[body.form];
   if (spans.empty() && static_cast<double>(std::max(form.width, form.height)) <= kMostSmall * memory_->row)
     spans = covered_spans(form, memory_->row);
-  // Positions in small cells; a cell counts when it lies in the span whatever the roundings.
+  // Positions are in small cells. A cell counts when it lies in the span whatever the roundings.
   constexpr double kMargin = 0x1p-20;
   const double left = static_cast<double>(body.box.low.x - world_.low.x),
                bottom = static_cast<double>(body.box.low.y - world_.low.y) * small_per_step_;
@@ -251,6 +258,7 @@ void Scene::cover(BodyIndex index, BodyIndex from, BodyIndex to) {
   }
 }
 
+/// Step 1 of docs/design/scene.md.
 bool Scene::lies_on_covered(const Question& q) const {
   const double x = static_cast<double>(q.box.low.x - world_.low.x),
                y = static_cast<double>(q.box.low.y - world_.low.y);
@@ -264,14 +272,15 @@ bool Scene::lies_on_covered(const Question& q) const {
                                             static_cast<std::size_t>(small_columns_) +
                                         static_cast<std::size_t>(static_cast<std::int32_t>(at_x))];
     if (index == kNoBody) continue;
-    if (index == q.except) return false;  // it is near its own place: others are not under its middle
+    // The probe is near its own place, so other bodies are not under its middle.
+    if (index == q.except) return false;
     if ((placed_[index].layers & q.layers) != 0 && placed_[index].rank > q.tolerates) return true;
   }
   return false;
 }
 
 void Scene::add_to_cell(std::size_t cell, BodyIndex index) {
-  // The first of a chain is the one with room.
+  // The first cell of a chain is the one with room.
   if (cells_[cell].count == cells_[cell].bodies.size()) {
     std::uint32_t room = free_cell_;
     if (room == 0) {
@@ -385,7 +394,7 @@ bool Scene::is_in_reach(const Placed& body, const Question& q) noexcept {
 
 bool Scene::forbids(const Placed& body, const Question& q) const {
   const std::int64_t gap = std::max(body.gap, q.gap);
-  // Within reach of the widest gap, but not of theirs.
+  // The body is within reach of the widest gap, but not of the gap between the two.
   if (gap != q.widest && (q.box.low.x - gap >= body.box.high.x || q.box.high.x + gap <= body.box.low.x ||
                           q.box.low.y - gap >= body.box.high.y || q.box.high.y + gap <= body.box.low.y))
     return false;
@@ -395,6 +404,7 @@ bool Scene::forbids(const Placed& body, const Question& q) const {
                              : pair_forbids(q.form, body.form, -shift, gap, false);
 }
 
+/// Steps 4 and 5: asks the pair's map if there is one or it is time for one, and else the outlines.
 bool Scene::pair_forbids(std::uint32_t fixed, std::uint32_t moving, GridPoint shift, std::int64_t gap,
                          bool container) const {
   Memory& memory = *memory_;
@@ -413,7 +423,7 @@ bool Scene::container_forbids(BodyIndex index, const Question& q) const {
   const Placed& body = placed_[index];
   if (index == q.except || (bodies_[index].layers & q.layers) == 0 || body.rank <= q.tolerates) return false;
   const std::int64_t gap = std::max(body.gap, q.gap);
-  // Every loop of the container keeps the gap, the outer one around its box at least.
+  // Every loop of the container keeps the gap, and the outer one keeps it around its box at least.
   if (q.box.low.x - gap < body.box.low.x || q.box.high.x + gap > body.box.high.x ||
       q.box.low.y - gap < body.box.low.y || q.box.high.y + gap > body.box.high.y)
     return true;
@@ -423,6 +433,7 @@ bool Scene::container_forbids(BodyIndex index, const Question& q) const {
 
 bool Scene::forbidden(const Probe& probe) const {
   const Question q = question(probe);
+  // Step 2 of docs/design/scene.md: the body that blocked this way last is asked first.
   BodyIndex* blocker = nullptr;
   if (q.except < placed_.size()) {
     const Placed& own = placed_[q.except];
@@ -436,9 +447,12 @@ bool Scene::forbidden(const Probe& probe) const {
       }
     }
   }
+  // Containers hold nearly everything, so they are in no list.
   for (const BodyIndex index : containers_)
     if (container_forbids(index, q)) return true;
+  // Step 1: covered cells.
   if (lies_on_covered(q)) return true;
+  // Step 3: the lists of the coarse cells.
   return visit_near(
       q.reach, q.number, [&](const Placed& body) { return is_in_reach(body, q); },
       [&](BodyIndex index) {
@@ -516,7 +530,8 @@ NearestBody Scene::nearest(const Probe& probe, std::int64_t within) const {
   const auto look_at = [&](BodyIndex index) {
     if (index == q.except) return false;
     const Placed& placed = placed_[index];
-    // Off by roundings: a box as near as the best may hold one that is nearer, or as near with a lower index.
+    // Box distances are off by roundings. A box as near as the best may hold a body that is nearer, or as
+    // near with a lower index.
     if (box_distance_mm(placed.box) > std::max(0.0, best_mm) * (1 + 0x1p-40)) return false;
     const Body& body = bodies_[index];
     const GridRegion &theirs = outline(body.shape), &ours = outline(probe.shape);
@@ -529,7 +544,7 @@ NearestBody Scene::nearest(const Probe& probe, std::int64_t within) const {
     if (mm < best_mm || (mm == best_mm && index < best.body)) best = one, best_mm = mm;
     return false;
   };
-  // Whoever is not met by a window is further away than it reaches.
+  // A body that the window does not meet is further away than the window reaches.
   for (std::int64_t reach = std::min(within, static_cast<std::int64_t>(0.25 / per_step_) + 1);;
        reach = reach > within / 4 ? within : 4 * reach) {
     const GridBox window = grown(q.box, reach);

@@ -18,12 +18,14 @@ using geom::GridPoint;
 using geom::GridRegion;
 using geom::Point;
 
-/// Cosine and sine of 1/16 and 1/128 of a turn: fans and steps between their rays.
+/// Cosine and sine of 1/16 and 1/128 of a turn: the angle between the rays of the fan, and the first step
+/// between them.
 constexpr Point kFanStep{0.92387953251128674, 0.38268343236508978};
 constexpr Point kFineStep{0.99879545620517241, 0.049067674327418015};
 
 Point turned_by(Point p, Point by) noexcept { return {by.x * p.x - by.y * p.y, by.y * p.x + by.x * p.y}; }
-Point halved(Point by) noexcept {  // half the angle, below half a turn
+// Returns half the angle, below half a turn.
+Point halved(Point by) noexcept {
   const Point sum{1 + by.x, by.y};
   return (1 / norm(sum)) * sum;
 }
@@ -31,7 +33,7 @@ Point opposite_turn(Point by) noexcept { return {by.x, -by.y}; }
 
 GridBox moved(GridBox box, GridPoint by) noexcept { return {box.low + by, box.high + by}; }
 
-/// The shift of a box along one axis out of another that moves it least.
+/// Returns the shift along one axis that moves a box least out of another.
 GridPoint box_shift_out(const GridBox& a, const GridBox& b) noexcept {
   const std::array<GridPoint, 4> shifts{
       {{b.high.x - a.low.x, 0}, {b.low.x - a.high.x, 0}, {0, b.high.y - a.low.y}, {0, b.low.y - a.high.y}}};
@@ -39,7 +41,7 @@ GridPoint box_shift_out(const GridBox& a, const GridBox& b) noexcept {
                            [](GridPoint p, GridPoint q) { return dot(p, p) < dot(q, q); });
 }
 
-/// The shift that brings a box into another; a larger box is not moved.
+/// Returns the shift that brings a box into another. A box larger than the other is not moved.
 GridPoint box_shift_in(const GridBox& a, const GridBox& outer) noexcept {
   const auto axis = [](std::int64_t low, std::int64_t high, std::int64_t to_low, std::int64_t to_high) {
     if (low < to_low) return to_low - low;
@@ -49,7 +51,7 @@ GridPoint box_shift_in(const GridBox& a, const GridBox& outer) noexcept {
           axis(a.low.y, a.high.y, outer.low.y, outer.high.y)};
 }
 
-/// Tries directions, remembers what they gave.
+/// Step 6 of docs/design/layout-check.md: tries directions and remembers what each of them gave.
 class Search {
  public:
   Search(SlideOut& slide, double limit) : slide_(slide), least_(limit) {}
@@ -62,8 +64,8 @@ class Search {
     least_ = std::min(least_, stop->distance);
     return better;
   }
-  /// Rays in all directions. What is best across some edge shows on the next ray, longer by 1 / cos(1/32
-  /// turn) at most where the same edge hinders there.
+  /// Tries rays in all directions. Where the best way is across some edge, the next ray is longer by at most
+  /// 1 / cos(1/32 turn), if the same edge hinders there.
   void fan() {
     constexpr double kSpare = 1.06;
     Point ray{1, 0};
@@ -72,7 +74,8 @@ class Search {
       across_contacts();
     }
   }
-  /// Across the edges in contact: where these are what hinders, no direction is shorter.
+  /// Tries the directions across the edges in contact: where such an edge is all that hinders, no direction
+  /// is shorter.
   void across_contacts() {
     for (; looked_at_ < stops_.size(); ++looked_at_) {
       const SlideOut::Stop stop = stops_[looked_at_];
@@ -80,14 +83,14 @@ class Search {
         if (edge == Point{}) continue;
         const Point across = (1 / norm(edge)) * perpendicular(edge);
         const double along = dot(across, stop.direction);
-        // Shorter by the cosine at best.
+        // The way across is shorter than this one by the cosine at best.
         if (!(std::abs(along) < 1 - 1e-9) || std::abs(along) * stop.distance >= least_) continue;
         attempt(along < 0 ? -across : across);
       }
     }
   }
-  /// When two contacts hinder at once, the best direction is across neither of them, so steps around it are
-  /// halved.
+  /// Tries steps around the best direction and halves them. Where two contacts hinder at once, the best
+  /// direction is across neither of them.
   void between_contacts() {
     if (stops_.empty() || is_across(shortest())) return;
     Point best = shortest().direction, step = kFineStep;
@@ -123,8 +126,8 @@ class Search {
   std::vector<SlideOut::Stop> stops_;
 };
 
-/// The first of the slides, rounded to the grid and prolonged by some steps where rounding takes it back,
-/// that `frees` approves.
+/// Step 7: returns the first of the slides that `frees` approves. It is rounded to the grid, and prolonged by
+/// some steps where rounding would take it back.
 template <class Frees>
 std::optional<GridPoint> proved(const std::vector<SlideOut::Stop>& stops, Frees&& frees) {
   for (const SlideOut::Stop& stop : stops)
@@ -158,8 +161,8 @@ void try_direction(Search& search, GridPoint v) {
   search.across_contacts();
 }
 
-/// A point of a's outline that lies in the forbidden, for overlaps too thin to have a middle in floating
-/// point, or one that a grid point tells of.
+/// Returns a point of a's outline that lies in the forbidden. Some overlaps are too thin to have a middle in
+/// floating point, or one that a grid point shows.
 Point edge_place(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
   return edge_distance(a, b, b_shift).on_a;
 }
@@ -181,7 +184,7 @@ Separation separate(const GridRegion& a, const GridRegion& b, GridPoint b_shift)
   SlideOut slide(a, b, b_shift, false);
   const auto place = slide.place_in_common();
   if (place) slide.probe_at(*place);
-  // A little more than along the axis, so that this direction is among the answers.
+  // The limit is a little above the length along the axis, so that this direction is among the answers.
   Search search(slide, length_of(box_shift) + 1);
   try_direction(search, box_shift);
   search.fan();

@@ -15,14 +15,15 @@ using geom::Point;
 
 Point in_doubles(GridPoint p) noexcept { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
-/// The intervals of s in which p + s u passes what lies within `gap` of a segment, for s in [0, length].
+/// Step 1 of docs/design/slide.md: collects the places s in [0, length] at which the way p + s u enters or
+/// leaves the region within `gap` of a segment.
 class Crossings {
  public:
   Crossings(Point direction, double length, double gap, std::vector<double>& events)
       : direction_(direction), length_(length), gap_(gap), events_(events) {}
 
-  /// The sides of the band along the edge, and the disc around its first end; the other end begins another
-  /// edge.
+  /// Adds the sides of the band along the edge, and the disc around its first end. The disc around its other
+  /// end comes with the edge that begins there.
   void add(Point p, Point from, Point to) {
     const Point edge = to - from;
     const double size = norm(edge), across = cross(direction_, edge) / size;
@@ -34,18 +35,20 @@ class Crossings {
     } else if (across != 0) {
       side(out, edge, size, across, 0);
     } else {
-      push(-dot(out, direction_));  // along the edge's own line: where it begins
+      // The way runs along the edge's own line, so the edge's beginning is the event.
+      push(-dot(out, direction_));
     }
   }
 
  private:
-  /// The line at `offset` left of the edge, between perpendiculars at its ends.
+  /// Adds the line at `offset` left of the edge, between perpendiculars at its ends.
   void side(Point out, Point edge, double size, double across, double offset) {
     if (across == 0) return;
     const double height = cross(edge, out) / size;  // left of the edge
     const double s = (height - offset) / across;
     const double along = dot(out + s * direction_, edge);
-    const double reserve = 1e-9 * size * size + 4 * size;  // rounding only adds events
+    // The reserve is generous, so that rounding only adds events.
+    const double reserve = 1e-9 * size * size + 4 * size;
     if (along >= -reserve && along <= size * size + reserve) push(s);
   }
   void disc(Point centre_to_p) {
@@ -73,14 +76,14 @@ struct SweptBox {
   }
 };
 
-/// The window that a box sweeps on its way, and `reach` around it.
+/// Returns the window that a box sweeps on its way, with `reach` around it.
 SweptBox swept(const GridBox& box, Point from, Point way, double reach) noexcept {
   const Point low = in_doubles(box.low) + from, high = in_doubles(box.high) + from;
   return {{low.x + std::min(0.0, way.x) - reach, low.y + std::min(0.0, way.y) - reach},
           {high.x + std::max(0.0, way.x) + reach, high.y + std::max(0.0, way.y) + reach}};
 }
 
-/// Points of `one` in their place meet edges of `other` in theirs, along `direction`.
+/// Adds the places where points of `one` meet edges of `other` along `direction`, each outline in its place.
 void add_all(const GridRegion& one, Point one_at, const GridRegion& other, Point other_at, Point direction,
              double length, std::int64_t gap, std::vector<double>& events) {
   const double reach = static_cast<double>(gap) + 4;
@@ -112,7 +115,7 @@ void add_all(const GridRegion& one, Point one_at, const GridRegion& other, Point
   }
 }
 
-/// The path's own grid point, then its neighbours, nearest first.
+/// Step 4: the grid point of the path itself, then its neighbours, the nearest first.
 constexpr std::array<GridPoint, 9> kBeside = {
     {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
 
@@ -131,7 +134,7 @@ GridPoint SlidePath::at(double s) const noexcept {
 
 void append_slide_events(const GridRegion& moving, const SlidePath& path, const GridRegion& fixed,
                          GridPoint fixed_at, std::int64_t gap, std::vector<double>& events) {
-  // Around the start, so that differences stay exact.
+  // Coordinates are taken from the start of the way, so that differences stay exact.
   const Point there = in_doubles(fixed_at - path.start);
   add_all(moving, {}, fixed, there, path.direction, path.length, gap, events);
   add_all(fixed, there, moving, {}, -path.direction, path.length, gap, events);
@@ -139,7 +142,9 @@ void append_slide_events(const GridRegion& moving, const SlidePath& path, const 
 
 SlideEnd slide(const SlidePath& path, std::vector<double> events,
                const std::function<bool(GridPoint)>& valid) {
-  constexpr double kShortest = 4;  // steps; what is asked about lies 2 from what may change there
+  // Intervals shorter than this are not asked about. So each question is asked at least 2 steps from the
+  // events on either side.
+  constexpr double kShortest = 4;  // steps
   events.push_back(path.length);
   std::sort(events.begin(), events.end());
   double open = 0, event = 0, shut = path.length;  // open: reached
@@ -155,6 +160,7 @@ SlideEnd slide(const SlidePath& path, std::vector<double> events,
       blocked = true;
     }
   };
+  // Step 2: one question between two neighbouring events answers for all of the interval.
   for (const double next : events) {
     if (next - event >= kShortest) {
       ask(event + (next - event) / 2);
@@ -163,9 +169,9 @@ SlideEnd slide(const SlidePath& path, std::vector<double> events,
     event = next;
   }
   if (!blocked && path.length > open) ask(path.length);
-  // At the end the points of the way at `open` and `shut` are the same or neighbours. What was reached lies
-  // beside the one, all around the other is not valid: so a neighbour of what was reached is not, and the gap
-  // is kept with less than 1.5 steps to spare.
+  // Step 3: halving. At the end the points of the way at `open` and `shut` are the same or neighbours. The
+  // place that was reached lies beside the one, and nothing beside the other is valid. So some neighbour of
+  // the place is not valid, and the gap is kept with less than sqrt(2) steps to spare.
   while (blocked && shut - open > 0.5) ask(open + (shut - open) / 2);
   return {reached, open, blocked};
 }

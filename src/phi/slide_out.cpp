@@ -56,6 +56,8 @@ void SlideOut::Outline::cross_line(double height, std::vector<double>& places) c
   std::sort(places.begin(), places.end());
 }
 
+/// Step 5 of docs/design/layout-check.md at one height: the first shift beyond all intervals that follow from
+/// 0.
 double SlideOut::least_at(double height) {
   a_.cross_line(height, line_a_);
   b_.cross_line(height, line_b_);
@@ -104,7 +106,8 @@ void SlideOut::Outline::cross_slab(double bottom, double top) {
   const auto to_the_left = [](const Crossing& p, const Crossing& q) {
     return p.bottom + p.top < q.bottom + q.top;
   };
-  for (std::size_t i = 1; i < crossings.size(); ++i)  // few, and mostly in order
+  // There are few crossings, and they are mostly in order, so sorting by insertion is quick.
+  for (std::size_t i = 1; i < crossings.size(); ++i)
     for (std::size_t j = i; j > 0 && to_the_left(crossings[j], crossings[j - 1]); --j)
       std::swap(crossings[j], crossings[j - 1]);
 }
@@ -125,7 +128,8 @@ bool SlideOut::visit_slabs(Visit&& visit) {
     if (!(bottom < top)) continue;
     a_.cross_slab(bottom, top);
     b_.cross_slab(bottom, top);
-    if (outside_of_b_) {  // the gaps between the pieces are the pieces now
+    // The gaps between the pieces of `b` are what is forbidden now.
+    if (outside_of_b_) {
       b_.crossings.insert(b_.crossings.begin(), {-kInfinity, -kInfinity, nullptr});
       b_.crossings.push_back({kInfinity, kInfinity, nullptr});
     }
@@ -135,14 +139,18 @@ bool SlideOut::visit_slabs(Visit&& visit) {
 }
 
 std::optional<SlideOut::Stop> SlideOut::along(Point direction, double limit) {
-  // Gaps narrower than this between forbidden stretches do not count; rounding could not tell.
+  // A gap between forbidden stretches that is narrower than this does not count, because rounding could make
+  // it.
   constexpr double kNarrow = 0.5;
   a_.turn(direction);
   b_.turn(direction);
   const double low = std::max(a_.low, b_.low), high = std::min(a_.high, b_.high);
+  // A few lines across prove for a tenth of the cost that most directions are too long (step 6).
   if (probe_ && least_at(cross(direction, *probe_)) >= limit) return std::nullopt;
   for (const double share : {0.5, 0.25, 0.75})
     if (least_at(low + share * (high - low)) >= limit) return std::nullopt;
+  // Step 5: the strips between neighbouring heights, each with the intervals of shifts that its pieces
+  // exclude.
   intervals_.clear();
   Stop stop;
   stop.direction = direction;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file of the layouts when nobody names one: among the user's data.
+/// Returns the file of the layouts when the user names none: it lies among the user's data.
 Result<std::string> usual_store() {
   const char* const data = std::getenv("XDG_DATA_HOME");
   const char* const home = std::getenv("HOME");
@@ -41,8 +41,8 @@ Result<std::string> usual_store() {
   return (folder / "layouts.sqlite").string();
 }
 
-/// The file as a layout of the store: the one that was made from the same bytes before, with all that was
-/// done to it since, or a new one.
+/// Returns the layout of the store that stands for a file: the one that was made from the same bytes before,
+/// with all that was done to it since, or else a new one.
 Result<server::LayoutId> layout_of_file(server::Store& store, const LayoutSource& source) {
   LEKALO_TRY(const jobs::Layout input, read_layout_input(source, {}));
   tell(notes(input.notices));
@@ -65,6 +65,7 @@ Result<int> run_serve(const ServeOptions& o) {
   options.port = o.port;
   options.token = o.token;
   LEKALO_TRY(const bool loopback, server::is_loopback(o.listen));
+  // Everybody who can reach another address than loopback could edit, so such a server needs a token.
   if (!loopback && options.token.empty()) {
     LEKALO_TRY(options.token, server::random_token());
   }
@@ -79,7 +80,7 @@ Result<int> run_serve(const ServeOptions& o) {
     if (opened)
       said += fmt::format("layout {}{}layout={}\n", url, options.token.empty() ? "?" : "&", *opened);
     return print(said).and_then([]() -> Result<void> {
-      // Whoever started us may wait for the line.
+      // The program that started us may wait for the line.
       if (std::fflush(stdout) != 0) return failure(ErrorCode::environment, "stdout cannot be written");
       return {};
     });

@@ -8,7 +8,7 @@
 namespace lekalo::cli {
 namespace {
 
-/// As typed.
+/// The words of the command line as they were typed.
 struct SimulateWords {
   std::string program, pocket, tool, stock_to_leave, step_over, top, acceleration, rapid, samples, picture,
       animation;

@@ -6,10 +6,12 @@
 
 namespace lekalo::cli {
 
-/// `40%` of the tool's diameter, as a part of it; the sign may be left out.
+/// Reads a word like `40%` as a part of the tool's diameter, here 0.4. The sign may be left out. The share
+/// may be from 1 % to `most_percent`, which is 50 or 100.
 inline void read_step_over(WordReader& read, std::string word, double most_percent, double& part) {
   if (word.empty()) return;
   if (word.back() == '%') word.pop_back();
+  // A sign alone is no number, and the complaint shows it as it was typed.
   if (word.empty()) word = "%";
   double percent = 0;
   read.number("--stepover", word, 1.0, most_percent,

@@ -9,20 +9,22 @@
 
 namespace lekalo::server {
 
-/// The messages that wait to be sent to one client. They are bounded: where a client reads slower than others
-/// write, what a fresh `layout` says anyway is dropped, and the client gets one once it has read the rest.
+/// The messages that wait to be sent to one client. Their number is bounded: where a client reads slower than
+/// others write, messages that a fresh `layout` makes needless are dropped, and the client gets such a
+/// `layout` once it has read the rest.
 class Outbox {
  public:
-  /// \param limit  bytes that may wait, without the answers to the client's own messages, of which it can
-  /// only have asked for one at a time.
+  /// \param limit  bytes that may wait. Answers to the client's own messages do not count, because the client
+  /// can only have asked for one at a time.
   explicit Outbox(std::size_t limit = std::size_t{8} << 20) : limit_(limit) {}
 
-  /// Taken in order; once something was dropped, all that may be lost is, until a fresh layout comes.
+  /// Puts a message behind the others. Once a message was dropped, all that may be lost are dropped until a
+  /// fresh layout comes.
   void push(const Outgoing& message) {
     if (message.loss == Loss::fresh) behind_ = asked_ = false;
     if (message.loss == Loss::as_newer) {
       if (behind_) return;
-      // A single message may be larger than the limit.
+      // A message larger than the limit is taken when nothing else waits, or it could never be sent.
       if (waiting_bytes_ > 0 && waiting_bytes_ + message.text->size() > limit_) {
         behind_ = true;
         waiting_bytes_ = 0;
@@ -42,8 +44,8 @@ class Outbox {
     if (message.loss != Loss::never) waiting_bytes_ -= message.text->size();
     return std::move(message.text);
   }
-  /// Answers true once, when everything that waited is sent and something was dropped: then Room::resend is
-  /// due.
+  /// Returns true once, when everything that waited is sent and something was dropped. Room::resend is due
+  /// then.
   [[nodiscard]] bool take_refresh() noexcept {
     if (!behind_ || asked_ || !waiting_.empty()) return false;
     asked_ = true;

@@ -12,9 +12,9 @@ namespace lekalo::server {
 
 /// The WebSocket side of docs/protocol.md on the network.
 
-/// Clients of a WebSocket have to offer this subprotocol.
+/// The subprotocol that clients of a WebSocket have to offer.
 inline constexpr std::string_view kSubprotocol = "lekalo.1";
-/// The head of a request, or the handshake of a WebSocket, may take this long.
+/// The longest time for the head of a request or the handshake of a WebSocket.
 inline constexpr auto kHeaderTime = std::chrono::seconds(30);
 
 /// Takes a connection over. \param request  the upgrade that was read from it

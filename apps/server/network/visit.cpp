@@ -55,7 +55,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kLargestHeader);
-    parser_->body_limit(kLargestUpload);  // until the header says what it is for
+    // This limit holds until the header says what the body is for.
+    parser_->body_limit(kLargestUpload);
     socket_.expires_after(kHeaderTime);
     http::async_read_header(socket_, incoming_, *parser_,
                             [self = shared_from_this()](error_code error, std::size_t) {
@@ -75,7 +76,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     target_ = parse_target(view(request.target()));
     if (!target_) return refuse(400, "the target of the request is not understood");
     const std::string* const token = target_->find("token");
-    // Each of them once: which of two counts would be anybody's guess.
+    // Each of these headers may stand only once, because nobody could tell which of two counts.
     for (const http::field once : {http::field::host, http::field::origin, http::field::cookie})
       if (request.count(once) > 1) return refuse(400, "a header that may stand once stands twice");
     const std::string why =
@@ -94,7 +95,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (view(request[http::field::expect]) == "100-continue") return go_on();
     read_body();
   }
-  /// Some clients wait for a word before they send a file.
+  /// Tells the client to send its body. Some clients wait for that before they send a file.
   void go_on() {
     reply_.emplace(http::status::continue_, version_);
     reply_->prepare_payload();
@@ -118,7 +119,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
   void broken(error_code error) {
     if (error == http::error::body_limit) return refuse(413, "the request is too large");
     if (error == http::error::header_limit) return refuse(431, "the headers of the request are too large");
-    // A failure of the parser, not of the connection.
+    // This is a failure of the parser, and not of the connection.
     if (error.category() == http::make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message)
       return refuse(400, "this is no HTTP request that is understood");
@@ -144,7 +145,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (author != nullptr && (author->size() > kLongestAuthor || !is_plain_text(*author)))
       return refuse(400, "an author has at most 64 bytes of UTF-8 without control characters");
     if (service_.stopping) return refuse(503, "the server is about to stop");
-    socket_.expires_never();  // the WebSocket has time-outs of its own
+    // The WebSocket has time-outs of its own.
+    socket_.expires_never();
     server::start_talk(service_, socket_.release_socket(), static_cast<LayoutId>(*id),
                        author != nullptr ? *author : std::string(), request);
   }
@@ -153,7 +155,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     Request request = parser_->release();
     const std::string method(view(request.method_string()));
     if (!target_->path.starts_with("/api")) return send(answer_page(method, target_->path));
-    // The answer may take long: not on the network's thread.
+    // The answer may take long, so it is not made on the network's thread.
     watch();
     asio::post(service_.api_pool, [self = shared_from_this(), method,
                                    body = std::move(request.body())]() mutable {
@@ -167,12 +169,13 @@ class Visit : public std::enable_shared_from_this<Visit> {
       } catch (const std::bad_alloc&) {
         *answer = api_error(503, "not enough memory for this");
       }
-      // Not held here any more: what a connection ends with belongs to the network's thread.
+      // This thread lets go of the visit here, because whatever a connection does when it ends belongs to the
+      // network's thread.
       asio::post(service.io, [self = std::move(self), answer] { self->send(std::move(*answer)); });
     });
   }
 
-  /// Learns of it when the client goes before it is answered.
+  /// Notes when the client goes away before it is answered, so that the work for it can stop.
   void watch() {
     socket_.socket().async_wait(tcp::socket::wait_read, [weak = weak_from_this()](error_code error) {
       const std::shared_ptr<Visit> self = weak.lock();
@@ -193,7 +196,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
     reply_->set("Cross-Origin-Opener-Policy", "same-origin");
     reply_->set("Cross-Origin-Embedder-Policy", "require-corp");
     reply_->set("Cross-Origin-Resource-Policy", "same-origin");
-    reply_->set("Referrer-Policy", "no-referrer");  // the address may hold the token
+    // The address may hold the token, so no other site may learn it.
+    reply_->set("Referrer-Policy", "no-referrer");
     reply_->set(http::field::cache_control, "no-store");
     if (!answer.allow.empty()) reply_->set(http::field::allow, answer.allow);
     if (!answer.file_name.empty())
@@ -213,7 +217,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
       hang_up();
     });
   }
-  /// A body that was not read would otherwise make the system drop the answer with the connection.
+  /// Ends the connection: nothing more is sent, and what is left of the body is read. If it were not read,
+  /// the system would drop the answer together with the connection.
   void hang_up() {
     error_code ignored;
     socket_.socket().shutdown(tcp::socket::shutdown_send, ignored);

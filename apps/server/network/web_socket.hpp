@@ -15,18 +15,20 @@ namespace lekalo::server {
 /// The request that asks for a WebSocket.
 using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
-/// One WebSocket, text frames of messages that are read and written one at a time. Beast's stream stands
-/// behind it: the compiler needs long for its operations, so they stand in files of their own
+/// One WebSocket that carries text frames; messages are read and written one at a time. Beast's stream stands
+/// behind it. The compiler needs long for the operations of that stream, so they stand in files of their own
 /// (web_socket.cpp, web_socket_read.cpp, web_socket_write.cpp) and nobody else sees them.
 ///
-/// On the network's thread alone. Each operation calls back once, later, with whether it was done; what it
-/// uses has to live until then.
+/// Only the network's thread uses it. Each operation calls back once, later, and says whether it was done.
+/// What the operation uses has to live until then.
 class WebSocket {
  public:
   using Done = std::function<void(bool done)>;
   struct Limits {
-    std::string subprotocol;  ///< agreed on in the handshake
-    std::size_t message = 0;  ///< largest message, bytes; a larger one ends the connection
+    /// The subprotocol that the handshake agrees on.
+    std::string subprotocol;
+    /// The largest message, in bytes. A larger one ends the connection.
+    std::size_t message = 0;
     std::chrono::seconds handshake{}, silence{};
   };
   enum class Close {
@@ -45,14 +47,14 @@ class WebSocket {
 
   /// Answers the request. \pre it is an upgrade
   void accept(const Upgrade& request, Done done);
-  /// Waits for a message; `message` gives it then.
+  /// Waits for a message, which `message` returns once it is there.
   void read(Done done);
   [[nodiscard]] Message message();
   /// \param bytes  has to live until it is called back
   void write(std::string_view bytes, Done done);
-  /// Says goodbye.
+  /// Closes the connection with a closing frame.
   void close(Close reason, Done done);
-  /// Ends the connection at once, whatever waits.
+  /// Ends the connection at once, whatever waits to be sent.
   void cut();
 
  private:

@@ -8,7 +8,7 @@
 
 namespace lekalo::server {
 
-/// For the files that implement WebSocket.
+/// The stream behind a WebSocket, for the files that implement it.
 struct WebSocket::Stream {
   explicit Stream(boost::asio::ip::tcp::socket&& connection) : socket(std::move(connection)) {}
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket;

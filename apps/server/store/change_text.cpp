@@ -1,4 +1,4 @@
-// A change as the store keeps it.
+// Writes and reads a change as the store keeps it.
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@ void append_line(std::string& text, char sign, const Placement& p) {
                       p.rotation.s, p.at.x, p.at.y, p.mirrored ? 1 : 0, p.locked ? 1 : 0);
 }
 
-/// A feature is JSON to the end of the line, which has no line ends of its own.
+/// Writes a feature as JSON, which has no line ends of its own and therefore goes on to the end of the line.
 void append_line(std::string& text, char sign, const layout::FeatureChange& where,
                  const layout::Feature& feature) {
   text += fmt::format("{}{} {} {} {}\n", sign, where.stock, where.index, static_cast<int>(feature.kind),

@@ -11,20 +11,20 @@
 
 namespace lekalo::server {
 
-/// A thin face of the SQLite C interface: handles that close themselves, failures as sentences.
+/// A thin layer over the C interface of SQLite: handles close themselves, and failures are sentences.
 
 class Statement {
  public:
   explicit Statement(sqlite3_stmt* raw) : raw_(raw) {}
-  /// Parameters count from 1. Text is copied.
+  /// Binds a value to a parameter, counted from 1. Text is copied.
   Statement& bind(int index, std::int64_t value);
   Statement& bind(int index, std::string_view value);
   Statement& bind_bytes(int index, std::string_view bytes);
-  /// True: there is a row. Fails with ErrorCode::environment.
+  /// Steps to the next row. Returns true when there is one. Fails with ErrorCode::environment.
   [[nodiscard]] Result<bool> step();
-  /// Runs to the end and makes it ready for other values.
+  /// Runs the statement to its end and makes it ready for other values.
   [[nodiscard]] Result<void> run();
-  /// Columns count from 0; valid until the next step.
+  /// These return a column of the row, counted from 0. It is valid until the next step.
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::string bytes(int column) const;
@@ -42,9 +42,9 @@ class Database {
   /// Opens a file for reading and writing. Fails with ErrorCode::environment.
   [[nodiscard]] static Result<Database> open(const std::string& path);
   [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
-  /// One or more statements without parameters and without interest in their rows.
+  /// Runs one or more statements without parameters. Their rows are ignored.
   [[nodiscard]] Result<void> run(const char* sql) const;
-  /// The first column of the first row of a statement without parameters; 0 where there is none.
+  /// Returns the first column of the first row of a statement without parameters; 0 where there is no row.
   [[nodiscard]] Result<std::int64_t> number(std::string_view sql) const;
   [[nodiscard]] std::int64_t last_row() const { return sqlite3_last_insert_rowid(raw_.get()); }
   [[nodiscard]] std::int64_t changed_rows() const { return sqlite3_changes(raw_.get()); }
@@ -58,14 +58,14 @@ class Database {
   std::unique_ptr<sqlite3, Close> raw_;
 };
 
-/// All or nothing: rolled back where it is not committed.
+/// A transaction is rolled back unless it is committed.
 class Transaction {
  public:
   [[nodiscard]] static Result<Transaction> begin(const Database& database);
   Transaction(Transaction&& other) noexcept : database_(other.database_) { other.database_ = nullptr; }
   Transaction& operator=(Transaction&&) = delete;
   ~Transaction();
-  /// After success what was done is on the disk; after failure nothing of it counts.
+  /// Commits. After success what was done is on the disk; after failure nothing of it counts.
   [[nodiscard]] Result<void> commit();
 
  private:

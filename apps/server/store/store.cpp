@@ -47,7 +47,7 @@ CREATE TABLE change (
 ) STRICT;
 )";
 
-/// New in format 2.
+/// This table is new in format 2.
 constexpr const char* kPhotoSchema = R"(
 CREATE TABLE photo (
   layout INTEGER NOT NULL REFERENCES layout ON DELETE CASCADE,
@@ -60,14 +60,15 @@ CREATE TABLE photo (
 )";
 
 constexpr const char* kNow = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
-/// Orders layouts by their last change, where the clock may stand still or go back.
+/// Orders layouts by their last change. A number is counted for that, because the clock may stand still or go
+/// back.
 constexpr const char* kNextNumber = "(SELECT coalesce(max(change_number), 0) + 1 FROM layout)";
 
 tl::unexpected<Error> no_layout(LayoutId id) {
   return failure(ErrorCode::usage, fmt::format("there is no layout {}", id));
 }
 
-/// Makes the file where there is none: SQLite's own would be readable by others for a moment.
+/// Makes the file where there is none. If SQLite made it, others could read it for a moment.
 Result<void> make_file(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0)
@@ -120,7 +121,7 @@ Result<Store> Store::open(const std::string& path) {
 }
 
 Result<void> Store::prepare_file() {
-  // One server holds the file: what it keeps in memory is then what the file says.
+  // One server locks the file, so that what it keeps in memory agrees with the file.
   for (const char* setting :
        {"PRAGMA locking_mode=EXCLUSIVE", "PRAGMA journal_mode=WAL", "PRAGMA synchronous=FULL",
         "PRAGMA foreign_keys=ON", "PRAGMA journal_size_limit=67108864", "BEGIN IMMEDIATE; COMMIT"}) {
@@ -357,7 +358,8 @@ Result<void> exists(Database& database, LayoutId id) {
   return {};
 }
 
-/// The rows of a query about one layout, which has to be there. \param take  of a row, a Result<void>
+/// Goes through the rows of a query about one layout, which has to be there.
+/// \param take  takes a row and returns a Result<void>
 template <class Take>
 Result<void> each_row(Database& database, LayoutId id, const char* query, Take&& take) {
   LEKALO_CHECK(exists(database, id));

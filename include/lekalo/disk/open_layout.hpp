@@ -11,7 +11,8 @@ struct OpenOptions {
   /// The file of the items that a file of placements places. Empty: where that file says, looked for beside
   /// it, then in the folder above, then under its last name beside it.
   std::string instance;
-  io::PartOptions parts;  ///< its unit counts for jobs of other programs too
+  /// The unit of these counts for jobs of other programs too.
+  io::PartOptions parts;
 };
 
 /// Finds the items of the placements in the file `path` on the disk: in `instance`, or, where that is empty,

@@ -14,9 +14,11 @@ namespace lekalo::draw {
 /// A grey picture whose numbers matter: no gamma, no palette, no alpha.
 struct GreyImage {
   std::size_t columns = 0, rows = 0;
-  int bits = 16;                                           ///< of a pixel: 8 or 16
-  std::vector<std::uint16_t> pixels;                       ///< rows from the top
-  std::vector<std::pair<std::string, std::string>> texts;  ///< keys (1 to 79 letters) and values, Latin-1
+  /// The bits of a pixel, 8 or 16.
+  int bits = 16;
+  std::vector<std::uint16_t> pixels;  ///< rows from the top
+  /// Keys (1 to 79 letters) and values, Latin-1.
+  std::vector<std::pair<std::string, std::string>> texts;
 };
 
 /// PNG bytes; the same for the same image and library. ErrorCode::environment when the library fails.

@@ -37,13 +37,16 @@ struct PictureOfRegions {
 /// Everything the picture of a localisation shows. All numbers are finite (upper_bound may be infinite).
 struct LocatePicture {
   std::string title;
-  std::string part_name, blank_name;  ///< UTF-8; of a path the last name is shown, shortened where it is long
+  /// The names in UTF-8. Of a path the last name is shown, shortened where it is long.
+  std::string part_name, blank_name;
   std::string method, status;
   std::variant<PictureOfRings, PictureOfRegions> outlines;
   locate::Placement result;
-  bool mirrored = false;  ///< the part; regions alone
+  /// True when the part is mirrored; for regions alone.
+  bool mirrored = false;
   std::optional<double> upper_bound;
-  double min_allowance = 0, shortfall = 0;  ///< mm; the demand is printed when it is above 0
+  /// The demand and what is missing of it, mm. The demand is printed when it is above 0.
+  double min_allowance = 0, shortfall = 0;
 };
 
 /// The picture as SVG text (250 x 160 mm): blank, placed part, contacts, the allowance along the outline in

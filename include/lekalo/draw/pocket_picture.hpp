@@ -19,12 +19,15 @@ struct PocketStretch {
 
 /// Holds what a program cuts of a pocket, for a picture or an animation.
 struct PocketPicture {
-  std::string name;                                           ///< UTF-8
-  std::vector<geom::Region> pockets, unreachable, fragments;  ///< fragments: drawn dashed; may be empty
-  double tool_diameter = 0;                                   ///< mm
+  std::string name;  ///< UTF-8
+  /// The fragments are drawn dashed and may be empty.
+  std::vector<geom::Region> pockets, unreachable, fragments;
+  double tool_diameter = 0;  ///< mm
   std::vector<PocketStretch> path;
-  std::vector<geom::Point> uncut;                            ///< places that could be cut and are not
-  std::vector<std::pair<std::string, std::string>> figures;  ///< name and value, printed beside
+  /// Places that could be cut and are not.
+  std::vector<geom::Point> uncut;
+  /// Names and values that are printed beside the picture.
+  std::vector<std::pair<std::string, std::string>> figures;
 };
 
 /// One page (250 x 160 mm): the pocket, the path coloured by engagement with its scale (grey: below 3

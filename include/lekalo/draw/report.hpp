@@ -27,17 +27,22 @@ struct ReportFeature {
 struct FeatureRow {
   ReportFeature feature;
   double length = 0;
-  double minimum = 0;  ///< never above the exact one, of any outline within ReportShapes::outline_error
-  double mean = 0;     ///< over its length, by trapezoids between the samples: within a quarter of their step
-  double maximum = 0;  ///< never below the exact one
-  bool met = true;     ///< every demand that is known
+  /// Never above the exact minimum of any outline within ReportShapes::outline_error.
+  double minimum = 0;
+  /// The mean over the length, by trapezoids between the samples: within a quarter of their step.
+  double mean = 0;
+  /// Never below the exact maximum.
+  double maximum = 0;
+  /// True when every demand that is known is met.
+  bool met = true;
   std::string verdict;
 };
 
 /// Holds what the page needs beside the document.
 struct ReportShapes {
   std::vector<geom::Region> part, blank;  ///< mm, as used
-  double outline_error = 0;               ///< how far the outlines may be from the true ones, together, mm
+  /// The outlines may be this far from the true ones, together, mm.
+  double outline_error = 0;
   /// The document's numbers of part edges and blank edges, where these regions count otherwise (a contour
   /// that the file gives clockwise); empty: the same.
   std::vector<std::uint32_t> part_edge_numbers, blank_edge_numbers;
@@ -47,17 +52,22 @@ struct Report {
   io::LocateDocument document;  ///< without shapes and proof
   ReportShapes shapes;
   std::optional<double> margin, margin_bound;  ///< of demands by feature
-  bool contacts_at_vertices = false;           ///< those of convex outlines
+  /// True for the contacts of convex outlines.
+  bool contacts_at_vertices = false;
   std::vector<locate::Touch> contacts;
   std::vector<std::string> proof, assumptions;  ///< sentences
-  double step = 0;                              ///< mm along the outline between samples, at most
-  double tolerance = 0;                         ///< of the extremes, mm
-  std::vector<locate::EdgeAllowance> edges;     ///< of the part
+  /// The largest step along the outline between samples, mm.
+  double step = 0;
+  /// The tolerance of the extremes, mm.
+  double tolerance = 0;
+  /// The edges of the part.
+  std::vector<locate::EdgeAllowance> edges;
   std::vector<FeatureRow> features;
   /// Less than this is missing material, for each edge: the greatest minimum of its features, else that of
   /// the whole part where it is not met; below 0 for a finished one.
   std::vector<double> demanded;
-  std::vector<locate::MissingPlace> missing;  ///< places and how much is missing there, the worst first
+  /// Places and how much is missing there, the worst first.
+  std::vector<locate::MissingPlace> missing;
 };
 
 /// At most this many places of missing material.

@@ -11,9 +11,12 @@ namespace lekalo::field {
 /// The time at which a front gets to each node: |grad T| = 1 / speed.
 struct ArrivalTimes {
   GridFrame frame;
-  std::vector<double> time;  ///< s; infinite where nothing arrives; negative in the start
-  double last = 0;           ///< s: the latest that is finite, not below 0
-  bool reaches_all = true;   ///< whether the front gets to every node with a speed
+  /// The time of each node, s: infinite where nothing arrives, negative in the start.
+  std::vector<double> time;
+  /// The latest finite time, s; not below 0.
+  double last = 0;
+  /// True when the front gets to every node with a speed.
+  bool reaches_all = true;
 };
 
 /// Marches a front from a start at time 0 (fast marching, J. A. Sethian, 1996), with differences of second

@@ -10,7 +10,8 @@
 namespace lekalo::field {
 
 struct ContourModelOptions {
-  double step = 3;  ///< mm: lines and arcs become segments no longer than this (arcs: their chords)
+  /// Lines and arcs become segments no longer than this, mm (of arcs the chords).
+  double step = 3;
   Logic logic = Logic::quadratic;
   FlozForm form = FlozForm::normalised;
 };

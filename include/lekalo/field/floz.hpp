@@ -15,7 +15,7 @@ enum class FlozForm { normalised, algebraic };
 
 /// A segment with what its functions need; the same for either direction, to the bit.
 struct FlozSegment {
-  geom::Point middle, along;  ///< along: unit vector
+  geom::Point middle, along;  ///< `along` is a unit vector
   double length = 1;
 };
 

@@ -13,7 +13,8 @@ class LevelLines {
   /// A crossing of a level line with the way between two neighbouring nodes.
   struct Place {
     geom::Point at;
-    bool known = true;  ///< both numbers are finite; else `at` is in the middle
+    /// True when both numbers are finite; otherwise `at` is in the middle.
+    bool known = true;
   };
 
   /// \param values  of each node, +infinity where there is none; kept by reference

@@ -12,18 +12,18 @@ namespace lekalo::geom {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
-/// A balanced tree of boxes in any order; what it visits comes in an order that depends on the boxes alone.
+/// A balanced tree of boxes in any order. It visits them in an order that depends on the boxes alone.
 /// Building: O(n log n).
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
 
-  /// visit(i) for every box i that meets `box`, touching included.
+  /// Calls visit(i) for every box i that meets `box`, touching included.
   template <class Visit>
   void visit_meeting(const Box& box, Visit&& visit) const {
     if (!nodes_.empty()) descend(0, box, visit);
   }
-  /// visit(i, j), i < j, once for every two boxes that meet.
+  /// Calls visit(i, j), i < j, once for every two boxes that meet.
   template <class Visit>
   void visit_pairs(Visit&& visit) const {
     if (!nodes_.empty()) within(0, visit);
@@ -32,8 +32,10 @@ class BoxTree {
  private:
   struct Node {
     Box box;
-    std::uint32_t begin = 0, end = 0;  ///< in order_
-    std::uint32_t right = 0;           ///< the left child is the next node; 0 in a leaf
+    /// The boxes order_[begin] to order_[end - 1].
+    std::uint32_t begin = 0, end = 0;
+    /// The node of the right child, or 0 in a leaf; the left child is the next node.
+    std::uint32_t right = 0;
   };
   static constexpr std::uint32_t kLeaf = 4;
 
@@ -90,7 +92,7 @@ class BoxTree {
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;  ///< preorder
+  std::vector<Node> nodes_;  ///< in preorder
 };
 
 }  // namespace lekalo::geom

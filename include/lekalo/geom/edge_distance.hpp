@@ -13,16 +13,19 @@ namespace lekalo::geom {
 /// counts radii. (64 u: five differences, a square root and a division, with reserve.)
 inline constexpr double kEdgeDistanceError = 0x1p-47;
 
-/// An edge with what its distances need, computed once.
+/// An edge with all that its distances need, computed once.
 struct Curve {
   Edge edge;
-  Point unit;                ///< direction of a line
-  double length = 0;         ///< of a line
-  double radius = 0;         ///< of an arc
-  bool wide = false;         ///< the arc turns through a half turn or more
-  bool beyond_half = false;  ///< more than a half turn, but not a full circle
-  bool full = false;         ///< a full circle
-  Point first, last;  ///< an arc's end directions from its centre, counter-clockwise from first to last
+  Point unit;         ///< direction of a line
+  double length = 0;  ///< of a line
+  double radius = 0;  ///< of an arc
+  /// True when the arc turns through a half turn or more.
+  bool wide = false;
+  /// True when it turns through more than a half turn, but is not a full circle.
+  bool beyond_half = false;
+  bool full = false;  ///< a full circle
+  /// The directions of an arc's ends from its centre, counter-clockwise from first to last.
+  Point first, last;
 };
 [[nodiscard]] Curve make_curve(const Edge& edge) noexcept;
 
@@ -31,16 +34,18 @@ struct ClosestPoints {
   Point a, b;  ///< on the first and the second edge
 };
 
-/// The answer says whether the arc has a point in this direction from its centre. \pre an arc
+/// Says whether the arc has a point in this direction from its centre.
+/// \pre an arc
 [[nodiscard]] bool faces(const Curve& arc, Point direction) noexcept;
 
-/// The point of an edge nearest to p; any of several.
+/// Returns the point of an edge nearest to p; of several any one.
 [[nodiscard]] Point nearest_on(const Curve& curve, Point p) noexcept;
 
-/// Nearest points of two edges; of several pairs any one. Distance 0 where they cross.
+/// Returns the nearest points of two edges; of several pairs any one. The distance is 0 where the edges
+/// cross.
 [[nodiscard]] ClosestPoints closest_points(const Curve& a, const Curve& b) noexcept;
 
-/// Box of the curve, enlarged by its rounding.
+/// Returns the box of the curve, enlarged by its rounding.
 [[nodiscard]] Box curve_box(const Curve& curve) noexcept;
 
 }  // namespace lekalo::geom

@@ -7,9 +7,9 @@ namespace lekalo::geom {
 
 /// Names of frames. A pose says in its type from which frame it maps into which, so that two poses compose
 /// only where the inner frames agree; anything else does not compile (tests/compile_fail).
-struct PartFrame;     ///< in which the part and its NC program are written
-struct BlankFrame;    ///< in which the blank was measured
-struct MachineFrame;  ///< of the machine tool
+struct PartFrame;     ///< the frame in which the part and its NC program are written
+struct BlankFrame;    ///< the frame in which the blank was measured
+struct MachineFrame;  ///< the frame of the machine tool
 
 /// Rigid motion `p -> R M p + t`: R the rotation with the stored cosine and sine, M the change of sign of x
 /// where `mirrored`, else nothing. The pair is computed once (sincos) and carried, never recomputed from an

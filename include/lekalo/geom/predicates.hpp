@@ -24,7 +24,7 @@ namespace lekalo::geom {
 inline constexpr double kSmallestExactCoordinate = 0x1p-480;
 inline constexpr double kLargestExactCoordinate = 0x1p480;
 
-/// True for 0 and for magnitudes in the range above; false for infinities and NaN.
+/// Returns true for 0 and for magnitudes in the range above; false for infinities and NaN.
 [[nodiscard]] constexpr bool is_exact_coordinate(double v) noexcept {
   const double magnitude = v < 0 ? -v : v;
   return v == 0 || (magnitude >= kSmallestExactCoordinate && magnitude <= kLargestExactCoordinate);
@@ -42,36 +42,37 @@ inline constexpr double kOrientationFilter = 0x3p-53 + 0x10p-106;
 namespace detail {
 inline constexpr int kUndecided = 2;
 
-/// The first tier of `turn`: its sign, or kUndecided.
+/// Is the first tier of `turn`: returns its sign, or kUndecided.
 [[nodiscard]] constexpr int turn_filter(Point a, Point b, Point c, Point d) noexcept {
   const double left = (b.x - a.x) * (d.y - c.y);
   const double right = (b.y - a.y) * (d.x - c.x);
   const double difference = left - right;
   const double bound = kOrientationFilter * ((left < 0 ? -left : left) + (right < 0 ? -right : right));
-  // ">=" so that two zero products, which are exact, are decided here.
+  // The comparison is >=, so that two zero products, which are exact, are decided here.
   if (difference >= bound) return difference > 0 ? 1 : 0;
   return -difference >= bound ? -1 : kUndecided;
 }
 
-/// Always the exact sign: the tiers that follow (src/geom/turn_tiers.hpp).
+/// Always returns the exact sign, by the tiers that follow (src/geom/turn_tiers.hpp).
 [[nodiscard]] int turn_exact(Point a, Point b, Point c, Point d) noexcept;
 }  // namespace detail
 
-/// Sign of the exact cross product (b - a) x (d - c): +1 when cd turns left of ab, 0 when parallel.
-/// Adaptive: a floating-point filter answers nearly always, else expansions of exact products.
+/// Returns the sign of the exact cross product (b - a) x (d - c): +1 when cd turns left of ab, 0 when
+/// parallel. It is adaptive: a floating-point filter answers nearly always, else expansions of exact
+/// products.
 /// Source: Shewchuk 1997, section 4.4, for the idea and the bound of the filter; the code is our own.
 [[nodiscard]] constexpr int turn(Point a, Point b, Point c, Point d) noexcept {
   const int sign = detail::turn_filter(a, b, c, d);
   return sign != detail::kUndecided ? sign : detail::turn_exact(a, b, c, d);
 }
 
-/// Turn a -> b -> c: +1 left (counter-clockwise), -1 right, 0 on one line.
+/// Returns the turn a -> b -> c: +1 left (counter-clockwise), -1 right, 0 on one line.
 [[nodiscard]] constexpr int orientation(Point a, Point b, Point c) noexcept { return turn(a, b, a, c); }
 
 enum class PointLocation { outside, boundary, inside };
 
-/// The answer says where p lies in the closed polygon with n vertices (x0, y0, x1, y1, ...) in either
-/// direction, simple or not (even-odd rule). No vertices: outside; one or two: boundary or outside. Cost:
+/// Says where p lies in the closed polygon with n vertices (x0, y0, x1, y1, ...) in either direction, simple
+/// or not (even-odd rule). Without vertices p is outside, with one or two on the boundary or outside. Cost:
 /// O(n). Source: crossing number with the half-open rule, exact signs.
 [[nodiscard]] PointLocation locate_point(const double* xy, std::size_t n, Point p) noexcept;
 

@@ -27,14 +27,13 @@ class RegionIndex {
     Point point;
     std::uint32_t edge = 0;
   };
-  /// The boundary point nearest to p. O(log n) for most points, O(n) for a centre of symmetry.
+  /// Returns the boundary point nearest to p. O(log n) for most points, O(n) for a centre of symmetry.
   [[nodiscard]] Nearest nearest(Point p) const;
-  /// The same, begun at an edge that is likely near.
+  /// Does the same, beginning at an edge that is likely near.
   [[nodiscard]] Nearest nearest(Point p, std::uint32_t likely) const;
 
-  /// The answer says whether the material holds p. Within kEdgeDistanceError of the boundary, and half the
-  /// difference of an arc's radii where it is one, either answer may come. O(log n + edges that a ray to the
-  /// right meets).
+  /// Says whether the material holds p. Within kEdgeDistanceError of the boundary, and half the difference of
+  /// an arc's radii where it is one, either answer may come. O(log n + edges that a ray to the right meets).
   [[nodiscard]] bool contains(Point p) const;
 
   /// Calls visit(edge) for every edge whose box comes within limit of the disc about centre, nearest boxes
@@ -48,12 +47,13 @@ class RegionIndex {
   struct Node {
     Box box;
     std::uint32_t begin = 0, end = 0;  ///< edges
-    std::uint32_t right = 0;           ///< node; the left child is the next one; 0 in a leaf
+    /// The node of the right child, or 0 in a leaf; the left child is the next node.
+    std::uint32_t right = 0;
   };
   static constexpr std::uint32_t kLeaf = 2;
 
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
-  /// The nearest boundary point that is nearer than `best`, or `best`.
+  /// Returns the nearest boundary point that is nearer than `best`, or `best`.
   [[nodiscard]] Nearest nearer(Point p, Nearest best) const;
 
   [[nodiscard]] static double squared_distance(const Box& box, Point p) noexcept {

@@ -8,7 +8,7 @@ namespace lekalo::geom {
 
 __extension__ using Unsigned128 = unsigned __int128;
 
-/// A whole number of 256 bits, not negative: products of 128-bit numbers that are compared.
+/// A whole number of 256 bits, not negative. It holds products of 128-bit numbers that are compared.
 struct Unsigned256 {
   Unsigned128 high = 0, low = 0;
   friend constexpr bool operator==(const Unsigned256&, const Unsigned256&) = default;
@@ -17,7 +17,7 @@ struct Unsigned256 {
   }
 };
 
-/// |a| |b|, exact.
+/// Returns |a| |b|, exact.
 [[nodiscard]] constexpr Unsigned256 wide_product(Int128 a, Int128 b) noexcept {
   constexpr Unsigned128 kHalf = ~std::uint64_t{0};
   const Unsigned128 x = a < 0 ? -static_cast<Unsigned128>(a) : static_cast<Unsigned128>(a);
@@ -28,7 +28,7 @@ struct Unsigned256 {
   return {(x >> 64) * (y >> 64) + (mid_a >> 64) + (mid_b >> 64) + (mid >> 64), (mid << 64) | (low & kHalf)};
 }
 
-/// Sign of a b + c d, exact.
+/// Returns the sign of a b + c d, exact.
 [[nodiscard]] constexpr int sign_of_sum(Int128 a, Int128 b, Int128 c, Int128 d) noexcept {
   const int first = sign(a) * sign(b), second = sign(c) * sign(d);
   if (first == 0 || second == 0 || first == second) return first != 0 ? first : second;

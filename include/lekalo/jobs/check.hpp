@@ -14,8 +14,10 @@ namespace lekalo::jobs {
 /// the way out of a violation, and that of the independent checker (verify/layout.hpp), which reads the bytes
 /// itself.
 struct Checked {
-  std::vector<layout::Violation> violations;  ///< every one that the engine finds, in the order of the check
-  std::vector<std::string> disagreements;     ///< a sentence for each finding that only one of the two has
+  /// Every violation that the engine finds, in the order of the check.
+  std::vector<layout::Violation> violations;
+  /// A sentence for each finding that only one of the two checks has.
+  std::vector<std::string> disagreements;
 
   [[nodiscard]] bool agree() const noexcept { return disagreements.empty(); }
   /// Both find that no rule is broken.

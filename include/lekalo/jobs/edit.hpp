@@ -12,9 +12,10 @@ namespace lekalo::jobs {
 
 struct Edited {
   layout::Document document;
-  std::string bytes;                          ///< the document as "lekalo-layout/1"
-  std::vector<layout::Violation> violations;  ///< rules it breaks, as the engine finds; commands in mode
-                                              ///< free, and a given layout, may break some
+  std::string bytes;  ///< the document as "lekalo-layout/1"
+  /// The rules that the document breaks, as the engine finds them. Commands in mode free, and a layout that
+  /// was given, may break some.
+  std::vector<layout::Violation> violations;
 };
 
 /// Carries out a log of commands (layout/command.hpp, docs/design/layout-commands.md) on a layout.

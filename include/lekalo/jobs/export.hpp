@@ -18,9 +18,11 @@ enum class LayoutForm {
 
 struct ExportOptions {
   LayoutForm form = LayoutForm::layout;
-  std::string title;          ///< of pictures and machine files; empty: the document's name, or its file's
-  std::string instance_name;  ///< what placements name as the file of their items; empty: the layout's
-  io::ExportRequest machine;  ///< of LayoutForm::machine
+  /// The title of pictures and machine files; when it is empty, the document's name or that of its file.
+  std::string title;
+  /// The name that placements give the file of their items; when it is empty, the layout's.
+  std::string instance_name;
+  io::ExportRequest machine;  ///< for LayoutForm::machine
 };
 
 /// The layout in another form, whatever rules it breaks: one file, but for HPGL and G-code one for each

@@ -15,13 +15,19 @@ namespace lekalo::jobs {
 /// A layout as all jobs take it. open_layout makes it of a file; a program that has a document already fills
 /// in `document` and leaves the rest empty.
 struct Layout {
-  std::string name;    ///< of the file, for sentences and reports; empty: there is none
-  std::string sha256;  ///< of the file's bytes, lower-case hexadecimal
-  std::string bytes;   ///< the file's own bytes where they are a layout ("lekalo-layout/1"), else empty
+  /// The name of the file, for sentences and reports; empty where there is none.
+  std::string name;
+  /// The hash of the file's bytes, lower-case hexadecimal.
+  std::string sha256;
+  /// The file's own bytes where they are a layout ("lekalo-layout/1"), else empty.
+  std::string bytes;
   layout::Document document;
-  std::vector<std::string> notices;     ///< sentences: what was left out or repaired in reading
-  std::optional<io::NestingForm> form;  ///< of a job or of placements of another program
-  std::string instance_name;            ///< the file of the items that placements of this layout would name
+  /// Sentences about what was left out or repaired in reading.
+  std::vector<std::string> notices;
+  /// The form of a job or of placements of another program.
+  std::optional<io::NestingForm> form;
+  /// The file of the items that placements of this layout would name.
+  std::string instance_name;
 };
 
 /// Reads whatever holds a layout or a part of one, told apart by what is in the bytes (io::read_any_layout):

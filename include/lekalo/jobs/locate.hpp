@@ -20,22 +20,28 @@ namespace lekalo::jobs {
 
 /// `certified` proves its result; the others are there for comparison and prove nothing.
 enum class LocateMethod { certified, ipopt, icp };
-/// As it stands in results.
+/// Returns the method's name as it stands in results.
 [[nodiscard]] const char* name_of(LocateMethod method) noexcept;
 
-/// How a part is to be placed. \pre numbers are in the ranges said here
+/// The way a part is to be placed.
+/// \pre numbers are in the ranges said here
 struct LocateOptions {
   io::OutlineOptions part, blank;  ///< how the two files are read
-  std::optional<double> trim;      ///< mm, > 0: dents of the blank up to this deep are cut inwards
-  double window_from_deg = 0, window_to_deg = 360;  ///< angles looked at, from -720 to 720, ascending
-  std::optional<double> gap;                        ///< mm, > 0: locate::Options
-  double min_allowance = 0;                         ///< mm, >= 0
+  /// Dents of the blank up to this deep are cut inwards, mm, > 0.
+  std::optional<double> trim;
+  /// The angles looked at, from -720 to 720, ascending.
+  double window_from_deg = 0, window_to_deg = 360;
+  /// See locate::Options, mm, > 0.
+  std::optional<double> gap;
+  double min_allowance = 0;  ///< mm, >= 0
   locate::Mirror mirror = locate::Mirror::no;
   locate::LockedShift locked;
   locate::Criterion criterion = locate::criteria().front();
-  double give_up = 0;                  ///< mm, >= 0: what later criteria may take off the margin
-  std::size_t trade_off = 0;           ///< points of the trade-off curve, 0 or at least 2
-  std::optional<double> alternatives;  ///< mm, >= 0: also list placements that lose at most this
+  double give_up = 0;  ///< mm, >= 0: what later criteria may take off the margin
+  /// The points of the trade-off curve, 0 or at least 2.
+  std::size_t trade_off = 0;
+  /// Other placements are listed too that lose at most this, mm, >= 0.
+  std::optional<double> alternatives;
   LocateMethod method = LocateMethod::certified;
   int starts = 10;  ///< of ipopt, >= 1
   locate::StartRule start_rule = locate::StartRule::random;
@@ -45,26 +51,35 @@ struct LocateOptions {
 
 enum class DrawingFormat { none, dxf, svg };
 
-/// Says what is made beside the result. Names are those by which the result calls these documents.
+/// The documents that are made beside the result. Their names are those that the result gives them.
 struct LocateOutputs {
-  std::string certificate;             ///< empty: the proof stands in the result, if it is not too long
-  std::string deviations;              ///< the distance of every probed point as CSV; empty: not made
-  std::string program;                 ///< of the rewritten program; \pre not empty where the job has one
+  /// The name of a certificate file. When it is empty, the proof stands in the result, if it is not too long.
+  std::string certificate;
+  /// A name for the distances of every probed point as CSV; empty when they are not wanted.
+  std::string deviations;
+  /// The name of the rewritten program.
+  /// \pre not empty where the job has one
+  std::string program;
   std::optional<PictureForm> picture;  ///< SVG or PNG
   std::optional<PictureForm> report;
-  bool allowances = false;  ///< the allowance along the outline as CSV
-  DrawingFormat drawing =
-      DrawingFormat::none;  ///< the blank and the part as it lies, on layers BLANK and PART
+  /// The allowance along the outline as CSV.
+  bool allowances = false;
+  /// The blank and the part as it lies, on layers BLANK and PART.
+  DrawingFormat drawing = DrawingFormat::none;
 };
 
 struct LocateJob {
   File part, blank;
-  std::optional<File> features = {};  ///< demands by feature (io/locate/feature_file.hpp)
-  std::optional<File> program = {};   ///< NC program in the part's frame
-  std::optional<File> earlier = {};   ///< result of an earlier probing, to compare with
+  /// Demands by feature (io/locate/feature_file.hpp).
+  std::optional<File> features = {};
+  /// An NC program in the part's frame.
+  std::optional<File> program = {};
+  /// The result of an earlier probing, to compare with.
+  std::optional<File> earlier = {};
   LocateOptions options = {};
   LocateOutputs outputs = {};
-  std::vector<std::string> warnings = {};  ///< what the caller has to say; the result repeats it first
+  /// The warnings that the caller has to give; the result repeats them first.
+  std::vector<std::string> warnings = {};
 };
 
 /// A placement that the independent checker has confirmed, all but the choice of a criterion that it does not
@@ -72,7 +87,8 @@ struct LocateJob {
 /// are empty.
 struct Located {
   io::LocateDocument document;
-  std::string result;  ///< `document` as bytes: what was checked
+  /// The bytes of `document`, which are what was checked.
+  std::string result;
   std::string certificate, deviations, program, picture, report, allowances, drawing;
   /// There was a program, but the placement does not allow it; a warning in the document says why.
   bool program_withheld = false;

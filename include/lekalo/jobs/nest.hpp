@@ -17,20 +17,23 @@ namespace lekalo::jobs {
 
 /// Figures of the best layout so far, for those who watch. They are no result: no check confirms them.
 struct NestStanding {
-  double density = 0;    ///< share of the material in use that the parts cover, in [0, 1]
-  double length_mm = 0;  ///< how far the parts reach on the last sheet or strip in use
+  /// The share of the material in use that the parts cover, in [0, 1].
+  double density = 0;
+  /// How far the parts reach on the last sheet or strip in use.
+  double length_mm = 0;
   std::size_t sheets = 0;
   std::int64_t kits_complete = 0, kits_wanted = 0;
 };
 
 struct NestOptions {
   std::uint64_t seed = 0;
-  unsigned threads = 2;     ///< 1 to 64; changes the speed and nothing else
-  std::size_t angles = 24;  ///< tried of parts that may be turned anyhow; 1 to 360
-  bool from_given =
-      true;  ///< placements that are not locked are where the search begins; else they are dropped
-  double pair_distance = 0;  ///< mm; > 0: left and right pieces of a kit lie so near one another, middle to
-                             ///< middle
+  unsigned threads = 2;  ///< 1 to 64; changes the speed and nothing else
+  /// The number of angles tried of parts that may be turned anyhow, 1 to 360.
+  std::size_t angles = 24;
+  /// True when the search begins with the placements that are not locked; otherwise they are dropped.
+  bool from_given = true;
+  /// The left and right pieces of a kit lie no further apart than this, middle to middle, mm; 0 for no limit.
+  double pair_distance = 0;
   /// Ids of the only placements that may move, ascending: everything else stays, and nothing is added. Empty:
   /// all that are not locked, and what is wanted and not there is added.
   std::vector<std::uint64_t> only;
@@ -38,14 +41,18 @@ struct NestOptions {
   /// thread. Its failure, like that of a check, ends what is handed out, and nest fails with it at the end.
   /// May be empty: then the checks are not run.
   std::function<Result<void>(const layout::Document& better, std::string_view bytes)> improved;
-  std::function<void(const NestStanding&)> standing;  ///< called at the same moments; may be empty
+  /// Called at the same moments; may be empty.
+  std::function<void(const NestStanding&)> standing;
 };
 
 struct Nested {
-  layout::Document document;  ///< the given one with other placements; both checks find no broken rule
-  std::string bytes;          ///< the document as "lekalo-layout/1": what the independent checker read
+  /// The given document with other placements, in which both checks find no broken rule.
+  layout::Document document;
+  /// The document as "lekalo-layout/1", as the independent checker read it.
+  std::string bytes;
   std::vector<nest::Unplaced> unplaced;  ///< by part
-  std::uint64_t work = 0, merges = 0;    ///< as in nest::Nested; the work is the limit that repeats the run
+  /// As in nest::Nested; the work is the limit that repeats the run.
+  std::uint64_t work = 0, merges = 0;
   layout::Completeness completeness;
 };
 

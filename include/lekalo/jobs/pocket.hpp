@@ -22,9 +22,13 @@ struct PocketOptions {
   /// How the file is read. Where `layers` names some, those of islands and open edges are read too.
   io::OutlineOptions outline;
   mill::PocketOptions path;
-  mill::ProgramOptions program;            ///< \pre in range; its comments are replaced
-  std::vector<std::string> island_layers;  ///< what edges on these layers enclose stays
-  std::vector<std::string> open_layers;    ///< edges on these layers are no walls: beyond them is air
+  /// Its comments are replaced.
+  /// \pre in range
+  mill::ProgramOptions program;
+  /// Whatever edges on these layers enclose stays.
+  std::vector<std::string> island_layers;
+  /// Edges on these layers are no walls, and beyond them is air.
+  std::vector<std::string> open_layers;
   /// mm: a larger tool of this diameter is taken to have cut all that this job would cut with it; 0: none.
   double rest_of = 0;
   /// mm/min: feeds follow the engagement, up to this. \pre from the feed of `program` to four times it
@@ -45,9 +49,10 @@ struct PocketJob {
 /// A stretch of a program's path, as it stands in the report: rounded to thousandths.
 struct ReportedStretch {
   geom::Point from, to;
-  double z = 0;               ///< mm
-  double length_mm = 0;       ///< of path in plan
-  double engagement_deg = 0;  ///< the largest on it; of a ramp what would have been met without it
+  double z = 0;          ///< mm
+  double length_mm = 0;  ///< of path in plan
+  /// The largest engagement on the stretch; for a ramp the one that would have been met without it.
+  double engagement_deg = 0;
 };
 
 /// A program that the checker has judged, and what it found. What was not asked for is empty.
@@ -59,10 +64,11 @@ struct Pocketed {
   std::vector<ReportedStretch> hot_cuts;
   /// Stretches that would have been hot and are cut on the way down instead, down to z.
   std::vector<ReportedStretch> ramps;
-  std::vector<std::string> notices;  ///< what the reader of the outline noticed, a sentence each
-  std::string json;                  ///< the report as a document, format lekalo-pocket (docs/formats.md)
-  std::string picture;               ///< SVG or PNG
-  std::string animation;             ///< a page that plays the cut
+  /// Sentences about what the reader of the outline noticed.
+  std::vector<std::string> notices;
+  std::string json;       ///< the report as a document, format lekalo-pocket (docs/formats.md)
+  std::string picture;    ///< SVG or PNG
+  std::string animation;  ///< a page that plays the cut
   /// The source's model of the pocket as PNG pictures, each with the ending of its file's name: the four
   /// M-images "-A.png" to "-D.png", and "-value.png".
   std::vector<std::pair<std::string, std::string>> images;

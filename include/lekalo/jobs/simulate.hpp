@@ -33,8 +33,9 @@ struct SimulateJob {
 /// A judged program. What was not asked for is empty.
 struct Simulated {
   verify::SimulateReport report;
-  std::string json;       ///< the report as a document, format lekalo-simulate (docs/formats.md)
-  std::string samples;    ///< CSV: the engagement at every place of the path where it was measured
+  std::string json;  ///< the report as a document, format lekalo-simulate (docs/formats.md)
+  /// The engagement at every place of the path where it was measured, as CSV.
+  std::string samples;
   std::string picture;    ///< SVG or PNG
   std::string animation;  ///< a page that plays the cut
 };

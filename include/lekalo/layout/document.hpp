@@ -11,42 +11,44 @@
 
 namespace lekalo::layout {
 
-/// A cutting layout: what is cut, from what, by which rules, and where it lies. Values only; what they mean
-/// and how they are written: docs/design/layout.md and docs/formats.md. Outlines and lengths are on the grid
-/// of geom/grid.hpp.
+/// A cutting layout: what is cut, from what, by which rules, and where it lies. These are values only;
+/// docs/design/layout.md and docs/formats.md say what they mean and how they are written. Outlines and
+/// lengths are on the grid of geom/grid.hpp.
 
 /// An outline as it counts (`polygon`) and as it was drawn. A placed outline is its polygon, turned and
 /// moved.
 struct Outline {
   geom::GridRegion polygon;
-  /// The drawn outline where it has arcs, in the same place; `polygon` holds it (parts, defects, zones) or
-  /// lies in it (stock), within chord_tolerance_mm. Empty where the polygon is the drawing.
+  /// The drawn outline where it has arcs, in the same place, within chord_tolerance_mm of `polygon`. The
+  /// polygon holds it (parts, defects, zones) or lies in it (stock). Empty where the polygon is the drawing.
   std::vector<geom::Region> curves;  ///< none or one
   double chord_tolerance_mm = 0;
   friend bool operator==(const Outline&, const Outline&) = default;
 };
 
-/// Angles from `from` counter-clockwise to `to`, degrees, ends included; from == to is one angle, to >= from
-/// + 360 is every angle. \pre from <= to
+/// The angles from `from` counter-clockwise to `to`, degrees, ends included. from == to is one angle, to >=
+/// from + 360 is every angle.
+/// \pre from <= to
 struct AngleRange {
   double from = 0, to = 0;
   friend bool operator==(const AngleRange&, const AngleRange&) = default;
 };
 
-/// The quality a part or one of its areas needs. Zones of the stock carry a quality, higher is better;
-/// material outside every zone is the best; where zones overlap, the worst counts.
+/// The quality that a part or one of its areas needs. Zones of the stock carry a quality, and higher is
+/// better. Material outside every zone is the best; where zones overlap, the worst counts.
 inline constexpr int kBestQuality = std::numeric_limits<int>::max();
 inline constexpr int kAnyQuality = 0;
 
-/// An area of a part with a demand of its own, which there takes the place of the part's; where areas
+/// An area of a part with a demand of its own, which takes the place of the part's demand there. Where areas
 /// overlap, the highest counts.
 struct PartArea {
   int quality = kAnyQuality;
-  Outline outline;  ///< in the part's frame; may reach beyond the part
+  /// In the part's frame; the area may reach beyond the part.
+  Outline outline;
   friend bool operator==(const PartArea&, const PartArea&) = default;
 };
 
-/// A direction in the material or the part: grain, stretch. Turned by half a turn it is the same one.
+/// A direction in the material or the part: grain, stretch. After half a turn it is the same one.
 struct Grain {
   double degrees = 0;            ///< in the part's frame
   double tolerance_degrees = 0;  ///< in [0, 90]
@@ -59,13 +61,17 @@ struct Part {
   Outline outline;
   int quality = kAnyQuality;
   std::vector<PartArea> areas;
-  std::vector<AngleRange> rotations;  ///< none: any angle. Of the part as placed, after mirroring.
+  /// The allowed angles of the part as placed, after mirroring; an empty list allows any.
+  std::vector<AngleRange> rotations;
   bool may_mirror = false;
   std::optional<Grain> grain;
-  int tolerated_severity = 0;  ///< defects of this severity or less may lie in the part
-  int priority = 0;            ///< higher first
-  std::int64_t demand = 0;     ///< pieces wanted beside those of kits
-  /// Own gaps in grid steps; the larger of two parts' gaps counts between them. Absent: the rules' gap.
+  /// Defects of this severity or less may lie in the part.
+  int tolerated_severity = 0;
+  int priority = 0;  ///< higher first
+  /// The pieces wanted beside those of kits.
+  std::int64_t demand = 0;
+  /// The part's own gaps in grid steps; the larger of two parts' gaps counts between them. Without a value
+  /// the rules' gap counts.
   std::optional<std::int64_t> gap, border_gap, defect_gap;
   friend bool operator==(const Part&, const Part&) = default;
 };
@@ -94,10 +100,13 @@ struct Stock {
   std::string id;
   std::string name;
   StockKind kind = StockKind::sheet;
-  std::int64_t count = 1;    ///< copies that are there, >= 1; a strip has one
-  double cost = 1;           ///< of one copy, >= 0
-  Outline outline;           ///< material with holes; a strip's reaches to its longest length
-  bool open_length = false;  ///< a strip whose length nobody limits: the outline ends at kLongestStrip
+  /// The copies that are there, >= 1; a strip has one.
+  std::int64_t count = 1;
+  double cost = 1;  ///< of one copy, >= 0
+  /// The material with holes; a strip's reaches to its longest length.
+  Outline outline;
+  /// True for a strip whose length nobody limits: the outline ends at kLongestStrip.
+  bool open_length = false;
   std::optional<double> grain_degrees;
   std::vector<Defect> defects;
   std::vector<QualityZone> zones;
@@ -108,9 +117,10 @@ inline constexpr std::int64_t kLongestStrip = geom::kGridLimit / 4;
 
 /// The pieces of one part in a kit.
 struct KitPiece {
-  std::uint32_t part = 0;        ///< index into Document::parts
-  std::int64_t count = 1;        ///< >= 1
-  std::optional<bool> mirrored;  ///< left and right; absent: either serves
+  std::uint32_t part = 0;  ///< index into Document::parts
+  std::int64_t count = 1;  ///< >= 1
+  /// Left or right; without a value either serves.
+  std::optional<bool> mirrored;
   friend bool operator==(const KitPiece&, const KitPiece&) = default;
 };
 
@@ -139,7 +149,8 @@ struct Placement {
   std::int64_t copy = 0;    ///< which of the stock's copies, in [0, count)
   geom::GridRotation rotation;
   bool mirrored = false;
-  geom::GridPoint at;  ///< added to the turned outline; |at| <= kGridLimit / 2
+  /// Added to the turned outline; |at| <= kGridLimit / 2.
+  geom::GridPoint at;
   bool locked = false;
   friend bool operator==(const Placement&, const Placement&) = default;
 };
@@ -151,21 +162,22 @@ struct Document {
   std::vector<Kit> kits;
   Rules rules;
   std::vector<Placement> placements;  ///< ascending by id
-  std::uint64_t next_id = 1;          ///< above every placement's
+  std::uint64_t next_id = 1;          ///< above every placement's id
   friend bool operator==(const Document&, const Document&) = default;
 };
 
-/// The outline where it lies: turned, mirrored, moved.
+/// Returns the outline where it lies: turned, mirrored, moved.
 [[nodiscard]] geom::GridRegion placed_outline(const Part& part, const Placement& placement);
 
-/// Says whether a part may lie at this rotation: its set of angles, decided on the exact pairs of the ends.
+/// Says whether a part may lie at this rotation: whether its set of angles holds it, decided on the exact
+/// pairs of the ends.
 [[nodiscard]] bool rotation_allowed(const Part& part, geom::GridRotation rotation);
-/// Says whether its grain follows the stock's closely enough; true where either has none. A mirrored part's
-/// grain is mirrored with it.
+/// Says whether the part's grain follows the stock's closely enough; true where either has none. A mirrored
+/// part's grain is mirrored with it.
 [[nodiscard]] bool grain_allowed(const Part& part, const Stock& stock, geom::GridRotation rotation,
                                  bool mirrored);
 
-/// Pieces of a part that are wanted: its own demand and those of all kits wanted.
+/// Returns the pieces of a part that are wanted: its own demand and those of all kits wanted.
 [[nodiscard]] std::int64_t wanted(const Document& document, std::uint32_t part);
 
 }  // namespace lekalo::layout

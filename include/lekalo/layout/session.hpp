@@ -8,7 +8,7 @@
 
 namespace lekalo::layout {
 
-/// A document with the history of its commands. Undo and redo without limit; undoing all gives the first
+/// A document with the history of its commands. Undo and redo have no limit; undoing all gives the first
 /// bytes, redoing all the last ones.
 class Session {
  public:
@@ -18,8 +18,8 @@ class Session {
   [[nodiscard]] const Workspace& workspace() const noexcept { return workspace_; }
   [[nodiscard]] const Document& document() const noexcept { return workspace_.document(); }
 
-  /// Carries a command out, or fails as plan() does and changes nothing. What had been undone is forgotten. A
-  /// command that moves nothing leaves no trace.
+  /// Carries a command out, or fails as plan() does and changes nothing. Commands that had been undone are
+  /// forgotten. A command that moves nothing leaves no trace.
   [[nodiscard]] Result<Change> apply(const Command& command);
   [[nodiscard]] bool can_undo() const noexcept { return done_ > 0; }
   [[nodiscard]] bool can_redo() const noexcept { return done_ < entries_.size(); }
@@ -27,11 +27,11 @@ class Session {
   void undo();
   void redo();
 
-  /// The mode of the commands to come.
+  /// Sets the mode of the commands to come.
   void set_mode(Mode mode) noexcept { mode_ = mode; }
 
-  /// The commands carried out and not undone, a line each: first "lekalo-commands/1", and "mode strict" or
-  /// "mode free" wherever it changes.
+  /// Returns the commands carried out and not undone, a line each: first "lekalo-commands/1", and "mode
+  /// strict" or "mode free" wherever the mode changes.
   [[nodiscard]] std::string log() const;
 
  private:

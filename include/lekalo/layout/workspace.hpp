@@ -22,22 +22,22 @@ struct Sheet {
   friend auto operator<=>(const Sheet&, const Sheet&) = default;
 };
 
-/// Layers of the scenes below.
+/// The layers of the scenes below.
 inline constexpr std::uint32_t kPartLayer = 1, kBorderLayer = 2, kDefectLayer = 4, kZoneLayer = 8;
 
-/// A document and what answers questions about it at once (one thread at a time, questions too: they fill
-/// caches): every sheet's scene, kept in step with the placements and features. Says the same as check() of
-/// the same document. Cost of a change: that of putting one body, of a feature one on every copy of its
-/// stock.
+/// A document and what answers questions about it at once: every sheet's scene, kept in step with the
+/// placements and features. It says the same as check() of the same document. One thread may use it at a
+/// time, questions too, because they fill caches. The cost of a change is that of putting one body; a feature
+/// costs one body on every copy of its stock.
 class Workspace {
  public:
   /// \pre read or made as documents must be (io/layout_json.hpp refuses others)
   explicit Workspace(Document document);
 
   [[nodiscard]] const Document& document() const noexcept { return document_; }
-  /// The placement with this id, or none. Cost: O(log n).
+  /// Returns the placement with this id, or none. Cost: O(log n).
   [[nodiscard]] const Placement* find(std::uint64_t id) const noexcept;
-  /// Ids of the parts at a point of a sheet, edges included, ascending.
+  /// Returns the ids of the parts at a point of a sheet, edges included, ascending.
   [[nodiscard]] std::vector<std::uint64_t> at(Sheet sheet, geom::GridPoint p) const;
 
   /// Adds or replaces the placement with this id.
@@ -47,10 +47,11 @@ class Workspace {
 
   /// Adds or replaces a feature, as put_feature() does.
   void set_feature(std::uint32_t stock, std::uint32_t index, const Feature& feature);
-  /// \pre it is there
+  /// \pre the feature is there
   void erase_feature(std::uint32_t stock, FeatureKind kind, std::string_view id);
-  /// The violations of all parts with one feature, on all copies of its stock, in the order of check(). Cost:
-  /// O(placements), and the check of those near it. \pre it is there
+  /// Returns the violations of all parts with one feature, on all copies of its stock, in the order of
+  /// check(). Cost: O(placements), and the check of those near it.
+  /// \pre the feature is there
   [[nodiscard]] std::vector<Violation> violations_with(std::uint32_t stock, FeatureKind kind,
                                                        std::uint32_t index,
                                                        Depths depths = Depths::measured) const;
@@ -58,29 +59,32 @@ class Workspace {
   /// Says whether these placements, in place of those with their ids, break no rule, neither against all
   /// others nor among themselves. Their ids need not exist.
   [[nodiscard]] bool is_clear(std::span<const Placement> placements) const;
-  /// Every violation that one of them would have a part in, in place of those with their ids, in the order of
-  /// check().
+  /// Returns every violation that one of the placements would have a part in, each in place of the placement
+  /// with its id, in the order of check().
   [[nodiscard]] std::vector<Violation> violations_of(std::span<const Placement> placements,
                                                      Depths depths = Depths::measured) const;
 
-  /// The scene a sheet's bodies lie in, and the shape of a part turned; made when they are first asked for.
+  /// Returns the scene that a sheet's bodies lie in; shape() returns a part turned. Both are made when they
+  /// are first asked for.
   [[nodiscard]] const phi::Scene& scene(Sheet sheet) const;
   [[nodiscard]] phi::ShapeIndex shape(Sheet sheet, const Placement& placement) const;
-  /// Id of the placement of a body; 0 for stock, defects and zones.
+  /// Returns the id of a body's placement; 0 for stock, defects and zones.
   [[nodiscard]] std::uint64_t placement_of(Sheet sheet, phi::BodyIndex body) const;
-  /// Index of the defect or zone that a body is. \pre it is one
+  /// Returns the index of the defect or zone that a body is.
+  /// \pre it is one
   [[nodiscard]] std::uint32_t feature_of(Sheet sheet, phi::BodyIndex body) const;
-  /// The gap between a part and a body of the scene it would lie in, in steps.
+  /// Returns the gap between a part and a body of the scene that it would lie in, in steps.
   [[nodiscard]] std::int64_t gap_to(const Part& part, Sheet sheet, phi::BodyIndex body) const;
 
-  /// Scene::near in an order that follows from the document alone: what belongs to the stock, then parts by
-  /// id. Indices of bodies depend on what came and went before, and a command must not.
+  /// Does what Scene::near does, in an order that follows from the document alone: what belongs to the stock,
+  /// then parts by id. Indices of bodies depend on what came and went before, and a command must not.
   [[nodiscard]] std::vector<phi::BodyIndex> near(Sheet sheet, const geom::GridBox& box, std::int64_t reach,
                                                  std::uint32_t layers) const;
   /// Puts bodies of a scene into that order.
   void sort_bodies(Sheet sheet, std::vector<phi::BodyIndex>& bodies) const;
 
-  /// Says whether a body counts for a part: a defect it does not tolerate, a zone too bad for some of it.
+  /// Says whether a body counts for a part: a defect that it does not tolerate, or a zone too bad for some of
+  /// it.
   [[nodiscard]] bool concerns(const Part& part, Sheet sheet, phi::BodyIndex body) const;
 
   /// Takes placements out of their scenes while it lives, so that only the others forbid.
@@ -95,13 +99,14 @@ class Workspace {
     const Workspace& workspace_;
     std::vector<std::uint64_t> ids_;
   };
-  /// Says whether one placement breaks no rule against what lies in its scene now: both of the following.
+  /// Says whether one placement breaks no rule against what lies in its scene now: whether both of the
+  /// following hold.
   [[nodiscard]] bool is_clear_of_scene(const Placement& placement) const {
     return may_be_so(placement) && has_room(placement);
   }
-  /// The rules that do not ask where it lies: sheet, angle, mirror, grain.
+  /// Says whether the placement keeps the rules that do not ask where it lies: sheet, angle, mirror, grain.
   [[nodiscard]] bool may_be_so(const Placement& placement) const;
-  /// Those that do.
+  /// Says whether it keeps those that do.
   [[nodiscard]] bool has_room(const Placement& placement) const;
 
  private:
@@ -109,11 +114,14 @@ class Workspace {
     explicit SheetScene(const geom::GridBox& world, std::size_t cells) : scene(world, cells) {}
     phi::Scene scene;
     std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t, bool>, phi::ShapeIndex> shapes;
-    std::map<std::uint64_t, phi::BodyIndex> bodies;    ///< by placement
-    std::vector<std::uint64_t> placements;             ///< by body; 0 for what belongs to the stock
-    std::vector<std::uint32_t> features;               ///< by body: index of the defect or zone
+    std::map<std::uint64_t, phi::BodyIndex> bodies;  ///< by placement
+    /// By body; 0 for what belongs to the stock.
+    std::vector<std::uint64_t> placements;
+    /// By body: the index of the defect or zone.
+    std::vector<std::uint32_t> features;
     std::array<std::vector<phi::BodyIndex>, 2> drawn;  ///< by kind of feature and index
-    std::size_t old_shapes = 0;                        ///< of features that were changed or taken
+    /// The number of shapes of features that were changed or taken.
+    std::size_t old_shapes = 0;
   };
   [[nodiscard]] SheetScene& sheet_scene(Sheet sheet) const;
   void put(SheetScene& in, const Placement& placement) const;
@@ -123,7 +131,7 @@ class Workspace {
   void forget_old_shapes(Sheet sheet);
 
   Document document_;
-  /// Caches: what they hold follows from the document.
+  /// The caches: what they hold follows from the document.
   mutable std::map<Sheet, SheetScene> scenes_;
 };
 

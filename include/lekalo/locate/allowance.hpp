@@ -22,18 +22,22 @@ namespace lekalo::locate {
 
 /// A point of the placed part's outline and the material over it.
 struct AllowanceSample {
-  geom::Point at;               ///< blank frame, mm
-  double allowance = 0;         ///< distance to the blank's outline, mm; negative where the part sticks out
-  std::uint32_t part_edge = 0;  ///< the sample lies on the edge from this vertex of the part to the next
-  double along = 0;             ///< how far along that edge, 0 (its first vertex) to below 1
+  geom::Point at;  ///< blank frame, mm
+  /// The distance to the blank's outline, mm; negative where the part sticks out.
+  double allowance = 0;
+  /// The sample lies on the edge from this vertex of the part to the next.
+  std::uint32_t part_edge = 0;
+  /// The share of that edge before the sample, from 0 (its first vertex) to below 1.
+  double along = 0;
 };
 
-/// More samples than this are refused: 400 MB.
+/// A request for more samples than this is refused: 400 MB.
 inline constexpr std::size_t kMaxAllowanceSamples = 10'000'000;
 
-/// Allowance at every vertex of the part and between them at equal distances of at most `step` mm, in the
-/// part's order. A step of infinity gives the vertices alone; in a convex blank the least allowance of the
-/// whole outline is then among them, because the distance to its outline is concave inside it.
+/// Returns the allowance at every vertex of the part and between them at equal distances of at most `step`
+/// mm, in the part's order. A step of infinity gives the vertices alone. In a convex blank the least
+/// allowance of the whole outline is then among them, because the distance to its outline is concave inside
+/// it.
 ///
 /// \pre part and blank have at least three points.
 /// Errors: usage when step is not > 0 or asks for more than kMaxAllowanceSamples.
@@ -42,9 +46,9 @@ inline constexpr std::size_t kMaxAllowanceSamples = 10'000'000;
                                                                      const geom::Ring& blank,
                                                                      const Placement& placement, double step);
 
-/// Signed distance of every probed point (blank frame) from the placed part's outline, mm, in the order
-/// given: positive outside the part (material to remove), negative inside it (material is missing there), 0
-/// on it.
+/// Returns the signed distance of every probed point (blank frame) from the placed part's outline, mm, in the
+/// order given. It is positive outside the part (material to remove), negative inside it (material is missing
+/// there), 0 on it.
 ///
 /// \pre part has at least three points.
 /// Cost: O((n + m) log m) in practice, n points, m part edges: a million points against 60 edges in about
@@ -52,12 +56,15 @@ inline constexpr std::size_t kMaxAllowanceSamples = 10'000'000;
 [[nodiscard]] std::vector<double> deviations(const geom::Ring& probed, const geom::Ring& part,
                                              const Placement& placement);
 
-/// From an earlier placement of a part to a new one.
+/// The way from an earlier placement of a part to a new one.
 struct PlacementShift {
-  double dx = 0, dy = 0;  ///< of the part's origin, mm, new minus last
-  double dtheta = 0;      ///< new minus last, radians, in (-pi, pi]
-  double largest = 0;     ///< displacement of the vertex that moves most, mm: no point of the part moves more
-  std::size_t vertex = 0;  ///< that vertex; of several the first
+  /// The shift of the part's origin, mm, new minus last.
+  double dx = 0, dy = 0;
+  double dtheta = 0;  ///< new minus last, radians, in (-pi, pi]
+  /// The displacement of the vertex that moves most, mm; no point of the part moves more.
+  double largest = 0;
+  /// That vertex; of several the first.
+  std::size_t vertex = 0;
 };
 
 /// \pre part has at least one point. Cost: O(m).

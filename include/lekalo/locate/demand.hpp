@@ -22,12 +22,16 @@ namespace lekalo::locate {
 struct Feature {
   std::string name;
   std::vector<std::uint32_t> edges;  ///< their numbers (geom::Region)
-  double minimum = 0;                ///< no point has less allowance, mm, >= 0
-  std::optional<double> target;      ///< what the most even placement aims at, mm, >= 0
-  std::optional<double> maximum;     ///< no point has more, mm, > minimum
-  double scale = 1;                  ///< what is left over is measured in this, > 0
-  /// Already finished: its points lie within this of the blank's boundary, mm, > 0; it has no minimum, target
-  /// or maximum then. The rim of that width along it may stick out.
+  /// No point of the edges has less allowance, mm, >= 0.
+  double minimum = 0;
+  /// The allowance that the most even placement aims at, mm, >= 0.
+  std::optional<double> target;
+  /// No point of the edges has more allowance, mm, > minimum.
+  std::optional<double> maximum;
+  /// The margin is measured in this, > 0.
+  double scale = 1;
+  /// For edges that are already finished: their points lie within this of the blank's boundary, mm, > 0. Such
+  /// a feature has no minimum, target or maximum. The rim of that width along it may stick out.
   std::optional<double> finished;
 };
 
@@ -48,17 +52,19 @@ struct DemandProblem : Demands {
 struct TradeOff {
   Placement at;
   bool mirrored = false;
-  double margin = 0;         ///< at least that, mm
-  double largest = 0;        ///< the largest allowance there, rounded up, mm
-  double largest_bound = 0;  ///< no placement with that margin has less, mm
+  double margin = 0;  ///< at least that, mm
+  /// The largest allowance there, rounded up, mm.
+  double largest = 0;
+  /// No placement with that margin has a smaller largest allowance, mm.
+  double largest_bound = 0;
 };
 
 /// The certificate proves, for every placement in the window, that the least of
 ///   the clearance of `grown`, and what each cap has left when `shift` is added to it,
 /// is at most `bound`. The caps are the features with a maximum or that are finished, in their order.
 struct DemandProof {
-  /// The part grown by what its edges demand for the margin `grown_for`: every edge by minimum + scale *
-  /// grown_for, rims of finished ones taken off. Within `tolerance` of the exact one.
+  /// The part grown by what its edges demand for the margin `grown_for`. Every edge is grown by minimum +
+  /// scale * grown_for, and the rims of finished ones are taken off. Within `tolerance` of the exact one.
   std::vector<geom::Region> grown;
   double grown_for = 0, tolerance = 0;
   double shift = 0, bound = 0;
@@ -66,9 +72,9 @@ struct DemandProof {
   std::vector<CoverTree> certificate;
 };
 
-/// The same of a search with one more cap, the last: `most` on every edge that is not finished. So every
+/// The proof of a search with one more cap, the last: `most` on every edge that is not finished. So every
 /// placement with a margin above grown_for + bound / (least scale) that keeps the maxima has a largest
-/// allowance of at least most + shift - bound (maxima are kept where `bound` is below `shift`).
+/// allowance of at least most + shift - bound. (Maxima are kept where `bound` is below `shift`.)
 struct LargestProof : DemandProof {
   double most = 0;
 };
@@ -87,22 +93,29 @@ struct DemandResult {
   /// optimal: the margin is within margin_gap of its bound and, if asked for, the smallest largest allowance
   /// within its own gap.
   Status status = Status::stopped;
-  Placement best;  ///< its clearance is that of the part alone, rounded down
+  /// Its clearance is that of the part alone, rounded down.
+  Placement best;
   bool mirrored = false;
   /// If every demand is met, this is the least of (allowance - minimum) / scale over the edges that are not
   /// finished, rounded down. Otherwise it is minus how much of the demanded material is missing, or allowance
   /// too large, mm.
   double margin = 0;
-  double margin_bound = 0;  ///< no placement that keeps the maxima has more; rounded up
-  double margin_found = 0;  ///< the largest margin found: `margin`, unless another criterion gave some up
-  double margin_gap = 0;    ///< what margin_bound - margin_found was to become
-  double largest = 0;       ///< largest allowance of an edge that is not finished, rounded up, mm
+  /// No placement that keeps the maxima has a larger margin; rounded up.
+  double margin_bound = 0;
+  /// The largest margin found: `margin`, unless another criterion gave some up.
+  double margin_found = 0;
+  /// The difference of margin_bound and margin_found that was asked for.
+  double margin_gap = 0;
+  /// The largest allowance of an edge that is not finished, rounded up, mm.
+  double largest = 0;
   std::optional<SmallestLargest> second;  ///< where the criterion asks for it and the demands are met
-  double deviation =
-      0;  ///< root of the mean square deviation of the allowance from its targets, mm, as measured
-  std::vector<Touch> contacts;  ///< of the part itself, near or deep where the demands hold it
+  /// The root of the mean square deviation of the allowance from its targets, mm, as measured.
+  double deviation = 0;
+  /// The contacts of the part itself, near or deep where the demands hold it.
+  std::vector<Touch> contacts;
   DemandProof proof;
-  std::vector<TradeOff> curve;  ///< from the largest margin to none
+  /// The curve from the largest margin to none.
+  std::vector<TradeOff> curve;
   std::uint64_t work = 0;
 };
 

@@ -21,30 +21,32 @@ struct OutlinePoint {
   double along = 0;               ///< mm of arc length from the edge's `from`
   geom::Point in_part, in_blank;  ///< the point in either frame, mm
   double allowance = 0;           ///< mm; 0 where it cannot be told from 0
-  std::uint32_t blank_edge = 0;   ///< the nearest
+  /// The nearest edge of the blank.
+  std::uint32_t blank_edge = 0;
 };
 
 struct EdgeAllowance {
   double length = 0;  ///< mm
-  /// In order from `from` to `to`, both ends, at most `step` apart; `least` and `most` are among them.
+  /// The samples in order from `from` to `to`, both ends included, at most `step` apart; `least` and `most`
+  /// are among them.
   std::vector<OutlinePoint> samples;
   OutlinePoint least, most;
-  /// No point of the edge has less, none has more: at most the tolerance asked for and the rounding beyond
-  /// the two points above (more after kMostSplits). For an arc whose ends differ in their radii, of the curve
-  /// that region.hpp means.
+  /// No point of the edge has less allowance than `least_low`, and none has more than `most_high`. These are
+  /// off the two points above by at most the tolerance asked for and the rounding (more after kMostSplits).
+  /// For an arc whose ends differ in their radii they are those of the curve that region.hpp means.
   double least_low = 0, most_high = 0;
 };
 
-/// More samples than this are refused: 600 MB.
+/// A request for more samples than this is refused: 600 MB.
 inline constexpr std::size_t kMaxOutlinePoints = 10'000'000;
-/// An edge's extremes are searched in at most this many steps each.
+/// The extremes of an edge are searched in at most this many steps each.
 inline constexpr std::size_t kMostSplits = 100'000;
 
-/// The least allowance of an edge that nothing crosses comes from the closed formulas of
-/// geom/edge_distance.hpp; the other extremes are found by branch and bound over stretches of the edge. A
-/// stretch from a to b has at most (f(a) + f(b) + length) / 2, because the distance to a set changes by no
-/// more than the way, and at most the largest distance of its points from any one edge of the blank: for a
-/// line its ends', since the distance from a convex set is convex.
+/// Measures the allowance of every edge. The least allowance of an edge that nothing crosses comes from the
+/// closed formulas of geom/edge_distance.hpp, and the other extremes are found by branch and bound over
+/// stretches of the edge. A stretch from a to b has at most (f(a) + f(b) + length) / 2, because the distance
+/// to a set changes by no more than the way. It also has at most the largest distance of its points from any
+/// one edge of the blank: for a line its ends', since the distance from a convex set is convex.
 ///
 /// \pre regions made by make_region, at least one in each, not crossing themselves or each other
 /// Errors: usage when step or tolerance is not > 0 (step may be infinite), or more than kMaxOutlinePoints.
@@ -58,7 +60,8 @@ inline constexpr std::size_t kMostSplits = 100'000;
 /// A place of the part where the blank has no material.
 struct MissingPlace {
   geom::Point in_part, in_blank;
-  double depth = 0;  ///< distance to the nearest material of the blank, mm, > 0
+  /// The distance to the nearest material of the blank, mm, > 0.
+  double depth = 0;
 };
 
 /// Finds where the part reaches furthest beyond the blank's material, also inside the part, over a hole of

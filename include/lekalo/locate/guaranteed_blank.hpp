@@ -39,52 +39,65 @@ struct ScanPoints {
 };
 
 struct ScanOptions {
-  double uncertainty = 0;            ///< standard uncertainty of one point, mm, >= 0
-  double coverage_factor = 2;        ///< k, > 0
-  bool factor_covers_all = false;    ///< k was chosen for all points together, not for each by itself
-  double reading_error = 0;          ///< mm, distance; added to the guard as it is
+  double uncertainty = 0;      ///< standard uncertainty of one point, mm, >= 0
+  double coverage_factor = 2;  ///< k, > 0
+  /// True when k was chosen for all points together, not for each by itself.
+  bool factor_covers_all = false;
+  /// A distance that is added to the guard as it is, mm.
+  double reading_error = 0;
   std::optional<double> min_radius;  ///< R, mm
   std::optional<double> max_dip;     ///< H, mm, >= 0
-  /// Neighbours further apart are not taken as neighbours: the stretch is unknown unless R or H bounds it.
-  /// mm; by default 3 times the median spacing (for points without order at least 8 guards).
+  /// Points further apart than this are not taken as neighbours, and the stretch between them is unknown
+  /// unless R or H bounds it, mm. The default is 3 times the median spacing (for points without order at
+  /// least 8 guards).
   std::optional<double> step;
-  /// Points with no other point within this many mm are left out and listed. Nothing is left out otherwise.
+  /// Points with no other point within this many mm are left out and listed. Without a value nothing is left
+  /// out.
   std::optional<double> drop_outliers;
-  double simplify = 0.02;  ///< mm, > 0: the edges of the result may lie this much further in than they must
+  /// The edges of the result may lie this much further in than they must, mm, > 0.
+  double simplify = 0.02;
   PointOrder order = PointOrder::automatic;
 };
 
-/// A stretch of contour of which the measurement says nothing.
+/// A stretch of contour about which the measurement says nothing.
 struct UnknownStretch {
-  std::uint32_t contour = 0;       ///< of GuaranteedBlank::outlines
+  std::uint32_t contour = 0;       ///< index into GuaranteedBlank::outlines
   std::uint32_t from = 0, to = 0;  ///< indices of measured points
   geom::Point from_at, to_at;
   double width = 0;  ///< mm
 };
 
 struct GuaranteedBlank {
-  /// Lines only; inside the true blank if the assumptions hold and `unknown` is empty. Across an unknown
-  /// stretch the outline goes straight: there nothing is proved, and no "yes" may rest on these regions.
+  /// Regions of lines. They lie inside the true blank if the assumptions hold and `unknown` is empty. Across
+  /// an unknown stretch the outline goes straight. Nothing is proved there, and no "yes" may rest on these
+  /// regions.
   std::vector<geom::Region> regions;
   double guard = 0;           ///< g, mm
   double step = 0;            ///< mm, as given or chosen
   double median_spacing = 0;  ///< mm
-  double widest = 0;          ///< mm, longest edge of the outlines that is not unknown
-  double deepest = 0;         ///< mm, largest w_i - g
-  double loss = 0;            ///< mm; the regions' boundary comes within this of every corner of the outlines
-  bool ordered = false;       ///< the given order was used
-  std::vector<std::vector<std::uint32_t>> outlines;  ///< measured points, material on the left
+  /// The longest edge of the outlines that is not unknown, mm.
+  double widest = 0;
+  /// The largest w_i - g, mm.
+  double deepest = 0;
+  /// The regions' boundary comes within this of every corner of the outlines, mm.
+  double loss = 0;
+  /// True when the given order was used.
+  bool ordered = false;
+  /// Indices of measured points, with material on the left.
+  std::vector<std::vector<std::uint32_t>> outlines;
   std::vector<UnknownStretch> unknown;
-  std::vector<std::uint32_t> dropped;    ///< indices of measured points, ascending
-  std::vector<std::string> assumptions;  ///< sentences: what is true of `regions` is true if all of these are
+  /// Indices of measured points that were left out, ascending.
+  std::vector<std::uint32_t> dropped;
+  /// Sentences. What is true of `regions` is true if all of these are.
+  std::vector<std::string> assumptions;
   std::vector<std::string> notices;
   [[nodiscard]] bool proved() const noexcept { return unknown.empty(); }
 };
 
-/// Fails with ErrorCode::usage for options out of range; with bad_input, naming a place in mm, for points
-/// that are not is_exact or beyond 1e9 mm, fewer than three, outlines that meet themselves or each other,
-/// points without order whose neighbours cannot be told (walls, corners or noise finer than the spacing), and
-/// when nothing is left.
+/// Makes the guaranteed blank. Fails with ErrorCode::usage for options out of range; with bad_input, naming a
+/// place in mm, for points that are not is_exact or beyond 1e9 mm, fewer than three, outlines that meet
+/// themselves or each other, points without order whose neighbours cannot be told (walls, corners or noise
+/// finer than the spacing), and when nothing is left.
 ///
 /// The regions do not depend on the order of points without order.
 /// Cost: O(n log n). 100,000 points in 0.1 s.

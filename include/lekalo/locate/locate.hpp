@@ -24,9 +24,11 @@ struct Problem {
 };
 
 struct Options {
-  /// Stop when upper bound - clearance is this small, mm, > 0. Without: 1e-9 for convex outlines, else 1e-3.
+  /// The search stops when upper bound - clearance is this small, mm, > 0. Without a value it is 1e-9 for
+  /// convex outlines and 1e-3 for others.
   std::optional<double> gap;
-  double min_allowance = 0;  ///< mm; when provably not reachable the status is infeasible
+  /// The status is infeasible when this is provably not reachable, mm.
+  double min_allowance = 0;
   /// Only convex outlines have this: if it is set, the other local maxima whose clearance is within this of
   /// the best are listed too, mm.
   std::optional<double> alternatives;
@@ -37,23 +39,27 @@ struct Options {
 
 struct Found {
   Status status = Status::stopped;
-  Placement best;  ///< clearance rounded down: an exact recheck never finds less
+  /// The best placement. Its clearance is rounded down, so that an exact recheck never finds less.
+  Placement best;
   bool mirrored = false;
-  /// No placement in the window has more clearance; rounded up. Without a value: the bound is that of the
-  /// margin of the demands.
+  /// No placement in the window has more clearance; rounded up. Without a value the bound is that of the
+  /// demands' margin.
   std::optional<double> upper_bound;
-  double shortfall = 0;         ///< what is missing of the minimum allowance, or of the demands, mm
-  std::vector<Touch> contacts;  ///< what holds the best placement
-  Proof proof;                  ///< of the bound; contacts in it have the outlines' numbers
+  /// The part of the minimum allowance, or of the demands, that is missing, mm.
+  double shortfall = 0;
+  /// The contacts that hold the best placement.
+  std::vector<Touch> contacts;
+  /// The proof of the bound. Contacts in it have the outlines' numbers.
+  Proof proof;
   std::vector<Placement> alternatives;
   bool alternatives_complete = true;
-  /// This was found of the demands. Its certificate has moved to `proof`, its contacts to `contacts`.
+  /// The findings about the demands. Their certificate has moved to `proof`, their contacts to `contacts`.
   std::optional<DemandResult> demands;
   std::uint64_t work = 0;
 };
 
-/// True if the fast path takes the problem: two convex outlines, and nothing asked for but the clearance of a
-/// part that is not mirrored and may be shifted anywhere.
+/// Says whether the fast path takes the problem: two convex outlines, and nothing asked for but the clearance
+/// of a part that is not mirrored and may be shifted anywhere.
 [[nodiscard]] bool is_convex(const Problem& problem) noexcept;
 
 /// Chooses the search: the fast path where is_convex says so, else that of regions, with demands if there are

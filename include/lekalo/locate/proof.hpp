@@ -9,19 +9,21 @@
 
 namespace lekalo::locate {
 
-/// Why no placement has more clearance, of convex outlines: intervals of the angle, in ascending order, that
-/// cover the window, each with three contacts that bound the clearance over it.
+/// The reason why no placement of convex outlines has more clearance: intervals of the angle, in ascending
+/// order, that cover the window, each with three contacts that bound the clearance over it.
 struct AngleProof {
-  std::vector<CertificateInterval> intervals;  ///< none: nothing is proved, or the proof is kept elsewhere
+  /// Empty when nothing is proved, or when the proof is kept elsewhere.
+  std::vector<CertificateInterval> intervals;
 };
 
-/// The same of regions: subdivisions of boxes of poses whose leaves are bounded by pairs of balls.
+/// The reason for regions: subdivisions of boxes of poses whose leaves are bounded by pairs of balls.
 struct PoseProof {
-  geom::Point pivot;             ///< part coordinates
-  std::vector<CoverTree> trees;  ///< none: nothing is proved, or the proof is kept elsewhere
+  geom::Point pivot;  ///< part coordinates
+  /// Empty when nothing is proved, or when the proof is kept elsewhere.
+  std::vector<CoverTree> trees;
 };
 
-/// The kind says which search a placement comes from, also where the proof itself is not there.
+/// The kind says from which search a placement comes, also where the proof itself is not there.
 using Proof = std::variant<AngleProof, PoseProof>;
 
 }  // namespace lekalo::locate

@@ -22,36 +22,42 @@ enum class StartRule {
 };
 
 struct IpoptOptions {
-  int starts = 10;  ///< feasible starts to optimise from, >= 1
+  /// The number of feasible starts to optimise from, >= 1.
+  int starts = 10;
   std::uint64_t seed = 0;
   StartRule start_rule = StartRule::random;
-  AngleWindow window;  ///< of the full circle the angle is left free and folded back at the end
-  RunControl run;      ///< one unit of work is one start, feasible or rejected
+  /// In the full circle the angle is left free and folded back at the end.
+  AngleWindow window;
+  /// One unit of work is one start, feasible or rejected.
+  RunControl run;
 };
 
 /// A draw is a feasible start when its homothety coefficient reaches 1 within this. IPOPT itself keeps
-/// constraints to about 1e-8; a smaller value rejects good starts, a larger one accepts starts from which phi
-/// >= 0 cannot be reached.
+/// constraints to about 1e-8. A smaller value rejects good starts, and a larger one accepts starts from which
+/// phi >= 0 cannot be reached.
 inline constexpr double kHomothetyTolerance = 1e-6;
-/// Draws allowed for every start asked for, before the method gives up finding feasible ones.
+/// The method gives up finding feasible starts after this many draws for every start asked for.
 inline constexpr int kDrawsPerStart = 10;
 /// IPOPT gets n m constraints; above this number the request is refused (about 1 GB and minutes a start).
 inline constexpr std::size_t kMaxIpoptConstraints = 250'000;
 
 struct ReferenceResult {
   Placement best;
-  int starts_done = 0;      ///< feasible starts that were optimised; ICP: starts tried
-  int starts_rejected = 0;  ///< draws whose homothety coefficient stayed below 1
-  /// IPOPT: iterations of all its runs, the feasible-start problems included. ICP: of the start kept.
+  /// For IPOPT the feasible starts that were optimised, for ICP the starts tried.
+  int starts_done = 0;
+  /// The draws whose homothety coefficient stayed below 1.
+  int starts_rejected = 0;
+  /// For IPOPT the iterations of all its runs, the feasible-start problems included; for ICP those of the
+  /// start kept.
   std::uint64_t iterations = 0;
-  /// IPOPT: there was a feasible start; if not, `best` is the least bad pose seen. ICP: the part does not
-  /// stick out.
+  /// For IPOPT: there was a feasible start; if not, `best` is the least bad pose seen. For ICP: the part does
+  /// not stick out.
   bool found = false;
   /// The run that gave `best` ended by its own criterion (IPOPT: its tolerance; ICP: steps below 1e-10 of the
   /// blank's size), not by a limit.
   bool converged = false;
-  double residual =
-      0;  ///< ICP: root mean square distance of the outline points from the part's lines, mm; else 0
+  /// For ICP the root mean square distance of the outline points from the part's lines, mm; else 0.
+  double residual = 0;
 };
 
 /// The source's three stages: feasible starts by maximising the homothety coefficient lambda ((8)-(10) of the
@@ -68,10 +74,13 @@ struct ReferenceResult {
                                                    const IpoptOptions& options);
 
 struct IcpOptions {
-  AngleWindow window;  ///< the angle is kept in it at every step
-  Placement start;     ///< used when `has_start`
-  /// Else perimeter centroids and principal axes are aligned; of the two angles (moved to the nearest end of
-  /// the window when outside) the one with the smaller final residual is kept, the first when equal.
+  /// The angle is kept in the window at every step.
+  AngleWindow window;
+  /// Used when `has_start`.
+  Placement start;
+  /// Without a start, perimeter centroids and principal axes are aligned. Of the two angles (moved to the
+  /// nearest end of the window when outside) the one with the smaller final residual is kept, the first when
+  /// they are equal.
   bool has_start = false;
   int max_iterations = 100;  ///< of each start, >= 1
 };

@@ -6,17 +6,21 @@
 
 namespace lekalo::mill {
 
-/// The tool's load over a piece of a move: how much of its rim is in material.
+/// The tool's load over a piece of a move.
 struct MoveLoad {
-  double length = 0;          ///< mm
-  double engagement_deg = 0;  ///< of the rim
-  double left_deg = 0;        ///< of that, to the left of where the tool goes
+  double length = 0;  ///< mm
+  /// The part of the rim that is in material, degrees.
+  double engagement_deg = 0;
+  /// The part of it that is to the left of where the tool goes, degrees.
+  double left_deg = 0;
 };
 
 struct FeedOptions {
-  double feed_mm_per_min = 1500;  ///< at the engagement of a straight pass
-  double most_mm_per_min = 1500;  ///< at least feed_mm_per_min, at most four times it
-  double step_over = 0.4;         ///< part of the diameter, in (0, 0.5]
+  /// The feed at the engagement of a straight pass.
+  double feed_mm_per_min = 1500;
+  /// The largest feed: at least feed_mm_per_min, at most four times it.
+  double most_mm_per_min = 1500;
+  double step_over = 0.4;  ///< part of the diameter, in (0, 0.5]
 };
 
 /// Gives the path feeds that follow the load, in at most six steps from half the feed to the most. Below the

@@ -21,21 +21,25 @@ struct PathMove {
   };
   Kind kind = Kind::cut;
   geom::Point to;
-  double z = 0;  ///< at its end; an arc that changes it is a piece of a helix
+  /// The depth at the end of the motion. An arc that changes it is a piece of a helix.
+  double z = 0;
   geom::EdgeKind shape = geom::EdgeKind::line;
   /// The centre of an arc, whose distances from both ends agree within 1e-6 mm. An arc is at most one full
   /// turn, and one that ends where it begins is a full turn.
   geom::Point centre = {};
-  double feed = 0;  ///< mm/min; 0: the one of its kind
+  /// The feed of this motion, mm/min; 0 for the usual one of its kind.
+  double feed = 0;
 };
 
 /// Motions in their order. The first is a rapid one, so that it may begin anywhere.
 struct PocketPath {
   std::vector<PathMove> moves;
-  std::size_t fronts = 0;  ///< curves of equal arrival that were cut
+  /// The number of curves of equal arrival that were cut.
+  std::size_t fronts = 0;
 };
 
-/// The arc of a move that begins at `from`; \pre its shape is no line
+/// Returns the arc of a move that begins at `from`.
+/// \pre its shape is no line
 [[nodiscard]] inline geom::Edge arc_of(const PathMove& move, geom::Point from) {
   return {move.shape, from, move.to, move.centre};
 }

@@ -16,10 +16,12 @@ enum class Direction { any, climb, conventional };
 /// `fronts` is the product's method; the others are the source's spirals on FLOZ models, for comparison.
 enum class Method { fronts, floz_linear, floz_quadratic };
 
-/// A stretch that an earlier tool went along: what its disc swept there is gone.
+/// A stretch that an earlier tool went along. Everything that its disc swept there is gone.
 struct EarlierCut {
-  geom::Edge edge;   ///< an arc of at most half a turn; a line of no length where it went straight down
-  double depth = 0;  ///< mm below the stock's face; all of it is at least as deep
+  /// An arc of at most half a turn, or a line; a line of no length where the tool went straight down.
+  geom::Edge edge;
+  /// All of the stretch is at least this deep, mm below the stock's face.
+  double depth = 0;
   double tool_diameter = 0;  ///< mm
 };
 
@@ -28,22 +30,27 @@ struct PocketOptions {
   double step_over = 0.4;     ///< part of the diameter, in (0, 0.5]
   double stock_to_leave = 0;  ///< mm, on walls
   double floor_stock = 0;     ///< mm, on the floor; less than the depth
-  double depth = 1;           ///< mm, above 0, of the pocket
-  double step_down = 0;       ///< mm, of one level at most; 0: one level
+  double depth = 1;           ///< mm, above 0
+  /// The most that one level takes, mm; 0 for a single level.
+  double step_down = 0;
   Direction direction = Direction::any;
-  double safe_height = 5;       ///< mm above the stock
-  double ramp_angle = 0.05;     ///< rad, of entries
-  double fit_tolerance = 2e-3;  ///< mm, of lines and arcs in place of the path's points
+  double safe_height = 5;    ///< mm above the stock
+  double ramp_angle = 0.05;  ///< rad
+  /// Lines and arcs may be this far from the points of the path that they replace, mm.
+  double fit_tolerance = 2e-3;
   Method method = Method::fronts;
-  // The source's methods alone use these:
-  bool whole = false;     ///< one model of each pocket, not one of each convex fragment
-  double sampling = 3;    ///< mm: longest segment of the model
-  double trace_step = 0;  ///< mm; 0: the one that leaves the step-over between turns
-  /// mm: a spiral begins at the start that lies in its place, or without one at its peak.
+  // The source's methods alone use what follows.
+  bool whole = false;
+  /// The longest segment of the model, mm.
+  double sampling = 3;
+  /// The step along a spiral, mm; 0 for the one that leaves the step-over between turns.
+  double trace_step = 0;
+  /// The starts of spirals, mm. A spiral begins at the start that lies in its place, or at its peak where
+  /// there is none.
   std::vector<geom::Point> starts;
 };
 
-/// The mm that one level takes; levels are equally deep.
+/// Returns the mm that one level takes; levels are equally deep.
 [[nodiscard]] double level_depth(const PocketOptions& options);
 
 /// Plans a path that clears what the tool can reach of the pockets, by fronts: from an entry the path grows
@@ -63,7 +70,7 @@ struct PocketOptions {
                                              const std::vector<EarlierCut>& before = {},
                                              const ProgressListener& progress = {});
 
-/// The stretches that a tool of this diameter cuts along the path.
+/// Returns the stretches that a tool of this diameter cuts along the path.
 [[nodiscard]] std::vector<EarlierCut> cuts_of(const PocketPath& path, double tool_diameter);
 
 }  // namespace lekalo::mill

@@ -10,9 +10,11 @@ namespace lekalo::mill {
 /// A stretch of a path that is cut on the way down: an entry.
 struct Ramp {
   geom::Point from, to;
-  double z = 0;               ///< mm, its floor
-  double length = 0;          ///< mm in plan
-  double engagement_deg = 0;  ///< of the rim, that it would meet at one depth
+  /// The floor of the stretch, mm.
+  double z = 0;
+  double length = 0;  ///< mm in plan
+  /// The part of the rim that would meet material at one depth, degrees.
+  double engagement_deg = 0;
 };
 
 struct RampedPath {

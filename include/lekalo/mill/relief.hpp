@@ -42,17 +42,25 @@ class Relief {
  private:
   /// A stretch that is too hot. Its places are mm along the path given.
   struct Site {
-    Moves run;                          ///< of the path given: level, of some length each, without a cusp
-    double begin = 0, end = 0;          ///< where the tool may leave it and come back
-    double hot_begin = 0, hot_end = 0;  ///< what is too hot
-    double side = 1;                    ///< 1: the material is on the left
-    double largest = 0;                 ///< degrees
-    double given_excess = 0;            ///< degrees above what is held, times mm
-    double excess = 0;                  ///< the same with the best pass
+    /// Moves of the path given: level, of some length each, without a cusp.
+    Moves run;
+    /// The places where the tool may leave the path and come back to it.
+    double begin = 0, end = 0;
+    /// The part of the stretch that is too hot.
+    double hot_begin = 0, hot_end = 0;
+    /// The side of the material: 1 for the left.
+    double side = 1;
+    double largest = 0;  ///< degrees
+    /// The sum of degrees above what is held, times mm.
+    double given_excess = 0;
+    /// The same sum with the best pass.
+    double excess = 0;
     int trials = 0;
     bool settled = false;
-    std::vector<PathMove> best, tried;  ///< passes there and back
-    Moves moves;                        ///< of path_
+    /// The passes there and back.
+    std::vector<PathMove> best, tried;
+    /// The moves of path_ that belong to the stretch.
+    Moves moves;
   };
 
   Relief(PocketPath path, const std::vector<geom::Region>& places, const PocketOptions& options);
@@ -67,8 +75,10 @@ class Relief {
 
   PathWay given_;
   PocketPath path_;
-  geom::RegionIndex limit_;          ///< of the tool's middle
-  double radius_, straight_, held_;  ///< mm; rad of the rim on a straight pass; degrees
+  /// The limit of the tool's middle.
+  geom::RegionIndex limit_;
+  /// The tool's radius (mm), the rim's angle on a straight pass (rad), and the angle that is held (degrees).
+  double radius_, straight_, held_;
   double fit_tolerance_;
   std::vector<Site> sites_;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -12,7 +12,8 @@ namespace lekalo::nc {
 /// Numbers of an NC program are kept as the exact decimals they are written as, so that "the same point" is a
 /// question of equality and not of a tolerance.
 
-__extension__ typedef __int128 Wide;  ///< GNU and Clang; 128 bits hold every coordinate in grains
+/// GNU and Clang have this type. Its 128 bits hold every coordinate in grains.
+__extension__ typedef __int128 Wide;
 
 /// A coordinate in grains of 1e-18 mm: any decimal fraction of a millimetre or an inch with up to
 /// kMaxDecimals digits is a whole number of grains.

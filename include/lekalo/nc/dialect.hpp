@@ -15,11 +15,14 @@ namespace lekalo::nc {
 /// Texts are whole lines, parted by `\n`, without a `\n` at their end; an empty text is no line. `{unit}` in
 /// them stands for G20 or G21.
 struct Dialect {
-  std::string_view name;     ///< the word that chooses the post: small letters and digits
-  std::string_view control;  ///< the control's own name, for sentences
+  /// The word that chooses the post, in small letters and digits.
+  std::string_view name;
+  /// The control's own name, for sentences.
+  std::string_view control;
 
   struct Decimals {
-    int millimetre = 4, inch = 5;  ///< 1 to 9: what the control reads of a coordinate without dropping digits
+    /// The decimals of a coordinate that the control reads without dropping digits, 1 to 9.
+    int millimetre = 4, inch = 5;
     [[nodiscard]] constexpr int of(LengthUnit unit) const noexcept {
       return unit == LengthUnit::inch ? inch : millimetre;
     }
@@ -28,7 +31,8 @@ struct Dialect {
   /// Comments are capitals, digits, points and dashes between these marks.
   struct Comment {
     std::string_view open = "(", close = ")";
-    std::size_t longest = 60;  ///< letters between the marks, what is beyond is left out
+    /// The most letters between the marks; the others are left out.
+    std::size_t longest = 60;
   } comment{};
 
   /// `G4 P` for a wait: in seconds with three decimals, unless the post says otherwise.
@@ -37,28 +41,34 @@ struct Dialect {
     int decimals = 3;
   } dwell{};
 
-  std::string_view tape_mark = "";       ///< the first and the last line; empty: none
-  std::string_view program_number = "";  ///< the line after the tape mark, before a title; empty: none
+  /// The first and the last line; empty for none.
+  std::string_view tape_mark = "";
+  /// The line after the tape mark and before a title; empty for none.
+  std::string_view program_number = "";
 
   /// The lines that set every mode on which a program of this kind depends, and the lines that end it.
   struct Frame {
     std::string_view modes, end;
   };
-  Frame pocket{};   ///< `{offset}` stands for G54 to G59. The end comes after M9 and M5, above the stock
-  Frame profile{};  ///< for cuts along outlines, in G54. The end comes after M5, at X0 Y0
+  /// The frame of pockets. `{offset}` stands for G54 to G59. The end comes after M9 and M5, above the stock.
+  Frame pocket{};
+  /// The frame of cuts along outlines, in G54. The end comes after M5, at X0 Y0.
+  Frame profile{};
 
-  std::string_view tool_change = "T{tool} M6\nG43 H{tool}";  ///< `{tool}` stands for the tool's number
+  /// `{tool}` stands for the tool's number.
+  std::string_view tool_change = "T{tool} M6\nG43 H{tool}";
   std::string_view laser_on = "M3";
-  bool laser_needs_power = false;  ///< without an S word the beam stays dark
+  /// True when the beam stays dark without an S word.
+  bool laser_needs_power = false;
 };
 
 /// The list of all posts, in the order in which help shows them. The first one is taken if none is chosen.
 [[nodiscard]] std::span<const Dialect> posts() noexcept;
 
-/// The post of this name; none: nullptr.
+/// Returns the post of this name, or nullptr.
 [[nodiscard]] const Dialect* post_named(std::string_view name) noexcept;
 
-/// The names of all posts in one text, the last of them after `last_separator`.
+/// Returns the names of all posts in one text, the last of them after `last_separator`.
 [[nodiscard]] std::string post_names(std::string_view separator, std::string_view last_separator);
 
 }  // namespace lekalo::nc

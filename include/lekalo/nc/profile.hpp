@@ -12,13 +12,14 @@
 
 namespace lekalo::nc {
 
-/// Profile cuts: every contour of every placed part, compensated by half the kerf, as one NC program. Numbers
-/// of steps are those of docs/design/export.md.
+/// Profile cuts: every contour of every placed part, compensated by half the kerf, as one NC program. The
+/// numbers of steps are those of docs/design/export.md.
 
 /// A part where it is cut, in the sheet's frame, mm.
 struct ProfilePart {
-  std::uint64_t id = 0;  ///< for messages: the placement's
-  geom::Region region;   ///< made by make_region
+  /// The id of the placement, for messages.
+  std::uint64_t id = 0;
+  geom::Region region;  ///< made by make_region
 };
 
 enum class Process {
@@ -36,28 +37,35 @@ struct ProfileOptions {
   Process process = Process::laser;
   LengthUnit unit = LengthUnit::millimetre;  ///< the program's words are in it: G21 or G20
   double kerf_mm = 0;                        ///< width of the cut, 0.01 to 100
-  double tolerance_mm = 0.01;  ///< the cut may enter a part this far: from 1e-4 to a quarter of the kerf
+  /// The cut may enter a part this far: from 1e-4 to a quarter of the kerf.
+  double tolerance_mm = 0.01;
   LeadShape lead = LeadShape::line;
-  double lead_in_mm = 0;       ///< length of the line, radius of the arc; 0: none; up to 1000
+  /// The length of the line or the radius of the arc, up to 1000; 0 for no lead.
+  double lead_in_mm = 0;
   double feed_mm_per_min = 0;  ///< above 0 to 1e6
-  double speed = 0;     ///< the S word, spindle or beam; 0: none. Routers and some posts' lasers need it
-  double pierce_s = 0;  ///< wait after the beam is on, 0 to 100; not for routers
-  double depth_mm = 0, pass_mm = 0;  ///< routers only: below Z 0, 0.01 to 1000; of one pass, 0: all at once
-  double safe_height_mm = 5;         ///< routers only: Z of travels, 0.1 to 1000
-  double plunge_mm_per_min = 0;      ///< routers only: downwards, above 0 to 1e6
+  /// The S word, of spindle or beam; 0 for none. Routers and some posts' lasers need it.
+  double speed = 0;
+  /// The wait after the beam is on, 0 to 100; not for routers.
+  double pierce_s = 0;
+  /// The depth below Z 0, 0.01 to 1000, and that of one pass, 0 for all at once; routers only.
+  double depth_mm = 0, pass_mm = 0;
+  /// The Z of travels, 0.1 to 1000; routers only.
+  double safe_height_mm = 5;
+  /// The feed downwards, above 0 to 1e6; routers only.
+  double plunge_mm_per_min = 0;
 };
 
 struct ProfileProgram {
   std::string text;  ///< ASCII, lines end with \n
-  /// Proved of the written numbers: no point of the kerf, leads included, lies deeper than this inside a
-  /// part.
+  /// A bound that is proved for the written numbers: no point of the kerf, leads included, lies deeper than
+  /// this inside a part.
   double deepest_mm = 0;
-  std::size_t cuts = 0, shortened_leads = 0,
-              bare_starts = 0;  ///< bare: pierced on the contour for want of room
+  /// A bare start is pierced on the contour for want of room.
+  std::size_t cuts = 0, shortened_leads = 0, bare_starts = 0;
   double cut_mm = 0, travel_mm = 0;
-  /// The corner of a contour farthest from the kerf lies this far from it, in this placement. Material stays
-  /// there: little in corners that point inwards, which the kerf rounds; all of a slot that is narrower than
-  /// the kerf.
+  /// The distance from the kerf of the corner of a contour that is farthest from it, in the placement
+  /// `left_over_of`. Material stays there: little in corners that point inwards, which the kerf rounds, and
+  /// all of a slot that is narrower than the kerf.
   double left_over_mm = 0;
   std::uint64_t left_over_of = 0;
 };

@@ -34,7 +34,9 @@ struct Block {
 /// A program taken apart into words without losing a byte: what no word covers is comment, blank or line end.
 struct Program {
   std::vector<Block> blocks;  ///< every line, also empty ones
-  std::string line_end;       ///< as the first line has it that has one, or "\n"
+  /// The end of the first line that has one, or "
+  /// ".
+  std::string line_end;
 };
 
 /// Takes the text apart. Refuses (ErrorCode::program_refused, `name:line: reason`) what is not made of

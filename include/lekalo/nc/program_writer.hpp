@@ -23,32 +23,34 @@ struct WrittenPoint {
 /// every line ends with `\n`. Amortised O(1) per byte.
 class ProgramWriter {
  public:
-  /// `{word}` of a dialect's text, and what stands there.
+  /// A `{word}` of a dialect's text, and what stands in its place.
   using Places = std::initializer_list<std::pair<std::string_view, std::string>>;
 
   /// \param dialect   has to outlive the writer
-  /// \param decimals  of coordinates
+  /// \param decimals  the decimals of coordinates
   ProgramWriter(const Dialect& dialect, LengthUnit unit, int decimals)
       : dialect_(&dialect), unit_(unit), decimals_(decimals) {}
 
-  /// Tape mark and program number, where the dialect has them, and the title as a comment.
+  /// Writes tape mark and program number, where the dialect has them, and the title as a comment.
   void begin(std::optional<std::string_view> title = std::nullopt);
   void line(std::string_view words);
-  /// Lines of the dialect, their places filled.
+  /// Writes lines of the dialect with their places filled.
   void lines(std::string_view text, Places places = {});
-  /// Text for the operator; none where nothing of it may be written.
+  /// Writes text for the operator, or nothing where none of it may be written.
   void comment(std::string_view words);
-  /// The dialect's last lines, and the text of the program. \param end  of the frame of its kind
+  /// Writes the dialect's last lines, and returns the text of the program.
+  /// \param end  the end of the frame of its kind
   [[nodiscard]] std::string finish(std::string_view end);
 
-  /// A coordinate of whole units of the last decimal.
+  /// Returns a coordinate of whole units of the last decimal.
   [[nodiscard]] std::string number(std::int64_t count) const;
-  /// " X1.0000 Y2.0000", " I0.5000 J0.0000": two coordinates after these letters.
+  /// Returns two coordinates after these letters: " X1.0000 Y2.0000", " I0.5000 J0.0000".
   [[nodiscard]] std::string pair(char first, char second, WrittenPoint counts) const;
-  /// " F600.0": one decimal of a mm/min, this many of an inch/min.
+  /// Returns " F600.0": one decimal of a mm/min, this many of an inch/min.
   [[nodiscard]] std::string feed(double mm_per_min, int inch_decimals) const;
 
-  [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }  ///< bytes
+  /// The size of the text so far in bytes.
+  [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }
   [[nodiscard]] std::size_t line_count() const noexcept { return line_count_; }
 
  private:

@@ -29,8 +29,9 @@ enum class ScanFrame {
 struct RewriteOptions {
   RewriteMode mode = RewriteMode::coordinates;
   ScanFrame scan_frame = ScanFrame::machine;
-  int work_offset = 1;  ///< 1..9: G54 .. G59.3, the one that the program runs in
-  /// Unit until the program's first G20 or G21; used only by programs that name none, with a note.
+  /// The work offset that the program runs in, 1..9 for G54 .. G59.3.
+  int work_offset = 1;
+  /// The unit until the program's first G20 or G21. Only programs that name none use it, with a note.
   LengthUnit start_unit = LengthUnit::millimetre;
   /// Decimals of a degree in `G68 R`, 0..9. Controls of increment system IS-B drop what is finer than 0.001
   /// degree, and the dropped angle would be in no bound.
@@ -39,16 +40,19 @@ struct RewriteOptions {
 
 struct Rewritten {
   std::string program;  ///< the new program, same line ends
-  /// No point of the programmed path lies further than this from its exact place, mm: what rounding to the
-  /// written decimals can do. Take it off the clearance.
+  /// No point of the programmed path lies further than this from its exact place, mm: rounding to the written
+  /// decimals can do no more. Callers take it off the clearance.
   double rounding_mm = 0;
-  std::size_t motions = 0;         ///< blocks whose coordinates were rewritten, or stand under the rotation
-  std::vector<std::string> notes;  ///< sentences for the operator: frame, offset to set, decimals
+  /// The blocks whose coordinates were rewritten, or stand under the rotation.
+  std::size_t motions = 0;
+  /// Sentences for the operator: frame, offset to set, decimals.
+  std::vector<std::string> notes;
 };
 
-/// The pose is `p -> R(theta) p + (x, y)`, its shift in mm; theta, x and y count as exact.
+/// Rewrites a program by the pose `p -> R(theta) p + (x, y)`, whose shift is in mm; theta, x and y count as
+/// exact.
 ///
-/// \param name  of the program, for messages.
+/// \param name  the name of the program, for messages.
 /// \return      passes only words on the white list. Anything else, and anything whose meaning would change
 ///              under the motion, is ErrorCode::program_refused with `name:line: reason`. ErrorCode::usage
 ///              when the pose is not finite or beyond 10^6 mm or geom::kMaxAngle, an option is out of range,

@@ -40,13 +40,15 @@ struct Nested {
   std::vector<Unplaced> unplaced;  ///< ascending by part
   /// Candidate places looked at. Grids and relaxing count as the places that take as long.
   std::uint64_t work = 0;
-  std::uint64_t merges = 0;  ///< times the strands were merged; a run ends only there
+  /// How often the strands were merged; a run ends only at a merge.
+  std::uint64_t merges = 0;
 };
 
 struct Options {
   std::uint64_t seed = 0;
-  unsigned threads = 1;     ///< 1 or more; this changes the speed and nothing else
-  std::size_t angles = 24;  ///< that a part has which may be turned by any angle; in [1, 360]
+  unsigned threads = 1;  ///< 1 or more; this changes the speed and nothing else
+  /// The number of angles of a part that may be turned by any angle, in [1, 360].
+  std::size_t angles = 24;
   /// True: the run begins with the placements that are not locked. They keep their ids and are wanted
   /// whatever the demand, so only a better layout takes the place of the given one; those that break a rule
   /// are placed anew. False: they are dropped.

@@ -6,7 +6,8 @@
 
 namespace lekalo::phi {
 
-/// The pair that decides a phi value: vertex of the part, edge of the blank (edge k runs from vertex k on).
+/// The pair that decides a phi value: a vertex of the part and an edge of the blank. Edge k runs from vertex
+/// k to the next.
 struct NearestPair {
   std::uint32_t part_vertex = 0, blank_edge = 0;
 };

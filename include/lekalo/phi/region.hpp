@@ -15,42 +15,43 @@ struct RegionContact {
   double distance = 0;                          ///< mm, not negative
 };
 
-/// Clearance of a part in a blank, both regions of lines and arcs with holes, in several pieces if need be:
-/// the least signed distance of any material point of the part from the boundary of the blank, positive
+/// The clearance of a part in a blank, both regions of lines and arcs with holes, in several pieces if need
+/// be: the least signed distance of any material point of the part from the boundary of the blank, positive
 /// inside. Where it is not negative it is the least distance between the boundaries.
 ///
-/// Holds indices of both; evaluating a pose allocates nothing that it does not keep.
+/// An object holds indices of both. Evaluating a pose allocates nothing that it does not keep.
 class RegionClearance {
  public:
   /// \pre regions made by make_region, none crossing itself or another
   RegionClearance(const std::vector<geom::Region>& part, const std::vector<geom::Region>& blank);
 
   struct Value {
-    /// Least distance between the boundaries, within kEdgeDistanceError * size of the exact one; 0 where they
-    /// cross.
+    /// The least distance between the boundaries, within kEdgeDistanceError * size of the exact one; 0 where
+    /// they cross.
     double distance = 0;
     /// This is true when the part lies in the blank's material; then `distance` is the clearance.
     bool inside = false;
   };
   /// \param contacts  if given, filled with the pairs of points at most `margin` further apart than the
-  ///                  least distance: of every pair of edges the nearest two points, but for those that
-  ///                  another pair of edges has as well.
+  ///                  least distance. Every pair of edges gives its nearest two points, but not those that
+  ///                  another pair of edges gives as well.
   /// Cost: O((n + k) log m) for n edges of the part, m of the blank and k pairs that come close.
   [[nodiscard]] Value at(const geom::BlankFromPart& pose, double margin = 0,
                          std::vector<RegionContact>* contacts = nullptr) const;
 
-  /// A number that the part sticks out of the blank by at most, where it does: the largest distance of its
-  /// material from the blank's, by a quadtree, at most `tolerance` or a 256th part (and
-  /// rounding) too large.
+  /// Returns a bound on how far the part sticks out of the blank, where it does: on the largest distance of
+  /// its material from the blank's. A quadtree finds it, at most `tolerance` or a 256th part (and rounding)
+  /// too large.
   [[nodiscard]] double depth(const geom::BlankFromPart& pose, double tolerance) const;
 
-  /// The place where one edge of the part, placed, is nearest to the blank's boundary; distance 0 where it
-  /// crosses it. Error as at().
+  /// Returns the place where one edge of the part, placed, is nearest to the blank's boundary. The distance
+  /// is 0 where it crosses it. Error as at().
   [[nodiscard]] RegionContact nearest(const geom::BlankFromPart& pose, std::uint32_t part_edge) const;
 
-  /// How deep the points of some edges, moved as the part is, lie in the blank at most: their largest
-  /// distance from its boundary inside its material, 0 where none is inside. Never too small, too large by at
-  /// most `tolerance` (and rounding); if that takes more than kMostPieces pieces of edges, by more.
+  /// Returns how deep the points of some edges, moved as the part is, lie in the blank at most: their largest
+  /// distance from its boundary inside its material, 0 where none is inside. The result is never too small.
+  /// It is too large by at most `tolerance` (and rounding), or by more if that takes more than kMostPieces
+  /// pieces of edges.
   ///
   /// \param points  filled with one point for each place that may be within `margin` of the deepest; its
   ///                `distance` is that from `blank`, the nearest boundary point, and `part_edge` counts in
@@ -71,10 +72,11 @@ class RegionClearance {
   [[nodiscard]] bool inside(const geom::BlankFromPart& pose) const;
 
   geom::RegionIndex part_, blank_;
-  std::vector<Disc> disc_;  ///< around each edge of the part
+  /// A disc around each edge of the part.
+  std::vector<Disc> disc_;
 };
 
-/// A curve moved by a pose.
+/// Returns a curve moved by a pose.
 [[nodiscard]] geom::Curve placed(const geom::Curve& curve, const geom::BlankFromPart& pose) noexcept;
 
 }  // namespace lekalo::phi

@@ -25,34 +25,37 @@ enum class LayoutRule : std::uint8_t {
   grain,
   stock
 };
-/// "overlap", "gap", "outside", "border-gap", "defect", "defect-gap", "quality", "rotation", "mirror",
-/// "grain", "stock".
+/// Returns "overlap", "gap", "outside", "border-gap", "defect", "defect-gap", "quality", "rotation",
+/// "mirror", "grain" or "stock".
 [[nodiscard]] std::string_view name_of(LayoutRule rule) noexcept;
 
 struct LayoutViolation {
   LayoutRule kind{};
   std::uint64_t a = 0;  ///< the placement's id
-  std::uint64_t b = 0;  ///< the other placement's, above a; 0 where there is none
-  std::string stock;    ///< its id
+  /// The id of the other placement, above a; 0 where there is none.
+  std::uint64_t b = 0;
+  std::string stock;  ///< the stock's id
   std::int64_t copy = 0;
-  std::string feature;  ///< id of the defect or zone; empty for other kinds
+  /// The id of the defect or zone; empty for other kinds.
+  std::string feature;
   friend bool operator==(const LayoutViolation&, const LayoutViolation&) = default;
 };
 
 struct LayoutVerdict {
-  /// By stock (in the file's order), copy, a, kind, b and feature (in the file's order). Of two things there
-  /// is one violation: a gap only where nothing overlaps or sticks out.
+  /// Ordered by stock (in the file's order), copy, a, kind, b and feature (in the file's order). Two things
+  /// have one violation together: a gap only where nothing overlaps or sticks out.
   std::vector<LayoutViolation> violations;
-  std::size_t placements = 0;  ///< that were looked at: all of the file
+  /// The number of placements that were looked at, which are all of the file.
+  std::size_t placements = 0;
 };
 
 /// Decides which rules of docs/design/layout.md a layout ("lekalo-layout/1") breaks, from its bytes alone and
-/// exactly; nothing here is shared with what made it. How: docs/design/layout-verify.md.
+/// exactly. It shares nothing with what made the layout. docs/design/layout-verify.md says how.
 ///
-/// bad_input, with the place in the file: what is no layout; a polygon that is not simple or comes nearer to
-/// itself than the grid allows; a polygon that is missing, or is not what rule 2 makes of the drawing beside
-/// it. Such files are to be written by lekalo first. Cost: O(n log n + pairs of placements with close boxes,
-/// times their edges): 1,000 parts take about a second.
+/// Fails with bad_input, and with the place in the file, for bytes that are no layout, for a polygon that is
+/// not simple or comes nearer to itself than the grid allows, and for a polygon that is missing or is not
+/// what rule 2 makes of the drawing beside it. lekalo has to write such a file anew first. Cost: O(n log n +
+/// pairs of placements with close boxes, times their edges): 1,000 parts take about a second.
 [[nodiscard]] Result<LayoutVerdict> verify_layout(const Document& document);
 
 }  // namespace lekalo::verify

@@ -10,17 +10,19 @@
 namespace lekalo::verify {
 
 /// The independent checker. It reads the written bytes itself, exactly (decimals become rationals), and
-/// decides with outward rounding; it includes nothing of lekalo but base and shares no code with any solver
-/// or reader. Short and slow on purpose.
+/// decides with outward rounding. It includes nothing of lekalo but base, and shares no code with any solver
+/// or reader. It is short and slow on purpose.
 
 struct Document {
-  std::string name;  ///< for messages, and its ending (.csv .txt .xyz .json .dxf) chooses the format
+  /// The name for messages. Its ending (.csv .txt .xyz .json .dxf) chooses the format.
+  std::string name;
   std::string_view bytes;
 };
 
 struct LocateInputs {
   Document result, part, blank;
-  std::optional<Document> certificate;  ///< when the result names a certificate file
+  /// Given when the result names a certificate file.
+  std::optional<Document> certificate;
 };
 
 enum class Verdict {
@@ -39,18 +41,21 @@ struct LocateReport {
   Verdict verdict = Verdict::refuted;
   /// The exact minimum allowance at the written pose, mm, as decimals that enclose it (30 digits).
   std::string clearance_low, clearance_high;
-  /// The largest bound over the certificate, rounded up; empty without one.
+  /// The largest bound over the certificate, rounded up; empty without a certificate.
   std::string bound_high;
   std::size_t intervals = 0;
-  std::vector<std::string> findings;  ///< one sentence for everything that does not hold
-  std::vector<std::string> notes;     ///< what was not looked at
+  /// A sentence for everything that does not hold.
+  std::vector<std::string> findings;
+  /// Sentences about what was not looked at.
+  std::vector<std::string> notes;
 };
 
-/// Rechecks a result of `lekalo locate` (docs/formats.md) against the files it names.
-/// bad_input when a document cannot be read at all; what reads but is untrue is in the report.
+/// Rechecks a result of `lekalo locate` (docs/formats.md) against the files it names. Fails with bad_input
+/// when a document cannot be read at all. A document that can be read and is untrue is in the report.
 [[nodiscard]] Result<LocateReport> verify_locate(const LocateInputs& inputs);
 
-/// Part point p goes to R(theta) p + (x, y), mirrored in x before if asked for. The doubles count as exact.
+/// A placement: part point p goes to R(theta) p + (x, y), mirrored in x before if asked for. The doubles
+/// count as exact.
 struct Placement {
   double x = 0, y = 0, theta = 0;
   bool mirrored = false;
@@ -63,10 +68,10 @@ struct Enclosure {
 /// Encloses the exact clearance at a placement of regions (lines and arcs, holes, several pieces) in the JSON
 /// form of docs/design/geometry.md: the least signed distance of a point of the part from the boundary of the
 /// blank, positive inside. Where the part lies in the blank, the ends are a few last places of the
-/// coordinates apart; where it sticks out, 1e-9 mm, or more if that takes more than 20,000 pieces to tell.
-/// Where a part that is not rotated (theta 0) touches its blank from inside, exactly {0, 0}: decided with
-/// fractions of the written decimals. bad_input for documents that are no regions, and for outlines that meet
-/// themselves or one another.
+/// coordinates apart. Where it sticks out they are 1e-9 mm apart, or more if that takes more than 20,000
+/// pieces to tell. Where a part that is not rotated (theta 0) touches its blank from inside, the result is
+/// exactly {0, 0}, decided with fractions of the written decimals. bad_input for documents that are no
+/// regions, and for outlines that meet themselves or one another.
 ///
 /// Cost: every edge of one against every edge of the other, below a millisecond for 20 by 20.
 [[nodiscard]] Result<Enclosure> verify_clearance(const Document& part, const Document& blank,

@@ -46,7 +46,8 @@ std::vector<std::size_t> without_duplicates(const geom::Ring& points, std::vecto
   return ring;
 }
 
-/// A strictly convex ring, corners numbered on and on around it, for chords between them.
+/// A strictly convex ring whose corners are numbered on and on around it, so that a chord may cross its
+/// beginning.
 class HullChords {
  public:
   HullChords(const geom::Ring& hull, double tolerance) : hull_(hull), tolerance_(tolerance) {}
@@ -60,8 +61,8 @@ class HullChords {
     return near(farthest(i, j)) && near(i + 1) && near(j - 1);
   }
 
-  /// The largest j <= last with straight(i, j): what lies between a chord and a convex ring only grows with
-  /// j.
+  /// Returns the largest j <= last with straight(i, j). The search doubles and halves its step, because what
+  /// lies between a chord and a convex ring only grows with j.
   [[nodiscard]] std::size_t farthest_straight(std::size_t i, std::size_t last) const {
     std::size_t good = i + 1, step = 1;
     while (good + step <= last && straight(i, good + step)) {
@@ -77,7 +78,8 @@ class HullChords {
  private:
   [[nodiscard]] Point corner(std::size_t k) const { return hull_[k % hull_.size()]; }
 
-  /// The corner farthest from the chord's line: the edges lead away from it first, then back.
+  /// Returns the corner that is farthest from the chord's line. The edges lead away from that line first and
+  /// then back to it, so halving finds the corner.
   [[nodiscard]] std::size_t farthest(std::size_t i, std::size_t j) const {
     std::size_t low = i + 1, high = j - 1;
     while (low < high) {
@@ -108,7 +110,7 @@ std::vector<std::size_t> true_corners(const geom::Ring& hull, double tolerance) 
   // convex_hull begins with the point lowest in (x, y), so the outcome does not depend on where the file
   // begins. The first chord stops one corner short of where it began: a chord needs two ends.
   for (std::size_t j = 0; j < n; j = chords.farthest_straight(j, j == 0 ? n - 1 : n)) kept.push_back(j);
-  // The walk kept the first corner without looking at it.
+  // The walk kept the first corner without looking at it, so it is looked at now.
   if (kept.size() > 3 && chords.straight(kept.back(), kept[1] + n)) kept.erase(kept.begin());
   return kept;
 }

@@ -14,7 +14,7 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-/// Distances here are rounded by 3 u at most.
+/// Distances here are rounded by 3 u at most; this factor pays for it.
 constexpr double kUp = 1 + 0x1p-50;
 /// Arcs on which a moved end would move other points by more than this times as much are halved first.
 constexpr double kMostLever = 2;
@@ -23,14 +23,15 @@ constexpr double kLeastChordInGaps = 4;
 
 bool is_line(const Edge& edge) { return edge.kind == EdgeKind::line; }
 
-/// The most that any point of an arc moves when one end moves by 1 and the other stays, all by one similarity
-/// map: its distance from the staying end over the chord.
+/// Returns the most that any point of an arc moves when one end moves by 1 and the other stays, and a
+/// similarity map takes every point along: the distance of the farthest point from the staying end over the
+/// chord.
 double lever(const Edge& arc) {
   const geom::Curve curve = make_curve(arc);
   return curve.wide ? 2 * curve.radius / norm(arc.to - arc.from) * kUp : 1;
 }
 
-/// The arc under the similarity map that keeps one end and takes the other where it is to be.
+/// Returns the arc under the similarity map that takes its ends to `from` and `to`.
 Edge pulled(const Edge& arc, Point from, Point to) {
   const Point before = arc.to - arc.from, after = to - from, out = arc.centre - arc.from;
   const double squared = dot(before, before);

@@ -173,7 +173,7 @@ class Follower {
     while (at < end) {
       if (made.edges.size() == kMostCurves) return std::nullopt;
       const double rest = end - at;
-      // No short remainder at the end.
+      // The last two steps share what is left, so that no short remainder stays at the end.
       double next = rest <= step ? end : at + (rest < 2 * step ? rest / 2 : step);
       std::optional<Fitted> fitted;
       for (;;) {

@@ -125,7 +125,7 @@ class Joiner {
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
       return std::tie(a.distance, a.a, a.b) < std::tie(b.distance, b.a, b.b);
     });
-    // For every end its pairs, nearest first.
+    // The pairs of every end stand together, nearest first.
     std::vector<std::uint32_t> starts(joins_.partner.size() + 1, 0), of_end(2 * pairs.size());
     for (const Pair& pair : pairs) ++starts[pair.a + 1], ++starts[pair.b + 1];
     for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];

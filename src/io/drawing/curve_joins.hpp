@@ -20,11 +20,12 @@ using EndNumber = std::uint32_t;
 inline constexpr EndNumber kNoEnd = 0xffffffff;
 
 struct CurveJoins {
-  /// For every end the one it is joined with, or kNoEnd.
+  /// The end that each end is joined with, or kNoEnd.
   std::vector<EndNumber> partner;
-  /// Ends near which another end is without a partner too: which is meant cannot be told. Ascending.
+  /// Ends near which another end has no partner either, so that it cannot be told which of them is meant;
+  /// ascending.
   std::vector<EndNumber> undecided;
-  /// An end with more than kMostEndsNearby others about it; nothing was joined then.
+  /// An end with more than kMostEndsNearby others about it. If there is one, nothing was joined.
   std::optional<EndNumber> crowded;
 };
 

@@ -133,7 +133,7 @@ class Assembly {
       largest = std::max(
           {largest, std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
     }
-    // Copies are not told from each other by less than rounding.
+    // Copies that are closer than rounding cannot be told apart, so the reach is never less than rounding.
     overlap_reach_ = std::max(options_.join_tolerance, geom::kEdgeDistanceError * largest);
     lying_ = curves_on_others(laid, overlap_reach_);
     for (const LyingOn& one : lying_) {
@@ -175,7 +175,8 @@ class Assembly {
     return {};
   }
 
-  /// Curves no longer than the join tolerance with which nothing is joined.
+  /// Drops curves that are no longer than the join tolerance and with which nothing is joined. Returns
+  /// whether there were any.
   bool drop_specks() {
     bool dropped = false;
     for (std::uint32_t i = 0; i < worked_.size(); ++i) {
@@ -215,7 +216,7 @@ class Assembly {
     return found;
   }
 
-  /// For a place with ends of which it cannot be told which belong together.
+  /// Returns the sentence for a place with ends of which it cannot be told which belong together.
   [[nodiscard]] std::string crowd_sentence(Point at) const {
     const auto ends = ends_near(at);
     std::string names;
@@ -274,7 +275,8 @@ class Assembly {
     if (open > 0 && !options_.leave_open_chains) {
       const Chain& chain =
           *std::find_if(chains_.begin(), chains_.end(), [](const Chain& c) { return !c.closed; });
-      // An end that would belong to a joint which is complete without it.
+      // A chain also stays open where its end would belong to a joint that is complete without it. Then the
+      // crowd at that joint is the reason to name.
       for (const bool last : {false, true})
         if (ends_near(loose_end(chain, last)).size() > 1)
           return refuse(crowd_sentence(loose_end(chain, last)));
@@ -362,7 +364,7 @@ class Assembly {
     return {};
   }
 
-  /// The same fault in the drawing's words.
+  /// Returns the same fault in the drawing's words.
   [[nodiscard]] std::string meeting_sentence(const std::string& otherwise) const {
     std::vector<geom::Region> alone;
     std::vector<std::uint32_t> curves;

@@ -32,7 +32,8 @@ double difference_of_radii(const Edge& arc) {
   return std::abs(norm(arc.from - arc.centre) - norm(arc.to - arc.centre));
 }
 
-/// As make_region wants arcs. \pre from != to
+/// Says whether the arc is one that make_region would take.
+/// \pre from != to
 bool is_sound(const Edge& arc) {
   const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
   return from > 0 && to > 0 &&
@@ -50,8 +51,8 @@ DoubleDouble bulge_of(const Edge& edge) {
                       : DoubleDouble{};
 }
 
-/// How far two curves with the same ends are from each other, both ways; its first term is that of the level
-/// centres: of all points the bulge moves the middle most (docs/design/drawing.md).
+/// The distance of two curves with the same ends from each other, both ways. Its first term is that of the
+/// level centres, because of all points the bulge moves the middle most (docs/design/drawing.md).
 struct Deviation {
   double level = 0, radii = 0;
 };
@@ -71,8 +72,8 @@ std::optional<BoundedShape> restored_circle(const std::vector<Edge>& pieces, Poi
   return BoundedShape{circle, (error + apart + 4 * kUnitRoundoff * size_of(circle)) * kUp};
 }
 
-/// The arc in the place of these curves, with the distance to them added to their error; nothing if it does
-/// not fit.
+/// Returns the arc in the place of these curves, with the distance to them added to their error, or nothing
+/// if it does not fit.
 std::optional<BoundedShape> restored(const ExactArc& exact, const BoundedShape* curves) {
   std::vector<Edge> pieces;
   double error = 0;
@@ -91,14 +92,14 @@ std::optional<BoundedShape> restored(const ExactArc& exact, const BoundedShape* 
     const Edge part{arc.kind, piece.from, piece.to, arc.centre};
     if (piece.from == piece.to || !is_sound(part) || (is_arc(piece) && piece.kind != arc.kind))
       return std::nullopt;
-    // Otherwise two differences of radii are no bound: the level centre may be anywhere.
+    // In other arcs the level centre may be anywhere, and two differences of radii would bound nothing.
     const double turned = geom::arc_sweep(part);
     if (turned > kPi &&
         !(turned <= kWidestPiece && norm(part.to - part.from) >= 4 * difference_of_radii(part)))
       return std::nullopt;
     sweep += turned;
     const Deviation one = deviation(part, piece);
-    // From the part's mean radius to that of the arc.
+    // The step leads from the part's mean radius to that of the arc.
     const double step = pieces.size() > 1 ? std::abs(geom::arc_radius(part) - geom::arc_radius(arc)) : 0;
     apart = {std::max(apart.level, one.level), std::max(apart.radii, one.radii + step)};
   }

@@ -38,7 +38,8 @@ struct ExactArc {
 /// Reads such a text; nothing where it is none, or where a number is not is_exact.
 [[nodiscard]] std::optional<ExactArc> read_exact_arc(std::string_view text);
 
-/// Those of a contour, for a file from which `curves` are read: curves_of_edge[i] of them for edge i.
+/// Returns the exact arcs of a contour, for a file from which `curves` are read: curves_of_edge[i] of them
+/// for edge i.
 [[nodiscard]] std::vector<ExactArc> exact_arcs_of(const geom::Contour& contour,
                                                   const std::vector<geom::Edge>& curves,
                                                   const std::vector<std::size_t>& curves_of_edge);
@@ -49,7 +50,7 @@ struct ExactArc {
 [[nodiscard]] std::size_t restore_exact_arcs(std::vector<BoundedShape>& curves,
                                              const std::vector<ExactArc>& arcs);
 
-/// The notice of a drawing about them.
+/// Returns the notice of a drawing about arcs that do not fit.
 [[nodiscard]] std::string unfit_arcs_sentence(std::size_t count, const std::string& file);
 
 }  // namespace lekalo::io

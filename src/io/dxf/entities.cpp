@@ -13,10 +13,11 @@ namespace lekalo::io {
 
 namespace {
 
-/// A plane that leans by no more than this is that of the drawing: programs write directions with rounding.
+/// A plane that leans by no more than this counts as that of the drawing, because programs write directions
+/// with rounding.
 constexpr double kLeaning = 1e-9;
 
-/// True when the text of a number is nothing but zeros; it need not be read for that.
+/// Says whether the text of a number is nothing but zeros, without reading the number.
 bool is_zero(std::string_view number) {
   return std::all_of(number.begin(),
                      std::find_if(number.begin(), number.end(), [](char c) { return c == 'e' || c == 'E'; }),
@@ -66,7 +67,8 @@ void DxfEntities::begin_entity() {
 }
 
 Result<bool> DxfEntities::take_common() {
-  if (common_.in_application) {  // {ACAD_REACTORS and the like, up to the closing brace
+  // An application's groups, {ACAD_REACTORS and the like, last up to the closing brace.
+  if (common_.in_application) {
     common_.in_application = !at_.at(102, "}");
     return true;
   }
@@ -94,6 +96,7 @@ Result<bool> DxfEntities::take_common() {
       return true;
     }
     default:
+      // No entity that is read wants a group from 80 on but LWPOLYLINE, whose number of vertices is group 90.
       return at_.code() >= 80 && at_.code() != 90;
   }
 }
@@ -165,8 +168,8 @@ std::optional<Affine> DxfEntities::plane(double height) const {
   const double lean = std::max(std::abs(nx), std::abs(ny));
   if (!(lean <= kLeaning * std::abs(nz)) || nz == 0) return std::nullopt;
   Affine world;
-  // The axes of a plane seen from above (arbitrary axis algorithm) are those of the drawing; from below, x
-  // runs the other way. Leaning by t shortens them by less than t^2 and moves what lies at height z by z t.
+  // The axes of a plane seen from above are those of the drawing (arbitrary axis algorithm); seen from below,
+  // x runs the other way. Leaning by t shortens them by less than t^2 and moves what lies at height z by z t.
   if (nz < 0) world.xx = -1;
   const double t = lean / std::abs(nz) * (1 + 0x1p-40);
   world.linear_error = 2 * t * t;
@@ -207,7 +210,7 @@ Result<void> DxfEntities::read_line(DxfBlock& into) {
   Numbers numbers;
   LEKALO_CHECK(read_numbers(kWanted, numbers));
   if (!at_.ok() || is_out_of_sight(into)) return {};
-  // Its ends are points of the drawing, whatever its extrusion direction.
+  // The ends of a line are points of the drawing, whatever its extrusion direction.
   return add(into, {}, line_between(numbers.point(10, 20), numbers.point(11, 21)));
 }
 
@@ -217,7 +220,7 @@ Result<void> DxfEntities::read_insert(DxfBlock& into) {
                                        {44, true, false},  {45, true, false}};
   Insertion insertion;
   Numbers numbers;
-  // Its name and its counts are not among the numbers; they are taken on the way.
+  // The name and the counts of an insertion are not among the numbers, so they are taken on the way.
   std::string_view name;
   while (at_.next() && at_.code() != 0) {
     LEKALO_TRY(const auto taken, take_common());
@@ -263,7 +266,7 @@ Result<void> DxfEntities::read_insert(DxfBlock& into) {
 
 Result<void> DxfEntities::read_other(DxfBlock& into) {
   while (at_.next() && at_.code() != 0) LEKALO_CHECK(take_common());
-  // SEQEND ends vertices and attributes and is nothing by itself.
+  // SEQEND ends vertices and attributes, and draws nothing itself.
   if (!at_.ok() || common_.type == "SEQEND" || is_out_of_sight(into)) return {};
   into.count_unread(shown(common_.type), common_.line);
   return {};

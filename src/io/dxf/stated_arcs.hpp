@@ -19,8 +19,9 @@ class DxfExactArcs {
  public:
   /// A text (group 1) of that XRECORD. Others are counted as arcs that do not fit.
   void add(std::string_view text);
-  /// In the curves of entities with these handles; returns how many do not fit, as restore_exact_arcs does,
-  /// and those of entities that are gone. Curves keep their order. Cost: O(curves + n log n).
+  /// Restores the stated arcs in the curves of the entities with their handles. Returns how many do not fit,
+  /// as restore_exact_arcs does, with those of entities that are gone. Curves keep their order. Cost:
+  /// O(curves + n log n).
   [[nodiscard]] std::size_t restore(std::vector<DrawnCurve>& curves,
                                     const std::vector<DrawnEntity>& entities);
 

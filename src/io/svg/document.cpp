@@ -20,8 +20,8 @@ constexpr std::pair<std::string_view, std::string_view> kPrefixes[] = {
 };
 /// The most elements within each other; groups and uses that draw have a smaller limit of their own.
 constexpr std::size_t kDeepestXml = 512;
-/// The most characters of an entity: programs abbreviate addresses with them. (Expat stops by itself where
-/// entities make the file a hundred times larger.)
+/// The most characters of an entity, because programs abbreviate addresses with entities. Expat stops by
+/// itself where entities make the file a hundred times larger.
 constexpr int kLongestEntity = 4096;
 
 struct QualifiedName {
@@ -44,7 +44,8 @@ class Builder {
   }
 
   SvgDocument document;
-  std::string refused;  ///< the sentence, if we stopped the parser
+  /// The sentence, if we stopped the parser.
+  std::string refused;
 
  private:
   static Builder& self(void* user) { return *static_cast<Builder*>(user); }
@@ -61,7 +62,8 @@ class Builder {
   }
   static void XMLCALL entity(void* user, const XML_Char* name, int, const XML_Char* value, int length,
                              const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
-    if (value == nullptr) return;  // of another file: never opened
+    // The entity is that of another file, which is never opened.
+    if (value == nullptr) return;
     const bool nested =
         std::string_view(value, static_cast<std::size_t>(length)).find('&') != std::string_view::npos;
     if (!nested && length <= kLongestEntity) return;
@@ -88,7 +90,8 @@ class Builder {
     if (is_root && qualified.local != "svg")
       return stop(
           fmt::format("this is XML, but no SVG: its root is {}, not 'svg'", excerpt(qualified.local)));
-    if (is_root) space_ = qualified.space;  // some programs declare none
+    // Some programs declare no namespace, so the root's is taken.
+    if (is_root) space_ = qualified.space;
     if (is_root && !space_.empty() && space_ != kSvg)
       return stop(fmt::format("this is no SVG: its namespace is {}", excerpt(space_)));
     if (qualified.space != space_) {
@@ -145,6 +148,7 @@ const SvgElement* SvgDocument::by_id(const std::string& id) const {
   return found == ids.end() ? nullptr : &elements[found->second];
 }
 
+/// Step 1 of docs/design/svg.md.
 Result<SvgDocument> read_svg_document(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& why) {
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, why));
@@ -155,10 +159,10 @@ Result<SvgDocument> read_svg_document(std::string_view bytes, const std::string&
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree);
   if (parser == nullptr) return failure(ErrorCode::environment, "out of memory for the XML parser");
-  // The seed of expat's hash tables: any number will do, since nothing depends on their order.
+  // The seed of expat's hash tables may be any number, because nothing depends on their order.
   XML_SetHashSalt(parser.get(), 1);
   Builder builder(parser.get(), name);
-  // expat counts in int.
+  // The text is given to expat in chunks, because expat counts in int.
   constexpr std::size_t kChunk = std::size_t{1} << 24;
   for (std::size_t at = 0;; at += kChunk) {
     const std::string_view chunk = bytes.substr(at, kChunk);

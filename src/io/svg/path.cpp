@@ -182,7 +182,7 @@ class PathReader {
     const double apart =
         std::max(std::abs(current_.at.x - start_.at.x), std::abs(current_.at.y - start_.at.y));
     const bool drawn = segments_.size() > first_of_subpath_;
-    // Ends that may meet within their errors do meet: relative steps lose that only in rounding.
+    // Two ends that may meet within their errors do meet, because relative steps lose that only by rounding.
     if (apart > 0 && drawn && apart <= current_.error + start_.error) {
       PathSegment& last = segments_.back();
       last.to = {start_.at, last.to.error + apart};
@@ -203,7 +203,8 @@ class PathReader {
   char command_ = 'M';
   bool relative_ = false, begun_ = false;
   BoundedPoint current_, start_, last_control_;
-  Kind control_ = Kind::line;  ///< of the last segment: which control point the next may mirror
+  /// The kind of the last segment, which says which control point the next one may mirror.
+  Kind control_ = Kind::line;
   std::size_t first_of_subpath_ = 0;
 };
 
@@ -220,11 +221,13 @@ BoundedShape bezier(std::vector<BoundedPoint> points) {
   return {std::move(spline), 1.42 * error};
 }
 
-/// The centre of an arc's circle lies beside the middle of its chord; lengths in a frame where the radius is
-/// `radius`.
+/// Step 5 of docs/design/svg.md: where the centre of an arc's circle lies beside the middle of its chord.
+/// Lengths are in a frame in which the radius is `radius`.
 struct ChordHeight {
-  Bounded half_chord, radius;  ///< the radius enlarged where it was too small
-  Bounded height;              ///< from the chord to the centre, not below 0
+  /// The radius is enlarged where it was too small for the chord.
+  Bounded half_chord, radius;
+  /// The distance from the chord to the centre, not below 0.
+  Bounded height;
 };
 ChordHeight height_over(const Bounded& dx, const Bounded& dy, const Bounded& radius) {
   using geom::DoubleDouble;
@@ -232,11 +235,12 @@ ChordHeight height_over(const Bounded& dx, const Bounded& dy, const Bounded& rad
   const double chord = std::sqrt(square.hi);
   const double chord_error = (dx.error + dy.error) + 4 * kUnitRoundoff * chord;
   ChordHeight out{{0.5 * chord, 0.5 * chord_error}, radius, {}};
-  // (2 r)^2 - chord^2 without losing what is left of it.
+  // (2 r)^2 - chord^2 is computed in twice the digits, so that what is left of it is not lost.
   const DoubleDouble over_chord = geom::two_product(2 * radius.value, 2 * radius.value) - square;
   const double unsure = 2 * (2 * radius.value + chord) * (2 * radius.error + dx.error + dy.error) +
                         0x1p-98 * (square.hi + 4 * radius.value * radius.value);
-  // A half turn wherever the numbers may mean one, and by the standard where the radius is too small.
+  // The arc is a half turn wherever the numbers may mean one, and by the standard where the radius is too
+  // small.
   if (over_chord.hi <= unsure) {
     out.radius = {out.half_chord.value, out.half_chord.error};
     const bool too_small = over_chord.hi < -unsure;
@@ -248,7 +252,8 @@ ChordHeight height_over(const Bounded& dx, const Bounded& dy, const Bounded& rad
   return out;
 }
 
-/// Arcs with a larger bulge leave less than 4e-8 of their radius out: some programs write circles so.
+/// An arc with a larger bulge leaves less than 4e-8 of its radius out, and is taken as a whole circle,
+/// because some programs write circles so.
 constexpr double kNearlyWhole = 1e8;
 
 BoundedShape nearly_whole_circle(const PathSegment& s, const ChordHeight& chord) {
@@ -264,8 +269,8 @@ BoundedShape nearly_whole_circle(const PathSegment& s, const ChordHeight& chord)
 std::optional<BoundedShape> circle_of(const PathSegment& s) {
   const ChordHeight chord =
       height_over(minus(x_of(s.to), x_of(s.from)), minus(y_of(s.to), y_of(s.from)), s.rx);
-  // tan(sweep / 4): the arc's own height over half the chord; of the two heights, whose product is the half
-  // chord's square, the one without cancellation.
+  // The bulge, tan(sweep / 4), is the arc's own height over half the chord. The two heights over a chord
+  // multiply to the square of half the chord, so the one that comes without cancellation gives the other.
   if (!(chord.half_chord.value > 2 * chord.half_chord.error)) return line_between(s.from, s.to);
   const Bounded tall = plus(chord.radius, chord.height);
   const Bounded bulge = s.large ? over(tall, chord.half_chord) : over(chord.half_chord, tall);
@@ -274,25 +279,27 @@ std::optional<BoundedShape> circle_of(const PathSegment& s) {
   return bulge_arc(s.from, s.to, s.sweep ? bulge.value : -bulge.value, bulge.error + rounding);
 }
 
-/// As in SVG 1.1, appendix F.6: in the frame where the ellipse is the unit circle.
+/// Makes an ellipse's arc as SVG 1.1, appendix F.6, says: in the frame in which the ellipse is the unit
+/// circle.
 std::optional<BoundedShape> ellipse_of(const PathSegment& s) {
   const Direction axis = direction_of_degrees(s.rotation_deg.value);
   const double turn_error = (axis.exact ? 0 : kDegreesError) + s.rotation_deg.error * kDegree;
   const Bounded cosine{axis.unit.x, turn_error}, sine{axis.unit.y, turn_error};
   const Bounded dx = minus(x_of(s.to), x_of(s.from)), dy = minus(y_of(s.to), y_of(s.from));
-  // The chord in the frame of the axes, y stretched so that both radii are rx.
+  // The chord is taken in the frame of the axes, with y stretched so that both radii are rx.
   const Bounded ratio = over(s.rx, s.ry);
   const Bounded x = plus(times(cosine, dx), times(sine, dy));
   const Bounded y = times(ratio, minus(times(cosine, dy), times(sine, dx)));
   const ChordHeight chord = height_over(x, y, s.rx);
   if (!(chord.half_chord.value > 2 * chord.half_chord.error)) return line_between(s.from, s.to);
   const Bounded rx = chord.radius, ry = over(rx, ratio);
-  // To the left of the chord as seen where y is up, if the turn is counter-clockwise and small.
+  // The centre lies to the left of the chord, as seen where y is up, if the turn is counter-clockwise and
+  // small.
   const double side = s.large == s.sweep ? -1 : 1;
   const Bounded along = over(chord.height, plus(chord.half_chord, chord.half_chord));
   const Bounded cx = times({-side * along.value, along.error}, y),
                 cy = times({side * along.value, along.error}, x);
-  // Back: from the middle of the chord.
+  // This takes the centre back from the middle of the chord.
   const Bounded cy_flat = over(cy, ratio);
   const Bounded middle_x = times({0.5, 0}, plus(x_of(s.from), x_of(s.to))),
                 middle_y = times({0.5, 0}, plus(y_of(s.from), y_of(s.to)));
@@ -313,7 +320,8 @@ std::optional<BoundedShape> ellipse_of(const PathSegment& s) {
   arc.begin = geom::direction_angle(-0.5 * x.value - cx.value, direction * (-0.5 * y.value - cy.value));
   arc.end = std::min(arc.begin + 2 * half_sweep, arc.begin + 2 * kPi);
   if (!(arc.end > arc.begin) || geom::cross(arc.u, arc.v) == 0) return line_between(s.from, s.to);
-  // The ends' directions are off by what centre and chord are; conic() measures the gaps that this leaves.
+  // The directions of the ends are off by what centre and chord are off; conic() measures the gaps that this
+  // leaves.
   const double ends = std::max(s.from.error, s.to.error);
   return conic(arc, centre.error + u.error + v.error + ends);
 }

@@ -12,16 +12,20 @@ namespace lekalo::io::detail {
 struct PathSegment {
   enum class Kind { line, quadratic, cubic, arc };
   Kind kind = Kind::line;
-  BoundedPoint from, first, second, to;  ///< control points: one for a quadratic, two for a cubic
-  Bounded rx, ry, rotation_deg;          ///< of an arc; radii not below 0
-  bool large = false, sweep = false;     ///< sweep: counter-clockwise where y is up
+  /// The control points are one for a quadratic curve, two for a cubic one.
+  BoundedPoint from, first, second, to;
+  /// The numbers of an arc; radii are not below 0.
+  Bounded rx, ry, rotation_deg;
+  /// `sweep` means counter-clockwise where y is up.
+  bool large = false, sweep = false;
 };
 
-/// Path data, absolute, without pieces of no length; closed subpaths end exactly where they began. A closing
-/// line shorter than its ends' errors is left out, and the end before it moved.
+/// Step 4 of docs/design/svg.md: reads path data as absolute pieces, without those of no length. Closed
+/// subpaths end exactly where they began. A closing line shorter than the errors of its ends is left out, and
+/// the end before it is moved.
 [[nodiscard]] Read<std::vector<PathSegment>> read_svg_path(std::string_view data);
 
-/// The shape of a segment; nullopt where it has no length.
+/// Returns the shape of a segment, or nullopt where it has no length.
 [[nodiscard]] std::optional<BoundedShape> shape_of(const PathSegment& segment);
 
 }  // namespace lekalo::io::detail

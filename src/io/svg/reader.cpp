@@ -17,7 +17,7 @@ namespace {
 
 using namespace detail;
 
-/// The most elements drawn, copies counted: uses of uses grow without curves too.
+/// The most elements drawn, with all copies, because uses of uses can grow without curves too.
 constexpr std::size_t kMostElements = 2 * kMostCurves;
 
 /// Elements that draw nothing where they stand, and have no outline to lose.
@@ -38,12 +38,16 @@ struct Context {
   Affine map;  ///< user units to millimetres
   Viewport viewport;
   std::string layer;
-  bool layer_said = false;  ///< by a group that says it is a layer
-  bool shown = true;        ///< display, which no child can undo
-  bool visible = true;      ///< visibility, which it can
+  /// True when the layer comes from a group that says it is one.
+  bool layer_said = false;
+  /// The property display, which no child can undo.
+  bool shown = true;
+  /// The property visibility, which a child can undo.
+  bool visible = true;
   std::size_t depth = 0;
 };
 
+/// Step 6 of docs/design/svg.md: walks through the elements and collects their curves.
 class SvgReader {
  public:
   SvgReader(const SvgDocument& document, const std::string& name) : document_(document), styles_(document) {
@@ -200,7 +204,8 @@ class SvgReader {
                                     : box.error());
     if (!by_use) LEKALO_CHECK(shifted(element, context));
     if (*box) {
-      if (!(width->value > 0 && height->value > 0)) return {};  // by the standard nothing is drawn
+      // The standard says that nothing is drawn then.
+      if (!(width->value > 0 && height->value > 0)) return {};
       const auto map = fit(element, **box, *width, *height);
       if (!map) return fault(element, map.error());
       LEKALO_CHECK(placed(element, *map, context));
@@ -273,7 +278,7 @@ class SvgReader {
     return {};
   }
 
-  /// Lines and arcs of which rounding left nothing.
+  /// Says whether rounding has left nothing of a line or an arc.
   static bool is_point(const Shape& shape) {
     const auto* edge = std::get_if<geom::Edge>(&shape);
     if (edge == nullptr) return false;

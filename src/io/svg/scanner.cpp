@@ -32,7 +32,7 @@ std::size_t number_length(std::string_view text) {
     digits += digits_here();
   }
   if (digits == 0) return 0;
-  // "1em" is a number and a unit.
+  // "1em" is a number and a unit, so an e alone does not belong to the number.
   const std::size_t end = at;
   if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
     ++at;
@@ -180,7 +180,8 @@ Read<Bounded> read_svg_length(std::string_view text, const Viewport& viewport, A
         fmt::format("{}: the unit {} is not known here; known: px, mm, cm, in, pt, pc, Q, %", excerpt(text),
                     excerpt(unit)));
   }
-  // 960 / 254 user units are one millimetre; two roundings less than over millimetres_per_unit("px").
+  // A px becomes a user unit by 960 / 254 user units a millimetre, which rounds twice less than
+  // millimetres_per_unit("px").
   return over(times(times(number, *millimetres), {960, 0}), {254, 0});
 }
 

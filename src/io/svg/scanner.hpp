@@ -10,11 +10,12 @@
 
 namespace lekalo::io::detail {
 
-/// A value, or a sentence why an attribute cannot be read, to which whoever knows the element adds the place.
+/// A value, or a sentence that says why an attribute cannot be read. The caller knows the element and adds
+/// the place.
 template <class T>
 using Read = tl::expected<T, std::string>;
 
-/// Goes through the numbers of an SVG attribute: "1.5.5-3" are three.
+/// Step 2 of docs/design/svg.md: goes through the numbers of an SVG attribute; "1.5.5-3" are three.
 class SvgScanner {
  public:
   explicit SvgScanner(std::string_view text) : text_(text) {}
@@ -23,7 +24,7 @@ class SvgScanner {
   /// Skips blanks with at most one comma among them; true if there was a comma.
   bool skip_comma() noexcept;
   [[nodiscard]] bool at_end() const noexcept { return at_ == text_.size(); }
-  /// The next character, '\0' at the end.
+  /// Returns the next character, '\0' at the end.
   [[nodiscard]] char peek() const noexcept { return at_end() ? '\0' : text_[at_]; }
   [[nodiscard]] std::string_view rest() const noexcept { return text_.substr(at_); }
   void advance(std::size_t characters) noexcept { at_ += characters; }
@@ -34,7 +35,7 @@ class SvgScanner {
   [[nodiscard]] Read<bool> flag();
   /// Reads the letters from here on.
   [[nodiscard]] std::string_view word() noexcept;
-  /// The place for messages: "at character 12: " and the text there.
+  /// Returns the place for messages: "at character 12: " and the text there.
   [[nodiscard]] std::string here() const;
 
  private:
@@ -48,7 +49,7 @@ struct Viewport {
 };
 enum class Along { x, y, diagonal };
 
-/// A length with a unit, converted to user units; the sentence for units that CSS does not fix.
+/// Reads a length with a unit and converts it to user units. A unit that CSS does not fix gives the sentence.
 [[nodiscard]] Read<Bounded> read_svg_length(std::string_view text, const Viewport& viewport, Along along);
 
 /// A length as the file writes it: number and unit.
@@ -57,7 +58,7 @@ struct SvgLength {
   std::string_view unit;  ///< "", "%", "mm", ...
 };
 [[nodiscard]] Read<SvgLength> split_svg_length(std::string_view text);
-/// Millimetres for one of an absolute unit ("px" and "" too: 1/96 inch); nullopt for others.
+/// Returns millimetres for one of an absolute unit ("px" and "" too: 1/96 inch), or nullopt for other units.
 [[nodiscard]] std::optional<Bounded> millimetres_per_unit(std::string_view unit);
 
 /// Reads the attribute "transform".

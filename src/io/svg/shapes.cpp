@@ -127,7 +127,7 @@ class ShapeReader {
 
   static Shapes rounded(const Bounded& x, const Bounded& y, const Bounded& right, const Bounded& bottom,
                         const Bounded& rx, const Bounded& ry) {
-    // The standard's order: from the left end of the upper side, in the direction of growing angles.
+    // The order is the standard's: from the left end of the upper side, in the direction of growing angles.
     const Bounded in_left = plus(x, rx), in_top = plus(y, ry);
     Bounded in_right = minus(right, rx), in_bottom = minus(bottom, ry);
     // Sides of which the corners leave nothing but rounding are left out.
@@ -148,7 +148,7 @@ class ShapeReader {
       const BoundedPoint &from = on[2 * side], &to = on[2 * side + 1], &next = on[(2 * side + 2) % 8];
       if (!(from.at == to.at)) shapes.push_back(line_between(from, to));
       const double error = std::max({to.error, next.error, centres[side].error});
-      // The first corner begins straight above its centre, where y is down: at -90 degrees.
+      // The first corner begins straight above its centre, which is at -90 degrees where y is down.
       const double begin = (static_cast<double>(side) - 1) * (kPi / 2);
       const EllipseArc arc{to.at,         next.at, centres[side].at, {rx.value, 0},
                            {0, ry.value}, begin,   begin + kPi / 2};

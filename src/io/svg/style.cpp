@@ -53,7 +53,8 @@ constexpr std::array<std::string_view, 12> kGeometry{"transform", "translate", "
 /// Reads the declarations between braces or of a style attribute.
 struct Declarations {
   Visibility says;
-  std::string geometry;  ///< a property that moves or shapes, if there is one
+  /// A property that moves or shapes, if there is one.
+  std::string geometry;
 };
 Declarations declarations(std::string_view text) {
   Declarations found;
@@ -102,7 +103,7 @@ void StyleSheet::read(std::string_view sheet, std::size_t line) {
     const std::size_t open = sheet.find('{');
     if (open == std::string_view::npos) return;
     const std::string_view head = trimmed(sheet.substr(0, open));
-    // Rules within rules (@media) are skipped whole.
+    // Rules within rules (@media) are skipped as a whole.
     std::size_t end = open + 1;
     for (int depth = 1; end < sheet.size() && depth > 0; ++end)
       depth += sheet[end] == '{' ? 1 : sheet[end] == '}' ? -1 : 0;

@@ -19,8 +19,8 @@ class StyleSheet {
  public:
   explicit StyleSheet(const SvgDocument& document);
 
-  /// An element's visibility by its attributes, the rules and its style attribute, the later over the
-  /// earlier.
+  /// Returns an element's visibility by its attributes, the rules and its style attribute. The later ones of
+  /// these override the earlier.
   [[nodiscard]] Visibility of(const SvgElement& element) const;
   /// Sentences about the parts of the style sheets that are not read.
   [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }

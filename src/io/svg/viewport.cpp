@@ -28,7 +28,8 @@ Read<std::optional<Side>> read_side(const SvgElement& root, const char* key) {
   if (text == nullptr || *text == "auto") return std::optional<Side>{};
   const auto length = split_svg_length(*text);
   if (!length) return tl::unexpected(fmt::format("{}: {}", key, length.error()));
-  if (length->unit == "%") return std::optional<Side>{};  // of a window that we do not have
+  // The percentage is that of a window, which we do not have.
+  if (length->unit == "%") return std::optional<Side>{};
   if (!millimetres_per_unit(length->unit))
     return tl::unexpected(
         fmt::format("{} is {}; known units: px, mm, cm, in, pt, pc, Q, %", key, excerpt(*text)));
@@ -92,7 +93,7 @@ Read<Affine> fit(const SvgElement& element, const ViewBox& box, const Bounded& w
     if (!x || !y)
       return tl::unexpected(fmt::format("preserveAspectRatio is {}, which is no alignment", excerpt(*said)));
     const bool slice = align.find("slice") != std::string_view::npos;
-    // Two scales that are equal, as exact numbers may be, leave no room that an alignment could share out.
+    // Two scales that are equal, as exact numbers may be, leave no room to be shared out by an alignment.
     (sx.value < sy.value) != slice ? sy = sx : sx = sy;
     left = times({*x, 0}, minus(width, times(sx, box.width)));
     above = times({*y, 0}, minus(height, times(sy, box.height)));
@@ -123,7 +124,7 @@ Read<Page> page_of(const SvgElement& root, std::optional<LengthUnit> said) {
                        : "the page has no size; its units are taken as px, 1/96 inch; --units says otherwise";
   }
   if (by_user || (!side && box)) {
-    // One unit of the drawing is one of the user's (or a px), whatever the window.
+    // One unit of the drawing is one of the user's (or a px), whatever the size of the window.
     const Bounded scale =
         by_user ? (*said == LengthUnit::inch ? *millimetres_per_unit("in") : Bounded{1, 0}) : px;
     const Bounded x = box ? box->x : Bounded{}, y = box ? box->y : Bounded{};
@@ -142,7 +143,7 @@ Read<Page> page_of(const SvgElement& root, std::optional<LengthUnit> said) {
         turned_up(scaled_and_moved(px, px, {}, {}), height ? millimetres(*height) : Bounded{});
     return page;
   }
-  // A missing side follows the other.
+  // A missing side follows from the other and the view box.
   const ViewBox& view = *box;
   Bounded wide = width ? millimetres(*width) : Bounded{}, tall = height ? millimetres(*height) : Bounded{};
   if (!width) wide = over(times(tall, view.width), view.height);

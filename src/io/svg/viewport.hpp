@@ -12,11 +12,11 @@ namespace lekalo::io::detail {
 struct ViewBox {
   Bounded x, y, width, height;
 };
-/// nullopt where there is none; the width and height are above 0.
+/// Reads a view box whose width and height are above 0; nullopt where there is none.
 [[nodiscard]] Read<std::optional<ViewBox>> read_view_box(const SvgElement& element);
 
-/// From the user units of a view box to the frame of a viewport of this size, its corner at (0, 0), as
-/// preserveAspectRatio of the element says.
+/// Step 3 of docs/design/svg.md: returns the map from the user units of a view box to the frame of a viewport
+/// of this size with its corner at (0, 0), as preserveAspectRatio of the element says.
 [[nodiscard]] Read<Affine> fit(const SvgElement& element, const ViewBox& box, const Bounded& width,
                                const Bounded& height);
 

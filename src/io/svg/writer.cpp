@@ -28,8 +28,8 @@ constexpr double kNoMatter = 0x1p-20;
 constexpr double kStrokeMm = 0.2;
 /// A wide arc is halved into half turns, and these once more into arcs that a radius tells.
 constexpr int kHalvings = 2;
-/// The least length of a line as part of its ends' coordinates; what is shorter than their decimals' errors
-/// is no line to a reader.
+/// A line shorter than this share of its ends' coordinates is no line to a reader, because it is within the
+/// errors of their decimals.
 constexpr double kShortLine = 0x1p-48;
 
 bool same_name(const std::string& a, const std::string& b) { return a == b; }
@@ -53,7 +53,7 @@ class SvgWriter {
   explicit SvgWriter(const WrittenDrawing& drawing) : drawing_(drawing) {}
 
   std::string write() {
-    // Whole millimetres, so that readers place the page exactly.
+    // The corner has whole millimetres, so that readers place the page exactly.
     const Point low{std::min(0.0, std::floor(drawing_.box.low.x + kNoMatter)),
                     std::min(0.0, std::floor(drawing_.box.low.y + kNoMatter))};
     const Point high{std::max(low.x + 1, std::ceil(drawing_.box.high.x)),
@@ -149,12 +149,14 @@ class SvgWriter {
     return read;
   }
 
-  /// The point in the frame of the file, y down.
+  /// Adds the exact arcs of a contour as an attribute, in the frame of the file, which has y down. `read` are
+  /// the edges that a reader makes of what is written, `of_edge` how many of them each edge has become.
   void keep_exact_arcs(const geom::Contour& contour, const std::vector<Edge>& read,
                        const std::vector<std::size_t>& of_edge) {
     std::size_t expected = 0;
     for (const std::size_t count : of_edge) expected += count;
-    if (read.size() != expected) return;  // what no reader can tell apart: the arcs stay as they are written
+    // A reader makes more or fewer edges of the text, so it could not say which arc is which.
+    if (read.size() != expected) return;
     geom::Contour down;
     for (const Edge& edge : contour) {
       const auto turned = [](Point p) { return Point{p.x, upright(p.y)}; };
@@ -167,17 +169,18 @@ class SvgWriter {
     if (!arcs.empty()) append(" {}=\"{}\"", detail::kExactArcs, detail::exact_arcs_text(arcs));
   }
 
-  /// Returns the number of its pieces.
+  /// Writes an arc and returns the number of its pieces.
   std::size_t write_arc(const Edge& arc, int halvings) {
     const geom::Curve curve = make_curve(arc);
     const Point chord = arc.to - arc.from, middle = 0.5 * (arc.from + arc.to);
     const double half = 0.5 * norm(chord);
-    // The height of the centre over the chord; its part along the chord is the difference of the radii.
+    // The height of the centre over the chord says how near the arc is to half a turn. The centre's part
+    // along the chord is the difference of the radii.
     const double height = std::abs(cross(chord, arc.centre - middle)) / (2 * half);
     const bool unclear = height < kClearlyNoHalfTurn * curve.radius;
     const bool wide = geom::arc_sweep(arc) > kWidestPiece;
     if (halvings > 0 && (unclear || wide)) {
-      // Nearly whole circles make halves that are nearly half turns.
+      // The halves of an arc that is nearly a whole circle are nearly half turns.
       std::size_t pieces = 0;
       for (const Edge& part : halves_of(arc)) pieces += write_arc(part, halvings - 1);
       return pieces;

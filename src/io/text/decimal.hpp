@@ -9,11 +9,11 @@
 
 namespace lekalo::io {
 
-/// Largest magnitude of a coordinate in a contour file, mm. A double still resolves 1e-7 mm there; beyond it
-/// stand mistyped exponents.
+/// The largest magnitude of a coordinate in a contour file, mm. A double still resolves 1e-7 mm there, and a
+/// larger number is most likely a mistyped exponent.
 inline constexpr double kLargestMillimetres = 1e9;
-/// Magnitudes below this, mm, are read as 0 with this as the error: below it the geometry predicates are not
-/// exact (geom/predicates.hpp).
+/// A magnitude below this, mm, is read as 0 with the error of this, because the geometry predicates are not
+/// exact below it (geom/predicates.hpp).
 inline constexpr double kSmallestMillimetres = 1e-100;
 
 /// A decimal number of a file in millimetres (inches times exactly 25.4), as the double nearest to it.
@@ -24,8 +24,8 @@ struct Millimetres {
 
 enum class NumberFault { not_a_number, not_finite, too_large };
 
-/// The number of millimetres in a unit of length, multiplier times 10^exponent; {1, 0} for numbers that are
-/// no lengths.
+/// The number of millimetres in a unit of length: multiplier times 10^exponent. It is {1, 0} for numbers that
+/// are no lengths.
 struct DecimalFactor {
   unsigned multiplier = 1;  ///< at most 10^8
   int exponent = 0;         ///< from -15 to 15
@@ -34,7 +34,8 @@ struct DecimalFactor {
   return unit == LengthUnit::inch ? DecimalFactor{254, -1} : DecimalFactor{};
 }
 
-/// Grammar: [+-] digits [. digits] [e|E [+-] digits], with at least one digit before the exponent.
+/// Reads a number of the grammar [+-] digits [. digits] [e|E [+-] digits], with at least one digit before the
+/// exponent.
 [[nodiscard]] tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,
                                                                       DecimalFactor factor);
 [[nodiscard]] inline tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,
@@ -42,11 +43,12 @@ struct DecimalFactor {
   return read_millimetres(text, decimal_factor(unit));
 }
 
+/// Says whether the text is a number of that grammar.
 [[nodiscard]] bool is_number(std::string_view text);
-/// True for nan, inf or infinity, with or without a sign, in upper or lower case.
+/// Says whether the text is nan, inf or infinity, with or without a sign, in upper or lower case.
 [[nodiscard]] bool is_not_finite(std::string_view text);
 
-/// Says what is wrong with a number: "'abc' is not a number".
+/// Returns a sentence about what is wrong with a number: "'abc' is not a number".
 [[nodiscard]] std::string number_sentence(NumberFault fault, std::string_view text);
 
 }  // namespace lekalo::io

@@ -28,7 +28,8 @@ Ring placed(const Ring& part, const Placement& placement) {
 
 Point end_of_edge(const Ring& ring, std::size_t edge) { return ring[edge + 1 == ring.size() ? 0 : edge + 1]; }
 
-/// Pieces of every edge so that none is longer than the step; empty when they are too many.
+/// Returns in how many pieces each edge is cut so that none is longer than the step; empty when they are too
+/// many.
 std::vector<std::size_t> pieces_of_edges(const Ring& ring, double step) {
   std::vector<std::size_t> pieces;
   double total = 0;
@@ -78,7 +79,7 @@ Result<std::vector<AllowanceSample>> contour_allowance(const Ring& part, const R
 std::vector<double> deviations(const Ring& probed, const Ring& part, const Placement& placement) {
   const detail::OutlineTree tree(placed(part, placement));
   std::vector<double> result(probed.size());
-  // 0 - d and not -d: a point on the outline gives 0, which prints without a sign.
+  // The difference 0 - d is not -d: for a point on the outline it gives 0, which prints without a sign.
   std::transform(probed.begin(), probed.end(), result.begin(),
                  [&tree](Point p) { return 0 - tree.signed_distance(p); });
   return result;

@@ -23,11 +23,12 @@ using geom::Point;
 using geom::RegionIndex;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLongestTurn = 1;  ///< of a stretch of an arc, radians
+/// A stretch of an arc turns by no more than this.
+constexpr double kLongestTurn = 1;  ///< radians
 
 bool is_arc(const Curve& curve) { return curve.edge.kind != EdgeKind::line; }
 
-/// Points of an edge of the part by their way along it.
+/// The points of an edge of the part by their way along it.
 class Track {
  public:
   explicit Track(const Curve& curve) : curve_(curve), length_(curve.length) {
@@ -47,22 +48,23 @@ class Track {
     }
     return along < length_ ? curve_.edge.from + along * curve_.unit : curve_.edge.to;
   }
-  /// The way to a point of the edge.
+  /// Returns the way to a point of the edge.
   [[nodiscard]] double along(Point p) const {
     if (!is_arc(curve_)) return std::clamp(dot(p - curve_.edge.from, curve_.unit), 0.0, length_);
     const Point out = p - curve_.edge.centre;
     const double whole = kTurn, sweep = length_ / curve_.radius;
     double turn = sign_ * (geom::direction_angle(out.x, out.y) - from_angle_);
     if (turn < 0) turn += whole;
-    // By rounding a little beyond an end: which one is nearer?
+    // Rounding may put the point a little beyond an end, and the nearer end says which.
     if (turn > sweep) return turn - sweep < whole - turn ? length_ : 0;
     return std::min(curve_.radius * turn, length_);
   }
-  /// How far a stretch of this length lies from its chord at most.
+  /// Returns how far a stretch of this length lies from its chord at most.
   [[nodiscard]] double sagitta(double length) const {
     return is_arc(curve_) ? length * length / (8 * curve_.radius) : 0;
   }
-  /// Half the difference of an arc's radii: points by angle are this close to the curve meant.
+  /// Returns half the difference of an arc's radii. Points by angle are this close to the curve that is
+  /// meant.
   [[nodiscard]] double slack() const {
     if (!is_arc(curve_)) return 0;
     const geom::Edge& e = curve_.edge;
@@ -74,15 +76,15 @@ class Track {
   double length_, from_angle_ = 0, sign_ = 1;
 };
 
-/// No point of the segment from a to b is further from the curve than this.
+/// Returns a distance that no point of the segment from a to b exceeds from the curve.
 double largest_distance(Point a, Point b, const Curve& curve) {
   const auto from_point = [&](Point p) { return std::max(norm(a - p), norm(b - p)); };
   if (!is_arc(curve)) {
-    // From a convex set: the distance is convex along the segment.
+    // A line is convex, and the distance from a convex set is convex along the segment.
     return std::max(norm(a - nearest_on(curve, a)), norm(b - nearest_on(curve, b)));
   }
-  // Directions from the centre that the arc faces, in a convex piece of them: a half plane where the arc is
-  // wide.
+  // The corners must lie in directions that the arc faces, in a convex piece of them. For a wide arc that
+  // piece is a half plane.
   const Point to_a = a - curve.edge.centre, to_b = b - curve.edge.centre;
   const bool after_first = cross(curve.first, to_a) >= 0 && cross(curve.first, to_b) >= 0;
   const bool before_last = cross(to_a, curve.last) >= 0 && cross(to_b, curve.last) >= 0;
@@ -110,7 +112,8 @@ class EdgeSearch {
       found.samples.push_back(at(share * found.length, k == 0 ? 0 : found.samples.back().blank_edge));
     }
     const double error = rounding_ + track_.slack();
-    if (side_ != 0) {  // the whole edge on one side: one extreme by formula
+    // The whole edge is on one side, so one extreme comes by a formula.
+    if (side_ != 0) {
       const OutlinePoint nearest = at(track_.along(pose_.inverse()(closest.point)), closest.blank_edge);
       const Extreme farthest = search(found.samples, side_, tolerance);
       const double near = side_ * closest.distance, far = side_ * farthest.bound;
@@ -161,17 +164,18 @@ class EdgeSearch {
   struct Stretch {
     OutlinePoint a, b;
     double bound = 0;
-    /// The first along the edge comes first among equal bounds.
+    /// Orders by bound; among equal bounds the first along the edge comes first.
     friend bool operator<(const Stretch& left, const Stretch& right) {
       return left.bound != right.bound ? left.bound < right.bound : left.a.along > right.a.along;
     }
   };
   struct Extreme {
     OutlinePoint point;
-    double bound = 0;  ///< no point has more (times the sign)
+    /// No point has more (times the sign).
+    double bound = 0;
   };
 
-  /// No point between has more allowance (times the sign) than this.
+  /// Returns a bound that no point between a and b exceeds in allowance (times the sign).
   [[nodiscard]] double bound(const OutlinePoint& a, const OutlinePoint& b, int sign) const {
     const double at_a = sign * a.allowance, at_b = sign * b.allowance, length = b.along - a.along;
     double most = 0.5 * (at_a + at_b + length);
@@ -180,7 +184,7 @@ class EdgeSearch {
       most = std::min(most, far + track_.sagitta(length));
     }
     if (side_ == 0 && at_a < 0 && at_b < 0 && most > std::max(at_a, at_b)) {
-      // Wholly on the other side, if it does not meet the boundary.
+      // The stretch is wholly on the other side if it does not meet the boundary.
       const NearestPoint closest = nearest_of(stretch_of(a, b));
       if (closest.distance > rounding_) most = std::min(most, -closest.distance);
     }
@@ -192,7 +196,7 @@ class EdgeSearch {
     return geom::make_curve(edge);
   }
 
-  /// The most allowance times the sign.
+  /// Returns the most allowance times the sign.
   [[nodiscard]] Extreme search(const std::vector<OutlinePoint>& samples, int sign, double tolerance) const {
     OutlinePoint best = samples.front();
     const auto keep = [&](const OutlinePoint& point) {
@@ -235,7 +239,8 @@ class EdgeSearch {
   const RegionIndex& blank_;
   BlankFromPart pose_;
   double rounding_;
-  int side_ = 0;  ///< of the whole edge: 1 inside the blank, -1 outside, 0 where it meets the boundary
+  /// The side of the whole edge: 1 inside the blank, -1 outside, 0 where it meets the boundary.
+  int side_ = 0;
 };
 
 double largest_number(const RegionIndex& index) {

@@ -13,14 +13,14 @@ using geom::RegionIndex;
 
 constexpr double kRelative = 1.0 / 64;
 
-/// Best-first search of a quadtree over the part.
+/// A search over the part by a quadtree, the most promising square first.
 class Missing {
  public:
   Missing(const std::vector<geom::Region>& part, const std::vector<geom::Region>& blank,
           const geom::BlankFromPart& pose)
       : part_(part), blank_(blank), pose_(pose) {}
 
-  /// The deepest place not in the discs, unless nothing there reaches `least`.
+  /// Returns the deepest place that is not in the discs, unless nothing there reaches `least`.
   [[nodiscard]] std::optional<MissingPlace> deepest(const std::vector<MissingPlace>& before, double apart,
                                                     double least) const {
     MissingPlace best;

@@ -19,7 +19,7 @@ double distance_to_box(Point p, const Box& box) {
                      std::max({box.low.y - p.y, p.y - box.high.y, 0.0})});
 }
 
-/// Largest coordinate difference between p and a point of the box.
+/// Returns the largest coordinate difference between p and a point of the box.
 double reach(Point p, const Box& box) {
   return std::max({std::abs(p.x - box.low.x), std::abs(p.x - box.high.x), std::abs(p.y - box.low.y),
                    std::abs(p.y - box.high.y), box.high.x - box.low.x, box.high.y - box.low.y});
@@ -45,8 +45,8 @@ std::size_t OutlineTree::build(std::size_t first, std::size_t last) {
 }
 
 double OutlineTree::signed_distance(Point p) const {
-  // Distances carry a rounding error that box distances do not share: a box is left out only when it is
-  // farther by more than that, so that the answer is the least of all edges, bit for bit.
+  // Distances carry a rounding error that box distances do not share. So a box is left out only when it is
+  // farther by more than that error, and the answer is the least of all edges, bit for bit.
   const double margin = 2 * geom::kDistanceError * reach(p, nodes_[0].box);
   double least = std::numeric_limits<double>::infinity();
   nearest(0, distance_to_box(p, nodes_[0].box), p, margin, least);
@@ -78,14 +78,15 @@ void OutlineTree::nearest(std::size_t node, double box_distance, Point p, double
 bool OutlineTree::crossed_odd(std::size_t node, Point p, bool& on_outline) const {
   const Node& n = nodes_[node];
   if (p.y < n.box.low.y || p.y > n.box.high.y || p.x > n.box.high.x) return false;
-  // Half-open rule: an edge crosses the height of p when just one of its ends lies above. A run wholly to the
-  // right crosses it an odd number of times when its two ends lie on different sides.
+  // By the half-open rule an edge crosses the height of p when just one of its ends lies above. A run that is
+  // wholly to the right crosses the ray an odd number of times when its two ends lie on different sides.
   const Point from = ring_[n.first], to = end_of(n.last - 1);
   if (p.x < n.box.low.x) return (from.y > p.y) != (to.y > p.y);
   if (n.right != 0) return crossed_odd(node + 1, p, on_outline) != crossed_odd(n.right, p, on_outline);
   const int side = geom::orientation(from, to, p);
   if (side == 0) {
-    on_outline = true;  // p is within the box of the edge and on its line
+    // The point is within the box of the edge and on its line.
+    on_outline = true;
     return false;
   }
   const bool upwards = to.y > p.y;

@@ -11,19 +11,19 @@
 namespace lekalo::locate {
 namespace {
 
-/// The first intervals are at most this wide: bounds are compared on intervals shorter than pi.
+/// The first intervals are at most this wide, because bounds are compared on intervals shorter than pi.
 constexpr double kFirstWidth = 1.0471975511965979;  // a sixth of a turn, rounded up
-/// Programs between two calls of the progress listener.
+/// The progress listener is called after this many programs.
 constexpr std::uint64_t kReportEvery = 4096;
 /// In a flat optimum a better placement is looked for only where the clearance can rise by more than this
-/// part of the gap; elsewhere a bound that says so is enough, which saves most of the pivots.
+/// part of the gap. Elsewhere a bound that says so is enough, which saves most of the pivots.
 constexpr double kNotWorth = 0.25;
 
-/// True if an interval still has an angle inside that doubles can tell from its ends. (Below 2^-56 a turn
-/// moves nothing by more than rounding does.)
+/// Says whether an interval still has an angle inside that doubles can tell from its ends. Below 2^-56 a turn
+/// moves nothing by more than rounding does.
 bool divisible(double lo, double hi) { return hi - lo > std::max(0x1p-51 * std::abs(hi), 0x1p-56); }
 
-/// Chooses where to solve next: at the split, or in the middle where rounding put that on an end.
+/// Returns where to solve next: at the split, or in the middle where rounding has put the split on an end.
 double inside(double split, double lo, double hi) {
   return split > lo && split < hi ? split : lo + 0.5 * (hi - lo);
 }
@@ -82,7 +82,8 @@ void AngleSearch::bound(AngleInterval& interval) {
   };
   consider(interval.lo);
   consider(interval.hi);
-  // The smaller of two sinusoids is largest at an end, at a crest of one of them or where they cross.
+  // Step 2 of docs/design/locate-convex.md: the smaller of two sinusoids is largest at an end, at a crest of
+  // one of them or where they cross.
   for (const Sinusoid* h : {&f, &g}) {
     if (!h->may_crest_within(interval.lo, interval.hi)) continue;
     double crest = h->crest_angle();
@@ -113,7 +114,7 @@ std::pair<AngleInterval, AngleInterval> AngleSearch::split(const AngleInterval& 
   AngleInterval second{middle.angle, interval.hi, middle.basis, interval.right, 0, 0};
   bound(first);
   bound(second);
-  // A bound of the whole is one of the halves: rounding must not make them worse.
+  // A bound of the whole is a bound of both halves, and rounding must not make theirs worse.
   first.upper = std::min(first.upper, interval.upper);
   second.upper = std::min(second.upper, interval.upper);
   return {first, second};
@@ -128,6 +129,7 @@ std::vector<double> AngleSearch::first_angles() const {
   return angles;
 }
 
+/// Step 1 of docs/design/locate-convex.md.
 std::vector<AngleInterval> AngleSearch::first_intervals() {
   std::vector<AngleInterval> open;
   std::optional<Probe> lo;
@@ -151,6 +153,7 @@ void AngleSearch::report_progress(double newly_closed_width) {
   run_.progress({work_, reported_});
 }
 
+/// Step 3: the interval with the largest bound is split first.
 void AngleSearch::best_first(std::vector<AngleInterval>& open, std::vector<AngleInterval>& done) {
   std::make_heap(open.begin(), open.end(), lower_priority);
   while (!open.empty() && open.size() < kMostOpen && !closed(open.front()) && !out_of_budget()) {
@@ -158,7 +161,8 @@ void AngleSearch::best_first(std::vector<AngleInterval>& open, std::vector<Angle
     const AngleInterval interval = open.back();
     open.pop_back();
     if (!divisible(interval.lo.theta, interval.hi.theta)) {
-      done.push_back(interval);  // cannot be divided: upper() will say what is left open
+      // The interval cannot be divided, and upper() will say what it leaves open.
+      done.push_back(interval);
       continue;
     }
     const auto [first, second] = split(interval, ContactProgram::Effort::optimum);
@@ -174,6 +178,7 @@ void AngleSearch::best_first(std::vector<AngleInterval>& open, std::vector<Angle
   }
 }
 
+/// Step 4: what is left of a flat optimum is walked in order of angle, depth first.
 void AngleSearch::in_order(AngleInterval interval, const std::function<void(const AngleInterval&)>& emit) {
   std::vector<AngleInterval> stack{interval};
   while (!stack.empty()) {
@@ -224,8 +229,8 @@ void AngleSearch::probe_between(const Probe& from, const Probe& to, double thres
 }
 
 AngleSearch::Peaks AngleSearch::peaks(double threshold, std::uint64_t limit) {
-  // Every angle at which a program was solved, ascending; between two neighbours nothing is higher than the
-  // higher of the two (or than the threshold) by more than the gap.
+  // The list has every angle at which a program was solved, ascending. Between two neighbours nothing is
+  // higher than the higher of the two (or than the threshold) by more than the gap.
   std::vector<Probe> probes;
   Peaks result;
   const std::uint64_t last_work = work_ + limit;
@@ -238,15 +243,17 @@ AngleSearch::Peaks AngleSearch::peaks(double threshold, std::uint64_t limit) {
     probes.push_back(next);
   }
   const bool cyclic = window_.full_circle();
-  if (cyclic) probes.pop_back();  // the first angle again
+  // The last angle is the first one again.
+  if (cyclic) probes.pop_back();
 
   // A peak counts when, on both sides, the clearance falls below it by more than the gap before it rises
-  // above it; of equals the first one counts.
+  // above it. Among equal peaks the first one counts.
   const std::size_t count = probes.size();
   const auto falls_before_rising = [&](std::size_t i, bool forwards) {
     const double height = probes[i].value;
     for (std::size_t step = 1; step < count; ++step) {
-      if (!cyclic && (forwards ? i + step >= count : step > i)) return true;  // the window ends
+      // The window ends here.
+      if (!cyclic && (forwards ? i + step >= count : step > i)) return true;
       const std::size_t j = forwards ? (i + step) % count : (i + count - step) % count;
       if (probes[j].value < height - gap_) return true;
       if (probes[j].value > height || (probes[j].value == height && j < i)) return false;

@@ -11,9 +11,9 @@
 
 namespace lekalo::locate {
 
-/// An interval of angles with a bound that holds at its left end and one that holds at its right end; both
-/// hold everywhere, so the smaller of them does. `upper` is the largest value of that smaller one, reached at
-/// `split`.
+/// An interval of angles with two bounds, of which one belongs to its left end and one to its right end. Both
+/// hold in all of the interval, and so does the smaller of them. `upper` is the largest value of that smaller
+/// one, reached at `split`.
 struct AngleInterval {
   Angle lo, hi;
   Basis left, right;
@@ -21,19 +21,19 @@ struct AngleInterval {
   double split = 0;
 };
 
-/// A piece of the cover: `basis.bound` is at most the upper bound of the search over [from, to].
+/// A piece of the cover: over [from, to] `basis.bound` is at most the upper bound of the search.
 struct CoverPiece {
   Angle from, to;
   Basis basis;
 };
 
-/// Global maximum over the angle of the best clearance at that angle, by branch and bound.
+/// Finds the global maximum over the angle of the best clearance at that angle, by branch and bound.
 ///
 /// At each end of an interval a linear program has been solved. The two bounds meet at an angle that is found
-/// in closed form; the next program is solved there. Where the maximum is a peak between two such bounds this
-/// converges like a secant method, in a handful of steps. Best interval first, as long as the open ones fit
-/// in kMostOpen; then in order of angle, depth first, so that memory stays bounded where the clearance is
-/// flat in the angle.
+/// in closed form, and the next program is solved there. Where the maximum is a peak between two such bounds,
+/// this converges like a secant method in a handful of steps. The search takes the best interval first, as
+/// long as the open ones fit in kMostOpen. Then it goes on in order of angle, depth first, so that memory
+/// stays bounded where the clearance is flat in the angle.
 class AngleSearch {
  public:
   static constexpr std::size_t kMostOpen = 512;
@@ -42,19 +42,20 @@ class AngleSearch {
     Angle angle;
     geom::Point shift;
     double value = 0;
-    std::vector<Basis> holders;  ///< the bounds known there: of the angle itself and of both sides
+    /// The bounds known there: that of the angle itself and those of both sides.
+    std::vector<Basis> holders;
   };
 
-  /// \param gap  an interval whose upper bound is at most the incumbent plus this is closed.
+  /// \param gap  an interval whose upper bound is at most the best value found plus this is closed
   AngleSearch(ContactProgram& program, AngleWindow window, double gap, const RunControl& run);
 
   /// Runs to the end, the budget or the stop request. `cover` receives, in ascending order, pieces that cover
   /// the window, each bounded by upper().
   void run(const std::function<void(const CoverPiece&)>& cover);
 
-  /// Goes on after run(): all angles whose clearance is at least `threshold` and a local maximum, at most
-  /// `limit` programs more. Two maxima are told apart when the clearance between them falls by more than the
-  /// gap.
+  /// All angles that are a local maximum with a clearance of at least `threshold`. Two maxima are told apart
+  /// when the clearance between them falls by more than the gap. peaks() goes on after run() and solves at
+  /// most `limit` programs more.
   struct Peaks {
     std::vector<Incumbent> found;  ///< ascending angle
     bool complete = true;
@@ -81,7 +82,7 @@ class AngleSearch {
   std::vector<AngleInterval> first_intervals();
   [[nodiscard]] static AngleInterval join(const Probe& lo, const Probe& hi);
   static void bound(AngleInterval& interval);
-  /// Solves at interval.split; the two halves replace the interval.
+  /// Solves at interval.split, and returns the two halves that replace the interval.
   std::pair<AngleInterval, AngleInterval> split(const AngleInterval& interval, ContactProgram::Effort effort);
   [[nodiscard]] bool closed(const AngleInterval& interval) const {
     return interval.upper <= best_.value + gap_;
@@ -106,7 +107,7 @@ class AngleSearch {
   std::uint64_t next_report_ = 0;
 };
 
-/// Cuts an interval where its two bounds cross: pieces of one bound each.
+/// Cuts an interval where its two bounds cross, into pieces of one bound each.
 void for_pieces(const AngleInterval& interval, const std::function<void(const CoverPiece&)>& emit);
 
 }  // namespace lekalo::locate

@@ -13,18 +13,18 @@ namespace {
 
 using geom::Point;
 
-/// Up to this many blank edges all stand in the program from the beginning: looking at every one costs less
-/// than finding out which matter.
+/// A blank of up to this many edges has all of them in the program from the beginning, because looking at
+/// every edge costs less than finding out which of them matter.
 constexpr std::size_t kSmall = 96;
-/// Directions in which a larger blank gives its first rows.
+/// A larger blank gives its first rows in this many directions.
 constexpr int kFirstDirections = 16;
-/// Steps to walk along the part's outline before searching it.
+/// The walk along the part's outline gives way to a search after this many steps.
 constexpr std::uint32_t kWalk = 6;
-/// Far above the pivots that any program needs (about n in theory, 1 to 4 in practice): ends a cycle that
-/// rounding could cause. Where it ends, the basis is still a valid bound.
+/// Far above the pivots that any program needs (about n in theory, 1 to 4 in practice), this ends a cycle
+/// that rounding could cause. The basis at which it ends is still a valid bound.
 constexpr int kMostPivots = 2000;
 
-/// The same direction in [0, 2 pi).
+/// Returns the same direction in [0, 2 pi).
 double wrap(double direction) {
   direction -= kTurn * static_cast<double>(static_cast<int>(direction * (1 / kTurn)));
   if (direction < 0) direction += kTurn;
@@ -52,7 +52,7 @@ void ContactProgram::collect_sides(const geom::Ring& part) {
     side_x_.push_back(side.x), side_y_.push_back(side.y);
     direction_of_side_.push_back(wrap(geom::direction_angle(side.x, side.y)));
   }
-  // The sides of a convex outline already run in order of direction; only the beginning has to be found.
+  // The sides of a convex outline already run in order of direction, and only the beginning has to be found.
   const auto first = static_cast<std::size_t>(
       std::min_element(direction_of_side_.begin(), direction_of_side_.end()) - direction_of_side_.begin());
   for (std::size_t j = 0; j < m; ++j) {
@@ -86,8 +86,9 @@ void ContactProgram::choose_first_rows() {
     chosen.resize(n);
     std::iota(chosen.begin(), chosen.end(), 0u);
   } else {
-    // The first edge beyond each of some directions, and the one before it: no gap between neighbouring
-    // normals is larger than in the whole blank, so the chosen ones span the plane positively too.
+    // The rows are the first edge beyond each of some directions, and the edge before it. No gap between
+    // neighbouring normals is then larger than in the whole blank, so the chosen ones span the plane
+    // positively too.
     for (int d = 0; d < kFirstDirections; ++d) {
       const std::size_t beyond = edge_beyond(d * kTurn / kFirstDirections);
       chosen.push_back(static_cast<std::uint32_t>(beyond));
@@ -100,7 +101,7 @@ void ContactProgram::choose_first_rows() {
   for (const std::uint32_t k : chosen) add_row(k);
   place(Angle::of(0));
 
-  // Edge e0, the last edge turned by less than a half turn from it, and the next one.
+  // The first basis is edge e0, the last edge turned by less than a half turn from it, and the next one.
   const std::size_t count = chosen.size();
   const auto turned = [&](std::size_t j) {
     return normal_x_[chosen[0]] * normal_y_[chosen[j]] - normal_y_[chosen[0]] * normal_x_[chosen[j]] > 0;
@@ -116,7 +117,8 @@ void ContactProgram::choose_first_rows() {
 
 std::size_t ContactProgram::edge_beyond(double direction) const {
   const std::size_t n = normal_direction_.size();
-  std::size_t low = 0, high = n;  // counted from lowest_direction_
+  // The positions are counted from lowest_direction_.
+  std::size_t low = 0, high = n;
   while (low < high) {
     const std::size_t middle = (low + high) / 2;
     if (normal_direction_[(lowest_direction_ + middle) % n] < direction) {
@@ -135,13 +137,14 @@ std::uint32_t ContactProgram::add_row(std::uint32_t edge) {
   row_vertex_.push_back(0);
   row_nx_.push_back(normal_x_[edge]), row_ny_.push_back(normal_y_[edge]);
   row_offset_.push_back(offset_[edge]);
-  row_from_.push_back(1), row_to_.push_back(-1);  // no angle yet
+  // The empty range says that the vertex is known for no angle yet.
+  row_from_.push_back(1), row_to_.push_back(-1);
   row_cosine_.push_back(0), row_sine_.push_back(0), row_open_.push_back(0);
   return row;
 }
 
 std::uint32_t ContactProgram::outermost_by_search(double direction) const {
-  // Along the outline n . v falls while the side points away from n and rises afterwards; it is least where
+  // Along the outline n . v falls while the side points away from n, and rises afterwards. It is least where
   // the sides' direction passes that of n less a quarter turn.
   const double target = wrap(direction - 0.25 * kTurn);
   const auto found = std::lower_bound(side_direction_.begin(), side_direction_.end(), target);
@@ -150,8 +153,8 @@ std::uint32_t ContactProgram::outermost_by_search(double direction) const {
                                 : static_cast<std::size_t>(found - side_direction_.begin())];
 }
 
-/// Walks along the part's outline to the vertex with the least q . v; false when `limit` steps do not reach
-/// it.
+/// Walks along the part's outline to the vertex with the least q . v. Returns false when `limit` steps do not
+/// reach it.
 bool ContactProgram::walk_outwards(double qx, double qy, std::uint32_t& vertex, std::uint32_t limit) const {
   const auto m = static_cast<std::uint32_t>(side_x_.size());
   const auto rises = [&](std::uint32_t side) { return qx * side_x_[side] + qy * side_y_[side]; };
@@ -172,7 +175,7 @@ std::uint32_t ContactProgram::outermost_vertex(double qx, double qy, std::size_t
                                                std::uint32_t hint) const {
   if (walk_outwards(qx, qy, hint, kWalk)) return hint;
   std::uint32_t vertex = outermost_by_search(normal_direction_[edge] - theta);
-  // Angles are rounded; the walk puts the last step right. Should rounding make it run on, any vertex is
+  // Angles are rounded, and the walk puts the last step right. Should rounding make it run on, any vertex is
   // valid.
   walk_outwards(qx, qy, vertex, static_cast<std::uint32_t>(side_x_.size()));
   return vertex;
@@ -192,8 +195,8 @@ void ContactProgram::change_vertex(std::size_t row, const Angle& angle, std::uin
   const double now = normal_direction_[edge] - angle.theta - 0.25 * kTurn;
   const double ahead = wrap(direction_of_side_[vertex] - now);
   const double behind = wrap(now - direction_of_side_[vertex == 0 ? m - 1 : vertex - 1]);
-  // If rounding put the vertex a hair beyond its range, the difference wraps to a full turn; the vertex then
-  // serves for this angle only.
+  // Rounding may put the vertex a hair beyond its range. Then the difference wraps to a full turn, and the
+  // vertex serves for this angle only.
   row_from_[row] = angle.theta - (ahead < 0.5 * kTurn ? ahead : 0.0);
   row_to_[row] = angle.theta + (behind < 0.5 * kTurn ? behind : 0.0);
 }
@@ -201,7 +204,8 @@ void ContactProgram::change_vertex(std::size_t row, const Angle& angle, std::uin
 void ContactProgram::place(const Angle& angle, std::size_t first) {
   const double c = angle.direction.cosine, s = angle.direction.sine, theta = angle.theta;
   const std::size_t count = row_edge_.size();
-  // Rows of all edges stand in order: the vertex of one is at most a few steps from that of the one before.
+  // The rows of all edges stand in order, so the vertex of one is at most a few steps from that of the one
+  // before.
   const bool in_order = count == normal_x_.size() && count == first_edges_.size();
   for (std::size_t row = first; row < count; ++row)
     if (!(row_from_[row] <= theta && theta <= row_to_[row]))
@@ -211,7 +215,7 @@ void ContactProgram::place(const Angle& angle, std::size_t first) {
 }
 
 ContactProgram::LeastOpen ContactProgram::least_open(Point shift) const {
-  // Four running minima that the processor can work on side by side; ties go to the lowest row.
+  // The processor can work on four running minima side by side. Ties go to the lowest row.
   constexpr std::size_t kLanes = 4;
   const std::size_t count = row_open_.size();
   const auto open_at = [&](std::size_t row) {
@@ -245,7 +249,7 @@ void ContactProgram::meet(Tableau& tableau) const {
     tableau.lambda[j] = weight[j] / sum;
     tableau.value += tableau.lambda[j] * open[j];
   }
-  // The shift from the two normals that stand furthest from parallel.
+  // The shift follows from the two normals that stand furthest from parallel.
   const std::size_t odd = std::abs(weight[0]) >= std::abs(weight[1])
                               ? (std::abs(weight[0]) >= std::abs(weight[2]) ? 0u : 2u)
                               : (std::abs(weight[1]) >= std::abs(weight[2]) ? 1u : 2u);
@@ -255,8 +259,8 @@ void ContactProgram::meet(Tableau& tableau) const {
 }
 
 void ContactProgram::pivot(Tableau& tableau, std::uint32_t entering) const {
-  // The entering row's column in terms of the basis: barycentric coordinates of its normal in the triangle of
-  // theirs.
+  // The entering row's column in terms of the basis is made of the barycentric coordinates of its normal in
+  // the triangle of theirs.
   const Point e{row_nx_[entering], row_ny_[entering]};
   std::array<Point, 3> n;
   for (std::size_t j = 0; j < 3; ++j) n[j] = {row_nx_[tableau.row[j]], row_ny_[tableau.row[j]]};
@@ -265,7 +269,7 @@ void ContactProgram::pivot(Tableau& tableau, std::uint32_t entering) const {
   for (std::size_t j = 0; j < 3; ++j) {
     const double y = cross(n[(j + 1) % 3] - e, n[(j + 2) % 3] - e);
     if (!(y > 1e-15)) continue;
-    // lambda is weight / sum and y carries the same factor: the ratio test may leave it out.
+    // `lambda` is weight / sum and y carries the same factor, so the ratio test may leave it out.
     const double ratio = std::max(tableau.lambda[j], 0.0) / y;
     if (ratio < least) least = ratio, leaving = j;
   }
@@ -280,7 +284,8 @@ double ContactProgram::optimise(Tableau& tableau, double enough) const {
     pivot(tableau, least.row);
     if (tableau.row == before.row) break;
     meet(tableau);
-    if (tableau.value > before.value + tolerance_) {  // only rounding can do this; keep the better bound
+    // Only rounding can raise the value, so the better bound is kept.
+    if (tableau.value > before.value + tolerance_) {
       tableau = before;
       break;
     }
@@ -301,10 +306,11 @@ ContactProgram::PlacedEdge ContactProgram::place_edge(std::uint32_t edge, const 
 }
 
 bool ContactProgram::all_open_between(const PlacedEdge& first, const PlacedEdge& last, double least) const {
-  // Between the two normals the part stays behind its support lines at both ends, hence behind the point q
-  // where these meet: an edge k with q - least n_k inside the blank is open by `least`. Those points lie in
-  // the triangle of both ends' and of the point where the ends' tangents meet; a point inside both end edges
-  // and inside the chord from the first edge's beginning to the last one's end is inside every edge between.
+  // The part stays behind its support lines at both ends. Between the two normals it therefore stays behind
+  // the point q where these lines meet. An edge k with q - least n_k inside the blank is open by `least`. The
+  // points q - least n_k lie in the triangle of the two for the ends and of the point where the ends'
+  // tangents meet. A point inside both end edges, and inside the chord from the first edge's beginning to the
+  // last one's end, is inside every edge between.
   const Point n1{normal_x_[first.edge], normal_y_[first.edge]},
       n2{normal_x_[last.edge], normal_y_[last.edge]};
   const double turn = cross(n1, n2), along = dot(n1, n2);
@@ -327,7 +333,7 @@ void ContactProgram::find_least_open(const PlacedEdge& first, const PlacedEdge& 
   if (last.edge - first.edge < 2 || all_open_between(first, last, least.open)) return;
   const PlacedEdge middle = place_edge(first.edge + (last.edge - first.edge) / 2, angle, shift, first.vertex);
   if (middle.open < least.open) least = middle;
-  // The more promising half first: what it finds prunes the other.
+  // The more promising half comes first, because what it finds prunes the other.
   if (first.open <= last.open) {
     find_least_open(first, middle, angle, shift, least);
     find_least_open(middle, last, angle, shift, least);
@@ -350,7 +356,7 @@ bool ContactProgram::add_violated(const Angle& angle, Point shift, double value)
     find_least_open(from, to, angle, shift, least);
     if (least.open < limit && row_of_edge_[least.edge] == kNoRow) add_row(least.edge);
   };
-  // The stretch over the end of the numbering in two parts.
+  // The stretch over the end of the numbering is searched in two parts.
   search(first, place_edge(last_edge, angle, shift, first.vertex));
   first = place_edge(0, angle, shift, first.vertex);
   for (const std::uint32_t edge : first_edges_) {
@@ -386,7 +392,8 @@ Basis ContactProgram::braced(const Basis& basis, const Angle& angle) const {
   const auto normal = [&](std::size_t edge) { return Point{normal_x_[edge], normal_y_[edge]}; };
   const auto light = static_cast<std::size_t>(std::min_element(basis.lambda.begin(), basis.lambda.end()) -
                                               basis.lambda.begin());
-  // The two others, the second counter-clockwise of the first, and the normal that stands most across them.
+  // The two others are p and q, with q counter-clockwise of p, and the new third one is the normal that
+  // stands most across them.
   std::size_t p = (light + 1) % 3, q = (light + 2) % 3;
   if (cross(normal(basis.edge[p]), normal(basis.edge[q])) < 0) std::swap(p, q);
   const Point np = normal(basis.edge[p]), nq = normal(basis.edge[q]), across{np.y, -np.x};
@@ -419,7 +426,8 @@ ContactProgram::Solution ContactProgram::solve(const Angle& angle, const Basis& 
   if (row_edge_.size() < normal_x_.size()) {
     while (tableau.value > of_interest && add_violated(angle, tableau.shift, tableau.value))
       value = optimise(tableau, enough);
-    value -= tolerance_;  // what the edges outside the program may be violated by
+    // Edges outside the program may be violated by this much.
+    value -= tolerance_;
   }
   if (!(tableau.value > of_interest)) value = -std::numeric_limits<double>::infinity();
   return {basis_of(tableau), tableau.shift, value};

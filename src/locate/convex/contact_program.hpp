@@ -10,15 +10,16 @@
 
 namespace lekalo::locate {
 
-/// Three contacts that hold the part against the blank at every angle: the blank edges' inward unit normals
-/// n_j span the plane positively, sum lambda_j n_j = 0, sum lambda_j = 1, lambda_j >= 0. Hence for every
-/// placement at angle theta  clearance <= sum lambda_j n_j . (R(theta) v_j - a_j) = bound(theta).
+/// Three contacts that hold the part against the blank at every angle. The inward unit normals n_j of the
+/// blank edges span the plane positively: sum lambda_j n_j = 0, sum lambda_j = 1, lambda_j >= 0. Hence for
+/// every placement at angle theta  clearance <= sum lambda_j n_j . (R(theta) v_j - a_j) = bound(theta).
 struct Basis {
   std::array<std::uint32_t, 3> edge{};    ///< of the blank
   std::array<std::uint32_t, 3> vertex{};  ///< of the part, one per edge
   std::array<double, 3> lambda{};
   Sinusoid bound;
-  geom::Point shift;  ///< a shift at which the three contacts are about equally wide open (for error bounds)
+  /// A shift at which the three contacts are about equally wide open; error bounds are taken there.
+  geom::Point shift;
 };
 
 /// The linear program of one fixed angle,
@@ -31,37 +32,41 @@ class ContactProgram {
   ContactProgram(const geom::Ring& part, const geom::Ring& blank);
 
   struct Solution {
-    Basis basis;        ///< a valid bound, whatever happened
-    geom::Point shift;  ///< best shift found
-    /// Least n_k . (R v_i + shift - a_k) over *all* edges: reached, not only bounded. -infinity when the
-    /// bound turned out not to be of interest.
+    /// A valid bound, whatever has happened.
+    Basis basis;
+    /// The best shift found.
+    geom::Point shift;
+    /// The least n_k . (R v_i + shift - a_k) over *all* edges: a value that is reached, not only a bound. It
+    /// is -infinity when the bound turned out not to be of interest.
     double value = 0;
   };
 
   enum class Effort {
-    optimum,  ///< the tightest bound, which says most about the angles around
-    bound     ///< any bound that is at most `of_interest`
+    /// The tightest bound, which says most about the angles around.
+    optimum,
+    /// Any bound that is at most `of_interest`.
+    bound
   };
 
-  /// Edges of a large blank are taken into the program only as they are found violated, and that is looked
-  /// for only while the bound at this angle exceeds `of_interest`.
+  /// Edges of a large blank are taken into the program only as they are found violated. That is looked for
+  /// only while the bound at this angle exceeds `of_interest`.
   [[nodiscard]] Solution solve(const Angle& angle, const Basis& warm, double of_interest,
                                Effort effort = Effort::optimum);
 
   [[nodiscard]] Basis first_basis() const { return first_basis_; }
 
-  /// The basis with its lightest contact given to the edge that stands most across the other two, and those
-  /// two's multipliers adjusted: what rounding hides of two nearly opposite edges weighs least then. Its
-  /// bound at this angle is about the same when the lightest contact weighed nothing.
+  /// Returns the basis with its lightest contact given to the edge that stands most across the other two, and
+  /// those two's multipliers adjusted. Where two edges are nearly opposite, what rounding hides of them
+  /// weighs least then. The bound at this angle is about the same when the lightest contact weighed nothing.
   [[nodiscard]] Basis braced(const Basis& basis, const Angle& angle) const;
 
-  /// Size of the shapes in the local frame: largest |coordinate|.
+  /// Returns the size of the shapes in the local frame, the largest |coordinate|.
   [[nodiscard]] double scale() const { return scale_; }
 
  private:
   static constexpr std::uint32_t kNoRow = 0xffffffff;
 
-  /// Rows of a basis while pivoting, with the point (shift, value) where their three planes meet.
+  /// The rows of a basis while pivoting, with the point (shift, value) where their three planes meet.
   struct Tableau {
     std::array<std::uint32_t, 3> row{};
     std::array<double, 3> lambda{};
@@ -82,7 +87,7 @@ class ContactProgram {
                                                std::uint32_t hint) const;
   [[nodiscard]] std::uint32_t outermost_by_search(double direction) const;
 
-  /// The row least open at a shift, and by how much it is open.
+  /// The row that is least open at a shift, and by how much it is open.
   struct LeastOpen {
     std::uint32_t row = 0;
     double open = 0;
@@ -90,43 +95,49 @@ class ContactProgram {
   [[nodiscard]] LeastOpen least_open(geom::Point shift) const;
   void meet(Tableau& tableau) const;
   void pivot(Tableau& tableau, std::uint32_t entering) const;
-  /// Pivots until no row in the program is violated or the value is at most `enough`; returns how far the
+  /// Pivots until no row in the program is violated or the value is at most `enough`. Returns how far the
   /// least open row is open.
   double optimise(Tableau& tableau, double enough) const;
   /// An edge of the blank with the part placed: the vertex outermost for it, and how far it is open.
   struct PlacedEdge {
     std::uint32_t edge = 0, vertex = 0;
     double open = 0;
-    geom::Point corner;  ///< the placed vertex
+    /// The placed vertex.
+    geom::Point corner;
   };
   [[nodiscard]] PlacedEdge place_edge(std::uint32_t edge, const Angle& angle, geom::Point shift,
                                       std::uint32_t hint) const;
-  /// True if all edges strictly between two are open by at least `least`. May say no when they are.
+  /// Says whether all edges strictly between two are open by at least `least`. A no may be wrong.
   [[nodiscard]] bool all_open_between(const PlacedEdge& first, const PlacedEdge& last, double least) const;
-  /// Makes `least` the least open edge strictly between two, if one is less open than it.
+  /// Makes `least` the least open edge strictly between two, if one of them is less open than it.
   void find_least_open(const PlacedEdge& first, const PlacedEdge& last, const Angle& angle, geom::Point shift,
                        PlacedEdge& least) const;
   /// Takes edges outside the program that are violated at (shift, value) into it, the worst of each stretch
-  /// between the first rows. False when no edge is violated.
+  /// between the first rows. Returns false when no edge is violated.
   bool add_violated(const Angle& angle, geom::Point shift, double value);
-  /// The first edge, in order of direction, whose normal's direction is at least this one, in [0, 2 pi).
+  /// Returns the first edge, in order of direction, whose normal's direction is at least this one, in [0, 2
+  /// pi).
   [[nodiscard]] std::size_t edge_beyond(double direction) const;
   void add_contact(Basis& basis, std::size_t j, std::uint32_t edge, std::uint32_t vertex,
                    double lambda) const;
   [[nodiscard]] Basis basis_of(const Tableau& tableau) const;
 
-  // The part: vertices, and sides from vertex i to i + 1.
+  // The part has vertices, and sides from vertex i to i + 1.
   std::vector<double> vertex_x_, vertex_y_, side_x_, side_y_;
-  std::vector<double> direction_of_side_, side_direction_;  ///< in [0, 2 pi); by side, and ascending
+  /// The directions in [0, 2 pi), by side and ascending.
+  std::vector<double> direction_of_side_, side_direction_;
   std::vector<std::uint32_t> side_by_direction_;
-  // The blank: vertices, edge k from vertex k with the inward unit normal n, the points with n . p = offset.
+  // The blank has vertices, and edge k from vertex k with the inward unit normal n and the points with n . p
+  // = offset.
   geom::Ring blank_;
   std::vector<double> normal_x_, normal_y_, offset_, normal_direction_;
-  std::size_t lowest_direction_ = 0;  ///< the edge whose normal's direction is least; from it they ascend
-  std::vector<std::uint32_t> first_edges_;  ///< the first rows' edges, ascending
-  // The rows in the program. row_vertex_ is outermost for angles in [row_from_, row_to_], where
-  // n . R v = row_cosine_ cos + row_sine_ sin. row_open_ = n . R v - offset at the current angle: the opening
-  // at shift 0.
+  /// The edge whose normal's direction is least; from it on the directions ascend.
+  std::size_t lowest_direction_ = 0;
+  /// The edges of the first rows, ascending.
+  std::vector<std::uint32_t> first_edges_;
+  // The vertex row_vertex_ of a row is outermost for angles in [row_from_, row_to_], where n . R v =
+  // row_cosine_ cos + row_sine_ sin. The opening at shift 0 and the current angle is row_open_ = n . R v -
+  // offset.
   std::vector<std::uint32_t> row_edge_, row_vertex_, row_of_edge_;
   std::vector<double> row_from_, row_to_, row_cosine_, row_sine_, row_offset_, row_nx_, row_ny_, row_open_;
   Basis first_basis_;

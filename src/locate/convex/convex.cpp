@@ -21,14 +21,14 @@ using geom::Point;
 using geom::Ring;
 
 constexpr double kUnit = 0x1p-53;
-/// Programs spent on alternatives, and how many are listed.
+/// Alternatives take at most this many programs, and at most this many are listed.
 constexpr std::uint64_t kAlternativesWork = 200'000;
 constexpr std::size_t kMostAlternatives = 64;
-/// A multiplier that only rounding keeps from 0: its contact holds nothing.
+/// Only rounding keeps a multiplier below this from 0, and its contact holds nothing.
 constexpr double kNoForce = 1e-12;
 
 /// A ring moved so that the middle of its box is the origin. The search then sees numbers of the size of the
-/// shape, however far away it stands.
+/// shape, however far away the shape stands.
 struct LocalRing {
   Point origin;
   Ring ring;
@@ -42,8 +42,8 @@ LocalRing to_local(const geom::ConvexPolygon& polygon) {
   return local;
 }
 
-/// How much more than in exact arithmetic the line of an edge of the blank may move at a point of the part,
-/// when the part may lie outside: the longest distance over the shortest edge.
+/// Returns how much more than in exact arithmetic the line of an edge of the blank may move at a point of the
+/// part, when the part may lie outside: the longest distance over the shortest edge.
 double worst_lever(const geom::ConvexPolygon& blank, double reach) {
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < blank.size(); ++k)
@@ -59,7 +59,7 @@ class Localiser {
         part_(to_local(problem.part)),
         blank_(to_local(problem.blank)),
         program_(part_.ring, blank_.ring) {
-    // Moving to the local frame rounds every coordinate once more.
+    // The move to the local frame rounds every coordinate once more.
     const double rounded = kUnit * program_.scale();
     uncertainty_ = {problem.part_coordinate_error + rounded, problem.blank_coordinate_error + rounded,
                     program_.scale()};
@@ -89,7 +89,7 @@ class Localiser {
   }
 
  private:
-  /// Rounding the pose and proving the bound may take this much of the gap.
+  /// Returns how much of the gap may be taken by rounding the pose and proving the bound.
   [[nodiscard]] double taken_by_rounding() const {
     const double far = geom::largest_coordinate(problem_.part.vertices()) +
                        geom::largest_coordinate(problem_.blank.vertices());
@@ -97,19 +97,19 @@ class Localiser {
            6 * (problem_.part_coordinate_error + problem_.blank_coordinate_error);
   }
 
-  /// The gap left to the search.
+  /// Returns the gap that is left to the search.
   [[nodiscard]] double search_gap() const {
     return std::max(options_.gap - taken_by_rounding(), 8 * kUnit * program_.scale());
   }
 
-  /// The smallest gap that doubles can be asked for.
+  /// Returns the smallest gap that doubles can be asked for.
   [[nodiscard]] double least_gap() const { return 2 * taken_by_rounding(); }
 
   [[nodiscard]] double proved(const CoverPiece& piece) const {
     return proved_bound(piece.basis, piece.from, piece.to, part_.ring, blank_.ring, uncertainty_);
   }
 
-  /// Gives the bound that a piece of the cover proves, with the third contact braced where that proves more.
+  /// Returns the bound that a piece of the cover proves. The third contact is braced where that proves more.
   double prove(CoverPiece& piece, double enough) const {
     const double bound = proved(piece);
     if (bound <= enough) return bound;
@@ -132,9 +132,10 @@ class Localiser {
     if (options_.certificate_sink) options_.certificate_sink(interval);
   }
 
-  /// The pose in the file's coordinates, its doubles fixed first and its clearance enclosed at exactly those.
+  /// Returns the pose in the file's coordinates. Its doubles are fixed first, and its clearance is enclosed
+  /// at exactly those.
   [[nodiscard]] Placement placement(const AngleSearch::Incumbent& found) const {
-    // x, y: shift + blank origin - R part origin, in twice the digits.
+    // The place x, y is shift + blank origin - R part origin, in twice the digits.
     const geom::SinCosPair rotation = geom::sincos_double_double(found.angle.theta);
     const DoubleDouble px{part_.origin.x}, py{part_.origin.y};
     const DoubleDouble x =
@@ -152,8 +153,8 @@ class Localiser {
     const double errors = kDiagonal *
                           (problem_.part_coordinate_error + lever * problem_.blank_coordinate_error) *
                           (1 + 8 * kUnit);
-    // The written decimals of pose and clearance are the shortest that read back: half a unit in the last
-    // place off.
+    // The written decimals of pose and clearance are the shortest that read back, so they are off by half a
+    // unit in the last place.
     const double written =
         kUnit * (std::abs(placement.x) + std::abs(placement.y) + std::abs(low) +
                  std::abs(placement.theta) * geom::largest_coordinate(problem_.part.vertices()) * 2);
@@ -161,8 +162,8 @@ class Localiser {
     return placement;
   }
 
-  /// Gives what holds the placement: contacts whose multipliers balance in force, and in moment where two
-  /// bounds meet.
+  /// Returns what holds the placement: contacts whose multipliers balance in force, and also in moment where
+  /// two bounds meet.
   [[nodiscard]] std::vector<Contact> contacts(const AngleSearch::Incumbent& found) const {
     const Basis* rising = nullptr;
     const Basis* falling = nullptr;
@@ -173,7 +174,7 @@ class Localiser {
       if (slope <= 0 && (falling == nullptr || slope < falling->bound.slope_at(found.angle)))
         falling = &basis;
     }
-    // The angle's own basis always touches; the others where the search has closed in.
+    // The angle's own basis always touches. The others touch where the search has closed in.
     const Basis* first = rising != nullptr ? rising : (falling != nullptr ? falling : &found.holders.front());
     const Basis* second = falling != nullptr ? falling : first;
     const double up = first->bound.slope_at(found.angle), down = -second->bound.slope_at(found.angle);
@@ -201,7 +202,8 @@ class Localiser {
     return merged;
   }
 
-  /// True if the three contacts of a basis are those of this placement, but for what cannot be measured.
+  /// Says whether the three contacts of a basis are contacts of this placement, but for what cannot be
+  /// measured.
   [[nodiscard]] bool all_touch(const Basis& basis, const AngleSearch::Incumbent& found) const {
     const double tolerance = 1e-9 * program_.scale();
     const double c = found.angle.direction.cosine, s = found.angle.direction.sine;
@@ -228,7 +230,8 @@ class Localiser {
     }
   }
 
-  /// Both searches close in on a maximum to within the gap; at the same maximum their angles agree closely.
+  /// Says whether two angles belong to one peak. Both searches close in on a maximum to within the gap, and
+  /// at the same maximum their angles agree closely.
   [[nodiscard]] bool same_peak(double a, double b) const {
     const double difference = std::abs(a - b);
     const double apart =

@@ -6,14 +6,16 @@
 
 namespace lekalo::locate {
 
-/// Holds what doubles know about the shapes of a problem, for statements that must hold for the exact shapes.
+/// The uncertainty with which doubles know the shapes of a problem. Statements that must hold for the exact
+/// shapes count it in.
 struct Uncertainty {
   double part = 0, blank = 0;  ///< each coordinate is within this of the exact one, mm
   double scale = 0;            ///< largest |coordinate| in the local frame, mm
 };
 
-/// A number that no placement at an angle in [from, to] exceeds, for the exact shapes behind the doubles: the
-/// largest value of the basis's sinusoid over the interval plus everything rounding can hide.
+/// Returns a number that no placement at an angle in [from, to] exceeds, for the exact shapes behind the
+/// doubles: the largest value of the basis's sinusoid over the interval plus everything that rounding can
+/// hide.
 /// \pre `part` and `blank` in the local frame, from <= to less than pi apart.
 /// \return +infinity when the three edges are parallel.
 /// docs/design/locate-convex.md, "What the rounding can hide".

@@ -18,10 +18,12 @@ namespace {
 using geom::BlankFromPart;
 using geom::Point;
 
-constexpr double kStepsAround = 360;  // sampling step: perimeter / kStepsAround
-constexpr double kVanished = 1e-10;   // a step below this part of the blank's size ends the iteration
-constexpr double kUnseen =
-    1e-13;  // a pivot below this part of the largest: the points do not see that motion
+// The perimeter is sampled in this many steps.
+constexpr double kStepsAround = 360;
+// A step below this part of the blank's size ends the iteration.
+constexpr double kVanished = 1e-10;
+// The points do not see a motion whose pivot is below this part of the largest one.
+constexpr double kUnseen = 1e-13;
 
 double perimeter(const geom::ConvexPolygon& polygon) {
   double length = 0;
@@ -40,8 +42,8 @@ std::vector<Point> sampled_outline(const geom::ConvexPolygon& polygon) {
   return points;
 }
 
-/// The part's edges with their unit normals, and a box around every run of about sqrt(m) of them so that most
-/// edges need not be looked at.
+/// The part's edges with their unit normals, and a box around every run of about sqrt(m) of them, so that
+/// most edges need not be looked at.
 class PartLines {
  public:
   explicit PartLines(const geom::ConvexPolygon& part)
@@ -60,7 +62,7 @@ class PartLines {
     }
   }
 
-  /// Edge with the point nearest to p, the first of equals.
+  /// Returns the edge with the point nearest to p, the first of equals.
   [[nodiscard]] std::size_t nearest(Point p) const {
     double best = std::numeric_limits<double>::infinity();
     std::size_t edge = 0;
@@ -78,8 +80,9 @@ class PartLines {
     return edge;
   }
 
-  [[nodiscard]] Point normal(std::size_t edge) const { return normals_[edge]; }  ///< outwards
-  /// Signed distance from the line of the edge, positive outside.
+  /// Returns the normal that points outwards.
+  [[nodiscard]] Point normal(std::size_t edge) const { return normals_[edge]; }
+  /// Returns the signed distance from the line of the edge, positive outside.
   [[nodiscard]] double distance(std::size_t edge, Point p) const {
     return dot(normals_[edge], p - part_[edge]);
   }
@@ -97,7 +100,7 @@ class PartLines {
   std::vector<geom::Box> boxes_;
 };
 
-/// Normal equations of small motions (dx, dy, size * dtheta) of the part about its centre.
+/// The normal equations of small motions (dx, dy, size * dtheta) of the part about its centre.
 struct NormalEquations {
   std::array<std::array<double, 3>, 3> matrix{};
   std::array<double, 3> right{};
@@ -111,8 +114,8 @@ struct NormalEquations {
     squares += residual * residual;
   }
 
-  /// Gaussian elimination; the matrix is positive semidefinite, so the largest diagonal entry is a good
-  /// pivot. A motion that the points do not see (a disc turning in a disc) stays zero.
+  /// Solves by Gaussian elimination. The matrix is positive semidefinite, so the largest diagonal entry is a
+  /// good pivot. A motion that the points do not see (a disc turning in a disc) stays zero.
   [[nodiscard]] std::array<double, 3> solve() const {
     auto a = matrix;
     auto b = right;
@@ -139,7 +142,8 @@ struct NormalEquations {
 };
 
 struct IcpState {
-  Point centre;  ///< where the part's centroid lies in the blank's frame
+  /// The place of the part's centroid in the blank's frame.
+  Point centre;
   double theta = 0;
   std::uint64_t iterations = 0;
   bool converged = false;
@@ -181,7 +185,7 @@ class Registration {
     return sum;
   }
 
-  /// Moves the state by one least-squares step; returns its length.
+  /// Moves the state by one least-squares step and returns the length of the step.
   double step(IcpState& state) const {
     const auto motion = equations(state.centre, state.theta).solve();
     const double wanted = state.theta + motion[2] / size_;

@@ -33,7 +33,8 @@ using geom::Point;
 using Stage = NonlinearModel::Stage;
 using Variables = NonlinearModel::Variables;
 
-// In units of half the blank's larger side: the clearance found is short of the local maximum by about this.
+// Lengths are in units of half the blank's larger side. The clearance found is short of the local maximum by
+// about this.
 constexpr double kTolerance = 1e-9;
 constexpr int kMaxIterations = 1000;
 constexpr double kUnbounded = 2e19;  // beyond IPOPT's nlp_upper_bound_inf
@@ -44,7 +45,7 @@ struct LocalSolution {
   bool converged = false;
 };
 
-/// One stage from one start, in the form IPOPT asks for.
+/// One stage from one start, in the form that IPOPT asks for.
 class StageProgram final : public Ipopt::TNLP {
  public:
   using Index = Ipopt::Index;
@@ -150,7 +151,8 @@ class StageProgram final : public Ipopt::TNLP {
  private:
   static Variables variables(const Number* z) { return {z[0], z[1], z[2], z[3]}; }
 
-  /// A step may run away; IPOPT shortens it when told that the functions have no value there.
+  /// Says whether a step has run away. IPOPT shortens such a step when it is told that the functions have no
+  /// value there.
   static bool usable(const Number* z) {
     return std::isfinite(z[0]) && std::isfinite(z[1]) && std::isfinite(z[3]) &&
            std::abs(z[2]) <= geom::kMaxAngle;
@@ -175,7 +177,7 @@ class StartPoses {
         blank_moments_(outline_moments(blank)),
         random_(options.seed) {}
 
-  /// nullopt when the rule has no more.
+  /// Returns nullopt when the rule has no more.
   std::optional<NonlinearModel::Pose> next() {
     switch (rule_) {
       case StartRule::random: {
@@ -195,7 +197,7 @@ class StartPoses {
  private:
   double random_angle() { return random_.uniform(window_.from, window_.to); }
 
-  /// The part's centroid there, turned by theta.
+  /// Returns the pose with the part's centroid there, turned by theta.
   [[nodiscard]] NonlinearModel::Pose at(Point centroid, double theta) const {
     return {translation_onto(part_moments_.centroid, centroid, theta), theta};
   }
@@ -228,7 +230,7 @@ class Multistart {
       optimise_from(start);
       report(draw + 1, limit);
     }
-    // Without any work allowed there is still a valid placement: the first drawn.
+    // Without any work allowed there is still a valid placement, the first one drawn.
     if (!seen_) consider(model_.variables(poses_.next().value(), 0), false);
     return result_;
   }
@@ -260,7 +262,8 @@ class Multistart {
       return;
     }
     const LocalSolution local = solve(Stage::clearance, {shrunk.z[0], shrunk.z[1], shrunk.z[2], 0});
-    if (!result_.found) seen_ = false;  // from here on only optimised starts count
+    // From here on only optimised starts count.
+    if (!result_.found) seen_ = false;
     result_.found = true;
     ++result_.starts_done;
     consider(local.z, local.converged);

@@ -25,7 +25,7 @@ class NonlinearModel {
   enum class Stage { homothety, clearance };
   static constexpr std::size_t kVariables = 4;
   using Variables = std::array<double, kVariables>;
-  /// Entries of the Hessian of the Lagrangian that are not zero: (theta, theta), (s, theta).
+  /// The entries of the Hessian of the Lagrangian that are not zero are (theta, theta) and (s, theta).
   static constexpr std::size_t kHessianEntries = 2;
 
   struct Pose {
@@ -41,11 +41,10 @@ class NonlinearModel {
   void constraints(Stage stage, const Variables& z, double* values) const;
   /// \param values  4 rows(), row after row, the columns in the order of the variables.
   void jacobian(Stage stage, const Variables& z, double* values) const;
-  /// Gives the second derivatives of the sum of multipliers[r] times constraint r (the objectives are
-  /// linear).
+  /// Gives the second derivatives of the sum of multipliers[r] times constraint r; the objectives are linear.
   void hessian(Stage stage, const Variables& z, const double* multipliers, double* values) const;
 
-  /// From the model's translation (of the part's middle, scaled) to a placement in millimetres and back.
+  /// Converts the model's translation (of the part's middle, scaled) to a placement in millimetres, and back.
   [[nodiscard]] Pose placement(const Variables& z) const;
   [[nodiscard]] Variables variables(const Pose& placement, double s) const;
 

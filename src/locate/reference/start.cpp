@@ -19,7 +19,7 @@ double triangle_area(Point a, Point b, Point c) noexcept { return 0.5 * cross(b 
 }  // namespace
 
 OutlineMoments outline_moments(const geom::ConvexPolygon& polygon) noexcept {
-  // Everything relative to one vertex, so that a small part far from the origin keeps its digits.
+  // Everything is computed relative to one vertex, so that a small part far from the origin keeps its digits.
   const Point anchor = polygon[0];
   double length = 0;
   Point first;
@@ -54,7 +54,8 @@ Point random_point(const geom::ConvexPolygon& polygon, Random& random) noexcept 
     remaining -= triangle;
   }
   double u = random.uniform(), v = random.uniform();
-  if (u + v > 1) {  // the other half of the parallelogram, turned back
+  // The point lies in the other half of the parallelogram and is turned back.
+  if (u + v > 1) {
     u = 1 - u;
     v = 1 - v;
   }
@@ -73,12 +74,14 @@ Result<void> check_window(const AngleWindow& window) {
 
 std::optional<double> fold_into(const AngleWindow& window, double angle) noexcept {
   const double turns = std::ceil((window.from - angle) / kTurn);
-  // Rounding may put the angle just below or leave it a turn too high: try the neighbours too.
+  // Rounding may put the angle just below the window or leave it a turn too high, so the neighbours are tried
+  // too.
   for (const double extra : {-1.0, 0.0, 1.0}) {
     const double folded = angle + (turns + extra) * kTurn;
     if (folded >= window.from && folded <= window.to) return folded;
   }
-  if (window.full_circle()) return window.from;  // within rounding of the seam
+  // The angle is within rounding of the seam.
+  if (window.full_circle()) return window.from;
   return std::nullopt;
 }
 

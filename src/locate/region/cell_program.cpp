@@ -9,14 +9,14 @@
 namespace lekalo::locate {
 namespace {
 
-/// Far above what any program needs; ends a cycle that rounding could cause. The bound is valid anyway.
+/// Far above what any program needs, this ends a cycle that rounding could cause. The bound is valid anyway.
 constexpr int kMostPivots = 200;
 
 using Vector4 = std::array<double, 4>;  // z, r
 using Matrix4 = std::array<Vector4, 4>;
 
-/// Constraints are numbered: rows first, then the six sides of the cell (2 i for z_i <= half_i, 2 i + 1 for
-/// -z_i <= half_i).
+/// The dual simplex method for one cell. Constraints are numbered: rows first, then the six sides of the cell
+/// (2 i for z_i <= half_i, 2 i + 1 for -z_i <= half_i).
 class Simplex {
  public:
   Simplex(const std::vector<CellRow>& rows, const std::array<double, 3>& half) : rows_(rows), half_(half) {}
@@ -51,7 +51,8 @@ class Simplex {
     return constraint < rows_.size() ? rows_[constraint].level : half_[(constraint - rows_.size()) / 2];
   }
 
-  /// The row that bounds best alone, at the corner of the cell where it is highest: a dual feasible basis.
+  /// Starts with the row that bounds best alone, at the corner of the cell where it is highest. This is a
+  /// dual feasible basis.
   void start() {
     double best = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < rows_.size(); ++k) {
@@ -62,7 +63,8 @@ class Simplex {
     for (std::size_t i = 0; i < 3; ++i) basis_[i + 1] = side(i, rows_[basis_[0]].slope[i] >= 0);
   }
 
-  /// inverse_ of the matrix whose rows are the basis's normals; point_ and multiplier_. False when singular.
+  /// Computes inverse_, the inverse of the matrix whose rows are the basis's normals, and from it point_ and
+  /// multiplier_. Returns false when the matrix is singular.
   bool meet() {
     Matrix4 a{};
     Matrix4 b{};

@@ -7,7 +7,7 @@ namespace {
 
 using geom::Point;
 
-/// Points in either direction.
+/// The grid has this many points in either direction.
 constexpr int kSize = 128;
 
 }  // namespace

@@ -16,13 +16,15 @@ class DistanceGrid {
   DistanceGrid(const geom::RegionIndex& outline, geom::Point middle, double half);
 
   struct Value {
-    geom::Point at;              ///< the grid point
-    double signed_distance = 0;  ///< of it
-    geom::Point nearest;         ///< on the outline
-    std::uint32_t edge = 0;      ///< of the nearest point
-    double off = 0;              ///< distance of the point asked about from the grid point
+    geom::Point at;  ///< the grid point
+    /// The signed distance of the grid point.
+    double signed_distance = 0;
+    geom::Point nearest;     ///< on the outline
+    std::uint32_t edge = 0;  ///< of the nearest point
+    /// The distance of the point asked about from the grid point.
+    double off = 0;
   };
-  /// The grid point nearest to q. O(1) but for the first time.
+  /// Returns the grid point nearest to q. O(1) but for the first time.
   [[nodiscard]] Value near(geom::Point q);
 
  private:

@@ -13,14 +13,14 @@ using geom::BlankFromPart;
 using geom::Point;
 
 constexpr int kMostSteps = 60;
-/// Sweeps of the dual method over the rows of one step.
+/// The dual method goes over the rows of one step at most this often.
 constexpr int kMostSweeps = 200;
-/// Steps shorter than that are the end, mm.
+/// A step shorter than this ends the search, mm.
 constexpr double kShortest = 1e-7;
 
 using Vector3 = std::array<double, 3>;
 
-/// How the allowance of a point changes with a step (x, y, turn about the pivot).
+/// The change of a point's allowance with a step (x, y, turn about the pivot).
 struct Row {
   Vector3 slope{};
   double level = 0;
@@ -44,7 +44,7 @@ Vector3 solve(std::array<Vector3, 3> a, Vector3 b) {
 }
 
 /// Minimises z H z / 2 + g z subject to level + slope z >= 0 for every row, by Hildreth's dual coordinate
-/// ascent; what it returns may break a row a little.
+/// ascent. The result may break a row a little.
 Vector3 constrained_step(const std::array<Vector3, 3>& h, const Vector3& g, const std::vector<Row>& rows) {
   const Vector3 free = solve(h, {-g[0], -g[1], -g[2]});
   std::vector<Vector3> reach;  // H^-1 slope
@@ -98,7 +98,7 @@ class Measurement {
     return allowance_[k] - (samples_[k].has_target ? samples_[k].target : mean_);
   }
 
-  /// Slopes with respect to (x, y, turn), the turn in units of 1 / reach about `pivot`.
+  /// Returns the slopes with respect to (x, y, turn), the turn in units of 1 / reach about `pivot`.
   [[nodiscard]] Vector3 slope(std::size_t k, const BlankFromPart& pose, Point pivot, double reach) const {
     const Point p = pose.rotate(samples_[k].at - pivot);
     return {normal_[k].x, normal_[k].y, dot(normal_[k], geom::perpendicular(p)) / reach};
@@ -107,7 +107,8 @@ class Measurement {
  private:
   const std::vector<EvenSamples::Sample>& samples_;
   std::vector<double> allowance_;
-  std::vector<Point> normal_;  ///< direction in which the allowance grows
+  /// The direction in which the allowance grows.
+  std::vector<Point> normal_;
   double mean_ = 0;
 };
 
@@ -177,7 +178,8 @@ EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clear
     for (std::size_t i = 0; i < 3; ++i) h[i][i] += 1e-9 * total;
     std::vector<Row> rows;
     std::vector<phi::RegionContact> contacts;
-    const auto add_rows = [&](double side, double from) {  // side * (distance - from) is not to fall below 0
+    // A step should not take side * (distance - from) below 0.
+    const auto add_rows = [&](double side, double from) {
       for (const phi::RegionContact& contact : contacts) {
         if (!(contact.distance > 0)) continue;
         const Point n = (side / contact.distance) * (pose(contact.part) - contact.blank);

@@ -12,7 +12,8 @@
 
 namespace lekalo::locate {
 
-/// Points of edges at equal steps, each with the stretch it stands for, and what their allowances should be.
+/// Points of edges at equal steps, each with the stretch that it stands for, and the allowances that they
+/// should have.
 struct EvenSamples {
   struct Sample {
     geom::Point at;  ///< part coordinates
@@ -21,7 +22,7 @@ struct EvenSamples {
   };
   std::vector<Sample> samples;
 
-  /// \param step  between samples, at most, mm
+  /// \param step  the largest distance between samples, mm
   void add(const geom::Edge& edge, double step, const std::optional<double>& target);
 };
 
@@ -31,15 +32,15 @@ struct EvenPose {
       0;  ///< root of the mean square of allowance - target; samples without one aim at the mean
 };
 
-/// The deviation at a pose.
+/// Returns the deviation at a pose.
 [[nodiscard]] double deviation_at(const EvenSamples& samples, const phi::RegionClearance& clearance,
                                   const geom::BlankFromPart& pose);
 
-/// Lowers the deviation from a pose on by Gauss-Newton steps that keep `allowed` true: a local minimum,
-/// nothing is proved about others. Steps are limited by the part's contacts, so that they slide along what
-/// holds it.
-/// \param caps     how deep edges may lie, part coordinates: steps aim to keep to that; `allowed` decides
-/// \param give_up  of the clearance at the start, mm: the same
+/// Lowers the deviation from a pose on by Gauss-Newton steps that keep `allowed` true. The result is a local
+/// minimum, and nothing is proved about others. Steps are limited by the part's contacts, so that they slide
+/// along what holds it.
+/// \param caps     how deep edges may lie, part coordinates; steps aim to keep to that, and `allowed` decides
+/// \param give_up  how much of the clearance at the start may be lost, mm; likewise
 /// \param free     x, y, angle: what may change
 [[nodiscard]] EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clearance,
                                  const std::vector<LocalCap>& caps, const Placement& start, bool mirrored,

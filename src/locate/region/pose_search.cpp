@@ -15,29 +15,31 @@ using geom::Point;
 
 /// Cells larger than this part of the shapes' size are bounded by single points, smaller ones by programs.
 constexpr double kFine = 1.0 / 128;
-/// Points of the part that bound large cells are no further apart along an edge than this part of its reach:
-/// two on a circle would say nothing about shifts across them.
+/// The points of the part that bound large cells are no further apart along an edge than this part of its
+/// reach. Two points on a circle would say nothing about shifts across them.
 constexpr double kSampleSpacing = 0.2;
-/// Rounds of looking for contacts in one cell before it is split.
+/// Contacts are looked for in one cell this many times before it is split.
 constexpr int kRounds = 3;
-/// Pairs that one cell hands on to its halves.
+/// A cell hands at most this many pairs on to its halves.
 constexpr std::size_t kMostPairs = 48;
-/// Crossings taken from one pose: the deepest ones.
+/// The deepest crossings of one pose are used, at most this many.
 constexpr std::size_t kMostCrossings = 8;
-/// Balls larger than this many times the shapes are as good as half-planes, smaller than that part of them as
-/// good as points.
+/// A ball larger than this many times the shapes is as good as a half-plane, and one smaller than that part
+/// of them as good as a point.
 constexpr double kLargestBall = 200, kSmallestBall = 1e-3;
-/// Cells divided before the first climb from the most promising one; then every time twice as many. Where the
-/// bounds of large cells say little this finds a placement to measure them by.
+/// After this many divided cells the first climb starts from the most promising cell, and the next one after
+/// twice as many each time. A climb finds a placement to measure cells by where the bounds of large cells say
+/// little.
 constexpr std::uint64_t kFirstDive = 256;
-/// Climbs where no cell promised anything.
+/// This many climbs are made where no cell promised anything.
 constexpr int kHopelessClimbs = 8;
-/// Units of work between two calls of the progress listener.
+/// The progress listener is called after this many units of work.
 constexpr std::uint64_t kReportEvery = 1024;
 
 BlankFromPart pose_at(double theta, Point pivot) { return BlankFromPart::from_angle(theta, pivot); }
 
-/// Points of a, between its ends, whose distance from b's line or circle is extremal; returns how many.
+/// Gives the points of a, between its ends, whose distance from b's line or circle is extremal; returns how
+/// many there are.
 std::size_t deepest_points(const geom::Curve& a, const geom::Curve& b, std::array<Point, 2>& point) {
   const bool a_line = a.edge.kind == geom::EdgeKind::line, b_line = b.edge.kind == geom::EdgeKind::line;
   if (a_line && b_line) return 0;
@@ -62,7 +64,7 @@ double turn_distance(double far, double half_theta) {
   return 2 * far * std::sin(0.5 * std::min(half_theta, kPi));
 }
 
-/// How far the part reaches from its pivot.
+/// Returns how far the part reaches from its pivot.
 double reach(const geom::RegionIndex& part) {
   double far = 0;
   for (const geom::Curve& curve : part.curves()) {
@@ -116,12 +118,12 @@ void PoseSearch::collect_samples() {
   for (std::uint32_t k = 0; k < part.size(); ++k) add(part, k, kNoCap);
   for (std::uint32_t cap = 0; cap < caps_.size(); ++cap)
     for (std::uint32_t k = 0; k < caps_[cap].edges.size(); ++k) add(caps_[cap].edges, k, cap);
-  // The furthest first: they tell angles apart.
+  // The furthest points come first, because they tell angles apart.
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.far > b.far; });
 }
 
-/// A large ball in each hole of the blank: found by halving steps about the middle of the hole's box.
+/// Finds a large ball in each hole of the blank, by halving steps about the middle of the hole's box.
 void PoseSearch::collect_voids() {
   const geom::RegionIndex& blank = clearance_.blank();
   const auto& starts = blank.contour_starts();
@@ -143,7 +145,7 @@ void PoseSearch::collect_voids() {
           if (const double radius = empty(p); radius > ball.radius) ball = {p, radius};
         }
     }
-    // Outside the blank altogether a ball says little that samples do not.
+    // A ball outside the blank altogether says little that samples do not say.
     const geom::Box all = blank.bounds();
     const bool within = ball.centre.x > all.low.x && ball.centre.x < all.high.x &&
                         ball.centre.y > all.low.y && ball.centre.y < all.high.y;
@@ -168,13 +170,15 @@ void PoseSearch::take(Node& node, double bound, const CellProof& proof) {
   cover_[node.cover].proof = proof;
 }
 
+/// Step 1 of docs/design/locate-region.md.
 void PoseSearch::bound_coarsely(Node& node) {
   ++work_;
   bound_by_samples(node);
   if (!closed(node.upper)) bound_by_voids(node);
 }
 
-/// A point of the part is no further inside the blank than its distance from the boundary, nor less.
+/// Bounds a cell by single points: a point of the part is no further inside the blank than its distance from
+/// the boundary, nor less.
 void PoseSearch::bound_by_samples(Node& node) {
   const PoseCell& cell = node.cell;
   const geom::SinCos turn = geom::sincos(cell.theta);
@@ -200,13 +204,14 @@ void PoseSearch::bound_by_samples(Node& node) {
     }
     take(node, bound, proof);
     if (closed(node.upper)) {
-      std::swap(samples_[k], samples_[k / 2]);  // what closes often is tried early
+      // A sample that closes cells often is tried early.
+      std::swap(samples_[k], samples_[k / 2]);
       return;
     }
   }
 }
 
-/// A hole of the blank is no further from the part's material than its ball.
+/// Bounds a cell by the holes of the blank: a hole is no further from the part's material than its ball.
 void PoseSearch::bound_by_voids(Node& node) {
   const PoseCell& cell = node.cell;
   const geom::SinCos turn = geom::sincos(cell.theta);
@@ -237,12 +242,13 @@ CellRow PoseSearch::row_of(const BallPair& pair, const PoseCell& cell) const {
   const double distance = norm(w), far = norm(p), h = cell.half_theta;
   const double radii = pair.part.radius + pair.blank.radius;
   const double slide = std::sqrt(cell.half_x * cell.half_x + cell.half_y * cell.half_y);
-  const double anyway = slide + turn_distance(far, h);  // no pose of the cell moves the centre further
+  // No pose of the cell moves the centre further than this.
+  const double anyway = slide + turn_distance(far, h);
   CellRow row{{0, 0, 0}, distance + anyway - radii};
   if (!(distance > 0)) return row;
   const Point u = (1 / distance) * w;
-  // |w + d| <= u . (w + d) + |d across u|^2 / (2 u . (w + d)), d = slide + turn J p + a rest below
-  // turn^2 / 2 |p|, of which along u only the part towards the middle of the turn counts.
+  // The bound is |w + d| <= u . (w + d) + |d across u|^2 / (2 u . (w + d)), where d = slide + turn J p + a
+  // rest below turn^2 / 2 |p|. Of the rest, only the part towards the middle of the turn counts along u.
   const double lever = dot(u, geom::perpendicular(p)), along_p = dot(u, p), rest = 0.5 * h * h * far;
   const double along = std::abs(u.x) * cell.half_x + std::abs(u.y) * cell.half_y + std::abs(lever) * h + rest;
   const double across =
@@ -274,7 +280,7 @@ bool PoseSearch::solve(Node& node, CellSolution& solution) {
   return closed(node.upper);
 }
 
-/// Adds pairs for the contacts of the last measurement; false when all were known.
+/// Adds pairs for the contacts of the last measurement. Returns false when all were known.
 bool PoseSearch::add_contacts(Node& node, double theta, Point pivot, double within) {
   const geom::SinCos turn = geom::sincos(theta);
   const double same = 1e-9 * scale_;
@@ -309,7 +315,7 @@ void PoseSearch::grow(Known& known) const {
   known.grown = true;
   const double most = kLargestBall * scale_, least = kSmallestBall * scale_;
   if (known.cap != kNoCap) {
-    // The ball in the material that touches the blank's outline where the point is nearest to it.
+    // The ball lies in the material and touches the blank's outline where the point is nearest to it.
     const Ball ball = tangent_ball(clearance_.blank(), known.blank, -known.normal_of_blank, most, 0, doubt_);
     const bool held = ball.radius > 0 && clearance_.blank().contains(ball.centre);
     known.pair.blank = {held ? ball.centre : known.blank, (held ? ball.radius : 0) - caps_[known.cap].most};
@@ -323,9 +329,9 @@ void PoseSearch::grow(Known& known) const {
   if (inside.radius > 0 && clearance_.part().contains(inside.centre)) known.pair.part = inside;
 }
 
-/// A crossing without balls that touch both outlines (a corner deep in a narrow notch) would be two points,
-/// whose distance says nothing. Then the empty disc about the part's point outside the blank tells, or that
-/// in the part about the blank's point.
+/// Gives a ball to a crossing without balls that touch both outlines, such as a corner deep in a narrow
+/// notch. It would be two points, whose distance says nothing. The ball is the empty disc about the part's
+/// point outside the blank, or the disc in the part about the blank's point.
 void PoseSearch::grow_about_points(Known& known, const BlankFromPart& pose) const {
   if (known.pair.part.radius > 0 || known.pair.blank.radius > 0) return;
   const Point part = pose(known.part), blank = pose.inverse()(known.blank);
@@ -361,6 +367,7 @@ void PoseSearch::keep_relevant(Node& node) const {
   for (const Ranked& r : ranked) node.pairs.push_back(r.pair);
 }
 
+/// Step 2 of docs/design/locate-region.md.
 void PoseSearch::bound_closely(Node& node) {
   const PoseCell& cell = node.cell;
   const double within = size(cell);
@@ -385,7 +392,7 @@ void PoseSearch::bound_closely(Node& node) {
     if (!add_contacts(node, theta, pivot, within)) break;
   }
   if (!solved) return;
-  // The pairs that prove the bound, with their balls.
+  // The pairs that prove the bound get their balls now.
   bool grown = false;
   for (std::size_t j = 0; j < solution.rows; ++j) {
     const std::uint32_t row = solution.row[j];
@@ -407,7 +414,8 @@ PoseSearch::MeasuredPose PoseSearch::measure(double theta, Point pivot, double m
   for (const phi::RegionContact& touching : touching_) {
     const Point out = pose(touching.part) - touching.blank;
     const double distance = norm(out);
-    if (!(distance > 1e-9 * scale_)) continue;  // no direction to be had
+    // Points at one place give no direction.
+    if (!(distance > 1e-9 * scale_)) continue;
     contacts_.push_back({touching.part, touching.blank, (1 / distance) * out, distance, kNoCap});
   }
   MeasuredPose found{theta, pivot, value.distance, value.inside};
@@ -422,7 +430,8 @@ void PoseSearch::measure_caps(const BlankFromPart& pose, double margin, Measured
     const double deepest = clearance_.deepest(pose, caps_[cap].edges, 0.125 * goal_.gap, margin, deepest_);
     found.value = std::min(found.value, most - deepest);
     for (const phi::RegionContact& at : deepest_) {
-      if (!(at.distance > 1e-9 * scale_)) continue;  // no direction to be had
+      // Points at one place give no direction.
+      if (!(at.distance > 1e-9 * scale_)) continue;
       contacts_.push_back(
           {at.part, at.blank, (1 / at.distance) * (at.blank - pose(at.part)), most - at.distance, cap});
     }
@@ -436,11 +445,12 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, MeasuredPose& found
     if (depth > 1e-9 * scale_) crossing.push_back({part, blank, (1 / depth) * in, -depth, kNoCap});
   };
   const auto back = pose.inverse();
-  /// The blank's edge nearest to a point of the part outside the blank.
+  /// Returns the blank's edge nearest to a point of the part, if the point lies outside the blank.
   const auto sticks_out = [&](Point p) -> std::optional<std::uint32_t> {
     const Point q = pose(p);
     const DistanceGrid::Value value = blank_grid_.near(q);
-    if (value.signed_distance > value.off) return std::nullopt;  // inside by the grid alone
+    // The grid alone shows that the point is inside.
+    if (value.signed_distance > value.off) return std::nullopt;
     if (value.signed_distance > -value.off && clearance_.blank().contains(q)) return std::nullopt;
     const auto nearest = clearance_.blank().nearest(q, value.edge);
     add(p, nearest.point, nearest.distance);
@@ -452,7 +462,7 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, MeasuredPose& found
     const auto nearest = clearance_.part().nearest(p);
     add(nearest.point, b, nearest.distance);
   };
-  // Between its ends a curve is deepest behind another one where that turns towards it.
+  // Between its ends a curve is deepest behind another one where it turns towards that one.
   const auto deepest = [&](std::uint32_t part_edge, std::uint32_t blank_edge) {
     const geom::Curve part = phi::placed(clearance_.part().curves()[part_edge], pose);
     const geom::Curve& blank = clearance_.blank().curves()[blank_edge];
@@ -461,7 +471,8 @@ void PoseSearch::measure_crossing(const BlankFromPart& pose, MeasuredPose& found
     for (std::size_t k = deepest_points(blank, part, point); k-- > 0;) sticks_in(point[k]);
   };
   for (const Sample& sample : samples_) {
-    if (sample.cap != kNoCap) continue;  // its point is another sample too
+    // Its point is another sample too.
+    if (sample.cap != kNoCap) continue;
     if (const auto edge = sticks_out(sample.at)) deepest(sample.edge, *edge);
   }
   for (const geom::Curve& curve : clearance_.blank().curves()) sticks_in(curve.edge.from);
@@ -486,8 +497,8 @@ void PoseSearch::offer(const MeasuredPose& found, double trust) {
   polish(found, trust);
 }
 
-/// Climbs from a pose: solve the program of its contacts in a box, go there, and halve the box where that
-/// does not help.
+/// Step 3 of docs/design/locate-region.md: climbs from a pose. It solves the program of the pose's contacts
+/// in a box, goes there, and halves the box where that does not help.
 void PoseSearch::polish(MeasuredPose found, double trust) {
   constexpr int kMostSteps = 40;
   double margin = 2 * trust;
@@ -611,7 +622,8 @@ void PoseSearch::run() {
   std::vector<Node> open;
   cover_.assign(1, {});
   open.push_back({root_, kInfinity, 0, {}});
-  upper_ = -kInfinity;  // of what is closed
+  // The bound of what is closed.
+  upper_ = -kInfinity;
   finished_ = true;
   std::uint64_t divided = 0, next_dive = kFirstDive;
   while (!open.empty()) {
@@ -647,7 +659,8 @@ void PoseSearch::run() {
   if (best_.value == -kInfinity) climb_from_anywhere();
 }
 
-/// Nowhere was there hope enough to look closely: the least bad placement that a few climbs find.
+/// Looks for the least bad placement that a few climbs find, because nowhere was there hope enough to look
+/// closely.
 void PoseSearch::climb_from_anywhere() {
   const int count = root_.half_theta > 0 ? kHopelessClimbs : 1;
   for (int k = 0; k < count; ++k) {

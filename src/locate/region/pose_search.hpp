@@ -15,9 +15,9 @@
 
 namespace lekalo::locate {
 
-/// Not a cap. A cap pair is a point of one of a cap's edges (part.radius 0) and a ball in the blank's
-/// material, its radius less by LocalCap::most: however the part lies, `most` less the depth of the point is
-/// at most the pair's distance.
+/// Marks what belongs to no cap. A cap pair is a point of one of a cap's edges (part.radius 0) and a ball in
+/// the blank's material, its radius less by LocalCap::most: however the part lies, `most` less the depth of
+/// the point is at most the pair's distance.
 inline constexpr std::uint32_t kNoCap = 0xffffffff;
 
 /// A cap in the local coordinates of a search.
@@ -26,19 +26,20 @@ struct LocalCap {
   double most = 0;
 };
 
-/// A box of poses: where the part's pivot lies in the blank, and the angle; middle and half widths.
+/// A box of poses, given by middle and half widths: where the part's pivot lies in the blank, and the angle.
 struct PoseCell {
   double theta = 0, half_theta = 0;
   geom::Point pivot;
   double half_x = 0, half_y = 0;
 };
 
-/// Pairs of balls with multipliers that sum to 1: the weighted sum of their distances bounds the objective.
+/// Pairs of balls with multipliers that sum to 1. The weighted sum of their distances bounds the objective.
 struct CellProof {
   struct Term {
     BallPair pair;
     double multiplier = 0;
-    std::uint32_t cap = kNoCap;  ///< of the problem; then `pair` is a cap pair
+    /// The cap of the problem; `pair` is then a cap pair.
+    std::uint32_t cap = kNoCap;
   };
   std::array<Term, 4> term;
   std::size_t terms = 0;
@@ -47,28 +48,34 @@ struct CellProof {
 /// One node of the subdivision that a search made. Leaves carry the proof of their bound.
 struct CoverNode {
   CoverTree::Axis axis = CoverTree::Axis::leaf;
-  double at = 0;                    ///< where it is split
+  /// The place where the node is split.
+  double at = 0;
   std::uint32_t low = 0, high = 0;  ///< children
   CellProof proof;
 };
 
-/// Best-first branch and bound over poses of a part in a blank of any shape (docs/design/locate-region.md).
-/// The objective is the least of the clearance and, of every cap, `most` less the greatest depth of its
-/// edges.
+/// A best-first branch and bound over poses of a part in a blank of any shape (docs/design/locate-region.md).
+/// The objective is the least of two things: the clearance, and for every cap `most` less the greatest depth
+/// of its edges.
 class PoseSearch {
  public:
   struct MeasuredPose {
     double theta = 0;
     geom::Point pivot;  ///< in the blank's frame
-    double value = 0;   ///< the objective as measured; not yet rounded down
+    /// The objective as measured, not yet rounded down.
+    double value = 0;
     bool inside = false;
   };
 
   struct Goal {
-    double gap = 0;       ///< how far the bound may lie above the best objective at the end
-    double at_least = 0;  ///< known to be reachable: cells that prove no more need not be divided
-    double enough = 0;    ///< the search ends when it has found so much
-    double demanded = 0;  ///< while that is not reached, cells that prove less are closed sooner
+    /// The bound may lie this far above the best objective at the end.
+    double gap = 0;
+    /// A value known to be reachable: cells that prove no more need not be divided.
+    double at_least = 0;
+    /// The search ends when it has found this much.
+    double enough = 0;
+    /// While this is not reached, cells that prove less are closed sooner.
+    double demanded = 0;
   };
   /// \param clearance  part (its points counted from the pivot) and blank, in local coordinates
   /// \param far        largest |coordinate| of the problem in its own frames, which rounding follows
@@ -77,7 +84,7 @@ class PoseSearch {
 
   void run();
 
-  /// A contact that holds the part at a pose; held_at() gives them by blank edge, then by part edge, with
+  /// A contact that holds the part at a pose. held_at() gives them by blank edge, then by part edge, with
   /// multipliers that balance.
   struct Held {
     phi::RegionContact contact;
@@ -93,7 +100,7 @@ class PoseSearch {
   [[nodiscard]] const std::vector<CoverNode>& cover() const { return cover_; }
 
  private:
-  /// If the demand is not met, how much is missing need only be known to this part of it.
+  /// If the demand is not met, what is missing need only be known to this part of it.
   static constexpr double kOfWhatIsMissing = 1.0 / 16;
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -101,7 +108,8 @@ class PoseSearch {
     PoseCell cell;
     double upper = 0;
     std::uint32_t cover = 0;
-    std::vector<std::uint32_t> pairs;  ///< of known_, those that may matter here
+    /// Those of known_ that may matter here.
+    std::vector<std::uint32_t> pairs;
   };
   /// A point of the part by which large cells are bounded.
   struct Sample {
@@ -110,20 +118,21 @@ class PoseSearch {
     std::uint32_t edge = 0;  ///< of the part, or of the cap
     std::uint32_t cap = kNoCap;
   };
-  /// A place where the outlines come close, or cross: `distance` is negative where the part's point lies
+  /// A place where the outlines come close, or cross. `distance` is negative where the part's point lies
   /// outside the blank or the blank's point inside the part. The normal points from the blank's outside to
   /// its material, in the blank's frame.
   struct PoseContact {
     geom::Point part, blank, normal;
     double distance = 0;
-    /// The contact is where this cap's edge lies deepest: `distance` is then what the cap has left, and the
-    /// normal points from the part's point to the blank's.
+    /// If there is a cap, the contact is where the cap's edge lies deepest. `distance` is then what the cap
+    /// has left, and the normal points from the part's point to the blank's.
     std::uint32_t cap = kNoCap;
   };
   /// A pair found at a contact. It begins as two points and gets its balls when its curvature matters.
   struct Known {
     BallPair pair;
-    geom::Point part, blank;  ///< the two points
+    /// The two points.
+    geom::Point part, blank;
     geom::Point normal_of_part, normal_of_blank;
     bool grown = false;
     std::uint32_t cap = kNoCap;
@@ -157,7 +166,7 @@ class PoseSearch {
     const double missing = goal_.demanded - best_.value;
     return missing < kInfinity && upper <= best_.value + kOfWhatIsMissing * missing;
   }
-  /// Half widths of a box of steps that leaves what is locked as it is.
+  /// Returns the half widths of a box of steps that leaves what is locked as it is.
   [[nodiscard]] std::array<double, 3> trusted(double half) const;
 
   const phi::RegionClearance& clearance_;
@@ -168,7 +177,8 @@ class PoseSearch {
   double reach_;
   double scale_ = 0, doubt_ = 0, rounding_ = 0, fine_ = 0;
   std::vector<Sample> samples_;
-  std::vector<Ball> voids_;  ///< a ball in each hole of the blank
+  /// A ball in each hole of the blank.
+  std::vector<Ball> voids_;
   DistanceGrid blank_grid_, part_grid_;
   std::vector<Known> known_;
   std::vector<CoverNode> cover_;

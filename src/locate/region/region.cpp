@@ -18,7 +18,7 @@ using geom::Edge;
 using geom::Point;
 using geom::Region;
 
-/// Edges moved by -origin and, if asked for, mirrored in x afterwards.
+/// Returns the edges moved by -origin and, if asked for, mirrored in x afterwards.
 std::vector<Edge> to_local(const std::vector<Edge>& edges, Point origin, bool mirrored) {
   const auto moved = [&](Point p) {
     const Point q = p - origin;
@@ -35,7 +35,8 @@ std::vector<Edge> to_local(const std::vector<Edge>& edges, Point origin, bool mi
   return local;
 }
 
-/// Mirrored ones have their material on the right: nothing here asks for the side.
+/// Moves and mirrors regions likewise. Mirrored ones have their material on the right, and nothing here asks
+/// for the side.
 std::vector<Region> to_local(const std::vector<Region>& regions, Point origin, bool mirrored) {
   std::vector<Region> local;
   for (const Region& region : regions) {
@@ -65,13 +66,14 @@ class RegionLocaliser {
  public:
   RegionLocaliser(const RegionProblem& problem, const RegionOptions& options)
       : problem_(problem), options_(options), given_(problem.part, problem.blank) {
-    // A locked shift is that of the part's own origin: only that stays where it is when the part turns.
+    // A locked shift is that of the part's own origin, because only that stays where it is when the part
+    // turns.
     if (!problem.locked.x && !problem.locked.y) part_origin_ = middle(given_.part().bounds());
     blank_origin_ = middle(given_.blank().bounds());
     far_ = largest(given_.part().bounds()) + largest(given_.blank().bounds());
     for (const std::optional<double>& locked : {problem.locked.x, problem.locked.y})
       far_ += std::abs(locked.value_or(0));
-    // The pivot need not be material: then the box grows by its distance from what is.
+    // The pivot need not be material. If it is not, the box grows by its distance from the material.
     pivot_off_ = given_.part().contains(part_origin_) ? 0 : given_.part().nearest(part_origin_).distance;
   }
 
@@ -127,7 +129,7 @@ class RegionLocaliser {
     return caps;
   }
 
-  /// Rounding and the tolerances take this much of the gap.
+  /// Returns how much of the gap is taken by rounding and the tolerances.
   [[nodiscard]] double taken() const {
     return 64 * geom::kEdgeDistanceError * far_ + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
   }
@@ -140,8 +142,8 @@ class RegionLocaliser {
   }
 
   [[nodiscard]] PoseCell root() const {
-    // Wherever no material of the part is deeper outside the blank than that, the pivot is no further outside
-    // the blank's box than it is from the material, and than that.
+    // If no material of the part is deeper outside the blank than furthest_out(), the pivot is no further
+    // outside the blank's box than that and its distance from the material.
     const Box box = given_.blank().bounds();
     const Point half = 0.5 * (box.high - box.low);
     const double more = pivot_off_ + furthest_out();
@@ -157,7 +159,8 @@ class RegionLocaliser {
     return cell;
   }
 
-  /// The pose in the file's coordinates, its doubles fixed first and its clearance measured at those.
+  /// Returns the pose in the file's coordinates. Its doubles are fixed first, and its clearance is measured
+  /// at those.
   [[nodiscard]] Placement placement(const PoseSearch::MeasuredPose& found, bool mirrored) const {
     const Point pivot = BlankFromPart::from_angle(found.theta, {}, mirrored).rotate(part_origin_);
     Placement placement{found.pivot.x + blank_origin_.x - pivot.x, found.pivot.y + blank_origin_.y - pivot.y,
@@ -178,7 +181,7 @@ class RegionLocaliser {
     return placement;
   }
 
-  /// A point of the local part in the part's own frame.
+  /// Returns a point of the local part in the part's own frame.
   [[nodiscard]] Point given_point(Point p, bool mirrored) const {
     return Point{mirrored ? -p.x : p.x, p.y} + part_origin_;
   }

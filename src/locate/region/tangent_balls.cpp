@@ -22,7 +22,7 @@ Ball tangent_ball(const geom::RegionIndex& outline, Point at, Point direction, d
     const double height = dot(direction, chord);
     if (!(height > 0)) break;
     const double smaller = dot(chord, chord) / (2 * height);
-    // The ball through the point found; the point itself may be the touching one but for rounding.
+    // The next ball passes through the point found, which may be the touching point itself but for rounding.
     if (!(smaller < radius)) break;
     radius = smaller;
   }

@@ -22,11 +22,12 @@ using geom::Point;
 constexpr double kLargestCoordinate = 1e9;
 /// Neighbours are at most this many median spacings apart, when the user does not say.
 constexpr double kStepInSpacings = 3;
-/// Without order: the points that give the order are this many guards apart, so that noise does not change
-/// it (for k = 2 that is 12 standard uncertainties), and at least an eighth of the step.
+/// The points that give an order to points without one are this many guards apart, and at least an eighth of
+/// the step. So noise does not change the order: for k = 2 this is 12 standard uncertainties.
 constexpr double kSpreadInGuards = 6;
 constexpr double kSpreadInSteps = 0.125;
-/// Without order the step is at least this many guards: noise hides what happens on a smaller scale.
+/// The step of points without order is at least this many guards, because noise hides what happens on a
+/// smaller scale.
 constexpr double kStepInGuards = 8;
 /// Slabs are made wider by this times the largest coordinate: 1.5e-8 mm for 1 m, far above the rounding of
 /// the Booleans and of the check.
@@ -133,7 +134,7 @@ class Maker {
     return use_no_order();
   }
 
-  /// Returns a place where the outlines meet, if the order is no good.
+  /// Returns a place where the outlines meet, if the given order is no good.
   Result<std::optional<Crossing>> use_given_order() {
     loops_.clear();
     std::vector<double> spacing;
@@ -193,7 +194,7 @@ class Maker {
     return {};
   }
 
-  /// Files every point that is no corner of the outlines with the edge it was measured beside.
+  /// Notes for every point that is no corner of the outlines the edge that it was measured beside.
   void attach(const std::vector<std::uint32_t>& sorted, double spread);
 
   void guard_loops() {
@@ -218,7 +219,7 @@ class Maker {
     for (; at != beside_.end() && at->first == key; ++at) loop.beside.push_back(at->second);
   }
 
-  /// The widest stretch of the edge without a point, along it.
+  /// Returns the widest stretch along the edge that has no point.
   UnknownStretch widest_gap(std::uint32_t l, const GuardedLoop& loop, std::size_t i) const {
     const std::uint32_t a = loop.vertex(i), b = loop.vertex(i + 1);
     const Point chord = points_[b] - points_[a];
@@ -244,7 +245,8 @@ class Maker {
     return gap;
   }
 
-  /// w_i of the header; the guard, and an entry in `unknown`, where nothing bounds the contour.
+  /// Returns w_i of the header. Where nothing bounds the contour that is the guard, and `unknown` gets an
+  /// entry.
   double reach_of(std::uint32_t l, const GuardedLoop& loop, std::size_t i) {
     const double g = made_.guard;
     const double c = norm(points_[loop.vertex(i + 1)] - points_[loop.vertex(i)]);
@@ -270,14 +272,17 @@ class Maker {
 
   Result<void> cut_out() {
     double margin = kMargin * geom::largest_coordinate(points_);
-    // Booleans that had to snap coarsely ask for more; none is known to need the third round.
+    // Booleans that had to snap coarsely need a wider margin. No case is known that needs the third round.
     for (int round = 0; round < 4; ++round, margin *= 64) {
       std::vector<Slab> slabs;
       for (const GuardedLoop& loop : guarded_) {
+        // Step 3.
         const auto cover = cover_by_slabs(points_, loop, made_.guard, 0.5 * options_.simplify);
         slabs.insert(slabs.end(), cover.begin(), cover.end());
       }
+      // Step 4.
       LEKALO_TRY(const auto regions, inside_of_slabs(points_, guarded_, slabs, margin));
+      // Step 5.
       made_.regions = cut_corners(regions, 0.5 * options_.simplify);
       if (made_.regions.empty()) {
         return bad(
@@ -285,6 +290,7 @@ class Maker {
                         "every side (guard {:.4g} mm and dip {:.4g} mm)",
                         made_.guard + made_.deepest, made_.guard, made_.deepest));
       }
+      // Step 6: the claim rests on this check alone.
       if (keeps_out(points_, guarded_, made_.guard, made_.regions)) return {};
     }
     return bad(
@@ -311,7 +317,8 @@ class Maker {
   GuaranteedBlank made_;
   std::vector<bool> keep_;
   std::vector<Loop> loops_;
-  /// Points measured beside an edge, the edge named by its ends (lower index first); sorted.
+  /// Points and the edges they were measured beside, sorted; an edge is named by its ends, the lower index
+  /// first.
   std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>> beside_;
   std::vector<GuardedLoop> guarded_;
 };
@@ -363,7 +370,7 @@ void Maker::state_assumptions() {
   if (options_.factor_covers_all) {
     guard += "), all points together at the confidence the coverage factor was chosen for";
   } else {
-    // Two-sided probability of the normal distribution.
+    // The share outside is the two-sided probability of the normal distribution.
     const double outside = std::erfc(options_.coverage_factor / std::sqrt(2.0));
     guard += fmt::format(
         "); for errors with a normal distribution that is {:.4g} % for each point by itself, not for all "

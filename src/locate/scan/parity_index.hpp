@@ -7,13 +7,13 @@
 
 namespace lekalo::locate {
 
-/// Tells exactly whether a point has an odd number of outlines around it. The edges are held by horizontal
+/// Tells exactly whether a point has an odd number of outlines around it. The edges are filed in horizontal
 /// strips.
 class ParityIndex {
  public:
   static constexpr std::uint32_t kNoLoop = 0xffffffff;
   ParityIndex(const geom::Ring& points, const std::vector<Loop>& loops);
-  /// Loop `except` is not counted. Either answer may come on an edge.
+  /// Loop `except` is not counted. For a point on an edge either answer may come.
   [[nodiscard]] bool odd(geom::Point p, std::uint32_t except = kNoLoop) const;
 
  private:

@@ -10,12 +10,13 @@
 
 namespace lekalo::locate {
 
-/// Points (or what lies at them) by the square cell they fall in; cells that hold nothing cost nothing, so
-/// one point far away does no harm. What it visits comes in an order that depends on what was inserted only.
+/// Points (or what lies at them) by the square cell they fall in. Cells that hold nothing cost nothing, so
+/// one point far away does no harm. Items are visited in an order that depends only on what was inserted.
 class PointHash {
  public:
-  /// Cells are at least 2^-40 of `largest`, the largest coordinate of all that is inserted or asked for, so
-  /// that a cell's number is exact. \pre cell > 0
+  /// Cells are at least 2^-40 of `largest` wide, the largest coordinate of all that is inserted or asked for,
+  /// so that a cell's number is exact.
+  /// \pre cell > 0
   PointHash(double cell, std::size_t capacity, double largest)
       : cell_(std::max(cell, 0x1p-40 * largest)), per_cell_(1 / cell_) {
     std::size_t size = 16;
@@ -34,7 +35,7 @@ class PointHash {
     cell.head = static_cast<std::uint32_t>(item_.size() - 1);
   }
 
-  /// visit(item) for everything in cells that meet the square of half width `radius` about p.
+  /// Calls visit(item) for everything in cells that meet the square of half width `radius` about p.
   template <class Visit>
   void visit_near(geom::Point p, double radius, Visit&& visit) const {
     const std::int64_t x_end = index(p.x + radius), y_end = index(p.y + radius),
@@ -44,7 +45,7 @@ class PointHash {
         for (std::uint32_t at = head(x, y); at != kNone; at = next_[at]) visit(item_[at]);
   }
 
-  /// visit(item) for everything in the cell (x, y) in units of the cell's width.
+  /// Calls visit(item) for everything in the cell (x, y), counted in cells.
   template <class Visit>
   void visit_cell(std::int64_t x, std::int64_t y, Visit&& visit) const {
     for (std::uint32_t at = head(x, y); at != kNone; at = next_[at]) visit(item_[at]);

@@ -21,7 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Fit {
   Slab slab;
   double excess = kInfinity;
-  bool forward = false;  ///< nothing lies far behind the chord's beginning or beyond its end
+  /// True when nothing lies far behind the chord's beginning or beyond its end.
+  bool forward = false;
 };
 
 Fit fit_slab(const geom::Ring& points, const GuardedLoop& loop, std::size_t first, std::size_t last,
@@ -77,7 +78,8 @@ std::vector<Loop> loops_of(const std::vector<GuardedLoop>& loops) {
 
 // ---- corners cut off --------------------------------------------------------------------------------------
 
-/// The vertices of all contours of a set of regions, linked along the contours.
+/// Step 5 of docs/design/scan.md: the vertices of all contours of a set of regions, linked along the
+/// contours, from which corners are cut off.
 class CornerCutter {
  public:
   CornerCutter(const std::vector<geom::Region>& regions, double tolerance)
@@ -90,7 +92,8 @@ class CornerCutter {
   }
 
   void cut() {
-    // Every other vertex at a time, so that a run of small steps is not eaten from one end.
+    // Every other vertex is looked at, and then again, so that a run of small steps is not eaten from one
+    // end.
     for (bool changed = true; changed;) {
       changed = false;
       std::uint32_t last_cut = kNone;
@@ -163,7 +166,7 @@ class CornerCutter {
       at_.push_back(contour[i].from);
       before_.push_back(first + (i + n - 1) % n);
       next_.push_back(first + (i + 1) % n);
-      // In a contour's own order: the vertex after this one in the contour as it was.
+      // This is the contour's own order: the vertex after this one in the contour as it was before any cut.
       original_next_.push_back(first + (i + 1) % n);
     }
     gone_.resize(at_.size(), false);
@@ -177,7 +180,8 @@ class CornerCutter {
     const Point chord = pc - pa;
     const double length = norm(chord);
     if (!(length > 0) || !(dot(chord, pb - pa) >= 0) || !(dot(chord, pc - pb) >= 0)) return false;
-    // All that was cut off between them before must not be deeper now, either.
+    // All vertices that were cut off between the two before must not be deeper than the tolerance now,
+    // either.
     for (std::uint32_t k = original_next_[a]; k != c; k = original_next_[k])
       if (!(std::abs(cross(chord, at_[k] - pa)) <= tolerance_ * length)) return false;
     // Nothing else may lie in the triangle that is cut off.
@@ -213,7 +217,8 @@ std::vector<Slab> cover_by_slabs(const geom::Ring& points, const GuardedLoop& lo
       const Fit fit = fit_slab(points, loop, first, last, guard, slack);
       return fit.forward && fit.excess <= tolerance;
     };
-    // One edge is always taken; then twice as many as long as they fit, then the most by halving.
+    // The walk always takes one edge, then twice as many as long as they fit, and then finds the most by
+    // halving.
     std::size_t good = first + 1, bad = n + 1;
     for (std::size_t step = 1; good + step <= n; step *= 2) {
       if (!fits(good + step)) {
@@ -241,7 +246,8 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
     pieces.push_back(std::move(made));
   }
   LEKALO_TRY(const auto band, geom::united(pieces));
-  // The holes of the band that lie inside the outlines; where parts of the band lie in them, without those.
+  // The pieces are the holes of the band that lie inside the outlines. Where parts of the band lie in such a
+  // hole, they are taken out of it.
   const ParityIndex parity(points, loops_of(loops));
   std::vector<geom::Region> faces;
   bool islands = false;
@@ -250,7 +256,8 @@ Result<std::vector<geom::Region>> inside_of_slabs(const geom::Ring& points,
     for (const geom::Contour& hole : piece.holes) {
       if (!parity.odd(hole.front().from)) continue;
       auto face = geom::make_region(hole);
-      if (face) faces.push_back(*std::move(face));  // slivers without area hold nothing worth having
+      // A sliver without area holds nothing worth having.
+      if (face) faces.push_back(*std::move(face));
     }
   }
   if (!islands || faces.empty()) return faces;

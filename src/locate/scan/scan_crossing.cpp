@@ -12,8 +12,8 @@ namespace {
 
 using geom::Point;
 
-/// Twice the median length of the edges, but so large that all of them together run through a few cells an
-/// edge.
+/// Returns twice the median length of the edges, or more where all of them together would run through more
+/// than a few cells an edge.
 double cell_size(const geom::Ring& points, const std::vector<Loop>& loops) {
   std::vector<double> lengths;
   for (const Loop& loop : loops)
@@ -34,15 +34,15 @@ class EdgeCells {
         hash_(cell, 1024, geom::largest_coordinate(points)),
         cell_(hash_.cell()) {}
 
-  /// Files the edge under the cells it runs through; what it meets there, if anything.
+  /// Files the edge under the cells it runs through, and returns the first edge that it meets there, if any.
   std::optional<Crossing> add(std::uint32_t loop, std::uint32_t edge) {
     const std::pair<Point, Point> both = ends(loop, edge);
     const Point a = both.first, b = both.second;
     const std::uint32_t id = static_cast<std::uint32_t>(edges_.size());
     edges_.push_back({loop, edge});
     std::optional<Crossing> found;
-    // Column by column, the rows between where the edge enters and leaves it, and one more each side for
-    // rounding.
+    // Columns are gone through one by one, each with the rows between where the edge enters and leaves it,
+    // and one row more on each side for rounding.
     const Point low = a.x <= b.x ? a : b, high = a.x <= b.x ? b : a;
     for (std::int64_t x = hash_.index(low.x), end = hash_.index(high.x); x <= end && !found; ++x) {
       double y0 = low.y, y1 = high.y;

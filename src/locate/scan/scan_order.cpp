@@ -17,9 +17,9 @@ namespace {
 
 using geom::Point;
 
-/// Loose ends beyond these do not come from a few gaps in coverage.
+/// More loose ends than this do not come from a few gaps in coverage.
 constexpr std::size_t kMostLooseEnds = 512;
-/// Another loose end that is less than this times as far makes the choice a guess.
+/// The choice of a loose end is a guess when another one is less than this times as far.
 constexpr double kClearlyNearer = 1.25;
 
 std::string place(Point p) { return fmt::format("({:.4g}, {:.4g})", p.x, p.y); }
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> spread_points(const geom::Ring& points, const std::ve
   return chosen;
 }
 
-/// Up to two neighbours of each of the chosen points.
+/// The chosen points, each with up to two neighbours.
 class Links {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -134,7 +134,7 @@ class Links {
                                place(at(i))));
   }
 
-  /// The end of the chain that begins at i, going along links.
+  /// Returns the end of the chain that begins at `start`, going along links.
   [[nodiscard]] std::uint32_t other_end(std::uint32_t start) const {
     std::uint32_t before = kNone, i = start;
     while (true) {
@@ -181,7 +181,8 @@ class Links {
 }  // namespace
 
 double median_nearest(const geom::Ring& points, const std::vector<std::uint32_t>& sorted) {
-  // Cells of about the spacing of points along an outline of the size of all but the outermost 2 %.
+  // Cells are about as wide as the spacing of the points, if they lie along an outline around all but the
+  // outermost 2 % of them.
   const std::size_t n = sorted.size();
   std::vector<double> x, y;
   for (const std::uint32_t i : sorted) x.push_back(points[i].x), y.push_back(points[i].y);
@@ -218,7 +219,7 @@ double median_nearest(const geom::Ring& points, const std::vector<std::uint32_t>
 }
 
 std::vector<std::uint32_t> lonely_points(const geom::Ring& points, double reach) {
-  // Points that share a small cell have company; the others look around.
+  // Points that share a small cell have company, and only the others look around.
   const double largest = geom::largest_coordinate(points);
   PointHash firsts(reach / 2, points.size(), largest), all(reach / 2, points.size(), largest);
   std::vector<bool> company(points.size(), false);

@@ -14,7 +14,7 @@ using geom::Point;
 
 class Keeper {
  public:
-  /// \param size  largest coordinate of all
+  /// \param size  the largest coordinate of all
   Keeper(const std::vector<geom::Region>& regions, double size)
       : index_(regions), rounding_(4 * geom::kEdgeDistanceError * size) {}
 
@@ -53,7 +53,7 @@ bool keeps_out(const geom::Ring& points, const std::vector<GuardedLoop>& loops, 
   std::vector<Loop> outlines;
   for (const GuardedLoop& loop : loops) outlines.push_back(loop.vertices);
   const ParityIndex parity(points, outlines);
-  // No outline meets a piece (below), so one point of it tells for all.
+  // One point of a piece tells for all of it, because no outline meets a piece, as is checked below.
   for (const geom::Region& region : regions)
     if (!parity.odd(region.outer.front().from)) return false;
   Keeper keeper(regions, geom::largest_coordinate(points));

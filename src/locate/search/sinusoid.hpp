@@ -14,7 +14,7 @@ struct Angle {
   [[nodiscard]] static Angle of(double theta) noexcept { return {theta, geom::sincos(theta)}; }
 };
 
-/// theta -> mean + a cos(theta) + b sin(theta).
+/// The function theta -> mean + a cos(theta) + b sin(theta).
 struct Sinusoid {
   double mean = 0, a = 0, b = 0;
 
@@ -24,9 +24,10 @@ struct Sinusoid {
   [[nodiscard]] double slope_at(const Angle& angle) const noexcept {
     return b * angle.direction.cosine - a * angle.direction.sine;
   }
-  /// True if the crest may lie inside [lo, hi], an interval shorter than pi.
+  /// Says whether the crest may lie inside [lo, hi], an interval shorter than pi.
   [[nodiscard]] bool may_crest_within(const Angle& lo, const Angle& hi) const noexcept {
-    // A slope within rounding of zero counts as a crest: the crest's value is then right to second order.
+    // A slope within rounding of zero counts as a crest, because the crest's value is then right to second
+    // order.
     const double doubt = 1e-15 * (std::abs(a) + std::abs(b));
     return slope_at(lo) > -doubt && slope_at(hi) < doubt;
   }
@@ -34,15 +35,16 @@ struct Sinusoid {
   [[nodiscard]] double crest_angle() const noexcept { return geom::direction_angle(a, b); }
 };
 
-/// Largest value over [lo, hi], an interval shorter than pi, within 8 u (|mean| + |a| + |b|) of the true one.
+/// Returns the largest value over [lo, hi], an interval shorter than pi, within 8 u (|mean| + |a| + |b|) of
+/// the true one.
 [[nodiscard]] inline double max_over(const Sinusoid& f, const Angle& lo, const Angle& hi) noexcept {
   const double ends = std::fmax(f.at(lo), f.at(hi));
   return f.may_crest_within(lo, hi) ? std::fmax(ends, f.mean + f.amplitude()) : ends;
 }
 
-/// Angles strictly inside (lo, hi), an interval shorter than pi, where f and g are equal: none, one or two,
-/// in no order. Solved by the half-angle substitution about the middle, which keeps its digits on short
-/// intervals.
+/// The angles strictly inside (lo, hi), an interval shorter than pi, where f and g are equal: none, one or
+/// two, in no order. They are found by the half-angle substitution about the middle, which keeps its digits
+/// on short intervals.
 struct CrossingAngles {
   std::array<double, 2> theta{};
   int count = 0;
@@ -54,7 +56,8 @@ struct CrossingAngles {
   const geom::SinCos sc = geom::sincos(middle);
   const double mean = f.mean - g.mean, a0 = f.a - g.a, b0 = f.b - g.b;
   const double a = a0 * sc.cosine + b0 * sc.sine, b = b0 * sc.cosine - a0 * sc.sine;
-  // mean + a cos(phi) + b sin(phi) = 0 with z = tan(phi / 2): (mean - a) z^2 + 2 b z + (mean + a) = 0.
+  // The equation mean + a cos(phi) + b sin(phi) = 0 with z = tan(phi / 2) is (mean - a) z^2 + 2 b z + (mean +
+  // a) = 0.
   const double discriminant = a * a + b * b - mean * mean;
   CrossingAngles found;
   if (!(discriminant >= 0)) return found;

@@ -16,10 +16,11 @@
 namespace lekalo::nest {
 namespace {
 
-/// Streams of chance, by strand, for building the first states. The strands themselves have the streams
-/// below.
+/// The numbers of the random streams that build the first states: this one for the first strand, and the
+/// following ones for the others. The strands themselves have the streams below.
 constexpr std::uint64_t kBuilderStreams = 1000;
-/// Streams of chance, by merge, for placing again what the exact check took out.
+/// The numbers of the random streams that place again what the exact check took out: this one and the
+/// following ones, by merge.
 constexpr std::uint64_t kMendingStreams = 1'000'000;
 
 /// The first state of a strand and how much work it took.
@@ -51,8 +52,8 @@ class Run {
     while (!is_over() &&
            std::any_of(strands_.begin(), strands_.end(), [](const auto& l) { return !l->is_done(); })) {
       each_strand([](Strand& strand, std::size_t) { strand.run(tuning::kSegment); });
-      // Work since the last merge that a stop ended in the middle does not count, so that the same work
-      // gives the same result again.
+      // A stop may end the strands in the middle. The work since the last merge does not count then, so that
+      // the same work gives the same result again.
       if (control_.stop_requested()) break;
       merge();
     }
@@ -120,8 +121,8 @@ class Run {
     if (options_.improved) options_.improved(best_);
   }
 
-  /// Shows a state of which the exact check took something out: that gets another place, and the strand
-  /// goes on from the best layout, whether this one was better or not.
+  /// Shows a state from which the exact check took something out. What was taken out gets another place. The
+  /// strand then goes on from the best layout, whether this one was better or not.
   void show_mended(Strand& strand, const State& rest) {
     Placer placer(problem_, wanted_.items, Random(options_.seed, kMendingStreams + best_.merges));
     const State mended = built(problem_, wanted_.items, placer, rest, by_size(problem_, wanted_.items), {});
@@ -149,7 +150,7 @@ class Run {
       const Merit now = strands_[k]->merit();
       const bool gains = now < merits_[k];
       merits_[k] = now;
-      // A strand that still gains something goes its own way.
+      // A strand that still gains something is not made to follow the leader.
       if (!(leader.merit() < now) || (gains && !strands_[k]->is_done())) {
         alone_[k] = 0;
       } else if (++alone_[k] >= tuning::kMergesAlone || strands_[k]->is_done()) {
@@ -160,7 +161,7 @@ class Run {
     end_merge();
   }
 
-  /// The layout with ids: given pieces keep theirs, new ones get the next.
+  /// Returns the layout with ids: pieces that were given keep theirs, and new ones get the next.
   layout::Document numbered(layout::Document document) const {
     const std::uint64_t first = problem_.document().next_id;
     document.next_id = first;
@@ -187,7 +188,7 @@ class Run {
   }
 
   Reason reason_of(std::uint32_t part) {
-    // If another piece of the part has a place, this one lacks room.
+    // If another piece of the part has a place, this one only lacks room.
     for (const layout::Placement& p : best_.document.placements)
       if (p.part == part) return Reason::no_stock;
     const auto known = reasons_.find(part);
@@ -201,10 +202,13 @@ class Run {
   const RunControl& control_;
   std::vector<std::unique_ptr<Strand>> strands_;
   std::vector<Begun> begun_;
-  std::vector<int> alone_;     ///< merges since a strand gained or led
-  std::vector<Merit> merits_;  ///< by strand, at the last merge
+  /// By strand: the merges since it gained something or led.
+  std::vector<int> alone_;
+  /// By strand: its merit at the last merge.
+  std::vector<Merit> merits_;
   Merit merit_;
-  State state_;  ///< the one that best_ shows, on the grid
+  /// The state that best_ shows, on the grid.
+  State state_;
   Nested best_;
   std::map<std::uint32_t, Reason> reasons_;
 };

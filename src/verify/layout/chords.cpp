@@ -12,10 +12,10 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kStep = 0x1p-20;  // mm
-/// How far rounding to the grid and joining points that are too close take a vertex: below 0.71 + 3 steps.
+/// Rounding to the grid and joining points that are too close take a vertex no further than 0.71 + 3 steps.
 constexpr double kCorner = 4 * kStep;
 
-/// The doubles that the written numbers stand for, mm.
+/// The doubles that the written numbers of one drawn edge stand for, mm.
 struct DrawnEdge {
   bool arc = false, ccw = true, full = false;
   Vec from, to, centre;
@@ -37,7 +37,8 @@ std::vector<DrawnEdge> edges_of(const Shape& shape, std::size_t contour) {
   return edges;
 }
 
-/// Distance of c from the segment, enclosed; at most that from its ends.
+/// Encloses the distance of c from the segment. Where it is open which point of the segment is nearest, the
+/// upper end is the distance from the nearer end of the segment.
 Span distance(const Vec& c, const Vec& from, const Vec& to) {
   const Vec along = to - from;
   const Span ends{std::min(length(from - c).low, length(to - c).low),
@@ -51,12 +52,12 @@ Span distance(const Vec& c, const Vec& from, const Vec& to) {
 
 double angle(const Vec& a, const Vec& b) { return std::atan2(cross(a, b).high, dot(a, b).high); }
 
-/// Chords from one vertex of the drawing to the next, beside one arc.
+/// Checks the chords that stand beside one arc, from one vertex of the drawing to the next.
 std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const DrawnEdge& arc, bool outside,
                                         double tolerance) {
   const Span first = length(arc.from - arc.centre), last = length(arc.to - arc.centre);
   const double least = std::min(first.low, last.low), most = std::max(first.high, last.high);
-  // How far the chords may reach, with the band of an arc that is not consistent and a rounding.
+  // The chords may reach this far: the tolerance, the band of an arc whose two radii differ, and a rounding.
   const double reach = tolerance + (most - least) + kCorner;
   double turned = 0;
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -81,8 +82,9 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
   }
   double sweep = arc.full ? kTurn : angle(arc.from - arc.centre, arc.to - arc.centre) * (arc.ccw ? 1 : -1);
   if (sweep < 0) sweep += kTurn;
-  // Chords that go around another time, or the other way, are off by a turn; a rounding is far below half of
-  // one, but for arcs of a few steps, which may begin and end anywhere in them.
+  // The chords must turn as the arc does. Chords that go around another time, or the other way, are off by a
+  // whole turn, and rounding is far below half of one. Arcs of a few steps are not asked, because their ends
+  // may be anywhere in them.
   if (most > 64 * kStep && !(std::abs(turned * (arc.ccw ? 1 : -1) - sweep) < 1))
     return "the chords of an arc do not run around its centre with it";
   return std::nullopt;
@@ -111,8 +113,8 @@ class Walk {
 
 bool near(const Vec& a, const Vec& b) { return length(a - b).low <= kCorner; }
 
-/// Points to go until the walk is at the next vertex of the drawing: of those in a row that are near, the
-/// nearest. Nothing when there is none.
+/// Returns how many points the walk must go to reach the next vertex of the drawing: of several near points
+/// in a row the nearest one. Returns nothing when there is none.
 std::optional<std::size_t> steps_to(const Walk& walk, const DrawnEdge& edge) {
   std::optional<std::size_t> found;
   const std::size_t most = edge.arc ? walk.left() : std::min<std::size_t>(1, walk.left());
@@ -121,8 +123,8 @@ std::optional<std::size_t> steps_to(const Walk& walk, const DrawnEdge& edge) {
     if (is_near &&
         (!found || length(walk.point(i) - edge.to).low <= length(walk.point(*found) - edge.to).low))
       found = i;
-    // A vertex that is near at once may be the beginning of a short arc that returns; one farther on counts
-    // more.
+    // A vertex that is near at once may be the beginning of a short arc that comes back, so a vertex farther
+    // on takes precedence.
     if (!is_near && found && *found > 0) break;
   }
   return found;
@@ -149,7 +151,8 @@ std::optional<std::string> fault_of_walk(Walk walk, const std::vector<DrawnEdge>
 }
 
 bool runs_counter_clockwise(const GridLoop& loop) {
-  const GridOutline outline = make_outline({loop});  // which turns it so
+  // The call turns the loop counter-clockwise.
+  const GridOutline outline = make_outline({loop});
   return outline.edges.front().from == loop.front();
 }
 

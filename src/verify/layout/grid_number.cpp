@@ -9,12 +9,13 @@ namespace {
 
 constexpr int kStepBits = 20, kRotationBits = 52;
 
-/// value 2^bits to a whole number; scaling by a power of two is exact. \pre the result fits 62 bits
+/// Returns the whole number nearest to value 2^bits, ties to even. Scaling by a power of two is exact.
+/// \pre the result fits 62 bits
 std::int64_t nearest_multiple(double value, int bits) {
-  return static_cast<std::int64_t>(std::nearbyint(std::ldexp(value, bits)));  // ties to even
+  return static_cast<std::int64_t>(std::nearbyint(std::ldexp(value, bits)));
 }
 
-/// Counter-clockwise angle from `from`, as a vector turned back by it.
+/// A direction seen from `from`: the vector turned back by the angle of `from`.
 struct Turned {
   Integer along, across;
 };
@@ -22,7 +23,7 @@ Turned seen_from(GridTurn from, GridTurn d) {
   const Integer c(from.c), s(from.s), x(d.c), y(d.s);
   return {c * x + s * y, c * y - s * x};
 }
-/// In [0, 360): 0 on the axis, then the upper half, then the rest.
+/// Orders directions within one turn from 0: first the axis itself, then the upper half, then the rest.
 int part_of_turn(const Turned& v) {
   if (sgn(v.across) == 0) return sgn(v.along) > 0 ? 0 : 2;
   return sgn(v.across) > 0 ? 1 : 3;
@@ -33,7 +34,7 @@ bool not_after(const Turned& a, const Turned& b) {
   return sgn(Integer(a.along * b.across - a.across * b.along)) >= 0;
 }
 
-/// value / 2^52 to the nearest whole number, ties to even.
+/// Returns the whole number nearest to value / 2^52, ties to even.
 std::int64_t without_rotation_bits(Wide value) {
   const Wide unit = Wide{1} << kRotationBits;
   Wide floor = value / unit, rest = value % unit;
@@ -60,8 +61,8 @@ std::optional<GridTurn> turn_of_pair(double c, double s) {
 }
 
 GridTurn turn_of_degrees(double degrees) {
-  // Half way between two multiples there is no cosine of a rational number of degrees: where such a cosine is
-  // rational it is 0, 1/2 or 1 (Niven), so more digits decide in the end.
+  // The loop ends: a rational number of degrees has no cosine half way between two multiples, because where
+  // such a cosine is rational it is 0, 1/2 or 1 (Niven). So more digits decide.
   for (Precision precision = 192;; precision *= 2) {
     const Interval angle =
         Interval::exactly(degrees, precision) * Interval::pi(precision) / Interval::exactly(180, precision);

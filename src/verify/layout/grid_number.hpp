@@ -14,7 +14,7 @@ enum class ToStep {
   nearest,  ///< ties to even
   up        ///< gaps
 };
-/// Nothing when |mm| is above `most` mm.
+/// Returns the length in steps, or nothing when |mm| is above `most` mm.
 [[nodiscard]] std::optional<std::int64_t> steps_of(double mm, ToStep how, double most);
 
 /// A rotation in multiples of 2^-52.
@@ -23,15 +23,16 @@ struct GridTurn {
   friend bool operator==(const GridTurn&, const GridTurn&) = default;
 };
 
-/// Nothing when c^2 + s^2 is not within 2^-50 of 1.
+/// Returns nothing when c^2 + s^2 is not within 2^-50 of 1.
 [[nodiscard]] std::optional<GridTurn> turn_of_pair(double c, double s);
-/// The multiples nearest to cosine and sine: proved. \pre finite
+/// Returns the multiples that are proved to be nearest to the cosine and the sine.
+/// \pre degrees is finite
 [[nodiscard]] GridTurn turn_of_degrees(double degrees);
 /// The answer says whether the direction of `turn` lies counter-clockwise from that of `from` to that of
 /// `to`, ends included; equal ends are one direction.
 [[nodiscard]] bool lies_between(GridTurn turn, GridTurn from, GridTurn to);
 
-/// The place at which a vertex of a part comes to lie (rule 4).
+/// Returns the place of a part's vertex on the sheet (rule 4 of docs/design/layout.md).
 [[nodiscard]] GridPoint placed(GridPoint p, GridTurn turn, bool mirrored, GridPoint at);
 
 }  // namespace lekalo::verify

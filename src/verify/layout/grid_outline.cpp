@@ -41,8 +41,8 @@ bool cross_properly(const GridEdge& a, const GridEdge& b) {
          turn(b.from, b.to, a.from) * turn(b.from, b.to, a.to) < 0;
 }
 
-/// A vertex or a crossing: (x / w, y / w). Crossings stay below 2^125: with coordinates within 2^40, w is
-/// below 2^83 and a difference of coordinates below 2^41.
+/// Step 2 of docs/design/layout-verify.md: a vertex or a crossing, at (x / w, y / w). Crossings stay below
+/// 2^125, because with coordinates within 2^40 w is below 2^83 and a difference of coordinates below 2^41.
 struct Event {
   Wide x = 0, y = 0, w = 1;  ///< w > 0
 };
@@ -54,7 +54,7 @@ Event crossing(const GridEdge& a, const GridEdge& b) {
   return {a.from.x * w + along.x * share, a.from.y * w + along.y * share, w};
 }
 
-/// The side of the edge's line that the event is on: +1 is left.
+/// Returns the side of the edge's line on which the event lies: +1 for left, 0 on the line, -1 for right.
 int side(const GridEdge& edge, const Event& v) {
   const GridPoint along = edge.to - edge.from;
   const Wide x = v.x - edge.from.x * v.w, y = v.y - edge.from.y * v.w;
@@ -67,7 +67,7 @@ bool in_box(const Event& v, const GridBox& box) {
          v.y <= box.high_y * v.w;
 }
 
-/// A direction from an event along an edge of outline `of`, and whether material lies on its
+/// A direction from an event along an edge of outline `of`. `material` says whether material lies on its
 /// counter-clockwise side.
 struct Ray {
   GridPoint direction;
@@ -76,14 +76,14 @@ struct Ray {
 };
 
 bool lower_half(GridPoint d) { return d.y < 0 || (d.y == 0 && d.x < 0); }
-/// Counter-clockwise from the positive x axis.
+/// Orders directions counter-clockwise from the positive x axis.
 bool before(const Ray& a, const Ray& b) {
   if (lower_half(a.direction) != lower_half(b.direction)) return lower_half(b.direction);
   return cross(a.direction, b.direction) > 0;
 }
 
-/// Collects an outline's rays at an event where an edge passes through it, and answers else whether it lies
-/// inside.
+/// Collects the rays of an outline at an event that lies on its edges. For any other event the return value
+/// says whether it lies inside the outline.
 bool look_around(const std::vector<GridEdge>& edges, std::size_t of, const Event& v, std::vector<Ray>& rays) {
   bool inside = false;
   for (const GridEdge& edge : edges) {
@@ -102,8 +102,8 @@ bool look_around(const std::vector<GridEdge>& edges, std::size_t of, const Event
   return inside;
 }
 
-/// The outlines of one question, `ins` that must hold and then those that must not; of each the edges that
-/// can matter inside the window.
+/// Step 1: one question about several outlines. The first `ins_` of them must hold a disc and the others must
+/// not. Of each outline only the edges that can matter inside the window are kept.
 class Question {
  public:
   Question(const std::vector<const GridOutline*>& in, const std::vector<const GridOutline*>& out)
@@ -118,7 +118,8 @@ class Question {
     for (const auto* list : {&in, &out}) {
       for (const GridOutline* outline : *list) {
         std::vector<GridEdge>& kept = edges_.emplace_back();
-        // The edges on the right of an event tell where it lies.
+        // Edges to the right of the window stay too, because a ray to the right counts them to tell whether
+        // an event lies inside.
         for (const GridEdge& edge : outline->edges) {
           const GridBox box = box_of(edge);
           if (box.high_x >= window_.low_x && box.low_y <= window_.high_y && box.high_y >= window_.low_y)
@@ -159,7 +160,8 @@ class Question {
     return false;
   }
 
-  /// A wedge is material of all `ins_` and no other, between two neighbouring directions at the event.
+  /// Steps 3 and 4: looks for a wedge between two neighbouring directions at the event that is material of
+  /// all `ins_` and of no other outline.
   bool has_wedge(const Event& v) {
     if (!in_box(v, window_)) return false;
     rays_.clear();
@@ -171,7 +173,8 @@ class Question {
       if (elsewhere) return false;
     }
     std::sort(rays_.begin(), rays_.end(), before);
-    for (const Ray& ray : rays_) material_[ray.of] = ray.material;  // before the first one: that of the last
+    // The wedge before the first ray belongs to the last ray of each outline.
+    for (const Ray& ray : rays_) material_[ray.of] = ray.material;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       material_[rays_[i].of] = rays_[i].material;
       const bool last_of_direction = i + 1 == rays_.size() || before(rays_[i], rays_[i + 1]);
@@ -193,7 +196,8 @@ class Question {
   std::vector<bool> material_;
 };
 
-/// p lies less than gap from the edge. Everything below 2^84 before it is squared.
+/// Step 5: says whether p lies less than gap from the edge. Every number stays below 2^84 before it is
+/// squared.
 bool nearer_than(GridPoint p, const GridEdge& edge, std::int64_t gap) {
   const GridPoint along = edge.to - edge.from, out = p - edge.from;
   const Wide at = dot(out, along), length = dot(along, along), most = Wide{gap} * gap;
@@ -225,7 +229,8 @@ std::string place(GridPoint p) {
 
 constexpr std::int64_t kResolution = 3;
 
-/// The end of one edge that is too near to the other, if it does not end there.
+/// Says whether p, an end of one edge, comes too near to the other edge. Ends that the two edges share do not
+/// count.
 bool too_near(GridPoint p, const GridEdge& edge) {
   return p != edge.from && p != edge.to && nearer_than(p, edge, kResolution);
 }
@@ -258,7 +263,8 @@ std::optional<std::string> fault_of_edges(const std::vector<GridEdge>& edges) {
   return std::nullopt;
 }
 
-/// Every point begins one edge: one that begins two is there twice.
+/// Finds a point that is written twice: every point begins one edge, so a point that begins two is there
+/// twice.
 std::optional<std::string> fault_of_points(const std::vector<GridEdge>& edges) {
   std::vector<GridPoint> points;
   for (const GridEdge& edge : edges) points.push_back(edge.from);

@@ -33,10 +33,11 @@ struct GridOutline {
   GridBox box;
 };
 
-/// Largest coordinate of an outline as it is written, and of one that is placed; in steps.
+/// The largest coordinates of an outline as it is written and as it is placed, in steps.
 inline constexpr std::int64_t kMostWritten = std::int64_t{1} << 38, kMostPlaced = std::int64_t{1} << 40;
 
-/// The first loop is the outer one; loops may run either way. \pre all_simple has no complaint
+/// Turns the first loop counter-clockwise and the others clockwise; the first is the outer one.
+/// \pre fault_of(loops) finds no fault
 [[nodiscard]] GridOutline make_outline(std::vector<GridLoop> loops);
 
 /// The fault that keeps loops from being an outline: fewer than three points, no area, a vertex less than 3

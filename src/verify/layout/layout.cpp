@@ -40,7 +40,8 @@ struct Found {
   [[nodiscard]] auto key() const { return std::tuple{stock, copy, a, kind, b, feature}; }
 };
 
-/// Sums and differences of the written angles are rounded to doubles, as docs/design/layout-verify.md says.
+/// Takes from and to as doubles: docs/design/layout-verify.md says in which order the written angles are
+/// added and rounded.
 bool turned_within(GridTurn turn, double from, double to) {
   return to - from >= 360 || lies_between(turn, turn_of_degrees(from), turn_of_degrees(to));
 }
@@ -59,8 +60,8 @@ bool grain_allowed(const WrittenPart& part, const WrittenStock& stock, const Wri
          turned_within(piece.turn, opposite - most, opposite + most);
 }
 
-/// The answer says whether at some point of the part and the zone more is demanded than the zone has: by an
-/// area there, or by the part where there is no area.
+/// Says whether at some point of both, the part demands more than the zone has: an area of the part demands
+/// it there, or the part itself where no area is.
 bool demands_more(const Placed& placed_part, const WrittenStockFeature& zone) {
   const WrittenPart& part = *placed_part.part;
   std::vector<GridOutline> areas;
@@ -123,7 +124,7 @@ class Checker {
       if (demands_more(placed, stock.zones[i])) add(placed, LayoutRule::quality, 0, i);
   }
 
-  /// Every two of one sheet whose boxes come within their gap.
+  /// Checks every two parts of one sheet whose boxes come within their gap.
   void check_pairs(std::vector<Placed>& pieces) {
     std::sort(pieces.begin(), pieces.end(), [](const Placed& p, const Placed& q) {
       return std::pair{p.outline.box.low_x, p.piece->id} < std::pair{q.outline.box.low_x, q.piece->id};

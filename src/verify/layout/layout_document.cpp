@@ -17,7 +17,8 @@ namespace {
 constexpr double kMostOutlineMm = 262144, kMostPlacementMm = 524288, kMostDegrees = 3.6e6;
 constexpr std::int64_t kMostCount = 1'000'000'000;
 
-/// The members of one object, of which all are known; those that begin with x_ say nothing here.
+/// Reads the members of one object and complains about unknown ones. Members that begin with x_ belong to
+/// other programs and are passed over.
 class Members {
  public:
   Members(Json object, const std::string& path, std::string& complaint,

@@ -12,7 +12,7 @@
 
 namespace lekalo::verify {
 
-/// The parts of a written layout that the rules speak of. Lengths in steps, angles in degrees.
+/// The parts of a written layout that the rules speak of. Lengths are in steps, angles in degrees.
 
 struct WrittenArea {
   int quality = 0;
@@ -32,11 +32,13 @@ struct WrittenPart {
   GridOutline outline;
   int quality = 0;
   std::vector<WrittenArea> areas;
-  std::vector<WrittenAngles> rotations;  ///< none: any
+  /// An empty list allows any angle.
+  std::vector<WrittenAngles> rotations;
   bool may_mirror = false;
   std::optional<WrittenGrain> grain;
   std::int64_t tolerated_severity = 0;
-  std::int64_t gap = 0, border_gap = 0, defect_gap = 0;  ///< its own or the document's
+  /// The gaps of the part itself where it has any, else those of the document.
+  std::int64_t gap = 0, border_gap = 0, defect_gap = 0;
 };
 
 /// A defect with its severity or a zone with its quality.
@@ -69,7 +71,7 @@ struct WrittenLayout {
   std::vector<WrittenPiece> placements;
 };
 
-/// bad_input names the field. Cost: O(n log n).
+/// Reads a layout. bad_input names the field. Cost: O(n log n).
 [[nodiscard]] Result<WrittenLayout> read_layout(const Document& document);
 
 }  // namespace lekalo::verify

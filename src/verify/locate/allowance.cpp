@@ -8,17 +8,17 @@
 namespace lekalo::verify {
 namespace {
 
-/// The distances that the filter computes in doubles, of points with coordinates below 1 in magnitude, are
-/// within this of the true ones. With u = 2^-53: a point is within 2 u of the exact one in each coordinate, a
-/// unit normal within 8 u, and the sum of two products of a normal with a difference below 2 gathers less
-/// than 60 u; clamping to a segment moves its foot by a few u more. 128 u is stated.
+/// Bounds the error of the distances that the filter computes in doubles, for points with coordinates below 1
+/// in magnitude. With u = 2^-53: a point is within 2 u of the exact one in each coordinate, a unit normal
+/// within 8 u, and the sum of two products of a normal with a difference below 2 gathers less than 60 u.
+/// Clamping to a segment moves its foot by a few u more. 128 u covers all of it.
 constexpr double kFilterError = 0x1p-46;
 
 Turn rotation(const Decimal& angle, Precision precision) {
   return turn_by(Interval(angle, precision + angle_bits(angle)));
 }
 
-/// direction x (R v + t - a), which is the distance times the direction's length.
+/// Returns direction x (R v + t - a), which is the distance times the direction's length.
 Interval scaled_distance(const Point& v, const Point& a, const Point& direction, const Point& shift,
                          const Turn& turn, Precision precision) {
   return turn.cosine * Interval(cross(direction, v), precision) +
@@ -42,8 +42,9 @@ struct FlatPoint {
 
 FlatPoint operator-(FlatPoint a, FlatPoint b) { return {a.x - b.x, a.y - b.y}; }
 
-/// Everything seen from one corner of the blank, so that a blank far from the origin keeps its digits; placed
-/// part points as intervals, and both as doubles in units of 2^scale, which makes them smaller than 1.
+/// The outlines as seen from one corner of the blank, so that a blank far from the origin keeps its digits.
+/// The placed points of the part are intervals. Both outlines also stand here as doubles in units of 2^scale,
+/// which makes every coordinate smaller than 1.
 class SeenFromBlank {
  public:
   SeenFromBlank(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
@@ -76,7 +77,7 @@ class SeenFromBlank {
     return {Interval(q.x, precision_), Interval(q.y, precision_)};
   }
 
-  /// Unit normal to the left of hull edge j, and its dent in units of 2^scale.
+  /// Gives the unit normal to the left of hull edge j, and the edge's dent in units of 2^scale.
   void flat_line(std::size_t j, FlatPoint& normal, double& dent) const {
     const Point side = blank_.side(j);
     const long size = std::max(bits_of(side.x), bits_of(side.y));
@@ -97,8 +98,8 @@ class SeenFromBlank {
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// The pairs (row, column) that may have the least true distance when distance(row, column) is within
-/// kFilterError of the true one.
+/// Finds the pairs (row, column) whose true distance may be the least, given distances within kFilterError of
+/// the true ones. Step 3 of docs/design/verify.md decides between them exactly.
 template <class RowDistance>
 std::vector<Pair> near_minimal(std::size_t rows, std::size_t columns, RowDistance row_distance) {
   std::vector<double> least(rows, std::numeric_limits<double>::infinity());
@@ -134,7 +135,8 @@ Interval least_of(const std::vector<Interval>& values) {
   return least;
 }
 
-/// Least signed distance from the hull's edges, each moved in by its dent when `dented`.
+/// Returns the least signed distance from the lines of the hull's edges. With `dented` each edge is first
+/// moved in by its dent.
 Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
                       const SeenFromBlank& scene, bool dented, Precision precision) {
   const auto row_distance = [&](std::size_t j) {
@@ -171,8 +173,9 @@ Interval segment_distance(const IntervalPoint& p, const IntervalPoint& a, const 
   return between ? line : hull(line, minimum(from_a, from_b));
 }
 
-/// Distance between two outlines that do not cross: part points from blank edges, and blank points from part
-/// edges. Only blank points that are no hull corners can be nearest to the inside of a part edge.
+/// Returns the distance between two outlines that do not cross: from part points to blank edges, and from
+/// blank points to part edges. Hull corners of the blank need not be looked at, because they are never
+/// nearest to the inside of a part edge.
 Interval outline_distance(const Outline& blank, const Outline& part, const SeenFromBlank& scene) {
   const std::size_t n = blank.points.size(), m = part.points.size();
   std::vector<bool> is_corner(n, false);

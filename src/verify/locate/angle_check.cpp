@@ -18,17 +18,17 @@
 namespace lekalo::verify {
 namespace {
 
-/// Derived fields are computed in doubles by whoever writes them; this covers a few roundings of the numbers
-/// they come from, relatively. Nothing that is proved rests on it.
+/// Derived fields are computed in doubles by whoever writes them. This relative tolerance covers a few
+/// roundings of the numbers they come from. Nothing that is proved rests on it.
 constexpr double kDerivedTolerance = 1e-15;
-/// theta_deg is for reading.
+/// The field theta_deg is there for people to read, so this relative tolerance suffices for it.
 constexpr double kDegreesTolerance = 1e-14;
 /// A contact may be farther than the closest pair by 10^-this of the blank's size and a roundoff.
 constexpr unsigned long kContactPlaces = 6;
 /// A dropped point may miss the line of its neighbours, and a trimmed contour may miss being convex, by
 /// 10^-this of the largest coordinate.
 constexpr unsigned long kRoundoffPlaces = 12;
-/// All coordinates together may take so many digits once they have one exponent: 100 million, about 40 MB.
+/// All coordinates together may take this many digits once they have one exponent: 100 million, about 40 MB.
 constexpr double kMostDigits = 1e8;
 
 Interval rough(const Integer& value) { return {value, kRough}; }
@@ -42,12 +42,12 @@ Integer largest_coordinate(const Ring& points) {
   return largest;
 }
 
-/// Gives an interval around value / 10^places.
+/// Returns an interval around value / 10^places.
 Interval share(const Integer& value, unsigned long places) {
   return rough(value) / rough(power_of_ten(places));
 }
 
-/// Half the perimeter of the box around the points.
+/// Returns half the perimeter of the box around the points.
 Integer size_of(const Ring& points) {
   const auto by_x = [](const Point& a, const Point& b) { return a.x < b.x; };
   const auto by_y = [](const Point& a, const Point& b) { return a.y < b.y; };
@@ -56,7 +56,8 @@ Integer size_of(const Ring& points) {
   return right->x - left->x + top->y - bottom->y;
 }
 
-/// Makes all lengths of one verification integers of the unit 10^exponent mm.
+/// Step 1 of docs/design/verify.md: makes all lengths of one verification integers of the unit 10^exponent
+/// mm.
 class Units {
  public:
   void add(const Decimal& value) {
@@ -93,7 +94,7 @@ class Units {
   std::size_t count_ = 0;
 };
 
-/// The files in exact numbers.
+/// The outlines in exact numbers. Results are held against the trimmed blank where there is one.
 struct Scene {
   Units units;
   Outline part, file_blank;
@@ -146,7 +147,7 @@ class AngleCheck {
   void check_difference(const char* field, const Decimal& written, const Decimal& a, const Decimal& b);
   void check_derived();
   void check_contacts(EdgeLines& edges);
-  /// True when there was a certificate to look at.
+  /// Returns whether there was a certificate to look at.
   Result<bool> check_certificate(EdgeLines& edges);
   void check_bound(const CertificateCheck& check);
   void check_status(bool proved);
@@ -204,8 +205,8 @@ Result<void> AngleCheck::read_files() {
                  scene_.trimmed.emplace());
 }
 
-/// Every dropped point lies on the straight line between its kept neighbours, and no kept point repeats the
-/// one before.
+/// Step 8: every dropped point must lie on the straight line between its kept neighbours, and no kept point
+/// may repeat the one before.
 void AngleCheck::check_dropped(const char* role, const Outline& outline,
                                const std::vector<std::size_t>& dropped) {
   const std::size_t n = outline.points.size();
@@ -242,6 +243,7 @@ void AngleCheck::check_dropped(const char* role, const Outline& outline,
   }
 }
 
+/// Step 7.
 void AngleCheck::check_trim() {
   if (!scene_.trimmed) return;
   const Outline& trimmed = *scene_.trimmed;
@@ -263,7 +265,8 @@ void AngleCheck::check_trim() {
   }
 }
 
-/// The written clearance is not above the exact one. The precision grows while it does not decide.
+/// Steps 2 and 3: the written clearance must not be above the exact one. The precision grows while it does
+/// not decide.
 Interval AngleCheck::check_clearance(const std::string& what, const WrittenPlacement& placement) {
   const Pose pose = pose_of(placement);
   const Integer written = scene_.units.of(placement.clearance);
@@ -288,7 +291,7 @@ Interval AngleCheck::check_clearance(const std::string& what, const WrittenPlace
   return exact;
 }
 
-/// theta_deg says the same as theta, and theta lies in the window.
+/// Step 8: theta_deg must say the same as theta, and theta must lie in the window.
 void AngleCheck::check_angle(const std::string& what, const WrittenPlacement& placement) {
   const Precision wide = 256 + angle_bits(placement.theta) + angle_bits(placement.theta_deg);
   const Interval degrees =
@@ -318,7 +321,7 @@ void AngleCheck::check_placements() {
   }
 }
 
-/// written = a - b, but for roundings.
+/// Step 8: a written difference must be a - b but for roundings.
 void AngleCheck::check_difference(const char* field, const Decimal& written, const Decimal& a,
                                   const Decimal& b) {
   const double difference = approximate(a - b);
@@ -329,6 +332,7 @@ void AngleCheck::check_difference(const char* field, const Decimal& written, con
   }
 }
 
+/// Step 8: gap, shortfall and the clearance of the program must follow from the numbers they come from.
 void AngleCheck::check_derived() {
   const ResultDocument& r = result_;
   if (r.gap.has_value() != r.upper_bound.has_value()) {
@@ -351,6 +355,7 @@ void AngleCheck::check_derived() {
   }
 }
 
+/// Step 8: the contacts may be no further than the closest pair by more than a tolerance.
 void AngleCheck::check_contacts(EdgeLines& edges) {
   const Pose pose = pose_of(result_.best);
   const Ring& corners = scene_.blank().points;
@@ -378,6 +383,7 @@ void AngleCheck::check_contacts(EdgeLines& edges) {
   }
 }
 
+/// Steps 5 and 6.
 Result<bool> AngleCheck::check_certificate(EdgeLines& edges) {
   std::optional<Json> intervals = result_.certificate;
   const std::string& name =

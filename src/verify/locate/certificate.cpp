@@ -11,10 +11,11 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Sentences about single intervals; a certificate may hold a million of them.
+/// At most this many findings are about single intervals, because a certificate may hold a million of them.
 constexpr std::size_t kMostComplaints = 20;
 
-/// NaN when the double nearest to the number is not finite or the number is too small for one.
+/// Returns the double nearest to the number, or NaN when that is not finite or the number is too small for
+/// one.
 double nearest_double(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -22,8 +23,8 @@ double nearest_double(std::string_view text) {
                                                                   : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Sign of a - b for two number texts. Rounding to the nearest double keeps order, so only equal doubles need
-/// more.
+/// Returns the sign of a - b for the texts of two numbers. Rounding to the nearest double keeps order, so
+/// only numbers with equal doubles need the exact comparison. Step 6 of docs/design/verify.md.
 int compare_texts(std::string_view a, std::string_view b) {
   if (a == b) return 0;
   const double x = nearest_double(a), y = nearest_double(b);
@@ -32,7 +33,7 @@ int compare_texts(std::string_view a, std::string_view b) {
   return compare(*parse_decimal(a), *parse_decimal(b));
 }
 
-/// A few units in the last place that doubles have at the largest coordinate.
+/// Returns a few units in the last place that doubles have at the largest coordinate.
 Interval coordinate_roundoff(const Ring& points) {
   Integer largest = 0;
   for (const Point& p : points) largest = std::max<Integer>(largest, std::max<Integer>(abs(p.x), abs(p.y)));
@@ -155,7 +156,7 @@ const CertificateCheck::FlatTurn& CertificateCheck::flat_turn(std::string_view a
   turn.cosine = turn.sine = {-1, 1};
   if (!std::isfinite(turn.nearest)) return turn;
   const RoundedTurn rounded = rounded_turn(turn.nearest);
-  // Half a step each for the rounded value and for the angle, doubled.
+  // The rounded value and the angle are each off by half a step; the sum is doubled to be safe.
   const double error = std::nextafter((1 + std::abs(turn.nearest)) * 0x1p-52, kInfinity);
   turn.cosine = outwards(rounded.cosine - error, rounded.cosine + error);
   turn.sine = outwards(rounded.sine - error, rounded.sine + error);
@@ -184,7 +185,8 @@ double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinus
   const Span top =
       no_crest ? Span{std::max(at_from.low, at_to.low), std::max(at_from.high, at_to.high)} : crest;
   const Span sum = k + top;
-  if (sum.high < 0 && !true_edges) return kInfinity;  // the spread of the lines counts
+  // A negative bound must be divided by the spread of the lines, which doubles leave to the next tier.
+  if (sum.high < 0 && !true_edges) return kInfinity;
   const long places = std::clamp(scale - weight_scale - 2 * edges_.flat_scale(), -4000L, 4000L);
   return std::nextafter(std::ldexp((sum / divisor).high, static_cast<int>(places)), kInfinity);
 }
@@ -201,7 +203,8 @@ Interval CertificateCheck::bound_over(const WrittenInterval& interval, const Sin
                                       Precision precision) {
   const Interval a(s.cosine, precision), b(s.sine, precision);
   const Interval crest = square_root(square(a) + square(b));
-  // Below pi wide, the crest is inside just when the curve rises at the start and falls at the end.
+  // In an interval narrower than pi the crest lies inside just when the curve rises at the start and falls at
+  // the end.
   const auto narrow_top = [&](const Turn& from, const Turn& to) {
     const bool no_crest = certainly_negative(b * from.cosine - a * from.sine) ||
                           certainly_positive(b * to.cosine - a * to.sine);
@@ -209,7 +212,8 @@ Interval CertificateCheck::bound_over(const WrittenInterval& interval, const Sin
   };
   const Turn from = turn_at(interval.from, precision), to = turn_at(interval.to, precision);
   const Decimal begin = *parse_decimal(interval.from), width = *parse_decimal(interval.to) - begin;
-  Interval top = crest;  // beyond a full turn
+  // An interval wider than a full turn surely holds the crest.
+  Interval top = crest;
   if (compare(width, Decimal{3, 0}) < 0) {
     top = narrow_top(from, to);
   } else if (compare(width, Decimal{9, 0}) < 0) {

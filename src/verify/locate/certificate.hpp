@@ -15,48 +15,49 @@
 
 namespace lekalo::verify {
 
-/// Part vertex against blank edge, as written: file order, nothing trusted.
+/// A contact of a part vertex with a blank edge as it is written, by file order; nothing in it is trusted.
 struct WrittenContact {
   std::size_t part_vertex = 0, blank_edge = 0;
-  double multiplier = 0;  ///< the nearest double
+  /// The double nearest to the written number.
+  double multiplier = 0;
 };
 
 struct WrittenInterval {
-  std::string_view from, to;  ///< radians; texts that parse_decimal accepts
+  std::string_view from, to;  ///< radians, as texts that parse_decimal accepts
   std::array<WrittenContact, 3> contacts;
 };
 
-/// The angles that a certificate must cover.
+/// The window of angles that a certificate must cover.
 struct Window {
   Decimal from_deg, to_deg;
   [[nodiscard]] bool full_circle() const { return compare(to_deg - from_deg, Decimal{36, 1}) >= 0; }
 };
 
-/// A written multiplier may differ from the one computed anew by this much, and by what a roundoff of the
-/// blank's coordinates makes of it where the three edges are nearly parallel. It is for reading; nothing is
-/// proved by it.
+/// A written multiplier may differ from the one computed anew by this much. Where the three edges are nearly
+/// parallel it may also differ by what a roundoff of the blank's coordinates does to it. Multipliers are
+/// there to be read, and nothing is proved by them.
 inline constexpr double kMultiplierTolerance = 1e-6;
 
-/// Checks a certificate interval by interval, in order, and keeps the largest bound. With a balanced triple
-/// of edges the shift of the part cancels, and what remains of its distances is K + A cos + B sin with exact
-/// integers K, A, B over one irrational divisor.
+/// Steps 5 and 6 of docs/design/verify.md: checks a certificate interval by interval, in order, and keeps the
+/// largest bound. With a balanced triple of edges the shift of the part cancels, and what remains of its
+/// distances is K + A cos + B sin with exact integers K, A, B over one irrational divisor.
 ///
-/// An interval's bound is enclosed in doubles first, then with 128 bits, and only if it may still raise the
-/// largest so far with all the bits there are. 2 us an interval where bounds differ, 25 us where they agree
-/// to 12 digits.
+/// The bound of an interval is enclosed in doubles first, then with 128 bits. All the bits there are are used
+/// only if it may still raise the largest bound so far. An interval takes 2 us where bounds differ, 25 us
+/// where they agree to 12 digits.
 class CertificateCheck {
  public:
   CertificateCheck(const Outline& part, EdgeLines& edges, Precision precision,
                    std::vector<std::string>& findings);
 
   void add(const WrittenInterval& interval);
-  /// After the last interval: is the window covered?
+  /// Says after the last interval whether the window is covered.
   void finish(const Window& window);
 
   [[nodiscard]] std::size_t intervals() const { return count_; }
-  /// Encloses the largest bound, integer units; nothing when no interval could be used.
+  /// Encloses the largest bound in integer units. There is none when no interval could be used.
   [[nodiscard]] const std::optional<Interval>& bound() const { return bound_; }
-  /// The interval it comes from.
+  /// Returns the index of the interval that the largest bound comes from.
   [[nodiscard]] std::size_t worst() const { return worst_; }
 
  private:
@@ -74,7 +75,8 @@ class CertificateCheck {
   void check_order(const WrittenInterval& interval);
   [[nodiscard]] std::optional<Sinusoid> sinusoid(const WrittenInterval& interval);
   [[nodiscard]] bool check_triple(const WrittenInterval& interval, const EdgeTriple& triple);
-  /// At or above the bound over the interval, in units of 2^flat_scale(); infinite when doubles cannot tell.
+  /// Returns a number at or above the bound over the interval, in units of 2^flat_scale(), or infinity when
+  /// doubles cannot tell.
   [[nodiscard]] double flat_bound(const WrittenInterval& interval, const Sinusoid& s);
   [[nodiscard]] const FlatTurn& flat_turn(std::string_view angle);
   [[nodiscard]] bool may_raise_bound(const WrittenInterval& interval, const Sinusoid& s);
@@ -87,10 +89,13 @@ class CertificateCheck {
   std::vector<std::string>& findings_;
   std::size_t count_ = 0, worst_ = 0, complaints_ = 0;
   std::optional<Interval> bound_;
-  double flat_bound_ = 0;                       ///< at or below bound_, in units of 2^flat_scale()
-  Interval roundoff_;                           ///< of a coordinate of the blank, rough
-  std::string first_from_, last_from_, reach_;  ///< texts; reach_ is the largest `to` so far
-  // An interval's `to` is nearly always the next one's `from`.
+  /// A number at or below bound_, in units of 2^flat_scale().
+  double flat_bound_ = 0;
+  /// A rough roundoff of a coordinate of the blank.
+  Interval roundoff_;
+  /// The ends of intervals as texts. `reach_` is the largest `to` so far.
+  std::string first_from_, last_from_, reach_;
+  // The `to` of one interval is nearly always the `from` of the next, so the last two turns are kept.
   std::array<FlatTurn, 2> flat_turns_;
   std::string last_angle_;
   std::optional<Turn> last_turn_;

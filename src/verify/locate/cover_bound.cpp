@@ -17,8 +17,9 @@ double up(double value) { return std::nextafter(value, kInfinity); }
 
 }  // namespace
 
-/// With w the vector between two balls' centres at the cell's middle, u = w / |w|, and a pose off the middle
-/// by s in q and by phi in theta, the vector is w + s + (R(phi) - 1) p, p the part's centre from the pivot.
+/// Bounds the weighted sum of the balls' distances over a cell. Let w be the vector between two balls'
+/// centres at the cell's middle, u = w / |w|, and p the part's centre counted from the pivot. At a pose that
+/// is off the middle by s in q and by phi in theta the vector is w + s + (R(phi) - 1) p, and
 ///   |w + d| <= u . (w + d) + |d across u|^2 / (2 u . (w + d))        (from sqrt(a^2 + b^2) <= a + b^2 / 2a)
 ///   (R(phi) - 1) p = phi J p + rest, |rest| <= phi^2 / 2 |p|,
 ///   u . rest <= phi^2 / 2 max(0, -u . p) + |phi|^3 / 6 |p|.
@@ -44,7 +45,7 @@ CellBound bound_over(const PoseCell& cell, const std::vector<BallTerm>& terms) {
     const Span radii = just(term.part_radius) + just(term.blank_radius);
     if (!term.capped) floor = std::max(floor, -term.blank_radius);
     middle_value = middle_value + m * (apart - radii);
-    // However the pose moves within the cell, the centre moves no further than this.
+    // However the pose moves within the cell, the part's centre moves no further than this.
     const Span slide = length({just(half[1]), just(half[2])});
     const Span anyway = slide + far * h;
     bool curved_is_less = false;

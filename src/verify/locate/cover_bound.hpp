@@ -6,22 +6,24 @@
 
 namespace lekalo::verify {
 
-/// Poses (theta, x, y of the pivot): a box in doubles.
+/// A box of poses (theta, and x, y of the pivot) in doubles.
 struct PoseCell {
   double low[3], high[3];
 };
 
-/// A pair of balls (cover_tree.hpp): the part's from the pivot, mirrored if the tree is.
+/// A pair of balls (cover_tree.hpp). The part's ball is counted from the pivot, and mirrored if the tree is.
 struct BallTerm {
   Vec part;
   Vec blank;
   double part_radius = 0, blank_radius = 0;
-  Span multiplier;      ///< as written: sums are divided by their sum
-  bool capped = false;  ///< a cap's term: its ball lies in the blank's material
+  /// The multiplier as written; a bound divides by the sum of all multipliers.
+  Span multiplier;
+  /// True for the term of a cap: its ball lies in the blank's material.
+  bool capped = false;
 };
 
-/// The bound that the terms prove over a cell, and the one at its middle: no division of the cell proves
-/// less.
+/// The bound that the terms prove over a cell, and the one at its middle. No division of the cell proves a
+/// bound below the latter.
 struct CellBound {
   double everywhere = 0, in_the_middle = 0;
 };

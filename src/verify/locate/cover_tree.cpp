@@ -12,13 +12,14 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A leaf whose bound is not good enough over the whole cell is looked at in halves, this many times over.
+/// A leaf whose bound is not good enough over the whole cell is halved, and halved again, at most this often.
 constexpr int kMostHalvings = 18;
-/// After so many leaves that prove too little the certificate has failed; the others are only read.
+/// After this many leaves that prove too little the certificate has failed, and the other leaves are only
+/// read.
 constexpr std::size_t kMostFailures = 3;
-/// Cells that are looked at in all, beyond so many for each leaf: a certificate that needs more is none.
+/// A certificate that needs more cells than this in all, beyond so many for each leaf, counts as none.
 constexpr std::size_t kMostCells = 1'000'000, kMostCellsALeaf = 64;
-/// Terms of one leaf.
+/// A leaf has at most this many terms.
 constexpr std::size_t kMostTerms = 8;
 
 Span enclosed(const Decimal& value) {
@@ -26,7 +27,7 @@ Span enclosed(const Decimal& value) {
   return {interval.low_double(), interval.high_double()};
 }
 
-/// A degree in radians.
+/// Converts degrees to radians.
 Span radians(const Decimal& degrees) {
   const Precision wide = 128 + angle_bits(degrees);
   const Interval angle = Interval(degrees, wide) * Interval::pi(wide) / Interval(Integer(180), wide);
@@ -34,7 +35,7 @@ Span radians(const Decimal& degrees) {
 }
 
 Span plus(Span a, double by) { return a + just(by); }
-/// Products and sums of numbers that are not negative, rounded up.
+/// Rounds up a product or a sum of numbers that are not negative.
 double up(double value) { return std::nextafter(value, kInfinity); }
 
 }  // namespace
@@ -68,7 +69,8 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     if (open.empty()) return fields.complain(name + " is one more than the subdivision needs");
     const Cell cell = open.back();
     open.pop_back();
-    if (item->is_array()) {  // ["x", at]
+    // The item is ["x", at].
+    if (item->is_array()) {
       JsonItems split(*item);
       const auto axis = split.next(), at = split.next();
       const std::string which = axis && axis->is_string() ? json_text(*axis) : "";
@@ -99,7 +101,7 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
         fmt::format("{}: the subdivision ends early, {} cells are missing", path, open.size()));
 }
 
-/// The root holds every pose of the window that could have more clearance than the bound.
+/// The root must hold every pose of the window that could have more clearance than the bound.
 void CoverTree::check_root(const Cell& root, const std::string& path) {
   const Span from = radians(problem_.window_from_deg), to = radians(problem_.window_to_deg);
   const Span whole = radians(Decimal{36, 1});
@@ -108,8 +110,8 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
     findings_.push_back(
         fmt::format("{}: theta from {} to {} does not cover the window", path, root.low[0], root.high[0]));
   }
-  // There the material lies in the blank, or sticks out by less than -bound, and the pivot is within
-  // pivot_off of it.
+  // At such a pose the material lies in the blank, or sticks out by less than -bound, and the pivot is within
+  // pivot_off of the material.
   const double more = up(problem_.pivot_off + std::max(0.0, -problem_.bound));
   const Shape& blank = problem_.blank;
   const auto covers = [&](int k, const std::optional<Decimal>& locked, double low, double high) {
@@ -176,8 +178,8 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
   return !terms.empty() || complain("its multipliers sum to nothing");
 }
 
-/// The part of a ball's radius that really lies in the part's material; negative when its centre lies beside
-/// it.
+/// Returns how much of a ball's radius really lies in the part's material. The result is negative when the
+/// ball's centre lies beside the material.
 double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = part_radii_.find(key);
@@ -188,8 +190,9 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
   return part_radii_.emplace(key, real).first->second;
 }
 
-/// From a point of the part to what is not in the grown part one must cross a side and then go as far as it
-/// is grown; a point beside the part is in what a side has grown to. Less is known, never more.
+/// Returns a radius about the centre that surely lies in the grown part. A way from a point of the part to
+/// what is not in the grown part crosses a side, and then goes as far as that side is grown. A point beside
+/// the part can still be in what a side has grown to. The radius may be too small, never too large.
 double CoverTree::grown_radius(const Vec& centre, double written) const {
   const std::vector<Side>& sides = problem_.part.sides;
   double through = kInfinity, nearest = kInfinity, grown = -kInfinity;
@@ -202,7 +205,7 @@ double CoverTree::grown_radius(const Vec& centre, double written) const {
   }
   const std::optional<bool> in = holds(problem_.part, centre);
   if (in && *in && through < written) through = grown_ball(problem_.part, problem_.growth, centre, written);
-  // Beside the part its nearest point is off by that, and there the first rule holds.
+  // A centre beside the part is off its nearest point by this much, and the first rule holds for that point.
   const double to_part = in && *in ? 0 : nearest;
   return std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);
 }
@@ -213,7 +216,7 @@ double CoverTree::off_cap(const Vec& point, const Cap& cap) const {
   return off;
 }
 
-/// The part of a ball's radius that really lies in the blank's material.
+/// Returns how much of a ball's radius really lies in the blank's material.
 double CoverTree::material_radius(Json x, Json y, Json radius, const Vec& centre, double written) {
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = material_radii_.find(key);
@@ -235,7 +238,7 @@ bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int dep
   const CellBound bound = bound_over(cell, terms);
   if (bound.everywhere <= problem_.bound) return true;
   if (depth == kMostHalvings || bound.in_the_middle > problem_.bound) return false;
-  // The widest direction, turning counted at the largest lever.
+  // A cell is halved along its widest direction, where turning counts at the largest lever.
   double lever = 0;
   for (const Term& term : terms) lever = std::max(lever, length(term.part).high);
   const double width[3] = {(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1],

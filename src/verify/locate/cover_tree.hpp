@@ -34,15 +34,19 @@ class CoverTree {
     double most = 0;
   };
   struct Problem {
-    const Shape& part;  ///< as written
+    /// The part as it is written.
+    const Shape& part;
     const Shape& blank;
     Vec pivot;
-    double pivot_off = 0;  ///< how far the pivot is at most from the part's material
-    double bound = 0;      ///< to be proved, mm
+    /// The pivot is at most this far from the part's material.
+    double pivot_off = 0;
+    /// The bound that is to be proved, mm.
+    double bound = 0;
     Decimal window_from_deg, window_to_deg;
-    std::optional<Decimal> locked_x, locked_y;  ///< then the pivot is the origin
-    /// By how much each side of the part is grown, or, if negative, how wide a rim along it is taken off;
-    /// empty: none is.
+    /// The shifts that are locked; the pivot is then the part's origin.
+    std::optional<Decimal> locked_x, locked_y;
+    /// Each side of the part is grown by this much or, if it is negative, loses a rim of this width along it.
+    /// An empty list grows nothing.
     std::vector<double> growth = {};
     std::vector<Cap> caps = {};
   };
@@ -71,8 +75,8 @@ class CoverTree {
   std::vector<std::string>& findings_;
   bool mirrored_ = false;
   std::size_t leaves_ = 0, failed_ = 0, cells_ = 0;
-  std::map<std::string, double, std::less<>> part_radii_, blank_radii_,
-      material_radii_;  ///< by the text of the ball
+  /// The radii found so far, by the text of the ball.
+  std::map<std::string, double, std::less<>> part_radii_, blank_radii_, material_radii_;
 };
 
 }  // namespace lekalo::verify

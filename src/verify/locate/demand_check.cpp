@@ -12,7 +12,7 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Pieces of outlines that are looked at for one claim before it counts as not confirmed.
+/// A claim counts as not confirmed when it takes more pieces of outlines than this.
 constexpr std::size_t kMostPieces = 200'000;
 
 Span enclosed(const Decimal& value) {
@@ -24,8 +24,8 @@ bool is_positive(Span value) { return value.low > 0; }
 
 bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
 
-/// Sums that the writer makes in doubles: what is to be equal may differ by so much, relatively. Nothing that
-/// is proved rests on it.
+/// Whoever writes the result makes sums in doubles. Numbers that must be equal may differ by this much,
+/// relatively. Nothing that is proved rests on it.
 constexpr double kDerivedTolerance = 1e-15;
 bool differ(const Decimal& written, const Decimal& derived, const Decimal& from) {
   const double size = std::abs(approximate(from)) + std::abs(approximate(derived));
@@ -111,7 +111,7 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
 DemandCheck::DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part,
                          const Shape& blank, Span off, std::vector<std::string>& findings)
     : d_(demands), part_(part), placed_(placed_part), blank_(blank), off_(off), findings_(findings) {
-  // The line that joins an arc's end to its circle belongs to the edge beside it.
+  // A line that joins an arc's end to its circle belongs to the edge beside it.
   for (std::size_t k = 0; k < part.sides.size(); ++k) {
     if (part.sides[k].written || sides_of_edge_.empty()) sides_of_edge_.emplace_back();
     sides_of_edge_.back().push_back(k);
@@ -193,8 +193,8 @@ void DemandCheck::check_minima() {
   }
 }
 
-/// Nothing but the rims of finished features may stick out: where the blank's outline runs through the part's
-/// material, it does so within such a rim.
+/// Only the rims of finished features may stick out: where the blank's outline runs through the part's
+/// material, it must do so within such a rim.
 void DemandCheck::check_material() {
   if (!any_finished()) {
     const std::optional<bool> inside = lies_within(placed_, blank_);
@@ -218,7 +218,8 @@ bool DemandCheck::beside_finished(const Side& whole, std::size_t& looked) const 
     const Span from_part = distance(middle, placed_);
     if (from_part.low > reach) {
       const auto in = holds(placed_, middle);
-      if (in && !*in) continue;  // none of it in the part
+      // No point of this piece lies in the part.
+      if (in && !*in) continue;
     }
     bool in_rim = false;
     const bool short_arc = !piece.arc || piece.sweep == Sweep::less;
@@ -239,7 +240,7 @@ bool DemandCheck::beside_finished(const Side& whole, std::size_t& looked) const 
   return true;
 }
 
-/// No point of these sides of the placed part lies deeper in the blank than `most`.
+/// No point of these sides of the placed part may lie deeper in the blank than `most`.
 void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose) {
   std::vector<Side> open;
   for (const std::size_t k : sides) open.push_back(placed_.sides[k]);
@@ -256,7 +257,8 @@ void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most
     const Vec middle = (piece.from + piece.to) * just(0.5);
     if (distance(middle, blank_).low > farthest(piece, middle)) {
       const auto in = holds(blank_, middle);
-      if (in && !*in) continue;  // none of it in the blank
+      // No point of this piece lies in the blank.
+      if (in && !*in) continue;
     }
     if (signed_distance(piece.from, blank_).low > most || looked == kMostPieces)
       return find("{} has an allowance above {} mm, or cannot be told from it", whose, most);
@@ -318,7 +320,7 @@ std::vector<double> DemandCheck::growth(Span grown_for) const {
     const Span by = f == nullptr  ? d_.minimum + grown_for
                     : f->finished ? -*f->finished
                                   : f->minimum + f->scale * grown_for;
-    // Sums are rounded outwards: what grows by 0 is no rim.
+    // Sums are rounded outwards, so a side that grows by 0 may come out negative, which would mean a rim.
     const bool rim = f != nullptr && f->finished;
     for (const std::size_t k : sides_of_edge_[edge]) growth[k] = rim ? by.low : std::max(0.0, by.low);
   }
@@ -342,7 +344,8 @@ std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Sp
 
 double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
   const std::vector<double> by = growth(grown_for);
-  const auto beside_rims = [&](const auto& distance_from) {  // no finished side is as near as its rim is wide
+  // A point counts as off the rims when no finished side is as near to it as its rim is wide.
+  const auto beside_rims = [&](const auto& distance_from) {
     for (std::size_t k = 0; k < by.size(); ++k)
       if (by[k] < 0 && !((just(distance_from(part_.sides[k]).low) + just(by[k])).low >= 0)) return false;
     return true;
@@ -359,12 +362,13 @@ double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
   return off;
 }
 
-/// A placement with a margin above margin_bound that keeps the maxima: the part grown for grown_for has a
-/// clearance of at least scale times the difference, for the least scale (its finished features if they have
-/// `bound` to spare), and each cap has more left than `shift`. So that much must be above `bound`.
+/// A placement with a margin above margin_bound that keeps the maxima must contradict the certificate, which
+/// bounds the least of two numbers. The part grown for grown_for would have a clearance of at least the least
+/// scale times the difference (its finished features, where they have `bound` to spare), and each cap would
+/// have more left than `shift`. So neither number may be below `bound`.
 void DemandCheck::check_bound() {
   if (d_.margin_bound.high < 0) {
-    // The demands themselves cannot be met.
+    // Here the demands themselves cannot be met.
     if (!(d_.grown_for.low == 0 && d_.grown_for.high == 0 && d_.bound.high <= d_.margin_bound.low))
       find("margin_bound {} does not follow from the bound {} of the certificate", d_.margin_bound.low,
            d_.bound.low);
@@ -381,9 +385,10 @@ void DemandCheck::check_bound() {
         d_.bound.low, d_.shift.low);
 }
 
-/// A placement with a margin of at least `margin` that keeps the maxima: the part grown for grown_for has a
-/// clearance of at least the least scale times the difference, and each cap of a feature has `shift` or more
-/// left. Both are above what the certificate bounds; so the cap on all edges is the one that has so little.
+/// A placement with a margin of at least `margin` that keeps the maxima has two properties. The part grown
+/// for grown_for has a clearance of at least the least scale times the difference, and each cap of a feature
+/// has `shift` or more left. Both are above what the certificate bounds, so it is the cap on all edges that
+/// has no more left than the certificate says.
 void DemandCheck::check_largest_bound() {
   const WrittenSecond& s = *d_.second;
   const WrittenSecond::Proof& p = *s.proof;

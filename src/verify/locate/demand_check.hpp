@@ -9,7 +9,7 @@
 
 namespace lekalo::verify {
 
-/// The demands of one feature of a part, as written in a result (docs/formats.md, "demands").
+/// The demands of one feature of a part as a result writes them (docs/formats.md, "demands").
 struct WrittenFeature {
   std::string name;
   std::vector<std::size_t> edges;
@@ -17,7 +17,7 @@ struct WrittenFeature {
   std::optional<Span> maximum, finished;
 };
 
-/// The result that the second criterion is said to have found, with the numbers of its certificate.
+/// The answer to the second criterion as a result writes it, with the numbers of its certificate.
 struct WrittenSecond {
   Decimal margin, found, bound, gap, kept;
   struct Proof {
@@ -46,10 +46,11 @@ struct WrittenDemands {
 };
 [[nodiscard]] WrittenDemands read_demands(Json value, std::string& complaint);
 
-/// Rechecks what a result claims of its demands: at the placement, edge by edge, and of all placements.
+/// Rechecks the claims that a result makes about its demands: at the placement, edge by edge, and about all
+/// placements.
 class DemandCheck {
  public:
-  /// \param off  how far the true outlines of part and blank may be from those written, together
+  /// \param off  the true outlines of part and blank together may be this far from those written
   DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part, const Shape& blank,
               Span off, std::vector<std::string>& findings);
 
@@ -65,12 +66,12 @@ class DemandCheck {
   /// whether it is the one that the criterion looks for.
   [[nodiscard]] bool leaves_choice_open() const;
 
-  /// A certificate is checked with these growths and caps: by how much each side of the part is grown for a
-  /// margin, and the caps with `shift` added; for that of largest allowances also one for all that is not
-  /// finished.
+  /// Returns by how much each side of the part is grown for a margin. A certificate is checked with these
+  /// growths and with the caps, `shift` added to each. The certificate of largest allowances has one more
+  /// cap, for all sides that are not finished.
   [[nodiscard]] std::vector<double> growth(Span grown_for) const;
   [[nodiscard]] std::vector<CoverTree::Cap> caps(Span shift, const std::optional<Span>& most = {}) const;
-  /// A number that p is no further from the part grown so than.
+  /// Returns a number that the distance of p from the grown part does not exceed.
   [[nodiscard]] double off_grown_part(const Vec& p, Span grown_for) const;
   /// Checks that the `bound` of the certificate makes margin_bound a bound of the margin.
   void check_bound();
@@ -99,7 +100,7 @@ class DemandCheck {
   Span off_;
   std::vector<std::string>& findings_;
   std::vector<std::vector<std::size_t>> sides_of_edge_;
-  std::vector<const WrittenFeature*> feature_of_edge_;  ///< nullptr: none
+  std::vector<const WrittenFeature*> feature_of_edge_;  ///< nullptr where the edge has no feature
 };
 
 }  // namespace lekalo::verify

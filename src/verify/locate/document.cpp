@@ -148,7 +148,7 @@ Result<Json> read_certificate_document(const Document& document) {
   return fields.get("intervals");
 }
 
-// Hot: no maps and no paths unless there is something to complain about.
+// This function reads up to a million items, so it makes maps and paths only to complain.
 Result<WrittenInterval> read_interval(Json item, std::size_t index, const std::string& name) {
   constexpr std::array<std::string_view, 3> kKeys{"from", "to", "contacts"};
   constexpr std::array<std::string_view, 3> kContactKeys{"part_vertex", "blank_edge", "multiplier"};

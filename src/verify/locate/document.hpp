@@ -14,7 +14,7 @@
 
 namespace lekalo::verify {
 
-/// The fields of a result of `lekalo locate` that say something a checker can hold against the files.
+/// The fields of a result of `lekalo locate` that a checker can hold against the files.
 
 struct WrittenInput {
   LengthUnit unit = LengthUnit::millimetre;
@@ -43,21 +43,23 @@ struct ResultDocument {
   Decimal min_allowance, shortfall;
   Window window;
   std::vector<WrittenContact> contacts;
-  std::optional<Json> certificate;                        ///< list of intervals
-  std::optional<std::size_t> certificate_file_intervals;  ///< the list is in a file, and has so many
+  /// The list of intervals, where the result itself holds it.
+  std::optional<Json> certificate;
+  /// The number of intervals that the result states, where a file of its own holds the list.
+  std::optional<std::size_t> certificate_file_intervals;
   std::vector<WrittenPlacement> alternatives;
   std::optional<WrittenTrim> trim;
   std::optional<WrittenNc> nc;
 };
 
-/// bad_input, naming the document, when a field is missing or is not what docs/formats.md says. Pieces of the
-/// text behind `written` stay in use.
+/// Reads a result. bad_input names the document, when a field is missing or is not what docs/formats.md says.
+/// The result keeps pieces of the text behind `written`.
 [[nodiscard]] Result<ResultDocument> read_result_document(Json written, const std::string& name);
 
-/// The list of intervals of a certificate file.
+/// Returns the list of intervals of a certificate file.
 [[nodiscard]] Result<Json> read_certificate_document(const Document& document);
 
-/// One item of a certificate; bad_input names `index`.
+/// Reads one item of a certificate; bad_input names `index`.
 [[nodiscard]] Result<WrittenInterval> read_interval(Json item, std::size_t index, const std::string& name);
 
 }  // namespace lekalo::verify

@@ -19,6 +19,7 @@ EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropp
   for (const std::size_t k : dropped) {
     if (k < n) dropped_[k] = true;
   }
+  // Goes around twice, so that the first points find the kept point that lies across the end of the file.
   std::size_t kept = 0;  // twice around, so that the first points find theirs across the end of the file
   for (std::size_t i = 2 * n; i-- > 0;) {
     next_kept_[i % n] = kept;

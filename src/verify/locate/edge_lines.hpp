@@ -11,47 +11,56 @@
 
 namespace lekalo::verify {
 
-/// The line of a blank edge from file point k to the next that was not dropped.
+/// The line of a blank edge, which runs from file point k to the next point that was not dropped.
 ///
-/// `outside` >= 0 is how far the blank reaches across the line, times the edge's length: 0 for the true edge
-/// of a convex blank. The line moved out by it has the whole blank on its left and touches a hull corner
-/// there; its normal is c1 n1 + c2 n2 of the two hull edges at that corner, c1, c2 >= 0, and `spread` = c1 +
-/// c2 >= 1. So where every hull edge is at least (signed) r away, this line is at least r away if r >= 0, and
-/// at least spread r if r < 0.
+/// `outside` >= 0 is how far the blank reaches across the line, times the edge's length. For the true edge of
+/// a convex blank it is 0. The line moved out by it has the whole blank on its left and touches a hull
+/// corner. Its normal is c1 n1 + c2 n2 of the two hull edges at that corner, with c1, c2 >= 0, and `spread` =
+/// c1 + c2 >= 1. So where every hull edge is at least (signed) r away, this line is at least r away if r >=
+/// 0, and at least spread r if r < 0.
 struct EdgeLine {
-  Point start, direction;  ///< material on the left, whichever way the file runs
+  /// The material is on the left, whichever way the file runs.
+  Point start, direction;
   Integer outside;
-  Interval length, spread;  ///< spread is exactly 1 when outside is 0
-  Interval short_length;    ///< length in 64 bits
-  Span flat_length;         ///< length in doubles, in units of 2^EdgeLines::flat_scale()
+  /// The spread is exactly 1 when `outside` is 0.
+  Interval length, spread;
+  /// The length in 64 bits.
+  Interval short_length;
+  /// The length in doubles, in units of 2^EdgeLines::flat_scale().
+  Span flat_length;
 };
 
-/// The edges of a blank as a result names them, each measured when first asked for. The list of dropped
-/// points is a hint: whatever it says, an EdgeLine tells the truth about its line.
+/// The edges of a blank by the names that a result gives them; each is measured when it is first asked for.
+/// The list of dropped points is only a hint: whatever it says, an EdgeLine tells the truth about its line.
 class EdgeLines {
  public:
   EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, Precision precision);
 
-  /// nullptr, with the reason in `why`, when there is no such edge.
+  /// Returns nullptr, with the reason in `why`, when there is no such edge.
   [[nodiscard]] const EdgeLine* find(std::size_t k, std::string& why);
-  /// Hull edge j (cyclic), whether or not a file edge runs along it.
+  /// Returns the line along hull edge j (cyclic), whether or not a file edge runs along it.
   [[nodiscard]] const EdgeLine& along_hull(std::size_t j);
   [[nodiscard]] const Outline& outline() const { return blank_; }
-  /// About the size of the blank: 2^flat_scale() makes lengths doubles of moderate size, whatever the units.
+  /// Returns the scale at which 2^flat_scale() is about the size of the blank. In that unit lengths are
+  /// doubles of moderate size, whatever unit the file has.
   [[nodiscard]] long flat_scale() const { return flat_scale_; }
 
  private:
-  /// `near`: a hull edge to look from for what lies outside.
+  /// \param near  a hull edge from which the search for what lies outside begins
   [[nodiscard]] EdgeLine measure(const Point& from, const Point& to, std::size_t near) const;
 
   const Outline& blank_;
   Precision precision_;
   long flat_scale_ = 0;
   std::vector<bool> dropped_;
-  std::vector<std::size_t> next_kept_;               ///< per file point: the next one not dropped
-  std::vector<std::size_t> under_;                   ///< per file point: hull edge it lies under
-  std::vector<std::optional<EdgeLine>> lines_;       ///< per file point
-  std::vector<std::optional<EdgeLine>> hull_lines_;  ///< per hull edge
+  /// By file point: the next point that was not dropped.
+  std::vector<std::size_t> next_kept_;
+  /// By file point: the hull edge that it lies under.
+  std::vector<std::size_t> under_;
+  /// By file point: the line of the edge that begins there.
+  std::vector<std::optional<EdgeLine>> lines_;
+  /// By hull edge: the line along it.
+  std::vector<std::optional<EdgeLine>> hull_lines_;
 };
 
 }  // namespace lekalo::verify

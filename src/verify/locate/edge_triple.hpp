@@ -14,23 +14,25 @@ struct EdgeTriple {
   enum class Balance { holds, parallel, opposed };
 
   std::array<const EdgeLine*, 3> edges{};
-  std::array<Integer, 3> weights;  ///< when the balance holds: not negative, not all zero
-  std::array<double, 3> shares{};  ///< weights x lengths, of their sum: the multipliers, near enough
+  /// The weights of the edges. In a triple that balances none is negative and not all are zero.
+  std::array<Integer, 3> weights;
+  /// Each weight times its edge's length, as a share of the sum of all three: the multipliers in doubles.
+  std::array<double, 3> shares{};
   Balance balance = Balance::parallel;
 
   explicit EdgeTriple(const std::array<const EdgeLine*, 3>& three);
-  /// Largest difference of a share from the multiplier written for it.
+  /// Returns the largest difference of a share from the multiplier written for it.
   [[nodiscard]] double disagreement(const std::array<double, 3>& multipliers) const;
-  /// The error that a share has, about, when each coordinate of the edges' ends is off by `roundoff`.
+  /// Returns about how wrong a share is when each coordinate of the edges' ends is off by `roundoff`.
   [[nodiscard]] double sensitivity(const Interval& roundoff) const;
 };
 
-/// The triple that a certificate means by its edges and multipliers.
+/// Returns the triple that a certificate means by its edges and multipliers.
 ///
 /// When a multiplier is next to nothing, the other two edges are opposite but for the last digits of the
-/// file, and the third carries what those digits leave: which edge is fit for that, and whether it does not
-/// itself run along the pair, is beyond what its writer could know. Any three edges that balance make a true
-/// bound, so there a hull edge across the pair takes its place when that fits the written multipliers better.
+/// file, and the third carries what those digits leave. The writer cannot know which edge is fit for that,
+/// nor whether it does not itself run along the pair. Any three edges that balance make a true bound. So a
+/// hull edge across the pair takes the third place when that fits the written multipliers better.
 [[nodiscard]] EdgeTriple intended_triple(const std::array<const EdgeLine*, 3>& written,
                                          const std::array<double, 3>& multipliers, double tolerance,
                                          EdgeLines& edges);

@@ -11,28 +11,31 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Pieces of sides that are looked at for one ball.
+/// One ball is looked at in at most this many pieces of sides.
 constexpr std::size_t kMostPieces = 256;
-/// A ball that is too large by this, relatively, is made smaller at once.
+/// A ball that is too large by no more than this, relatively, is made smaller at once.
 constexpr double kTouching = 1e-13;
-/// A piece must look narrower from the centre than this cosine says.
+/// A piece is narrow enough when every corner's direction is off their mean by an angle with a cosine above
+/// it.
 constexpr double kNarrow = 0.9;
 
-/// Corners of a convex set.
+/// The corners of a convex set.
 struct Hull {
   std::array<Vec, 6> at;
   std::size_t count = 0;
 };
 
-/// No point of the hull is farther from the side.
+/// Returns a distance that no point of the hull exceeds from the side.
 double farthest(const Hull& hull, const Side& side) {
-  double to_point = kInfinity;  // the distance from one point is a convex function
+  // The distance from one point is a convex function, and so is the distance from a line: both are largest in
+  // a corner.
+  double to_point = kInfinity;
   for (const Vec* end : {&side.from, &side.to}) {
     double most = 0;
     for (std::size_t i = 0; i < hull.count; ++i) most = std::max(most, length(hull.at[i] - *end).high);
     to_point = std::min(to_point, (just(most) + just(side.off)).high);
   }
-  if (!side.arc) {  // and so is that from a line
+  if (!side.arc) {
     double most = 0;
     for (std::size_t i = 0; i < hull.count; ++i) most = std::max(most, distance(hull.at[i], side).high);
     return std::min(to_point, most);
@@ -58,8 +61,8 @@ double farthest(const Hull& hull, const Side& side) {
   return std::min(to_point, std::max(outside, inside));
 }
 
-/// Holds what lies on straight lines from c through the piece, beyond it, up to `radius` from c. False where
-/// the piece is too wide for that.
+/// Makes a hull of the points that lie beyond the piece on straight lines from c through it, up to `radius`
+/// from c. Returns false where the piece is too wide for that.
 ///   With u_i the directions of the piece's corners, such a point is c + sum m_i u_i, m_i >= 0; it lies
 ///   between the piece and where sum m_i = R; and its distance from c is at least (sum m_i) (least u_i . v)
 ///   for every unit vector v.
@@ -89,7 +92,8 @@ bool beyond(const Side& piece, const Vec& c, double radius, Hull& hull) {
 double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c, double wanted) {
   struct Piece {
     Side side;
-    double by = 0, through = 0;  ///< a way out through it is at least so long
+    /// A way out through the piece is at least this long.
+    double by = 0, through = 0;
   };
   std::vector<Piece> open;
   std::vector<std::size_t> covering;
@@ -104,14 +108,16 @@ double grown_ball(const Shape& part, const std::vector<double>& growth, const Ve
     if (growth[k] > 0 && (just(distance(c, part.sides[k]).low) - just(growth[k])).low <= wanted)
       covering.push_back(k);
   }
-  double least = kInfinity;  // of what is not covered
+  // The least way out so far through what is not covered.
+  double least = kInfinity;
   for (std::size_t looked = 0; !open.empty(); ++looked) {
     const Piece piece = open.back();
     open.pop_back();
     const double apart = distance(c, piece.side).low;
     const double through = std::max(piece.through, (just(apart) + just(piece.by)).low);
     if (through >= std::min(radius, least)) continue;
-    if (through >= radius - kTouching * (1 + radius)) {  // the ball touches there: rounding says no
+    // The ball touches the side there, and only rounding says that it does not fit.
+    if (through >= radius - kTouching * (1 + radius)) {
       radius = through;
       continue;
     }
@@ -119,7 +125,7 @@ double grown_ball(const Shape& part, const std::vector<double>& growth, const Ve
     Hull hull;
     bool covered = false;
     if (!whole && apart > 2 * piece.side.off && beyond(piece.side, c, radius, hull)) {
-      // Lines through what joins an arc's end to its circle are off by that, and as they go on by more.
+      // Lines through what joins an arc's end to its circle are off by its length, and by more as they go on.
       const Span slack = just(2 * piece.side.off) * (just(1) + just(2 * radius) / just(apart));
       covered = std::any_of(covering.begin(), covering.end(), [&](std::size_t k) {
         return (just(farthest(hull, part.sides[k])) + slack).high <= growth[k];

@@ -6,14 +6,16 @@
 
 namespace lekalo::verify {
 
-/// How large a ball about c lies in the part grown by `growth`: up to `wanted`, never more than the truth.
+/// Returns how large a ball about c lies in the part grown by `growth`: up to `wanted`, and never more than
+/// the truth.
 ///
-/// A point q of the ball that is not in the grown part lies beyond a side, on a straight line from c. The
-/// side itself is grown by its own number; what else covers q is what the sides beside it are grown by, which
-/// is more where those have a larger one. So a stretch of a side whose own growth is not enough is looked at
-/// in pieces: each with all that lies beyond it within the ball in reach of one side's growth.
+/// A point q of the ball that is not in the grown part lies beyond a side, on a straight line from c. That
+/// side is grown by its own number. The sides beside it cover q as well, and cover more where they are grown
+/// by more. So a stretch of a side whose own growth is not enough is looked at in pieces. For each piece, one
+/// side's growth must reach all that lies beyond it within the ball.
 ///
-/// \param growth  of each side; negative: a rim of that width along it is taken off
+/// \param growth  by how much each side is grown; where it is negative, a rim of that width is taken off
+/// along the side
 /// \pre c is surely in the part
 [[nodiscard]] double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c,
                                 double wanted);

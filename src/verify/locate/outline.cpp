@@ -13,7 +13,7 @@ bool before(const Point& a, const Point& b) {
   return order != 0 ? order < 0 : a.y < b.y;
 }
 
-/// Indices by x, then y, without repeated points; of equal points the first in the file stays.
+/// Returns indices ordered by x, then y. Of equal points only the first in the file stays.
 std::vector<std::size_t> sorted_distinct(const Ring& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -27,7 +27,8 @@ std::vector<std::size_t> sorted_distinct(const Ring& points) {
   return order;
 }
 
-/// Monotone chain (Andrew 1979): the lower, then the upper half; corners with a strict left turn only.
+/// Finds the hull by the monotone chain (Andrew 1979), the lower half and then the upper one. Only corners
+/// with a strict left turn stay.
 std::vector<std::size_t> convex_hull(const Ring& points) {
   std::vector<std::size_t> order = sorted_distinct(points);
   std::vector<std::size_t> hull;
@@ -40,13 +41,14 @@ std::vector<std::size_t> convex_hull(const Ring& points) {
       }
       hull.push_back(i);
     }
-    hull.pop_back();  // the first corner of the other half
+    // The last corner of this half is the first one of the other half.
+    hull.pop_back();
     std::reverse(order.begin(), order.end());
   }
   return hull;
 }
 
-/// How often `next` is below its predecessor, around the ring.
+/// Counts how often `next` is below its predecessor, around the ring.
 std::size_t descents(const std::vector<std::size_t>& ring) {
   std::size_t count = 0;
   for (std::size_t j = 0; j < ring.size(); ++j) count += ring[(j + 1) % ring.size()] < ring[j] ? 1 : 0;
@@ -103,14 +105,16 @@ std::size_t lowest_corner(const Outline& outline, const Point& direction, std::s
 
 namespace {
 
-/// The open segment from a to b meets the interior of the hull: the stretch where it is left of every side is
-/// not empty. The stretch is kept as fractions low.first / low.second etc. with positive denominators.
+/// Step 7 of docs/design/verify.md: says whether the open segment from a to b meets the interior of the hull.
+/// It does where the stretch on the left of every side is not empty. The stretch is kept as fractions
+/// low.first / low.second and so on, with positive denominators.
 bool enters(const Point& a, const Point& b, const Outline& hull) {
   Integer low = 0, low_over = 1, high = 1, high_over = 1;
   for (std::size_t j = 0; j < hull.hull.size(); ++j) {
     const Point side = hull.side(j);
     const Integer at_a = cross(side, a - hull.corner(j)), at_b = cross(side, b - hull.corner(j));
-    const Integer slope = at_b - at_a;  // at_a + t slope > 0 wanted
+    // The wanted t have at_a + t slope > 0.
+    const Integer slope = at_b - at_a;
     if (slope == 0) {
       if (at_a <= 0) return false;
     } else if (slope > 0) {
@@ -127,7 +131,8 @@ bool enters(const Point& a, const Point& b, const Outline& hull) {
   return true;
 }
 
-/// How often the outline winds around p / scale; p must not lie on it.
+/// Returns how often the outline winds around p / scale.
+/// \pre p does not lie on the outline
 long winding_number(const Outline& outline, const Point& p, long scale) {
   const std::size_t n = outline.points.size();
   long winding = 0;
@@ -148,7 +153,8 @@ long winding_number(const Outline& outline, const Point& p, long scale) {
 
 bool lies_inside(const Outline& inner, const Outline& outer, std::size_t& culprit) {
   const std::size_t n = outer.points.size();
-  // The side of `inner` that kept the last edge out most likely keeps out the next one too.
+  // The side of `inner` that kept the last edge out most likely keeps out the next one too, so it is asked
+  // first.
   std::size_t hint = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Point &a = outer.points[i], &b = outer.points[(i + 1) % n];

@@ -8,35 +8,41 @@
 
 namespace lekalo::verify {
 
-/// A closed outline in integer units, its convex hull, and by how much it misses being convex. All exact.
+/// A closed outline in integer units, its convex hull, and by how much it misses being convex. All of it is
+/// exact.
 ///
-/// A file that was meant convex may miss it by the last digits of its numbers. Between hull vertices j and j
-/// + 1 the outline then runs at most dents[j] / |hull edge| inside hull edge j. The hull with every edge
-/// moved in by its dent lies inside the outline: around a point deeper than every dent each stretch of the
-/// outline can be pulled straight onto its hull edge without meeting the point, so the outline winds around
-/// it once.
+/// Step 4 of docs/design/verify.md: a file that was meant convex may miss it by the last digits of its
+/// numbers. Between hull vertices j and j + 1 the outline then runs at most dents[j] / |hull edge| inside
+/// hull edge j. The hull with every edge moved in by its dent lies inside the outline. For around a point
+/// deeper than every dent each stretch of the outline can be pulled straight onto its hull edge without
+/// meeting the point, so the outline winds around it once.
 struct Outline {
-  Ring points;                    ///< file order
-  bool counter_clockwise = true;  ///< which way the file runs
-  std::vector<std::size_t> hull;  ///< into points; counter-clockwise, strictly convex, at least 3
-  std::vector<Integer> dents;  ///< per hull edge: largest edge x (q - start) of the points q under it, >= 0
+  /// The points in the order of the file.
+  Ring points;
+  /// True when the file runs counter-clockwise.
+  bool counter_clockwise = true;
+  /// Indices into `points`: counter-clockwise, strictly convex, at least 3.
+  std::vector<std::size_t> hull;
+  /// By hull edge: the largest edge x (q - start) of the points q under it, >= 0.
+  std::vector<Integer> dents;
 
   [[nodiscard]] const Point& corner(std::size_t j) const { return points[hull[j % hull.size()]]; }
   [[nodiscard]] Point side(std::size_t j) const { return corner(j + 1) - corner(j); }
-  /// All points lie on the hull's boundary.
+  /// Says whether all points lie on the hull's boundary.
   [[nodiscard]] bool convex() const;
 };
 
-/// bad_input when the points have no area or do not run once around their hull.
+/// Fails with bad_input when the points have no area or do not run once around their hull.
 [[nodiscard]] Result<Outline> make_outline(Ring points, std::string_view name);
 
-/// Index of the hull corner farthest against the left normal of `direction`: -direction x (q - o) is largest.
-/// Climbs from corner `start`; cost O(corners) at worst, O(1) from nearby.
+/// Returns the index of the hull corner that lies farthest against the left normal of `direction`: there
+/// -direction x (q - o) is largest. The search climbs from corner `start`. Cost: O(corners) at worst, O(1)
+/// from nearby.
 [[nodiscard]] std::size_t lowest_corner(const Outline& outline, const Point& direction, std::size_t start);
 
-/// The hull of `inner` lies in the material of `outer` (where its outline winds around): no edge of `outer`
-/// enters the hull's interior, and the interior is material. Otherwise `culprit` is an edge of `outer` (file
-/// order).
+/// Says whether the hull of `inner` lies in the material of `outer`, which is where its outline winds around.
+/// It does when no edge of `outer` enters the hull's interior and the interior is material. Otherwise
+/// `culprit` is an edge of `outer` (file order).
 [[nodiscard]] bool lies_inside(const Outline& inner, const Outline& outer, std::size_t& culprit);
 
 }  // namespace lekalo::verify

@@ -13,9 +13,9 @@
 namespace lekalo::verify {
 namespace {
 
-/// Derived fields and points that are printed for reading may be off by this, mm and relatively.
+/// Derived fields and points that are printed for people may be off by this, in mm and relatively.
 constexpr double kReadingTolerance = 1e-6;
-/// An angle of the pose may be off the window by the rounding of degrees and radians, relatively.
+/// An angle of the pose may be off the window by this, relatively: degrees and radians are rounded.
 constexpr double kAngleTolerance = 4e-15;
 
 Span enclosed(const Decimal& value) {
@@ -23,7 +23,7 @@ Span enclosed(const Decimal& value) {
   return {interval.low_double(), interval.high_double()};
 }
 
-/// A field that is neither true nor false means one thing to one reader and another to the next.
+/// Refuses a field that is neither true nor false, because different readers would take it differently.
 bool truth_of(Fields& fields, std::string_view key) {
   const Json value = fields.get(key);
   if (!value.is_bool()) fields.complain(fmt::format("field {} is neither true nor false", fields.name(key)));
@@ -115,14 +115,14 @@ class PoseCheck {
   void check_derived();
   void check_side();
   void check_curve();
-  /// Says what a certificate is about: for demands the part grown, and caps.
+  /// The subject of a certificate: for demands it is the grown part and the caps.
   struct Bounded {
     Span bound, grown_for, shift;
     std::optional<Span> most;
   };
   Json certificate_of(const char* key);
   bool check_cover(const char* key, const DemandCheck* demands, const Bounded& what);
-  /// True when every bound had a certificate to look at.
+  /// Returns whether every bound had a certificate to look at.
   bool check_certificates(DemandCheck* demands);
   void check_status();
 
@@ -220,8 +220,8 @@ void PoseCheck::check_shape(const char* role, const Shape& shape) {
   if (const auto fault = fault_of(shape)) find("the outline of the {} is none: {}", role, *fault);
 }
 
-/// Reports a shape that was used and is not that of its region file. How other files become regions is not
-/// rechecked here.
+/// Reports a shape that was used and is not the shape of its region file. Files of other kinds become regions
+/// by rules that are not rechecked here.
 void PoseCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
   const auto root = parse_json(file.bytes, file.name);
   const auto has = [&](std::string_view key) {
@@ -234,7 +234,7 @@ void PoseCheck::check_input(const char* role, const Document& file, const Shape&
         fmt::format("how {} became the region of the {} was not rechecked", file.name, role));
     return;
   }
-  // A file that does not say its unit may have been told one.
+  // A file that does not say its unit may have been given one on the command line.
   std::string complaint;
   const bool said = has("units");
   bool same = false;
@@ -249,12 +249,13 @@ void PoseCheck::check_input(const char* role, const Document& file, const Shape&
 
 void PoseCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
-  // Even adding nothing widens an enclosure, and a part that touches has nothing to spare.
+  // Adding even a zero tolerance widens an enclosure, and a part that touches has nothing to spare.
   const bool none = r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0;
-  const Span claimed = none ? r_.clearance : r_.clearance + tolerances;  // of the regions as written
+  // The clearance claimed for the regions as they are written.
+  const Span claimed = none ? r_.clearance : r_.clearance + tolerances;
   std::optional<ExactShift> shift;
   if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
-  // An outline that is none proves nothing, and a finding says so already.
+  // Findings are already there for an outline with a fault, and such an outline proves nothing.
   if (!report_.findings.empty()) shift.reset();
   const Span exact = clearance(r_.part, placed_, r_.blank, shift);
   const Span less = none ? exact : exact - tolerances;
@@ -286,7 +287,7 @@ void PoseCheck::check_pose() {
     find("theta_deg is {}, but theta means {} degrees", approximate(r_.theta_deg), theta);
 }
 
-/// Locked shifts, the window and mirroring.
+/// Checks locked shifts, the window and mirroring.
 void PoseCheck::check_allowed(const std::string& whose, const Decimal& x, const Decimal& y,
                               const Decimal& angle, bool mirrored) {
   for (const auto& [locked, is] : {std::pair{&r_.locked_x, &x}, {&r_.locked_y, &y}})
@@ -303,7 +304,8 @@ void PoseCheck::check_allowed(const std::string& whose, const Decimal& x, const 
     find("{}theta is {} degrees, outside the window from {} to {}", whose, theta, from, to);
 }
 
-/// Every placement of the trade-off curve has the margin and the largest allowance that it is said to have.
+/// Checks that every placement of the trade-off curve has the margin and the largest allowance that the
+/// result states for it.
 void PoseCheck::check_curve() {
   for (std::size_t k = 0; k < r_.demands->curve.size(); ++k) {
     const WrittenTradeOff& point = r_.demands->curve[k];
@@ -370,7 +372,7 @@ Json PoseCheck::certificate_of(const char* key) {
   return Fields(*root, "", complaint_).get(key);
 }
 
-/// False when there is no certificate of that name to look at.
+/// Returns false when there is no certificate of that name to look at.
 bool PoseCheck::check_cover(const char* key, const DemandCheck* demands, const Bounded& what) {
   const Json certificate = certificate_of(key);
   if (certificate.text.empty() || certificate.is_null()) return false;

@@ -10,7 +10,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Takes digits from the front of `text` and appends them to `digits`; how many.
+/// Takes the digits at the front of `text`, appends them to `digits`, and returns how many there were.
 std::size_t take_digits(std::string_view& text, std::string& digits) {
   std::size_t count = 0;
   while (count < text.size() && is_digit(text[count])) ++count;
@@ -25,8 +25,8 @@ bool take_sign(std::string_view& text) {
   return negative;
 }
 
-/// e [+-] digits, the whole of `text`; values beyond a million stay at a million, which is out of range
-/// anyway.
+/// Parses e [+-] digits, which must be the whole of `text`. A value beyond a million stays at a million,
+/// because that is out of range anyway.
 std::optional<long> parse_exponent(std::string_view text) {
   if (text.empty()) return 0;
   if (text.front() != 'e' && text.front() != 'E') return std::nullopt;

@@ -27,18 +27,18 @@ struct Decimal {
 };
 
 /// A number may have this many digits, and its first digit may stand this many places from the decimal point.
-/// Every double has a shortest form well inside; what lies outside would only cost memory.
+/// The shortest form of every double is well inside. A number outside would only cost memory.
 inline constexpr std::size_t kMaxDigits = 800;
 inline constexpr long kMaxMagnitude = 400;
 
-/// [+-] digits [. digits] [e [+-] digits], at least one digit before the e; nothing for any other text, and
-/// for numbers beyond the limits above.
+/// Parses [+-] digits [. digits] [e [+-] digits] with at least one digit before the e. Returns nothing for
+/// any other text, and for numbers beyond the limits above.
 [[nodiscard]] std::optional<Decimal> parse_decimal(std::string_view text);
 
 /// Error messages say with these words which numbers parse_decimal accepts.
 inline constexpr const char* kDecimalRule = "a decimal number of at most 800 digits between 1e-400 and 1e400";
 
-/// For messages: the text, cut when it is long.
+/// Returns the text for a message, cut when it is long.
 [[nodiscard]] std::string excerpt(std::string_view text);
 
 [[nodiscard]] Integer power_of_ten(unsigned long exponent);
@@ -47,38 +47,39 @@ inline constexpr const char* kDecimalRule = "a decimal number of at most 800 dig
 /// \pre value fits a long
 [[nodiscard]] inline long to_long(const Integer& value) { return value.get_si(); }
 
-/// The number of bits of |value|; 1 for 0.
+/// Returns the number of bits of |value|, which is 1 for 0.
 [[nodiscard]] inline long bits_of(const Integer& value) {
   return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
 }
-/// The number of decimal digits of |value|, or one more.
+/// Returns the number of decimal digits of |value|, or one more.
 [[nodiscard]] inline long digits_of(const Integer& value) {
   return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 10));
 }
 
-/// value / 2^scale, cut towards zero by less than one step of a double.
+/// Returns value / 2^scale, cut towards zero by less than one step of a double.
 [[nodiscard]] inline double scaled_down(const Integer& value, long scale) {
   long exponent = 0;
   const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
   return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
 }
-/// The value, cut towards zero by less than one step of a double.
+/// Returns the value, cut towards zero by less than one step of a double.
 [[nodiscard]] inline double cut_to_double(const Fraction& value) { return value.get_d(); }
 
-/// value / 10^exponent. \pre exponent <= value.exponent or value is 0.
+/// Returns value / 10^exponent.
+/// \pre exponent <= value.exponent or value is 0.
 [[nodiscard]] Integer in_units(const Decimal& value, long exponent);
 
 [[nodiscard]] Fraction to_fraction(const Decimal& value);
 
-/// Sign of a - b.
+/// Returns the sign of a - b.
 [[nodiscard]] int compare(const Decimal& a, const Decimal& b);
 [[nodiscard]] Decimal operator-(const Decimal& a, const Decimal& b);
 
-/// Bits that a number needs before its binary point, and a few more; 0 for small ones. What an angle costs
-/// beyond the precision that is wanted.
+/// Returns the bits that a number needs before its binary point, and a few more; 0 for small ones. An angle
+/// costs these bits beyond the precision that is wanted.
 [[nodiscard]] long angle_bits(const Decimal& value);
 
-/// The nearest double.
+/// Returns the nearest double.
 [[nodiscard]] double approximate(const Decimal& value);
 
 struct Point {

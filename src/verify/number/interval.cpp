@@ -134,7 +134,7 @@ Turn turn_by(const Interval& angle) {
   mpfr_set(s.high_, s.low_, MPFR_RNDN);
   mpfr_set(c.high_, c.low_, MPFR_RNDN);
   if (mpfr_zero_p(angle.low_) != 0 && mpfr_zero_p(angle.high_) != 0) return turn;
-  // One step for the rounding; and neither changes by more than the angle does.
+  // Cosine and sine are each off by one step for the rounding, and change by no more than the angle does.
   Interval width(angle.precision());
   mpfr_sub(width.high_, angle.high_, angle.low_, MPFR_RNDU);
   for (Interval* value : {&c, &s}) {

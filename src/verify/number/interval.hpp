@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>  // before mpfr.h, which declares mpfr_get_sj only then
+// The header stands before mpfr.h, because mpfr.h declares mpfr_get_sj only then.
+#include <cstdint>
 
 #include <mpfr.h>
 
@@ -11,16 +12,18 @@
 
 namespace lekalo::verify {
 
-/// Bits of the mantissa.
+/// A number of bits of the mantissa.
 using Precision = long;
-/// Enough for what is compared with a tolerance; unlike a double it has room for squares of any length.
+/// This precision suffices for what is compared with a tolerance. Unlike a double it has room for squares of
+/// any length.
 inline constexpr Precision kRough = 64;
 
 /// A set of reals [low, high] that certainly holds the true value: every operation rounds outwards. The
 /// result of an operation has the larger precision of its operands (bits).
 class Interval {
  public:
-  explicit Interval(Precision precision);  ///< [0, 0]
+  /// Makes [0, 0].
+  explicit Interval(Precision precision);
   Interval(const Integer& value, Precision precision);
   Interval(const Decimal& value, Precision precision);
   Interval(const Interval& other);
@@ -39,20 +42,22 @@ class Interval {
   friend Interval operator*(const Interval& a, const Interval& b);
   /// \pre b is certainly positive
   friend Interval operator/(const Interval& a, const Interval& b);
-  /// The square roots of the part that is not negative; [0, 0] when there is none.
+  /// Returns the square roots of the part that is not negative; [0, 0] when there is none.
   friend Interval square_root(const Interval& a);
   friend Interval square(const Interval& a);
   friend struct Turn turn_by(const Interval& angle);
-  /// Holds min(x, y) for every x in a, y in b.
+  /// Returns an interval that holds min(x, y) for every x in a, y in b.
   friend Interval minimum(const Interval& a, const Interval& b);
   friend Interval maximum(const Interval& a, const Interval& b);
-  /// Holds both.
+  /// Returns an interval that holds both.
   friend Interval hull(const Interval& a, const Interval& b);
 
-  /// The least b >= 0, or below 0 when both ends are that small and not 0, with |low| and |high| below 2^b.
+  /// Returns the least b >= 0 with |low| and |high| below 2^b. Where both ends are small and not both are 0,
+  /// b may be below 0.
   friend long bits_of(const Interval& a);
-  /// The whole number nearest (ties to even) to every number of the interval times 2^bits, if it is one
-  /// number. \pre it fits 62 bits
+  /// Returns the whole number that is nearest (ties to even) to every number of the interval times 2^bits, if
+  /// there is one such number.
+  /// \pre it fits 62 bits
   friend std::optional<std::int64_t> nearest_multiple(const Interval& a, int bits);
 
   friend bool certainly_zero(const Interval& a) {
@@ -67,13 +72,13 @@ class Interval {
     return mpfr_greater_p(a.low_, b.high_) != 0;
   }
 
-  /// 30 significant decimal digits, at or below low, at or above high.
+  /// Returns 30 significant decimal digits at or below low; high_text() gives those at or above high.
   [[nodiscard]] std::string low_text() const;
   [[nodiscard]] std::string high_text() const;
-  /// A double at or above high / 2^scale, at or below low / 2^scale.
+  /// Returns a double at or above high / 2^scale; low_double() gives one at or below low / 2^scale.
   [[nodiscard]] double high_double(long scale = 0) const;
   [[nodiscard]] double low_double(long scale = 0) const;
-  /// low / 2^scale, within 2^-52 of it relatively.
+  /// Returns low / 2^scale, within 2^-52 of it relatively.
   [[nodiscard]] double nearly_low(long scale) const;
 
  private:
@@ -84,7 +89,7 @@ struct Turn {
   Interval cosine, sine;
 };
 
-/// Exactly (1, 0) for the angle 0, the only written angle where either is rational.
+/// Returns exactly (1, 0) for the angle 0, the only written angle at which either is rational.
 [[nodiscard]] Turn turn_by(const Interval& angle);
 
 /// The doubles nearest to cosine and sine of an angle.

@@ -8,9 +8,9 @@
 
 namespace lekalo::verify {
 
-/// A small brother of Interval in doubles: the first tier, where most of a long certificate is decided. Each
-/// operation rounds to nearest and then steps one double outwards. Overflow gives infinities or NaN, which
-/// decide nothing when comparisons are written to fail on NaN.
+/// A small brother of Interval in doubles, by which most of a long certificate is decided. Each operation
+/// rounds to nearest and then steps one double outwards. Overflow gives infinities or NaN, which decide
+/// nothing when comparisons are written to fail on NaN.
 struct Span {
   double low = 0, high = 0;
 };
@@ -20,7 +20,7 @@ struct Span {
   return {std::nextafter(low, -kInfinity), std::nextafter(high, kInfinity)};
 }
 
-/// Exactly this number.
+/// Returns the span that holds exactly this number.
 [[nodiscard]] inline Span just(double value) { return {value, value}; }
 
 /// Encloses value / 2^scale.
@@ -35,7 +35,9 @@ struct Span {
 [[nodiscard]] inline Span operator*(Span a, Span b) {
   const double ll = a.low * b.low, lh = a.low * b.high, hl = a.high * b.low, hh = a.high * b.high;
   const double all = (ll + lh) + (hl + hh);
-  if (!(all - all == 0)) {  // 0 times infinity is any number here; min and max would drop the NaN
+  // The product of 0 and infinity may be any number here. The comparison is written so that NaN fails it,
+  // because min and max would drop the NaN.
+  if (!(all - all == 0)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {-kInfinity, kInfinity};
   }

@@ -27,7 +27,8 @@ Air::Air(const std::vector<Stroke>& drawn, const std::vector<char>& open, double
     if (open[i] == 0) continue;
     const Stroke& edge = drawn[i];
     Strip strip{edge, 0, 0, {}, {}, {}};
-    Stroke beyond = edge;  // the far side, in the edge's direction
+    // The far side of the strip, in the direction of the edge.
+    Stroke beyond = edge;
     const auto line = [](Place from, Place to) { return Stroke{false, true, from, to, {}, 0}; };
     if (edge.arc) {
       strip.near = edge.ccw ? edge.radius : std::max(0.0, edge.radius - width);
@@ -40,7 +41,8 @@ Air::Air(const std::vector<Stroke>& drawn, const std::vector<char>& open, double
       const Place out = (-width) * left_of(unit(edge.to - edge.from));
       beyond.from = edge.from + out, beyond.to = edge.to + out;
     }
-    // Round the strip counter-clockwise: out where the edge begins, along, and back in.
+    // The sides run counter-clockwise around the strip: out where the edge begins, along the far side, and
+    // back in.
     std::vector<Stroke> sides{line(edge.from, beyond.from), line(beyond.to, edge.to)};
     if (length(beyond.to - beyond.from) > 0) sides.push_back(beyond);
     sides_.insert(sides_.end(), sides.begin(), sides.end());
@@ -68,7 +70,8 @@ bool Air::in_strips(Place p) const {
   return std::any_of(strips_.begin(), strips_.end(), [&](const Strip& s) { return s.holds(p, width_); });
 }
 
-/// Parity of the crossings of a ray to the right; every stroke is monotone in y and half open.
+/// Counts the crossings of a ray to the right; an odd number means inside. Every stroke is monotone in y and
+/// half open.
 bool Air::in_drawing(Place p) const {
   bool in = false;
   for (const Stroke& s : drawn_)

@@ -7,13 +7,16 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr double kLeaf = 0.004;  // mm, side of the smallest squares
+/// Squares are not divided below this side.
+constexpr double kLeaf = 0.004;  // mm
 constexpr double kSameLevel = 1e-6;
-constexpr double kTold = 0.02;  // mm, width of an uncut spot that is told of
+/// Uncut spots are reported from this width on.
+constexpr double kTold = 0.02;  // mm
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// Squares, divided until they are surely cut, surely not to be cut, or no larger than kLeaf.
+/// Step 8 of docs/design/simulate.md: divides squares until each is surely cut, surely not to be cut, or no
+/// larger than kLeaf.
 class Coverage {
  public:
   Coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report)
@@ -52,11 +55,12 @@ class Coverage {
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
-  /// Distance from what is cut, as if this tool had cut all of it along paths: of what a wider one cut that
-  /// path is as much nearer. Cut is what is nearer than this tool's radius.
+  /// Returns the distance from what is cut, as if this tool had cut all of it along paths. A path that a
+  /// wider tool cut counts as nearer by the difference of the radii. A place is cut where the distance is
+  /// below this tool's radius.
   [[nodiscard]] double swept_at(Place p) const { return index_.nearest(p, floor_, wider_, widest_); }
 
-  /// Distance from `middle` to the nearest; keeps those that may matter to the square.
+  /// Returns the distance from `middle` to the nearest, and keeps those that may matter to the square.
   template <class Distance>
   static double nearest(double reach, const Numbers& from, Numbers& kept, Distance&& distance_of) {
     double least = kFar;
@@ -68,18 +72,20 @@ class Coverage {
     return least;
   }
 
-  /// \param farthest  the nearest cut is not farther from the middle than this
+  /// \param farthest  a bound: no nearest cut is farther from the middle than this
   void look(Place middle, double side, const Numbers& cuts, const Numbers& limits, bool all_reachable,
             double farthest) {
     const double half = side * 0.7071067811865476;
     const bool beside_air = !pocket_.air().empty() && pocket_.air().from_borders(middle) < half;
     if ((!beside_air || side <= kLeaf) && pocket_.air().holds(middle)) return;
     Numbers near_cuts, near_limits;
-    double off = 0;  // from the places where the tool's middle may be
+    // The distance from the places where the tool's middle may be.
+    double off = 0;
     if (!all_reachable) {
       off = nearest(radius_ + half, limits, near_limits,
                     [&](std::uint32_t i) { return distance(middle, pocket_.limit()[i]); });
-      if (near_limits.empty()) {  // all of the square is among these places, or none of it can be cut
+      // The whole square is among these places, or none of it can be cut.
+      if (near_limits.empty()) {
         if (!pocket_.allowed(middle)) return;
         off = 0;
       } else if (off > radius_ - half && pocket_.allowed(middle)) {
@@ -88,7 +94,7 @@ class Coverage {
       if (off - half > radius_) return;
       all_reachable = off + half <= radius_;
     }
-    // Those a little too far are kept: they tell how wide a strip is that stays.
+    // Cuts that are a little too far are kept, because they tell how wide a strip is that stays.
     const double swept =
         std::min(farthest, nearest(radius_ + 3 * half, cuts, near_cuts,
                                    [&](std::uint32_t i) { return distance(middle, floor_[i]) - wider_[i]; }));
@@ -108,7 +114,7 @@ class Coverage {
       look(middle + side / 4 * corner, side / 2, near_cuts, near_limits, all_reachable, swept + half);
   }
 
-  /// Part of a square on this side of a line `past` beyond its middle.
+  /// Returns the part of a square on this side of a line that passes `past` beyond its middle.
   static double share(double past, double side) { return std::clamp(0.5 + past / side, 0.0, 1.0); }
 
   void add_uncut(Place middle, double side) {
@@ -118,10 +124,10 @@ class Coverage {
     widen(middle, side);
   }
 
-  /// The widest uncut place of a square, where it may be wider than what is known.
+  /// Looks for the widest uncut place of a square, where it may be wider than the widest one known.
   void widen(Place middle, double side) {
-    if (whole_ <= report_.uncut_width_mm)
-      return;  // nothing is wider, and a path far away is long to look for
+    // No place can be wider, and a search for a path far away would take long.
+    if (whole_ <= report_.uncut_width_mm) return;
     const double half = side * 0.7071067811865476, deep = swept_at(middle) - radius_;
     const double most = std::min(2 * (deep + half), whole_);
     spot(middle, 2 * deep);
@@ -164,23 +170,27 @@ class Coverage {
   double radius_;
   SimulateReport& report_;
   std::vector<Stroke> floor_;
-  std::vector<double> wider_;  ///< of each: its tool's radius less this one's
+  /// By stroke of the floor: its tool's radius less this one's.
+  std::vector<double> wider_;
   double widest_ = 0;
   StrokeIndex index_;
   double undecided_ = 0;
-  double whole_ = length(pocket_.high() - pocket_.low());  ///< mm; no place is wider
-  UncutSpot spot_;                                         ///< the widest of the square that is looked at
+  /// The size of the pocket, mm; no place is wider.
+  double whole_ = length(pocket_.high() - pocket_.low());
+  /// The widest spot of the square that is looked at.
+  UncutSpot spot_;
   std::vector<UncutSpot> spots_;
 };
 
-/// The least signed distance of a stroke's places from the outline, from below: exact to rounding where the
-/// stroke is not near to crossing it, else within `step`.
+/// Returns the least signed distance of a stroke's places from the outline, rounded down. It is exact to
+/// rounding where the stroke is not near to crossing the outline, and otherwise within `step`.
 double least_depth(const Stroke& stroke, const PocketReach& pocket, double enough,
                    std::vector<std::uint32_t>& near) {
   const double half = 0.5 * length(stroke);
   const double middle = pocket.depth(at_share(stroke, 0.5));
   if (middle - half >= enough) return enough;
-  if (middle - half > 0) {  // all of it is inside
+  // The whole stroke is inside.
+  if (middle - half > 0) {
     pocket.outline_index().near(at_share(stroke, 0.5), middle + 2 * half, near);
     double least = enough;
     for (const std::uint32_t i : near) least = std::min(least, distance_apart(stroke, pocket.outline()[i]));
@@ -220,8 +230,9 @@ void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& 
   const auto place = [&](std::size_t i) {
     return low + step * Place{static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5};
   };
-  // All of a block is outside, or all of it is reached, where its middle is so by more than it is wide.
-  constexpr double kSurely = 1e-5;  // mm; more than distances are off
+  // Step 10: a block is left alone when it lies wholly outside or wholly within reach of the tool, which its
+  // middle tells when it is so by more than half the block's diagonal.
+  constexpr double kSurely = 1e-5;  // mm
   const auto look = [&](const auto& self, std::size_t column, std::size_t row, std::size_t side) -> void {
     if (column >= columns || row >= rows) return;
     if (side == 1) {

@@ -27,7 +27,7 @@ std::vector<Stroke> strokes_of(const Move& move, double longest) {
   return strokes;
 }
 
-/// Adds the share of the stroke between two shares of its way.
+/// Adds the part of the stroke between two shares of its length.
 void add_part(const Stroke& stroke, double begin, double end, Cut cut, CutPath& path) {
   const Place from = at_share(stroke, begin), to = at_share(stroke, end);
   cut.stroke = beginning(until(stroke, to), from);
@@ -43,6 +43,7 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
                          const std::string& name) {
   CutPath path;
   path.deepest = top;
+  // `down` is true while the tool is below `top`. A cut that begins while it is false is a new entry.
   bool down = false;
   std::size_t entries = 0;
   for (const Move& move : moves) {

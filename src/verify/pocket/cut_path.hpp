@@ -11,47 +11,54 @@ namespace lekalo::verify {
 
 /// A short piece of the path with the tool below the stock's upper face.
 struct Cut {
-  Stroke stroke;  ///< of no length for a plunge
+  /// A plunge has a stroke of no length.
+  Stroke stroke;
   double from_z = 0, to_z = 0;
   std::size_t line = 0;
-  std::size_t entry = 0;  ///< which time the tool is down in the stock, from 1; 0: an earlier program's
+  /// Counts how often the tool has come down into the stock so far, from 1; 0 for an earlier program's cut.
+  std::size_t entry = 0;
   bool rapid = false;
-  double radius = 0;  ///< of the tool, mm
+  /// The radius of the tool, mm.
+  double radius = 0;
   [[nodiscard]] bool level() const { return from_z == to_z; }
 };
 
 struct CutPath {
   std::vector<Cut> cuts;
-  std::vector<Stroke> strokes;  ///< of the cuts, in their order
-  std::vector<Cut> before;      ///< of earlier programs, in their order
+  /// The strokes of the cuts, in their order.
+  std::vector<Stroke> strokes;
+  /// The cuts of earlier programs, in their order.
+  std::vector<Cut> before;
   std::size_t retracts = 0;
   double deepest = 0;
 };
 
-/// Pieces no longer than `longest`; bad_input where they would be more than ten million.
+/// Step 1 of docs/design/simulate.md: cuts the path below `top` into pieces no longer than `longest`.
+/// bad_input where there would be more than ten million.
 [[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
                                        double longest, const std::string& name);
 
-/// The material that the path takes off at one depth, on the level.
+/// The area of material that the path takes off at one depth while it moves level.
 struct Removed {
   double z = 0, mm2 = 0;
 };
 
-/// Engagement along the path: fills samples and all figures of `report` that come from them. Returns what is
-/// taken off at each depth.
+/// Steps 2 to 7: measures engagement along the path, and fills samples and all figures of `report` that come
+/// from them. Returns what is taken off at each depth.
 std::vector<Removed> measure_engagement(const CutPath& path, const Air& air, double radius, double spacing,
                                         SimulateReport& report, const ProgressListener& progress);
 
-/// Fills the samples on some lines alone, nothing else.
+/// Fills the samples on some lines and nothing else.
 void measure_engagement_on(const CutPath& path, const Air& air, const SimulateOptions& options,
                            const std::vector<LineRange>& lines, SimulateReport& report);
 
-/// Coverage, uncut spots, gouge and unreachable spots.
+/// Fills coverage and uncut spots (step 8). measure_gouge and find_unreachable (step 10) fill gouge and the
+/// parts out of reach.
 void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report);
 void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report);
 void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& report);
 
-/// Seconds for all moves: docs/design/simulate.md.
+/// Step 11: returns the seconds that a machine takes for all moves.
 [[nodiscard]] double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& options);
 
 }  // namespace lekalo::verify

@@ -10,13 +10,16 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kAirDegrees = 3, kLasting = 0.2;
-constexpr double kSameLevel = 1e-6;       // mm of Z that no machine tells
-constexpr double kTooShortToSink = 0.01;  // mm of a ramp, on which no written digit of Z changes
+/// No machine tells depths apart that differ by less than this.
+constexpr double kSameLevel = 1e-6;  // mm of Z
+/// A stroke of a ramp that is shorter than this changes no written digit of Z.
+constexpr double kTooShortToSink = 0.01;  // mm
 constexpr double kLayerError = 1e-3;      // mm
 constexpr std::size_t kCutsToTell = 1000;
-constexpr double kSpeck = 0.02;  // mm of material under a plunging tool that are not looked for
+/// Under a plunging tool, material smaller than this is not looked for.
+constexpr double kSpeck = 0.02;  // mm
 
-/// All of it is at least as deep.
+/// Returns the depth that all of the cut reaches at least.
 double highest(const Cut& cut) { return std::max(cut.from_z, cut.to_z); }
 
 class Engagement {
@@ -37,7 +40,7 @@ class Engagement {
     if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
     for (const Cut& cut : cuts_) {
       const Place middle = 0.5 * (cut.stroke.from + cut.stroke.to);
-      // An arc of at most a quarter turn lies in the disc about its chord.
+      // An arc of at most a quarter turn lies in the disc that has its chord as diameter.
       discs_.push_back({middle, 0.5 * length(cut.stroke.to - cut.stroke.from) + cut.radius + kSpeck});
     }
     bottoms_.resize(cuts_.size());
@@ -110,8 +113,8 @@ class Engagement {
     }
   }
 
-  /// Earlier strokes that may reach the tool's rim from anywhere on this one. What was found for a place
-  /// nearby serves, with what came since.
+  /// Finds the earlier strokes that may reach the tool's rim from anywhere on this stroke. Those found for a
+  /// place nearby serve again, together with the strokes that came since.
   void gather(std::size_t number, Place middle, double whole) {
     const double slack = radius_;
     if (gathered_ && length(middle - gathered_at_) + whole / 2 <= slack) {
@@ -128,7 +131,8 @@ class Engagement {
     useful_.clear();
   }
 
-  /// Straight down. The way that counts is from the lowest depth on to which all of the tool's disc is cut.
+  /// Step 5: measures a plunge straight down. It counts from the lowest depth on to which all of the tool's
+  /// disc is already cut.
   void plunge(std::size_t number) {
     const Cut& cut = cuts_[number];
     if (!(cut.to_z < cut.from_z)) return;
@@ -141,7 +145,8 @@ class Engagement {
       if (z > cut.to_z + kSameLevel && z < cut.from_z) depths.push_back(z);
     }
     std::sort(depths.begin(), depths.end());
-    std::size_t low = 0, high = depths.size() - 1;  // what is cut down to a depth is cut down to all above
+    // The halving works because what is cut down to one depth is cut at every depth above it.
+    std::size_t low = 0, high = depths.size() - 1;
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
       if (is_cut({at, radius_ - kSpeck}, at, 2 * radius_, near_, depths[middle]))
@@ -154,8 +159,8 @@ class Engagement {
     if (cut.rapid) report_.rapid_cut_mm += drop;
   }
 
-  /// A square is cut when none of the squares of kSpeck mm that it is made of, with its middle in the disc,
-  /// has that middle in material at depth z.
+  /// Says whether a square is cut. It is divided into squares of kSpeck mm, and of those whose middle lies in
+  /// the disc none may have its middle in material at depth z.
   bool is_cut(const Disc& disc, Place middle, double side, const std::vector<std::uint32_t>& near,
               double z) const {
     const double half = side * 0.7071067811865476, off = length(middle - disc.middle) - disc.radius;
@@ -175,8 +180,8 @@ class Engagement {
     return true;
   }
 
-  /// Material is there at the tip's depth until the tip was as deep; what a ramp of the same entry left as
-  /// its floor is entry, too.
+  /// Steps 2 and 7: a place counts as material at the tip's depth until all of a stroke over it was as deep.
+  /// Where the rim meets only the floor that a ramp of the same entry left, the sample is entry too.
   void engage(const Cut& cut, EngagementSample& sample) {
     const double z = sample.z;
     const auto as_deep = [&](std::uint32_t i) { return highest(cuts_[i]) <= z + kSameLevel; };
@@ -184,7 +189,7 @@ class Engagement {
       return rim_.may_meet(discs_[i].middle, discs_[i].radius) && as_deep(i) &&
              rim_.add(cuts_[i].stroke, cuts_[i].radius);
     };
-    // Strokes that covered much a moment ago come first, then the newest.
+    // Strokes that covered much at the last sample come first, then the newest ones.
     found_.clear();
     for (const std::uint32_t i : useful_)
       if (add(i)) found_.push_back(i);
@@ -209,7 +214,7 @@ class Engagement {
     sample.entry = rim_.open_angle() * kDegreesPerRadian < sample.engagement - 1e-6;
   }
 
-  /// The answer says whether the rim meets material at a depth at or above the tip's.
+  /// Says whether the rim meets material at depth z.
   bool meets(double z, const Stroke& so_far) {
     rim_.begin(so_far.to, radius_, so_far);
     for (std::size_t k = near_.size(); k-- > 0 && !rim_.nothing_left();) {
@@ -220,8 +225,8 @@ class Engagement {
     return rim_.open_angle() * kDegreesPerRadian >= kAirDegrees;
   }
 
-  /// How thick a layer an entry's rim meets, where that is more than so far: what is cut down to a depth is
-  /// cut above it.
+  /// Raises report_.entry_layer_mm where an entry's rim meets a thicker layer. Halving finds its thickness,
+  /// because what is cut down to one depth is cut at every depth above it.
   void measure_layer(double z, const Stroke& so_far) {
     double low = z + report_.entry_layer_mm + kLayerError;
     if (!(low < top_) || !meets(low, so_far)) return;
@@ -260,8 +265,9 @@ class Engagement {
     find_lasting();
   }
 
-  /// Largest value that no sample undercuts over a stretch of at least kLasting. From each sample on, the
-  /// least so far goes down as the stretch grows, so the first stretch long enough is the best from there.
+  /// Finds the largest value that samples do not fall below over a stretch of at least kLasting. Going on
+  /// from a sample, the least value can only fall as the stretch grows, so the first stretch that is long
+  /// enough is the best one from there.
   void find_lasting() {
     const auto& samples = report_.samples;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -277,19 +283,28 @@ class Engagement {
   }
 
   const Air& air_;
-  std::vector<Cut> cuts_;  ///< of earlier programs, and from first_ on of this one
+  /// The cuts of earlier programs, and from first_ on those of this one.
+  std::vector<Cut> cuts_;
   std::size_t first_ = 0;
-  std::vector<Disc> discs_;      ///< of each, about all that the tool sweeps along it
-  std::vector<double> bottoms_;  ///< of each, how deep its ramp gets: what it left below that is no entry's
-  double radius_, widest_, spacing_;  ///< of this tool, of the widest of all
+  /// By cut: a disc around all that the tool sweeps along it.
+  std::vector<Disc> discs_;
+  /// By cut: the depth that its ramp reaches. Material that the ramp left below that is no entry's.
+  std::vector<double> bottoms_;
+  /// The radius of this tool, the radius of the widest tool of all, and the spacing of samples.
+  double radius_, widest_, spacing_;
   SimulateReport& report_;
-  double top_ = -1e300;  ///< of the stock: where the tool comes down from
+  /// The top of the stock, from which the tool comes down.
+  double top_ = -1e300;
   StrokeIndex index_;
   RimCover rim_;
-  double width_ = 0;                           ///< across the heading, of what was in material last
-  std::map<double, double> removed_;           ///< on the level, mm2 by depth
-  std::vector<std::uint32_t> near_;            ///< earlier strokes about gathered_at_
-  std::vector<std::uint32_t> useful_, found_;  ///< of them, what covered some of the rim
+  /// The width, across the heading, of the rim that was in material at the last sample.
+  double width_ = 0;
+  /// The area taken off on the level, mm2, by depth.
+  std::map<double, double> removed_;
+  /// The earlier strokes about gathered_at_.
+  std::vector<std::uint32_t> near_;
+  /// Those of near_ that covered some of the rim at the last sample.
+  std::vector<std::uint32_t> useful_, found_;
   bool gathered_ = false;
   Place gathered_at_;
   std::size_t gathered_upto_ = 0;

@@ -6,8 +6,10 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kJunctionDeviation = 0.01;  // mm
-constexpr double kWindow = 0.5;              // mm of path, over which curvature is averaged
-constexpr double kLongest = 0.25;            // mm of a piece of an arc
+/// Curvature is averaged over this much path.
+constexpr double kWindow = 0.5;  // mm
+/// Arcs are cut into pieces of at most this length, or a 32nd of the radius if that is longer.
+constexpr double kLongest = 0.25;  // mm
 
 struct Direction {
   double x, y, z;
@@ -17,7 +19,7 @@ double dot(Direction a, Direction b) { return a.x * b.x + a.y * b.y + a.z * b.z;
 struct Piece {
   double length, feed;    // mm, mm/s
   Direction first, last;  // of travel
-  double square_limit;    // of the speed on it, (mm/s)^2
+  double square_limit;    // the square of the speed is at most this, (mm/s)^2
 };
 
 double turn_between(Direction a, Direction b) {
@@ -58,7 +60,7 @@ std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptio
   return pieces;
 }
 
-/// Angle the path has turned up to a length of path.
+/// The angle by which the path has turned up to a length of path.
 class Turned {
  public:
   explicit Turned(const std::vector<Piece>& pieces) {
@@ -84,17 +86,20 @@ class Turned {
 
 }  // namespace
 
+/// Step 11 of docs/design/simulate.md.
 double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o) {
   const std::vector<Piece> pieces = pieces_of(moves, o);
   if (pieces.empty()) return 0;
   const Turned turned(pieces);
   const double a = o.acceleration;
-  std::vector<double> square(pieces.size() + 1, 0.0);  // of the speed at each end
+  // The square of the speed at the beginning of each piece and at the end of the last.
+  std::vector<double> square(pieces.size() + 1, 0.0);
   double s = 0;
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     s += pieces[i - 1].length;
     const double cosine = dot(pieces[i - 1].last, pieces[i].first);
-    const double half = std::sqrt(std::max(0.0, 0.5 * (1 + cosine)));  // sine of half the inner angle
+    // The sine of half the angle between the two directions at the corner.
+    const double half = std::sqrt(std::max(0.0, 0.5 * (1 + cosine)));
     double radius = half < 1 ? kJunctionDeviation * half / (1 - half) : 1e300;
     const double bend = turned(s + kWindow / 2) - turned(s - kWindow / 2);
     if (bend > 0) radius = std::min(radius, kWindow / bend);

@@ -12,8 +12,10 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr double kFarthest = 1e6;          // mm; a kilometre is beyond any machine
-constexpr double kCircleTolerance = 5e-3;  // mm; between the radii at an arc's ends
+/// A coordinate beyond a kilometre is beyond any machine.
+constexpr double kFarthest = 1e6;  // mm
+/// The radii at the two ends of an arc may differ by this much.
+constexpr double kCircleTolerance = 5e-3;  // mm
 
 struct Block {
   std::size_t line = 0;

@@ -13,14 +13,15 @@ struct Move {
   bool rapid = false, arc = false, ccw = true;
   Place from, to, centre;
   double from_z = 0, to_z = 0;
-  int turns = 1;    ///< of an arc: its sweep is below turns * 360 degrees and at least (turns - 1) * 360
-  double feed = 0;  ///< mm/min; of a rapid 0
+  /// An arc turns by less than turns * 360 degrees and at least (turns - 1) * 360.
+  int turns = 1;
+  double feed = 0;  ///< mm/min; 0 for a rapid
   std::size_t line = 0;
 };
 
-/// The motions of an NC program: G0 to G3 in the XY plane, G20/G21, G90/G91, centres as I J (either way) or
-/// R, full turns as P. The place before the first motion is not known: a program begins where its first words
-/// for X, Y and Z lead, and motion before all three are said is no motion.
+/// Reads the motions of an NC program: G0 to G3 in the XY plane, G20/G21, G90/G91, centres as I J (either
+/// way) or R, full turns as P. The place before the first motion is not known. A program begins where its
+/// first words for X, Y and Z lead, and motion before all three are given is no motion.
 ///
 /// bad_input with the line for everything else that moves or changes where things are.
 [[nodiscard]] Result<std::vector<Move>> read_moves(const Document& program);

@@ -16,7 +16,8 @@ constexpr std::size_t kRows = 512;
 double middle(Span s) { return 0.5 * (s.low + s.high); }
 Place middle(const Vec& v) { return {middle(v.x), middle(v.y)}; }
 
-/// Arcs are cut where they are level or upright, so that each is monotone and at most a quarter turn.
+/// Adds a side as strokes. An arc is cut where its tangent is level or upright, so that each stroke is
+/// monotone and turns by at most a quarter.
 void add_side(const Side& side, std::vector<Stroke>& strokes) {
   const Place from = middle(side.from), to = middle(side.to);
   if (!side.arc) {
@@ -29,7 +30,7 @@ void add_side(const Side& side, std::vector<Stroke>& strokes) {
   std::vector<Stroke> quarters;
   add_arc(from, to, centre, side.ccw, kWhole, quarters);
   for (const Stroke& q : quarters) {
-    // At most one of the four extreme places lies inside a quarter turn; both ends are kept out.
+    // At most one of the four extreme places lies inside a quarter turn; the ends of the stroke do not count.
     Stroke rest = q;
     for (const Place extreme : {Place{1, 0}, Place{0, 1}, Place{-1, 0}, Place{0, -1}}) {
       const double turn = q.ccw ? 1 : -1;
@@ -50,7 +51,7 @@ Stroke reversed(Stroke s) {
   return s;
 }
 
-/// Twice the area, roughly: enough for the direction of a contour without a fault.
+/// Returns twice the area, roughly. That is enough for the direction of a contour without a fault.
 double turning_area(const std::vector<Stroke>& contour) {
   double sum = 0;
   for (const Stroke& s : contour) {
@@ -75,7 +76,7 @@ bool shifted(const Stroke& s, double by, Stroke& result) {
   return true;
 }
 
-/// Its pieces between places on it.
+/// Cuts a stroke at places on it and returns the pieces.
 std::vector<Stroke> cut_at(const Stroke& s, std::vector<Place> cuts) {
   const Place base = s.arc ? s.centre : s.from;
   const auto along = [&](Place p) {
@@ -139,7 +140,8 @@ Result<PocketReach> PocketReach::make(const Document& pocket, double clearance, 
   return reach;
 }
 
-/// Walls and sides of strips, cut where they cross one another; what has pocket or air on its right is none.
+/// Finds the outline of pocket and air together. Walls and sides of strips are cut where they cross one
+/// another, and a piece with pocket or air on its right belongs to no outline.
 void PocketReach::find_outline() {
   outline_ = drawn_;
   if (air_.empty()) return;
@@ -160,7 +162,7 @@ void PocketReach::find_outline() {
     for (const Stroke& other : all) {
       if (&other == &s) continue;
       add_crossings(s, other, cuts);
-      // A strip's side may go on along a wall: what is behind changes where one of them ends.
+      // The side of a strip may run along a wall. Then what is behind it changes where one of the two ends.
       for (const Place end : {other.from, other.to})
         if (distance(end, s) <= 1e-9) cuts.push_back(end);
     }
@@ -188,7 +190,8 @@ void PocketReach::sort_rows() {
   }
 }
 
-/// Parity of the crossings of a ray to the right; every stroke is monotone in y and half open.
+/// Counts the crossings of a ray to the right; an odd number means inside. Every stroke is monotone in y and
+/// half open.
 bool PocketReach::in_drawing(Place p) const {
   if (!(p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y)) return false;
   const auto row =
@@ -206,24 +209,26 @@ double PocketReach::depth(Place p) const {
 
 double PocketReach::from_allowed(Place p) const { return allowed(p) ? 0 : limit_index_.nearest(p, limit_); }
 
-/// The allowed places are bounded by strokes shifted inwards and by circles about corners. All are cut where
-/// they cross one another; a piece whose middle keeps the clearance belongs to the boundary.
+/// Step 9 of docs/design/simulate.md: the allowed places are bounded by strokes shifted inwards and by
+/// circles about corners. All of these are cut where they cross one another, and a piece whose middle keeps
+/// the clearance belongs to the boundary.
 void PocketReach::find_limit() {
   std::vector<Stroke> carriers;
   for (const Stroke& s : outline_) {
     Stroke moved;
     if (shifted(s, clearance_, moved)) carriers.push_back(moved);
   }
-  // Only the arc of a circle about a corner that faces between the two sides' normals can matter.
+  // Only the arc of a circle about a corner that faces between the normals of the two sides can matter.
   for (std::size_t i = 0; i < outline_.size(); ++i) {
     const Place v = outline_[i].to;
     for (std::size_t k = 0; k < outline_.size(); ++k) {
       if (!(std::abs(outline_[k].from.x - v.x) < 1e-9 && std::abs(outline_[k].from.y - v.y) < 1e-9)) continue;
       const Place a = left_of(heading(outline_[i], v)), b = left_of(heading(outline_[k], v));
-      // An outline that turns back by half a turn may leave a thorn there: there may be a thorn, of an arc
-      // and the side of a strip.
+      // The side of a strip and an arc may form a thorn where the outline turns back by half a turn, and its
+      // tip is such a corner too.
       const bool thorn = std::abs(cross(a, b)) <= 1e-9 && dot(a, b) < 0;
-      if (!(cross(a, b) < -1e-12 || thorn)) continue;  // the pocket does not bend round this corner
+      // The pocket bends round no other corner.
+      if (!(cross(a, b) < -1e-12 || thorn)) continue;
       add_arc(v + clearance_ * a, v + clearance_ * b, v, false, 1e30, carriers);
     }
   }

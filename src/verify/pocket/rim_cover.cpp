@@ -5,17 +5,17 @@
 namespace lekalo::verify {
 namespace {
 
-/// A rim place this much outside of what an earlier stroke swept counts as in it, mm: where the tool comes
-/// back to the very place it was at, rounding would decide. Of the stroke the tool is on it is the other way
-/// round.
+/// Step 3 of docs/design/simulate.md: a rim place this much outside of what an earlier stroke swept counts as
+/// swept, mm. Otherwise rounding would decide where the tool comes back to the very place it was at. Of the
+/// stroke that the tool is on, a rim place counts as swept only this much inside of it.
 constexpr double kMargin = 1e-9;
-/// A stroke this much farther than the radius from everything open covers nothing of it, mm.
+/// A stroke that is this much farther than the radius from all of the open rim covers none of it, mm.
 constexpr double kSurely = 1e-6;
 
 }  // namespace
 
-/// Diamond angles grow with the angle, without an arctangent: 0 to the right of the heading, 1 ahead, 2 to
-/// the left.
+/// Returns the direction of a diamond angle. Diamond angles grow with the angle and need no arctangent: 0 is
+/// to the right of the heading, 1 ahead, 2 to the left.
 Place RimCover::direction_of(double d) const {
   const double ahead = d < 1 ? d : 2 - d, aside = 1 - d;
   return unit(ahead * heading_ - aside * left_of(heading_));
@@ -55,8 +55,7 @@ void RimCover::add_circle_cuts(Place centre, double circle_radius) {
   add_cut(cosine * along - sine * left_of(along));
 }
 
-/// Adds the cuts at which the rim meets the line parallel to `direction` (a unit vector), `offset` to its
-/// left.
+/// Adds the cuts at which the rim meets a line parallel to `direction` (a unit vector), `offset` to its left.
 void RimCover::add_line_cuts(Place through, Place direction, double offset) {
   const double sine = (offset - cross(direction, at_ - through)) / radius_;
   if (!(std::abs(sine) < 1)) return;
@@ -65,7 +64,7 @@ void RimCover::add_line_cuts(Place through, Place direction, double offset) {
   add_cut(sine * left_of(direction) - cosine * direction);
 }
 
-/// Between two cuts the rim is covered as a whole or not at all.
+/// Step 2: takes away the covered stretches. Between two cuts the rim is covered as a whole or not at all.
 template <class Gone>
 bool RimCover::cover(Gone&& is_gone) {
   std::sort(cuts_.begin(), cuts_.end());
@@ -91,7 +90,8 @@ bool RimCover::cover(Gone&& is_gone) {
   return changed;
 }
 
-/// An arc of at most half a turn lies in the disc that has its chord as diameter.
+/// Finds a disc around all that is open. An arc of at most half a turn lies in the disc that has its chord as
+/// diameter.
 void RimCover::bound() {
   if (open_.empty()) return;
   const Place from = direction_of(open_.front().begin), to = direction_of(open_.back().end);
@@ -144,7 +144,8 @@ double RimCover::open_width() const {
 
 double RimCover::open_between(double low, double high) const {
   double open = 0;
-  // At most a quarter turn at a time, so that the angle between directions is the angle meant.
+  // A stretch is summed in parts of at most a quarter turn, so that the angle between two directions is the
+  // one that is meant.
   for (const Stretch& stretch : open_)
     for (double from = std::max(low, stretch.begin), end = std::min(high, stretch.end); from < end;) {
       const double to = std::min(end, std::floor(from) + 1);

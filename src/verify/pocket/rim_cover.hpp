@@ -7,15 +7,16 @@
 
 namespace lekalo::verify {
 
-/// Keeps the part of the leading half of the tool's rim that still meets material. What is left shrinks with
-/// every stroke, and only what is left is looked at, so that strokes that cover much should come first.
+/// Keeps the part of the leading half of the tool's rim that still meets material. Every stroke leaves less
+/// of it, and only what is left is looked at, so strokes that cover much should come first.
 class RimCover {
  public:
-  /// \param at  middle of the tool, \param radius  its radius, mm
+  /// \param at  the middle of the tool
+  /// \param radius  the tool's radius, mm
   /// \param came_along  the stroke that ends there; what the tool swept along it is gone
   /// \pre the stroke is of positive length
   void begin(Place at, double radius, const Stroke& came_along);
-  /// The answer says whether something in this disc may be at what is left of the rim.
+  /// Says whether something in this disc may be at what is left of the rim.
   [[nodiscard]] bool may_meet(Place middle, double radius) const {
     const Place off = bound_middle_ - middle;
     return dot(off, off) < (bound_radius_ + radius) * (bound_radius_ + radius);
@@ -25,15 +26,15 @@ class RimCover {
   /// Takes away what lies beyond open edges.
   void add_air(const Air& air);
   [[nodiscard]] bool nothing_left() const { return open_.empty(); }
-  /// Angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
+  /// Returns the angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
   [[nodiscard]] double open_angle() const { return open_between(0, 2); }
-  /// The same of what is left of the heading.
+  /// Returns the part of open_angle() to the left of the heading.
   [[nodiscard]] double open_left() const { return open_between(1, 2); }
-  /// How wide it is across the heading, mm: a mm of path removes so many square mm.
+  /// Returns how wide the open rim is across the heading, mm: a mm of path removes so many square mm.
   [[nodiscard]] double open_width() const;
 
  private:
-  /// Between two diamond angles.
+  /// Returns the open angle between two diamond angles.
   [[nodiscard]] double open_between(double low, double high) const;
   void add_circle_cuts(Place centre, double circle_radius);
   void add_line_cuts(Place through, Place direction, double offset);
@@ -50,7 +51,8 @@ class RimCover {
   double radius_ = 0;
   std::vector<double> cuts_;
   std::vector<Stretch> open_, left_;
-  Place bound_middle_;  ///< of a disc that holds all of what is open
+  /// The middle of a disc that holds all of what is open.
+  Place bound_middle_;
   double bound_radius_ = 0;
 };
 

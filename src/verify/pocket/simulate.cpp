@@ -11,8 +11,8 @@
 namespace lekalo::verify {
 namespace {
 
-/// How far out of open edges nothing stands, of the tool's radius with the stock to leave: a tool may stand
-/// there and come in.
+/// Nothing stands out of open edges for this many radii of the tool (with the stock to leave), so that a tool
+/// can stand there and come in.
 constexpr double kAirWidth = 4;
 
 Result<void> check(const SimulateOptions& o, const std::vector<EarlierProgram>& earlier) {
@@ -46,7 +46,8 @@ double turning_of(const CutPath& path) {
   return sum;
 }
 
-/// The path of a program that goes below the top; the error says so if it does not.
+/// Step 1 of docs/design/simulate.md: returns the path of a program that goes below the top, or an error that
+/// says that it never does.
 Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves, double diameter,
                         double top) {
   Result<CutPath> path = cut_path(moves, top, diameter / 2, diameter / 4, program.name);
@@ -59,7 +60,7 @@ Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves,
   return path;
 }
 
-/// The area that can be reached and that earlier programs have not cut as deep as this one goes.
+/// Returns the area that can be reached and that earlier programs have not cut as deep as this program goes.
 double left_before(CutPath path, const PocketReach& reach, double radius) {
   path.cuts.clear();
   SimulateReport report;
@@ -67,9 +68,11 @@ double left_before(CutPath path, const PocketReach& reach, double radius) {
   return report.uncut_mm2;
 }
 
-/// The fastest feed, but for a twentieth of what cuts: a link that grazes a wall does not make the bound.
+/// Returns the fastest feed that cuts. The fastest twentieth of what cuts is left out, so that a link that
+/// grazes a wall does not set the bound.
 double cutting_feed(const std::vector<Move>& moves, const std::vector<EngagementSample>& samples) {
-  std::vector<std::pair<double, double>> feeds;  // with the length cut at each
+  // Each feed stands with the length cut at it.
+  std::vector<std::pair<double, double>> feeds;
   double whole = 0;
   std::size_t next = 0;
   for (const EngagementSample& sample : samples) {
@@ -87,13 +90,16 @@ double cutting_feed(const std::vector<Move>& moves, const std::vector<Engagement
   return 0;
 }
 
-/// A job is what is judged: the program's moves, the pocket, and the path in the stock with what ran before.
+/// The subject of a judgement: the program's moves, the pocket, and the path in the stock with what ran
+/// before.
 struct Job {
   std::vector<Move> moves;
   PocketReach reach;
   CutPath path;
 };
 
+/// Steps 1, 4, 6 and 9 of docs/design/simulate.md: the strokes of the program and of those before it, the
+/// open edges, and where the tool's middle may be.
 Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
                      const std::vector<EarlierProgram>& earlier) {
   LEKALO_CHECK(check(o, earlier));
@@ -126,12 +132,15 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   SimulateReport report;
   report.retracts = path.retracts;
   report.turning_rad = turning_of(path);
-  // Each fills members of the report of its own.
+  // Two measurements run side by side, so each fills other members of the report: engagement (steps 2, 3, 5
+  // and 7), and what is left.
   const auto measure_what_is_left = [&] {
+    // Step 8.
     measure_coverage(path, reach, radius, report);
     report.left_before_mm2 = report.reachable_mm2;
     if (!path.before.empty()) report.left_before_mm2 = left_before(path, reach, radius);
     measure_gouge(path, reach, report);
+    // Step 10.
     find_unreachable(reach, radius, report);
   };
   std::vector<Removed> removed;
@@ -142,7 +151,8 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   report.seconds = machine_seconds(moves, o);
   const double feed = cutting_feed(moves, report.samples);
   if (feed > 0) {
-    // No level is larger than what can be reached; measured sums may be, by their rounding.
+    // No depth can take off more than what can be reached, though measured sums may exceed it by their
+    // rounding.
     double mm2 = 0;
     for (const Removed& level : removed)
       mm2 += std::min(level.mm2, std::max(0.0, report.reachable_mm2 - kPi * radius * radius));

@@ -7,7 +7,8 @@
 namespace lekalo::verify {
 namespace {
 
-/// Arctangent of t in [0, 1]: halved twice to at most tan(pi / 16), then its series.
+/// Returns the arctangent of t in [0, 1]: t is halved twice to at most tan(pi / 16), and the series does the
+/// rest.
 double small_arctangent(double t) {
   for (int i = 0; i < 2; ++i) t /= 1 + std::sqrt(1 + t * t);
   const double q = t * t;
@@ -20,7 +21,8 @@ Place on_circle(const Stroke& arc, Place direction) {
   return arc.centre + (arc.radius / length(direction)) * direction;
 }
 
-/// The answer says whether the direction lies in the cone of the arc. \pre less than half a turn
+/// Says whether the direction lies in the cone of the arc.
+/// \pre the arc turns by less than half a turn
 bool faces(const Stroke& arc, Place direction) {
   const double a = cross(arc.from - arc.centre, direction), b = cross(direction, arc.to - arc.centre);
   return arc.ccw ? a >= 0 && b >= 0 : a <= 0 && b <= 0;

@@ -19,39 +19,44 @@ struct Place {
 [[nodiscard]] inline Place unit(Place a) { return (1 / length(a)) * a; }
 [[nodiscard]] inline Place left_of(Place a) { return {-a.y, a.x}; }
 
-/// Angle from a counter-clockwise to b in (-pi, pi], within 1e-15; our own, so that every build gives the
-/// same.
+/// Returns the angle from a counter-clockwise to b in (-pi, pi], within 1e-15. It is computed by our own
+/// series, so that every build gives the same.
 [[nodiscard]] double angle_between(Place a, Place b);
 
 /// A line, or an arc of at most a quarter turn (with rounding), short enough that all of it is near its ends.
 struct Stroke {
   bool arc = false, ccw = true;
   Place from, to, centre;
-  double radius = 0;  ///< of an arc: mean of its ends
+  /// The radius of an arc: the mean of its ends'.
+  double radius = 0;
 };
 
 [[nodiscard]] double length(const Stroke& stroke);
-/// Unit direction of travel at a place on the stroke. \pre a stroke of positive length
+/// Returns the unit direction of travel at a place on the stroke.
+/// \pre a stroke of positive length
 [[nodiscard]] Place heading(const Stroke& stroke, Place at);
-/// The place on it that is nearest.
+/// Returns the place on the stroke that is nearest.
 [[nodiscard]] Place nearest_on(const Stroke& stroke, Place p);
 [[nodiscard]] double distance(Place p, const Stroke& stroke);
-/// Least distance of two strokes that do not cross; where they cross it may be larger than 0.
+/// Returns the least distance of two strokes that do not cross. Where they cross the result may be larger
+/// than 0.
 [[nodiscard]] double distance_apart(const Stroke& a, const Stroke& b);
-/// Adds the points where two strokes cross, without tangent points that rounding leaves open; there are none
-/// for strokes on one carrier.
+/// Adds the points where two strokes cross. Tangent points that rounding leaves open are left out, and
+/// strokes on one carrier have none.
 void add_crossings(const Stroke& a, const Stroke& b, std::vector<Place>& places);
-/// The answer says whether a ray from p to the right meets it; half open in y. \pre monotone in y
+/// Says whether a ray from p to the right meets the stroke, which is half open in y.
+/// \pre the stroke is monotone in y
 [[nodiscard]] bool crosses_ray_to_the_right(const Stroke& stroke, Place p);
-/// The part up to a place on it, and from it on.
+/// Returns the part up to a place on the stroke; beginning() returns the part from a place on.
 [[nodiscard]] Stroke until(const Stroke& stroke, Place at);
 [[nodiscard]] Stroke beginning(const Stroke& stroke, Place at);
-/// A place at a share t of the way, by angle halving for arcs (not exactly by length). t in [0, 1]
+/// Returns a place at a share t of the way, by halving angles for arcs, which is not exactly by length. t is
+/// in [0, 1].
 [[nodiscard]] Place at_share(const Stroke& stroke, double t);
 
-/// A line in pieces no longer than `longest`.
+/// Adds a line in pieces no longer than `longest`.
 void add_line(Place from, Place to, double longest, std::vector<Stroke>& strokes);
-/// An arc of any sweep in pieces no longer than `longest`; from == to is a full turn.
+/// Adds an arc of any sweep in pieces no longer than `longest`; from == to is a full turn.
 void add_arc(Place from, Place to, Place centre, bool ccw, double longest, std::vector<Stroke>& strokes);
 
 }  // namespace lekalo::verify

@@ -52,7 +52,8 @@ void StrokeIndex::near(Place p, double reach, std::vector<std::uint32_t>& number
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// A stroke that is not looked at is farther than `reach`, so none of it is below reach - widest.
+/// Returns the least distance. A stroke that is not looked at is farther away than `reach`, so its distance
+/// less its width is not below reach - widest.
 template <class Distance>
 double StrokeIndex::least(Place p, double widest, Distance&& distance_of) const {
   double least = std::numeric_limits<double>::infinity();

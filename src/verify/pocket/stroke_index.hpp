@@ -7,19 +7,20 @@
 
 namespace lekalo::verify {
 
-/// Finds strokes near a place: square cells that know which strokes' boxes meet them. Strokes may be added in
-/// between. At most 2^20 cells, however large the area.
+/// Finds the strokes near a place by square cells that know which strokes' boxes meet them. Strokes may be
+/// added in between. There are at most 2^20 cells, however large the area is.
 class StrokeIndex {
  public:
   StrokeIndex() = default;
   StrokeIndex(Place low, Place high, double cell);
 
   void add(std::uint32_t number, const Stroke& stroke);
-  /// Numbers of all strokes within `reach` of p, and of some others, ascending, each once.
+  /// Gives the numbers of all strokes within `reach` of p, and of some others, ascending, each once.
   void near(Place p, double reach, std::vector<std::uint32_t>& numbers) const;
-  /// Distance to the nearest of `strokes`; infinity when there is none.
+  /// Returns the distance to the nearest of `strokes`, infinity when there is none.
   [[nodiscard]] double nearest(Place p, const std::vector<Stroke>& strokes) const;
-  /// The same, each distance less what `wider` says of the stroke; none of them more than `widest`.
+  /// Returns the least of all distances, each lessened by what `wider` says of the stroke. No `wider` is more
+  /// than `widest`.
   [[nodiscard]] double nearest(Place p, const std::vector<Stroke>& strokes, const std::vector<double>& wider,
                                double widest) const;
 
@@ -37,7 +38,7 @@ class StrokeIndex {
   std::vector<std::vector<std::uint32_t>> lists_;
 };
 
-/// Corners of a box that holds the stroke.
+/// Gives the corners of a box that holds the stroke.
 void box_of(const Stroke& stroke, Place& low, Place& high);
 
 }  // namespace lekalo::verify

@@ -27,13 +27,13 @@ tl::unexpected<Error> bad_line(const Document& document, std::size_t line, const
   return failure(ErrorCode::bad_input, fmt::format("{}:{}: {}", document.name, line, sentence));
 }
 
-/// Takes lines off a document, counting them.
+/// Takes the lines off a document one by one and counts them.
 class Lines {
  public:
   explicit Lines(std::string_view bytes) : rest_(bytes) {
     if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
   }
-  /// The next line without blanks around it.
+  /// Returns the next line without the blanks around it.
   std::optional<std::string_view> next() {
     if (rest_.empty()) return std::nullopt;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -139,7 +139,8 @@ Result<Contour> json_points(const Document& document, Json list) {
   return contour;
 }
 
-/// The region form: point k is where edge k begins; an edge must begin where the one before it ended.
+/// Reads the region form. Point k is where edge k begins, and each edge must begin where the one before it
+/// ended.
 Result<Contour> json_region(const Document& document, Json outer) {
   if (!outer.is_array()) return bad(document, "field \"outer\" is not a list");
   Contour contour, ends;
@@ -222,13 +223,14 @@ struct DxfPoint {
   Decimal x, y;
 };
 
-/// A straight line of the drawing, from tip 0 to tip 1.
+/// A straight line of the drawing, which runs from tip 0 to tip 1.
 struct DxfLine {
   std::array<DxfPoint, 2> tips;
   std::size_t line = 0;
 };
 
-/// Within a millionth of a drawing unit, which is where one line of a chain continues another.
+/// Says whether two points are within a millionth of a drawing unit, which is where one line of a chain
+/// continues another.
 bool touch(const DxfPoint& a, const DxfPoint& b, Decimal& squared_distance) {
   const Decimal dx = a.x - b.x, dy = a.y - b.y;
   const long exponent = std::min(dx.exponent, dy.exponent);
@@ -254,7 +256,7 @@ class DxfReader {
     return bad_line(document_, line, sentence);
   }
 
-  /// Group codes and values; keeps what HEADER says of units, and the entities.
+  /// Reads group codes and values. It keeps what HEADER says of units, and the entities.
   Result<void> read_pairs() {
     Lines lines(document_.bytes);
     std::string_view section, variable;
@@ -323,7 +325,7 @@ class DxfReader {
     return complain(pair.line, fmt::format("\"{}\" is not {}", excerpt(pair.value), kDecimalRule));
   }
 
-  /// The direction the entity is seen from must be +z: otherwise its coordinates are another plane's.
+  /// Refuses an entity that is not seen from +z, because its coordinates are those of another plane.
   Result<void> check_plane(const DxfEntity& entity) const {
     for (const DxfPair& pair : entity.pairs) {
       if (pair.code != 210 && pair.code != 220 && pair.code != 230) continue;
@@ -378,7 +380,7 @@ class DxfReader {
   std::vector<DxfEntity> entities_;
 };
 
-/// The ends of all lines, sorted by x, so that those near a point are found without looking at all.
+/// The ends of all lines, sorted by x, so that the ends near a point are found without looking at every line.
 class ChainEnds {
  public:
   struct End {
@@ -395,10 +397,12 @@ class ChainEnds {
 
   void use(std::size_t line) { used_[line] = true; }
 
-  /// The end of an unused line nearest to p, at most 1e-6 away; among equals the first in the file.
+  /// Returns the end of an unused line that is nearest to p and at most 1e-6 away, among equals the first in
+  /// the file.
   [[nodiscard]] std::optional<End> nearest(const DxfPoint& p) const {
     const double x = approximate(p.x);
-    const double reach = 1.001e-6 + 1e-15 * std::abs(x);  // pays for the rounding of both x
+    // The reach is a little larger, which pays for the rounding of both x.
+    const double reach = 1.001e-6 + 1e-15 * std::abs(x);
     const auto first = std::lower_bound(ends_.begin(), ends_.end(), x - reach,
                                         [](const End& end, double value) { return end.x < value; });
     std::optional<End> best;

@@ -13,8 +13,9 @@ namespace lekalo::verify {
 
 /// The points of a contour file as they are written: exact decimals, file order, nothing dropped.
 struct Contour {
-  std::vector<Decimal> x, y;       ///< same size; in the file's unit
-  std::optional<LengthUnit> unit;  ///< when the file says one
+  std::vector<Decimal> x, y;  ///< same size; in the file's unit
+  /// The unit, when the file says one.
+  std::optional<LengthUnit> unit;
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
 };
@@ -23,7 +24,7 @@ struct Contour {
 /// bad_input names the line or the item.
 [[nodiscard]] Result<Contour> read_contour(const Document& document);
 
-/// inches become millimetres: 25.4 exactly.
+/// Converts inches to millimetres, by 25.4 exactly.
 void to_millimetres(Contour& contour, LengthUnit unit);
 
 }  // namespace lekalo::verify

@@ -12,8 +12,8 @@
 
 namespace lekalo::verify {
 
-/// The members of one object. The first complaint of all Fields of a document is kept; what a getter returns
-/// after one does not matter.
+/// The members of one object. Of all Fields of a document the first complaint is kept, and what a getter
+/// returns after a complaint does not matter.
 class Fields {
  public:
   Fields(Json object, std::string path, std::string& complaint)

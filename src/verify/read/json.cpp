@@ -24,7 +24,7 @@ std::size_t blanks(std::string_view text) {
   return n;
 }
 
-/// Checks the grammar from the front of a document; keeps where and why it stopped.
+/// Checks the grammar from the front of a document, and keeps where and why it stopped.
 class GrammarCheck {
  public:
   explicit GrammarCheck(std::string_view text) : text_(text) {}
@@ -151,14 +151,14 @@ class GrammarCheck {
   const char* reason_ = "";
 };
 
-/// Length of the string at the front of checked text, quotes included.
+/// Returns the length of the string at the front of checked text, quotes included.
 std::size_t string_length(std::string_view text) {
   std::size_t n = 1;
   while (text[n] != '"') n += text[n] == '\\' ? 2 : 1;
   return n + 1;
 }
 
-/// Length of the value at the front of checked text.
+/// Returns the length of the value at the front of checked text.
 std::size_t value_length(std::string_view text) {
   if (text[0] == '"') return string_length(text);
   std::size_t n = 0;
@@ -224,7 +224,8 @@ std::string json_text(Json string) {
     }
     const char c = inner[++i];
     if (c == 'u') {
-      // Halves of a surrogate pair are kept apart: such texts are only ever compared with plain words.
+      // The halves of a surrogate pair are kept apart, because such texts are only ever compared with plain
+      // words.
       append_utf8(out, hex_value(inner.substr(i + 1, 4)));
       i += 4;
     } else {

@@ -19,14 +19,15 @@ Result<Shape> shape_of(const Document& document) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
 }
 
-/// The decimal that a double is.
+/// Returns the decimal that is exactly the double.
 Decimal exactly(double value) {
   int exponent = 0;
   const double mantissa = std::ldexp(std::frexp(value, &exponent), 53);
   Decimal made{Integer(mantissa), 0};
   exponent -= 53;
   if (exponent > 0) made.digits <<= static_cast<unsigned long>(exponent);
-  for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {  // m / 2 is 5 m / 10
+  // Dividing m by 2 makes it 5 m / 10.
+  for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {
     if (is_even(made.digits)) {
       made.digits /= 2;
     } else {
@@ -58,7 +59,7 @@ Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
     const Touch touch = touches_from_inside(part, blank, *shift);
     if (touch.inside) return {0, touch.touches ? 0 : apart.high};
   }
-  // A point of the part is within apart.high of the boundary. More is known where it sticks out.
+  // Some point of the part is within apart.high of the boundary, and more is known where the part sticks out.
   const Span out = sticking_out(placed_part, blank, kSticksOutTolerance);
   return {-out.high, out.low > 0 ? -out.low : apart.high};
 }

@@ -8,14 +8,15 @@
 
 namespace lekalo::verify {
 
-/// Rotation and shift of a placement, enclosed.
+/// Returns rotation and shift of a placement, enclosed.
 [[nodiscard]] Motion motion_of(const Interval& theta, Span x, Span y, bool mirrored);
 
-/// Clearance of a placed part in a blank: the least signed distance of a point of the part from the blank's
-/// boundary, positive inside. Enclosed: within a few last places of the coordinates where the part lies in
-/// the blank, within 1e-9 mm where it sticks out and that is no great work. Where the part touches and
-/// `shift` says how it was placed without rotation, exactly 0 if touches_from_inside shows it. \pre shapes
-/// without a fault
+/// Encloses the clearance of a placed part in a blank: the least signed distance of a point of the part from
+/// the blank's boundary, positive inside. The enclosure is within a few last places of the coordinates where
+/// the part lies in the blank, and within 1e-9 mm where it sticks out and that takes little work. Where the
+/// part touches and `shift` says how it was placed without rotation, the result is exactly 0 if
+/// touches_from_inside shows it.
+/// \pre shapes without a fault
 [[nodiscard]] Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
                              const std::optional<ExactShift>& shift);
 

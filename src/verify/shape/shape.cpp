@@ -23,7 +23,7 @@ struct WrittenPoint {
   [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
 };
 
-/// The decimals as integers of one unit, which is theirs.
+/// Returns the decimals as integers of one unit. Each call chooses its own unit.
 Point in_common_units(const WrittenPoint& a, const WrittenPoint& origin) {
   const Decimal x = a.x - origin.x, y = a.y - origin.y;
   const long unit = std::min(x.exponent, y.exponent);
@@ -59,7 +59,8 @@ class ShapeReader {
  private:
   void read_piece(Fields& piece, const std::string& path) {
     read_contour(piece.get("outer"), path + ".outer");
-    for (const char* key : {"holes", "islands"}) {  // two words for one thing
+    // The two words mean the same.
+    for (const char* key : {"holes", "islands"}) {
       if (piece.get(key).text.empty()) continue;
       piece.each(key, [&](Json hole, const std::string& at) { read_contour(hole, at); });
     }
@@ -150,18 +151,20 @@ class ShapeReader {
     add_joined(side, ua, ub, ra, rb);
   }
 
-  /// Counter-clockwise about the centre.
+  /// Says how far the arc turns counter-clockwise about the centre from `from` to `to`.
   static std::optional<Sweep> sweep_of(const WrittenPoint& from, const WrittenPoint& to,
                                        const WrittenPoint& centre) {
     if (from == to) return Sweep::full;
     const Point a = in_common_units(from, centre), b = in_common_units(to, centre);
-    const int side = sgn(cross(a, b));  // each has a unit of its own, of which the sign knows nothing
+    // Each vector has a unit of its own, which does not change the sign.
+    const int side = sgn(cross(a, b));
     if (side != 0) return side > 0 ? Sweep::less : Sweep::more;
     if (sgn(dot(a, b)) < 0) return Sweep::half;
     return std::nullopt;
   }
 
-  /// The arc with what joins its ends to its circle: lines where they are long enough to be told apart.
+  /// Adds the arc and what joins its ends to its circle: lines, where they are long enough to be told apart
+  /// from rounding.
   void add_joined(Side side, const Vec& ua, const Vec& ub, Span ra, Span rb) {
     const double off = absolute(just(0.5) * (ra - rb)).high;
     const double blur = (ra.high - ra.low) + (rb.high - rb.low);
@@ -213,7 +216,7 @@ bool same_edges(const Shape& a, const Shape& b, double tolerance) {
         !near(one.written_to, reversed ? other.written_from : other.written_to))
       return false;
     if (!one.arc) return true;
-    // Both arcs between these ends, or the two that make up the circle: told apart by the direction.
+    // Two arcs between these ends, or the two that make up the circle, are told apart by their direction.
     return near(one.centre, other.centre) &&
            (one.sweep == Sweep::full || one.ccw == (reversed ? !other.ccw : other.ccw));
   };

@@ -8,7 +8,7 @@
 
 namespace lekalo::verify {
 
-/// Regions of lines and arcs as they are written, every number enclosed in doubles. Lengths in mm.
+/// Regions of lines and arcs as they are written, with every number enclosed in doubles. Lengths are in mm.
 
 struct Vec {
   Span x, y;
@@ -26,12 +26,12 @@ struct Vec {
   return {a.x / whole, a.y / whole};
 }
 
-/// How far an arc turns, against half a turn: exact, from the decimals.
+/// An arc's turn against half a turn, decided exactly from the decimals.
 enum class Sweep { less, half, more, full };
 
 /// One side of a contour. An arc is the circle about its centre with the mean radius of its two ends, between
-/// their directions. What joins an end to that circle along the radius is a line of its own, or, where the
-/// ends hardly miss the circle, no farther than `off` from the end.
+/// their directions. The way from an end to that circle along the radius is a line of its own. Where the ends
+/// hardly miss the circle there is no such line, and the end is no farther than `off` from the circle.
 struct Side {
   bool arc = false;
   Vec from, to;
@@ -40,29 +40,36 @@ struct Side {
   double off = 0;
   Sweep sweep = Sweep::less;
   bool ccw = true;
-  Vec first, last;    ///< unit directions of an arc's ends, counter-clockwise from first to last
-  bool open = false;  ///< no wall of a pocket
-  /// The ends as they are written; of what joins an arc to them nothing is.
+  /// The unit directions of an arc's ends, counter-clockwise from first to last.
+  Vec first, last;
+  /// True for a side that is no wall of a pocket.
+  bool open = false;
+  /// The ends as the file has them. `written` is false for a line that joins an arc to its end, which the
+  /// file does not have.
   bool written = true;
   Vec written_from, written_to;
 };
 
-/// A side's decimals in mm, exactly as they stand in the file.
+/// The decimals of a side in mm, exactly as they stand in the file.
 struct WrittenSide {
   bool arc = false, ccw = true;
   Decimal from_x, from_y, to_x, to_y, centre_x, centre_y;
 };
 
-/// A set of pieces: inside the outer contour and in no hole of it. The outline belongs to it.
+/// A set of pieces. A piece is inside its outer contour and in no hole; the outline belongs to it.
 struct Shape {
   std::vector<Side> sides;
-  std::vector<WrittenSide> exact;                       ///< of the same numbers, before any placement
-  std::vector<std::size_t> contour_starts = {0};        ///< in sides; and the number of sides
-  std::vector<std::size_t> piece_starts = {0};          ///< in contours; and the number of contours
-  double low_x = 0, low_y = 0, high_x = 0, high_y = 0;  ///< a box that holds it
+  /// The sides' numbers as they are written, before any placement.
+  std::vector<WrittenSide> exact;
+  /// Indices of sides; the last is the number of sides.
+  std::vector<std::size_t> contour_starts = {0};
+  /// Indices of contours; the last is the number of contours.
+  std::vector<std::size_t> piece_starts = {0};
+  /// A box that holds the shape.
+  double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
 };
 
-/// Coordinates may be this large, mm.
+/// Coordinates may be no larger than this, mm.
 inline constexpr double kLargestCoordinate = 1e9;
 
 /// Reads `{"units": "mm" / "inch", "outer": [edges], "holes": [[edges], ...]}` or `{"units", "pieces":
@@ -72,11 +79,11 @@ inline constexpr double kLargestCoordinate = 1e9;
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint,
                                bool inch = false);
 
-/// The answer says whether two shapes have the same edges in the same order, each contour in either direction
-/// from the same first point, with coordinates equal to `tolerance` mm.
+/// Says whether two shapes have the same edges in the same order, each contour in either direction from the
+/// same first point, with coordinates equal to `tolerance` mm.
 [[nodiscard]] bool same_edges(const Shape& a, const Shape& b, double tolerance);
 
-/// (cosine, sine) of a rotation, a shift, and whether x is mirrored before.
+/// A motion: (cosine, sine) of a rotation, a shift, and whether x is mirrored before.
 struct Motion {
   Span cosine, sine;
   bool mirrored = false;
@@ -88,7 +95,7 @@ struct Motion {
 struct Box {
   double low_x, low_y, high_x, high_y;
 };
-/// Holds the side.
+/// Returns a box that holds the side.
 [[nodiscard]] Box box_of(const Side& side);
 
 }  // namespace lekalo::verify

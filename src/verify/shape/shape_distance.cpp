@@ -15,16 +15,18 @@ Sure both(Sure a, Sure b) { return std::min(a, b); }
 Sure either(Sure a, Sure b) { return std::max(a, b); }
 Sure not_negative(Span a) { return a.low >= 0 ? Sure::yes : (a.high < 0 ? Sure::no : Sure::maybe); }
 
-/// The answer says whether an arc has a point in a direction from its centre.
+/// Says whether an arc has a point in a direction from its centre.
 Sure faces(const Side& arc, const Vec& d) {
   if (arc.sweep == Sweep::full) return Sure::yes;
   const Sure after = not_negative(cross(arc.first, d)), before = not_negative(cross(d, arc.last));
   if (arc.sweep == Sweep::less) return both(after, before);
   if (arc.sweep == Sweep::more) return either(after, before);
-  return after == before ? after : Sure::maybe;  // half a turn: one says what the other says
+  // In an arc of half a turn the two must say the same; if they do not, nothing is known.
+  return after == before ? after : Sure::maybe;
 }
 
-/// The least of several candidates: those that may apply lower the lower end, those that surely do the upper.
+/// The least of several candidates. Candidates that may apply lower the lower end, and those that surely
+/// apply lower the upper end too.
 class Least {
  public:
   void add(Span value, Sure applies) {
@@ -32,7 +34,7 @@ class Least {
     low_ = std::min(low_, std::max(0.0, value.low));
     if (applies == Sure::yes) high_ = std::min(high_, value.high);
   }
-  /// All candidates may be nearer by that.
+  /// Lowers the lower end, because all candidates may be nearer by this much.
   void lower(double by) { low_ = std::max(0.0, (just(low_) - just(by)).low); }
   [[nodiscard]] Span value() const { return {low_, high_}; }
 
@@ -40,14 +42,14 @@ class Least {
   double low_ = kInfinity, high_ = kInfinity;
 };
 
-/// The distance of something that no more than `off` joins to a point at this distance.
+/// Returns the distance of a point that lies no more than `off` from one at the given distance.
 Span nearer(Span distance, double off) {
   return off > 0 ? Span{std::max(0.0, (distance - just(off)).low), distance.high} : distance;
 }
 
-/// The foot of p on a line, and whether it lies between the ends.
+/// The foot of p on a line. `between` says whether it lies between the ends.
 struct Foot {
-  Span height;  ///< distance from p, signed
+  Span height;  ///< signed distance of p from the line
   Sure between = Sure::no;
 };
 Foot foot_of(const Vec& p, const Side& line) {
@@ -90,12 +92,14 @@ void add_line_arc(const Side& line, const Side& arc, Least& least) {
   const Vec u{along.x / whole, along.y / whole};
   const Span at = dot(u, arc.centre - line.from);
   const Vec to_foot = line.from + u * at - arc.centre;
-  if (!(height.high < arc.radius.low)) {  // the line may pass outside the circle
+  // The line may pass outside the circle.
+  if (!(height.high < arc.radius.low)) {
     const Sure outside = height.low >= arc.radius.high ? Sure::yes : Sure::maybe;
     least.add(height - arc.radius, both(outside, both(foot.between, faces(arc, to_foot))));
   }
   if (height.low > arc.radius.high) return;
-  // The line may cross the circle here. An open rounding of the root makes both crossings wide, never lost.
+  // The line may cross the circle here. Where rounding leaves the root open, both crossings become wide, but
+  // none is lost.
   const Span half = square_root((arc.radius - height) * (arc.radius + height));
   for (const Span step : {half, -half}) {
     const Span place = at + step;
@@ -106,9 +110,10 @@ void add_line_arc(const Side& line, const Side& arc, Least& least) {
   }
 }
 
-/// Two arcs about nearly one centre. Were it one, the least distance would be that of the radii where the
-/// arcs have a direction in common, else that of two ends; and moving one arc changes it by no more than the
-/// move. Stretches of a circle that meet hold an end of one another.
+/// Adds the least distance of two arcs about nearly one centre. With one centre it would be that of the radii
+/// where the arcs have a direction in common, and otherwise that of two ends. Moving one arc to the other's
+/// centre changes it by no more than the move. Ends are among the candidates already, and when two stretches
+/// of a circle meet, one holds an end of the other.
 void add_concentric(const Side& a, const Side& b, Span apart, Least& least) {
   const bool may_meet = a.sweep == Sweep::full || b.sweep == Sweep::full || faces(a, b.first) != Sure::no ||
                         faces(a, b.last) != Sure::no || faces(b, a.first) != Sure::no ||
@@ -117,8 +122,8 @@ void add_concentric(const Side& a, const Side& b, Span apart, Least& least) {
   least.lower((apart + apart).high);
 }
 
-/// Centres are taken for one when they are nearer than this share of the smaller radius. What it costs is
-/// twice the distance, so only what rounding makes of one centre should be nearer.
+/// Two centres count as one when they are nearer than this share of the smaller radius. The result is then
+/// wider by twice their distance, so only centres that rounding has moved apart should be so near.
 constexpr double kOneCentre = 1e-13;
 
 void add_arcs(const Side& a, const Side& b, Least& least) {
@@ -127,7 +132,8 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
   if (!(apart.low > kOneCentre * std::min(a.radius.high, b.radius.high)))
     return add_concentric(a, b, apart, least);
   const auto axis = [&](Span gap, const Vec& of_a, const Vec& of_b) {
-    if (gap.high < 0) return;  // the circles do not stand so
+    // The circles do not stand so to each other.
+    if (gap.high < 0) return;
     const Sure stands = gap.low >= 0 ? Sure::yes : Sure::maybe;
     least.add(gap, both(stands, both(faces(a, of_a), faces(b, of_b))));
   };
@@ -146,7 +152,7 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
   }
 }
 
-/// A number that the distance of two boxes is not below.
+/// Returns a number that the distance of two boxes is not below.
 double gap(const Box& a, const Box& b) {
   const double x =
       std::max({0.0, (just(a.low_x) - just(b.high_x)).low, (just(b.low_x) - just(a.high_x)).low});

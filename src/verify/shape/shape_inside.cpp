@@ -7,7 +7,7 @@
 namespace lekalo::verify {
 namespace {
 
-/// A ray's direction as a rotation that takes it to the right.
+/// The direction of a ray, as the rotation that takes it to the right.
 struct Ray {
   Span cosine, sine;
 };
@@ -19,10 +19,10 @@ Side turned(Side side, const Ray& ray) {
   return side;
 }
 
-/// -1 certainly below, 1 certainly above, 0 cannot be told.
+/// Returns -1 when a is certainly below b, 1 when it is certainly above, 0 when that cannot be told.
 int compare(Span a, Span b) { return a.high < b.low ? -1 : (a.low > b.high ? 1 : 0); }
 
-/// How often a line passes the ray from p to the right upwards, less downwards.
+/// Counts how often a line passes the ray from p to the right upwards, less how often downwards.
 std::optional<int> crossings_of_line(const Side& line, const Vec& p) {
   if (line.from.x.high < p.x.low && line.to.x.high < p.x.low) return 0;
   const int from = compare(line.from.y, p.y), to = compare(line.to.y, p.y);
@@ -34,7 +34,8 @@ std::optional<int> crossings_of_line(const Side& line, const Vec& p) {
 }
 
 std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
-  // Level with an end, or with what joins it to the circle, nothing is counted.
+  // Nothing is counted for a ray level with an end, or with what joins the end to the circle, and another ray
+  // is tried.
   const auto level = [&](const Vec& end) {
     const Span gap = p.y - end.y;
     return !(gap.low > arc.off || gap.high < -arc.off);
@@ -55,7 +56,7 @@ std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
   return count;
 }
 
-/// How often a contour winds about p.
+/// Returns how often a contour winds about p.
 std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p, const Ray* ray) {
   int sum = 0;
   for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k) {
@@ -67,9 +68,9 @@ std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p
   return sum;
 }
 
-/// The answer says whether p is inside a contour. Where one ray grazes an end or a tangent, another does not:
-/// the first along x, the others of Pythagorean triples, whose angles are no fractions of a turn as the
-/// corners of regular shapes are.
+/// Says whether p is inside a contour. Where one ray grazes an end or a tangent, another does not. The first
+/// runs along x. The others have directions of Pythagorean triples, whose angles are no fractions of a turn,
+/// while those of corners of regular shapes are.
 std::optional<bool> inside(const Shape& shape, std::size_t contour, const Vec& p) {
   constexpr std::array<std::array<double, 3>, 6> kTriples{
       {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
@@ -100,7 +101,7 @@ std::optional<bool> piece_holds(const Shape& shape, std::size_t piece, const Vec
   return std::nullopt;
 }
 
-/// The answer for any point of a contour, if rounding lets one of them be decided.
+/// Returns the answer for any point of a contour for which rounding lets it be decided.
 template <class Question>
 std::optional<bool> for_any_point(const Shape& shape, std::size_t contour, Question question) {
   for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k)
@@ -130,9 +131,9 @@ Span signed_distance(const Vec& p, const Shape& shape) {
 }
 
 std::optional<bool> lies_within(const Shape& inner, const Shape& outer) {
-  // A contour that meets no other lies on one side of it, and any of its points tells on which. Material of
-  // `inner` beyond `outer` would reach from where it is to an outline of `inner` not in `outer`, or fill a
-  // gap of `outer` up to an outline of `outer` in `inner`.
+  // A contour that meets no other lies on one side of it, and any of its points tells on which. If some
+  // material of `inner` lay beyond `outer`, there would be one of two things: an outline of `inner` that is
+  // not in `outer`, or a gap of `outer` filled by `inner`, whose outline then lies in `inner`.
   const auto all = [](const Shape& points, const Shape& shape, bool wanted) -> std::optional<bool> {
     for (std::size_t c = 0; c + 1 < points.contour_starts.size(); ++c) {
       const auto in = for_any_point(points, c, [&](const Vec& p) { return holds(shape, p); });
@@ -148,9 +149,9 @@ std::optional<bool> lies_within(const Shape& inner, const Shape& outer) {
 
 namespace {
 
-/// Neighbours that cross again, away from the end they share, make a loop. One this deep is a mistake, a
-/// smaller one what the digits of a drawing leave at a smooth joint; mm and of the radius, as for the ends of
-/// arcs (docs/design/geometry.md).
+/// Neighbours that cross again, away from the end they share, make a loop. A loop this deep is a mistake; a
+/// smaller one comes from the digits of a drawing at a smooth joint. The depth is in mm, and more by a share
+/// of the radius, as for the ends of arcs (docs/design/geometry.md).
 constexpr double kLoop = 1e-3, kLoopOfRadius = 1e-6;
 
 bool surely_between(const Side& side, const Vec& p) {
@@ -163,7 +164,8 @@ bool cross_again(const Side& a, const Side& b, const Vec& shared) {
   if (!a.arc) return b.arc && cross_again(b, a, shared);
   const Vec along = b.arc ? b.centre - a.centre : b.to - b.from;
   if (!(length(along).low > 0)) return false;
-  // Mirrored in the line of the centres, or in the perpendicular of the line through the arc's.
+  // The other crossing is the shared point mirrored in the line of the centres, or in the perpendicular from
+  // the arc's centre to the line.
   const Vec u = unit(along), w = shared - a.centre;
   const Vec part = u * (dot(u, w) + dot(u, w));
   const Vec other = b.arc ? a.centre + part - w : shared - part;
@@ -173,7 +175,7 @@ bool cross_again(const Side& a, const Side& b, const Vec& shared) {
          surely_between(b, other);
 }
 
-/// Two points are the same when their decimals are.
+/// Says whether two points have the same decimals.
 bool same(const Vec& p, const Vec& q) {
   return p.x.low == q.x.low && p.x.high == q.x.high && p.y.low == q.y.low && p.y.high == q.y.high;
 }
@@ -182,8 +184,8 @@ std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i
   const Side &a = shape.sides[i], &b = shape.sides[j];
   if (!a.written || !b.written) return std::nullopt;
   if (a.arc || b.arc) {
-    // Two that make up the whole contour meet at both ends, and curves like these meet nowhere else: what
-    // looks like a crossing beside the other end is the digits of the radii.
+    // Two sides that make up the whole contour meet at both ends, and curves like these meet nowhere else. A
+    // crossing beside the other end only comes from the digits of the radii.
     if (same(a.written_to, b.written_from) && same(a.written_from, b.written_to)) return std::nullopt;
     if (!cross_again(a, b, a.written_to)) return std::nullopt;
     return fmt::format("sides {} and {} cross", i, j);
@@ -194,8 +196,8 @@ std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i
   return fmt::format("side {} runs back along side {}", j, i);
 }
 
-/// In a contour of three sides the other ends of two neighbours are joined by the third, which is a neighbour
-/// of both and asked about neither.
+/// Checks neighbours in a contour of three sides. The third side joins their other ends and is a neighbour of
+/// both, so no other check asks whether the two meet there.
 std::optional<std::string> fault_of_three(const Shape& shape, std::size_t i, std::size_t j) {
   const Side &a = shape.sides[i], &b = shape.sides[j];
   if (!(a.arc || b.arc) || !a.written || !b.written) return std::nullopt;
@@ -227,7 +229,8 @@ std::optional<std::string> misplaced(const Shape& shape) {
   return std::nullopt;
 }
 
-/// The number of each side among the written ones of its contour; what joins an arc has the arc's.
+/// Returns the number of each side among the written ones of its contour. A line that joins an arc has the
+/// arc's number.
 std::vector<std::size_t> numbers_of(const Shape& shape) {
   std::vector<std::size_t> numbers;
   for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {

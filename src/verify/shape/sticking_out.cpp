@@ -13,14 +13,16 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Pieces of the outline, and squares, that are looked at before the enclosure stays as wide as it is.
+/// At most this many pieces of the outline, and as many squares, are looked at; the enclosure stays as wide
+/// as it is then.
 constexpr std::size_t kMostPieces = 20'000;
 
 // ---- the outline -----------------------------------------------------------------------------------------
 
 struct Stretch {
   Side piece;
-  double high = 0;  ///< no point of it sticks out by more
+  /// No point of the piece sticks out by more.
+  double high = 0;
   friend bool operator<(const Stretch& a, const Stretch& b) { return a.high < b.high; }
 };
 
@@ -38,7 +40,7 @@ class Search {
  private:
   [[nodiscard]] double goal() const { return low_ + tolerance_; }
 
-  /// A point of the part.
+  /// Raises the low end where a point of the part sticks out by more.
   void reached_at(const Vec& p, double off) {
     const double out = (distance(p, blank_) - just(off)).low;
     if (!(out > low_)) return;
@@ -50,7 +52,7 @@ class Search {
     const Corners corners = corners_of(piece);
     double most = kInfinity;
     for (const Side& side : blank_.sides) most = std::min(most, farthest(piece, corners, side));
-    // All of it in the blank's material: none of it sticks out.
+    // None of the piece sticks out when all of it lies in the blank's material.
     const Vec middle = (piece.from + piece.to) * just(0.5);
     if (distance(middle, blank_).low > (just(farthest(piece, middle)) + just(piece.off)).high) {
       const auto in = holds(blank_, middle);
@@ -69,7 +71,7 @@ class Search {
   }
 
   void along_the_outline() {
-    // Arcs in eighths of a turn at most.
+    // Arcs are cut into eighths of a turn or less.
     for (const Side& side : part_.sides) add(side, kInfinity, side.sweep == Sweep::less ? 2 : 3);
     for (std::size_t looked = 0; !open_.empty(); ++looked) {
       const Stretch top = open_.top();
@@ -87,28 +89,35 @@ class Search {
   };
 
   struct Nearest {
-    Vec from;         ///< the disc's centre - y
-    Vec away;         ///< its direction
-    double blur = 0;  ///< n . (x - y) may be less by that
-    Span curve;       ///< of the distance
+    /// The vector from the nearest point y to the disc's centre.
+    Vec from;
+    /// The direction of `from`.
+    Vec away;
+    /// n . (x - y) may be less than n . from by this much.
+    double blur = 0;
+    /// The curvature of the distance from y's side.
+    Span curve;
     bool bounds = false;
   };
   static void add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
                           std::vector<Nearest>& near);
-  /// A bound for the distance from the blank where it has a local maximum in the disc; nothing if it has
-  /// none. `out` is the distance of its centre.
+  /// Returns a bound for the distance from the blank where it has a local maximum in the disc, or nothing if
+  /// it has none. `out` is the distance of the disc's centre.
   [[nodiscard]] std::optional<double> maximum_in(const Vec& centre, double radius, Span out) const;
 
   void add(std::priority_queue<Square>& open, const Vec& centre, double half, double at_most) {
     const double radius = 1.4142136 * half;
     const Span out = distance(centre, blank_);
     double high = std::min(at_most, (out + just(radius)).high);
-    if (high <= high_) return;  // no more than the outline has
+    // No point of the square sticks out by more than the outline does.
+    if (high <= high_) return;
     const Span to_part = signed_distance(centre, part_);
-    if (to_part.high < -radius) return;  // no material
+    // The square holds no material of the part.
+    if (to_part.high < -radius) return;
     if (out.low > radius) {
       const auto in = holds(blank_, centre);
-      if (in && *in) return;  // all of it in the blank
+      // All of the square lies in the blank.
+      if (in && *in) return;
     }
     const std::optional<double> maximum = maximum_in(centre, radius, out);
     if (!maximum) return;
@@ -146,13 +155,14 @@ class Search {
   std::priority_queue<Stretch> open_;
 };
 
-/// At a local maximum x the nearest points y of the blank are not all to one side: no n has n . (x - y) > 0
-/// for all. The point of a line nearest to x moves by no more than x does; that of an arc about c by no more
-/// than radius / |x - c| times as much, or it is an end.
+/// Looks for a local maximum of the distance in a disc. At a local maximum x the nearest points y of the
+/// blank are not all to one side: no n has n . (x - y) > 0 for all of them. When x moves, the nearest point
+/// of a line moves by no more than x does. That of an arc about c moves by no more than radius / |x - c|
+/// times as much, or it is an end.
 ///
-/// A distance from a convex set, or from a circle, is at most d + u . s + s^2 curve / 2 a step s away, with
-/// its gradient u; so the least of two is at most half the sum of those. That is what a groove of even width
-/// needs, where the maximum is a ridge.
+/// A distance from a convex set, or from a circle, is at most d + u . s + s^2 curve / 2 a step s away, where
+/// u is its gradient. So the least of two such distances is at most half the sum of those. A groove of even
+/// width needs this bound, because there the maximum is a ridge.
 std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span out) const {
   std::vector<Nearest> near;
   const Span reach = out + just(2 * radius);
@@ -160,15 +170,17 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   for (const Side& side : blank_.sides) {
     if (distance(centre, side).low > reach.high) continue;
     ++sides;
-    if (side.arc && !(length(centre - side.centre).low > 2 * radius)) return kInfinity;  // near its centre
+    // The bounds below fail near the centre of an arc.
+    if (side.arc && !(length(centre - side.centre).low > 2 * radius)) return kInfinity;
     add_nearest(side, centre, radius, out, reach, near);
   }
-  if (sides == 1) return std::nullopt;  // a line's distance has no maximum, an arc's has it in its centre
+  // The distance from one line has no maximum, and that from one arc has it in the centre.
+  if (sides == 1) return std::nullopt;
   for (Nearest& one : near) {
     if (!(length(one.from).low > 0)) return kInfinity;
     one.away = unit(one.from);
   }
-  // Two directions are tried: away from the nearest, and away from all.
+  // Two directions are tried for n: away from the nearest point, and away from all of them.
   std::array<Vec, 2> tries{Vec{just(0), just(0)}, Vec{just(0), just(0)}};
   double nearest = kInfinity, least = kInfinity;
   for (const Nearest& one : near) {
@@ -196,10 +208,11 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   return least;
 }
 
-/// The points of a side that may be nearest to a point of the disc.
+/// Adds the points of a side that may be nearest to a point of the disc.
 void Search::add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
                          std::vector<Nearest>& near) {
-  const auto curve_at = [&](Span apart) {  // of a distance from something convex
+  // Returns the curvature of a distance from something convex.
+  const auto curve_at = [&](Span apart) {
     const Span left = apart - just(radius);
     return left.low > 0 ? just(1) / left : just(kInfinity);
   };
@@ -224,7 +237,8 @@ void Search::add_nearest(const Side& side, const Vec& centre, double radius, Spa
     const bool facing =
         side.sweep == Sweep::full || (side.sweep == Sweep::more ? after || before : after && before);
     const bool one_side = apart.low > radius;
-    const Span curve = far.low > side.radius.high ? curve_at(far) : just(0);  // inside a circle it is concave
+    // Inside a circle the distance from it is concave.
+    const Span curve = far.low > side.radius.high ? curve_at(far) : just(0);
     add(w - unit(w) * side.radius, blur, facing && one_side ? curve : just(kInfinity));
   }
   for (const Vec* end : {&side.from, &side.to})

@@ -8,7 +8,7 @@
 namespace lekalo::verify {
 namespace {
 
-/// The answer says whether all corners surely lie where an arc of a blank is nearest to along its radius.
+/// Says whether all corners surely lie where an arc of a blank is nearest to along its radius.
 bool all_face(const Side& arc, const Corners& corners) {
   if (arc.sweep == Sweep::full) return true;
   bool after = true, before = true;
@@ -17,26 +17,29 @@ bool all_face(const Side& arc, const Corners& corners) {
     after = after && cross(arc.first, d).low >= 0;
     before = before && cross(d, arc.last).low >= 0;
   }
-  // A half-plane holds what lies between the corners; what an arc faces is both of two, or either.
+  // A half-plane that holds the corners holds all between them. An arc of less than half a turn faces the
+  // intersection of two half-planes, a longer one their union, of which one must hold all.
   return arc.sweep == Sweep::more ? after || before : after && before;
 }
 
 double middle_of(Span a) { return 0.5 * a.low + 0.5 * a.high; }
 
-/// A direction near the middle of an arc that surely cuts it in two of less than half a turn.
+/// Returns a direction near the middle of an arc that surely cuts it in two of less than half a turn.
 ///
-/// Any cut will do, so it is made of new doubles: the enclosure of the exact middle would be about twice as
-/// wide as those of the ends, and after some tens of halvings say nothing.
+/// Any cut will do, so it is made of new doubles. The enclosure of the exact middle would be about twice as
+/// wide as those of the ends, and would say nothing after some tens of halvings.
 std::optional<Vec> about_the_middle(const Side& arc) {
   const double ax = middle_of(arc.first.x), ay = middle_of(arc.first.y), bx = middle_of(arc.last.x),
                by = middle_of(arc.last.y);
   double x = ax + bx, y = ay + by;
   if (arc.sweep == Sweep::more) x = -x, y = -y;
-  if (ax * bx + ay * by < 0) x = by - ay, y = ax - bx;  // on the right of the chord
+  // The sum says little of directions that are far apart; the right of the chord points outwards for any
+  // sweep.
+  if (ax * bx + ay * by < 0) x = by - ay, y = ax - bx;
   const Vec towards{just(x), just(y)};
   if (!(length(towards).low > 0)) return std::nullopt;
   const Vec cut = unit(towards);
-  // Two turns of less than a half add up to this arc's, and to no full turn more.
+  // Two turns of less than a half each add up to this arc's turn, and not to a full turn more.
   if (cross(arc.first, cut).low > 0 && cross(cut, arc.last).low > 0) return cut;
   return std::nullopt;
 }
@@ -62,7 +65,8 @@ double farthest(const Side& piece, const Vec& c) {
 
 double farthest(const Side& piece, const Corners& corners, const Side& side) {
   double most = std::min(farthest(piece, side.from), farthest(piece, side.to));
-  if (!side.arc) {  // the distance from a line is a convex function: largest in a corner
+  // The distance from a line is a convex function, so it is largest in a corner.
+  if (!side.arc) {
     double in_corners = 0;
     for (std::size_t i = 0; i < corners.count; ++i)
       in_corners = std::max(in_corners, distance(corners.at[i], side).high);
@@ -81,14 +85,16 @@ std::array<Side, 2> halves(const Side& piece) {
     return two;
   }
   two[0].sweep = two[1].sweep = piece.sweep == Sweep::full ? Sweep::half : Sweep::less;
-  Vec middle{-piece.first.y, piece.first.x};  // of half a turn
+  // The middle of an arc of half a turn.
+  Vec middle{-piece.first.y, piece.first.x};
   if (piece.sweep == Sweep::full) {
     middle = -piece.first;
   } else if (piece.sweep != Sweep::half) {
     const std::optional<Vec> about = about_the_middle(piece);
     if (!about && piece.sweep == Sweep::less) return two;
     if (about) middle = *about;
-    if (!about) two[1].sweep = Sweep::more;  // hardly less than a full turn, less a quarter
+    // An arc of hardly less than a full turn still turns by more than a half without its first quarter.
+    if (!about) two[1].sweep = Sweep::more;
   }
   two[0].last = two[1].first = middle;
   for (Side& half : two) {

@@ -25,7 +25,7 @@ Span enclosed(const Fraction& value) {
 }
 Vec enclosed(const Spot& spot) { return {enclosed(spot.x), enclosed(spot.y)}; }
 
-/// Sign of a + b sqrt(s), s >= 0.
+/// Returns the sign of a + b sqrt(s), s >= 0.
 int sign(const Fraction& a, const Fraction& b, const Fraction& s) {
   const int of_a = sgn(a), of_b = sgn(s) == 0 ? 0 : sgn(b);
   if (of_a == of_b || of_b == 0) return of_a;
@@ -33,18 +33,20 @@ int sign(const Fraction& a, const Fraction& b, const Fraction& s) {
   const int larger = cmp(Fraction(a * a), Fraction(b * b * s));
   return larger > 0 ? of_a : (larger < 0 ? of_b : 0);
 }
-/// A point rational + irrational sqrt(root).
+/// The point rational + irrational sqrt(root).
 struct RootSpot {
   Spot rational, irrational;
   Fraction root;
 };
 
-/// A side in fractions, counter-clockwise if it is an arc, and where it is cut.
+/// A side in fractions, counter-clockwise if it is an arc, with the places where it is cut.
 struct ExactSide {
-  bool arc = false, full = false, known = true;  ///< known: an arc whose ends lie on one circle exactly
+  /// `known` is false for an arc whose ends do not lie on one circle exactly.
+  bool arc = false, full = false, known = true;
   Spot from, to, centre;
   Fraction squared_radius;
-  int turn = 0;  ///< of an arc: 1 less than half a turn, 0 half, -1 more
+  /// An arc turns by less than half a turn for 1, by half for 0, by more for -1.
+  int turn = 0;
   std::vector<Spot> cuts;
 
   [[nodiscard]] Spot along() const { return to - from; }
@@ -70,7 +72,7 @@ ExactSide exact_side(const WrittenSide& written, const ExactShift& shift) {
   return side;
 }
 
-/// The standing of a point of the line or circle that carries a side stands: -1 beyond, 0 at an end, 1
+/// Returns where a point of the line or circle that carries a side stands: -1 beyond the side, 0 at an end, 1
 /// between the ends.
 int standing(const ExactSide& side, const RootSpot& p) {
   const auto sign_of = [&](auto&& linear) {
@@ -82,7 +84,8 @@ int standing(const ExactSide& side, const RootSpot& p) {
     const int before = sign(dot(u, side.to - p.rational), -dot(u, p.irrational), p.root);
     return std::min(after, before);
   }
-  if (side.full) return 1;  // its one end is no corner
+  // The one end of a full circle is no corner.
+  if (side.full) return 1;
   const Spot first = side.from - side.centre, last = side.to - side.centre;
   const int after = sign_of([&](const Spot&v) { return cross(first, v); }),
             before = sign_of([&](const Spot&v) { return cross(v, last); });
@@ -108,13 +111,15 @@ bool same_carrier(const ExactSide& a, const ExactSide& b) {
   return cross(a.along(), b.along()) == 0 && cross(a.along(), b.from - a.from) == 0;
 }
 
-/// Cuts two sides where they touch. False where they cross inside both.
+/// Step 9 of docs/design/verify.md: cuts two sides where they touch. Returns false where they cross inside
+/// both.
 bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
   for (auto [one, other] : {std::pair{&a, &b}, {&b, &a}})
     for (const Spot& end : {one->from, one->to})
       if (carries(*other, end) && standing(*other, end) >= 0) {
         other->cuts.push_back(end);
-        one->cuts.push_back(end);  // also the one end of a full circle
+        // The one end of a full circle is such an end too.
+        one->cuts.push_back(end);
       }
   if (same_carrier(a, b)) return true;
   const auto crosses = [&](const RootSpot& p) { return standing(a, p) > 0 && standing(b, p) > 0; };
@@ -124,7 +129,8 @@ bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
     const Fraction share = cross(b.from - a.from, b.along()) / turn;
     return !crosses({a.from + share * a.along(), {0, 0}, 0});
   }
-  Spot middle, across;  // the carriers meet at middle +- sqrt(root) across
+  // The carriers meet at middle +- sqrt(root) across.
+  Spot middle, across;
   Fraction root;
   if (a.arc && b.arc) {
     const Spot between = b.centre - a.centre;
@@ -142,7 +148,8 @@ bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
     root = (arc.squared_radius - dot(height, height)) / whole;
   }
   if (sgn(root) < 0) return true;
-  if (sgn(root) == 0) {  // they are tangent: touching, not crossing
+  // Tangent carriers touch and do not cross.
+  if (sgn(root) == 0) {
     if (standing(a, middle) >= 0 && standing(b, middle) >= 0)
       a.cuts.push_back(middle), b.cuts.push_back(middle);
     return true;
@@ -150,14 +157,15 @@ bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
   return !crosses({middle, across, root}) && !crosses({middle, Fraction(-1) * across, root});
 }
 
-/// Puts the ends and cuts in order along the side, each once.
+/// Returns the ends and cuts in order along the side, each once.
 std::vector<Spot> stops_of(const ExactSide& side) {
   std::vector<Spot> stops = side.cuts;
   if (!side.full) stops.push_back(side.from), stops.push_back(side.to);
   if (stops.empty()) stops.push_back(side.from);
   const Spot u = side.along();
   const Spot first = (side.full ? stops.front() : side.from) - side.centre;
-  const auto half = [&](const Spot& p) {  // from 0: at first, or less than half a turn on; 1: the other half
+  // Returns 0 for the place `first` and up to half a turn on from it, 1 for the other half.
+  const auto half = [&](const Spot& p) {
     const Fraction turned = cross(first, p);
     return turned > 0 || (turned == 0 && dot(first, p) > 0) ? 0 : 1;
   };
@@ -226,7 +234,8 @@ class Touching {
   template <class Check>
   static bool all(const std::vector<ExactSide>& sides, const Shape& shape, Check&& check) {
     for (std::size_t i = 0; i < sides.size(); ++i) {
-      if (!sides[i].known || !shape.sides[i].written) {  // touches nothing: any of its points tells
+      // A side that touches nothing is told by any of its points.
+      if (!sides[i].known || !shape.sides[i].written) {
         if (!check(i, {points_of(shape.sides[i]).front(), {}})) return false;
         continue;
       }
@@ -237,7 +246,7 @@ class Touching {
     return true;
   }
 
-  /// The side of `others` that a stretch of `side` lies on.
+  /// Returns the side of `others` that a stretch of `side` lies on.
   static std::size_t shared_by(const std::vector<ExactSide>& others, const ExactSide& side,
                                const Shape& shape, const Middle& middle) {
     for (std::size_t j = 0; j < others.size(); ++j) {
@@ -257,8 +266,8 @@ class Touching {
   [[nodiscard]] bool part_stretch_is_inside(std::size_t i, const Middle& middle) const {
     const std::size_t j = shared_by(of_blank_, of_part_[i], blank_, middle);
     if (j == kNone) return holds(blank_, middle.at) == true;
-    // Points to its left and right, nearer than any other side: where the part has material the blank has
-    // too.
+    // The points to its left and right are taken nearer than any other side. Where the part has material at
+    // such a point, the blank must have it too.
     double near = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < part_.sides.size(); ++k)
       if (k != i) near = std::min(near, distance(middle.at, part_.sides[k]).low);

@@ -1,5 +1,5 @@
-// Asks for the choices of a form of export. Where the server cannot write it, its sentence stands in the dialog,
-// which stays.
+// Asks for the choices of a form of export. If the server cannot write the file, the dialog stays open and shows the
+// server's sentence.
 
 import { h } from '../html/elements';
 import { CHOICES, isAsked, request, sheetsInUse, type ChosenForm, type Field, type Values } from './export_choices';
@@ -14,7 +14,7 @@ export interface Saved {
 
 export interface ExportEvents {
   download(fields: URLSearchParams): Promise<Saved>;
-  /** The values of the last time; a shop's machine is the same tomorrow. */
+  /** Returns the values chosen last time, because a shop's machine seldom changes. */
   recall(form: ChosenForm): Values;
   keep(form: ChosenForm, values: Values): void;
 }
@@ -59,14 +59,14 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
     ...sheets.map((one) => h('option', { value: one }, one)),
   );
   const trouble = h('p', { class: 'trouble', role: 'alert' });
-  const known = h('div', { class: 'notes', role: 'status' });
+  const noteArea = h('div', { class: 'notes', role: 'status' });
   const cancel = h(
     'button',
     { type: 'button', 'data-action': 'export.cancel', click: () => dialog.close() },
     t('export.cancel'),
   );
   const save = h('button', { type: 'submit', 'data-action': 'export.save' }, t('export.save'));
-  /** A comma is what half of Europe writes; the server reads points. */
+  /** Commas become points, because much of Europe writes commas and the server reads points. */
   const values = (): Values =>
     Object.fromEntries(
       rows.map(({ field, input }) => [field.name, field.of ? input.value : input.value.trim().replace(',', '.')]),
@@ -89,7 +89,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
           void (async () => {
             save.disabled = true;
             trouble.textContent = '';
-            known.replaceChildren();
+            noteArea.replaceChildren();
             const chosen = values();
             const { refused, notes } = await events.download(
               request(form, sheets.length > 1 ? sheet.value : '', chosen),
@@ -102,7 +102,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
             events.keep(form, chosen);
             if (notes.length === 0) return dialog.close();
             // The dialog stays until its notes about the file have been read.
-            known.replaceChildren(
+            noteArea.replaceChildren(
               h('p', {}, t('export.saved')),
               h('ul', {}, ...notes.map((note) => h('li', {}, note))),
             );
@@ -118,7 +118,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
         ...rows.map((r) => r.row),
       ),
       trouble,
-      known,
+      noteArea,
       h('div', { class: 'buttons' }, cancel, save),
     ),
   );

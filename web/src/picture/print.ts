@@ -8,9 +8,11 @@ import { t } from '../i18n';
 import { placedAt, type Sheet } from '../layout/model';
 import { View } from './view';
 
-/** A page is so many pixels wide, 0.25 mm each on A4, and each is painted as FINE x FINE. */
+/** A page is this many pixels wide, each of which is 0.25 mm on A4. */
 const ACROSS = 1100;
+/** Each pixel is painted as FINE x FINE, because a printer is finer than a screen. */
 const FINE = 2;
+/** The empty border of a page, in pixels. */
 const MARGIN = 26;
 
 export function printed(editor: Editor): HTMLElement[] {

@@ -5,9 +5,9 @@ import type { Editor } from '../editor/editor';
 import { movedBy } from '../editor/editor';
 import { t } from '../i18n';
 
-/** The nester looks for so long where nobody stops it. */
+/** A nesting that nobody stops ends after this many seconds. */
 const NEST_SECONDS = 60;
-/** Seeds the nester, so that each run tries other things than the one before. */
+/** Counts the nestings. The count is the seed, so that each run tries other things than the one before. */
 let nestings = 0;
 
 export type Action =

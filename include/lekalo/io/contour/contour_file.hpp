@@ -19,8 +19,9 @@ inline constexpr std::size_t kMostContourPoints = 5'000'000;
 struct ContourFile {
   std::string name;  ///< as given, for messages
   LengthUnit unit = LengthUnit::millimetre;
-  geom::Ring
-      points;  ///< mm, at most 1e9, file order, nothing dropped; each the double nearest to its decimal
+  /// The points in mm, at most 1e9, in file order; none is dropped, and each number is the double nearest to
+  /// its decimal.
+  geom::Ring points;
   /// The place of each point, for messages: its line, 1-based (text, DXF), or its index (JSON).
   std::vector<std::size_t> places;
   bool places_are_lines = true;
@@ -42,9 +43,11 @@ struct ContourFile {
 /// A contour as a strictly convex counter-clockwise polygon, and the way back to the file.
 struct ConvexContour {
   geom::ConvexPolygon polygon;
-  std::vector<std::size_t> file_index_of_vertex;  ///< per polygon vertex
-  bool reversed = false;                          ///< the file runs clockwise
-  std::vector<std::size_t> dropped;  ///< file indices of duplicates and collinear points, ascending
+  std::vector<std::size_t> file_index_of_vertex;  ///< by polygon vertex
+  /// True when the file runs clockwise.
+  bool reversed = false;
+  /// File indices of duplicates and collinear points, ascending.
+  std::vector<std::size_t> dropped;
   /// mm; covers reading, scaling and what dropping changed: the polygon's outline and the outline through all
   /// points of the file are within coordinate_error - file.coordinate_error of each other, both ways.
   double coordinate_error = 0;

@@ -29,17 +29,20 @@ inline constexpr std::size_t kHighestDegree = 15;
 /// ellipse. u and v are conjugate half diameters, not always the axes; the arc is counter-clockwise when
 /// cross(u, v) > 0.
 struct EllipseArc {
-  geom::Point from, to;  ///< its ends as the file has them; equal for a whole ellipse
+  /// The ends as the file has them, equal for a whole ellipse.
+  geom::Point from, to;
   geom::Point centre, u, v;
   double begin = 0, end = 0;
 };
 
 /// A rational B-spline over [knots[degree], knots[poles.size()]].
 struct Spline {
-  std::size_t degree = 0;          ///< 1 to kHighestDegree
-  std::vector<double> knots;       ///< not descending, poles.size() + degree + 1 of them
+  std::size_t degree = 0;  ///< 1 to kHighestDegree
+  /// Numbers that do not descend, poles.size() + degree + 1 of them.
+  std::vector<double> knots;
   std::vector<geom::Point> poles;  ///< more than `degree`
-  std::vector<double> weights;     ///< above 0, as many as poles; empty: all 1
+  /// Numbers above 0, as many as poles; empty when all are 1.
+  std::vector<double> weights;
 };
 
 /// A line or a circle's arc (from == to: a full circle), an arc of an ellipse, or a spline (Bezier curves
@@ -48,7 +51,7 @@ using Shape = std::variant<geom::Edge, EllipseArc, Spline>;
 
 struct DrawnCurve {
   Shape shape;
-  std::uint32_t entity = 0, layer = 0;  ///< into Drawing
+  std::uint32_t entity = 0, layer = 0;  ///< indices into Drawing
   /// mm: the curve and the one that the file's decimals mean lie within this of each other, both ways (where
   /// our own files state an arc's exact numbers beside it, both what they and what the curve means). Covers
   /// reading, scaling, blocks and transforms; 0 where all of that was exact.
@@ -57,28 +60,33 @@ struct DrawnCurve {
 
 /// The words by which a person finds an entity again in the drawing program.
 struct DrawnEntity {
-  std::string type;      ///< as in the file: "LWPOLYLINE", "path"
-  std::string handle;    ///< DXF handle or SVG id, "" if there is none
+  std::string type;  ///< as in the file: "LWPOLYLINE", "path"
+  /// The DXF handle or SVG id, "" if there is none.
+  std::string handle;
   std::size_t line = 0;  ///< of the file, 1-based
 };
 
 struct Layer {
-  std::string name;     ///< UTF-8
-  bool hidden = false;  ///< switched off or frozen in the file
+  std::string name;  ///< UTF-8
+  /// True for a layer that is switched off or frozen in the file.
+  bool hidden = false;
 };
 
 /// Entities that are not curves or that are not read, by name: "TEXT", "SPLINE (fit points alone)".
 struct Unread {
   std::string name;
-  std::size_t count = 0;  ///< with the copies that blocks and arrays make
-  std::size_t line = 0;   ///< of the first
+  /// The number with the copies that blocks and arrays make.
+  std::size_t count = 0;
+  /// The line of the first.
+  std::size_t line = 0;
 };
 
 struct Drawing {
   std::string name;  ///< as given, for messages
   std::string unit = "mm";
   double millimetres_per_unit = 1;
-  std::vector<Layer> layers;  ///< those of the curves, in the order of their first curve
+  /// The layers of the curves, in the order of their first curve.
+  std::vector<Layer> layers;
   std::vector<DrawnEntity> entities;
   std::vector<DrawnCurve> curves;  ///< file order
   std::vector<Unread> unread;      ///< by name

@@ -10,28 +10,33 @@
 
 namespace lekalo::io {
 
-/// From the curves of a drawing to regions; steps, bounds and what failed: docs/design/drawing-regions.md.
+/// The way from the curves of a drawing to regions. docs/design/drawing-regions.md has the steps, the bounds
+/// and what failed.
 struct DrawingOptions {
-  double join_tolerance = 0.01;  ///< mm, >= 0: loose ends at most this far apart are joined
-  double curve_tolerance =
-      0.001;  ///< mm, > 0: how far lines and arcs may be from an ellipse or spline they replace
+  /// Loose ends at most this far apart are joined, mm, >= 0.
+  double join_tolerance = 0.01;
+  /// Lines and arcs may be this far from an ellipse or spline that they replace, mm, > 0.
+  double curve_tolerance = 0.001;
   /// Layer names; letters A to Z match in either case. Hidden layers count only where `take` names them.
-  std::vector<std::string> take;   ///< empty: all that are not hidden
-  std::vector<std::string> leave;  ///< these never
-  bool leave_open_chains = false;  ///< chains that do not close are left out and listed, instead of refused
+  /// When it is empty, all layers that are not hidden count.
+  std::vector<std::string> take;
+  /// These layers never count.
+  std::vector<std::string> leave;
+  /// True when chains that do not close are left out and listed instead of refused.
+  bool leave_open_chains = false;
 };
 
 /// Two ends of curves that were joined.
 struct JoinedGap {
   geom::Point at;                    ///< mm, half way
   double size = 0;                   ///< mm, above 0
-  std::uint32_t curves[2] = {0, 0};  ///< into Drawing::curves
+  std::uint32_t curves[2] = {0, 0};  ///< indices into Drawing::curves
 };
 
 /// Curves that hang together and do not close.
 struct OpenChain {
-  geom::Point from, to;               ///< its ends, mm
-  std::vector<std::uint32_t> curves;  ///< into Drawing::curves
+  geom::Point from, to;               ///< mm
+  std::vector<std::uint32_t> curves;  ///< indices into Drawing::curves
 };
 
 struct DrawnRegions {
@@ -42,23 +47,30 @@ struct DrawnRegions {
   /// curve before it.
   std::vector<std::uint32_t> curve_of_edge;
 
-  /// mm, rounded up; the outlines of `regions` and the curves that the file means lie within `tolerance` of
-  /// each other, both ways: every point of one has a point of the other that near. Curves on layers left out,
-  /// specks and open chains are not counted among them. Its parts, each the largest of all curves:
-  double tolerance = 0;         ///< at most the sum of the three
-  double curve_tolerance = 0;   ///< lines and arcs instead of ellipses and splines; proven, not sampled
-  double moved = 0;             ///< by closing gaps and dropping duplicates
-  double coordinate_error = 0;  ///< reading and rounding
+  /// The outlines of `regions` and the curves that the file means lie within this of each other, mm, rounded
+  /// up. It holds both ways: every point of one has a point of the other that near. Curves on layers left
+  /// out, specks and open chains are not counted among them. The tolerance is at most the sum of the three
+  /// parts below, each of which is the largest of all curves.
+  double tolerance = 0;
+  /// Lines and arcs stand this far from ellipses and splines; proven, not sampled.
+  double curve_tolerance = 0;
+  /// Curves were moved this far by closing gaps and dropping duplicates.
+  double moved = 0;
+  /// Coordinates are off by this from reading and rounding.
+  double coordinate_error = 0;
 
-  /// Along the outlines; without those that the two curves' errors and the 16 digits of a decimal explain.
+  /// The gaps along the outlines, without those that the two curves' errors and the 16 digits of a decimal
+  /// explain.
   std::vector<JoinedGap> gaps;
   /// Curves that lie on others within join_tolerance and were dropped, and lines that were cut where they
   /// begin to lie on another; ascending.
   std::vector<std::uint32_t> duplicates;
   /// Points, and curves no longer than join_tolerance that no outline needs: dropped; ascending.
   std::vector<std::uint32_t> specks;
-  std::vector<OpenChain> open_chains;  ///< left out; only with leave_open_chains
-  std::vector<std::string> notices;    ///< sentences: layers left out, gaps, duplicates, entities not read
+  /// The chains that were left out; only with leave_open_chains.
+  std::vector<OpenChain> open_chains;
+  /// Sentences about layers left out, gaps, duplicates and entities not read.
+  std::vector<std::string> notices;
 };
 
 /// Joins, closes, nests and checks. Fails with ErrorCode::bad_input, naming entity, line, layer and place: a

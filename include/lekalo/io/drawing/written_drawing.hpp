@@ -17,7 +17,8 @@ namespace lekalo::io {
 struct LayeredRegion {
   geom::Region region;
   std::string layer = "0";
-  std::vector<std::string> hole_layers;  ///< as many as holes; empty: all on `layer`
+  /// As many layers as holes; empty when all are on `layer`.
+  std::vector<std::string> hole_layers;
 };
 
 /// A line that a drawing shows beside its regions. Points and heights are in the drawing's unit.
@@ -26,9 +27,11 @@ struct DrawnLine {
   std::string layer;
 };
 struct DrawnText {
-  std::string text;    ///< one line; what is no UTF-8 and control characters are replaced
-  geom::Point middle;  ///< of the text, both ways
-  double height = 1;   ///< of capitals
+  /// One line. Bytes that are no UTF-8, and control characters, are replaced.
+  std::string text;
+  /// The middle of the text, both ways.
+  geom::Point middle;
+  double height = 1;  ///< of capitals
   std::string layer;
 };
 /// How a layer is shown: AutoCAD's colour index in DXF, the colour itself in SVG. Others are black (7).

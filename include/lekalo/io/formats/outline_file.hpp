@@ -23,23 +23,31 @@ struct ScanReading {
 
 /// How the file of an outline is read.
 struct OutlineOptions {
-  std::optional<LengthUnit> units;    ///< applies where the file does not say; millimetres if neither does
-  std::optional<double> join, curve;  ///< of drawings, mm: DrawingOptions
-  std::vector<std::string> layers;    ///< of drawings; empty: all that are shown
-  std::optional<ScanReading> scan;    ///< the file holds measured points
+  /// The unit of a file that does not say its own; millimetres if neither does.
+  std::optional<LengthUnit> units;
+  /// The tolerances of drawings, mm; see DrawingOptions.
+  std::optional<double> join, curve;
+  /// The layers of drawings that count; empty for all that are shown.
+  std::vector<std::string> layers;
+  /// Set when the file holds measured points.
+  std::optional<ScanReading> scan;
 };
 
 /// The points along a convex outline, as its file has them.
 struct ContourRecord {
-  LengthUnit unit = LengthUnit::millimetre;  ///< of the file
-  geom::Ring points;                         ///< mm, file order, nothing dropped
-  std::vector<std::size_t> dropped;          ///< indices of points that are no corners of the outline
+  /// The unit of the file.
+  LengthUnit unit = LengthUnit::millimetre;
+  /// The points in mm, in file order; none is dropped.
+  geom::Ring points;
+  /// Indices of the points that are no corners of the outline.
+  std::vector<std::size_t> dropped;
   std::optional<TrimRecord> trim;
 };
 
 struct ReadOutline {
-  locate::Outline outline;       ///< with regions, or convex
-  std::vector<geom::Edge> open;  ///< edges that a region file says are no walls, as they are written
+  locate::Outline outline;  ///< with regions, or convex
+  /// Edges that a region file says are no walls, as they are written.
+  std::vector<geom::Edge> open;
   std::vector<std::string> notices;
   std::optional<ScanRecord> scan;        ///< of a blank that was measured
   std::optional<ContourRecord> contour;  ///< of a convex outline
@@ -58,11 +66,13 @@ class OutlineFile {
   /// not convex.
   [[nodiscard]] bool is_convex(bool only_convex_will_do);
 
-  /// The outline as regions of lines and arcs; bad_input where outlines cross or touch, with the place.
+  /// Returns the outline as regions of lines and arcs; bad_input where outlines cross or touch, with the
+  /// place.
   [[nodiscard]] Result<ReadOutline> as_regions();
 
-  /// The outline as a convex polygon: of points as make_convex says; with `trim` in mm it is cut inwards as
-  /// trim_to_convex says, and then its own points have numbers in results.
+  /// Returns the outline as a convex polygon: points are read as make_convex says. With `trim` in mm the
+  /// outline is cut inwards as trim_to_convex says, and results then number the points of the trimmed
+  /// outline.
   [[nodiscard]] Result<ReadOutline> as_convex(std::optional<double> trim = {});
 
  private:
@@ -84,7 +94,7 @@ class OutlineFile {
   std::optional<Result<ContourFile>> points_;
 };
 
-/// The outline in a file as regions.
+/// Returns the outline in a file as regions.
 [[nodiscard]] inline Result<ReadOutline> read_outline(std::string_view bytes, const std::string& name,
                                                       const OutlineOptions& options) {
   return OutlineFile(bytes, name, options).as_regions();

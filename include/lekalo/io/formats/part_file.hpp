@@ -14,14 +14,17 @@
 namespace lekalo::io {
 
 struct PartOptions {
-  std::optional<LengthUnit> unit;                 ///< applies where the file does not say
-  double chord_tolerance = kUsualChordTolerance;  ///< mm, of arcs: how far chords lie outside the material
+  /// The unit of files that do not say theirs.
+  std::optional<LengthUnit> unit;
+  /// The chords of arcs lie outside the material by at most this, mm.
+  double chord_tolerance = kUsualChordTolerance;
   DrawingOptions drawing;
 };
 
 struct PartsFile {
   std::vector<layout::Part> parts;
-  std::vector<layout::Stock> stocks;  ///< sheets; of drawings with the layers below alone
+  /// The sheets; there are some only in drawings with the layers below.
+  std::vector<layout::Stock> stocks;
   std::vector<std::string> notices;
 };
 

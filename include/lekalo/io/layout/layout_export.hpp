@@ -19,41 +19,48 @@ namespace lekalo::io {
 enum class ExportForm { dxf, svg, hpgl, gcode };
 [[nodiscard]] std::optional<ExportForm> export_form(std::string_view word) noexcept;
 
-/// Layers of the written drawings; HPGL: pens 1 to 7 in this order.
+/// The layers of the written drawings. HPGL has none; its pens 1 to 7 stand for them in this order.
 inline constexpr const char* kExportLayers[] = {"CUT", "MARK", "LABEL", "SHEET", "DEFECT", "ZONE", "AREA"};
 
 struct ExportRequest {
   ExportForm form = ExportForm::dxf;
-  std::string sheet;              ///< STOCK or STOCK#COPY, copies from 1; empty: all in use
-  std::vector<std::string> only;  ///< layers to write, from kExportLayers; empty: all. G-code has none
+  /// The sheet as STOCK or STOCK#COPY, with copies from 1; empty for all in use.
+  std::string sheet;
+  /// The layers to write, from kExportLayers; empty for all. G-code has none.
+  std::vector<std::string> only;
   LengthUnit unit = LengthUnit::millimetre;  ///< DXF and G-code only
   double chord_tolerance_mm = 0.02;          ///< HPGL only
   nc::ProfileOptions profile;                ///< G-code only
 };
 
-/// A word of a command line ("kerf", "0.2") or of a request.
+/// A word of a command line or of a request, as its name and its value: ("kerf", "0.2").
 using ExportWord = std::pair<std::string, std::string>;
-/// Every word that some form takes, with what stands for its value and what it means.
+/// A word that some form takes, with what stands for its value and what it means.
 struct ExportWordHelp {
   std::string name, type, help;
 };
 [[nodiscard]] const std::vector<ExportWordHelp>& export_words();
 
-/// Fails with ErrorCode::usage and one sentence for words that the form does not take, that are missing, and
-/// for values that are none or out of range. \param prefix  before names in messages: "--" or ""
+/// Reads the words of a request. Fails with ErrorCode::usage and one sentence for words that the form does
+/// not take, for words that are missing, and for values that cannot be read or are out of range.
+/// \param prefix  before names in messages: "--" or ""
 [[nodiscard]] Result<ExportRequest> read_export_words(ExportForm form, const std::vector<ExportWord>& words,
                                                       const std::string& prefix);
 
 struct ExportedFile {
-  std::string sheet;  ///< like `ExportRequest::sheet`; empty if the file holds all sheets
+  /// Like `ExportRequest::sheet`; empty if the file holds all sheets.
+  std::string sheet;
   std::string bytes;
 };
 struct Exported {
-  std::vector<ExportedFile> files;  ///< DXF and SVG one, HPGL and G-code one for each sheet
-  std::vector<std::string> notes;   ///< one sentence each
+  /// DXF and SVG give one file, HPGL and G-code one for each sheet.
+  std::vector<ExportedFile> files;
+  std::vector<std::string> notes;  ///< one sentence each
 };
 
+/// Returns the layout in the requested form.
 /// \param name  of the layout, for titles and comments
+///
 /// Fails with ErrorCode::bad_input where there is nothing to write or the parts cannot be cut
 /// (nc/profile.hpp), with ErrorCode::usage for a sheet that is not there.
 [[nodiscard]] Result<Exported> export_layout(const layout::Document& document, const std::string& name,

@@ -15,7 +15,8 @@ namespace lekalo::io {
 
 /// More of them are refused, each with a sentence.
 inline constexpr std::size_t kMostPlacements = 1'000'000;
-inline constexpr std::size_t kMostParts = 100'000;  ///< stocks and kits likewise
+/// The most parts of a layout, and likewise the most stocks and the most kits.
+inline constexpr std::size_t kMostParts = 100'000;
 inline constexpr std::size_t kMostOutlinePoints = 100'000;
 /// Chords where a file gives curves alone, or a drawing, and nobody says otherwise; mm.
 inline constexpr double kUsualChordTolerance = 0.01;
@@ -24,7 +25,8 @@ inline constexpr int kNeverTolerated = 1'000'001;
 
 struct LayoutFile {
   layout::Document document;
-  std::vector<std::string> notices;  ///< sentences: fields left out, what was repaired
+  /// Sentences about fields left out and about what was repaired.
+  std::vector<std::string> notices;
 };
 
 /// Reads the bytes of a layout. Fails with ErrorCode::bad_input and one sentence that names the file

@@ -19,17 +19,22 @@ namespace lekalo::io {
 
 /// A feature whose edges are still to be found in the part.
 struct FeatureSpec {
-  locate::Feature demand;  ///< all but the edges, mm
+  /// The demand without the edges, mm.
+  locate::Feature demand;
   std::vector<std::uint32_t> edges;
-  std::optional<std::size_t> contour;  ///< through all pieces, each outer contour before its holes
-  std::string label;                   ///< layer of a drawing, name of a primitive; "": none
+  /// The contour, counted through all pieces, each outer contour before its holes.
+  std::optional<std::size_t> contour;
+  /// The layer of a drawing or the name of a primitive; "" for none.
+  std::string label;
 };
 
 struct FeatureFile {
   std::string name;
   std::vector<FeatureSpec> features;
-  std::optional<double> minimum;      ///< of all other edges, mm
-  std::vector<geom::Region> ignored;  ///< part coordinates, mm: what lies in it does not count
+  /// The minimum of all other edges, mm.
+  std::optional<double> minimum;
+  /// Regions in part coordinates, mm. What lies in them does not count.
+  std::vector<geom::Region> ignored;
 };
 
 /// `{"units", "minimum", "features": [{"name", "edges" | "contour" | "label", "minimum", "target", "maximum",
@@ -51,7 +56,8 @@ struct FeatureFile {
 struct RestOfPart {
   std::vector<geom::Region> regions;
   std::vector<std::optional<std::uint32_t>> edge_of;
-  double tolerance = 0;  ///< mm, of the Boolean
+  /// The tolerance of the Boolean, mm.
+  double tolerance = 0;
 };
 [[nodiscard]] Result<RestOfPart> without_ignored(const FeatureFile& file,
                                                  const std::vector<geom::Region>& part);

@@ -39,7 +39,8 @@ struct NcRecord {
   std::string mode, scan_frame;
   int work_offset = 1;
   double rounding_mm = 0;
-  double clearance = 0;  ///< what the written program keeps, mm: never above clearance - rounding_mm
+  /// The clearance that the written program keeps, mm: never above clearance - rounding_mm.
+  double clearance = 0;
   std::size_t motions = 0;
   std::vector<std::string> notes;
   FileRecord output;
@@ -47,12 +48,16 @@ struct NcRecord {
 
 /// Probing again: how far the new placement lies from that of an earlier result (input "last-result").
 struct ComparisonRecord {
-  bool same_part = true;           ///< the earlier result was made from a part file with the same bytes
-  double dx = 0, dy = 0;           ///< new minus last, mm
-  double dtheta = 0;               ///< new minus last, radians in (-pi, pi]
-  double largest_shift = 0;        ///< of all part vertices, mm
-  double last_clearance = 0;       ///< as written in the earlier result, mm
-  double last_pose_clearance = 0;  ///< of the last placement in the new blank, mm, never above the exact one
+  /// True when the earlier result was made from a part file with the same bytes.
+  bool same_part = true;
+  double dx = 0, dy = 0;  ///< new minus last, mm
+  double dtheta = 0;      ///< new minus last, radians in (-pi, pi]
+  /// The largest shift of all part vertices, mm.
+  double largest_shift = 0;
+  /// The clearance as written in the earlier result, mm.
+  double last_clearance = 0;
+  /// The clearance of the last placement in the new blank, mm, never above the exact one.
+  double last_pose_clearance = 0;
 };
 
 struct DeviationsRecord {
@@ -71,7 +76,7 @@ struct DemandRecord {
   /// Its proof without `grown`; without certificate: there is none, or it is in certificate_file.
   std::optional<locate::SmallestLargest> second;
   std::vector<locate::TradeOff> curve;
-  double grown_for = 0, shift = 0, bound = 0;  ///< of DemandProof
+  double grown_for = 0, shift = 0, bound = 0;  ///< as in DemandProof
 };
 
 /// A localisation of convex outlines or of regions: `proof` says which.
@@ -82,28 +87,37 @@ struct LocateDocument {
   std::vector<std::string> warnings;
   std::uint64_t seed = 0, work = 0;
   locate::Placement placement;
-  bool mirrored = false;              ///< the placement
-  std::optional<double> upper_bound;  ///< none with demands, whose margin has the bound
+  /// True when the part is mirrored in the placement.
+  bool mirrored = false;
+  /// There is none with demands, whose margin has the bound.
+  std::optional<double> upper_bound;
   double min_allowance = 0, shortfall = 0;
   double window_from_deg = 0, window_to_deg = 360;
-  std::vector<locate::Touch> contacts;  ///< with an AngleProof numbers and multipliers alone are written
-  locate::Proof proof;                  ///< empty: there is none, or it is in certificate_file
+  /// With an AngleProof only numbers and multipliers are written.
+  std::vector<locate::Touch> contacts;
+  /// Empty when there is none, or when it is in certificate_file.
+  locate::Proof proof;
   std::optional<FileRecord> certificate_file;
-  std::size_t certificate_intervals = 0;  ///< of the proof, wherever it is
+  /// The size of the proof, wherever it is.
+  std::size_t certificate_intervals = 0;
   std::optional<NcRecord> nc;
-  double seconds = 0;  ///< of this run; the only field that is not a function of the input
+  /// The time of this run; the only field that is not a function of the input.
+  double seconds = 0;
   int threads = 1;
 
-  // With a PoseProof:
-  std::vector<geom::Region> part, blank;  ///< the shapes as used, mm
+  // A PoseProof comes with what follows.
+  std::vector<geom::Region> part, blank;
   double part_tolerance = 0, blank_tolerance = 0;
-  bool part_cut = false;                       ///< `part` is without what a file of features says to ignore
-  locate::Mirror mirror = locate::Mirror::no;  ///< allowed
+  /// True when `part` is without what a file of features says to ignore.
+  bool part_cut = false;
+  /// The mirroring that was allowed.
+  locate::Mirror mirror = locate::Mirror::no;
   locate::LockedShift locked;
   std::optional<DemandRecord> demands;
-  std::optional<ScanRecord> scan;  ///< what `blank` was made from
+  /// The scan that `blank` was made from.
+  std::optional<ScanRecord> scan;
 
-  // With an AngleProof:
+  // An AngleProof comes with what follows.
   std::vector<locate::Placement> alternatives;
   bool alternatives_complete = true;
   std::optional<TrimRecord> trim;

@@ -28,7 +28,8 @@ struct ScanFile {
   /// The place of each point: its line, 1-based, or its vertex in a PLY, 0-based.
   std::vector<std::size_t> places;
   bool places_are_lines = true;
-  bool has_order = true;  ///< text without a slice; else the order in the file means nothing
+  /// True for text without a slice. Otherwise the order in the file means nothing.
+  bool has_order = true;
   /// Every coordinate is within this of the number in the file, mm.
   double coordinate_error = 0;
   std::size_t points_in_file = 0;
@@ -57,7 +58,8 @@ struct ScanBlankOptions {
 struct ScanBlank {
   locate::GuaranteedBlank blank;
   ScanFile file;
-  std::vector<std::string> notices;  ///< of both
+  /// The notices of both.
+  std::vector<std::string> notices;
   /// A sentence for each unknown stretch and each point left out, with its line or vertex in the file.
   std::vector<std::string> unknown, dropped;
 };
