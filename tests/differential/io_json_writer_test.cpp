@@ -56,7 +56,8 @@ double random_number(Random& random) {
 }
 
 Json random_tree(Random& random, int depth) {
-  switch (random.below(depth > 4 ? 6 : 10)) {
+  const std::uint64_t kind = depth == 0 ? 6 + random.below(4) : random.below(depth > 4 ? 6 : 10);
+  switch (kind) {
     case 0:
       return nullptr;
     case 1:

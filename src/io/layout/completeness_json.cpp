@@ -27,8 +27,6 @@ void write(JsonWriter& json, const SheetUse& use, const Document& document) {
   json.end();
 }
 
-}  // namespace
-
 void write_kits(JsonWriter& json, const Document& document, const std::vector<KitCount>& kits) {
   json.begin_list();
   for (std::size_t i = 0; i < kits.size(); ++i) {
@@ -43,6 +41,8 @@ void write_kits(JsonWriter& json, const Document& document, const std::vector<Ki
   }
   json.end();
 }
+
+}  // namespace
 
 void write_completeness(JsonWriter& json, const Document& document, const Completeness& c) {
   json.fields({{"density", c.density}, {"cost", c.cost}});
