@@ -34,16 +34,16 @@ void check(std::string_view bytes) {
     demand(v.a > 0 && (v.b == 0 || v.b > v.a) && !v.stock.empty());
 }
 
-cases::LayoutJson example() {
-  cases::LayoutJson layout = cases::empty_layout();
+cases::Json example() {
+  cases::Json layout = cases::empty_layout();
   layout["rules"] = {{"gap", 3}, {"border_gap", 5}, {"defect_gap", 1}};
-  cases::LayoutJson& stock = layout["stocks"][0];
+  cases::Json& stock = layout["stocks"][0];
   stock["grain_deg"] = 90;
   stock["defects"] = {
       {{"id", "d"}, {"severity", 2}, {"outline", cases::outline_json(cases::rectangle(30, 30, 4, 4))}}};
   stock["zones"] = {
       {{"id", "z"}, {"quality", 1}, {"outline", cases::outline_json(cases::rectangle(60, 0, 40, 90))}}};
-  cases::LayoutJson& part = cases::add_part(
+  cases::Json& part = cases::add_part(
       layout, "a", cases::outline_json(cases::rectangle(0, 0, 20, 20), {cases::rectangle(5, 5, 4, 4)}));
   part["quality"] = "best";
   part["areas"] = {{{"quality", 0}, {"outline", cases::outline_json(cases::rectangle(10, 0, 10, 9))}}};
@@ -84,7 +84,7 @@ cases::Points in_mm(const std::vector<geom::GridPoint>& loop) {
 
 struct Shape {
   geom::GridRegion region;
-  cases::LayoutJson json;
+  cases::Json json;
 };
 
 /// Nothing where the bytes are no outline; repeated points are one.
@@ -111,7 +111,7 @@ void try_outlines(Bytes bytes) {
   const std::int64_t x = coordinate();
   const geom::GridPoint shift{x, coordinate()};
   const std::int64_t gap = kUnit * bytes.below(6) + bytes.below(2);
-  cases::LayoutJson layout = cases::empty_layout();
+  cases::Json layout = cases::empty_layout();
   layout["rules"] = {{"gap", geom::mm_from_grid(gap)}, {"border_gap", geom::mm_from_grid(gap)}};
   layout["stocks"][0]["outline"] = stock->json;
   cases::add_part(layout, "a", a->json);

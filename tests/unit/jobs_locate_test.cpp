@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "jobs/locate_checked.hpp"
@@ -11,6 +10,7 @@
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/jobs/verify.hpp"
 #include "support/io_contours.hpp"
+#include "support/json.hpp"
 #include "support/places.hpp"
 
 namespace lekalo::jobs {
@@ -69,7 +69,7 @@ verify::Verdict verdict(const LocateJob& job, const Located& located) {
 TEST(JobsLocate, BytesGoInAndAProvedDocumentComesOut) {
   for (const LocateJob& job : {plate_job(), region_job()}) {
     const Located located = made(job);
-    const auto json = nlohmann::json::parse(located.result);
+    const auto json = cases::Json::parse(located.result);
     EXPECT_EQ(json["status"], "optimal");
     EXPECT_NEAR(located.document.placement.clearance, 5, 0.05);
     EXPECT_GE(located.document.upper_bound.value_or(0), 5);

@@ -5,16 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "extending/criterion/src/locate/region/criterion_left.cpp"  // the addition of that test, unlisted
 #include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/verify.hpp"
+#include "support/json.hpp"
 
 namespace lekalo {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using cases::Json;
 using locate::Choice;
 using locate::Placement;
 
@@ -97,7 +97,7 @@ TEST_F(Criteria, AStrangerWhoGivesUpMoreThanTheResultSaysIsRefuted) {
   ASSERT_TRUE(made) << made.error().message;
   for (const auto& [place, number] : {std::pair{"/demands/give_up", 0.9}, {"/demands/margin_found", 5.2}}) {
     Json lie = Json::parse(made->result);
-    lie[Json::json_pointer(place)] = number;
+    lie.at(place) = number;
     const auto report = verified(lie.dump());
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->report.verdict, verify::Verdict::refuted) << place;
