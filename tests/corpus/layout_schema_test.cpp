@@ -1,7 +1,7 @@
 // The published schema accepts what we write and the example file, and refuses what the reader refuses, as
 // python3-jsonschema reads it.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>

@@ -2,7 +2,7 @@
 // in doubles from the rule of docs/design/layout.md; and against the independent checker, which decides
 // exactly.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // Every kind of random case through solver and checker: the checker reads the written decimals exactly and
 // shares no code with the solver, so what it confirms is true.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

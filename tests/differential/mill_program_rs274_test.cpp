@@ -1,7 +1,7 @@
 // LinuxCNC's own interpreter runs pocket programs: it accepts them, and the checker finds in its canonical
 // motions what it finds in the program.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

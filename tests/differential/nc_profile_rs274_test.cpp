@@ -1,7 +1,7 @@
 // LinuxCNC's own interpreter runs profile programs: its canonical motions, swept by the kerf, against the
 // parts. It prints four decimals of the program's unit.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

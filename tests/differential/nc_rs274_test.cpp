@@ -3,7 +3,7 @@
 
 #include "support/rs274.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // along their edges until they are best; inside or outside by rays in long double. None of the checker's
 // code.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A true result for regions with one number, word or list entry changed: refuted, refused, or shown to claim
 // nothing that is not true.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,10 +1,11 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "e2e/cli_run.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "support/cases.hpp"
 #include "support/places.hpp"
 #include "support/pockets.hpp"
@@ -122,7 +123,7 @@ TEST(CliPocket, RandomPocketsHoldTheAngleWhateverIsAsked) {
                       "p.ngc",
                       "--json"};
     const Ran ran = run(folder.path(), words);
-    SCOPED_TRACE(fmt::format("{}\n{}\n{}", fmt::join(words, " "), read_bytes(folder / "p.json"), ran.err));
+    SCOPED_TRACE(fmt::format("{}\n{}\n{}", joined_text(words, " "), read_bytes(folder / "p.json"), ran.err));
     if (ran.status == 3 && (ran.err.find("fits nowhere") != std::string::npos ||
                             ran.err.find("must not meet") != std::string::npos))
       continue;

@@ -1,7 +1,7 @@
 // Random sessions on the native kernel, written to stdout call by call with their answers, for replay.mjs. On
 // the way the answers are held against the workspace that the server keeps.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

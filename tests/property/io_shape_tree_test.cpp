@@ -3,7 +3,7 @@
 
 #include "lekalo/io/shape/shape_tree.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

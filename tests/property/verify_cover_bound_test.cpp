@@ -1,6 +1,6 @@
 // The bound of a cell of a certificate for regions against the pairs' values at poses of the cell.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

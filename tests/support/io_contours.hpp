@@ -3,7 +3,7 @@
 // Contours as decimals in integer steps, so that what is collinear in a file is known exactly, and their
 // text.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -3,7 +3,7 @@
 // Results of `lekalo locate`, written without lekalo: a small solver of its own (every triple of edges at
 // every angle, long double) and a writer whose every field a test can falsify.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "lekalo/io/layout/layout_export.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

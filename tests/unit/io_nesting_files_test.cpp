@@ -1,6 +1,6 @@
 #include "lekalo/io/nesting/nesting_files.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

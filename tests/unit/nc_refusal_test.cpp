@@ -1,6 +1,6 @@
 // What does not pass, each with its line and reason; and nothing is returned.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <vector>

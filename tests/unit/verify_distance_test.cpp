@@ -1,6 +1,6 @@
 // Distances of sides and outlines where one term of the formulas decides alone.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

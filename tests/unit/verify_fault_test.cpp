@@ -1,6 +1,6 @@
 // What verify_clearance refuses, each sentence; and parts that touch their blank, where nothing may be lost.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

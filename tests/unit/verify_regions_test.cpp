@@ -1,7 +1,7 @@
 // The checker on hand-made results for regions: what is true is confirmed, each claim made slightly false is
 // found.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
