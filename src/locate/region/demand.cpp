@@ -152,9 +152,11 @@ class DemandLocaliser final : public Choice {
   }
 
   Result<void> take_smallest_largest() override {
-    LEKALO_TRY(Second smallest, smallest_largest(margin_to_keep(), pose_));
-    pose_ = smallest.pose;
-    result_.second = std::move(smallest.what);
+    // LEKALO_TRY moves the value, in which g++ 12 sees what is not set.
+    Result<Second> smallest = smallest_largest(margin_to_keep(), pose_);
+    if (!smallest) return tl::unexpected(std::move(smallest.error()));
+    pose_ = smallest->pose;
+    result_.second = std::move(smallest->what);
     SmallestLargest& second = *result_.second;
     const bool closed = second.found - second.bound <= second.gap;
     if (!closed && result_.status == Status::optimal) result_.status = Status::stopped;
