@@ -29,6 +29,16 @@ std::string dxf(const std::string& entities) {
   return "0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
 }
 
+TEST(CliPocket, AProgramWithAWordThatIsNotKnownIsRefusedWithItsLine) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plate.json", kPlate);
+  write_bytes(folder / "p.ngc", "G21 G90 F100\nG0 X9 Y9 Z5\nG1 Z-1\nM101\nG1 X20\nM2\n");
+  const Ran ran = run(folder.path(), {"simulate", "p.ngc", "--pocket", "plate.json", "--tool", "6"});
+  EXPECT_EQ(ran.status, 3);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_NE(ran.err.find("p.ngc:4: M101 is not understood here"), std::string::npos) << ran.err;
+}
+
 TEST(CliPocket, AProgramForEveryPostIsJudgedAlike) {
   const TemporaryFolder folder;
   write_bytes(folder / "plate.json", kPlate);

@@ -146,7 +146,7 @@ TEST(MillProgram, EveryPostReadBackIsThePathThatWasMeant) {
         ProgramOptions options;
         options.post = post, options.unit = unit;
         const std::string program = program_of(path, options);
-        const auto moves = verify::read_moves({"p.ngc", program});
+        const auto moves = verify::read_moves({"p.ngc", program}, 0);
         ASSERT_TRUE(moves) << moves.error().message;
         const PocketPath read = path_of(*moves);
         const double there = farthest(spots_of(path), read), back = farthest(spots_of(read), path);

@@ -122,7 +122,7 @@ TEST(NcDialect, APocketIsWrittenInADialectOfOnesOwn) {
   EXPECT_EQ(move_of_line, (std::vector<std::size_t>{none, none, none, none, none, none, none, none, 0, 0, 1,
                                                     2, 3, 4, none, none, none, none}));
 
-  const auto moves = verify::read_moves({"p.nc", text});
+  const auto moves = verify::read_moves({"p.nc", text}, 0);
   ASSERT_TRUE(moves) << moves.error().message;
   ASSERT_EQ(moves->size(), 4U);
   EXPECT_TRUE((*moves)[2].arc && (*moves)[2].ccw);
@@ -192,7 +192,7 @@ TEST(NcDialect, EveryPostHasANameOfItsOwnAndFillsEveryPlace) {
       EXPECT_NE(text.find("G21"), std::string::npos);
     }
     EXPECT_NE(pocket.find("G56"), std::string::npos);
-    EXPECT_TRUE(verify::read_moves({"p.nc", pocket}));
+    EXPECT_TRUE(verify::read_moves({"p.nc", pocket}, 0));
     EXPECT_TRUE(rewrite_program(profile->text, "p.nc", 0, 0, 0, {}));
   }
   EXPECT_EQ(post_named("heidenhain"), nullptr);

@@ -109,9 +109,9 @@ struct SimulateReport {
   std::vector<EngagementSample> samples;  ///< in the order of cutting
 };
 
-/// Judges a program. bad_input, with file and line, for a program with words whose motion is not understood
-/// (subprograms, variables, cutter compensation, cycles, machine coordinates, rotations), an arc whose ends
-/// are not on one circle within 0.005 mm, a pocket that is open or meets itself, a tool that fits nowhere in
+/// Judges a program. bad_input, with file and line, for every word that docs/cli.md does not list, words of a
+/// block that do not fit together, a change of tool or offsets on the way, an arc whose ends are not on one
+/// circle within 0.005 mm, a pocket that is open or meets itself, a tool that fits nowhere in
 /// the pocket, and options out of range. Cost: about a microsecond for a sample and each stroke of the path
 /// near it; a pocket of 100 x 60 mm with 3 m of path takes about a second.
 /// \param earlier  programs that ran before on the same stock, with the same top

@@ -19,11 +19,13 @@ struct Move {
   std::size_t line = 0;
 };
 
-/// Reads the motions of an NC program: G0 to G3 in the XY plane, G20/G21, G90/G91, centres as I J (either
-/// way) or R, full turns as P. The place before the first motion is not known. A program begins where its
-/// first words for X, Y and Z lead, and motion before all three are given is no motion.
+/// Reads the motions of an NC program in the XY plane as LinuxCNC's interpreter moves, from the words of
+/// nc_words.hpp. The place before the first motion is not known. A program begins where its first words for
+/// X, Y and Z lead, and the rapids before all three are given are no motions.
 ///
-/// bad_input with the line for everything else that moves or changes where things are.
-[[nodiscard]] Result<std::vector<Move>> read_moves(const Document& program);
+/// bad_input with the line for words that are not known or do not fit together, a tool change after the first
+/// cut, offsets changed where the place is known, and all that would cut from a place that is not known.
+/// \param top  the Z of the stock's upper face, mm; what goes below may cut
+[[nodiscard]] Result<std::vector<Move>> read_moves(const Document& program, double top);
 
 }  // namespace lekalo::verify

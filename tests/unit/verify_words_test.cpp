@@ -1,0 +1,203 @@
+// The words of programs that the checker knows, what it refuses, and what both readers of programs accept.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "nc/white_list.hpp"
+#include "verify/pocket/nc_moves.hpp"
+#include "verify/pocket/nc_words.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+const std::string kBegin = "G21 G90 G17\nG0 Z5\nG0 X10 Y10\n";  // a word after it stands on line 4
+
+std::string complaint_of(const std::string& program) {
+  const auto moves = read_moves({"p.ngc", program}, 0);
+  return moves ? "" : moves.error().message;
+}
+
+/// The moves of a program that is read, as `line` or `line*` for a rapid.
+std::string lines_of(const std::string& program) {
+  const auto moves = read_moves({"p.ngc", program}, 0);
+  if (!moves) return moves.error().message;
+  std::string lines;
+  for (const Move& move : *moves) lines += fmt::format("{}{} ", move.line, move.rapid ? "*" : "");
+  return lines;
+}
+
+TEST(VerifyWords, EveryCodeThatIsNotKnownIsRefusedByName) {
+  std::size_t known = 0, refused = 0;
+  for (const char letter : {'G', 'M'})
+    for (int tenths = 0; tenths <= (letter == 'G' ? 999 : 1999); ++tenths) {
+      const std::string word = fmt::format("{}{:g}", letter, tenths / 10.0);
+      if (code_of(letter, tenths / 10.0) != nullptr) {
+        ++known;
+        continue;
+      }
+      ++refused;
+      EXPECT_EQ(complaint_of(kBegin + word + "\nM2\n"), "p.ngc:4: " + word + " is not understood here");
+    }
+  EXPECT_EQ(known, known_codes().size());
+  EXPECT_GT(refused, 2900U);
+  for (const char* word : {"G0.05", "G-1", "G1000", "M3.5", "M-2", "G59.15"})
+    EXPECT_NE(complaint_of(kBegin + word + "\nM2\n").find("is not understood here"), std::string::npos)
+        << word;
+}
+
+TEST(VerifyWords, ALetterAloneIsReadOnlyWhereItMovesOrNeedsNoCode) {
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if (letter == 'G' || letter == 'M') continue;
+    const std::string complaint = complaint_of(kBegin + letter + "1\nM2\n");
+    const std::string_view read = "FNSTXYZ", needy = "HIJPQR";
+    if (read.find(letter) != std::string_view::npos)
+      EXPECT_EQ(complaint, "") << letter;
+    else if (letter == 'O')
+      EXPECT_EQ(complaint, "p.ngc:4: subprograms are not understood");
+    else if (needy.find(letter) != std::string_view::npos)
+      EXPECT_EQ(complaint, fmt::format("p.ngc:4: no word of the block takes {}", letter));
+    else
+      EXPECT_EQ(complaint, fmt::format("p.ngc:4: the word {} is not understood", letter));
+  }
+}
+
+/// The rewriter (src/nc) has a list of its own; the two may differ only as stated here.
+TEST(VerifyWords, BothReadersOfProgramsKnowTheSameWordsButForThese) {
+  std::string rewriter_alone, checker_alone;
+  const auto compare = [&](const std::string& word, bool rewritten, bool checked) {
+    if (rewritten && !checked) rewriter_alone += word + " ";
+    if (checked && !rewritten) checker_alone += word + " ";
+  };
+  for (int tenths = 0; tenths <= 999; ++tenths)
+    compare(fmt::format("G{:g}", tenths / 10.0), nc::group_of(tenths).has_value(),
+            code_of('G', tenths / 10.0) != nullptr);
+  for (int number = 0; number <= 199; ++number)
+    compare(fmt::format("M{}", number), nc::m_on_list(number), code_of('M', number) != nullptr);
+  for (char letter = 'A'; letter <= 'Z'; ++letter)
+    compare(std::string(1, letter), !nc::refused_letter(letter).has_value(),
+            letter == 'G' || letter == 'M' || kTakenLetters.find(letter) != std::string_view::npos ||
+                kFreeLetters.find(letter) != std::string_view::npos);
+  // Other planes, compensation, cycles and feeds that depend on more than F turn with the part as any word
+  // does, and what they cut is not judged.
+  EXPECT_EQ(rewriter_alone, "G18 G19 G41 G42 G44 G69 G73 G74 G81 G82 G83 G84 G85 G86 G89 G93 G95 D L ");
+  EXPECT_EQ(checker_alone, "");
+}
+
+struct Refused {
+  const char* program;  ///< after kBegin
+  const char* says;
+};
+
+TEST(VerifyWords, WordsThatDoNotFitTogetherAreRefusedWithTheLine) {
+  const Refused cases[] = {
+      {"G0 G1 X1 F9\n", "4: G0 and G1 exclude each other"},
+      {"G1 G1 X1 F9\n", "4: G1 and G1 exclude"},
+      {"G80 G0 X1\n", "4: G80 and G0 exclude"},
+      {"G90 G91\n", "4: G90 and G91 exclude"},
+      {"M3 M5\n", "4: M3 and M5 exclude"},
+      {"M7 M8\n", "4: M7 and M8 exclude"},
+      {"M0 M30\n", "4: M0 and M30 exclude"},
+      {"M0 M3 M8 M48 M64 P1\n", "4: more than 4 M words"},
+      {"G4 P0 G1 X200 F9\n", "4: a dwell beside a motion"},
+      {"G4 X1\n", "4: a dwell beside a motion"},
+      {"G4 P0 G1\n", "4: a dwell beside a motion"},
+      {"G4\n", "4: G4 without P"},
+      {"G4 P-1\n", "4: P is below 0"},
+      {"M62\n", "4: M62 without P"},
+      {"M62 P1.5\n", "4: P is not a whole number"},
+      {"G4 P1 M62\n", "4: two words of the block take P"},
+      {"G1 X20 P1 F9\n", "4: no word of the block takes P"},
+      {"G1 X20 I1 F9\n", "4: no word of the block takes I"},
+      {"G1 X20 R1 F9\n", "4: no word of the block takes R"},
+      {"G1 X20 H1 F9\n", "4: no word of the block takes H"},
+      {"G1 X20 Q1 F9\n", "4: no word of the block takes Q"},
+      {"G2 X20 I5 F9\nI5\n", "5: no word of the block takes I"},
+      {"G2 X20 I5 F9\nR5\n", "5: no word of the block takes R"},
+      {"G2 R5 F9\n", "4: an arc given by R ends where it begins"},
+      {"G2 F9\n", "4: an arc without I, J or R"},
+      {"G80\nX1\n", "5: a motion before any of G0, G1, G2, G3"},
+      {"G80 X1\n", "4: a motion before any of G0, G1, G2, G3"},
+      {"G43 H1\n", "4: G43 after the first motion"},
+      {"G0 X1\nG54\n", "5: G54 after the first motion"},
+      {"G0 X1\nG49\n", "5: G49 after the first motion"},
+      {"G1 X1 F9\nT2\n", "5: a change of the tool after the first cut"},
+      {"G1 X1 F9\nM6\n", "5: a change of the tool after the first cut"},
+      {"G0 Z-1\nM6\n", "5: a change of the tool after the first cut"},
+      {"M6\nG1 X1 F9\n", "5: a motion with feed from a place that no block has said"},
+      {"M6\nG0 X1 Y1\nG0 Z-1\n", "6: G0 below Z 0 from a place that no block has said"},
+      {"M6\nG91 G0 X1\n", "5: a step of X from a place that no block has said"},
+      {"F9 G20\n", "4: a feed beside a change of its unit"},
+      {"F9\nG94\nG1 X1\n", "6: a motion with feed before any F"},
+      {"F-1\n", "4: a feed that is not above 0"},
+      {"S-1 M3\n", "4: S is below 0"},
+      {"T1.5\n", "4: T is not a whole number"},
+      {"X1 X2\n", "4: X is given twice"},
+      {"G0 X+-1\n", "4: X is not followed by a plain number"},
+      {"G0 X1 2\n", "4: the character \"2\" is not understood"},
+      {"G0 X[1]\n", "4: X is not followed by a plain number"},
+      {"#1=2\n", "4: the character \"#\" is not understood"},
+      {"/G0 X1\n", "4: a block that may be skipped"},
+      {"G0 N10 X1\n", "4: N does not begin its block"},
+      {"N10 N20\n", "4: N does not begin its block"},
+      {"N1.5 X1\n", "4: N is not followed by a plain number"},
+      {"N-1\n", "4: N is not followed by a plain number"},
+      {"N123456\n", "4: N has more than 5 digits"},
+      {"O100\n", "4: subprograms are not understood"},
+      {"G0 X1\rY2\n", "4: a carriage return inside a line"},
+      {"; note\rG1 X200\n", "4: a carriage return inside a line"},
+      {"(py, x=1)\n", "4: a comment that acts on the control"},
+      {"; abort, now\n", "4: a comment that acts on the control"},
+      {"(a (b) c)\n", "4: a comment inside a comment"},
+      {"%\n", "4: % after a beginning without %"},
+      {"% G0\n", "4: % does not stand alone"},
+      {"M2\nG1 X200 F9\n", "5: words after the end"},
+      {"M30\nG1 X200 F9\n", "5: words after the end"},
+      {"G3 X10.00001 I5 F9\n", "4: an arc of nearly no turn or a full one"},
+      {"G3 X10.000001 Y10.000001 R20 F9\n", "4: an arc of nearly no turn or a full one"},
+      {"G3 I0.001 F9\n", "4: the arc's ends are"},
+      {"G3 X20.003 R5 F9\n", "4: no arc of radius 5"},
+  };
+  for (const Refused& one : cases)
+    EXPECT_EQ(complaint_of(kBegin + one.program).find(fmt::format("p.ngc:{}", one.says)), 0U)
+        << one.program << complaint_of(kBegin + one.program);
+  EXPECT_NE(complaint_of(kBegin + std::string("(a\0b)\n", 6)).find("a control character"), std::string::npos);
+  EXPECT_NE(complaint_of(kBegin + "(" + std::string(252, 'a') + ")\n").find("longer than 252"),
+            std::string::npos);
+}
+
+TEST(VerifyWords, ThePlaceBeforeTheFirstMotionCutsNothing) {
+  EXPECT_EQ(complaint_of("G21 G90\nG1 X1 Y1 Z5 F9\n"),
+            "p.ngc:2: a motion with feed from a place that no block has said");
+  EXPECT_EQ(complaint_of("G21 G90\nG0 X1 Y1\nG0 Z-1\n"),
+            "p.ngc:3: G0 below Z 0 from a place that no block has said");
+  EXPECT_EQ(complaint_of("G21 G90\nG0 Z-1\nG0 Z5\nG0 X1 Y1\n"),
+            "p.ngc:2: G0 below Z 0 from a place that no block has said");
+  EXPECT_EQ(lines_of("G21 G90\nG0 Z5\nG0 X1 Y1\nG0 Z1\nM2\n"), "4* ");
+  EXPECT_TRUE(read_moves({"p.ngc", "G0 X1 Y1 Z-1\nG1 X2 F9\n"}, -1));
+  // The length of the tool and the place of the part are chosen on the way to the first place.
+  EXPECT_EQ(lines_of("G21 G90\nT1 M6\nG0 X1 Y1\nG54\nG0 X1 Y1\nG43 H1 Z5\nG43 H1 G54 G0 Z1\nM2\n"), "7* ");
+}
+
+TEST(VerifyWords, WhatLinuxcncReadsWithoutHarmIsRead) {
+  EXPECT_EQ(
+      lines_of(
+          "%\n(a; b) ; c (d\nN10 g21 G90\r\nN20G0Z5.\n\nN30 G00 X+1.Y-.5 S1000 M03 M8\nG4 P0.5\n"
+          "G64 P0.01 Q.01 G1 X2 F9\nG03 X2 I1 P2 Z4\nM64 P1\nG61.1 G97 G98 G94 F9\nM0\nX3 I.5\nM9 M5\nM30\n%\n"),
+      "8 9 13 ");
+  // % ends a program that begins with it.
+  EXPECT_EQ(lines_of("\n %\nG0 X1 Y1 Z1\nX2\n%\n(nothing)\n"), "4* ");
+  EXPECT_NE(lines_of("%\nG0 X1 Y1 Z1\nX2\n%\nX3\n").find("5: words after the end"), std::string::npos);
+  EXPECT_EQ(lines_of("%\nO0001 (A)\nG0 X1 Y1 Z1\nX2\nM30\n%\n"), "4* ");
+}
+
+TEST(VerifyWords, AHalfCircleByRadiusHasItsCentreInTheMiddle) {
+  const auto moves = read_moves({"p.ngc", kBegin + "G2 X2010.002 R1000 F9\n"}, 0);
+  ASSERT_TRUE(moves) << moves.error().message;
+  EXPECT_EQ(moves->back().centre.y, 10);
+}
+
+}  // namespace
+}  // namespace lekalo::verify
