@@ -144,7 +144,7 @@ TEST(VerifyWords, WordsThatDoNotFitTogetherAreRefusedWithTheLine) {
       {"N10 N20\n", "4: N does not begin its block"},
       {"N1.5 X1\n", "4: N is not followed by a plain number"},
       {"N-1\n", "4: N is not followed by a plain number"},
-      {"N123456\n", "4: N has more than 5 digits"},
+      {"N1234567890\n", "4: N has more than 9 digits"},
       {"O100\n", "4: subprograms are not understood"},
       {"G0 X1\rY2\n", "4: a carriage return inside a line"},
       {"; note\rG1 X200\n", "4: a carriage return inside a line"},

@@ -25,8 +25,8 @@ constexpr double kHalfCircle = 1 - 1e-12;
 /// LinuxCNC takes ends closer than 1e-6 rad, seen from the centre, for one point, and the arc for a full
 /// turn.
 constexpr double kSmallestSweep = 2e-6;
-/// LinuxCNC reads no longer lines, their ends included, and no more M words or digits of N in one.
-constexpr std::size_t kLongestLine = 252, kMostMWords = 4, kMostDigitsOfN = 5;
+/// LinuxCNC reads no longer lines, and no more M words in one. More digits of N than these fit no integer.
+constexpr std::size_t kLongestLine = 252, kMostMWords = 4, kMostDigitsOfN = 9;
 
 struct Block {
   std::size_t line = 0;
