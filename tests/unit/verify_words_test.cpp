@@ -182,11 +182,10 @@ TEST(VerifyWords, ThePlaceBeforeTheFirstMotionCutsNothing) {
 }
 
 TEST(VerifyWords, WhatLinuxcncReadsWithoutHarmIsRead) {
-  EXPECT_EQ(
-      lines_of(
-          "%\n(a; b) ; c (d\nN10 g21 G90\r\nN20G0Z5.\n\nN30 G00 X+1.Y-.5 S1000 M03 M8\nG4 P0.5\n"
-          "G64 P0.01 Q.01 G1 X2 F9\nG03 X2 I1 P2 Z4\nM64 P1\nG61.1 G97 G98 G94 F9\nM0\nX3 I.5\nM9 M5\nM30\n%\n"),
-      "8 9 13 ");
+  EXPECT_EQ(lines_of("%\n(a; b) ; c (d\nN10 g21 G90\r\nN20G0Z5.\n\nN30 G00 X+1.Y-.5 S1000 M03 M8\nG4 P0.5\n"
+                     "G64 P0.01 Q.01 G1 X2 F9\nG03 X2 I1 P2 Z4\nM64 P1\nG61.1 G97 G98 G94 F9\nM0\nX3 I.5\nM9 "
+                     "M5\nM30\n%\n"),
+            "8 9 13 ");
   // % ends a program that begins with it.
   EXPECT_EQ(lines_of("\n %\nG0 X1 Y1 Z1\nX2\n%\n(nothing)\n"), "4* ");
   EXPECT_NE(lines_of("%\nG0 X1 Y1 Z1\nX2\n%\nX3\n").find("5: words after the end"), std::string::npos);
