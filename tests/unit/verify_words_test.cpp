@@ -177,6 +177,8 @@ TEST(VerifyWords, ThePlaceBeforeTheFirstMotionCutsNothing) {
             "p.ngc:2: G0 below Z 0 from a place that no block has said");
   EXPECT_EQ(lines_of("G21 G90\nG0 Z5\nG0 X1 Y1\nG0 Z1\nM2\n"), "4* ");
   EXPECT_TRUE(read_moves({"p.ngc", "G0 X1 Y1 Z-1\nG1 X2 F9\n"}, -1));
+  for (const char* program : {"G0 X1 Y1\nG55\nG0 Z5\nG1 X2 F9\n", "G0 Z5\nG43 H1\nG0 X1 Y1\nG1 X2 F9\n"})
+    EXPECT_EQ(complaint_of(program), "p.ngc:4: a motion with feed from a place that no block has said");
   // The length of the tool and the place of the part are chosen on the way to the first place.
   EXPECT_EQ(lines_of("G21 G90\nT1 M6\nG0 X1 Y1\nG54\nG0 X1 Y1\nG43 H1 Z5\nG43 H1 G54 G0 Z1\nM2\n"), "7* ");
 }
@@ -193,7 +195,7 @@ TEST(VerifyWords, WhatLinuxcncReadsWithoutHarmIsRead) {
 }
 
 TEST(VerifyWords, AHalfCircleByRadiusHasItsCentreInTheMiddle) {
-  const auto moves = read_moves({"p.ngc", kBegin + "G2 X2010.002 R1000 F9\n"}, 0);
+  const auto moves = read_moves({"p.ngc", kBegin + "G2 X2009.999999999 R1000 F9\n"}, 0);
   ASSERT_TRUE(moves) << moves.error().message;
   EXPECT_EQ(moves->back().centre.y, 10);
 }
