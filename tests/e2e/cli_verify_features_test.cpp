@@ -194,6 +194,11 @@ TEST_F(VerifyFeatures, AResultThatSaysNothingOfDemandsDoesNotPassBesideAFileThat
     EXPECT_EQ(verify().status, 0);
     result["inputs"].push_back(result_["inputs"][2]);
     EXPECT_EQ(verify(result).status, 4);
+    const std::string alone = R"({"minimum": 0.3})";
+    write_bytes(folder_ / "features.json", alone);
+    result["inputs"][2]["sha256"] = io::sha256(alone);
+    EXPECT_EQ(verify(result).status, 4);
+    restore();
   }
 }
 
