@@ -37,7 +37,7 @@ void try_documents(std::string_view text) {
   constexpr std::string_view kEndings[]{".csv", ".json", ".dxf", ".xyz"};
   const unsigned choice = text.empty() ? 0U : static_cast<unsigned char>(text[0]);
   text.remove_prefix(text.empty() ? 0 : 1);
-  std::string_view pieces[4];
+  std::string_view pieces[5];
   for (std::string_view& piece : pieces) {
     const std::size_t end = std::min(text.find('\0'), text.size());
     piece = text.substr(0, end);
@@ -48,6 +48,7 @@ void try_documents(std::string_view text) {
                               {"blank" + std::string(kEndings[choice / 4 % 4]), pieces[2]},
                               {}};
   if (!pieces[3].empty()) inputs.certificate = {"certificate.json", pieces[3]};
+  if (!pieces[4].empty()) inputs.features = {"features.json", pieces[4]};
   check_report(verify::verify_locate(inputs));
 }
 

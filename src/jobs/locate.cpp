@@ -135,10 +135,12 @@ void place_proof(const LocateJob& job, Located& made) {
 }
 
 /// Puts the bytes about to be handed out before the independent checker. Where a proof was made it has to
-/// hold, also one that is too long to be kept.
+/// hold, also one that is too long to be kept. Edges of features that the checker cannot rebuild may stay
+/// open.
 Result<void> self_check(const LocateJob& job, const Located& made) {
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
+  if (job.features) inputs.features = {job.features->name, job.features->bytes};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
   if (inputs.certificate && !made.document.certificate_file) {
@@ -151,7 +153,8 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
   const auto wanted = job.options.method != LocateMethod::certified ? verify::Verdict::unproved
                       : leaves_choice_open(made.document)           ? verify::Verdict::incomplete
                                                                     : verify::Verdict::confirmed;
-  if (report && report->verdict == wanted) return {};
+  const bool edges_open = job.features && report && report->verdict == verify::Verdict::incomplete;
+  if (edges_open || (report && report->verdict == wanted)) return {};
   const std::string why =
       !report ? "self-check: " + report.error().message
               : "self-check refuted the result: " +

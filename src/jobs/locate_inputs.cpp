@@ -120,8 +120,8 @@ Result<LocateInputs> read_inputs(const LocateJob& job) {
   LEKALO_CHECK(read_earlier(job, in));
   locate::Demands demands{{}, o.min_allowance, o.criterion, o.give_up, o.trade_off};
   LEKALO_CHECK(apply_features(job, demands, in));
-  const bool plain =
-      demands.features.empty() && !in.part_cut && o.trade_off == 0 && o.criterion.choose == nullptr;
+  const bool plain = demands.features.empty() && demands.minimum == o.min_allowance && !in.part_cut &&
+                     o.trade_off == 0 && o.criterion.choose == nullptr;
   in.problem = {
       std::move(in.part.outline), std::move(in.blank.outline), window_of(o), o.mirror, o.locked, {}};
   if (!plain) in.problem.demands = std::move(demands);

@@ -20,8 +20,11 @@ class Evidence {
 
   Result<void> gather() {
     LEKALO_TRY(const io::WrittenResult written, io::read_result(result_.bytes, result_.name));
-    LEKALO_TRY(part_, input(written, "part"));
-    LEKALO_TRY(blank_, input(written, "blank"));
+    for (const char* role : {"part", "blank"})
+      if (written.input(role) == nullptr)
+        return failure(ErrorCode::bad_input,
+                       fmt::format("{}: \"inputs\" names no file with the role \"{}\"", result_.name, role));
+    for (const io::InputRecord& record : written.inputs) LEKALO_CHECK(take(record, written));
     if (written.certificate_file) {
       LEKALO_TRY(certificate_, needed("certificate", *written.certificate_file));
     }
@@ -30,8 +33,9 @@ class Evidence {
   }
 
   [[nodiscard]] Result<Verified> judged() const {
-    verify::LocateInputs inputs{document(result_), document(part_), document(blank_), {}};
+    verify::LocateInputs inputs{document(result_), document(*input("part")), document(*input("blank")), {}};
     if (certificate_) inputs.certificate = document(*certificate_);
+    if (const File* const features = input("features")) inputs.features = document(*features);
     Verified verified;
     LEKALO_TRY(verified.report, verify::verify_locate(inputs));
     verify::LocateReport& report = verified.report;
@@ -62,12 +66,31 @@ class Evidence {
     return *std::move(file);
   }
 
-  Result<File> input(const io::WrittenResult& written, const std::string& role) {
-    const io::InputRecord* const record = written.input(role);
-    if (record == nullptr)
+  /// Takes the file of an input, with a note where the result has something from it that is not rechecked.
+  Result<void> take(const io::InputRecord& record, const io::WrittenResult& written) {
+    const std::string& role = record.role;
+    if (input(role) != nullptr)
       return failure(ErrorCode::bad_input,
-                     fmt::format("{}: \"inputs\" names no file with the role \"{}\"", result_.name, role));
-    return needed(role, record->file);
+                     fmt::format("{}: \"inputs\" names two files with the role \"{}\"", result_.name, role));
+    LEKALO_TRY(File file, needed(role, record.file));
+    if (const std::string claim = left_out(role, written); !claim.empty())
+      notes_.push_back(fmt::format("of the {} file {} only the bytes were compared: {} was not rechecked",
+                                   role, file.name, claim));
+    inputs_.emplace_back(role, std::move(file));
+    return {};
+  }
+
+  /// Returns the claim that would need more than the bytes of an input; empty: there is none.
+  static std::string left_out(const std::string& role, const io::WrittenResult& written) {
+    if (role == "part" || role == "blank" || role == "features") return "";
+    if (role == "nc") return written.nc_output ? "that the program of the result is this one, moved," : "";
+    return role == "last-result" ? "the comparison with it" : "what the result has from it";
+  }
+
+  [[nodiscard]] const File* input(const std::string& role) const {
+    for (const auto& [name, file] : inputs_)
+      if (name == role) return &file;
+    return nullptr;
   }
 
   void compare_program(const io::FileRecord& written) {
@@ -96,8 +119,7 @@ class Evidence {
     io::JsonWriter json = begin_document("lekalo-verify");
     json.fields({{"status", name_of(report.verdict)}, {"units", "mm"}}).key("inputs").begin_list();
     write_file(json, "result", result_);
-    write_file(json, "part", part_);
-    write_file(json, "blank", blank_);
+    for (const auto& [role, file] : inputs_) write_file(json, role.c_str(), file);
     if (certificate_) write_file(json, "certificate", *certificate_);
     json.end().key("warnings").list(report.notes);
     json.fields({{"seed", 0},
@@ -114,7 +136,8 @@ class Evidence {
 
   const File& result_;
   const FileFinder& find_;
-  File part_, blank_;
+  /// With their roles, in the order of the result.
+  std::vector<std::pair<std::string, File>> inputs_;
   std::optional<File> certificate_;
   std::vector<std::string> mismatches_, notes_;
 };

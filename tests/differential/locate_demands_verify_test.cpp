@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/locate/demand.hpp"
@@ -46,10 +47,26 @@ io::LocateDocument document_of(const locate::DemandProblem& problem, const locat
   return d;
 }
 
+/// The file of features that makes these demands.
+std::string feature_file(const io::DemandRecord& demands) {
+  using Json = nlohmann::json;
+  Json file{{"units", "mm"}, {"minimum", demands.minimum}, {"features", Json::array()}};
+  for (const locate::Feature& f : demands.features) {
+    Json one{{"name", f.name}, {"edges", f.edges}, {"minimum", f.minimum}, {"scale", f.scale}};
+    if (f.target) one["target"] = *f.target;
+    if (f.maximum) one["maximum"] = *f.maximum;
+    file["features"].push_back(std::move(one));
+  }
+  return file.dump();
+}
+
 verify::LocateReport checked(const io::LocateDocument& document) {
-  const std::string text = io::result_json(document);
-  const auto report =
-      verify::verify_locate({{"result.json", text}, {"part.json", "{}"}, {"blank.json", "{}"}, std::nullopt});
+  const std::string text = io::result_json(document), features = feature_file(*document.demands);
+  const auto report = verify::verify_locate({{"result.json", text},
+                                             {"part.json", "{}"},
+                                             {"blank.json", "{}"},
+                                             std::nullopt,
+                                             verify::Document{"features.json", features}});
   EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
   return report.value_or(verify::LocateReport{});
 }

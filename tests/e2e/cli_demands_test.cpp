@@ -83,6 +83,16 @@ TEST_F(Demands, IgnoredRegionsDoNotCount) {
   const Json result = located(bracket({"--features", "features.json"}));
   EXPECT_EQ(result["part_cut"], true);
   EXPECT_GT(result["demands"]["margin"], 1.4);
+  // The checker does not cut the part itself.
+  EXPECT_EQ(verified(), 1);
+  expect_lie_is_seen("/part_cut", false);
+}
+
+TEST_F(Demands, AMinimumOfTheFileAloneCounts) {
+  write_bytes(folder_ / "features.json", R"({"units": "mm", "minimum": 1.2})");
+  const Json result = located(bracket({"--features", "features.json"}));
+  EXPECT_EQ(result["demands"]["minimum"], 1.2);
+  EXPECT_LT(result["demands"]["margin"], 0.6);
   EXPECT_EQ(verified(), 0);
 }
 

@@ -37,7 +37,7 @@ TEST_F(Verify, ConfirmsWhatWasNotTouched) {
   EXPECT_EQ(report["format"]["name"], "lekalo-verify");
   EXPECT_EQ(report["status"], "confirmed");
   EXPECT_EQ(report["findings"].size(), 0U);
-  EXPECT_EQ(report["inputs"].size(), 3U);
+  EXPECT_EQ(report["inputs"].size(), 4U);
   EXPECT_GT(report["intervals"], 0);
   const double low = std::stod(report["clearance_low"].get<std::string>());
   EXPECT_GE(low, result_["clearance"].get<double>());
@@ -63,6 +63,14 @@ TEST_F(Verify, RefutesAPoseThatWasMoved) {
 }
 
 TEST_F(Verify, RefutesABoundThatIsTooSmall) { EXPECT_EQ(verify_moved("/upper_bound", -1e-3), 4); }
+
+TEST_F(Verify, RefutesABoundBelowTheClearanceAlsoWithoutACertificate) {
+  Json changed = result_;
+  changed["certificate"] = nullptr;
+  changed["upper_bound"] = 1e-9;
+  changed["gap"] = 1e-9 - changed["clearance"].get<double>();
+  EXPECT_EQ(verify_changed(changed).status, 4);
+}
 
 TEST_F(Verify, RefutesACertificateWithAHole) {
   Json changed = result_;
@@ -147,6 +155,30 @@ TEST_F(Verify, SaysWhichFileIsMissing) {
   const Ran ran = verify();
   EXPECT_EQ(ran.status, 3);
   EXPECT_NE(ran.err.find("blank.csv"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verify, ReadsTheProgramThatWasMovedToo) {
+  write_bytes(folder_ / "part.nc", read_bytes(folder_ / "part.nc") + "M0\n");
+  const Ran ran = verify();
+  EXPECT_EQ(ran.status, 4);
+  EXPECT_NE(ran.err.find("part.nc"), std::string::npos) << ran.err;
+  fs::rename(folder_ / "part.nc", folder_ / "edited.nc");
+  EXPECT_EQ(verify().status, 3);
+  EXPECT_EQ(verify({"--nc", "edited.nc"}).status, 4);
+  EXPECT_EQ(verify({"--features", "edited.nc"}).status, 2);
+  EXPECT_EQ(verify({"--compare", "edited.nc"}).status, 2);
+}
+
+TEST_F(Verify, ReadsTheEarlierResultToo) {
+  ASSERT_EQ(run(folder_.path(), kLocatePlate + Words{"-o", "again.json", "--compare", "out.json"}).status, 0);
+  const Ran ran = run(folder_.path(), {"verify", "again.json"});
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("the comparison with it was not rechecked"), std::string::npos) << ran.err;
+  fs::rename(folder_ / "out.json", folder_ / "first.json");
+  EXPECT_EQ(run(folder_.path(), {"verify", "again.json"}).status, 3);
+  EXPECT_EQ(run(folder_.path(), {"verify", "again.json", "--compare", "first.json"}).status, 0);
+  write_bytes(folder_ / "first.json", read_bytes(folder_ / "first.json") + " ");
+  EXPECT_EQ(run(folder_.path(), {"verify", "again.json", "--compare", "first.json"}).status, 4);
 }
 
 TEST_F(Verify, FindsTheFilesBesideTheResultAndWhereItIsTold) {

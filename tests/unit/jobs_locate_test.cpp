@@ -60,6 +60,9 @@ verify::Verdict verdict(const LocateJob& job, const Located& located) {
              [&](const std::string& role, const std::string&) -> Result<std::optional<File>> {
                if (role == "certificate") return File{"c.json", located.certificate};
                if (role == "part") return job.part;
+               if (role == "nc") return job.program;
+               if (role == "features") return job.features;
+               if (role == "last-result") return job.earlier;
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
              });
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);

@@ -18,7 +18,7 @@ class JobsVerify : public testing::Test {
     return disk::read_file(cases::source_dir() + "/tests/corpus/data/written-0.1/" + name).value();
   }
   void SetUp() override {
-    for (const char* name : {"example-1-part.csv", "example-1-blank.csv", "convex.nc"})
+    for (const char* name : {"example-1-part.csv", "example-1-blank.csv", "part.nc", "convex.nc"})
       files_[name] = bytes(name);
   }
   [[nodiscard]] Result<Verified> verified(const std::string& result) const {
@@ -38,6 +38,36 @@ TEST_F(JobsVerify, AResultIsConfirmedFromWhatTheFinderGives) {
   EXPECT_EQ(done->report.verdict, verify::Verdict::confirmed);
   EXPECT_TRUE(done->report.findings.empty());
   EXPECT_EQ(cases::Json::parse(done->json)["status"], "confirmed");
+}
+
+TEST_F(JobsVerify, EveryInputIsReadAndOfThoseNotUsedANoteSaysSo) {
+  const Result<Verified> done = verified(bytes("convex.json"));
+  ASSERT_TRUE(done) << done.error().message;
+  std::string roles;
+  const auto report = cases::Json::parse(done->json);
+  for (const auto& input : report["inputs"]) roles += input["role"].get<std::string>() + " ";
+  EXPECT_EQ(roles, "result part blank nc ");
+  ASSERT_FALSE(done->report.notes.empty());
+  EXPECT_NE(done->report.notes.back().find("of the nc file part.nc only the bytes were compared"),
+            std::string::npos);
+
+  files_["part.nc"] += "M0\n";
+  const Result<Verified> other = verified(bytes("convex.json"));
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->report.verdict, verify::Verdict::refuted);
+  files_.erase("part.nc");
+  const Result<Verified> none = verified(bytes("convex.json"));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::bad_input);
+  EXPECT_NE(none.error().message.find("the nc file part.nc is not there"), std::string::npos);
+}
+
+TEST_F(JobsVerify, TwoInputsOfOneRoleAreRefused) {
+  cases::Json result = cases::Json::parse(bytes("convex.json"));
+  result["inputs"].push_back(result["inputs"][0]);
+  const Result<Verified> done = verified(result.dump());
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("two files with the role \"part\""), std::string::npos);
 }
 
 TEST_F(JobsVerify, OtherBytesThanTheResultNamesAreAFinding) {

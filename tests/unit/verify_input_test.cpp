@@ -146,7 +146,8 @@ TEST(VerifyInput, InchesAreExactly25Point4Mm) {
     files.blank = text;
     set_pose(files, 25.4, 25.4, 0);
     files["clearance"] = "25.4";
-    EXPECT_EQ(findings(check(files)).find("clearance"), std::string::npos) << name << findings(check(files));
+    EXPECT_EQ(findings(check(files)).find("clearance 25.4 mm"), std::string::npos)
+        << name << findings(check(files));
     files["clearance"] = "25.40000000000000000000000000000000000000001";
     EXPECT_NE(findings(check(files)).find("clearance 25.4 mm is above"), std::string::npos) << name;
   }

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "lekalo/disk/files.hpp"
@@ -24,8 +26,22 @@ std::string where_is(const std::string& path, const std::string& result_path) {
   return fs::exists(beside, error) ? beside.string() : path;
 }
 
+/// The options that say where files are, each with the role of its file.
+struct Place {
+  const char *option, *role;
+  std::string VerifyOptions::*path;
+};
+constexpr std::array<Place, 6> kPlaces{{{"--part", "part", &VerifyOptions::part},
+                                        {"--blank", "blank", &VerifyOptions::blank},
+                                        {"--features", "features", &VerifyOptions::features},
+                                        {"--nc", "nc", &VerifyOptions::program},
+                                        {"--compare", "last-result", &VerifyOptions::earlier},
+                                        {"--certificate", "certificate", &VerifyOptions::certificate}}};
+
 std::string given_instead(const VerifyOptions& o, const std::string& role) {
-  return role == "part" ? o.part : role == "blank" ? o.blank : role == "certificate" ? o.certificate : "";
+  for (const Place& place : kPlaces)
+    if (role == place.role) return o.*place.path;
+  return "";
 }
 
 /// A file of the result, where an option says or where the result does. A program that is not there may have
@@ -42,11 +58,16 @@ Result<std::optional<jobs::File>> find(const VerifyOptions& o, const std::string
 
 /// Refuses an option for a file that the result does not name.
 Result<void> check_words(const VerifyOptions& o, const std::string& result_bytes) {
-  if (o.certificate.empty()) return {};
-  LEKALO_TRY(const io::WrittenResult result, io::read_result(result_bytes, o.result));
-  if (result.certificate_file) return {};
-  return failure(ErrorCode::usage,
-                 fmt::format("--certificate: the result {} names no certificate file", o.result));
+  for (const Place& place : kPlaces) {
+    if ((o.*place.path).empty()) continue;
+    LEKALO_TRY(const io::WrittenResult result, io::read_result(result_bytes, o.result));
+    const bool named = place.role == std::string_view("certificate") ? result.certificate_file.has_value()
+                                                                     : result.input(place.role) != nullptr;
+    if (!named)
+      return failure(ErrorCode::usage,
+                     fmt::format("{}: the result {} names no {} file", place.option, o.result, place.role));
+  }
+  return {};
 }
 
 int exit_status_of(verify::Verdict verdict) {
@@ -67,8 +88,7 @@ const char* sentence_of(verify::Verdict verdict) {
     case verify::Verdict::confirmed:
       return "Confirmed: the clearance and the bound hold.\n";
     case verify::Verdict::incomplete:
-      return "Incomplete: the clearance and the bound hold, but the choice of the placement was not "
-             "rechecked.\n";
+      return "Incomplete: the clearance and the bound hold, but not everything was rechecked.\n";
     case verify::Verdict::unproved:
       return "Unproved: the clearance holds, but there is no certificate for a bound.\n";
     case verify::Verdict::refuted:

@@ -32,7 +32,8 @@ struct LocateOptions {
 
 struct VerifyOptions {
   std::string result;
-  std::string part, blank, certificate;  ///< instead of the paths in the result; may be empty
+  /// Instead of the paths in the result; may be empty.
+  std::string part, blank, features, program, earlier, certificate;
   bool json = false;
 };
 

@@ -10,8 +10,9 @@
 
 namespace lekalo::jobs {
 
-/// Finds a file that a result names: `role` is "part", "blank", "certificate" or "NC program", `path` as it
-/// stands in the result. Without a value: there is no such file. An error: it is there and cannot be read.
+/// Finds a file that a result names: `role` is that of one of its inputs ("part", "blank", "features", "nc",
+/// "last-result"), "certificate", or "NC program" for the one that was written; `path` as it stands in the
+/// result. Without a value: there is no such file. An error: it is there and cannot be read.
 using FileFinder =
     std::function<Result<std::optional<File>>(const std::string& role, const std::string& path)>;
 
@@ -23,11 +24,13 @@ struct Verified {
 };
 
 /// Rechecks a result of a localisation against the files that it names: their digests, and everything that
-/// verify::verify_locate proves. The NC program is no evidence for the placement, but a result that names
+/// verify::verify_locate proves. Every input has to be there; notes name those of which only the bytes are
+/// compared. The NC program that was written is no evidence for the placement, but a result that names
 /// other bytes than those found is not true; one that is not there may have gone to the machine, and a note
 /// says so.
 ///
-/// Errors: bad_input where the result, the part, the blank or the certificate is not there or cannot be read.
+/// Errors: bad_input where the result, one of its inputs or the certificate is not there or cannot be read,
+/// and where two inputs have one role.
 [[nodiscard]] Result<Verified> verify(const File& result, const FileFinder& find);
 
 }  // namespace lekalo::jobs

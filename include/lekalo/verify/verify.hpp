@@ -23,13 +23,17 @@ struct LocateInputs {
   Document result, part, blank;
   /// Given when the result names a certificate file.
   std::optional<Document> certificate;
+  /// Given when the result names a file of features.
+  std::optional<Document> features = std::nullopt;
 };
 
 enum class Verdict {
-  confirmed,   ///< clearance, bound and certificate hold
-  incomplete,  ///< they hold, but the placement was chosen by a criterion that the checker does not know
-  unproved,    ///< the clearance holds; there is no certificate to check the bound with
-  refuted      ///< something written is not true
+  confirmed,  ///< clearance, bound and certificate hold
+  /// They hold, but a claim was not rechecked, which a note names: the choice by a criterion that the checker
+  /// does not know, or the edges of a feature that it cannot rebuild.
+  incomplete,
+  unproved,  ///< the clearance holds; there is no certificate to check the bound with
+  refuted    ///< something written is not true
 };
 
 /// True for the criteria of `lekalo locate` whose choice among placements is rechecked. Of the others is held

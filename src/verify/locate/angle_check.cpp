@@ -114,6 +114,8 @@ class AngleCheck {
     check_trim();
     check_placements();
     check_derived();
+    if (inputs_.features)
+      find("there is a file of features, but a result for convex outlines has no demands");
     EdgeLines edges(scene_.blank(), result_.trim ? std::vector<std::size_t>() : result_.blank.dropped,
                     precision_);
     check_contacts(edges);
@@ -338,6 +340,9 @@ void AngleCheck::check_derived() {
   if (r.gap.has_value() != r.upper_bound.has_value()) {
     find("only one of upper_bound and gap is given");
   } else if (r.gap) {
+    if (compare(*r.upper_bound, r.best.clearance) < 0)
+      find("upper_bound {} is below clearance {}", approximate(*r.upper_bound),
+           approximate(r.best.clearance));
     check_difference("gap", *r.gap, *r.upper_bound, r.best.clearance);
   }
   if (compare(r.best.clearance, r.min_allowance) >= 0) {

@@ -69,7 +69,8 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
                          {"shift", &d.shift},
                          {"bound", &d.bound}})
     *to = enclosed(fields.number(key));
-  for (auto [key, to] : {std::pair{"give_up", &d.give_up},
+  for (auto [key, to] : {std::pair{"minimum", &d.minimum_as_written},
+                         {"give_up", &d.give_up},
                          {"margin", &d.margin_as_written},
                          {"margin_bound", &d.margin_bound_as_written},
                          {"margin_found", &d.margin_found},
@@ -97,9 +98,14 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
     f.name = feature.text("name");
     feature.each("edges",
                  [&](Json edge, const std::string& at) { f.edges.push_back(feature.index_of(edge, at)); });
-    f.minimum = enclosed(feature.number("minimum")), f.scale = enclosed(feature.number("scale"));
-    if (const auto most = feature.number_or_null("maximum")) f.maximum = enclosed(*most);
-    if (const auto off = feature.number_or_null("finished")) f.finished = enclosed(*off);
+    const Decimal minimum = feature.number("minimum"), scale = feature.number("scale");
+    f.minimum = enclosed(minimum), f.scale = enclosed(scale);
+    f.numbers.minimum = approximate(minimum), f.numbers.scale = approximate(scale);
+    if (const auto most = feature.number_or_null("maximum"))
+      f.maximum = enclosed(*most), f.numbers.maximum = approximate(*most);
+    if (const auto off = feature.number_or_null("finished"))
+      f.finished = enclosed(*off), f.numbers.finished = approximate(*off);
+    if (const auto aim = feature.number_or_null("target")) f.numbers.target = approximate(*aim);
     if (f.minimum.low < 0 || !is_positive(f.scale) || (f.maximum && f.maximum->low < 0) ||
         (f.finished && !is_positive(*f.finished)))
       feature.complain(fmt::format("{} has a number out of range", path));
@@ -273,6 +279,8 @@ bool DemandCheck::leaves_choice_open() const {
 void DemandCheck::check_criteria(bool optimal) {
   if (above(d_.margin_found, d_.margin_bound_as_written))
     find("margin_found {} is above margin_bound", approximate(d_.margin_found));
+  if (above(d_.margin_as_written, d_.margin_bound_as_written))
+    find("margin {} is above margin_bound", approximate(d_.margin_as_written));
   if (optimal && above(d_.margin_bound_as_written - d_.margin_found, d_.margin_gap) &&
       differ(d_.margin_bound_as_written - d_.margin_found, d_.margin_gap, d_.margin_found))
     find("status is optimal, but margin_bound is {} above margin_found, more than {}",

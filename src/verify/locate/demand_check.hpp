@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cover_tree.hpp"
+#include "feature_file.hpp"
 #include "verify/shape/shape.hpp"
 
 namespace lekalo::verify {
@@ -15,6 +16,7 @@ struct WrittenFeature {
   std::vector<std::size_t> edges;
   Span minimum, scale;
   std::optional<Span> maximum, finished;
+  FeatureNumbers numbers;  ///< the same, to be held against the file of features
 };
 
 /// The answer to the second criterion as a result writes it, with the numbers of its certificate.
@@ -38,7 +40,8 @@ struct WrittenDemands {
   Span minimum;
   std::vector<WrittenFeature> features;
   std::string criterion;
-  Decimal give_up, margin_as_written, margin_found, margin_gap, margin_bound_as_written, largest_as_written;
+  Decimal minimum_as_written, give_up, margin_as_written, margin_found, margin_gap, margin_bound_as_written,
+      largest_as_written;
   Span margin, margin_bound, largest;
   Span grown_for, shift, bound;
   std::optional<WrittenSecond> second;

@@ -5,6 +5,7 @@
 
 #include "cover_tree.hpp"
 #include "demand_check.hpp"
+#include "feature_check.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/shape/region_clearance.hpp"
 #include "verify/shape/shape_distance.hpp"
@@ -40,6 +41,9 @@ struct RegionDocument {
   Decimal x, y, theta, theta_deg;
   bool mirrored = false;
   Span clearance, upper_bound, gap, min_allowance, shortfall, part_tolerance, blank_tolerance;
+  Decimal min_allowance_as_written, shortfall_as_written;
+  /// True if there is an upper_bound or gap beside demands, although the margin has the bound then.
+  bool bound_beside_demands = false;
   std::string mirror;
   Decimal window_from, window_to;
   Shape part, blank;
@@ -64,12 +68,17 @@ class PoseCheck {
     check_shape("part", r_.part);
     check_shape("blank", r_.blank);
     place();
-    check_input("part", inputs_.part, r_.part, r_.part_tolerance);
+    const bool part_is_region = check_input("part", inputs_.part, r_.part, r_.part_tolerance);
     check_input("blank", inputs_.blank, r_.blank, r_.blank_tolerance);
     check_clearance();
     check_contacts();
     check_derived();
     check_pose();
+    const bool features_whole =
+        check_features(inputs_.features,
+                       {r_.demands ? &*r_.demands : nullptr, r_.min_allowance_as_written, r_.part,
+                        r_.part_cut, part_is_region},
+                       report_);
     std::optional<DemandCheck> demands;
     if (r_.demands) {
       demands.emplace(*r_.demands, r_.part, placed_, r_.blank, r_.part_tolerance + r_.blank_tolerance,
@@ -89,7 +98,7 @@ class PoseCheck {
           excerpt(r_.demands->criterion)));
     report_.verdict = !report_.findings.empty() ? Verdict::refuted
                       : !proved                 ? Verdict::unproved
-                      : open                    ? Verdict::incomplete
+                      : open || !features_whole ? Verdict::incomplete
                                                 : Verdict::confirmed;
     return std::move(report_);
   }
@@ -106,13 +115,15 @@ class PoseCheck {
   void read();
   void place();
   void check_shape(const char* role, const Shape& shape);
-  void check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
+  /// Returns whether the file is a region file, which is rechecked.
+  bool check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
   void check_clearance();
   void check_pose();
   void check_allowed(const std::string& whose, const Decimal& x, const Decimal& y, const Decimal& angle,
                      bool mirrored);
   void check_contacts();
   void check_derived();
+  void check_beside_demands();
   void check_side();
   void check_curve();
   /// The subject of a certificate: for demands it is the grown part and the caps.
@@ -157,6 +168,8 @@ void PoseCheck::read() {
                          {"min_allowance", &r_.min_allowance},
                          {"shortfall", &r_.shortfall}})
     *to = enclosed(fields.number(key));
+  r_.min_allowance_as_written = fields.number("min_allowance");
+  r_.shortfall_as_written = fields.number("shortfall");
   std::vector<Decimal> ends;
   fields.each("window_deg",
               [&](Json item, const std::string& path) { ends.push_back(fields.number_of(item, path)); });
@@ -183,6 +196,8 @@ void PoseCheck::read() {
   const Json demands = fields.get("demands");
   if (!demands.is_null()) {
     r_.demands = read_demands(demands, complaint_);
+    for (const std::string_view key : {"upper_bound", "gap"})
+      if (fields.number_or_null(key)) r_.bound_beside_demands = true;
   } else {
     r_.upper_bound = enclosed(fields.number("upper_bound")), r_.gap = enclosed(fields.number("gap"));
   }
@@ -222,7 +237,7 @@ void PoseCheck::check_shape(const char* role, const Shape& shape) {
 
 /// Reports a shape that was used and is not the shape of its region file. Files of other kinds become regions
 /// by rules that are not rechecked here.
-void PoseCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
+bool PoseCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
   const auto root = parse_json(file.bytes, file.name);
   const auto has = [&](std::string_view key) {
     std::array<Json, 1> found;
@@ -232,7 +247,7 @@ void PoseCheck::check_input(const char* role, const Document& file, const Shape&
   if (cut || (!has("outer") && !has("pieces"))) {
     report_.notes.push_back(
         fmt::format("how {} became the region of the {} was not rechecked", file.name, role));
-    return;
+    return false;
   }
   // A file that does not say its unit may have been given one on the command line.
   std::string complaint;
@@ -241,10 +256,14 @@ void PoseCheck::check_input(const char* role, const Document& file, const Shape&
   for (const bool inch : {false, true}) {
     if (inch && said) continue;
     const Shape written = read_shape(*root, file.name, complaint, inch);
-    if (!complaint.empty()) return find("the {} used is not the shape in {}: {}", role, file.name, complaint);
+    if (!complaint.empty()) {
+      find("the {} used is not the shape in {}: {}", role, file.name, complaint);
+      return true;
+    }
     same = same || same_edges(written, used, tolerance.high);
   }
   if (!same) find("the {} used is not the shape in {}", role, file.name);
+  return true;
 }
 
 void PoseCheck::check_clearance() {
@@ -344,7 +363,12 @@ void PoseCheck::check_derived() {
         1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
     return written.low > real.high + slack || written.high < real.low - slack;
   };
-  if (r_.demands) return check_side();
+  if (r_.demands) {
+    check_beside_demands();
+    return check_side();
+  }
+  if (r_.upper_bound.high < r_.clearance.low)
+    find("upper_bound {} is below clearance {}", r_.upper_bound.low, r_.clearance.low);
   const Span gap = r_.upper_bound - r_.clearance;
   const Span widened{gap.low - 1e-15 * std::abs(r_.upper_bound.high),
                      gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
@@ -354,6 +378,19 @@ void PoseCheck::check_derived() {
                         : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
     find("shortfall is not min_allowance less clearance");
   check_side();
+}
+
+/// With demands what is missed is that of the margin, which also has the bound.
+void PoseCheck::check_beside_demands() {
+  if (r_.bound_beside_demands) find("upper_bound and gap are not null, but the bound is that of the margin");
+  const Decimal& margin = r_.demands->margin_as_written;
+  const Decimal missing = sgn(margin.digits) < 0 ? Decimal{} - margin : Decimal{};
+  if (compare(r_.shortfall_as_written, missing) != 0)
+    find("shortfall is {}, but the margin {} makes it {}", approximate(r_.shortfall_as_written),
+         approximate(margin), approximate(missing));
+  if (sgn(margin.digits) < 0)
+    report_.notes.push_back(fmt::format(
+        "that no more than {} mm is missing at the placement was not rechecked", approximate(missing)));
 }
 
 void PoseCheck::check_side() {
