@@ -1,9 +1,12 @@
 #include "lekalo/locate/region.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/phi/region.hpp"
 #include "locate/search/search_limits.hpp"
 #include "pose_search.hpp"
@@ -55,8 +58,6 @@ double largest(const Box& box) {
 Point middle(const Box& box) {
   return {0.5 * box.low.x + 0.5 * box.high.x, 0.5 * box.low.y + 0.5 * box.high.y};
 }
-
-constexpr double kLargestShift = 1e9;  ///< mm
 
 std::optional<std::uint32_t> optional_cap(std::uint32_t cap) {
   return cap == kNoCap ? std::nullopt : std::optional(cap);
@@ -254,8 +255,9 @@ Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOp
   if (problem.part.empty() || problem.blank.empty())
     return failure(ErrorCode::bad_input, "part and blank must have an outline");
   for (const std::optional<double>& locked : {problem.locked.x, problem.locked.y})
-    if (locked && !(std::abs(*locked) <= kLargestShift))
-      return failure(ErrorCode::usage, "a locked x or y must be a number up to 1e9");
+    if (locked && !(std::abs(*locked) <= limits::kLargestCoordinate))
+      return failure(ErrorCode::usage,
+                     fmt::format("a locked x or y must be a number up to {:g}", limits::kLargestCoordinate));
   return RegionLocaliser(problem, options).run();
 }
 
