@@ -1,9 +1,9 @@
-"""Puts extreme numbers in place of those of the example files, and demands that the program answers or refuses.
+"""Puts extreme numbers in place of those of the example files, and demands that lekalo answers or refuses.
 
     number_sweep.py LEKALO SOURCE_DIR
 
-An exit status of 4 says that lekalo refuted itself, which no file may bring about; neither may one end it by a
-signal. LEKALO_CASES is the number of mutants drawn (0: all of them, which takes hours), LEKALO_SEED their seed.
+An exit status of 4 says that lekalo refuted itself, which no file may bring about; neither may one end it
+by a signal. LEKALO_CASES is the number of mutants drawn (0: all of them, which takes hours), LEKALO_SEED their seed.
 Mutants that take longer than 20 s are stopped and counted; how long a file may take is another test's question.
 """
 
@@ -15,9 +15,10 @@ import subprocess
 import sys
 import tempfile
 
-EXTREMES = ["1e-500", "1e-999999", "1e-330", "1e-99", "1e308", "1e999", "-1e308", "-0", "0", "1e9", "-1e9",
-            "1000000001", "1e15", "nan", "NaN", "Infinity", "-1", "0.5", "2147483648", "4294967296",
-            "9007199254740993", "9223372036854775808", "99999999999999999999", "1e6", "-1e5", "1e-7",
+EXTREMES = ["1e-500", "1e-999999", "1e-330", "1e-99", "1e-12", "1e-7", "-0", "0", "0.5", "-1", "1e3", "-1e3",
+            "3600", "-1e5", "262144", "-524288", "1e6", "1e8", "-999999999", "1e9", "-1e9", "1000000001",
+            "2147483648", "4294967296", "1e15", "9007199254740993", "9223372036854775808",
+            "99999999999999999999", "1e308", "-1e308", "1e999", "nan", "NaN", "Infinity",
             "3." + "14159265" * 120]
 NUMBER = re.compile(rb"(?<![\w.#])[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?(?![\w.])")
 WAIT = 20
@@ -119,14 +120,13 @@ def main():
         status, said, at = run(lekalo, examples, mutant)
         if status is None:
             slow += 1
-            print("slow: lekalo %s\n  %s" % (" ".join(LINES[mutant[0]][2]), at))
+            print("slow: lekalo %s\n  %s" % (" ".join(LINES[mutant[0]][2]), at), flush=True)
             continue
         statuses[status] = statuses.get(status, 0) + 1
         if status not in (0, 1, 2, 3):
             wrong += 1
             print("exit status %d: lekalo %s\n  %s\n  %s" % (status, " ".join(LINES[mutant[0]][2]), at,
-                                                           said.strip()[-600:]))
-            sys.stdout.flush()
+                                                           said.strip()[-600:]), flush=True)
     print("exit statuses %s, %d slow, %d wrong" % (sorted(statuses.items()), slow, wrong))
     return 1 if wrong else 0
 

@@ -207,11 +207,15 @@ TEST(Limits, TheSchemaStatesThem) {
 
 // ---- outlines and demands ---------------------------------------------------------------------------------
 
+std::string line_json(const std::string& from, const std::string& to) {
+  return fmt::format(R"({{"line": {{"from": [{}], "to": [{}]}}}})", from, to);
+}
+
+/// A rectangle 5 mm high, its points counter-clockwise from the lower left one.
 std::string rectangle_json(const std::string& low, const std::string& high) {
-  return fmt::format(
-      R"({{"outer": [{{"line": {{"from": [{0}, 0], "to": [{1}, 0]}}}}, {{"line": {{"from": [{1}, 0], "to": [{1}, 5]}}}},)"
-      R"( {{"line": {{"from": [{1}, 5], "to": [{0}, 5]}}}}, {{"line": {{"from": [{0}, 5], "to": [{0}, 0]}}}}]}})",
-      low, high);
+  const std::string a = low + ", 0", b = high + ", 0", c = high + ", 5", d = low + ", 5";
+  return fmt::format(R"({{"outer": [{}, {}, {}, {}]}})", line_json(a, b), line_json(b, c), line_json(c, d),
+                     line_json(d, a));
 }
 
 std::string complaint_of_checker(const std::string& region) {

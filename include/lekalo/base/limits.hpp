@@ -20,7 +20,7 @@ inline constexpr int kMostPlaces = 400;
 inline constexpr double kLargestCoordinate = 1e9;
 /// A coordinate of smaller magnitude, mm, counts as 0.
 inline constexpr double kSmallestCoordinate = 1e-100;
-/// What a result computes from coordinates: poses, and radii and boxes of its proof, mm.
+/// Numbers computed from coordinates: poses, and radii and boxes of the proof of a result, mm.
 inline constexpr double kLargestDerived = 1e12;
 /// The factor by which the margin of a feature is measured, and its inverse.
 inline constexpr double kLargestFactor = 1e6;

@@ -109,7 +109,8 @@ class RegionLocaliser {
         result.contacts = contacts(search, mirrored);
       }
     }
-    result.upper_bound = std::max(result.upper_bound, -furthest_out());
+    // The root holds the pivots of poses that stick out by less than furthest_out(), but for rounding.
+    result.upper_bound = std::max(result.upper_bound, -furthest_out() + rounding());
     result.upper_bound += problem_.part_tolerance + problem_.blank_tolerance;
     result.upper_bound = std::nextafter(result.upper_bound, std::numeric_limits<double>::infinity());
     result.shortfall = std::max(0.0, options_.min_allowance - result.best.clearance);
@@ -132,8 +133,9 @@ class RegionLocaliser {
 
   /// Returns how much of the gap is taken by rounding and the tolerances.
   [[nodiscard]] double taken() const {
-    return 64 * geom::kEdgeDistanceError * far_ + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
+    return rounding() + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
   }
+  [[nodiscard]] double rounding() const { return 64 * geom::kEdgeDistanceError * far_; }
   [[nodiscard]] double search_gap() const { return std::max(options_.gap - taken(), 0.25 * options_.gap); }
 
   /// Placements where more of the part sticks out than this are not searched, mm.

@@ -53,13 +53,18 @@ class Members {
   [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least, std::int64_t most,
                                    std::int64_t otherwise) {
     if (!has(key)) return otherwise;
-    // Readers take numbers as doubles, in which a number a hair off a whole one is that.
     const Json value = get(key);
     const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
-    const double taken = number ? approximate(*number) : std::numeric_limits<double>::quiet_NaN();
-    if (taken == std::nearbyint(taken) && taken >= static_cast<double>(least) &&
-        taken <= static_cast<double>(most))
-      return static_cast<std::int64_t>(taken);
+    if (number && number->exponent >= 0 && number->exponent < 19) {
+      const Integer exact = in_units(*number, 0);
+      if (exact >= static_cast<long>(least) && exact <= static_cast<long>(most)) return to_long(exact);
+    } else if (number) {
+      // Readers take a number with decimals as a double, in which one a hair off a whole one is that.
+      const double taken = approximate(*number);
+      if (taken == std::nearbyint(taken) && taken >= static_cast<double>(least) &&
+          taken <= static_cast<double>(most))
+        return static_cast<std::int64_t>(taken);
+    }
     complain(fmt::format("field {} is {}, not a whole number from {} to {}", name(key), excerpt(value.text),
                          least, most));
     return otherwise;
