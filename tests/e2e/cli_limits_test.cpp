@@ -65,6 +65,14 @@ TEST_P(Attacks, AreRefusedWithFilePlaceAndLimit) {
   EXPECT_TRUE(folder.files().empty());
 }
 
+TEST(CliLimits, APartAtTheLimitOfCoordinatesIsAnsweredWithAProof) {
+  const TemporaryFolder folder;
+  const Ran ran = run(folder.path(), {"locate", "--part", attack_file("part.csv"), "--blank",
+                                      attack_file("blank.csv"), "-o", "r.json"});
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_NE(ran.out.find("this is proved"), std::string::npos) << ran.out << ran.err;
+}
+
 std::string test_name(const testing::TestParamInfo<Attack>& info) {
   std::string name;
   for (const char c : info.param.name) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
