@@ -6,14 +6,12 @@
 #include <cmath>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/locate/feature_file.hpp"
 
 namespace lekalo::jobs {
 namespace {
-
-/// A pose that is compared with may lie this far out, mm; a thousand kilometres, beyond any machine.
-constexpr double kFarthestPose = 1e9;
 
 /// Angles in radians that hold the window in degrees for certain: the product is within 2^-51 of the exact
 /// one.
@@ -75,7 +73,7 @@ Result<void> read_earlier(const LocateJob& job, LocateInputs& in) {
   LEKALO_TRY(in.earlier, io::read_result(job.earlier->bytes, job.earlier->name));
   const locate::Placement& pose = in.earlier->placement;
   if (std::abs(pose.theta) <= geom::kMaxAngle &&
-      std::max(std::abs(pose.x), std::abs(pose.y)) <= kFarthestPose)
+      std::max(std::abs(pose.x), std::abs(pose.y)) <= limits::kLargestCoordinate)
     return {};
   return failure(ErrorCode::bad_input, fmt::format("{}: the pose ({}, {}) mm, {} rad is out of all measure",
                                                    job.earlier->name, pose.x, pose.y, pose.theta));

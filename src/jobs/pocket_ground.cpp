@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 
@@ -80,14 +82,31 @@ class GroundMaker {
       for (const geom::Contour& hole : region.holes) LEKALO_CHECK(look_at(hole, false));
     }
     PocketGround ground{outline_.regions, outline_.regions, io::regions_json(outline_.regions, open_)};
-    if (open_.empty()) return ground;
-    Result<geom::BooleanResult> whole = geom::united(all_);
-    if (!whole) return failure(whole.error().code, name_ + ": " + whole.error().message);
-    ground.extended = std::move(whole->regions);
+    if (!open_.empty()) {
+      Result<geom::BooleanResult> whole = geom::united(all_);
+      if (!whole) return failure(whole.error().code, name_ + ": " + whole.error().message);
+      ground.extended = std::move(whole->regions);
+    }
+    LEKALO_CHECK(check_reach(ground.extended));
     return ground;
   }
 
  private:
+  /// Programs go no farther, and neither does who reads them.
+  [[nodiscard]] Result<void> check_reach(const std::vector<geom::Region>& regions) const {
+    constexpr double kMost = limits::kLargestProgramCoordinate;
+    for (const geom::Region& region : regions) {
+      const geom::Box box = geom::bounds(region.outer);
+      for (const Point p : {box.low, box.high})
+        if (!(std::max(std::abs(p.x), std::abs(p.y)) <= kMost))
+          return failure(
+              ErrorCode::bad_input,
+              fmt::format("{}: the pocket reaches to ({:.9g}, {:.9g}) mm; programs go up to {:g} mm", name_,
+                          p.x, p.y, kMost));
+    }
+    return {};
+  }
+
   Result<void> look_at(const geom::Contour& contour, bool outer) {
     for (const geom::Edge& edge : contour) {
       const std::string& label = outline_.labels[edge_++];

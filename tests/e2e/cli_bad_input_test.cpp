@@ -155,6 +155,7 @@ std::vector<BadInput> command_line_cases() {
       bad_words("no command", {}, {"--help"}),
       bad_words("an unknown command", {"allocate"}, {"allocate"}),
       bad_words("no part", Words{"locate", "--blank", "blank.csv"}, {"--part"}),
+      bad_words("no layer", {"pocket", "part.csv", "--layer"}, {"--layer: needs a value after it"}),
       bad_words("no blank", Words{"locate", "--part", "part.csv"}, {"--blank"}),
       bad_words("an unknown option", kUsual + Words{"--fast"}, {"--fast"}),
       bad_words("an option misspelt", kUsual + Words{"--min-alowance", "3"},

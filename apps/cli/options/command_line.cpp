@@ -55,7 +55,9 @@ std::string wrong_count(const CLI::App& command, const std::string& message) {
   const std::string name = message.substr(0, message.find(':'));
   const CLI::Option* const option = command.get_option_no_throw(name);
   if (option == nullptr) return message;
-  const int wanted = option->get_expected_max();
+  // An option that takes any number of values needs one.
+  const int wanted =
+      option->get_expected_max() >= CLI::detail::expected_max_vector_size ? 1 : option->get_expected_max();
   const std::size_t given = option->results().size();
   if (wanted == 1 && given > 1) return name + ": given more than once";
   return fmt::format("{}: needs {} after it ({})", name,

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <string>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/units.hpp"
 
 namespace lekalo::cli {
@@ -75,7 +76,7 @@ class WordReader {
   std::string complaint_;
 };
 
-inline constexpr double kLargestLength = 1e9;      // mm: a thousand kilometres, beyond any machine
-inline constexpr double kSmallestLength = 1e-300;  // stands for "more than 0"
+inline constexpr double kLargestLength = limits::kLargestCoordinate;  // mm
+inline constexpr double kSmallestLength = 1e-300;                     // stands for "more than 0"
 
 }  // namespace lekalo::cli

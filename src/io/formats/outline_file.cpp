@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/io/drawing/drawing_regions.hpp"
@@ -71,6 +74,24 @@ std::size_t edge_count(const std::vector<geom::Region>& regions) {
     for (const geom::Contour& hole : region.holes) count += hole.size();
   }
   return count;
+}
+
+/// The first arc whose centre lies beyond the limits. Arcs that are nearly lines have theirs far out, also in
+/// drawings that name no centre.
+const geom::Edge* far_arc(const std::vector<geom::Region>& regions) {
+  const auto find = [](const geom::Contour& contour) -> const geom::Edge* {
+    for (const geom::Edge& edge : contour)
+      if (edge.kind != geom::EdgeKind::line &&
+          !(std::max(std::abs(edge.centre.x), std::abs(edge.centre.y)) <= limits::kLargestCoordinate))
+        return &edge;
+    return nullptr;
+  };
+  for (const geom::Region& region : regions) {
+    if (const geom::Edge* const arc = find(region.outer)) return arc;
+    for (const geom::Contour& hole : region.holes)
+      if (const geom::Edge* const arc = find(hole)) return arc;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -194,6 +215,12 @@ bool OutlineFile::is_convex(bool only_convex_will_do) {
 Result<ReadOutline> OutlineFile::as_regions() {
   LEKALO_TRY(ReadOutline read, std::move(drawn()));
   drawn_.reset();
+  if (const geom::Edge* const arc = far_arc(read.outline.regions))
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: the arc from ({}, {}) to ({}, {}) has its centre at ({:.6g}, {:.6g}) mm; "
+                               "coordinates go up to {:g} mm, so make it a line",
+                               name_, arc->from.x, arc->from.y, arc->to.x, arc->to.y, arc->centre.x,
+                               arc->centre.y, limits::kLargestCoordinate));
   if (const auto fault = geom::fault_of(read.outline.regions))
     return failure(ErrorCode::bad_input, fmt::format("{}: {}; outlines must not meet", name_, *fault));
   if (read.outline.labels.empty()) read.outline.labels.assign(edge_count(read.outline.regions), "");

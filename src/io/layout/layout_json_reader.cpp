@@ -12,6 +12,7 @@
 #include "layout_outline.hpp"
 #include "layout_reader.hpp"
 #include "lekalo/base/joined_text.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 
@@ -21,17 +22,10 @@ namespace {
 
 using layout::Document;
 
-constexpr double kMostMm = 0x1p18;           ///< of outlines and gaps
-constexpr double kMostPlacementMm = 0x1p19;  ///< of placements
-constexpr double kShortestSide = 1e-3;       ///< mm, of a strip
-constexpr double kMostDegrees = 3600;
-constexpr std::int64_t kMostKits = 1'000'000;   ///< wanted, and pieces in one: their products fit 64 bits
-constexpr std::int64_t kMostLevel = 1'000'000;  ///< qualities, severities, priorities
-constexpr std::int64_t kLargestId = (std::int64_t{1} << 53) - 1;
-constexpr double kMostMoney = 1e12;
 constexpr std::string_view kFormat = "lekalo-layout/1";
 // The limits of commands are those of files, so that what commands make can be read again.
-static_assert(layout::kMostSeverity == kNeverTolerated && layout::kMostQuality == kMostLevel &&
+static_assert(layout::kMostSeverity == limits::kMostSeverity && kNeverTolerated == limits::kMostSeverity &&
+              layout::kMostQuality == limits::kMostLevel &&
               layout::kMostFeaturePoints == kMostOutlinePoints && layout::kLongestFeatureId == kLongestText);
 
 class LayoutReader {
@@ -110,7 +104,7 @@ class LayoutReader {
     return value ? read_outline(reader_, *value, side, chords_made_) : layout::Outline{};
   }
 
-  int level(JsonValue value, std::int64_t low = 0, std::int64_t high = kMostLevel) {
+  int level(JsonValue value, std::int64_t low = 0, std::int64_t high = limits::kMostLevel) {
     return static_cast<int>(reader_.integer(value, low, high));
   }
   int quality(JsonValue value) { return value.text_is("best") ? layout::kBestQuality : level(value); }
@@ -140,13 +134,14 @@ class LayoutReader {
         reader_.refuse(*kind, "a stock is a \"strip\", a \"sheet\" or a \"hide\"");
     }
     optional(value, "count", [&](JsonValue v) {
-      stock.count = reader_.integer(v, 1, kLargestCount);
+      stock.count = reader_.integer(v, 1, limits::kMostCount);
       if (stock.kind == layout::StockKind::strip && reader_.ok() && stock.count != 1)
         reader_.refuse(v, "there is one of a strip; give others their own ids");
     });
-    optional(value, "cost", [&](JsonValue v) { stock.cost = reader_.number(v, 0, kMostMoney); });
-    optional(value, "grain_deg",
-             [&](JsonValue v) { stock.grain_degrees = reader_.number(v, -kMostDegrees, kMostDegrees); });
+    optional(value, "cost", [&](JsonValue v) { stock.cost = reader_.number(v, 0, limits::kMostMoney); });
+    optional(value, "grain_deg", [&](JsonValue v) {
+      stock.grain_degrees = reader_.number(v, -limits::kMostDegrees, limits::kMostDegrees);
+    });
     stock.kind == layout::StockKind::strip ? strip(value, stock) : no_strip(value, stock);
     std::unordered_set<std::string> defect_ids, zone_ids;
     items(value, "defects", layout::kMostFeatures, [&](JsonValue v) {
@@ -183,11 +178,12 @@ class LayoutReader {
       return reader_.refuse(*wrong, "a strip has \"height\" and perhaps \"length\" instead of an outline");
     const auto height = reader_.need(value, "height", "how wide the strip is across, mm");
     if (!height) return;
-    const std::int64_t across = reader_.length(*height, kShortestSide, kMostMm);
+    const std::int64_t across = reader_.length(*height, limits::kShortestSide, limits::kLargestOutline);
     const auto length = value.find("length");
     stock.open_length = !length;
-    const std::int64_t along =
-        length ? reader_.length(*length, kShortestSide, kMostMm) : layout::kLongestStrip;
+    const std::int64_t along = length
+                                   ? reader_.length(*length, limits::kShortestSide, limits::kLargestOutline)
+                                   : layout::kLongestStrip;
     stock.outline.polygon = rectangle(along, across);
   }
 
@@ -222,13 +218,13 @@ class LayoutReader {
       layout::Grain grain;
       if (!reader_.expect_object(v, {"deg", "tolerance_deg"})) return;
       if (const auto deg = reader_.need(v, "deg", "its direction in the part"))
-        grain.degrees = reader_.number(*deg, -kMostDegrees, kMostDegrees);
+        grain.degrees = reader_.number(*deg, -limits::kMostDegrees, limits::kMostDegrees);
       optional(v, "tolerance_deg", [&](JsonValue t) { grain.tolerance_degrees = reader_.number(t, 0, 90); });
       part.grain = grain;
     });
     optional(value, "tolerated_severity", [&](JsonValue v) { part.tolerated_severity = level(v); });
-    optional(value, "priority", [&](JsonValue v) { part.priority = level(v, -kMostLevel); });
-    optional(value, "demand", [&](JsonValue v) { part.demand = reader_.integer(v, 0, kLargestCount); });
+    optional(value, "priority", [&](JsonValue v) { part.priority = level(v, -limits::kMostLevel); });
+    optional(value, "demand", [&](JsonValue v) { part.demand = reader_.integer(v, 0, limits::kMostCount); });
     optional(value, "gap", [&](JsonValue v) { part.gap = reader_.gap(v); });
     optional(value, "border_gap", [&](JsonValue v) { part.border_gap = reader_.gap(v); });
     optional(value, "defect_gap", [&](JsonValue v) { part.defect_gap = reader_.gap(v); });
@@ -242,15 +238,15 @@ class LayoutReader {
       return reader_.refuse(value, "no rotation at all; leave \"rotations\" out to allow every one");
     for (const JsonValue item : value) {
       if (item.is_number()) {
-        const double angle = reader_.number(item, -kMostDegrees, kMostDegrees);
+        const double angle = reader_.number(item, -limits::kMostDegrees, limits::kMostDegrees);
         part.rotations.push_back({angle, angle});
       } else {
         if (!reader_.expect_object(item, {"from", "to"})) return;
         const auto from = reader_.need(item, "from", "the first angle"),
                    to = reader_.need(item, "to", "the last angle");
         if (!from || !to) return;
-        const layout::AngleRange range{reader_.number(*from, -kMostDegrees, kMostDegrees),
-                                       reader_.number(*to, -kMostDegrees, kMostDegrees)};
+        const layout::AngleRange range{reader_.number(*from, -limits::kMostDegrees, limits::kMostDegrees),
+                                       reader_.number(*to, -limits::kMostDegrees, limits::kMostDegrees)};
         if (reader_.ok() && !(range.from <= range.to))
           return reader_.refuse(item, fmt::format("from {} to {} degrees: the first angle may not be above "
                                                   "the last; add 360 to the last",
@@ -282,8 +278,8 @@ class LayoutReader {
     if (!reader_.expect_object(value, {"id", "name", "demand", "value", "pieces"})) return;
     kit.id = id(value, kit_ids_, "kits");
     optional(value, "name", [&](JsonValue v) { kit.name = reader_.text(v); });
-    optional(value, "demand", [&](JsonValue v) { kit.demand = reader_.integer(v, 0, kMostKits); });
-    optional(value, "value", [&](JsonValue v) { kit.value = reader_.number(v, 0, kMostMoney); });
+    optional(value, "demand", [&](JsonValue v) { kit.demand = reader_.integer(v, 0, limits::kMostKits); });
+    optional(value, "value", [&](JsonValue v) { kit.value = reader_.number(v, 0, limits::kMostMoney); });
     const auto pieces = reader_.need(value, "pieces", "what one kit is made of");
     if (!pieces || !reader_.expect_list(*pieces, kMostParts)) return;
     if (pieces->size() == 0) return reader_.refuse(*pieces, "a kit of no pieces; name at least one part");
@@ -292,7 +288,7 @@ class LayoutReader {
       if (!reader_.expect_object(item, {"part", "count", "mirrored"})) return;
       if (const auto p = reader_.need(item, "part", "the id of the part"))
         piece.part = named(*p, part_index_, "part");
-      optional(item, "count", [&](JsonValue v) { piece.count = reader_.integer(v, 1, kMostKits); });
+      optional(item, "count", [&](JsonValue v) { piece.count = reader_.integer(v, 1, limits::kMostKits); });
       optional(item, "mirrored", [&](JsonValue v) {
         piece.mirrored = reader_.truth(v);
         if (reader_.ok() && *piece.mirrored && !document_.parts[piece.part].may_mirror)
@@ -312,9 +308,9 @@ class LayoutReader {
       return;
     placement.id = last_id_ + 1;
     optional(value, "id", [&](JsonValue v) {
-      placement.id = static_cast<std::uint64_t>(reader_.integer(v, 1, kLargestId));
+      placement.id = static_cast<std::uint64_t>(reader_.integer(v, 1, limits::kMostId));
     });
-    if (placement.id > static_cast<std::uint64_t>(kLargestId))
+    if (placement.id > static_cast<std::uint64_t>(limits::kMostId))
       return reader_.refuse(value,
                             "its id would be one more than the highest possible before it; give it one");
     last_id_ = std::max(last_id_, placement.id);
@@ -322,13 +318,12 @@ class LayoutReader {
       placement.part = named(*v, part_index_, "part");
     if (const auto v = reader_.need(value, "stock", "the id of a stock"))
       placement.stock = named(*v, stock_index_, "stock");
-    optional(value, "copy",
-             [&](JsonValue v) { placement.copy = reader_.integer(v, -kLargestCount, kLargestCount); });
+    optional(value, "copy", [&](JsonValue v) { placement.copy = reader_.integer(v, 0, limits::kMostCount); });
     placement.rotation = rotation(value);
     if (const auto v = reader_.need(value, "x", "mm"))
-      placement.at.x = reader_.length(*v, -kMostPlacementMm, kMostPlacementMm);
+      placement.at.x = reader_.length(*v, -limits::kLargestPlacement, limits::kLargestPlacement);
     if (const auto v = reader_.need(value, "y", "mm"))
-      placement.at.y = reader_.length(*v, -kMostPlacementMm, kMostPlacementMm);
+      placement.at.y = reader_.length(*v, -limits::kLargestPlacement, limits::kLargestPlacement);
     optional(value, "mirrored", [&](JsonValue v) { placement.mirrored = reader_.truth(v); });
     optional(value, "locked", [&](JsonValue v) { placement.locked = reader_.truth(v); });
     document_.placements.push_back(placement);
@@ -339,13 +334,15 @@ class LayoutReader {
     const auto c = value.find("c"), s = value.find("s"), degrees = value.find("rotation_deg");
     if (degrees) {
       if (c || s) reader_.refuse(*degrees, "it stands beside \"c\" or \"s\"; give one of the two forms");
-      return geom::rotation_from_degrees(reader_.number(*degrees, -kMostDegrees, kMostDegrees));
+      return geom::rotation_from_degrees(
+          reader_.number(*degrees, -limits::kMostDegrees, limits::kMostDegrees));
     }
     if (!c || !s) {
       reader_.refuse(value, "\"c\" and \"s\", or \"rotation_deg\", are missing");
       return {};
     }
-    const double cosine = reader_.number(*c, -1.5, 1.5), sine = reader_.number(*s, -1.5, 1.5);
+    const double cosine = reader_.number(*c, -limits::kLargestSine, limits::kLargestSine),
+                 sine = reader_.number(*s, -limits::kLargestSine, limits::kLargestSine);
     const geom::GridRotation pair = geom::rotation_from_pair(cosine, sine);
     if (reader_.ok() && !geom::is_rotation(pair)) {
       reader_.refuse(value, fmt::format("c {} and s {} are no rotation, c^2 + s^2 is {}; \"rotation_deg\" "
@@ -378,7 +375,7 @@ class LayoutReader {
     placements = std::move(ordered);
     document_.next_id = last_id_ + 1;
     optional(root, "next_id", [&](JsonValue v) {
-      document_.next_id = static_cast<std::uint64_t>(reader_.integer(v, 1, kLargestId + 1));
+      document_.next_id = static_cast<std::uint64_t>(reader_.integer(v, 1, limits::kMostId + 1));
       if (reader_.ok() && document_.next_id <= last_id_)
         reader_.refuse(v,
                        fmt::format("{} is not above the id {} of a placement", document_.next_id, last_id_));

@@ -10,6 +10,7 @@
 #include "io/shape/region_reader.hpp"
 #include "io/shape/region_text.hpp"
 #include "io/text/grid_decimal.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 
 namespace lekalo::io::detail {
@@ -20,9 +21,8 @@ using geom::GridRegion;
 using geom::Point;
 using layout::Outline;
 
-/// make_grid_region takes no more, in mm.
-constexpr double kMostMm = geom::mm_from_grid(geom::kGridLimit / 4);
-constexpr double kLeastChordTolerance = 0x1p-16, kMostChordTolerance = 100;
+static_assert(limits::kLargestOutline == geom::mm_from_grid(geom::kGridLimit / 4),
+              "make_grid_region takes no more");
 
 bool has_arcs(const geom::Region& region) {
   const auto arcs = [](const geom::Contour& contour) {
@@ -105,9 +105,9 @@ GridPoint outline_point(JsonReader& reader, JsonValue at, JsonValue x, JsonValue
     return {};
   }
   const Point mm{x.number() * mm_per_unit, y.number() * mm_per_unit};
-  if (!(std::abs(mm.x) <= kMostMm && std::abs(mm.y) <= kMostMm)) {
+  if (!(std::abs(mm.x) <= limits::kLargestOutline && std::abs(mm.y) <= limits::kLargestOutline)) {
     reader.refuse(at, fmt::format("({}, {}) is further from the origin than {} mm; check the units", mm.x,
-                                  mm.y, kMostMm));
+                                  mm.y, limits::kLargestOutline));
     return {};
   }
   return {geom::grid_from_mm(mm.x), geom::grid_from_mm(mm.y)};
@@ -168,7 +168,8 @@ Outline read_outline(JsonReader& reader, JsonValue value, geom::ChordSide side, 
   if (!curves) return outline;
 
   const double chord =
-      tolerance ? reader.number(*tolerance, kLeastChordTolerance, kMostChordTolerance) : kUsualChordTolerance;
+      tolerance ? reader.number(*tolerance, limits::kLeastChordTolerance, limits::kMostChordTolerance)
+                : kUsualChordTolerance;
   auto region = read_curves(reader, *curves);
   if (!reader.ok()) return outline;
   if (!polygon) {

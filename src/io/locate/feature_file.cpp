@@ -8,6 +8,7 @@
 #include "io/shape/region_reader.hpp"
 #include "io/text/json_form.hpp"
 #include "lekalo/base/joined_text.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -42,8 +43,9 @@ class FeatureReader {
     LEKALO_CHECK(length(json, "maximum", [&](double v) { spec.demand.maximum = v; }));
     LEKALO_CHECK(length(json, "finished", [&](double v) { spec.demand.finished = v; }));
     if (const auto scale = json.find("scale")) {
-      if (!scale->is_number() || !(scale->number() > 0))
-        return refuse(where_, "\"scale\" must be a number above 0");
+      constexpr double kMost = limits::kLargestFactor;
+      if (!scale->is_number() || !(scale->number() >= 1 / kMost && scale->number() <= kMost))
+        return refuse(where_, fmt::format("\"scale\" must be a number from {:g} to {:g}", 1 / kMost, kMost));
       spec.demand.scale = scale->number();
     }
     if (spec.demand.maximum && !(*spec.demand.maximum > spec.demand.minimum))
@@ -62,9 +64,13 @@ class FeatureReader {
   Result<void> length(JsonValue json, const char* key, Take take) const {
     const auto said = json.find(key);
     if (!said || said->kind() == JsonKind::null) return {};
-    if (!said->is_number() || !(said->number() >= 0) || !std::isfinite(scale_ * said->number()))
+    if (!said->is_number() || !(said->number() >= 0))
       return refuse(where_, fmt::format("\"{}\" must be a length that is not negative", key));
-    take(scale_ * said->number());
+    const double mm = scale_ * said->number();
+    if (!(mm <= limits::kLargestCoordinate))
+      return refuse(where_, fmt::format("\"{}\" is {} mm; demands go up to {:g} mm", key, mm,
+                                        limits::kLargestCoordinate));
+    take(mm);
     return {};
   }
   void at(std::string where) { where_ = std::move(where); }

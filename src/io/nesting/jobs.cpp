@@ -8,17 +8,12 @@
 
 #include "forms.hpp"
 #include "io/layout/layout_reader.hpp"
+#include "lekalo/base/limits.hpp"
 #include "shapes.hpp"
 
 namespace lekalo::io {
 namespace detail {
 namespace {
-
-constexpr double kMostMm = 0x1p18;
-constexpr double kShortestSide = 1e-3;  ///< mm
-constexpr double kMostDegrees = 3600;
-constexpr double kMostCost = 1e12;
-constexpr std::int64_t kMostQuality = 1'000'000;
 
 class JobReader {
  public:
@@ -72,7 +67,8 @@ class JobReader {
     strip.open_length = true;
     if (const auto height = reader_.need(root, "strip_height", "the strip's height"))
       strip.outline.polygon =
-          rectangle(layout::kLongestStrip, reader_.length(*height, kShortestSide, kMostMm, scale_));
+          rectangle(layout::kLongestStrip,
+                    reader_.length(*height, limits::kShortestSide, limits::kLargestOutline, scale_));
     document_.stocks.push_back(std::move(strip));
     std::set<std::string> ids;
     items(root, "items", "what is to be cut", [&](JsonValue item, std::size_t index) {
@@ -104,7 +100,7 @@ class JobReader {
     if (value.kind() == JsonKind::null || !reader_.expect_list(value, kMostParts)) return;
     if (value.size() == 0) return reader_.refuse(value, "no rotation at all; null allows every one");
     for (const JsonValue item : value) {
-      const double degrees = reader_.number(item, -kMostDegrees, kMostDegrees);
+      const double degrees = reader_.number(item, -limits::kMostDegrees, limits::kMostDegrees);
       part.rotations.push_back({degrees, degrees});
     }
   }
@@ -147,7 +143,7 @@ class JobReader {
     optional(bin, "copies", [&](JsonValue v) { stock.count = reader_.integer(v, 1, kLargestCount); });
     // Programs of this form write -1 where nobody gave a cost.
     optional(bin, "cost", [&](JsonValue v) {
-      const double cost = reader_.number(v, -1, kMostCost);
+      const double cost = reader_.number(v, -1, limits::kMostMoney);
       if (cost >= 0) stock.cost = cost;
     });
     shape(bin, [&](Loops loops) { shapes_.stock(bin, std::move(loops), stock); });
@@ -175,8 +171,9 @@ class JobReader {
       const auto width = reader_.need(value, "width", "the length along x"),
                  height = reader_.need(value, "height", "the length along y");
       if (!width || !height) return;
-      const geom::GridRegion box = rectangle(reader_.length(*width, kShortestSide, kMostMm, scale_),
-                                             reader_.length(*height, kShortestSide, kMostMm, scale_));
+      const geom::GridRegion box =
+          rectangle(reader_.length(*width, limits::kShortestSide, limits::kLargestOutline, scale_),
+                    reader_.length(*height, limits::kShortestSide, limits::kLargestOutline, scale_));
       if (reader_.ok()) take(Loops{box.points});
     } else {
       reader_.refuse(*type, "shapes of this kind are not read; known are \"rectangle\" and \"polygon\"");
@@ -199,8 +196,8 @@ class JobReader {
         const auto start = reader_.need(range, "start", "degrees"),
                    end = reader_.need(range, "end", "degrees");
         if (!start || !end) return;
-        const layout::AngleRange angles{reader_.number(*start, -kMostDegrees, kMostDegrees),
-                                        reader_.number(*end, -kMostDegrees, kMostDegrees)};
+        const layout::AngleRange angles{reader_.number(*start, -limits::kMostDegrees, limits::kMostDegrees),
+                                        reader_.number(*end, -limits::kMostDegrees, limits::kMostDegrees)};
         if (reader_.ok() && !(angles.from <= angles.to))
           return reader_.refuse(range, "the start is above the end; add 360 to the end");
         part.rotations.push_back(angles);
@@ -237,7 +234,7 @@ class JobReader {
       layout::Stock stock;
       stock.id = "hide-" + std::to_string(index);
       stock.kind = layout::StockKind::hide;
-      optional(object, "Cost", [&](JsonValue v) { stock.cost = reader_.number(v, 0, kMostCost); });
+      optional(object, "Cost", [&](JsonValue v) { stock.cost = reader_.number(v, 0, limits::kMostMoney); });
       optional(object, "Stock", [&](JsonValue v) { stock.count = reader_.integer(v, 1, kLargestCount); });
       if (const auto shape = reader_.need(object, "Shape", "the outline"))
         shapes_.stock(*shape, shapes_.typed(*shape), stock);
@@ -260,7 +257,8 @@ class JobReader {
       });
       part.quality = layout::kBestQuality;
       optional(item, "BaseQuality", [&](JsonValue v) {
-        if (v.kind() != JsonKind::null) part.quality = static_cast<int>(reader_.integer(v, 0, kMostQuality));
+        if (v.kind() != JsonKind::null)
+          part.quality = static_cast<int>(reader_.integer(v, 0, limits::kMostLevel));
       });
       optional(item, "AllowedOrientations", [&](JsonValue v) { orientations(v, part); });
       if (const auto shape = reader_.need(item, "Shape", "the outline"))
@@ -282,7 +280,7 @@ class JobReader {
       const auto quality = reader_.need(zone, "Quality", "a whole number, higher is better"),
                  shape = reader_.need(zone, "Shape", "the outline");
       if (!quality || !shape) return;
-      const int level = static_cast<int>(reader_.integer(*quality, 0, kMostQuality));
+      const int level = static_cast<int>(reader_.integer(*quality, 0, limits::kMostLevel));
       layout::Outline outline = shapes_.outline(*shape, shapes_.typed(*shape));
       if (!reader_.ok()) return;
       take(level, std::move(outline), index++);

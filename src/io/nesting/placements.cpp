@@ -12,14 +12,12 @@
 #include "io/text/decimal.hpp"
 #include "io/text/grid_decimal.hpp"
 #include "io/text/json_reader.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/io/text/json_writer.hpp"
 
 namespace lekalo::io {
 namespace detail {
 namespace {
-
-constexpr double kMostMm = 0x1p18, kMostPlacementMm = 0x1p19;
-constexpr double kMostDegrees = 3600;
 
 /// The id as a number, written as numbers are.
 std::optional<std::int64_t> number_of(const std::string& id) {
@@ -66,7 +64,7 @@ Result<LayoutFile> read_placements_tree(const JsonTree& tree, const std::string&
           root, {"instance", "made_by", "strip_height", "length", "density", "note", "placements"}))
     return tl::unexpected(reader.fault());
   if (const auto height = root.find("strip_height")) {
-    const std::int64_t said = reader.length(*height, 0, kMostMm, scale);
+    const std::int64_t said = reader.length(*height, 0, limits::kLargestOutline, scale);
     const std::int64_t is = geom::bounds(instance.stocks[0].outline.polygon).high.y;
     if (reader.ok() && said != is)
       reader.refuse(*height, fmt::format("{} mm, but the strip of the items is {} mm high; these placements "
@@ -96,9 +94,10 @@ Result<LayoutFile> read_placements_tree(const JsonTree& tree, const std::string&
     layout::Placement placement;
     placement.id = instance.next_id++;
     placement.part = found->second;
-    placement.rotation = geom::rotation_from_degrees(reader.number(*rotation, -kMostDegrees, kMostDegrees));
-    placement.at = {reader.length(*x, -kMostPlacementMm, kMostPlacementMm, scale),
-                    reader.length(*y, -kMostPlacementMm, kMostPlacementMm, scale)};
+    placement.rotation =
+        geom::rotation_from_degrees(reader.number(*rotation, -limits::kMostDegrees, limits::kMostDegrees));
+    placement.at = {reader.length(*x, -limits::kLargestPlacement, limits::kLargestPlacement, scale),
+                    reader.length(*y, -limits::kLargestPlacement, limits::kLargestPlacement, scale)};
     instance.placements.push_back(placement);
   }
   if (!reader.ok()) return tl::unexpected(reader.fault());

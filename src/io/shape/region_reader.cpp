@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,11 @@ Result<Point> read_point(JsonValue json, const std::string& where, const char* k
   const auto value = json.find(key);
   const auto point = value ? two_numbers(*value) : std::nullopt;
   if (!point) return refuse(where, fmt::format("\"{}\" must be a point [x, y] of two numbers", key));
-  return scale * *point;
+  const Point mm = scale * *point;
+  if (!(std::abs(mm.x) <= kLargestMillimetres && std::abs(mm.y) <= kLargestMillimetres))
+    return refuse(where, fmt::format("\"{}\" is ({:.10g}, {:.10g}) mm; coordinates go up to {:g} mm", key,
+                                     mm.x, mm.y, kLargestMillimetres));
+  return mm;
 }
 
 namespace {

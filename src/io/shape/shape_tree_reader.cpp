@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/text/decimal.hpp"
+#include "lekalo/base/limits.hpp"
 #include "node.hpp"
 
 namespace lekalo::io::detail {
@@ -47,9 +48,6 @@ Result<Point> read_place(JsonValue json, const std::string& where, const char* k
 
 namespace {
 
-/// The largest factor of "scale"; beyond it, either the numbers before or those after are no sizes of parts.
-constexpr double kLargestFactor = 1e6;
-
 constexpr std::array<std::pair<std::string_view, ShapeKind>, 3> kBooleans{{
     {"union", ShapeKind::unite},
     {"intersection", ShapeKind::intersect},
@@ -75,11 +73,11 @@ Result<Similarity> read_rotate(JsonValue json, const std::string& where, double 
 Result<Similarity> read_scale(JsonValue json, const std::string& where, double scale) {
   LEKALO_CHECK(expect_object(json, where, {"by", "about", "shape"}));
   LEKALO_TRY(const auto factor, read_number(json, where, "by", 1));
-  if (!(factor >= 1 / kLargestFactor && factor <= kLargestFactor)) {
+  if (!(factor >= 1 / limits::kLargestFactor && factor <= limits::kLargestFactor)) {
     return refuse(where,
                   fmt::format("\"by\" is {}; a factor from {:g} to {:g} is needed (mirror has a word of its "
                               "own)",
-                              factor, 1 / kLargestFactor, kLargestFactor));
+                              factor, 1 / limits::kLargestFactor, limits::kLargestFactor));
   }
   LEKALO_TRY(const auto about, read_place(json, where, "about", scale, Point{}));
   return scale_about(about, factor);

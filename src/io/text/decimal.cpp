@@ -66,6 +66,19 @@ std::optional<Decimal> read_decimal(std::string_view text) {
   return decimal;
 }
 
+/// A number in [10^(n - 1), 10^n) has n places before its point.
+/// \pre not 0
+std::int64_t places_of(const Decimal& decimal) {
+  return static_cast<std::int64_t>(decimal.digits.size()) + decimal.exponent;
+}
+
+std::optional<NumberFault> fault_of(const Decimal& decimal) {
+  if (decimal.digits.empty()) return std::nullopt;
+  if (places_of(decimal) <= -limits::kMostPlaces) return NumberFault::too_small;
+  if (decimal.digits.size() > limits::kMostDigits) return NumberFault::too_long;
+  return std::nullopt;
+}
+
 /// Multiplies exactly, digit after digit as by hand, and moves the point.
 void multiply(Decimal& decimal, DecimalFactor factor) {
   std::uint64_t carry = 0;
@@ -149,6 +162,16 @@ double nearest_double(const Decimal& decimal) {
 
 bool is_number(std::string_view text) { return read_decimal(text).has_value(); }
 
+std::optional<NumberFault> beyond_limits(std::string_view text) {
+  // Nearly all numbers are so short that they cannot be.
+  constexpr std::size_t kShort = 300, kShortExponent = 4;
+  if (text.size() <= kShort &&
+      text.size() - std::min(text.find_first_of("eE"), text.size()) <= kShortExponent)
+    return std::nullopt;
+  const auto decimal = read_decimal(text);
+  return decimal ? fault_of(*decimal) : std::nullopt;
+}
+
 bool is_not_finite(std::string_view text) {
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
   std::string name(text.substr(0, 9));
@@ -163,9 +186,9 @@ tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text, D
     return tl::unexpected(is_not_finite(text) ? NumberFault::not_finite : NumberFault::not_a_number);
   }
   if (decimal->digits.empty()) return Millimetres{};
+  if (const auto fault = fault_of(*decimal)) return tl::unexpected(*fault);
   multiply(*decimal, factor);
-  // The number lies in [10^(places - 1), 10^places).
-  const std::int64_t places = static_cast<std::int64_t>(decimal->digits.size()) + decimal->exponent;
+  const std::int64_t places = places_of(*decimal);
   if (places > 10) return tl::unexpected(NumberFault::too_large);
   if (places <= -100) return Millimetres{0, kSmallestMillimetres};
   Millimetres result{nearest_double(*decimal), 0};
@@ -184,6 +207,12 @@ std::string number_sentence(NumberFault fault, std::string_view text) {
     case NumberFault::too_large:
       return fmt::format("{} is out of range: coordinates go up to {:g} mm", excerpt(text),
                          kLargestMillimetres);
+    case NumberFault::too_small:
+      return fmt::format("{} is out of range: a number is 0 or at least 1e-{}", excerpt(text),
+                         limits::kMostPlaces);
+    case NumberFault::too_long:
+      return fmt::format("{} is too long: a number has at most {} digits", excerpt(text),
+                         limits::kMostDigits);
   }
   return {};
 }

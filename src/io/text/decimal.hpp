@@ -1,20 +1,21 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/io/text/excerpt.hpp"
 
 namespace lekalo::io {
 
-/// The largest magnitude of a coordinate in a contour file, mm. A double still resolves 1e-7 mm there, and a
-/// larger number is most likely a mistyped exponent.
-inline constexpr double kLargestMillimetres = 1e9;
+/// The largest magnitude of a coordinate in a file, mm.
+inline constexpr double kLargestMillimetres = limits::kLargestCoordinate;
 /// A magnitude below this, mm, is read as 0 with the error of this, because the geometry predicates are not
 /// exact below it (geom/predicates.hpp).
-inline constexpr double kSmallestMillimetres = 1e-100;
+inline constexpr double kSmallestMillimetres = limits::kSmallestCoordinate;
 
 /// A decimal number of a file in millimetres (inches times exactly 25.4), as the double nearest to it.
 struct Millimetres {
@@ -22,7 +23,13 @@ struct Millimetres {
   double error = 0;  ///< |value - decimal| is at most this; 0 only where the two are proved equal
 };
 
-enum class NumberFault { not_a_number, not_finite, too_large };
+enum class NumberFault {
+  not_a_number,
+  not_finite,
+  too_large,  ///< beyond kLargestMillimetres
+  too_small,  ///< nearer to 0 than limits::kMostPlaces allow, but not 0
+  too_long,   ///< more than limits::kMostDigits
+};
 
 /// The number of millimetres in a unit of length: multiplier times 10^exponent. It is {1, 0} for numbers that
 /// are no lengths.
@@ -45,6 +52,9 @@ struct DecimalFactor {
 
 /// Says whether the text is a number of that grammar.
 [[nodiscard]] bool is_number(std::string_view text);
+/// The fault too_small or too_long of a number that nobody reads, whatever it stands for; nothing for others
+/// and for texts that are no numbers.
+[[nodiscard]] std::optional<NumberFault> beyond_limits(std::string_view text);
 /// Says whether the text is nan, inf or infinity, with or without a sign, in upper or lower case.
 [[nodiscard]] bool is_not_finite(std::string_view text);
 

@@ -85,9 +85,12 @@ std::int64_t JsonReader::integer(JsonValue value, std::int64_t low, std::int64_t
                                     : fmt::format("a whole number is needed, not {}", name_of(value.kind())));
     return 0;
   }
-  // The comparison is one of doubles, because casting a number out of range is undefined; the limits are
-  // below 2^53, so it is exact.
-  if (!(value.number() >= static_cast<double>(low) && value.number() <= static_cast<double>(high))) {
+  // Numbers with a point or an exponent are compared as doubles, because casting one out of range is
+  // undefined; the limits are at most 2^53, so it is exact. Integers may be larger than doubles hold.
+  const bool in_range = value.kind() == JsonKind::integer ? value.integer() >= low && value.integer() <= high
+                                                          : value.number() >= static_cast<double>(low) &&
+                                                                value.number() <= static_cast<double>(high);
+  if (!in_range) {
     refuse(value, fmt::format("{} is out of range; from {} to {} is allowed", shown(value), low, high));
     return 0;
   }
@@ -126,7 +129,7 @@ std::int64_t JsonReader::length(JsonValue value, double low_mm, double high_mm, 
 }
 
 std::int64_t JsonReader::gap(JsonValue value, double mm_per_unit) {
-  constexpr double kMost = 0x1p18;
+  constexpr double kMost = limits::kLargestOutline;
   const double got = number(value, 0, kMost / mm_per_unit) * mm_per_unit;
   return ok() ? geom::grid_from_mm_up(std::clamp(got, 0.0, kMost)) : 0;
 }

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "json_tree.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/geom/grid.hpp"
 
 namespace lekalo::io::detail {
 
 /// The longest text of a name or an id, bytes.
 inline constexpr std::size_t kLongestText = 1000;
-/// The largest of counts, copies, qualities and the like.
-inline constexpr std::int64_t kLargestCount = 1'000'000'000;
+/// The largest of counts, copies and the like.
+inline constexpr std::int64_t kLargestCount = limits::kMostCount;
 
 /// Takes values out of a tree and keeps the first fault: "FILE: PATH: what is wrong". After it everything
 /// reads as nothing, so that callers look once, at the end or before work that is long.

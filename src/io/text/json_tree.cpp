@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "decimal.hpp"
 #include "lekalo/io/text/excerpt.hpp"
 #include "lekalo/io/text/json_events.hpp"
 
@@ -77,7 +78,12 @@ class JsonTreeBuilder final : public JsonEvents {
   bool integer(std::int64_t value) override {
     return add(JsonKind::integer, static_cast<std::uint64_t>(value));
   }
-  bool number(double value, std::string_view) override {
+  bool number(double value, std::string_view text) override {
+    if (const auto beyond = beyond_limits(text)) {
+      fault = Error{ErrorCode::bad_input,
+                    fmt::format("{}{}: {}", name_, place_of_next(), number_sentence(*beyond, text))};
+      return false;
+    }
     return add(JsonKind::number, std::bit_cast<std::uint64_t>(value));
   }
   bool text(std::string_view value) override {
@@ -168,6 +174,16 @@ class JsonTreeBuilder final : public JsonEvents {
       }
     }
     return text;
+  }
+
+  /// ": " and the path of the value that comes next; empty for that of the whole document.
+  [[nodiscard]] std::string place_of_next() const {
+    if (open_.empty()) return "";
+    const JsonTree::Node& outer = tree.nodes_[open_.back()];
+    const std::string around = path();
+    if (outer.kind == JsonKind::list) return fmt::format(": {}[{}]", around, outer.bits);
+    return ": " + around + (around.empty() ? "" : ".") +
+           plain_key(std::string_view(tree.texts_).substr(key_, key_size_));
   }
 
   const std::string& name_;

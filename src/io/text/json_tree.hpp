@@ -75,8 +75,8 @@ class JsonValue {
 class JsonTree {
  public:
   /// Fails with ErrorCode::bad_input, naming file and line or path: no JSON, a file that ends too early, a
-  /// number beyond doubles, a key that stands twice in one object, values deeper than `deepest`, a document
-  /// larger than kLargestJson.
+  /// number beyond doubles or the limits of written numbers (base/limits.hpp), a key that stands twice in one
+  /// object, values deeper than `deepest`, a document larger than kLargestJson.
   [[nodiscard]] static Result<JsonTree> parse(std::string_view bytes, const std::string& name,
                                               std::size_t deepest = kDeepestJson);
   /// The value of the whole document, valid until the tree is moved.

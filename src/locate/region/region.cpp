@@ -1,9 +1,12 @@
 #include "lekalo/locate/region.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/phi/region.hpp"
 #include "locate/search/search_limits.hpp"
 #include "pose_search.hpp"
@@ -56,8 +59,6 @@ Point middle(const Box& box) {
   return {0.5 * box.low.x + 0.5 * box.high.x, 0.5 * box.low.y + 0.5 * box.high.y};
 }
 
-constexpr double kLargestShift = 1e9;  ///< mm
-
 std::optional<std::uint32_t> optional_cap(std::uint32_t cap) {
   return cap == kNoCap ? std::nullopt : std::optional(cap);
 }
@@ -108,7 +109,8 @@ class RegionLocaliser {
         result.contacts = contacts(search, mirrored);
       }
     }
-    result.upper_bound = std::max(result.upper_bound, -furthest_out());
+    // The root holds the pivots of poses that stick out by less than furthest_out(), but for rounding.
+    result.upper_bound = std::max(result.upper_bound, -furthest_out() + rounding());
     result.upper_bound += problem_.part_tolerance + problem_.blank_tolerance;
     result.upper_bound = std::nextafter(result.upper_bound, std::numeric_limits<double>::infinity());
     result.shortfall = std::max(0.0, options_.min_allowance - result.best.clearance);
@@ -131,8 +133,9 @@ class RegionLocaliser {
 
   /// Returns how much of the gap is taken by rounding and the tolerances.
   [[nodiscard]] double taken() const {
-    return 64 * geom::kEdgeDistanceError * far_ + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
+    return rounding() + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
   }
+  [[nodiscard]] double rounding() const { return 64 * geom::kEdgeDistanceError * far_; }
   [[nodiscard]] double search_gap() const { return std::max(options_.gap - taken(), 0.25 * options_.gap); }
 
   /// Placements where more of the part sticks out than this are not searched, mm.
@@ -254,8 +257,9 @@ Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOp
   if (problem.part.empty() || problem.blank.empty())
     return failure(ErrorCode::bad_input, "part and blank must have an outline");
   for (const std::optional<double>& locked : {problem.locked.x, problem.locked.y})
-    if (locked && !(std::abs(*locked) <= kLargestShift))
-      return failure(ErrorCode::usage, "a locked x or y must be a number up to 1e9");
+    if (locked && !(std::abs(*locked) <= limits::kLargestCoordinate))
+      return failure(ErrorCode::usage,
+                     fmt::format("a locked x or y must be a number up to {:g}", limits::kLargestCoordinate));
   return RegionLocaliser(problem, options).run();
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "point_hash.hpp"
@@ -19,7 +20,6 @@ namespace {
 
 using geom::Point;
 
-constexpr double kLargestCoordinate = 1e9;
 /// Neighbours are at most this many median spacings apart, when the user does not say.
 constexpr double kStepInSpacings = 3;
 /// The points that give an order to points without one are this many guards apart, and at least an eighth of
@@ -41,7 +41,7 @@ Result<void> check_options(const ScanOptions& o) {
   const auto refuse = [](const char* what, double value, const char* range) {
     return failure(ErrorCode::usage, fmt::format("{} {} is not {}", what, value, range));
   };
-  const auto finite = [](double v) { return v <= kLargestCoordinate; };
+  const auto finite = [](double v) { return v <= limits::kLargestCoordinate; };
   if (!(o.uncertainty >= 0 && finite(o.uncertainty)))
     return refuse("the probe's uncertainty", o.uncertainty, "a length of 0 mm or more");
   if (!(o.coverage_factor > 0 && o.coverage_factor <= 1000))
@@ -69,11 +69,11 @@ Result<void> check_options(const ScanOptions& o) {
 Result<void> check_points(const ScanPoints& scan) {
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Point p = scan.points[i];
-    if (!geom::is_exact(p) || !(std::max(std::abs(p.x), std::abs(p.y)) <= kLargestCoordinate)) {
+    if (!geom::is_exact(p) || !(std::max(std::abs(p.x), std::abs(p.y)) <= limits::kLargestCoordinate)) {
       return bad(
-          fmt::format("point {} at ({}, {}) is out of range: coordinates are finite, up to 1e9 mm and not "
-                      "below 1e-100 mm other than 0",
-                      i, p.x, p.y));
+          fmt::format("point {} at ({}, {}) is out of range: coordinates are finite, up to {:g} mm and not "
+                      "below {:g} mm other than 0",
+                      i, p.x, p.y, limits::kLargestCoordinate, limits::kSmallestCoordinate));
     }
   }
   return {};

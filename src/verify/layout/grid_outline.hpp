@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/base/limits.hpp"
+
 namespace lekalo::verify {
 
 /// Outlines between points of the grid of docs/design/layout.md, and what is asked about several of them at
@@ -33,8 +35,9 @@ struct GridOutline {
   GridBox box;
 };
 
-/// The largest coordinates of an outline as it is written and as it is placed, in steps.
-inline constexpr std::int64_t kMostWritten = std::int64_t{1} << 38, kMostPlaced = std::int64_t{1} << 40;
+/// The largest coordinates of an outline as it is written and as it is placed, in steps of 2^-20 mm.
+inline constexpr std::int64_t kMostWritten = static_cast<std::int64_t>(limits::kLargestOutline) << 20,
+                              kMostPlaced = std::int64_t{1} << 40;
 
 /// Turns the first loop counter-clockwise and the others clockwise; the first is the outer one.
 /// \pre fault_of(loops) finds no fault

@@ -9,13 +9,11 @@
 #include <set>
 
 #include "chords.hpp"
+#include "lekalo/base/limits.hpp"
 #include "verify/read/fields.hpp"
 
 namespace lekalo::verify {
 namespace {
-
-constexpr double kMostOutlineMm = 262144, kMostPlacementMm = 524288, kMostDegrees = 3.6e6;
-constexpr std::int64_t kMostCount = 1'000'000'000;
 
 /// Reads the members of one object and complains about unknown ones. Members that begin with x_ belong to
 /// other programs and are passed over.
@@ -60,6 +58,12 @@ class Members {
     if (number && number->exponent >= 0 && number->exponent < 19) {
       const Integer exact = in_units(*number, 0);
       if (exact >= static_cast<long>(least) && exact <= static_cast<long>(most)) return to_long(exact);
+    } else if (number) {
+      // Readers take a number with decimals as a double, in which one a hair off a whole one is that.
+      const double taken = approximate(*number);
+      if (taken == std::nearbyint(taken) && taken >= static_cast<double>(least) &&
+          taken <= static_cast<double>(most))
+        return static_cast<std::int64_t>(taken);
     }
     complain(fmt::format("field {} is {}, not a whole number from {} to {}", name(key), excerpt(value.text),
                          least, most));
@@ -100,9 +104,10 @@ GridPoint read_point(Json item, const std::string& path, Members& members) {
     JsonItems numbers(item);
     for (; const auto number = numbers.next(); ++count)
       if (count < 2)
-        steps[count] = steps_of(members.number_of(*number, path, -kMostOutlineMm, kMostOutlineMm),
-                                ToStep::nearest, kMostOutlineMm)
-                           .value_or(0);
+        steps[count] =
+            steps_of(members.number_of(*number, path, -limits::kLargestOutline, limits::kLargestOutline),
+                     ToStep::nearest, limits::kLargestOutline)
+                .value_or(0);
   }
   if (count != 2) members.complain(fmt::format("{} is not a list of two numbers", path));
   return {steps[0], steps[1]};
@@ -139,7 +144,9 @@ GridOutline read_outline(Json value, const std::string& path, std::string& compl
     return {};
   }
   const bool tolerant = members.has("chord_tolerance");
-  const double tolerance = tolerant ? members.number("chord_tolerance", 0x1p-16, 100) : 0.01;
+  const double tolerance =
+      tolerant ? members.number("chord_tolerance", limits::kLeastChordTolerance, limits::kMostChordTolerance)
+               : 0.01;
   if (members.has("curves") && complaint.empty()) {
     const Shape drawn = read_shape(members.get("curves"), members.name("curves"), complaint);
     if (!complaint.empty()) return {};
@@ -157,20 +164,20 @@ int read_quality(Members& members, bool best_is_a_word) {
   const Json value = members.get("quality");
   if (best_is_a_word && value.is_string() && json_text(value) == "best")
     return std::numeric_limits<int>::max();
-  return static_cast<int>(members.whole("quality", 0, std::numeric_limits<int>::max(), 0));
+  return static_cast<int>(members.whole("quality", 0, limits::kMostLevel, 0));
 }
 
 std::vector<WrittenAngles> read_rotations(Members& part) {
   std::vector<WrittenAngles> rotations;
   part.each("rotations", [&](Json item, const std::string& path) {
     if (!item.is_object()) {
-      const double angle = part.number_of(item, path, -kMostDegrees, kMostDegrees);
+      const double angle = part.number_of(item, path, -limits::kMostDegrees, limits::kMostDegrees);
       rotations.push_back({angle, angle});
       return;
     }
     Members range(item, path, part.complaint(), {"from", "to"});
-    const double from = range.number("from", -kMostDegrees, kMostDegrees),
-                 to = range.number("to", -kMostDegrees, kMostDegrees);
+    const double from = range.number("from", -limits::kMostDegrees, limits::kMostDegrees),
+                 to = range.number("to", -limits::kMostDegrees, limits::kMostDegrees);
     if (from > to) range.complain(fmt::format("{} ends before it begins", path));
     rotations.push_back({from, to});
   });
@@ -186,7 +193,7 @@ struct Gaps {
 
 Gaps read_gaps(Members& members, Gaps otherwise) {
   const auto read = [&](std::string_view key, std::int64_t& gap) {
-    if (members.has(key)) gap = members.steps(key, 0, kMostOutlineMm, ToStep::up);
+    if (members.has(key)) gap = members.steps(key, 0, limits::kLargestOutline, ToStep::up);
   };
   read("gap", otherwise.gap);
   read("border_gap", otherwise.border);
@@ -214,13 +221,12 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
   part.may_mirror = members.flag("mirror");
   if (members.has("grain")) {
     Members grain(members.get("grain"), members.name("grain"), complaint, {"deg", "tolerance_deg"});
-    part.grain = WrittenGrain{grain.number("deg", -kMostDegrees, kMostDegrees),
+    part.grain = WrittenGrain{grain.number("deg", -limits::kMostDegrees, limits::kMostDegrees),
                               grain.has("tolerance_deg") ? grain.number("tolerance_deg", 0, 90) : 0};
   }
-  part.tolerated_severity = members.whole("tolerated_severity", 0, std::numeric_limits<int>::max(), 0);
-  constexpr std::int64_t kInt = std::numeric_limits<int>::max();
-  (void)members.whole("priority", -kInt - 1, kInt, 0);
-  (void)members.whole("demand", 0, kMostCount, 0);
+  part.tolerated_severity = members.whole("tolerated_severity", 0, limits::kMostLevel, 0);
+  (void)members.whole("priority", -limits::kMostLevel, limits::kMostLevel, 0);
+  (void)members.whole("demand", 0, limits::kMostCount, 0);
   const Gaps gaps = read_gaps(members, rules);
   part.gap = gaps.gap, part.border_gap = gaps.border, part.defect_gap = gaps.defect;
   return part;
@@ -231,7 +237,7 @@ GridOutline rectangle(std::int64_t length, std::int64_t height) {
 }
 
 std::vector<WrittenStockFeature> read_features(Members& stock, std::string_view list, std::string_view grade,
-                                               std::int64_t least) {
+                                               std::int64_t least, std::int64_t most) {
   std::vector<WrittenStockFeature> features;
   std::set<std::string> ids;
   stock.each(list, [&](Json item, const std::string& path) {
@@ -241,7 +247,7 @@ std::vector<WrittenStockFeature> read_features(Members& stock, std::string_view 
     if (!ids.insert(feature.id).second) members.complain(fmt::format("{} has the id of another", path));
     if (grade == "quality" && !members.has(grade))
       members.complain(fmt::format("field {} is missing", members.name(grade)));
-    feature.grade = members.whole(grade, least, std::numeric_limits<int>::max(), least);
+    feature.grade = members.whole(grade, least, most, least);
     feature.outline =
         read_outline(members.get("outline"), members.name("outline"), stock.complaint(), ChordSide::outside);
     features.push_back(std::move(feature));
@@ -260,16 +266,18 @@ WrittenStock read_stock(Json item, const std::string& path, std::string& complai
   const std::string kind = members.text("kind");
   if (kind != "strip" && kind != "sheet" && kind != "hide")
     members.complain(fmt::format("field {} is not strip, sheet or hide", members.name("kind")));
-  stock.count = members.whole("count", 1, kMostCount, 1);
-  if (members.has("cost")) (void)members.number("cost", 0, 1e15);
+  stock.count = members.whole("count", 1, limits::kMostCount, 1);
+  if (members.has("cost")) (void)members.number("cost", 0, limits::kMostMoney);
   if (kind == "strip") {
     if (members.has("outline"))
       members.complain(fmt::format("{} is a strip: height and length, no outline", path));
     if (stock.count != 1) members.complain(fmt::format("{} is a strip, of which there is one", path));
-    const std::int64_t height = members.steps("height", 0x1p-18, kMostOutlineMm, ToStep::nearest);
-    const std::int64_t length = members.has("length")
-                                    ? members.steps("length", 0x1p-18, kMostOutlineMm, ToStep::nearest)
-                                    : kMostWritten;
+    const std::int64_t height =
+        members.steps("height", limits::kShortestSide, limits::kLargestOutline, ToStep::nearest);
+    const std::int64_t length =
+        members.has("length")
+            ? members.steps("length", limits::kShortestSide, limits::kLargestOutline, ToStep::nearest)
+            : kMostWritten;
     if (complaint.empty()) stock.outline = rectangle(length, height);
   } else {
     if (members.has("height") || members.has("length"))
@@ -277,9 +285,10 @@ WrittenStock read_stock(Json item, const std::string& path, std::string& complai
     stock.outline =
         read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::inside);
   }
-  if (members.has("grain_deg")) stock.grain = members.number("grain_deg", -kMostDegrees, kMostDegrees);
-  stock.defects = read_features(members, "defects", "severity", 1);
-  stock.zones = read_features(members, "zones", "quality", 0);
+  if (members.has("grain_deg"))
+    stock.grain = members.number("grain_deg", -limits::kMostDegrees, limits::kMostDegrees);
+  stock.defects = read_features(members, "defects", "severity", 1, limits::kMostSeverity);
+  stock.zones = read_features(members, "zones", "quality", 0, limits::kMostLevel);
   return stock;
 }
 
@@ -304,12 +313,12 @@ void read_kits(Members& root, const Index& parts) {
     Members kit(item, path, root.complaint(), {"id", "name", "demand", "value", "pieces"});
     number_ids(kit.id(), path, ids, root.complaint());
     kit.optional_text("name");
-    (void)kit.whole("demand", 0, kMostCount, 1);
-    if (kit.has("value")) (void)kit.number("value", 0, 1e15);
+    (void)kit.whole("demand", 0, limits::kMostKits, 1);
+    if (kit.has("value")) (void)kit.number("value", 0, limits::kMostMoney);
     kit.each("pieces", [&](Json value, const std::string& at) {
       Members piece(value, at, root.complaint(), {"part", "count", "mirrored"});
       (void)find(piece, "part", parts);
-      (void)piece.whole("count", 1, kMostCount, 1);
+      (void)piece.whole("count", 1, limits::kMostKits, 1);
       (void)piece.flag("mirrored");
     });
   });
@@ -319,10 +328,11 @@ GridTurn read_turn(Members& members) {
   if (members.has("rotation_deg")) {
     if (members.has("c") || members.has("s"))
       members.complain(fmt::format("{} is there beside c and s", members.name("rotation_deg")));
-    const double degrees = members.number("rotation_deg", -kMostDegrees, kMostDegrees);
+    const double degrees = members.number("rotation_deg", -limits::kMostDegrees, limits::kMostDegrees);
     return turn_of_degrees(degrees);
   }
-  const double c = members.number("c", -2, 2), s = members.number("s", -2, 2);
+  const double c = members.number("c", -limits::kLargestSine, limits::kLargestSine),
+               s = members.number("s", -limits::kLargestSine, limits::kLargestSine);
   const auto turn = turn_of_pair(c, s);
   if (!turn)
     members.complain(fmt::format("{} and {} are no cosine and sine", members.name("c"), members.name("s")));
@@ -337,22 +347,22 @@ void read_placements(Members& root, const Index& parts, const Index& stocks, Wri
         item, path, root.complaint(),
         {"id", "part", "stock", "copy", "c", "s", "rotation_deg", "x", "y", "mirrored", "locked"});
     WrittenPiece piece;
-    constexpr std::int64_t kMostId = std::int64_t{1} << 53;
-    piece.id = static_cast<std::uint64_t>(members.whole("id", 1, kMostId, static_cast<std::int64_t>(next)));
+    piece.id =
+        static_cast<std::uint64_t>(members.whole("id", 1, limits::kMostId, static_cast<std::int64_t>(next)));
     next = std::max(next, piece.id + 1);
     if (!ids.insert(piece.id).second) members.complain(fmt::format("{} has the id of another", path));
     piece.part = find(members, "part", parts);
     piece.stock = find(members, "stock", stocks);
-    piece.copy = members.whole("copy", 0, kMostCount, 0);
+    piece.copy = members.whole("copy", 0, limits::kMostCount, 0);
     piece.turn = read_turn(members);
-    piece.at = {members.steps("x", -kMostPlacementMm, kMostPlacementMm, ToStep::nearest),
-                members.steps("y", -kMostPlacementMm, kMostPlacementMm, ToStep::nearest)};
+    piece.at = {members.steps("x", -limits::kLargestPlacement, limits::kLargestPlacement, ToStep::nearest),
+                members.steps("y", -limits::kLargestPlacement, limits::kLargestPlacement, ToStep::nearest)};
     piece.mirrored = members.flag("mirrored");
     (void)members.flag("locked");
     layout.placements.push_back(piece);
   });
-  if (root.has("next_id") && root.whole("next_id", static_cast<std::int64_t>(next),
-                                        std::numeric_limits<std::int64_t>::max() / 4, 0) == 0)
+  if (root.has("next_id") &&
+      root.whole("next_id", static_cast<std::int64_t>(next), limits::kMostId + 1, 0) == 0)
     root.complain(fmt::format("field next_id is not above the ids of all placements"));
 }
 

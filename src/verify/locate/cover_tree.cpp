@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grown_ball.hpp"
+#include "lekalo/base/limits.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
@@ -51,8 +52,8 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     if (ends.size() != 2)
       return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
     for (const Decimal& end : ends)
-      if (!(std::abs(approximate(end)) <= kLargestCoordinate))
-        fields.complain(fmt::format("{} is beyond {}", fields.name(key), kLargestCoordinate));
+      if (!(std::abs(approximate(end)) <= limits::kLargestDerived))
+        fields.complain(fmt::format("{} is beyond {}", fields.name(key), limits::kLargestDerived));
     return Span{enclosed(ends[0]).low, enclosed(ends[1]).high};
   };
   const Span theta = range("theta"), x = range("x"), y = range("y");
@@ -144,7 +145,7 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
       const auto decimal = next && next->is_number() ? parse_decimal(next->text) : std::nullopt;
       if (!decimal) return complain("a contact is not seven numbers");
       value[k] = *next, number[k] = enclosed(*decimal);
-      if (!(number[k].low >= -kLargestCoordinate && number[k].high <= kLargestCoordinate))
+      if (!(number[k].low >= -limits::kLargestDerived && number[k].high <= limits::kLargestDerived))
         return complain("a contact is beyond all bounds");
       const bool may_be_negative = k != 2 && k != 5 && k != 6;
       if (!may_be_negative && sgn(decimal->digits) < 0)

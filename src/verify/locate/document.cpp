@@ -161,7 +161,7 @@ Result<WrittenInterval> read_interval(Json item, std::size_t index, const std::s
   WrittenInterval interval{found[0].text, found[1].text, {}};
   for (const Json& end : {found[0], found[1]}) {
     if (!end.is_number() || !parse_decimal(end.text)) {
-      return complain(fmt::format("\"{}\" is not {}", excerpt(end.text), kDecimalRule));
+      return complain(fmt::format("\"{}\" is not {}", excerpt(end.text), decimal_rule()));
     }
   }
   if (!found[2].is_array()) return complain("it has no list of contacts");

@@ -1,9 +1,12 @@
 #include "exact.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdlib>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/limits.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -59,11 +62,18 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   const long exponent = *written - static_cast<long>(decimals) + static_cast<long>(digits.size() - 1 - last);
   digits = digits.substr(first, last - first + 1);
   const long magnitude = exponent + static_cast<long>(digits.size());
-  if (digits.size() > kMaxDigits || std::abs(magnitude) > kMaxMagnitude) return std::nullopt;
+  // The number lies in [10^(magnitude - 1), 10^magnitude).
+  constexpr long kMost = limits::kMostPlaces;
+  if (digits.size() > limits::kMostDigits || magnitude <= -kMost || magnitude > kMost) return std::nullopt;
 
   Decimal value{Integer(digits, 10), exponent};
   if (negative) value.digits = -value.digits;
   return value;
+}
+
+std::string decimal_rule() {
+  return fmt::format("a decimal number of at most {} digits, 0 or between 1e-{} and 1e{}",
+                     limits::kMostDigits, limits::kMostPlaces, limits::kMostPlaces);
 }
 
 std::string excerpt(std::string_view text) {

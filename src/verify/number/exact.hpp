@@ -26,17 +26,12 @@ struct Decimal {
   long exponent = 0;
 };
 
-/// A number may have this many digits, and its first digit may stand this many places from the decimal point.
-/// The shortest form of every double is well inside. A number outside would only cost memory.
-inline constexpr std::size_t kMaxDigits = 800;
-inline constexpr long kMaxMagnitude = 400;
-
 /// Parses [+-] digits [. digits] [e [+-] digits] with at least one digit before the e. Returns nothing for
-/// any other text, and for numbers beyond the limits above.
+/// any other text, and for numbers of more than limits::kMostDigits or limits::kMostPlaces.
 [[nodiscard]] std::optional<Decimal> parse_decimal(std::string_view text);
 
 /// Error messages say with these words which numbers parse_decimal accepts.
-inline constexpr const char* kDecimalRule = "a decimal number of at most 800 digits between 1e-400 and 1e400";
+[[nodiscard]] std::string decimal_rule();
 
 /// Returns the text for a message, cut when it is long.
 [[nodiscard]] std::string excerpt(std::string_view text);

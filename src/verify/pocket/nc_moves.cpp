@@ -8,13 +8,13 @@
 #include <optional>
 
 #include "lekalo/base/double_of_text.hpp"
+#include "lekalo/base/limits.hpp"
 #include "nc_words.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-/// A coordinate beyond a kilometre is beyond any machine.
-constexpr double kFarthest = 1e6;  // mm
+constexpr double kFarthest = limits::kLargestProgramCoordinate;  // mm
 /// The radii at the two ends of an arc may differ by this much.
 constexpr double kCircleTolerance = 5e-3;  // mm
 /// LinuxCNC refuses arcs of a smaller radius, and arcs by R whose ends are further apart than the diameter

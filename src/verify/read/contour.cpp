@@ -97,7 +97,7 @@ Result<Contour> read_text(const Document& document) {
       numbers[i] = parse_decimal(fields[i]);
       if (!numbers[i]) {
         return bad_line(document, lines.number(),
-                        fmt::format("\"{}\" is not {}", excerpt(fields[i]), kDecimalRule));
+                        fmt::format("\"{}\" is not {}", excerpt(fields[i]), decimal_rule()));
       }
     }
     contour.x.push_back(*std::move(numbers[0]));
@@ -117,7 +117,7 @@ Result<std::array<Decimal, 2>> json_point(const Document& document, Json value, 
       const auto number = item->is_number() ? parse_decimal(item->text) : std::nullopt;
       if (!number) {
         return bad(document,
-                   fmt::format("point {}: \"{}\" is not {}", index, excerpt(item->text), kDecimalRule));
+                   fmt::format("point {}: \"{}\" is not {}", index, excerpt(item->text), decimal_rule()));
       }
       if (count < 2) point[count] = *number;
       ++count;
@@ -322,7 +322,7 @@ class DxfReader {
 
   Result<Decimal> number(const DxfPair& pair) const {
     if (auto value = parse_decimal(pair.value)) return *std::move(value);
-    return complain(pair.line, fmt::format("\"{}\" is not {}", excerpt(pair.value), kDecimalRule));
+    return complain(pair.line, fmt::format("\"{}\" is not {}", excerpt(pair.value), decimal_rule()));
   }
 
   /// Refuses an entity that is not seen from +z, because its coordinates are those of another plane.

@@ -66,7 +66,7 @@ class Fields {
   [[nodiscard]] Decimal number_of(Json value, const std::string& what) {
     auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
     if (number) return *std::move(number);
-    complain_of(value, what, kDecimalRule);
+    complain_of(value, what, decimal_rule());
     return {};
   }
   [[nodiscard]] std::size_t index_of(Json value, const std::string& what) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
@@ -65,10 +66,10 @@ Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
 }
 
 Result<Enclosure> verify_clearance(const Document& part, const Document& blank, const Placement& at) {
-  if (!(std::abs(at.x) <= kLargestCoordinate && std::abs(at.y) <= kLargestCoordinate &&
-        std::abs(at.theta) <= kLargestCoordinate))
+  if (!(std::abs(at.x) <= limits::kLargestDerived && std::abs(at.y) <= limits::kLargestDerived &&
+        std::abs(at.theta) <= limits::kLargestDerived))
     return failure(ErrorCode::bad_input,
-                   fmt::format("a placement has coordinates up to {} only", kLargestCoordinate));
+                   fmt::format("a placement has coordinates up to {} only", limits::kLargestDerived));
   LEKALO_TRY(const Shape of_part, shape_of(part));
   LEKALO_TRY(const Shape of_blank, shape_of(blank));
   const Motion motion = motion_of(Interval::exactly(at.theta, 128), just(at.x), just(at.y), at.mirrored);

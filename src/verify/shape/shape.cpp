@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "lekalo/base/limits.hpp"
 #include "shape_distance.hpp"
 #include "verify/number/interval.hpp"
 
@@ -22,6 +23,11 @@ struct WrittenPoint {
   }
   [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
 };
+
+/// Says whether readers that take numbers as doubles take the two points for one.
+bool same_as_doubles(const WrittenPoint& a, const WrittenPoint& b) {
+  return a == b || (approximate(a.x) == approximate(b.x) && approximate(a.y) == approximate(b.y));
+}
 
 /// Returns the decimals as integers of one unit. Each call chooses its own unit.
 Point in_common_units(const WrittenPoint& a, const WrittenPoint& origin) {
@@ -78,15 +84,16 @@ class ShapeReader {
     }
     for (Decimal& number : numbers) {
       if (inch_) number.digits *= 254, --number.exponent;
-      if (!(std::abs(approximate(number)) <= kLargestCoordinate))
-        complain(
-            fmt::format("{} is farther than {} mm from the origin", fields.name(key), kLargestCoordinate));
+      if (!(std::abs(approximate(number)) <= limits::kLargestCoordinate))
+        complain(fmt::format("{} is farther than {} mm from the origin", fields.name(key),
+                             limits::kLargestCoordinate));
     }
     return {numbers[0], numbers[1]};
   }
 
   void read_contour(Json value, const std::string& path) {
     if (!value.is_array()) return complain(path + " is not a list of edges");
+    const std::size_t edges = count_items(value);
     JsonItems items(value);
     std::optional<WrittenPoint> begin, at;
     for (std::size_t i = 0; const auto item = items.next(); ++i) {
@@ -95,9 +102,13 @@ class ShapeReader {
       const bool arc = !edge.get("arc").text.empty();
       if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
       Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
-      const WrittenPoint from = point(inner, "from"), to = point(inner, "to");
-      if (at && !(*at == from)) return complain(name + " does not begin where the edge before it ends");
+      WrittenPoint from = point(inner, "from"), to = point(inner, "to");
+      if (at && !same_as_doubles(*at, from))
+        return complain(name + " does not begin where the edge before it ends");
+      // Decimals of one double may differ; what counts is closed exactly.
+      if (at) from = *at;
       if (!begin) begin = from;
+      if (i + 1 == edges && same_as_doubles(to, *begin)) to = *begin;
       at = to;
       const Json open = edge.get("open");
       if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");

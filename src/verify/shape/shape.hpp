@@ -69,12 +69,10 @@ struct Shape {
   double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
 };
 
-/// Coordinates may be no larger than this, mm.
-inline constexpr double kLargestCoordinate = 1e9;
-
 /// Reads `{"units": "mm" / "inch", "outer": [edges], "holes": [[edges], ...]}` or `{"units", "pieces":
 /// [{"outer", "holes"}, ...]}`; without units they are mm, or inches if that is what `inch` says. Contours
-/// must be closed: each edge begins with the very decimals at which the one before ends. An edge with
+/// must be closed: each edge begins where the one before ends, at the decimals of the same double, and
+/// coordinates are within limits::kLargestCoordinate. An edge with
 /// `"open": true` is open.
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint,
                                bool inch = false);
