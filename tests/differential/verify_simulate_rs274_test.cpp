@@ -211,41 +211,14 @@ class StrangeProgram {
   void strange() {
     switch (random_.below(6)) {
       case 0:
-        return line(pick({"%",
-                          "% ",
-                          "/G1 X3",
-                          "O100",
-                          "O100 sub",
-                          "N5 N6 X1",
-                          "X1 N5",
-                          "#1=3",
-                          "X[1+1]",
-                          "G1 X#1",
-                          "(py, x=1)",
-                          "(a(b)c)",
-                          "(open",
-                          "; fine (open",
-                          "G1 X1 2 Y3",
-                          "G1 X1\rY3",
-                          "G 1 X 3",
-                          "G1 X--1",
-                          "G1 X1.2.3",
-                          "G1 X+-3",
-                          "G1 X",
-                          "g01x+3y-.5",
-                          "G1 X.",
-                          "G1 X1e2",
-                          "G1.0 X3",
-                          "G001 X3",
-                          "N99999 X2",
-                          "N123456 X2",
-                          "N1.5 X2",
-                          "%%",
-                          "G1 X3 (a) Y2 (b)",
+        return line(
+            pick({"%",         "% ",           "/G1 X3",     "O100",       "O100 sub",  "N5 N6 X1",
+                  "X1 N5",     "#1=3",         "X[1+1]",     "G1 X#1",     "(py, x=1)", "(a(b)c)",
+                  "(open",     "; fine (open", "G1 X1 2 Y3", "G1 X1\rY3",  "G 1 X 3",   "G1 X--1",
+                  "G1 X1.2.3", "G1 X+-3",      "G1 X",       "g01x+3y-.5", "G1 X.",     "G1 X1e2",
+                  "G1.0 X3",   "G001 X3",      "N99999 X2",  "N1.5 X2",    "%%",        "G1 X3 (a) Y2 (b)",
 
-                          "@1 ^30",
-                          "E1",
-                          "$1 S3"}));
+                  "@1 ^30",    "E1",           "$1 S3"}));
       case 1:
       case 2:
         return line(any_word());
