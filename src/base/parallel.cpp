@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <vector>
 #endif
@@ -37,7 +36,7 @@ void share_out(std::size_t count, unsigned threads, const std::function<void(std
   try {
     while (others.size() + 1 < workers)
       others.emplace_back([&work, &next, worker = others.size() + 1] { work(worker, next++); });
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {
     // Those that run take the rest.
   }
   work(0, 0);
