@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/base/run_control.hpp"
 #include "lekalo/verify/verify.hpp"
 
@@ -26,6 +27,8 @@ struct SimulateOptions {
   double rapid_feed = 5000;   ///< mm/min, of G0
   /// The largest distance between places where engagement is measured, mm.
   double spacing = 0.05;
+  /// The control in whose language the program, and those before it, are written.
+  words::Control control = words::Control::linuxcnc;
   /// Two threads are used; the report is the same with one.
   unsigned threads = 2;
 };
@@ -109,13 +112,13 @@ struct SimulateReport {
   std::vector<EngagementSample> samples;  ///< in the order of cutting
 };
 
-/// Judges a program. bad_input, with file and line, for every word that docs/cli.md does not list, words of a
-/// block that do not fit together, a change of tool or offsets on the way, an arc whose ends are not on one
-/// circle within 0.005 mm, a pocket that is open or meets itself, a tool that fits nowhere in
-/// the pocket, and options out of range. Cost: about a microsecond for a sample and each stroke of the path
-/// near it; a pocket of 100 x 60 mm with 3 m of path takes about a second.
-/// \param earlier  programs that ran before on the same stock, with the same top
-/// \param progress  hears, in the calling thread, how far along the path it is; may be empty
+/// Judges a program. bad_input, with file and line, for every word that the control does not know
+/// (base/nc_words.hpp), words of a block that do not fit together, a change of tool or offsets on the way, an
+/// arc whose ends are not on one circle within 0.005 mm, a pocket that is open or meets itself, a tool that
+/// fits nowhere in the pocket, and options out of range. Cost: about a microsecond for a sample and each
+/// stroke of the path near it; a pocket of 100 x 60 mm with 3 m of path takes about a second. \param earlier
+/// programs that ran before on the same stock, with the same top \param progress  hears, in the calling
+/// thread, how far along the path it is; may be empty
 [[nodiscard]] Result<SimulateReport> simulate(const Document& program, const Document& pocket,
                                               const SimulateOptions& options,
                                               const std::vector<EarlierProgram>& earlier = {},
@@ -144,6 +147,7 @@ struct CutStretch {
 
 /// Returns the cuts of a program that ran before, as simulate() reads them. A path maker may know no more of
 /// that program. Errors as there.
-[[nodiscard]] Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top);
+[[nodiscard]] Result<std::vector<CutStretch>> cut_stretches(
+    const Document& program, double top, words::Control control = words::Control::linuxcnc);
 
 }  // namespace lekalo::verify

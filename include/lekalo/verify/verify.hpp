@@ -25,6 +25,10 @@ struct LocateInputs {
   std::optional<Document> certificate;
   /// Given when the result names a file of features.
   std::optional<Document> features = std::nullopt;
+  /// The program that was to be moved, and the one that was written, where it is still there.
+  std::optional<Document> program = std::nullopt, written_program = std::nullopt;
+  /// The earlier result that this one was compared with.
+  std::optional<Document> earlier = std::nullopt;
 };
 
 enum class Verdict {
@@ -32,6 +36,9 @@ enum class Verdict {
   /// They hold, but a claim was not rechecked, which a note names: the choice by a criterion that the checker
   /// does not know, or the edges of a feature that it cannot rebuild.
   incomplete,
+  /// They hold for the regions as the result states them. How a file became its region was not rechecked,
+  /// which a note says.
+  stated_regions,
   unproved,  ///< the clearance holds; there is no certificate to check the bound with
   refuted    ///< something written is not true
 };

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "verify/number/exact.hpp"
+#include "verify/shape/side_tree.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -82,14 +86,70 @@ bool before(const Ray& a, const Ray& b) {
   return cross(a.direction, b.direction) > 0;
 }
 
+/// Edges and a tree over their boxes, whose numbers doubles hold exactly.
+struct IndexedEdges {
+  std::vector<GridEdge> edges;
+  SideTree tree;
+
+  explicit IndexedEdges(std::vector<GridEdge> all) : edges(std::move(all)), tree(boxes_of(edges)) {}
+
+  static Box wide(const GridBox& box, std::int64_t by = 0) {
+    return {static_cast<double>(box.low_x - by), static_cast<double>(box.low_y - by),
+            static_cast<double>(box.high_x + by), static_cast<double>(box.high_y + by)};
+  }
+  static std::vector<Box> boxes_of(const std::vector<GridEdge>& edges) {
+    std::vector<Box> boxes;
+    for (const GridEdge& edge : edges) boxes.push_back(wide(box_of(edge)));
+    return boxes;
+  }
+
+  /// Calls visit(k) for the edges whose boxes come within `gap` of a box.
+  template <class Visit>
+  void visit_near(const GridBox& box, std::int64_t gap, const Visit& visit) const {
+    const Box room = wide(box, gap);
+    tree.visit([&](const Box& other) { return meet(room, other); }, visit);
+  }
+  /// Calls visit(k) for the edges that a ray from the event to the right may meet.
+  template <class Visit>
+  void visit_right_of(const Event& v, const Visit& visit) const {
+    // The event's coordinates are rounded by less than the step that the box is larger.
+    const double x = static_cast<double>(v.x) / static_cast<double>(v.w) - 1;
+    const double y = static_cast<double>(v.y) / static_cast<double>(v.w);
+    tree.visit([&](const Box& box) { return box.high_x >= x && box.low_y <= y + 1 && box.high_y >= y - 1; },
+               visit);
+  }
+};
+
+/// Returns the edge in the plane with x and y exchanged, material on the left again.
+GridEdge exchanged(const GridEdge& e) { return {{e.to.y, e.to.x}, {e.from.y, e.from.x}}; }
+GridBox exchanged(const GridBox& b) { return {b.low_y, b.low_x, b.high_y, b.high_x}; }
+
+/// Says whether a line up meets fewer of the edges than a line to the right, as a rule.
+bool are_met_less_upwards(const std::vector<GridEdge>& edges) {
+  if (edges.empty()) return false;
+  double across = 0, up = 0;
+  GridBox all = box_of(edges.front());
+  for (const GridEdge& edge : edges) {
+    const GridBox box = box_of(edge);
+    across += static_cast<double>(box.high_x - box.low_x), up += static_cast<double>(box.high_y - box.low_y);
+    all = {std::min(all.low_x, box.low_x), std::min(all.low_y, box.low_y), std::max(all.high_x, box.high_x),
+           std::max(all.high_y, box.high_y)};
+  }
+  return across * static_cast<double>(all.high_y - all.low_y) <
+         up * static_cast<double>(all.high_x - all.low_x);
+}
+
 /// Collects the rays of an outline at an event that lies on its edges. For any other event the return value
 /// says whether it lies inside the outline.
-bool look_around(const std::vector<GridEdge>& edges, std::size_t of, const Event& v, std::vector<Ray>& rays) {
+bool look_around(const IndexedEdges& outline, std::size_t of, const Event& v, std::vector<Ray>& rays) {
   bool inside = false;
-  for (const GridEdge& edge : edges) {
+  ask();
+  outline.visit_right_of(v, [&](std::size_t k) {
+    ask();
+    const GridEdge& edge = outline.edges[k];
     const bool from_above = edge.from.y * v.w > v.y, to_above = edge.to.y * v.w > v.y;
     const bool may_touch = in_box(v, box_of(edge));
-    if (from_above == to_above && !may_touch) continue;
+    if (from_above == to_above && !may_touch) return;
     const int at = side(edge, v);
     if (at == 0 && may_touch) {
       const GridPoint along = edge.to - edge.from;
@@ -98,7 +158,7 @@ bool look_around(const std::vector<GridEdge>& edges, std::size_t of, const Event
         rays.push_back({{-along.x, -along.y}, of, false});
     }
     if (from_above != to_above && (at > 0) == to_above && at != 0) inside = !inside;
-  }
+  });
   return inside;
 }
 
@@ -115,24 +175,32 @@ class Question {
       window_.high_y = std::min(window_.high_y, outline->box.high_y);
     }
     if (!has_room()) return;
+    // The rays to the right of a comb with level teeth would meet all of them, but those of the comb laid
+    // down meet a few.
+    bool lay_down = false;
+    for (const auto* list : {&in, &out})
+      for (const GridOutline* outline : *list) lay_down = lay_down || are_met_less_upwards(outline->edges);
+    if (lay_down) window_ = exchanged(window_);
     for (const auto* list : {&in, &out}) {
       for (const GridOutline* outline : *list) {
-        std::vector<GridEdge>& kept = edges_.emplace_back();
+        std::vector<GridEdge> kept;
         // Edges to the right of the window stay too, because a ray to the right counts them to tell whether
         // an event lies inside.
-        for (const GridEdge& edge : outline->edges) {
+        for (const GridEdge& as_placed : outline->edges) {
+          const GridEdge edge = lay_down ? exchanged(as_placed) : as_placed;
           const GridBox box = box_of(edge);
           if (box.high_x >= window_.low_x && box.low_y <= window_.high_y && box.high_y >= window_.low_y)
             kept.push_back(edge);
         }
+        edges_.emplace_back(std::move(kept));
       }
     }
   }
 
   [[nodiscard]] bool answer() {
     if (!has_room()) return false;
-    for (const auto& edges : edges_)
-      for (const GridEdge& edge : edges)
+    for (const IndexedEdges& outline : edges_)
+      for (const GridEdge& edge : outline.edges)
         if (has_wedge({edge.from.x, edge.from.y, 1})) return true;
     for (std::size_t i = 0; i < edges_.size(); ++i)
       for (std::size_t j = i + 1; j < edges_.size(); ++j)
@@ -145,17 +213,17 @@ class Question {
     return window_.low_x < window_.high_x && window_.low_y < window_.high_y;
   }
 
-  bool has_wedge_at_crossing(const std::vector<GridEdge>& first, const std::vector<GridEdge>& second) {
-    std::vector<const GridEdge*> near;
-    for (const GridEdge& edge : second)
-      if (come_within(box_of(edge), window_)) near.push_back(&edge);
-    for (const GridEdge& edge : first) {
-      const GridBox box = box_of(edge);
-      if (!come_within(box, window_)) continue;
-      for (const GridEdge* other : near)
-        if (come_within(box, box_of(*other)) && cross_properly(edge, *other) &&
-            has_wedge(crossing(edge, *other)))
-          return true;
+  bool has_wedge_at_crossing(const IndexedEdges& first, const IndexedEdges& second) {
+    bool found = false;
+    for (const GridEdge& edge : first.edges) {
+      ask();
+      if (!come_within(box_of(edge), window_)) continue;
+      second.visit_near(box_of(edge), 0, [&](std::size_t k) {
+        const GridEdge& other = second.edges[k];
+        found = found || (come_within(box_of(other), window_) && cross_properly(edge, other) &&
+                          has_wedge(crossing(edge, other)));
+      });
+      if (found) return true;
     }
     return false;
   }
@@ -176,6 +244,7 @@ class Question {
     // The wedge before the first ray belongs to the last ray of each outline.
     for (const Ray& ray : rays_) material_[ray.of] = ray.material;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
+      ask();
       material_[rays_[i].of] = rays_[i].material;
       const bool last_of_direction = i + 1 == rays_.size() || before(rays_[i], rays_[i + 1]);
       if (last_of_direction && all_as_wanted()) return true;
@@ -191,7 +260,7 @@ class Question {
 
   std::size_t ins_;
   GridBox window_;
-  std::vector<std::vector<GridEdge>> edges_;
+  std::vector<IndexedEdges> edges_;
   std::vector<Ray> rays_;
   std::vector<bool> material_;
 };
@@ -247,18 +316,28 @@ std::optional<std::string> fault_between(const GridEdge& a, const GridEdge& b) {
 }
 
 std::optional<std::string> fault_of_edges(const std::vector<GridEdge>& edges) {
-  std::vector<std::size_t> order(edges.size()), active;
+  std::vector<std::size_t> order(edges.size()), place(edges.size()), before;
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto low = [&](std::size_t i) { return box_of(edges[i]).low_x; };
   std::sort(order.begin(), order.end(),
             [&](std::size_t i, std::size_t j) { return low(i) != low(j) ? low(i) < low(j) : i < j; });
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  const IndexedEdges indexed(edges);
+  const std::size_t most = limits::most_meeting_boxes(edges.size());
+  std::size_t seen = 0;
+  // The edges from left to right, each with those before it.
   for (const std::size_t i : order) {
-    const GridBox box = box_of(edges[i]);
-    std::erase_if(active, [&](std::size_t j) { return box_of(edges[j]).high_x < box.low_x - kResolution; });
-    for (const std::size_t j : active)
-      if (come_within(box, box_of(edges[j]), kResolution))
-        if (auto fault = fault_between(edges[i], edges[j])) return fault;
-    active.push_back(i);
+    before.clear();
+    indexed.visit_near(box_of(edges[i]), kResolution, [&](std::size_t j) {
+      if (place[j] < place[i]) before.push_back(place[j]);
+    });
+    ask(1 + before.size());
+    if ((seen += before.size()) > most)
+      return fmt::format("more than {} pairs of its {} edges have boxes that meet, too many to look at", most,
+                         edges.size());
+    std::sort(before.begin(), before.end());
+    for (const std::size_t k : before)
+      if (auto fault = fault_between(edges[i], edges[order[k]])) return fault;
   }
   return std::nullopt;
 }
@@ -277,13 +356,48 @@ std::optional<std::string> fault_of_points(const std::vector<GridEdge>& edges) {
 
 std::string loop_name(std::size_t l) { return l == 0 ? "the outer loop" : fmt::format("hole {}", l - 1); }
 
-/// \pre p is on no edge of the loop
-bool surrounds(const GridLoop& loop, GridPoint p) {
-  std::vector<GridEdge> edges;
-  append_edges(loop, edges);
-  std::vector<Ray> none;
-  return look_around(edges, 0, {p.x, p.y, 1}, none);
-}
+/// Finds out which loops are around a point of one of them.
+class Loops {
+ public:
+  explicit Loops(const std::vector<GridLoop>& loops)
+      : loops_(loops), lay_down_(false), edges_(std::vector<GridEdge>()) {
+    std::vector<GridEdge> edges;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      append_edges(loops[l], edges);
+      loop_of_.resize(edges.size(), l);
+    }
+    lay_down_ = are_met_less_upwards(edges);
+    if (lay_down_)
+      for (GridEdge& edge : edges) edge = exchanged(edge);
+    edges_ = IndexedEdges(std::move(edges));
+  }
+
+  /// Returns the other loops around the first point of a loop, ascending. \pre no two loops meet
+  [[nodiscard]] std::vector<std::size_t> around(std::size_t loop) const {
+    GridPoint p = loops_[loop][0];
+    if (lay_down_) std::swap(p.x, p.y);
+    std::vector<std::size_t> crossed;
+    edges_.visit_right_of({p.x, p.y, 1}, [&](std::size_t k) {
+      const GridEdge& edge = edges_.edges[k];
+      const bool rises = edge.to.y > p.y;
+      if (loop_of_[k] != loop && (edge.from.y > p.y) != rises && (turn(edge.from, edge.to, p) > 0) == rises)
+        crossed.push_back(loop_of_[k]);
+    });
+    std::sort(crossed.begin(), crossed.end());
+    std::vector<std::size_t> found;
+    for (std::size_t begin = 0, end = 0; begin < crossed.size(); begin = end) {
+      while (end < crossed.size() && crossed[end] == crossed[begin]) ++end;
+      if ((end - begin) % 2 != 0) found.push_back(crossed[begin]);
+    }
+    return found;
+  }
+
+ private:
+  const std::vector<GridLoop>& loops_;
+  bool lay_down_;
+  IndexedEdges edges_;
+  std::vector<std::size_t> loop_of_;
+};
 
 }  // namespace
 
@@ -309,12 +423,12 @@ std::optional<std::string> fault_of(const std::vector<GridLoop>& loops) {
   }
   if (auto fault = fault_of_points(edges)) return fault;
   if (auto fault = fault_of_edges(edges)) return fault;
+  const Loops all(loops);
   for (std::size_t h = 1; h < loops.size(); ++h) {
-    if (!surrounds(loops[0], loops[h][0]))
+    const std::vector<std::size_t> around = all.around(h);
+    if (around.empty() || around.front() != 0)
       return fmt::format("{} is not inside the outer loop", loop_name(h));
-    for (std::size_t other = 1; other < loops.size(); ++other)
-      if (other != h && surrounds(loops[other], loops[h][0]))
-        return fmt::format("{} is inside {}", loop_name(h), loop_name(other));
+    if (around.size() > 1) return fmt::format("{} is inside {}", loop_name(h), loop_name(around[1]));
   }
   return std::nullopt;
 }
@@ -325,19 +439,20 @@ bool have_common_disc(const std::vector<const GridOutline*>& in, const std::vect
 
 bool edges_nearer_than(const GridOutline& a, const GridOutline& b, std::int64_t gap) {
   if (gap <= 0 || !come_within(a.box, b.box, gap)) return false;
-  std::vector<const GridEdge*> near;
+  std::vector<GridEdge> near;
   for (const GridEdge& edge : b.edges)
-    if (come_within(box_of(edge), a.box, gap)) near.push_back(&edge);
+    if (come_within(box_of(edge), a.box, gap)) near.push_back(edge);
+  const IndexedEdges others(std::move(near));
+  bool found = false;
   for (const GridEdge& edge : a.edges) {
-    const GridBox box = box_of(edge);
-    if (!come_within(box, b.box, gap)) continue;
-    for (const GridEdge* other : near) {
-      if (!come_within(box, box_of(*other), gap)) continue;
-      if (nearer_than(edge.from, *other, gap) || nearer_than(edge.to, *other, gap) ||
-          nearer_than(other->from, edge, gap) || nearer_than(other->to, edge, gap) ||
-          cross_properly(edge, *other))
-        return true;
-    }
+    if (!come_within(box_of(edge), b.box, gap)) continue;
+    others.visit_near(box_of(edge), gap, [&](std::size_t k) {
+      const GridEdge& other = others.edges[k];
+      found = found || nearer_than(edge.from, other, gap) || nearer_than(edge.to, other, gap) ||
+              nearer_than(other.from, edge, gap) || nearer_than(other.to, edge, gap) ||
+              cross_properly(edge, other);
+    });
+    if (found) return true;
   }
   return false;
 }

@@ -44,13 +44,13 @@ inline constexpr std::int64_t kMostWritten = static_cast<std::int64_t>(limits::k
 [[nodiscard]] GridOutline make_outline(std::vector<GridLoop> loops);
 
 /// The fault that keeps loops from being an outline: fewer than three points, no area, a vertex less than 3
-/// steps from an edge that does not end there, edges that cross, a hole that is not inside. Cost: O(n log n +
-/// pairs of edges that overlap in x).
+/// steps from an edge that does not end there, edges that cross, a hole that is not inside, or more pairs of
+/// edges whose boxes meet than limits::most_meeting_boxes. Cost: O(n log n + those pairs).
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<GridLoop>& loops);
 
 /// The answer says whether some disc lies in the material of all of `in` and in none of `out` (of these too,
-/// holes are not material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: O(edges +
-/// (those near the box common to `in`)^2).
+/// holes are not material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: for each point of an
+/// edge near the box common to `in`, and each crossing, the edges that a ray from it may meet.
 [[nodiscard]] bool have_common_disc(const std::vector<const GridOutline*>& in,
                                     const std::vector<const GridOutline*>& out);
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "layout_document.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -15,20 +16,6 @@ struct Placed {
   const WrittenPart* part = nullptr;
   GridOutline outline;
 };
-
-GridOutline placed(const GridOutline& outline, const WrittenPiece& piece) {
-  GridOutline result;
-  result.edges.reserve(outline.edges.size());
-  for (const GridEdge& edge : outline.edges) {
-    const GridPoint from = placed(edge.from, piece.turn, piece.mirrored, piece.at),
-                    to = placed(edge.to, piece.turn, piece.mirrored, piece.at);
-    result.edges.push_back(piece.mirrored ? GridEdge{to, from} : GridEdge{from, to});
-    if (result.edges.size() == 1) result.box = {from.x, from.y, from.x, from.y};
-    result.box = {std::min(result.box.low_x, from.x), std::min(result.box.low_y, from.y),
-                  std::max(result.box.high_x, from.x), std::max(result.box.high_y, from.y)};
-  }
-  return result;
-}
 
 struct Found {
   std::size_t stock = 0;
@@ -66,7 +53,7 @@ bool demands_more(const Placed& placed_part, const WrittenStockFeature& zone) {
   const WrittenPart& part = *placed_part.part;
   std::vector<GridOutline> areas;
   for (const WrittenArea& area : part.areas) {
-    areas.push_back(placed(area.outline, *placed_part.piece));
+    areas.push_back(placed_outline(area.outline, *placed_part.piece));
     if (area.quality > zone.grade &&
         have_common_disc({&placed_part.outline, &zone.outline, &areas.back()}, {}))
       return true;
@@ -85,7 +72,7 @@ class Checker {
     std::map<std::pair<std::size_t, std::int64_t>, std::vector<Placed>> sheets;
     for (const WrittenPiece& piece : layout_.placements) {
       const WrittenPart& part = layout_.parts[piece.part];
-      sheets[{piece.stock, piece.copy}].push_back({&piece, &part, placed(part.outline, piece)});
+      sheets[{piece.stock, piece.copy}].push_back({&piece, &part, placed_outline(part.outline, piece)});
     }
     for (auto& [sheet, pieces] : sheets) {
       for (const Placed& piece : pieces) check_alone(piece);
@@ -104,6 +91,7 @@ class Checker {
     const WrittenPiece& piece = *placed.piece;
     const WrittenPart& part = *placed.part;
     const WrittenStock& stock = layout_.stocks[piece.stock];
+    ask(1 + placed.outline.edges.size() / 4);
     if (!rotation_allowed(part, piece.turn)) add(placed, LayoutRule::rotation);
     if (piece.mirrored && !part.may_mirror) add(placed, LayoutRule::mirror);
     if (!grain_allowed(part, stock, piece)) add(placed, LayoutRule::grain);
@@ -133,6 +121,7 @@ class Checker {
     for (const Placed& piece : pieces) largest = std::max(largest, piece.part->gap);
     std::vector<const Placed*> active;
     for (const Placed& piece : pieces) {
+      ask(1 + active.size());
       std::erase_if(active, [&](const Placed* other) {
         return other->outline.box.high_x + largest < piece.outline.box.low_x;
       });
@@ -154,6 +143,20 @@ class Checker {
 };
 
 }  // namespace
+
+GridOutline placed_outline(const GridOutline& outline, const WrittenPiece& piece) {
+  GridOutline result;
+  result.edges.reserve(outline.edges.size());
+  for (const GridEdge& edge : outline.edges) {
+    const GridPoint from = placed(edge.from, piece.turn, piece.mirrored, piece.at),
+                    to = placed(edge.to, piece.turn, piece.mirrored, piece.at);
+    result.edges.push_back(piece.mirrored ? GridEdge{to, from} : GridEdge{from, to});
+    if (result.edges.size() == 1) result.box = {from.x, from.y, from.x, from.y};
+    result.box = {std::min(result.box.low_x, from.x), std::min(result.box.low_y, from.y),
+                  std::max(result.box.high_x, from.x), std::max(result.box.high_y, from.y)};
+  }
+  return result;
+}
 
 std::string_view name_of(LayoutRule rule) noexcept {
   constexpr std::array<std::string_view, 11> kNames{"overlap", "gap",        "outside", "border-gap",

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "chords.hpp"
@@ -127,37 +128,45 @@ GridLoop read_loop(Json list, const std::string& path, Members& members) {
   return loop;
 }
 
-GridOutline read_outline(Json value, const std::string& path, std::string& complaint, ChordSide side) {
+std::string without_polygon(const std::string& path) {
+  return fmt::format("{} has no polygon; let lekalo write the file, which makes it", path);
+}
+
+WrittenOutline read_outline(Json value, const std::string& path, std::string& complaint, ChordSide side) {
+  WrittenOutline outline;
   Members members(value, path, complaint, {"polygon", "curves", "chord_tolerance"});
-  if (!complaint.empty()) return {};
+  if (!complaint.empty()) return outline;
+  const bool tolerant = members.has("chord_tolerance");
+  if (tolerant)
+    outline.chord_tolerance =
+        members.number("chord_tolerance", limits::kLeastChordTolerance, limits::kMostChordTolerance);
+  if (members.has("curves") && complaint.empty())
+    outline.drawn =
+        std::make_shared<Shape>(read_shape(members.get("curves"), members.name("curves"), complaint));
+  else if (tolerant)
+    members.complain(fmt::format("{} is there without curves", members.name("chord_tolerance")));
+  if (!complaint.empty()) return outline;
   if (!members.has("polygon")) {
-    members.complain(fmt::format("{} has no polygon; let lekalo write the file, which makes it", path));
-    return {};
+    outline.unmade = path;
+    if (outline.drawn == nullptr) members.complain(without_polygon(path));
+    return outline;
   }
   Members polygon(members.get("polygon"), members.name("polygon"), complaint, {"outer", "holes"});
   std::vector<GridLoop> loops{read_loop(polygon.get("outer"), polygon.name("outer"), polygon)};
   polygon.each("holes",
                [&](Json hole, const std::string& at) { loops.push_back(read_loop(hole, at, polygon)); });
-  if (!complaint.empty()) return {};
+  if (!complaint.empty()) return outline;
   if (const auto fault = fault_of(loops)) {
     polygon.complain(fmt::format("{} is no outline: {}", members.name("polygon"), *fault));
-    return {};
+    return outline;
   }
-  const bool tolerant = members.has("chord_tolerance");
-  const double tolerance =
-      tolerant ? members.number("chord_tolerance", limits::kLeastChordTolerance, limits::kMostChordTolerance)
-               : 0.01;
-  if (members.has("curves") && complaint.empty()) {
-    const Shape drawn = read_shape(members.get("curves"), members.name("curves"), complaint);
-    if (!complaint.empty()) return {};
-    if (const auto fault = fault_of_chords(loops, drawn, side, tolerance))
+  if (outline.drawn != nullptr)
+    if (const auto fault = fault_of_chords(loops, *outline.drawn, side, outline.chord_tolerance))
       members.complain(
           fmt::format("{} is not what its curves become: {}; leave it out to have lekalo make it",
                       members.name("polygon"), *fault));
-  } else if (tolerant) {
-    members.complain(fmt::format("{} is there without curves", members.name("chord_tolerance")));
-  }
-  return make_outline(std::move(loops));
+  static_cast<GridOutline&>(outline) = make_outline(std::move(loops));
+  return outline;
 }
 
 int read_quality(Members& members, bool best_is_a_word) {
@@ -225,8 +234,8 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
                               grain.has("tolerance_deg") ? grain.number("tolerance_deg", 0, 90) : 0};
   }
   part.tolerated_severity = members.whole("tolerated_severity", 0, limits::kMostLevel, 0);
-  (void)members.whole("priority", -limits::kMostLevel, limits::kMostLevel, 0);
-  (void)members.whole("demand", 0, limits::kMostCount, 0);
+  part.priority = members.whole("priority", -limits::kMostLevel, limits::kMostLevel, 0);
+  part.demand = members.whole("demand", 0, limits::kMostCount, 0);
   const Gaps gaps = read_gaps(members, rules);
   part.gap = gaps.gap, part.border_gap = gaps.border, part.defect_gap = gaps.defect;
   return part;
@@ -263,11 +272,12 @@ WrittenStock read_stock(Json item, const std::string& path, std::string& complai
   if (!complaint.empty()) return stock;
   stock.id = members.id();
   members.optional_text("name");
-  const std::string kind = members.text("kind");
+  stock.kind = members.text("kind");
+  const std::string& kind = stock.kind;
   if (kind != "strip" && kind != "sheet" && kind != "hide")
     members.complain(fmt::format("field {} is not strip, sheet or hide", members.name("kind")));
   stock.count = members.whole("count", 1, limits::kMostCount, 1);
-  if (members.has("cost")) (void)members.number("cost", 0, limits::kMostMoney);
+  if (members.has("cost")) stock.cost = members.number("cost", 0, limits::kMostMoney);
   if (kind == "strip") {
     if (members.has("outline"))
       members.complain(fmt::format("{} is a strip: height and length, no outline", path));
@@ -278,7 +288,8 @@ WrittenStock read_stock(Json item, const std::string& path, std::string& complai
         members.has("length")
             ? members.steps("length", limits::kShortestSide, limits::kLargestOutline, ToStep::nearest)
             : kMostWritten;
-    if (complaint.empty()) stock.outline = rectangle(length, height);
+    stock.open = !members.has("length");
+    if (complaint.empty()) static_cast<GridOutline&>(stock.outline) = rectangle(length, height);
   } else {
     if (members.has("height") || members.has("length"))
       members.complain(fmt::format("{} has a height or length, but is no strip", path));
@@ -307,20 +318,24 @@ std::size_t find(Members& members, std::string_view key, const Index& index) {
   return 0;
 }
 
-void read_kits(Members& root, const Index& parts) {
+void read_kits(Members& root, const Index& parts, std::vector<WrittenKit>& kits) {
   Index ids;
   root.each("kits", [&](Json item, const std::string& path) {
-    Members kit(item, path, root.complaint(), {"id", "name", "demand", "value", "pieces"});
-    number_ids(kit.id(), path, ids, root.complaint());
-    kit.optional_text("name");
-    (void)kit.whole("demand", 0, limits::kMostKits, 1);
-    if (kit.has("value")) (void)kit.number("value", 0, limits::kMostMoney);
-    kit.each("pieces", [&](Json value, const std::string& at) {
+    Members members(item, path, root.complaint(), {"id", "name", "demand", "value", "pieces"});
+    WrittenKit kit;
+    kit.id = members.id();
+    number_ids(kit.id, path, ids, root.complaint());
+    members.optional_text("name");
+    kit.demand = members.whole("demand", 0, limits::kMostKits, 1);
+    if (members.has("value")) kit.value = members.number("value", 0, limits::kMostMoney);
+    members.each("pieces", [&](Json value, const std::string& at) {
       Members piece(value, at, root.complaint(), {"part", "count", "mirrored"});
-      (void)find(piece, "part", parts);
-      (void)piece.whole("count", 1, limits::kMostKits, 1);
-      (void)piece.flag("mirrored");
+      WrittenKitPiece& read = kit.pieces.emplace_back();
+      read.part = find(piece, "part", parts);
+      read.count = piece.whole("count", 1, limits::kMostKits, 1);
+      if (piece.has("mirrored")) read.mirrored = piece.flag("mirrored");
     });
+    kits.push_back(std::move(kit));
   });
 }
 
@@ -358,7 +373,7 @@ void read_placements(Members& root, const Index& parts, const Index& stocks, Wri
     piece.at = {members.steps("x", -limits::kLargestPlacement, limits::kLargestPlacement, ToStep::nearest),
                 members.steps("y", -limits::kLargestPlacement, limits::kLargestPlacement, ToStep::nearest)};
     piece.mirrored = members.flag("mirrored");
-    (void)members.flag("locked");
+    piece.locked = members.flag("locked");
     layout.placements.push_back(piece);
   });
   if (root.has("next_id") &&
@@ -366,9 +381,27 @@ void read_placements(Members& root, const Index& parts, const Index& stocks, Wri
     root.complain(fmt::format("field next_id is not above the ids of all placements"));
 }
 
+/// Returns the place of the first outline without a polygon, or nothing.
+std::string first_unmade(const WrittenLayout& layout) {
+  std::string path;
+  const auto look = [&](const WrittenOutline& outline) {
+    if (path.empty()) path = outline.unmade;
+  };
+  for (const WrittenStock& stock : layout.stocks) {
+    look(stock.outline);
+    for (const auto* features : {&stock.defects, &stock.zones})
+      for (const WrittenStockFeature& feature : *features) look(feature.outline);
+  }
+  for (const WrittenPart& part : layout.parts) {
+    look(part.outline);
+    for (const WrittenArea& area : part.areas) look(area.outline);
+  }
+  return path;
+}
+
 }  // namespace
 
-Result<WrittenLayout> read_layout(const Document& document) {
+Result<WrittenLayout> read_layout(const Document& document, bool unmade) {
   LEKALO_TRY(const auto parsed, parse_json(document.bytes, document.name));
   std::string complaint;
   WrittenLayout layout;
@@ -391,8 +424,10 @@ Result<WrittenLayout> read_layout(const Document& document) {
     layout.parts.push_back(read_part(item, path, complaint, rules));
     number_ids(layout.parts.back().id, path, parts, complaint);
   });
-  read_kits(root, parts);
+  read_kits(root, parts, layout.kits);
   read_placements(root, parts, stocks, layout);
+  if (const std::string path = unmade ? "" : first_unmade(layout); !path.empty())
+    root.complain(without_polygon(path));
   if (!complaint.empty())
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
   return layout;

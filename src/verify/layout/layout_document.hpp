@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,14 +10,23 @@
 #include "grid_outline.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "verify/shape/shape.hpp"
 
 namespace lekalo::verify {
 
 /// The parts of a written layout that the rules speak of. Lengths are in steps, angles in degrees.
 
+struct WrittenOutline : GridOutline {
+  /// The drawing beside the polygon, or null where there is none.
+  std::shared_ptr<const Shape> drawn;
+  double chord_tolerance = 0.01;
+  /// The place in the file of an outline with a drawing and no polygon, which has no edges then; else empty.
+  std::string unmade;
+};
+
 struct WrittenArea {
   int quality = 0;
-  GridOutline outline;
+  WrittenOutline outline;
 };
 
 struct WrittenAngles {
@@ -29,14 +39,14 @@ struct WrittenGrain {
 
 struct WrittenPart {
   std::string id;
-  GridOutline outline;
+  WrittenOutline outline;
   int quality = 0;
   std::vector<WrittenArea> areas;
   /// An empty list allows any angle.
   std::vector<WrittenAngles> rotations;
   bool may_mirror = false;
   std::optional<WrittenGrain> grain;
-  std::int64_t tolerated_severity = 0;
+  std::int64_t tolerated_severity = 0, priority = 0, demand = 0;
   /// The gaps of the part itself where it has any, else those of the document.
   std::int64_t gap = 0, border_gap = 0, defect_gap = 0;
 };
@@ -45,13 +55,16 @@ struct WrittenPart {
 struct WrittenStockFeature {
   std::string id;
   std::int64_t grade = 0;
-  GridOutline outline;
+  WrittenOutline outline;
 };
 
 struct WrittenStock {
-  std::string id;
+  std::string id, kind;
   std::int64_t count = 1;
-  GridOutline outline;
+  double cost = 1;
+  /// True for a strip without a length; its outline is as long as any.
+  bool open = false;
+  WrittenOutline outline;
   std::optional<double> grain;
   std::vector<WrittenStockFeature> defects, zones;
 };
@@ -62,16 +75,37 @@ struct WrittenPiece {
   std::int64_t copy = 0;
   GridTurn turn;
   GridPoint at;
-  bool mirrored = false;
+  bool mirrored = false, locked = false;
+};
+
+struct WrittenKitPiece {
+  std::size_t part = 0;
+  std::int64_t count = 1;
+  /// Without a value either serves.
+  std::optional<bool> mirrored;
+  friend bool operator==(const WrittenKitPiece&, const WrittenKitPiece&) = default;
+};
+
+struct WrittenKit {
+  std::string id;
+  std::int64_t demand = 1;
+  double value = 1;
+  std::vector<WrittenKitPiece> pieces;
+  friend bool operator==(const WrittenKit&, const WrittenKit&) = default;
 };
 
 struct WrittenLayout {
   std::vector<WrittenStock> stocks;
   std::vector<WrittenPart> parts;
+  std::vector<WrittenKit> kits;
   std::vector<WrittenPiece> placements;
 };
 
 /// Reads a layout. bad_input names the field. Cost: O(n log n).
-[[nodiscard]] Result<WrittenLayout> read_layout(const Document& document);
+/// \param unmade  takes outlines that are drawn and have no polygon yet
+[[nodiscard]] Result<WrittenLayout> read_layout(const Document& document, bool unmade = false);
+
+/// Returns an outline of a part where the piece lies on its sheet.
+[[nodiscard]] GridOutline placed_outline(const GridOutline& outline, const WrittenPiece& piece);
 
 }  // namespace lekalo::verify

@@ -8,6 +8,7 @@
 
 #include "allowance.hpp"
 #include "certificate.hpp"
+#include "comparison_check.hpp"
 #include "document.hpp"
 #include "edge_lines.hpp"
 #include "outline.hpp"
@@ -114,6 +115,10 @@ class AngleCheck {
     check_trim();
     check_placements();
     check_derived();
+    check_comparison();
+    all_rechecked_ =
+        check_deviations(result_, part_points_, blank_points_, report_.findings, report_.notes) &&
+        all_rechecked_;
     if (inputs_.features)
       find("there is a file of features, but a result for convex outlines has no demands");
     EdgeLines edges(scene_.blank(), result_.trim ? std::vector<std::size_t>() : result_.blank.dropped,
@@ -122,8 +127,9 @@ class AngleCheck {
     LEKALO_TRY(const bool proved, check_certificate(edges));
     check_status(proved);
     report_.verdict = !report_.findings.empty() ? Verdict::refuted
-                      : proved                  ? Verdict::confirmed
-                                                : Verdict::unproved;
+                      : !proved                 ? Verdict::unproved
+                      : all_rechecked_          ? Verdict::confirmed
+                                                : Verdict::incomplete;
     return std::move(report_);
   }
 
@@ -148,6 +154,7 @@ class AngleCheck {
   void check_angle(const std::string& what, const WrittenPlacement& placement);
   void check_difference(const char* field, const Decimal& written, const Decimal& a, const Decimal& b);
   void check_derived();
+  void check_comparison();
   void check_contacts(EdgeLines& edges);
   /// Returns whether there was a certificate to look at.
   Result<bool> check_certificate(EdgeLines& edges);
@@ -160,6 +167,11 @@ class AngleCheck {
   Scene scene_;
   Precision precision_ = 256;
   Interval best_allowance_{256};
+  /// The points of the two files, mm, in the doubles nearest to them.
+  RoundedPoints part_points_, blank_points_;
+  /// The pose of the earlier result in the new blank, with the clearance that is claimed for it there.
+  std::optional<WrittenPlacement> last_;
+  bool all_rechecked_ = true;
 };
 
 Result<Contour> AngleCheck::read_input(const Document& document, const WrittenInput& written,
@@ -182,6 +194,9 @@ Result<void> AngleCheck::read_files() {
   LEKALO_TRY(const Contour part, read_input(inputs_.part, result_.part, "part"));
   LEKALO_TRY(const Contour blank, read_input(inputs_.blank, result_.blank, "blank"));
 
+  for (const auto& [contour, points] : {std::pair{&part, &part_points_}, {&blank, &blank_points_}})
+    for (std::size_t k = 0; k < contour->size(); ++k)
+      points->emplace_back(approximate(contour->x[k]), approximate(contour->y[k]));
   Units& units = scene_.units;
   units.add(part);
   units.add(blank);
@@ -189,6 +204,14 @@ Result<void> AngleCheck::read_files() {
   units.add(result_.best);
   if (result_.upper_bound) units.add(*result_.upper_bound);
   for (const WrittenPlacement& alternative : result_.alternatives) units.add(alternative);
+  // The pose of the earlier result is looked at in the same units.
+  if (result_.comparison && inputs_.earlier) {
+    last_ = verify::check_comparison(result_, *inputs_.earlier, part_points_, report_.findings);
+    if (last_) {
+      last_->clearance = result_.comparison->last_pose_clearance;
+      units.add(*last_);
+    }
+  }
   if (units.digits() > kMostDigits) {
     return failure(
         ErrorCode::bad_input,
@@ -350,14 +373,21 @@ void AngleCheck::check_derived() {
   } else {
     check_difference("shortfall", r.shortfall, r.min_allowance, r.best.clearance);
   }
-  if (r.nc) {
-    const Decimal most = r.best.clearance - r.nc->rounding_mm;
-    const double slack = kDerivedTolerance * std::abs(approximate(r.best.clearance));
-    if (!(approximate(r.nc->clearance - most) <= slack) || sgn(r.nc->rounding_mm.digits) < 0) {
-      find("nc.clearance is {}, but the clearance less the rounding of the program is {}",
-           approximate(r.nc->clearance), approximate(most));
-    }
-  }
+  if (!r.nc) return;
+  const Decimal most = r.best.clearance - r.nc->rounding_mm;
+  const double slack = kDerivedTolerance * std::abs(approximate(r.best.clearance));
+  if (!(approximate(r.nc->clearance - most) <= slack) || sgn(r.nc->rounding_mm.digits) < 0)
+    find("nc.clearance is {}, but the clearance less the rounding of the program is {}",
+         approximate(r.nc->clearance), approximate(most));
+  all_rechecked_ = check_program(inputs_, *r.nc, r.best.x, r.best.y, r.best.theta, report_) && all_rechecked_;
+}
+
+/// Holds the earlier pose's clearance in the new blank against the outlines. The rest of the comparison was
+/// looked at when the files were read.
+void AngleCheck::check_comparison() {
+  if (!result_.comparison) return;
+  if (!inputs_.earlier) return find("there is a comparison, but the result names no earlier one");
+  if (last_) check_clearance("comparison.last_pose_clearance", *last_);
 }
 
 /// Step 8: the contacts may be no further than the closest pair by more than a tolerance.

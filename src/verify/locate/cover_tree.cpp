@@ -23,11 +23,6 @@ constexpr std::size_t kMostCells = 1'000'000, kMostCellsALeaf = 64;
 /// A leaf has at most this many terms.
 constexpr std::size_t kMostTerms = 8;
 
-Span enclosed(const Decimal& value) {
-  const Interval interval(value, 64);
-  return {interval.low_double(), interval.high_double()};
-}
-
 /// Converts degrees to radians.
 Span radians(const Decimal& degrees) {
   const Precision wide = 128 + angle_bits(degrees);

@@ -15,11 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A claim counts as not confirmed when it takes more pieces of outlines than this.
 constexpr std::size_t kMostPieces = 200'000;
 
-Span enclosed(const Decimal& value) {
-  const Interval interval(value, 64);
-  return {interval.low_double(), interval.high_double()};
-}
-
 bool is_positive(Span value) { return value.low > 0; }
 
 bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
@@ -181,11 +176,7 @@ void DemandCheck::check_minima() {
     if (f != nullptr && f->finished) continue;
     const Span needed = f == nullptr ? d_.minimum + d_.margin : f->minimum + f->scale * d_.margin;
     for (const std::size_t k : sides_of_edge_[edge]) {
-      Span apart{kInfinity, kInfinity};
-      for (const Side& side : blank_.sides) {
-        const Span d = distance(placed_.sides[k], side);
-        apart = {std::min(apart.low, d.low), std::min(apart.high, d.high)};
-      }
+      const Span apart = distance(placed_.sides[k], blank_);
       if ((needed + off_).high <= apart.low) continue;
       find("edge {} needs {} mm for the margin {}, but is {} mm from the outline of the blank", edge,
            needed.low, d_.margin.low, (apart - off_).low);
@@ -248,6 +239,12 @@ bool DemandCheck::beside_finished(const Side& whole, std::size_t& looked) const 
 
 /// No point of these sides of the placed part may lie deeper in the blank than `most`.
 void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose) {
+  bool refuted = false;
+  if (!is_depth_kept(sides, most, refuted))
+    find("{} has an allowance above {} mm, or cannot be told from it", whose, most);
+}
+
+bool DemandCheck::is_depth_kept(const std::vector<std::size_t>& sides, double most, bool& refuted) const {
   std::vector<Side> open;
   for (const std::size_t k : sides) open.push_back(placed_.sides[k]);
   for (std::size_t looked = 0; !open.empty(); ++looked) {
@@ -258,18 +255,101 @@ void DemandCheck::check_depth(const std::vector<std::size_t>& sides, double most
       continue;
     }
     const Corners corners = corners_of(piece);
-    const auto near_enough = [&](const Side& side) { return farthest(piece, corners, side) <= most; };
-    if (std::any_of(blank_.sides.begin(), blank_.sides.end(), near_enough)) continue;
+    bool near_enough = false;
+    blank_.tree->visit_near(box_of(piece), most, [&](std::size_t k) {
+      near_enough = near_enough || farthest(piece, corners, blank_.sides[k]) <= most;
+    });
+    if (near_enough) continue;
     const Vec middle = (piece.from + piece.to) * just(0.5);
     if (distance(middle, blank_).low > farthest(piece, middle)) {
       const auto in = holds(blank_, middle);
       // No point of this piece lies in the blank.
       if (in && !*in) continue;
     }
-    if (signed_distance(piece.from, blank_).low > most || looked == kMostPieces)
-      return find("{} has an allowance above {} mm, or cannot be told from it", whose, most);
+    refuted = signed_distance(piece.from, blank_).low > most;
+    if (refuted || looked == kMostPieces) return false;
     for (const Side& half : halves(piece)) open.push_back(half);
   }
+  return true;
+}
+
+/// Says whether every point of a side of the placed part is shown to have an allowance of `needed`, which may
+/// be below 0. It then has that from every point of the blank's outline too, so that what lies within a
+/// distance of the side sticks out by no more than the distance less the allowance.
+bool DemandCheck::keeps(const Side& whole, Span needed) const {
+  std::vector<Side> open{whole};
+  for (std::size_t looked = 0; !open.empty(); ++looked) {
+    const Side piece = open.back();
+    open.pop_back();
+    if (looked == kMostPieces) return false;
+    if (!piece.arc || piece.sweep == Sweep::less) {
+      const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
+      Span apart{kInfinity, kInfinity};
+      for (const Side& side : blank_.sides) apart.low = std::min(apart.low, distance(piece, side).low);
+      if (apart.low > 0 && apart.low >= needed.high) {
+        const auto in = holds(blank_, middle);
+        if (in && *in) continue;
+      }
+      if (needed.high < 0) {
+        const Corners corners = corners_of(piece);
+        const auto near = [&](const Side& side) { return farthest(piece, corners, side) <= -needed.high; };
+        if (std::any_of(blank_.sides.begin(), blank_.sides.end(), near)) continue;
+      }
+      if (signed_distance(middle, blank_).high < needed.low) return false;
+    }
+    for (const Side& half : halves(piece)) open.push_back(half);
+  }
+  return true;
+}
+
+/// Says whether a point within `by` of a side of the part surely sticks out by more.
+bool DemandCheck::grown_sticks_out(std::size_t side, Span by, double more_than) const {
+  for (const Vec& p : points_of(placed_.sides[side])) {
+    const Side& s = placed_.sides[side];
+    const Vec along = s.arc ? p - s.centre : s.to - s.from;
+    const Vec normal = unit(s.arc ? along : Vec{-along.y, along.x});
+    for (const Vec& q : {p, p + normal * just(by.low), p - normal * just(by.low)}) {
+      if (!(signed_distance(q, blank_).high < -more_than)) continue;
+      // A finished edge is cut in and has nothing around it, and a point beyond a part's other side is of no edge here.
+      if (by.low >= 0) return true;
+    }
+  }
+  return false;
+}
+
+bool DemandCheck::check_missing() {
+  if (!(d_.margin.low < 0)) return true;
+  bool shown = true;
+  const double missing = (off_ - d_.margin).low;
+  for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge) {
+    const WrittenFeature* const f = feature_of_edge_[edge];
+    const Span minimum = f == nullptr ? d_.minimum : (f->finished ? -*f->finished : f->minimum);
+    for (const std::size_t k : sides_of_edge_[edge]) {
+      if (keeps(placed_.sides[k], minimum + d_.margin + off_)) continue;
+      if (grown_sticks_out(k, minimum, missing)) {
+        find("at edge {} more is missing than the {} mm that the margin says", edge, -d_.margin.high);
+        return true;
+      }
+      shown = false;
+    }
+  }
+  for (const WrittenFeature& f : d_.features) {
+    if (!f.maximum && !f.finished) continue;
+    std::vector<std::size_t> sides;
+    for (const std::size_t edge : f.edges)
+      if (edge < sides_of_edge_.size())
+        sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
+    bool refuted = false;
+    if (is_depth_kept(sides, ((f.finished ? *f.finished : *f.maximum) - d_.margin - off_).low, refuted))
+      continue;
+    if (refuted) {
+      find("feature \"{}\" has more than its maximum by more than the {} mm that the margin says", f.name,
+           -d_.margin.high);
+      return true;
+    }
+    shown = false;
+  }
+  return shown;
 }
 
 bool DemandCheck::leaves_choice_open() const {
@@ -353,17 +433,22 @@ std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Sp
 double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
   const std::vector<double> by = growth(grown_for);
   // A point counts as off the rims when no finished side is as near to it as its rim is wide.
-  const auto beside_rims = [&](const auto& distance_from) {
-    for (std::size_t k = 0; k < by.size(); ++k)
-      if (by[k] < 0 && !((just(distance_from(part_.sides[k]).low) + just(by[k])).low >= 0)) return false;
-    return true;
+  std::vector<std::size_t> rims;
+  for (std::size_t k = 0; k < by.size(); ++k)
+    if (by[k] < 0) rims.push_back(k);
+  const auto beside_rims = [&](const Box& box, const auto& distance_from) {
+    return std::all_of(rims.begin(), rims.end(), [&](std::size_t k) {
+      return gap(box, part_.tree->box(k)) >= -by[k] ||
+             (just(distance_from(part_.sides[k]).low) + just(by[k])).low >= 0;
+    });
   };
   const std::optional<bool> in = holds(part_, p);
-  if (in && *in && beside_rims([&](const Side& side) { return distance(p, side); })) return 0;
+  if (in && *in && beside_rims(box_of(p), [&](const Side& side) { return distance(p, side); })) return 0;
   double off = kInfinity;
   for (std::size_t k = 0; k < by.size(); ++k) {
     if (by[k] < 0) continue;
-    if (by[k] == 0 && !beside_rims([&](const Side& side) { return distance(part_.sides[k], side); }))
+    if (by[k] == 0 &&
+        !beside_rims(part_.tree->box(k), [&](const Side& side) { return distance(part_.sides[k], side); }))
       continue;
     off = std::min(off, std::max(0.0, (just(distance(p, part_.sides[k]).high) - just(by[k])).high));
   }

@@ -61,6 +61,11 @@ class DemandCheck {
   /// and the largest allowance hold at the placement.
   void check_placement();
 
+  /// A margin below 0 promises that no more is missing: no point within an edge's minimum of it sticks out of
+  /// the blank by more, nor is a maximum exceeded by more. Returns false where that is not shown and not
+  /// refuted.
+  [[nodiscard]] bool check_missing();
+
   /// The gap that one criterion left to the next one is kept at the placement, as far as the result says so.
   /// \param optimal  whether the result claims that the gaps are closed
   void check_criteria(bool optimal);
@@ -93,6 +98,9 @@ class DemandCheck {
   [[nodiscard]] std::vector<std::size_t> unfinished_sides() const;
   void check_minima();
   void check_material();
+  [[nodiscard]] bool keeps(const Side& side, Span needed) const;
+  [[nodiscard]] bool grown_sticks_out(std::size_t side, Span by, double more_than) const;
+  [[nodiscard]] bool is_depth_kept(const std::vector<std::size_t>& sides, double most, bool& refuted) const;
   void check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose);
   [[nodiscard]] bool beside_finished(const Side& piece, std::size_t& looked) const;
 

@@ -36,7 +36,10 @@ void read_inputs(Fields& fields, ResultDocument& result, std::string& complaint)
   fields.each("inputs", [&](Json item, const std::string& path) {
     Fields input(item, path, complaint);
     const std::string role = input.text("role");
-    if (role == "part") ++parts, result.part = read_input(input);
+    if (role == "part") {
+      ++parts, result.part = read_input(input);
+      result.part_sha256 = input.text("sha256");
+    }
     if (role == "blank") ++blanks, result.blank = read_input(input);
   });
   if (parts != 1 || blanks != 1) {
@@ -91,11 +94,34 @@ void read_trim(Fields& fields, ResultDocument& result, std::string& complaint) {
   });
 }
 
-void read_nc(Fields& fields, ResultDocument& result, std::string& complaint) {
-  const Json value = fields.get("nc");
-  if (value.is_null()) return;
-  Fields nc(value, "nc", complaint);
-  result.nc = WrittenNc{nc.number("clearance"), nc.number("rounding_mm")};
+bool is_given(Json value) { return !value.text.empty() && !value.is_null(); }
+
+void read_comparison(Json value, ResultDocument& result, std::string& complaint) {
+  Fields fields(value, "comparison", complaint);
+  WrittenComparison& c = result.comparison.emplace();
+  if (!fields.get("same_part").is_bool())
+    fields.complain("field comparison.same_part is neither true nor false");
+  c.same_part = fields.get("same_part").is_true();
+  for (auto [key, to] : {std::pair{"dx", &c.dx},
+                         {"dy", &c.dy},
+                         {"dtheta", &c.dtheta},
+                         {"dtheta_deg", &c.dtheta_deg},
+                         {"largest_shift", &c.largest_shift},
+                         {"last_clearance", &c.last_clearance},
+                         {"last_pose_clearance", &c.last_pose_clearance}})
+    *to = fields.number(key);
+}
+
+void read_extras(Fields& fields, ResultDocument& result, std::string& complaint) {
+  const Json nc = fields.get("nc");
+  if (nc.text.empty()) fields.complain("field nc is missing");
+  if (is_given(nc)) result.nc = read_written_nc(nc, complaint);
+  if (const Json value = fields.get("comparison"); is_given(value)) read_comparison(value, result, complaint);
+  if (const Json value = fields.get("deviations"); is_given(value)) {
+    Fields deviations(value, "deviations", complaint);
+    result.deviations = {deviations.index("points"), deviations.number("least"),
+                         deviations.number("greatest")};
+  }
 }
 
 }  // namespace
@@ -131,7 +157,7 @@ Result<ResultDocument> read_result_document(Json written, const std::string& nam
     result.alternatives.push_back(read_placement(alternative));
   });
   read_trim(fields, result, complaint);
-  read_nc(fields, result, complaint);
+  read_extras(fields, result, complaint);
   if (!complaint.empty()) return bad(name, complaint);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "program_check.hpp"
 #include "verify/number/exact.hpp"
 #include "verify/read/contour.hpp"
 #include "verify/read/json.hpp"
@@ -31,8 +32,16 @@ struct WrittenTrim {
   Contour contour;
 };
 
-struct WrittenNc {
-  Decimal clearance, rounding_mm;
+/// How the placement differs from that of an earlier result.
+struct WrittenComparison {
+  bool same_part = false;
+  Decimal dx, dy, dtheta, dtheta_deg, largest_shift, last_clearance, last_pose_clearance;
+};
+
+/// The distances of the blank's points from the placed part.
+struct WrittenDeviations {
+  std::size_t points = 0;
+  Decimal least, greatest;
 };
 
 struct ResultDocument {
@@ -50,6 +59,10 @@ struct ResultDocument {
   std::vector<WrittenPlacement> alternatives;
   std::optional<WrittenTrim> trim;
   std::optional<WrittenNc> nc;
+  std::optional<WrittenComparison> comparison;
+  std::optional<WrittenDeviations> deviations;
+  /// The digest of the part's file, for the comparison.
+  std::string part_sha256;
 };
 
 /// Reads a result. bad_input names the document, when a field is missing or is not what docs/formats.md says.

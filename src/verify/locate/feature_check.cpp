@@ -1,6 +1,7 @@
 #include "feature_check.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "feature_file.hpp"
 #include "lekalo/base/joined_text.hpp"
@@ -31,12 +32,9 @@ class FeatureCheck {
 
   void run() {
     check_minimum();
-    if (stated_.ignores && !claims_.part_cut)
+    if (!stated_.ignored.empty() && !claims_.part_cut)
       find("{} ignores some of the part, but part_cut is false", file_);
-    if (!stated_.ignores && claims_.part_cut) find("part_cut is true, but {} ignores nothing", file_);
-    if (claims_.part_cut)
-      open_.push_back(fmt::format(
-          "the part without what {} ignores was not rebuilt, nor the numbers of its edges", file_));
+    if (stated_.ignored.empty() && claims_.part_cut) find("part_cut is true, but {} ignores nothing", file_);
     static const std::vector<WrittenFeature> none;
     const std::vector<WrittenFeature>& written = claims_.demands ? claims_.demands->features : none;
     for (std::size_t k = 0; k < std::max(written.size(), stated_.features.size()); ++k) {
@@ -93,31 +91,55 @@ class FeatureCheck {
 
   void check_edges(const WrittenFeature& written, const StatedFeature& stated) {
     if (written.edges.empty()) find("feature \"{}\" has no edges", stated.name);
-    if (stated.label && claims_.part_is_region)
-      return find("feature \"{}\" has the label \"{}\" in {}, but edges of a region file have none",
-                  stated.name, *stated.label, file_);
-    if (claims_.part_cut) return;
-    if (stated.label) {
-      open_.push_back(fmt::format(
-          "which edges have the label \"{}\" was not rechecked for feature \"{}\": labels are not "
-          "read here",
-          *stated.label, stated.name));
+    if (stated.label) return check_label(written, stated);
+    if (claims_.part_cut && claims_.origin.edges.empty()) {
+      open_.push_back(fmt::format("which edges feature \"{}\" has without what {} ignores was not rechecked",
+                                  stated.name, file_));
       return;
     }
     std::vector<std::size_t> edges;
     if (stated.edges) {
       edges = *stated.edges;
     } else {
-      const std::vector<std::size_t> firsts = first_edges(claims_.part);
+      const std::vector<std::size_t> firsts =
+          first_edges(claims_.part_cut ? *claims_.origin.in_file : claims_.part);
       const std::size_t contour = stated.contour.value_or(0);
       if (contour + 1 >= firsts.size())
         return find("feature \"{}\" has contour {} in {}, which the part has not", stated.name, contour,
                     file_);
       for (std::size_t k = firsts[contour]; k < firsts[contour + 1]; ++k) edges.push_back(k);
     }
+    if (claims_.part_cut)
+      return check_marked(written, claims_.origin.edges, std::set(edges.begin(), edges.end()));
     if (written.edges != edges)
       find("feature \"{}\" has other edges than {} says: {}, not {}", stated.name, file_,
            excerpt(joined_text(written.edges, ", ")), excerpt(joined_text(edges, ", ")));
+  }
+
+  void check_label(const WrittenFeature& written, const StatedFeature& stated) {
+    if (!claims_.origin.labels.empty())
+      return check_marked(written, claims_.origin.labels, std::set<std::string>{*stated.label});
+    if (claims_.origin.in_file)
+      return find("feature \"{}\" has the label \"{}\" in {}, but edges of a region file have none",
+                  stated.name, *stated.label, file_);
+    open_.push_back(fmt::format("which edges have the label \"{}\" was not rechecked for feature \"{}\"",
+                                *stated.label, stated.name));
+  }
+
+  /// Every edge of the feature has one of the marks, and no other edge has nothing but these. An edge along
+  /// which two sides coincide may have the mark of either.
+  template <class Mark>
+  void check_marked(const WrittenFeature& written, const std::vector<std::set<Mark>>& marks_of_edge,
+                    const std::set<Mark>& wanted) {
+    for (std::size_t edge = 0; edge < marks_of_edge.size(); ++edge) {
+      const std::set<Mark>& marks = marks_of_edge[edge];
+      const auto is_wanted = [&](const Mark& mark) { return wanted.count(mark) > 0; };
+      const bool listed = std::count(written.edges.begin(), written.edges.end(), edge) > 0;
+      if (listed && std::none_of(marks.begin(), marks.end(), is_wanted))
+        return find("feature \"{}\" has edge {}, which {} does not give it", written.name, edge, file_);
+      if (!listed && !marks.empty() && std::all_of(marks.begin(), marks.end(), is_wanted))
+        return find("feature \"{}\" lacks edge {}, which {} gives it", written.name, edge, file_);
+    }
   }
 
   const std::string& file_;
@@ -147,6 +169,14 @@ bool check_without_file(const DemandClaims& claims, LocateReport& report) {
 
 }  // namespace
 
+IgnoredRegions read_ignored(const std::optional<Document>& file) {
+  const Result<Json> root = file ? parse_json(file->bytes, file->name) : Json{};
+  std::string complaint;
+  if (!root || !root->is_object()) return {};
+  const StatedDemands stated = read_features(*root, LengthUnit::millimetre, complaint);
+  return {stated.ignored, stated.unit};
+}
+
 bool check_features(const std::optional<Document>& file, const DemandClaims& claims, LocateReport& report) {
   if (!file) return check_without_file(claims, report);
   const Result<Json> root = parse_json(file->bytes, file->name);
@@ -157,7 +187,7 @@ bool check_features(const std::optional<Document>& file, const DemandClaims& cla
     return report.findings.push_back(fmt::format("{}: {}", file->name, complaint)), true;
   FeatureCheck as_mm(file->name, in_mm, claims);
   as_mm.run();
-  if (in_mm.says_unit || as_mm.findings().empty()) return hand_over(as_mm, report);
+  if (in_mm.unit || as_mm.findings().empty()) return hand_over(as_mm, report);
   // A file that does not say its unit may have been given one on the command line.
   const StatedDemands in_inches = read_features(*root, LengthUnit::inch, complaint);
   FeatureCheck as_inches(file->name, in_inches, claims);

@@ -19,16 +19,17 @@ class FeatureReader {
     Fields file(value, "", complaint_);
     refuse_other_words(value, "", {"units", "minimum", "features", "ignore"});
     if (has(file, "units")) {
-      stated.says_unit = true;
       const std::string unit = file.text("units");
       if (unit != "mm" && unit != "inch") file.complain("field units is neither \"mm\" nor \"inch\"");
       unit_ = unit == "inch" ? LengthUnit::inch : LengthUnit::millimetre;
+      stated.unit = unit_;
     }
     stated.minimum = length(file, "minimum").value_or(0);
     if (has(file, "features"))
       file.each("features",
                 [&](Json item, const std::string& path) { stated.features.push_back(feature(item, path)); });
-    if (has(file, "ignore")) file.each("ignore", [&](Json, const std::string&) { stated.ignores = true; });
+    if (has(file, "ignore"))
+      file.each("ignore", [&](Json item, const std::string&) { stated.ignored.push_back(item); });
     return stated;
   }
 

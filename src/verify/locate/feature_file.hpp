@@ -27,9 +27,9 @@ struct StatedFeature {
 struct StatedDemands {
   double minimum = 0;  ///< of edges of no feature, mm
   std::vector<StatedFeature> features;
-  bool says_unit = false;
-  /// True when something of the part is to be ignored.
-  bool ignores = false;
+  std::optional<LengthUnit> unit;
+  /// The regions of the part that are to be ignored.
+  std::vector<Json> ignored;
 };
 
 /// Reads a file of features. `unit` holds where the file does not say one. The complaint names what is no

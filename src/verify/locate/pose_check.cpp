@@ -6,8 +6,10 @@
 #include "cover_tree.hpp"
 #include "demand_check.hpp"
 #include "feature_check.hpp"
+#include "pose_document.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/shape/region_clearance.hpp"
+#include "verify/shape/same_outline.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
@@ -19,71 +21,38 @@ constexpr double kReadingTolerance = 1e-6;
 /// An angle of the pose may be off the window by this, relatively: degrees and radians are rounded.
 constexpr double kAngleTolerance = 4e-15;
 
-Span enclosed(const Decimal& value) {
-  const Interval interval(value, 64);
-  return {interval.low_double(), interval.high_double()};
-}
-
-/// Refuses a field that is neither true nor false, because different readers would take it differently.
-bool truth_of(Fields& fields, std::string_view key) {
-  const Json value = fields.get(key);
-  if (!value.is_bool()) fields.complain(fmt::format("field {} is neither true nor false", fields.name(key)));
-  return value.is_bool() && value.is_true();
-}
-
-struct WrittenTouch {
-  Vec part, blank;
-  double distance = 0, multiplier = 0;
-};
-
-struct RegionDocument {
-  std::string status;
-  Decimal x, y, theta, theta_deg;
-  bool mirrored = false;
-  Span clearance, upper_bound, gap, min_allowance, shortfall, part_tolerance, blank_tolerance;
-  Decimal min_allowance_as_written, shortfall_as_written;
-  /// True if there is an upper_bound or gap beside demands, although the margin has the bound then.
-  bool bound_beside_demands = false;
-  std::string mirror;
-  Decimal window_from, window_to;
-  Shape part, blank;
-  std::vector<WrittenTouch> contacts;
-  bool in_file = false;
-  std::optional<Decimal> locked_x, locked_y;
-  std::optional<WrittenDemands> demands;
-  bool part_cut = false;
-  struct Program {
-    Span clearance, rounding;
-  };
-  std::optional<Program> program;
-};
-
 class PoseCheck {
  public:
   PoseCheck(const LocateInputs& inputs, Json result) : inputs_(inputs), root_(result) {}
 
   Result<LocateReport> run() {
-    read();
+    r_ = read_region_document(root_, complaint_);
     if (!complaint_.empty()) return bad(inputs_.result.name);
     check_shape("part", r_.part);
     check_shape("blank", r_.blank);
     place();
-    const bool part_is_region = check_input("part", inputs_.part, r_.part, r_.part_tolerance);
-    check_input("blank", inputs_.blank, r_.blank, r_.blank_tolerance);
+    const IgnoredRegions ignored = r_.part_cut ? read_ignored(inputs_.features) : IgnoredRegions{};
+    const Origin part = check_input("part", {inputs_.part, r_.part, r_.part_tolerance.high, Json{"null"},
+                                             r_.part_drawing, ignored.regions, ignored.unit});
+    check_input("blank", {inputs_.blank, r_.blank, r_.blank_tolerance.high, r_.scan, r_.blank_drawing});
     check_clearance();
     check_contacts();
     check_derived();
     check_pose();
-    const bool features_whole =
-        check_features(inputs_.features,
-                       {r_.demands ? &*r_.demands : nullptr, r_.min_allowance_as_written, r_.part,
-                        r_.part_cut, part_is_region},
-                       report_);
+    const bool features_whole = check_features(
+        inputs_.features,
+        {r_.demands ? &*r_.demands : nullptr, r_.min_allowance_as_written, r_.part, r_.part_cut, part},
+        report_);
     std::optional<DemandCheck> demands;
     if (r_.demands) {
       demands.emplace(*r_.demands, r_.part, placed_, r_.blank, r_.part_tolerance + r_.blank_tolerance,
                       report_.findings);
       demands->check_placement();
+      if (!demands->check_missing()) {
+        missing_open_ = true;
+        report_.notes.emplace_back(
+            "that no more is missing at the placement than the margin says was not shown");
+      }
       check_curve();
     }
     const bool proved = check_certificates(demands ? &*demands : nullptr);
@@ -96,10 +65,11 @@ class PoseCheck {
           "the criterion \"{}\" is none that this checker knows, so it was not rechecked that the "
           "placement is the one that the criterion looks for",
           excerpt(r_.demands->criterion)));
-    report_.verdict = !report_.findings.empty() ? Verdict::refuted
-                      : !proved                 ? Verdict::unproved
-                      : open || !features_whole ? Verdict::incomplete
-                                                : Verdict::confirmed;
+    report_.verdict = !report_.findings.empty()                                   ? Verdict::refuted
+                      : !proved                                                   ? Verdict::unproved
+                      : open || !features_whole || program_open_ || missing_open_ ? Verdict::incomplete
+                      : origins_open_                                             ? Verdict::stated_regions
+                                                                                  : Verdict::confirmed;
     return std::move(report_);
   }
 
@@ -112,11 +82,9 @@ class PoseCheck {
     report_.findings.push_back(fmt::format(format, std::forward<Args>(args)...));
   }
 
-  void read();
   void place();
   void check_shape(const char* role, const Shape& shape);
-  /// Returns whether the file is a region file, which is rechecked.
-  bool check_input(const char* role, const Document& file, const Shape& used, Span tolerance);
+  Origin check_input(const char* role, const RegionClaim& claim);
   void check_clearance();
   void check_pose();
   void check_allowed(const std::string& whose, const Decimal& x, const Decimal& y, const Decimal& angle,
@@ -133,6 +101,9 @@ class PoseCheck {
   };
   Json certificate_of(const char* key);
   bool check_cover(const char* key, const DemandCheck* demands, const Bounded& what);
+  void check_own_outline(const std::string& says, const Bounded& what);
+  [[nodiscard]] bool is_one_file() const;
+  [[nodiscard]] bool lies_in_one_file();
   /// Returns whether every bound had a certificate to look at.
   bool check_certificates(DemandCheck* demands);
   void check_status();
@@ -143,87 +114,11 @@ class PoseCheck {
   RegionDocument r_;
   Motion motion_;
   Shape placed_;
+  /// True when it is open whether a region is what its file means.
+  bool origins_open_ = false;
+  bool program_open_ = false, missing_open_ = false;
   LocateReport report_;
 };
-
-void PoseCheck::read() {
-  Fields fields(root_, "", complaint_);
-  std::string ignored;
-  Fields format(fields.get("format"), "format", ignored);
-  if (!format.get("name").is_string() || json_text(format.get("name")) != "lekalo-locate" ||
-      format.get("version").text != "1")
-    fields.complain("field format does not say lekalo-locate, version 1");
-  if (fields.text("units") != "mm") fields.complain("field units is not \"mm\"");
-  r_.status = fields.text("status");
-  constexpr std::array<std::string_view, 3> kStatuses{"optimal", "stopped", "infeasible"};
-  if (std::find(kStatuses.begin(), kStatuses.end(), r_.status) == kStatuses.end())
-    fields.complain(fmt::format("\"{}\" is no status of a result", excerpt(r_.status)));
-  r_.x = fields.number("x"), r_.y = fields.number("y");
-  r_.theta = fields.number("theta"), r_.theta_deg = fields.number("theta_deg");
-  r_.mirrored = truth_of(fields, "mirrored");
-  r_.mirror = fields.text("mirror");
-  if (r_.mirror != "no" && r_.mirror != "yes" && r_.mirror != "either")
-    fields.complain("field mirror is none of \"no\", \"yes\", \"either\"");
-  for (auto [key, to] : {std::pair{"clearance", &r_.clearance},
-                         {"min_allowance", &r_.min_allowance},
-                         {"shortfall", &r_.shortfall}})
-    *to = enclosed(fields.number(key));
-  r_.min_allowance_as_written = fields.number("min_allowance");
-  r_.shortfall_as_written = fields.number("shortfall");
-  std::vector<Decimal> ends;
-  fields.each("window_deg",
-              [&](Json item, const std::string& path) { ends.push_back(fields.number_of(item, path)); });
-  if (ends.size() == 2) r_.window_from = ends[0], r_.window_to = ends[1];
-  if (ends.size() != 2 || compare(ends[0], ends[1]) > 0)
-    fields.complain("field window_deg is not two angles in ascending order");
-  Fields tolerances(fields.get("tolerances"), "tolerances", complaint_);
-  r_.part_tolerance = enclosed(tolerances.number("part")),
-  r_.blank_tolerance = enclosed(tolerances.number("blank"));
-  Fields regions(fields.get("regions"), "regions", complaint_);
-  for (const auto& [key, to] : {std::pair{"part", &r_.part}, {"blank", &r_.blank}}) {
-    const std::string path = fmt::format("regions.{}", key);
-    if (Fields(regions.get(key), path, complaint_).text("units") != "mm")
-      fields.complain(fmt::format("the units of {} are not mm", path));
-    *to = read_shape(regions.get(key), path, complaint_);
-  }
-  for (const std::string_view key : {"locked", "demands", "scan", "part_cut"})
-    if (fields.get(key).text.empty()) fields.complain(fmt::format("field {} is missing", key));
-  if (const Json locked = fields.get("locked"); !locked.is_null()) {
-    Fields shift(locked, "locked", complaint_);
-    r_.locked_x = shift.number_or_null("x"), r_.locked_y = shift.number_or_null("y");
-  }
-  if (!fields.get("part_cut").text.empty()) r_.part_cut = truth_of(fields, "part_cut");
-  const Json demands = fields.get("demands");
-  if (!demands.is_null()) {
-    r_.demands = read_demands(demands, complaint_);
-    for (const std::string_view key : {"upper_bound", "gap"})
-      if (fields.number_or_null(key)) r_.bound_beside_demands = true;
-  } else {
-    r_.upper_bound = enclosed(fields.number("upper_bound")), r_.gap = enclosed(fields.number("gap"));
-  }
-  if (const Json trim = fields.get("trim"); !trim.text.empty() && !trim.is_null())
-    fields.complain("field trim says something that this checker does not know");
-  if (const Json nc = fields.get("nc"); !nc.text.empty() && !nc.is_null()) {
-    Fields program(nc, "nc", complaint_);
-    r_.program = {enclosed(program.number("clearance")), enclosed(program.number("rounding_mm"))};
-  }
-  fields.each("contacts", [&](Json item, const std::string& path) {
-    Fields contact(item, path, complaint_);
-    const auto point = [&](std::string_view key) {
-      std::vector<Span> numbers;
-      contact.each(key, [&](Json number, const std::string& at) {
-        numbers.push_back(enclosed(contact.number_of(number, at)));
-      });
-      if (numbers.size() != 2)
-        return contact.complain(fmt::format("{} is not two numbers", contact.name(key))), Vec{};
-      return Vec{numbers[0], numbers[1]};
-    };
-    r_.contacts.push_back({point("part_at"), point("blank_at"), approximate(contact.number("distance")),
-                           approximate(contact.number("multiplier"))});
-  });
-  r_.in_file = !fields.get("certificate_file").text.empty() && !fields.get("certificate_file").is_null();
-  if (r_.part_tolerance.low < 0 || r_.blank_tolerance.low < 0) fields.complain("a tolerance is negative");
-}
 
 void PoseCheck::place() {
   motion_ =
@@ -235,48 +130,31 @@ void PoseCheck::check_shape(const char* role, const Shape& shape) {
   if (const auto fault = fault_of(shape)) find("the outline of the {} is none: {}", role, *fault);
 }
 
-/// Reports a shape that was used and is not the shape of its region file. Files of other kinds become regions
-/// by rules that are not rechecked here.
-bool PoseCheck::check_input(const char* role, const Document& file, const Shape& used, Span tolerance) {
-  const auto root = parse_json(file.bytes, file.name);
-  const auto has = [&](std::string_view key) {
-    std::array<Json, 1> found;
-    return root && root->is_object() && find_members(*root, std::array{key}, found) && !found[0].text.empty();
-  };
-  const bool cut = role == std::string_view("part") && r_.part_cut;
-  if (cut || (!has("outer") && !has("pieces"))) {
-    report_.notes.push_back(
-        fmt::format("how {} became the region of the {} was not rechecked", file.name, role));
-    return false;
+/// Reports a region that was used and is not what its file means, and one of which that is not shown.
+Origin PoseCheck::check_input(const char* role, const RegionClaim& claim) {
+  // An outline with a fault is reported, and nothing follows from it.
+  if (fault_of(claim.used)) return {};
+  Origin origin = check_origin(claim);
+  if (origin.fault) find("the {} used is not what {} means: {}", role, claim.file.name, *origin.fault);
+  if (origin.open) {
+    origins_open_ = true;
+    report_.notes.push_back(fmt::format("that the {} used is what {} means was not rechecked: {}", role,
+                                        claim.file.name, *origin.open));
   }
-  // A file that does not say its unit may have been given one on the command line.
-  std::string complaint;
-  const bool said = has("units");
-  bool same = false;
-  for (const bool inch : {false, true}) {
-    if (inch && said) continue;
-    const Shape written = read_shape(*root, file.name, complaint, inch);
-    if (!complaint.empty()) {
-      find("the {} used is not the shape in {}: {}", role, file.name, complaint);
-      return true;
-    }
-    same = same || same_edges(written, used, tolerance.high);
-  }
-  if (!same) find("the {} used is not the shape in {}", role, file.name);
-  return true;
+  return origin;
 }
 
 void PoseCheck::check_clearance() {
   const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
   // Adding even a zero tolerance widens an enclosure, and a part that touches has nothing to spare.
-  const bool none = r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0;
+  const bool none = (r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0) || lies_in_one_file();
   // The clearance claimed for the regions as they are written.
   const Span claimed = none ? r_.clearance : r_.clearance + tolerances;
   std::optional<ExactShift> shift;
   if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
   // Findings are already there for an outline with a fault, and such an outline proves nothing.
   if (!report_.findings.empty()) shift.reset();
-  const Span exact = clearance(r_.part, placed_, r_.blank, shift);
+  const Span exact = clearance(r_.part, placed_, r_.blank, shift, claimed.low);
   const Span less = none ? exact : exact - tolerances;
   report_.clearance_low = fmt::format("{}", less.low);
   report_.clearance_high = fmt::format("{}", less.high);
@@ -388,17 +266,19 @@ void PoseCheck::check_beside_demands() {
   if (compare(r_.shortfall_as_written, missing) != 0)
     find("shortfall is {}, but the margin {} makes it {}", approximate(r_.shortfall_as_written),
          approximate(margin), approximate(missing));
-  if (sgn(margin.digits) < 0)
-    report_.notes.push_back(fmt::format(
-        "that no more than {} mm is missing at the placement was not rechecked", approximate(missing)));
 }
 
 void PoseCheck::check_side() {
-  if (r_.program) {
-    const Span left = r_.clearance - r_.program->rounding;
-    if (r_.program->clearance.low > left.high || r_.program->rounding.low < 0)
-      find("the program's clearance {} is above clearance less its rounding", r_.program->clearance.low);
+  if (!r_.nc) {
+    if (inputs_.program && Fields(root_, "", complaint_).get("nc").text.empty())
+      find("the result names a program, but says nothing of it: field nc is missing");
+    return;
   }
+  const Span left = r_.clearance - enclosed(r_.nc->rounding_mm);
+  if (enclosed(r_.nc->clearance).low > left.high || sgn(r_.nc->rounding_mm.digits) < 0)
+    find("the program's clearance {} is above clearance less its rounding", approximate(r_.nc->clearance));
+  if (r_.mirrored) find("a program was written, but the part lies mirrored");
+  program_open_ = !check_program(inputs_, *r_.nc, r_.x, r_.y, r_.theta, report_);
 }
 
 Json PoseCheck::certificate_of(const char* key) {
@@ -409,10 +289,45 @@ Json PoseCheck::certificate_of(const char* key) {
   return Fields(*root, "", complaint_).get(key);
 }
 
+/// Says whether part and blank were read from the same bytes to the same outline. However far the reader was
+/// off, it was off by the same.
+bool PoseCheck::is_one_file() const {
+  return inputs_.part.bytes == inputs_.blank.bytes && !r_.part_cut &&
+         r_.part_tolerance.low == r_.blank_tolerance.low &&
+         r_.part_tolerance.high == r_.blank_tolerance.high && same_outline(r_.part, r_.blank);
+}
+
+/// Says whether the part lies in the file that it is from as it is drawn there, and the result rests on it.
+bool PoseCheck::lies_in_one_file() {
+  const Json certificate = certificate_of("certificate");
+  return certificate.is_string() && json_text(certificate) == "same file" && sgn(r_.x.digits) == 0 &&
+         sgn(r_.y.digits) == 0 && sgn(r_.theta.digits) == 0 && !r_.mirrored && is_one_file();
+}
+
+/// Checks the reason that part and blank have one outline. No motion changes the part's area, which is that
+/// of the blank; but with clearance around it, it would have to be less.
+void PoseCheck::check_own_outline(const std::string& says, const Bounded& what) {
+  if (says != "same outline" && says != "same file")
+    return find("the certificate says \"{}\", which proves nothing", excerpt(says));
+  if (!same_outline(r_.part, r_.blank))
+    return find("the certificate says \"{}\", but part and blank have different outlines", says);
+  if (says == "same file" && !is_one_file())
+    return find("the certificate says \"same file\", but part and blank are different files or were cut");
+  if (says == "same file" && r_.part_tolerance.high > 0)
+    report_.notes.push_back("that part and blank were read from the file in the same way was not rechecked");
+  const bool none = says == "same file" || (r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0);
+  const Span least = none ? Span{0, 0} : r_.part_tolerance + r_.blank_tolerance;
+  if (!(what.bound.low >= least.high))
+    find("upper_bound {} is below {} mm, which a part in its own outline may have", what.bound.low,
+         least.high);
+}
+
 /// Returns false when there is no certificate of that name to look at.
 bool PoseCheck::check_cover(const char* key, const DemandCheck* demands, const Bounded& what) {
   const Json certificate = certificate_of(key);
   if (certificate.text.empty() || certificate.is_null()) return false;
+  if (certificate.is_string() && demands == nullptr)
+    return check_own_outline(json_text(certificate), what), true;
   Fields fields(certificate, key, complaint_);
   std::vector<Span> pivot;
   fields.each("pivot", [&](Json item, const std::string& path) {

@@ -1,5 +1,7 @@
 #include "exact.hpp"
 
+#include <cmath>
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -114,6 +116,23 @@ int compare(const Decimal& a, const Decimal& b) { return sgn((a - b).digits); }
 
 long angle_bits(const Decimal& value) {
   return value.digits == 0 ? 0 : 4 * std::max(0L, digits_of(value.digits) + value.exponent);
+}
+
+Decimal exactly(double value) {
+  int exponent = 0;
+  const double mantissa = std::ldexp(std::frexp(value, &exponent), 53);
+  Decimal made{Integer(mantissa), 0};
+  exponent -= 53;
+  if (exponent > 0) made.digits <<= static_cast<unsigned long>(exponent);
+  // Dividing m by 2 makes it 5 m / 10.
+  for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {
+    if (is_even(made.digits)) {
+      made.digits /= 2;
+    } else {
+      made.digits *= 5, --made.exponent;
+    }
+  }
+  return made;
 }
 
 double approximate(const Decimal& value) {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::verify {
 
 /// Exact numbers of the checker. A written decimal is digits * 10^exponent; all lengths of one verification
@@ -74,6 +76,9 @@ struct Decimal {
 /// costs these bits beyond the precision that is wanted.
 [[nodiscard]] long angle_bits(const Decimal& value);
 
+/// Returns the decimal that is exactly the double.
+[[nodiscard]] Decimal exactly(double value);
+
 /// Returns the nearest double.
 [[nodiscard]] double approximate(const Decimal& value);
 
@@ -84,7 +89,10 @@ using Ring = std::vector<Point>;
 
 [[nodiscard]] inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
 [[nodiscard]] inline bool operator==(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
-[[nodiscard]] inline Integer cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
+[[nodiscard]] inline Integer cross(const Point& a, const Point& b) {
+  ask();  // whatever the checker is about, crosses are most of it
+  return a.x * b.y - a.y * b.x;
+}
 [[nodiscard]] inline Integer dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace lekalo::verify

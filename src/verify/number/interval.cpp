@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
 namespace {
 
 Precision common_precision(const Interval& a, const Interval& b) {
+  ask();
   return std::max(a.precision(), b.precision());
 }
 
@@ -50,9 +52,10 @@ Interval::Interval(const Interval& other) : Interval(other.precision()) {
   mpfr_set(high_, other.high_, MPFR_RNDU);
 }
 
-Interval::Interval(Interval&& other) noexcept : Interval(Precision{MPFR_PREC_MIN}) {
-  mpfr_swap(low_, other.low_);
-  mpfr_swap(high_, other.high_);
+// The other interval keeps no digits: numbers of its own would need memory, and nothing may fail here.
+Interval::Interval(Interval&& other) noexcept {
+  *low_ = std::exchange(*other.low_, {});
+  *high_ = std::exchange(*other.high_, {});
 }
 
 Interval& Interval::operator=(Interval other) noexcept {
@@ -62,6 +65,7 @@ Interval& Interval::operator=(Interval other) noexcept {
 }
 
 Interval::~Interval() {
+  if (low_->_mpfr_d == nullptr) return;
   mpfr_clear(low_);
   mpfr_clear(high_);
 }
@@ -144,6 +148,20 @@ Turn turn_by(const Interval& angle) {
     mpfr_add(value->high_, value->high_, width.high_, MPFR_RNDU);
   }
   return turn;
+}
+
+Turn turn_by_degrees(const Fraction& degrees) {
+  constexpr Precision kEnough = 160;
+  const Fraction quarters = degrees / 90;
+  if (quarters.get_den() == 1) {
+    const Integer turns = ((quarters.get_num() % 4) + 4) % 4;
+    constexpr std::array<int, 5> kSines{0, 1, 0, -1, 0};
+    const auto k = static_cast<std::size_t>(to_long(turns));
+    return {Interval(Integer(kSines[k + 1]), kEnough), Interval(Integer(kSines[k]), kEnough)};
+  }
+  const Precision precision = kEnough + std::max(0L, bits_of(degrees.get_num()) - bits_of(degrees.get_den()));
+  return turn_by(Interval(degrees.get_num(), precision) * Interval::pi(precision) /
+                 (Interval(degrees.get_den(), precision) * Interval(Integer(180), precision)));
 }
 
 RoundedTurn rounded_turn(double angle) {

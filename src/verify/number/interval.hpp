@@ -92,6 +92,9 @@ struct Turn {
 /// Returns exactly (1, 0) for the angle 0, the only written angle at which either is rational.
 [[nodiscard]] Turn turn_by(const Interval& angle);
 
+/// The same for an angle in degrees: exact for multiples of 90.
+[[nodiscard]] Turn turn_by_degrees(const Fraction& degrees);
+
 /// The doubles nearest to cosine and sine of an angle.
 struct RoundedTurn {
   double cosine = 1, sine = 0;

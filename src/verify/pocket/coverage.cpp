@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cut_path.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -21,13 +22,16 @@ class Coverage {
  public:
   Coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report)
       : pocket_(pocket), radius_(radius), report_(report) {
-    for (const std::vector<Cut>* cuts : {&path.before, &path.cuts})
-      for (const Cut& cut : *cuts)
-        if (std::max(cut.from_z, cut.to_z) <= path.deepest + kSameLevel) {
-          floor_.push_back(cut.stroke);
-          wider_.push_back(cut.radius - radius);
-          widest_ = std::max(widest_, wider_.back());
-        }
+    for (const std::vector<Cut>* cuts : {&path.before, &path.cuts}) {
+      const std::vector<bool> again = repeated(*cuts);
+      for (std::size_t i = 0; i < cuts->size(); ++i) {
+        const Cut& cut = (*cuts)[i];
+        if (again[i] || std::max(cut.from_z, cut.to_z) > path.deepest + kSameLevel) continue;
+        floor_.push_back(cut.stroke);
+        wider_.push_back(cut.radius - radius);
+        widest_ = std::max(widest_, wider_.back());
+      }
+    }
     const Place pad{radius, radius};
     index_ = StrokeIndex(pocket.low() - pad, pocket.high() + pad, radius);
     for (std::size_t i = 0; i < floor_.size(); ++i) index_.add(static_cast<std::uint32_t>(i), floor_[i]);
@@ -39,6 +43,7 @@ class Coverage {
     Numbers cuts, limits;
     for (double y = low.y; y < high.y; y += side)
       for (double x = low.x; x < high.x; x += side) {
+        ask();
         const Place middle{x + side / 2, y + side / 2};
         const double reach = radius_ + 2.2 * side;
         index_.near(middle, reach + widest_, cuts);
@@ -213,6 +218,7 @@ void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateRepor
   double least = pocket.clearance();
   std::vector<std::uint32_t> near;
   for (const Stroke& stroke : path.strokes) {
+    ask();
     if (length(stroke.to - stroke.from) > 0)
       least = std::min(least, least_depth(stroke, pocket, pocket.clearance(), near));
     else
@@ -264,6 +270,7 @@ void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& 
     };
     take(i);
     while (!open.empty()) {
+      ask();
       const std::size_t k = open.back();
       open.pop_back();
       const std::size_t column = k % columns, row = k / columns;

@@ -3,13 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr std::size_t kMostCuts = 10'000'000;
+/// A program has at most this many cuts, and so many more for each of its moves.
+constexpr std::size_t kMostCuts = 1'500'000, kMostCutsAMove = 4;
 
 double whole_length(const Move& move) {
   return move.arc ? 2 * kPi * move.turns * length(move.from - move.centre) : length(move.to - move.from);
@@ -46,17 +52,18 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
   // `down` is true while the tool is below `top`. A cut that begins while it is false is a new entry.
   bool down = false;
   std::size_t entries = 0;
+  const std::size_t most = kMostCuts + kMostCutsAMove * moves.size();
   for (const Move& move : moves) {
+    ask();
     if (!(move.from_z < top) && !(move.to_z < top)) {
       down = false;
       continue;
     }
-    if (!(whole_length(move) / longest <
-          static_cast<double>(kMostCuts - std::min(kMostCuts, path.cuts.size()))))
+    if (!(whole_length(move) / longest < static_cast<double>(most - std::min(most, path.cuts.size()))))
       return failure(ErrorCode::bad_input,
-                     fmt::format("{}:{}: the path is longer than ten million half radii of "
-                                 "the tool; give the tool's diameter in mm",
-                                 name, move.line));
+                     fmt::format("{}:{}: the path in the stock is longer than {} half radii of the tool; "
+                                 "give the tool's diameter in mm, or simulate a part of the program",
+                                 name, move.line, most));
     const std::vector<Stroke> strokes = strokes_of(move, longest);
     double whole = 0;
     for (const Stroke& s : strokes) whole += length(s);
@@ -87,6 +94,28 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
   }
   path.retracts = entries > 0 ? entries - 1 : 0;
   return path;
+}
+
+std::vector<bool> repeated(const std::vector<Cut>& cuts) {
+  struct Deepest {
+    double z, radius;
+  };
+  std::map<std::array<double, 8>, Deepest> known;
+  std::vector<bool> found(cuts.size(), false);
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    if (!cuts[i].level()) continue;
+    const Stroke& s = cuts[i].stroke;
+    const bool back = !s.arc && std::tie(s.to.x, s.to.y) < std::tie(s.from.x, s.from.y);
+    const Place from = back ? s.to : s.from, to = back ? s.from : s.to, centre = s.arc ? s.centre : Place{};
+    const std::array<double, 8> key{
+        s.arc ? 1.0 : 0.0, s.arc && s.ccw ? 1.0 : 0.0, from.x, from.y, to.x, to.y, centre.x, centre.y};
+    const auto [at, is_new] = known.try_emplace(key, Deepest{cuts[i].to_z, cuts[i].radius});
+    if (is_new) continue;
+    found[i] = at->second.z <= cuts[i].to_z && at->second.radius >= cuts[i].radius;
+    if (!found[i] && cuts[i].to_z <= at->second.z && cuts[i].radius >= at->second.radius)
+      at->second = {cuts[i].to_z, cuts[i].radius};
+  }
+  return found;
 }
 
 }  // namespace lekalo::verify

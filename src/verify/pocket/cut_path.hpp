@@ -34,9 +34,13 @@ struct CutPath {
 };
 
 /// Step 1 of docs/design/simulate.md: cuts the path below `top` into pieces no longer than `longest`.
-/// bad_input where there would be more than ten million.
+/// bad_input where there would be more than 1,500,000 and 4 for each move.
 [[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
                                        double longest, const std::string& name);
+
+/// Says of each cut whether it runs on the level just where one before it has run as deep, with a tool as wide:
+/// such a cut changes nothing.
+[[nodiscard]] std::vector<bool> repeated(const std::vector<Cut>& cuts);
 
 /// The area of material that the path takes off at one depth while it moves level.
 struct Removed {

@@ -4,6 +4,7 @@
 
 #include "cut_path.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "rim_cover.hpp"
 
 namespace lekalo::verify {
@@ -38,6 +39,8 @@ class Engagement {
       top_ = std::max(top_, highest(cut));
     }
     if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
+    spacing_ = std::max(spacing, least_spacing());
+    repeated_ = repeated(cuts_);
     for (const Cut& cut : cuts_) {
       const Place middle = 0.5 * (cut.stroke.from + cut.stroke.to);
       // An arc of at most a quarter turn lies in the disc that has its chord as diameter.
@@ -60,14 +63,14 @@ class Engagement {
       while (range != lines.end() && range->last < cuts_[i].line) ++range;
       if (range == lines.end()) return;
       if (i >= first_ && cuts_[i].line >= range->first) measure(i);
-      index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
+      if (!repeated_[i]) index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
     }
   }
 
   std::vector<Removed> run(const ProgressListener& progress) {
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
       if (i >= first_) measure(i);
-      index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
+      if (!repeated_[i]) index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
       if (progress && i % kCutsToTell == 0)
         progress({i, static_cast<double>(i) / static_cast<double>(cuts_.size())});
     }
@@ -78,6 +81,18 @@ class Engagement {
   }
 
  private:
+  /// Returns the spacing at which the path has as many samples as it may have: so many, and some more for
+  /// each line that cuts. A line of a few bytes can be kilometres long.
+  [[nodiscard]] double least_spacing() const {
+    constexpr double kMostSamples = 5e5, kMostSamplesALine = 64;
+    double whole = 0, lines = 0;
+    for (std::size_t i = first_; i < cuts_.size(); ++i) {
+      whole += length(cuts_[i].stroke);
+      if (i == first_ || cuts_[i].line != cuts_[i - 1].line) ++lines;
+    }
+    return whole / (kMostSamples + kMostSamplesALine * lines);
+  }
+
   struct Disc {
     Place middle;
     double radius;
@@ -91,6 +106,7 @@ class Engagement {
     const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(whole / spacing_)));
     double done = 0;
     for (std::size_t k = 1; k <= pieces; ++k) {
+      ask();
       const double share = static_cast<double>(k) / static_cast<double>(pieces);
       const Place at = at_share(cut.stroke, share);
       EngagementSample sample;
@@ -119,7 +135,7 @@ class Engagement {
     const double slack = radius_;
     if (gathered_ && length(middle - gathered_at_) + whole / 2 <= slack) {
       for (; gathered_upto_ < number; ++gathered_upto_)
-        near_.push_back(static_cast<std::uint32_t>(gathered_upto_));
+        if (!repeated_[gathered_upto_]) near_.push_back(static_cast<std::uint32_t>(gathered_upto_));
       return;
     }
     gathered_ = true;
@@ -168,6 +184,7 @@ class Engagement {
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t i : near) {
+      ask();
       if (highest(cuts_[i]) > z + kSameLevel) continue;
       const double beyond = distance(middle, cuts_[i].stroke) - cuts_[i].radius;
       least = std::min(least, beyond);
@@ -232,6 +249,7 @@ class Engagement {
     if (!(low < top_) || !meets(low, so_far)) return;
     double high = top_;
     while (high - low > kLayerError) {
+      ask();
       const double middle = 0.5 * (low + high);
       (meets(middle, so_far) ? low : high) = middle;
     }
@@ -286,6 +304,8 @@ class Engagement {
   /// The cuts of earlier programs, and from first_ on those of this one.
   std::vector<Cut> cuts_;
   std::size_t first_ = 0;
+  /// By cut: it changes nothing for those after it.
+  std::vector<bool> repeated_;
   /// By cut: a disc around all that the tool sweeps along it.
   std::vector<Disc> discs_;
   /// By cut: the depth that its ramp reaches. Material that the ramp left below that is no entry's.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "cut_path.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -30,6 +31,7 @@ double turn_between(Direction a, Direction b) {
 std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptions& o) {
   std::vector<Piece> pieces;
   for (const Move& move : moves) {
+    ask();
     const double feed = (move.rapid ? o.rapid_feed : move.feed) / 60;
     const double rise = move.to_z - move.from_z;
     std::vector<Stroke> strokes;

@@ -4,82 +4,63 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cmath>
 #include <optional>
+#include <utility>
 
-#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/base/limits.hpp"
-#include "nc_words.hpp"
+#include "lekalo/base/stop.hpp"
+#include "nc_arc.hpp"
+#include "nc_block.hpp"
+#include "nc_cycle.hpp"
+#include "nc_flow.hpp"
+#include "nc_program.hpp"
 
 namespace lekalo::verify {
 namespace {
 
+using words::Control;
+using words::Group;
+using words::kClockwise;
+using words::kCounterClockwise;
+using words::kRapid;
+
 constexpr double kFarthest = limits::kLargestProgramCoordinate;  // mm
-/// The radii at the two ends of an arc may differ by this much.
-constexpr double kCircleTolerance = 5e-3;  // mm
-/// LinuxCNC refuses arcs of a smaller radius, and arcs by R whose ends are further apart than the diameter
-/// and twice this.
-constexpr double kRadiusTolerance = 5e-5 * 25.4;  // mm
-/// LinuxCNC takes an arc by R for a half circle from this half chord over the radius on.
-constexpr double kHalfCircle = 1 - 1e-12;
-/// LinuxCNC takes ends closer than 1e-6 rad, seen from the centre, for one point, and the arc for a full
-/// turn.
-constexpr double kSmallestSweep = 2e-6;
-/// LinuxCNC reads no longer lines, and no more M words in one. More digits of N than these fit no integer.
-constexpr std::size_t kLongestLine = 252, kMostMWords = 4, kMostDigitsOfN = 9;
+constexpr std::array<char, 3> kAxes{'X', 'Y', 'Z'};
+constexpr double kMostRepeats = 10'000;
 
-struct Block {
-  std::size_t line = 0;
-  std::vector<const Code*> codes;
-  std::array<std::optional<double>, 26> words;
-  [[nodiscard]] std::optional<double> operator[](char letter) const {
-    return words[static_cast<std::size_t>(letter - 'A')];
-  }
-  [[nodiscard]] const Code* code(Group group) const {
-    for (const Code* each : codes)
-      if (each->group == group) return each;
-    return nullptr;
-  }
-  [[nodiscard]] bool has_axis() const { return (*this)['X'] || (*this)['Y'] || (*this)['Z']; }
-  [[nodiscard]] bool empty() const {
-    return codes.empty() && std::ranges::none_of(words, [](const auto& word) { return word.has_value(); });
-  }
-};
-
-bool is_arc(const Code* code) {
+bool is_arc(const words::Word* code) {
   return code != nullptr && (code->tenths == kClockwise || code->tenths == kCounterClockwise);
 }
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_count(double value) { return value >= 0 && value == std::floor(value); }
-
-/// LinuxCNC runs some comments. Those that run code, open files or end the program are not understood.
-bool acts(std::string_view comment) {
-  const std::size_t comma = comment.find(',');
-  if (comma == std::string_view::npos) return false;
-  std::string keyword;
-  for (const char c : comment.substr(0, comma))
-    if (c != ' ' && c != '\t') keyword += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  constexpr std::array<std::string_view, 8> kActing{"PY",         "PYTHON",  "ABORT",     "PROBEOPEN",
-                                                    "PROBECLOSE", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"};
-  return std::ranges::find(kActing, keyword) != kActing.end();
-}
+bool is_cycle(const words::Word* code) { return code != nullptr && code->tenths > kCounterClockwise; }
+bool takes(const words::Word& code, char letter) { return code.takes.find(letter) != std::string_view::npos; }
+bool is_count(double value) { return value >= 1 && value <= kMostRepeats && value == std::floor(value); }
 
 class ProgramReader {
  public:
-  ProgramReader(const Document& program, double top) : program_(program), top_(top) {}
+  ProgramReader(const Document& program, const NcReading& reading)
+      : program_(program),
+        top_(reading.top),
+        control_(reading.control),
+        judged_(reading.judged),
+        lines_(reading.control, reading.allowed_m) {}
 
-  Result<std::vector<Move>> read() {
-    std::string_view rest = program_.bytes;
-    for (std::size_t line = 1; !rest.empty() && complaint_.empty(); ++line) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
-      line_ = line;
-      read_line(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
+  Result<NcProgram> read() {
+    LEKALO_TRY(const std::vector<NcLine> order, lines_in_order(program_));
+    for (const NcLine& line : order) {
+      ask();
+      line_ = line.number;
+      NcBlock block;
+      block.line = line.number;
+      if (!lines_.read(line.text, line.in_subprogram, block))
+        complain(lines_.complaint());
+      else if (!block.empty())
+        act(block);
+      if (!complaint_.empty()) break;
     }
     if (!complaint_.empty())
       return failure(ErrorCode::bad_input, fmt::format("{}:{}: {}", program_.name, line_, complaint_));
-    return std::move(moves_);
+    return NcProgram{std::move(moves_), std::move(events_)};
   }
 
  private:
@@ -88,149 +69,83 @@ class ProgramReader {
     return false;
   }
 
-  void read_line(std::string_view text) {
-    if (text.size() > kLongestLine)
-      return void(complain(fmt::format("the line is longer than {} bytes", kLongestLine)));
-    if (text.ends_with('\r')) text.remove_suffix(1);
-    for (const char c : text) {
-      if (c == '\r') return void(complain("a carriage return inside a line; line ends are LF or CR LF"));
-      if ((static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 127)
-        return void(complain("a control character inside a line"));
-    }
-    const std::size_t first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return;
-    if (text[first] == '%') return tape_mark(text.substr(first));
-    Block block;
-    block.line = line_;
-    if (take_apart(text, block) && !block.empty()) {
-      if (ended_) return void(complain("words after the end of the program"));
-      act(block);
-      any_words_ = true;
-    }
-    any_text_ = true;
-  }
+  [[nodiscard]] bool is_known() const { return known_[0] && known_[1] && known_[2]; }
 
-  /// As LinuxCNC has it, a program that begins with % ends at the next one.
-  void tape_mark(std::string_view text) {
-    if (text.find_last_not_of(" \t") != 0) return void(complain("% does not stand alone on its line"));
-    if (any_text_ && !begun_by_mark_) return void(complain("% after a beginning without %"));
-    if (any_text_) ended_ = true;
-    begun_by_mark_ = any_text_ = true;
-  }
-
-  bool take_apart(std::string_view text, Block& block) {
-    std::size_t at = 0;
-    const auto skip_blanks = [&] {
-      while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
-    };
-    for (skip_blanks(); at < text.size(); skip_blanks()) {
-      const char c = text[at];
-      if (c == ';') return take_comment(text.substr(at + 1));
-      if (c == '/') return complain("a block that may be skipped is not understood; take out the /");
-      if (c == '(') {
-        const std::size_t close = text.find(')', at);
-        if (close == std::string_view::npos) return complain("a comment is not closed");
-        if (text.substr(at + 1, close - at - 1).find('(') != std::string_view::npos)
-          return complain("a comment inside a comment");
-        if (!take_comment(text.substr(at + 1, close - at - 1))) return false;
-        at = close + 1;
-        continue;
-      }
-      const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-      if (letter < 'A' || letter > 'Z')
-        return complain(fmt::format("the character {:?} is not understood", std::string_view(&text[at], 1)));
-      ++at;
-      skip_blanks();
-      const std::size_t begin = at;
-      while (at < text.size() &&
-             (is_digit(text[at]) || text[at] == '.' || text[at] == '-' || text[at] == '+'))
-        ++at;
-      std::string_view digits = text.substr(begin, at - begin);
-      if (letter == 'N' || letter == 'O') {
-        if (!take_name(letter, digits, block)) return false;
-        continue;
-      }
-      if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-      const std::optional<double> value = double_of_text(digits);
-      if (!value) return complain(fmt::format("{} is not followed by a plain number", letter));
-      if (!keep(letter, *value, block)) return false;
-    }
-    return true;
-  }
-
-  bool take_comment(std::string_view text) {
-    return !acts(text) || complain("a comment that acts on the control is not understood");
-  }
-
-  /// N names a block and O a program, and neither does anything. O words at other places call or branch.
-  bool take_name(char letter, std::string_view digits, Block& block) {
-    if (digits.empty() || !std::ranges::all_of(digits, is_digit))
-      return complain(fmt::format("{} is not followed by a plain number", letter));
-    if (!block.empty()) return complain(fmt::format("{} does not begin its block", letter));
-    if (letter == 'N' && digits.size() > kMostDigitsOfN)
-      return complain(fmt::format("N has more than {} digits", kMostDigitsOfN));
-    if (letter == 'O' && any_words_) return complain("subprograms are not understood");
-    block.words[static_cast<std::size_t>(letter - 'A')] = 0;
-    return true;
-  }
-
-  bool keep(char letter, double value, Block& block) {
-    if (block['O']) return complain("words beside the number of the program");
-    if (letter == 'G' || letter == 'M') {
-      const Code* code = code_of(letter, value);
-      if (code == nullptr) return complain(fmt::format("{}{:g} is not understood here", letter, value));
-      if (const Code* other = block.code(code->group))
-        return complain(fmt::format("{} and {} exclude each other", name_of(*other), name_of(*code)));
-      block.codes.push_back(code);
-      return true;
-    }
-    std::optional<double>& word = block.words[static_cast<std::size_t>(letter - 'A')];
-    if (word) return complain(fmt::format("{} is given twice", letter));
-    if (kTakenLetters.find(letter) == std::string_view::npos &&
-        kFreeLetters.find(letter) == std::string_view::npos)
-      return complain(fmt::format("the word {} is not understood", letter));
-    word = value;
-    return true;
-  }
-
-  /// Refuses blocks whose words do not fit together.
-  bool fits(const Block& block) {
-    const Code* motion = block.code(Group::motion);
-    if (block.code(Group::dwell) != nullptr && (motion != nullptr || block.has_axis()))
+  /// Refuses blocks whose words do not fit together, and those that make a path that nobody here knows.
+  bool fits(const NcBlock& block) {
+    const words::Word* motion = block.code(Group::motion);
+    const words::Word* once = block.code(Group::once);
+    if (once != nullptr && once->tenths == words::kDwell && (motion != nullptr || block.has_axis()) &&
+        !(takes(*once, 'X') && !block['Y'] && !block['Z']))
       return complain("a dwell beside a motion; give it a block of its own");
-    for (const char letter : kTakenLetters) {
-      if (!block[letter]) continue;
-      auto takers = std::ranges::count_if(
-          block.codes, [&](const Code* code) { return code->takes.find(letter) != std::string_view::npos; });
-      if (motion == nullptr && block.has_axis() && motion_ != nullptr &&
-          motion_->takes.find(letter) != std::string_view::npos)
-        ++takers;
-      const bool axis = letter == 'X' || letter == 'Y' || letter == 'Z';
-      if (takers == 0)
-        return complain(axis ? "a motion before any of G0, G1, G2, G3"
-                             : fmt::format("no word of the block takes {}", letter));
-      if (takers > 1) return complain(fmt::format("two words of the block take {}", letter));
+    const bool off = block.code(Group::motion_off) != nullptr;
+    if (motion != nullptr && is_cycle(motion) && !block.has_axis())
+      return complain(fmt::format("{} without X, Y or Z", name_of(*motion)));
+    if (off && motion != nullptr && (control_ == Control::linuxcnc || is_cycle(motion)))
+      return complain(fmt::format("{} and {} exclude each other", name_of(*block.code(Group::motion_off)),
+                                  name_of(*motion)));
+    for (const words::Word* code : block.codes)
+      if (judged_ && !code->judged)
+        return complain(
+            fmt::format("{} makes the control compute path or feed, which is not judged", name_of(*code)));
+    const words::Word* carried = motion == nullptr && block.has_axis() && !off ? motion_ : nullptr;
+    for (const char letter : words::kTakenLetters)
+      if (block[letter] && !has_one_taker(block, letter, carried)) return false;
+    const bool takes_d = words::is_taken('D', control_);
+    return !block['D'] || !takes_d || has_one_taker(block, 'D', nullptr);
+  }
+
+  bool has_one_taker(const NcBlock& block, char letter, const words::Word* carried) {
+    const words::Word* once = block.code(Group::once);
+    auto takers =
+        std::ranges::count_if(block.codes, [&](const words::Word* code) { return takes(*code, letter); });
+    if (carried != nullptr && (once == nullptr || !takes(*once, letter)) && takes(*carried, letter)) ++takers;
+    const bool axis = letter == 'X' || letter == 'Y' || letter == 'Z';
+    if (takers == 0)
+      return complain(axis ? "a motion before any of G0, G1, G2, G3"
+                           : fmt::format("no word of the block takes {}", letter));
+    // Beside G28 other controls take a motion word for the blocks to come.
+    const bool homes = control_ != Control::linuxcnc && once != nullptr && takes(*once, letter);
+    return takers == 1 || homes || complain(fmt::format("two words of the block take {}", letter));
+  }
+
+  /// The words that the moves of the block do not show.
+  [[nodiscard]] std::string rest_of(const NcBlock& block, bool moved) const {
+    constexpr std::array kShown{Group::motion,   Group::motion_off, Group::plane,      Group::unit,
+                                Group::distance, Group::centre,     Group::work_offset};
+    std::string rest;
+    for (const words::Word* code : block.codes)
+      if ((code->group == Group::motion && is_cycle(code)) ||
+          std::ranges::find(kShown, code->group) == kShown.end())
+        rest += name_of(*code) + " ";
+    for (const int m : block.allowed) rest += fmt::format("M{} ", m);
+    const bool turns = is_arc(motion_) && block.code(Group::once) == nullptr;
+    const std::string_view shown = turns ? "NOXYIJKRP" : block.code(Group::once) != nullptr ? "NO" : "NOXYIJ";
+    for (char letter = 'A'; letter <= 'Z'; ++letter) {
+      if (!block[letter] || shown.find(letter) != std::string_view::npos) continue;
+      if (letter == 'Z' && moved && known_[2]) continue;
+      const bool length = std::string_view("XYZRQF").find(letter) != std::string_view::npos;
+      rest += fmt::format("{}{} ", letter, *block[letter] * (length ? unit_ : 1));
     }
-    for (const Group group : {Group::dwell, Group::output})
-      if (const Code* code = block.code(group); code != nullptr && !block['P'])
-        return complain(fmt::format("{} without P", name_of(*code)));
-    if (std::ranges::count(block.codes, 'M', &Code::letter) > static_cast<std::ptrdiff_t>(kMostMWords))
-      return complain(fmt::format("more than {} M words in a block", kMostMWords));
-    for (const char letter : {'P', 'Q', 'S'})
-      if (block[letter] && !(*block[letter] >= 0)) return complain(fmt::format("{} is below 0", letter));
-    for (const char letter : {'T', 'H'})
-      if (block[letter] && !is_count(*block[letter]))
-        return complain(fmt::format("{} is not a whole number from 0 on", letter));
-    if (block.code(Group::output) != nullptr && !is_count(*block['P']))
-      return complain("P is not a whole number from 0 on");
-    return true;
+    return rest;
   }
 
   /// The words act in LinuxCNC's order, wherever they stand in the block.
-  void act(const Block& block) {
+  void act(const NcBlock& block) {
+    if (ended_) return void(complain("words after the end of the program"));
     if (!fits(block)) return;
+    const std::size_t before = moves_.size();
+    upright_.reset();
+    run(block);
+    const std::string rest = rest_of(block, moves_.size() > before);
+    if (!rest.empty() || moves_.size() > before)
+      events_.push_back({block.line, rest, before, moves_.size(), upright_,
+                         work_offset_ == nullptr ? 0 : work_offset_->tenths});
+  }
+
+  void run(const NcBlock& block) {
     if (block.code(Group::feed_mode) != nullptr) feed_ = 0;  // G94 takes back the F before it
-    const Code* unit = block.code(Group::unit);
+    const words::Word* unit = block.code(Group::unit);
     const double new_unit = unit == nullptr ? unit_ : unit->tenths == 200 ? 25.4 : 1;
     if (block['F']) {
       if (!(*block['F'] > 0)) return void(complain("a feed that is not above 0"));
@@ -240,28 +155,49 @@ class ProgramReader {
     }
     unit_ = new_unit;
     if (!change_tool(block) || !change_offsets(block)) return;
-    if (const Code* code = block.code(Group::distance)) incremental_ = code->tenths == 910;
-    if (const Code* code = block.code(Group::centre)) absolute_centre_ = code->tenths == 901;
-    if (const Code* code = block.code(Group::motion)) motion_ = code;
-    if (block.has_axis() || is_arc(block.code(Group::motion))) move(block);
-    if (const Code* code = block.code(Group::stop)) ended_ = code->tenths == 20 || code->tenths == 300;
+    if (const words::Word* code = block.code(Group::spindle)) spindle_ = code->tenths;
+    if (const words::Word* code = block.code(Group::plane)) set_plane(code->tenths);
+    if (const words::Word* code = block.code(Group::distance)) incremental_ = code->tenths == 910;
+    if (const words::Word* code = block.code(Group::centre)) absolute_centre_ = code->tenths == 901;
+    if (const words::Word* code = block.code(Group::retract))
+      to_r_plane_ = code->tenths == 990, says_retract_ = true;
+    if (block.code(Group::motion_off) != nullptr) motion_ = nullptr;
+    if (const words::Word* code = block.code(Group::motion)) set_motion(code);
+    const words::Word* once = block.code(Group::once);
+    if (once != nullptr && once->tenths != words::kDwell)
+      go_to_machine(block, *once);
+    else if (once == nullptr && (block.has_axis() || is_arc(block.code(Group::motion))))
+      move(block);
+    if (const words::Word* code = block.code(Group::stop)) ended_ = code->tenths == 20 || code->tenths == 300;
+  }
+
+  void set_plane(int tenths) {
+    plane_ = tenths == 170 ? ArcPlane::xy : tenths == 180 ? ArcPlane::zx : ArcPlane::yz;
+  }
+
+  /// A cycle counts the plane to go back to from where the first of a row of cycles begins.
+  void set_motion(const words::Word* code) {
+    if (is_cycle(code) && !is_cycle(motion_)) initial_z_ = at_[2];
+    if (code != motion_) cycle_ = {}, has_cycle_ = false;
+    motion_ = code;
   }
 
   /// The report is of one tool. Nobody knows where it stands after a change.
-  bool change_tool(const Block& block) {
+  bool change_tool(const NcBlock& block) {
     const bool changes = block.code(Group::tool_change) != nullptr;
-    if ((changes || block['T']) && has_cut_) return complain("a change of the tool after the first cut");
-    if (changes) known_ = {};
+    if (judged_ && (changes || block['T']) && has_cut_)
+      return complain("a change of the tool after the first cut");
+    if (changes) known_ = {}, spindle_ = 50;
     return true;
   }
 
   /// Offsets move what the words for axes mean.
-  bool change_offsets(const Block& block) {
-    const Code* work = block.code(Group::work_offset);
-    const Code* length = block.code(Group::tool_length);
+  bool change_offsets(const NcBlock& block) {
+    const words::Word* work = block.code(Group::work_offset);
+    const words::Word* length = block.code(Group::tool_length);
     const bool other_work = work != nullptr && work != work_offset_;
     const bool other_length = length != nullptr && (length != tool_length_ || block['H'] != tool_length_of_);
-    if ((other_work || other_length) && known_[0] && known_[1] && known_[2])
+    if (judged_ && (other_work || other_length) && is_known())
       return complain(fmt::format("{} after the first motion changes where the program's places are",
                                   name_of(other_work ? *work : *length)));
     if (other_work) known_ = {};
@@ -271,39 +207,66 @@ class ProgramReader {
     return true;
   }
 
-  void move(const Block& block) {
-    std::array<double, 3> to = at_;
-    const std::array<char, 3> axes{'X', 'Y', 'Z'};
-    const bool were_known = known_[0] && known_[1] && known_[2];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto word = block[axes[i]];
-      if (!word) continue;
-      if (incremental_ && !known_[i])
-        return void(complain(fmt::format("a step of {} from a place that no block has said", axes[i])));
-      to[i] = *word * unit_ + (incremental_ ? at_[i] : 0);
-      known_[i] = true;
-      if (!(std::abs(to[i]) <= kFarthest))
-        return void(complain(fmt::format("{} is farther than {} mm from the origin", axes[i], kFarthest)));
+  /// A way along Z to a place of the machine that the program does not say. G28 and G30 go by the place that
+  /// their words say.
+  void go_to_machine(const NcBlock& block, const words::Word& code) {
+    if (judged_ && (block['X'] || block['Y'] || !block['Z']))
+      return void(complain(
+          fmt::format("{} to a place of the machine in X and Y; Z alone is understood", name_of(code))));
+    if (code.tenths == words::kMachineFrame) {
+      if (motion_ == nullptr || motion_->tenths != kRapid || incremental_)
+        return void(complain("G53 without G0 and G90"));
+    } else {
+      const words::Word* before = std::exchange(motion_, words::word_at('G', kRapid, control_));
+      if (!block['X'] && !block['Y'] && block['Z']) move(block);
+      motion_ = before;
     }
+    const bool all = !block.has_axis();
+    for (std::size_t i = 0; i < 3; ++i)
+      if (all || block[kAxes[i]]) known_[i] = false;
+  }
+
+  void move(const NcBlock& block) {
+    if (is_cycle(motion_)) return drill(block);
+    std::array<double, 3> to = at_;
+    const bool were_known = is_known(), xy_known = known_[0] && known_[1];
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!go_along(i, block[kAxes[i]], 1, to)) return;
     const std::array<double, 3> from = std::exchange(at_, to);
     const bool rapid = motion_->tenths == kRapid;
-    if (!rapid && !(feed_ > 0)) return void(complain("a motion with feed before any F"));
-    if (!were_known) return arrive(rapid);
-    Move move{rapid,
-              is_arc(motion_),
-              motion_->tenths == kCounterClockwise,
-              {from[0], from[1]},
-              {to[0], to[1]},
-              {},
-              from[2],
-              to[2],
-              1,
-              rapid ? 0 : feed_,
-              block.line};
-    if (move.arc && !find_centre(block, move)) return;
-    if (!move.arc && from == to) return;
-    has_cut_ = has_cut_ || !rapid || std::min(move.from_z, move.to_z) < top_;
-    moves_.push_back(move);
+    if (judged_ && !rapid && !(feed_ > 0)) return void(complain("a motion with feed before any F"));
+    if (judged_ && !were_known) return arrive(rapid);
+    if (!judged_ && !(xy_known && known_[0] && known_[1])) return appear(rapid, block.line);
+    if (is_arc(motion_)) return turn(block, from);
+    add_line(rapid, from, block.line);
+  }
+
+  /// Follows the word of one axis, `times` times where it is a step.
+  bool go_along(std::size_t i, std::optional<double> word, double times, std::array<double, 3>& to) {
+    if (!word) return true;
+    if (incremental_ && !known_[i] && (judged_ || i < 2))
+      return complain(fmt::format("a step of {} from a place that no block has said", kAxes[i]));
+    to[i] = times * *word * unit_ + (incremental_ ? to[i] : 0);
+    known_[i] = known_[i] || !incremental_;
+    return std::abs(to[i]) <= kFarthest ||
+           complain(fmt::format("{} is farther than {} mm from the origin", kAxes[i], kFarthest));
+  }
+
+  void add_line(bool rapid, const std::array<double, 3>& from, std::size_t line) {
+    if (from == at_) return;
+    has_cut_ = has_cut_ || !rapid || std::min(from[2], at_[2]) < top_;
+    moves_.push_back(straight(rapid, from, line));
+  }
+
+  [[nodiscard]] Move straight(bool rapid, const std::array<double, 3>& from, std::size_t line) const {
+    return {.rapid = rapid,
+            .from = {from[0], from[1]},
+            .to = {at_[0], at_[1]},
+            .centre = {},
+            .from_z = from[2],
+            .to_z = at_[2],
+            .feed = rapid ? 0 : feed_,
+            .line = line};
   }
 
   /// Nobody sees what a motion from an unknown place cuts, so it may only be one that cuts nothing.
@@ -315,69 +278,172 @@ class ProgramReader {
       complain(fmt::format("G0 below Z {:g} from a place that no block has said", top_));
   }
 
-  bool find_centre(const Block& block, Move& move) {
-    const auto i = block['I'], j = block['J'], r = block['R'], p = block['P'];
-    if (p) {
-      if (!(*p >= 1 && *p <= 10000 && *p == std::floor(*p)))
-        return complain("P of an arc is not a number of turns");
-      move.turns = static_cast<int>(*p);
-    }
-    if (r) {
-      if (i || j) return complain("an arc with a radius and a centre");
-      return centre_of_radius(*r * unit_, move);
-    }
-    if (!i && !j) return complain("an arc without I, J or R");
-    if (absolute_centre_ && !(i && j)) return complain("an absolute centre needs both I and J");
-    const Place given{i.value_or(0) * unit_, j.value_or(0) * unit_};
-    move.centre = absolute_centre_ ? given : move.from + given;
-    const double a = length(move.from - move.centre), b = length(move.to - move.centre);
-    if (!(a >= kRadiusTolerance && b >= kRadiusTolerance && std::abs(a - b) <= kCircleTolerance &&
-          a <= kFarthest))
-      return complain(fmt::format("the arc's ends are {:.6g} and {:.6g} mm from its centre", a, b));
-    return turns_clearly(move);
+  /// A motion comes from a place that is not known, and goes to one that is.
+  void appear(bool rapid, std::size_t line) {
+    if (is_arc(motion_)) return void(complain("an arc from a place that no block has said"));
+    if (known_[0] && known_[1]) moves_.push_back(straight(rapid, at_, line));
   }
 
-  bool centre_of_radius(double r, Move& move) {
-    const Place chord = move.to - move.from;
-    const double half = length(chord) / 2;
-    if (!(half > 0)) return complain("an arc given by R ends where it begins");
-    if (!(std::abs(r) <= kFarthest && half <= std::abs(r) + kRadiusTolerance))
-      return complain(
-          fmt::format("no arc of radius {:.6g} joins ends {:.6g} mm apart", std::abs(r), 2 * half));
-    const bool half_circle = half > kHalfCircle * std::abs(r);
-    const double up = half_circle ? 0 : std::sqrt(std::max(0.0, r * r - half * half));
-    const double side = (move.ccw ? 1 : -1) * (r > 0 ? 1 : -1);
-    move.centre = 0.5 * (move.from + move.to) + (side * up / (2 * half)) * left_of(chord);
-    return turns_clearly(move);
+  void turn(const NcBlock& block, const std::array<double, 3>& from) {
+    NcArc arc{plane_, motion_->tenths == kCounterClockwise, from, at_, {}, 1};
+    if (const auto p = block['P']) {
+      if (!is_count(*p)) return void(complain("P of an arc is not a number of turns"));
+      arc.turns = static_cast<int>(*p);
+    }
+    if (!find_centre(block, arc)) return;
+    if (plane_ != ArcPlane::xy && !known_[2]) return void(complain("an arc from a Z that no block has said"));
+    if (const std::string fault = complaint_about(arc, !judged_); !fault.empty())
+      return void(complain(fault));
+    if (plane_ != ArcPlane::xy) upright_ = arc;
+    has_cut_ = true;
+    add_arc_moves(arc, straight(false, from, block.line), moves_);
   }
 
-  /// Between ends that differ and can hardly be told apart from the centre, one control runs a full turn and
-  /// another none.
-  bool turns_clearly(const Move& move) {
-    const bool full = move.from.x == move.to.x && move.from.y == move.to.y;
-    return full ||
-           std::abs(angle_between(move.from - move.centre, move.to - move.centre)) >= kSmallestSweep ||
-           complain("an arc of nearly no turn or a full one; give a full turn the same end as start");
+  bool find_centre(const NcBlock& block, NcArc& arc) {
+    const auto axes = axes_of(plane_);
+    constexpr std::array<char, 3> kCentres{'I', 'J', 'K'};
+    const auto first = block[kCentres[axes[0]]], second = block[kCentres[axes[1]]];
+    if (block[kCentres[axes[2]]])
+      return complain(fmt::format("no arc in this plane takes {}", kCentres[axes[2]]));
+    if (block['R']) {
+      if (first || second) return complain("an arc with a radius and a centre");
+      const auto centre = centre_of_radius(arc, *block['R'] * unit_, complaint_);
+      if (centre) arc.centre = *centre;
+      return centre.has_value();
+    }
+    if (!first && !second)
+      return complain(plane_ == ArcPlane::xy ? "an arc without I, J or R" : "an arc without a centre or R");
+    if (absolute_centre_ && !(first && second))
+      return complain(plane_ == ArcPlane::xy ? "an absolute centre needs both I and J"
+                                             : "an absolute centre needs both of its words");
+    arc.centre = {first.value_or(0) * unit_, second.value_or(0) * unit_};
+    if (!absolute_centre_) arc.centre[0] += arc.from[axes[0]], arc.centre[1] += arc.from[axes[1]];
+    return true;
+  }
+
+  void drill(const NcBlock& block) {
+    if (judged_ && !is_known()) return void(complain("a canned cycle from a place that no block has said"));
+    if (plane_ != ArcPlane::xy) return void(complain("a canned cycle outside the XY plane"));
+    if (judged_ && !(feed_ > 0)) return void(complain("a motion with feed before any F"));
+    // LinuxCNC begins with either, as it was left.
+    if (judged_ && control_ == Control::linuxcnc && !says_retract_)
+      return void(complain("a canned cycle before G98 or G99"));
+    double repeats = 1;
+    for (const char letter : {'L', 'K'}) {
+      if (!block[letter]) continue;
+      const bool none = control_ != Control::linuxcnc && *block[letter] == 0;
+      if ((letter == 'K' && control_ == Control::linuxcnc) || (!is_count(*block[letter]) && !none))
+        return void(complain(fmt::format("{} of a canned cycle is not a number of holes", letter)));
+      repeats = *block[letter];
+    }
+    if (!judged_) return visit(block, repeats);
+    if (!read_cycle(block)) return;
+    const double before = to_r_plane_ ? at_[2] : std::max(initial_z_, at_[2]);
+    cycle_.clear = to_r_plane_ ? cycle_.high : std::max(initial_z_, cycle_.high);
+    if (before < cycle_.high) lift(cycle_.high, block.line);
+    double over = std::max(before, cycle_.high);
+    for (double k = 0; k < repeats && complaint_.empty(); ++k) {
+      hole(block, over);
+      over = cycle_.clear;
+    }
+  }
+
+  /// The places of the holes alone; what is done there stands in the words of the block.
+  void visit(const NcBlock& block, double repeats) {
+    for (double k = 0; k < repeats; ++k) {
+      if (!go_along(0, block['X'], 1, at_) || !go_along(1, block['Y'], 1, at_)) return;
+      if (!known_[0] || !known_[1]) return void(complain("a canned cycle at a place that no block has said"));
+      moves_.push_back(straight(true, at_, block.line));
+    }
+    known_[2] = false;
+  }
+
+  void lift(double z, std::size_t line) {
+    const auto from = at_;
+    at_[2] = z;
+    add_line(true, from, line);
+  }
+
+  void hole(const NcBlock& block, double over) {
+    const auto from = at_;
+    if (!go_along(0, block['X'], 1, at_) || !go_along(1, block['Y'], 1, at_)) return;
+    at_[2] = over;
+    add_line(true, from, block.line);
+    lift(cycle_.high, block.line);
+    for (const NcPlunge& plunge : plunges_of(cycle_)) {
+      const auto above = at_;
+      at_[2] = plunge.to_z;
+      add_line(plunge.rapid, above, block.line);
+    }
+  }
+
+  /// Z, R and Q hold until another cycle or G80. The first block of a cycle says them all.
+  bool read_cycle(const NcBlock& block) {
+    const int code = motion_->tenths;
+    const bool pecks = code == 730 || code == 830;
+    const bool waits = code == 820 || code == 860 || code == 890;
+    const bool changes = incremental_ != cycle_incremental_;
+    if ((!has_cycle_ || changes) && !(block['Z'] && block['R']))
+      return complain(fmt::format("{} without Z and R in its first block", name_of(*motion_)));
+    if (!has_cycle_ && pecks && !block['Q'])
+      return complain(fmt::format("{} without Q in its first block", name_of(*motion_)));
+    if (!has_cycle_ && waits && !block['P'] && control_ == Control::linuxcnc)
+      return complain(fmt::format("{} without P in its first block", name_of(*motion_)));
+    const int turning = code == 740 ? 40 : code == 840 ? 30 : spindle_;
+    if (control_ == Control::linuxcnc && (code == 740 || code == 840 || code == 860) &&
+        (spindle_ != turning || spindle_ == 50))
+      return complain(fmt::format("{} while the spindle does not turn so", name_of(*motion_)));
+    if (incremental_ && to_r_plane_ && has_cycle_ && (block['Z'] || block['R']))
+      return complain("Z or R of a cycle changed under G91 and G99");
+    if (to_r_plane_ && has_cycle_ && block['R'] && *block['R'] * unit_ != cycle_.high)
+      return complain("R of a cycle changed under G99");
+    cycle_.tenths = code;
+    if (block['Q']) cycle_.peck = *block['Q'] * unit_;
+    if (pecks && !(cycle_.peck > 0)) return complain("Q of a cycle is not above 0");
+    const double base = incremental_ ? (to_r_plane_ ? at_[2] : initial_z_) : 0;
+    if (block['R']) cycle_.high = *block['R'] * unit_ + base;
+    if (block['R'] && incremental_ && !block['Z']) return complain("R of a cycle without Z under G91");
+    if (block['Z']) cycle_.low = *block['Z'] * unit_ + (incremental_ ? cycle_.high : 0);
+    has_cycle_ = true, cycle_incremental_ = incremental_;
+    if (!(std::max(std::abs(cycle_.low), std::abs(cycle_.high)) <= kFarthest))
+      return complain(fmt::format("Z is farther than {} mm from the origin", kFarthest));
+    if (pecks && !((cycle_.high - cycle_.low) / cycle_.peck <= kMostRepeats))
+      return complain("Q of a cycle makes more than 10000 steps");
+    return cycle_.high >= cycle_.low || complain("R of a cycle is below its Z");
   }
 
   const Document& program_;
   double top_;
+  Control control_;
+  bool judged_;
+  NcLines lines_;
+  std::vector<NcEvent> events_;
+  std::optional<NcArc> upright_;  ///< of the block at hand
   std::vector<Move> moves_;
   std::string complaint_;
   std::array<double, 3> at_{};
   std::array<bool, 3> known_{};
-  double unit_ = 1, feed_ = 0;
-  const Code *motion_ = nullptr, *work_offset_ = nullptr, *tool_length_ = nullptr;
+  double unit_ = 1, feed_ = 0, initial_z_ = 0;
+  const words::Word *motion_ = nullptr, *work_offset_ = nullptr, *tool_length_ = nullptr;
   std::optional<double> tool_length_of_;
-  bool incremental_ = false, absolute_centre_ = false, has_cut_ = false;
-  bool any_text_ = false, any_words_ = false, begun_by_mark_ = false, ended_ = false;
+  ArcPlane plane_ = ArcPlane::xy;
+  NcCycle cycle_;
+  bool incremental_ = false, absolute_centre_ = false, to_r_plane_ = false, says_retract_ = false,
+       has_cut_ = false;
+  bool has_cycle_ = false, cycle_incremental_ = false, ended_ = false;
+  int spindle_ = 50;  ///< M3, M4 or M5, in tenths
   std::size_t line_ = 0;
 };
 
 }  // namespace
 
-Result<std::vector<Move>> read_moves(const Document& program, double top) {
-  return ProgramReader(program, top).read();
+Result<NcProgram> read_program(const Document& program, const NcReading& reading) {
+  return ProgramReader(program, reading).read();
+}
+
+Result<std::vector<Move>> read_moves(const Document& program, double top, Control control) {
+  LEKALO_TRY(NcProgram read, read_program(program, {.control = control, .top = top}));
+  return std::move(read.moves);
 }
 
 }  // namespace lekalo::verify

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lekalo/base/stop.hpp"
 #include "verify/read/json.hpp"
 #include "verify/shape/shape.hpp"
 #include "verify/shape/shape_inside.hpp"
@@ -157,6 +158,7 @@ void PocketReach::find_outline() {
   sort_rows();
   std::vector<Place> cuts;
   for (const Stroke& s : all) {
+    ask(1 + all.size() / 4);
     if (!(length(s) > 0)) continue;
     cuts.clear();
     for (const Stroke& other : all) {

@@ -103,13 +103,13 @@ struct Job {
 Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
                      const std::vector<EarlierProgram>& earlier) {
   LEKALO_CHECK(check(o, earlier));
-  LEKALO_TRY(std::vector<Move> moves, read_moves(program, o.top));
+  LEKALO_TRY(std::vector<Move> moves, read_moves(program, o.top, o.control));
   const double radius = o.tool_diameter / 2;
   LEKALO_TRY(PocketReach reach,
              PocketReach::make(pocket, radius + o.stock_to_leave, kAirWidth * (radius + o.stock_to_leave)));
   LEKALO_TRY(CutPath path, cuts_of(program, moves, o.tool_diameter, o.top));
   for (const EarlierProgram& other : earlier) {
-    LEKALO_TRY(const std::vector<Move> its_moves, read_moves(other.program, o.top));
+    LEKALO_TRY(const std::vector<Move> its_moves, read_moves(other.program, o.top, o.control));
     LEKALO_TRY(CutPath its_path, cuts_of(other.program, its_moves, other.tool_diameter, o.top));
     for (Cut& cut : its_path.cuts) {
       cut.entry = 0;
@@ -171,8 +171,8 @@ Result<std::vector<EngagementSample>> engagement_on(const Document& program, con
   return std::move(report.samples);
 }
 
-Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top) {
-  LEKALO_TRY(const std::vector<Move> moves, read_moves(program, top));
+Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top, words::Control control) {
+  LEKALO_TRY(const std::vector<Move> moves, read_moves(program, top, control));
   LEKALO_TRY(const CutPath path, cut_path(moves, top, 0, 1e30, program.name));
   std::vector<CutStretch> stretches;
   for (const Cut& cut : path.cuts) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::verify {
 
 void box_of(const Stroke& s, Place& low, Place& high) {
@@ -45,6 +47,7 @@ void StrokeIndex::near(Place p, double reach, std::vector<std::uint32_t>& number
   const Cells c = cells(p - Place{reach, reach}, p + Place{reach, reach});
   for (long y = c.low_y; y <= c.high_y; ++y)
     for (long x = c.low_x; x <= c.high_x; ++x) {
+      ask();
       const auto& list = lists_[static_cast<std::size_t>(y * columns_ + x)];
       numbers.insert(numbers.end(), list.begin(), list.end());
     }

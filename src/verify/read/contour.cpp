@@ -8,101 +8,21 @@
 #include <utility>
 
 #include "json.hpp"
+#include "text_rows.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 tl::unexpected<Error> bad(const Document& document, const std::string& sentence) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, sentence));
 }
-tl::unexpected<Error> bad_line(const Document& document, std::size_t line, const std::string& sentence) {
-  return failure(ErrorCode::bad_input, fmt::format("{}:{}: {}", document.name, line, sentence));
-}
-
-/// Takes the lines off a document one by one and counts them.
-class Lines {
- public:
-  explicit Lines(std::string_view bytes) : rest_(bytes) {
-    if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
-  }
-  /// Returns the next line without the blanks around it.
-  std::optional<std::string_view> next() {
-    if (rest_.empty()) return std::nullopt;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++number_;
-    return trimmed(line);
-  }
-  [[nodiscard]] std::size_t number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-// ---- text -------------------------------------------------------------------------------------------------
-
-bool begins_with_number(std::string_view line) {
-  if (!line.empty() && (line.front() == '+' || line.front() == '-')) line.remove_prefix(1);
-  if (!line.empty() && line.front() == '.') line.remove_prefix(1);
-  return !line.empty() && line.front() >= '0' && line.front() <= '9';
-}
-
-bool is_comment(std::string_view line) {
-  return line.front() == '#' || line.front() == ';' || line.front() == '%' || line.substr(0, 2) == "//";
-}
-
-/// Cuts a line at blanks, or at one comma or semicolon with blanks around it.
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r\v\f,;"), line.size());
-    fields.push_back(line.substr(0, end));
-    line = trimmed(line.substr(end));
-    if (line.empty()) return fields;
-    if (line.front() == ',' || line.front() == ';') {
-      line = trimmed(line.substr(1));
-      if (line.empty()) {
-        fields.emplace_back();
-        return fields;
-      }
-    }
-  }
-}
-
 Result<Contour> read_text(const Document& document) {
   Contour contour;
-  bool header_allowed = true;
-  Lines lines(document.bytes);
-  while (const auto whole = lines.next()) {
-    if (whole->empty() || is_comment(*whole)) continue;
-    const std::string_view line = trimmed(whole->substr(0, whole->find('#')));
-    if (std::exchange(header_allowed, false) && !begins_with_number(line)) continue;
-    const std::vector<std::string_view> fields = fields_of(line);
-    if (fields.size() != 2 && fields.size() != 3) {
-      return bad_line(document, lines.number(),
-                      fmt::format("{} fields where a point needs x and y: {}", fields.size(), excerpt(line)));
-    }
-    std::array<std::optional<Decimal>, 3> numbers;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      numbers[i] = parse_decimal(fields[i]);
-      if (!numbers[i]) {
-        return bad_line(document, lines.number(),
-                        fmt::format("\"{}\" is not {}", excerpt(fields[i]), decimal_rule()));
-      }
-    }
-    contour.x.push_back(*std::move(numbers[0]));
-    contour.y.push_back(*std::move(numbers[1]));
-  }
+  LEKALO_CHECK(read_text_rows(document, [&](TextRow&& row) -> Result<void> {
+    contour.x.push_back(std::move(row.numbers[0]));
+    contour.y.push_back(std::move(row.numbers[1]));
+    return {};
+  }));
   return contour;
 }
 
@@ -451,6 +371,8 @@ Result<void> DxfReader::read_chain(const std::vector<const DxfEntity*>& entities
   }
 }
 
+}  // namespace
+
 std::string ending_of(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   std::string ending(dot == std::string_view::npos ? std::string_view() : name.substr(dot));
@@ -459,8 +381,6 @@ std::string ending_of(std::string_view name) {
   }
   return ending;
 }
-
-}  // namespace
 
 Result<Contour> read_contour(const Document& document) {
   const std::string ending = ending_of(document.name);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct Contour {
 /// Reads a contour as docs/formats.md says; the ending of the document's name chooses the format.
 /// bad_input names the line or the item.
 [[nodiscard]] Result<Contour> read_contour(const Document& document);
+
+/// Returns the ending of a file's name from its last dot, in small letters.
+[[nodiscard]] std::string ending_of(std::string_view name);
 
 /// Converts inches to millimetres, by 25.4 exactly.
 void to_millimetres(Contour& contour, LengthUnit unit);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lekalo/base/stop.hpp"
 #include "verify/number/exact.hpp"
 
 namespace lekalo::verify {
@@ -61,6 +62,7 @@ class GrammarCheck {
   }
 
   bool value(int depth) {
+    ask();
     if (depth > kMaxJsonDepth) return fail("lists and objects are nested more than 64 deep");
     skip_blanks();
     switch (here()) {
@@ -242,6 +244,7 @@ JsonItems::JsonItems(Json list_or_object)
       object_(list_or_object.is_object()) {}
 
 std::optional<Json> JsonItems::next() {
+  ask();
   const auto skip = [this] {
     std::size_t n = 0;
     while (n < rest_.size() && (is_blank(rest_[n]) || rest_[n] == ',' || rest_[n] == ':')) ++n;

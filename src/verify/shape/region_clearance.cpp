@@ -1,9 +1,11 @@
 #include "region_clearance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lekalo/base/limits.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "same_outline.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
 #include "sticking_out.hpp"
@@ -20,26 +22,13 @@ Result<Shape> shape_of(const Document& document) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
 }
 
-/// Returns the decimal that is exactly the double.
-Decimal exactly(double value) {
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(value, &exponent), 53);
-  Decimal made{Integer(mantissa), 0};
-  exponent -= 53;
-  if (exponent > 0) made.digits <<= static_cast<unsigned long>(exponent);
-  // Dividing m by 2 makes it 5 m / 10.
-  for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {
-    if (is_even(made.digits)) {
-      made.digits /= 2;
-    } else {
-      made.digits *= 5, --made.exponent;
-    }
-  }
-  return made;
-}
+/// The width, mm, to which sticking out is enclosed, and the share of the coordinates that is more than their
+/// rounding.
+constexpr double kSticksOutTolerance = 1e-9, kSticksOutShare = 0x1p-46;
 
-/// The width, mm, to which sticking out is enclosed.
-constexpr double kSticksOutTolerance = 1e-9;
+double largest_coordinate(const Shape& shape) {
+  return std::max({-shape.low_x, -shape.low_y, shape.high_x, shape.high_y});
+}
 
 }  // namespace
 
@@ -52,7 +41,11 @@ Motion motion_of(const Interval& theta, Span x, Span y, bool mirrored) {
 }
 
 Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
-               const std::optional<ExactShift>& shift) {
+               const std::optional<ExactShift>& shift, double claimed) {
+  // A part in a blank of its own outline, as it is drawn, touches it everywhere.
+  if (shift && sgn(shift->x.digits) == 0 && sgn(shift->y.digits) == 0 && !shift->mirrored &&
+      same_outline(part, blank))
+    return {0, 0};
   const Span apart = distance(placed_part, blank);
   const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_part, blank) : std::nullopt;
   if (inside && *inside) return apart;
@@ -61,7 +54,8 @@ Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
     if (touch.inside) return {0, touch.touches ? 0 : apart.high};
   }
   // Some point of the part is within apart.high of the boundary, and more is known where the part sticks out.
-  const Span out = sticking_out(placed_part, blank, kSticksOutTolerance);
+  const double width = std::max(kSticksOutTolerance, kSticksOutShare * largest_coordinate(placed_part));
+  const Span out = sticking_out(placed_part, blank, width, -claimed);
   return {-out.high, out.low > 0 ? -out.low : apart.high};
 }
 

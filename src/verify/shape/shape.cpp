@@ -1,8 +1,10 @@
 #include "shape.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "lekalo/base/limits.hpp"
+#include "same_outline.hpp"
 #include "shape_distance.hpp"
 #include "verify/number/interval.hpp"
 
@@ -10,11 +12,6 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Span enclosed(const Decimal& value) {
-  const Interval interval(value, 64);
-  return {interval.low_double(), interval.high_double()};
-}
 
 struct WrittenPoint {
   Decimal x, y;
@@ -58,7 +55,7 @@ class ShapeReader {
       });
     }
     if (shape_.sides.empty()) complain(fmt::format("{} has no edges", path_));
-    bound();
+    bound(shape_);
     return std::move(shape_);
   }
 
@@ -191,15 +188,6 @@ class ShapeReader {
     add_line(side.to, to, false);
   }
 
-  void bound() {
-    shape_.low_x = shape_.low_y = kInfinity, shape_.high_x = shape_.high_y = -kInfinity;
-    for (const Side& side : shape_.sides) {
-      const Box box = box_of(side);
-      shape_.low_x = std::min(shape_.low_x, box.low_x), shape_.high_x = std::max(shape_.high_x, box.high_x);
-      shape_.low_y = std::min(shape_.low_y, box.low_y), shape_.high_y = std::max(shape_.high_y, box.high_y);
-    }
-  }
-
   void complain(const std::string& sentence) {
     if (complaint_.empty()) complaint_ = sentence;
   }
@@ -212,12 +200,51 @@ class ShapeReader {
 
 }  // namespace
 
+Span enclosed(const Decimal& value) {
+  const Interval interval(value, 64);
+  return {interval.low_double(), interval.high_double()};
+}
+
+void bound(Shape& shape) {
+  shape.low_x = shape.low_y = kInfinity, shape.high_x = shape.high_y = -kInfinity;
+  std::vector<Box> boxes;
+  boxes.reserve(shape.sides.size());
+  for (const Side& side : shape.sides) {
+    const Box box = boxes.emplace_back(box_of(side));
+    shape.low_x = std::min(shape.low_x, box.low_x), shape.high_x = std::max(shape.high_x, box.high_x);
+    shape.low_y = std::min(shape.low_y, box.low_y), shape.high_y = std::max(shape.high_y, box.high_y);
+  }
+  shape.tree = std::make_shared<const SideTree>(std::move(boxes));
+}
+
 Shape read_shape(Json value, const std::string& path, std::string& complaint, bool inch) {
   return ShapeReader(path, complaint, inch).read(value);
 }
 
+Shape outline_through(const std::vector<Decimal>& x, const std::vector<Decimal>& y) {
+  std::vector<WrittenPoint> points;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (points.empty() || !same_as_doubles(points.back(), {x[k], y[k]})) points.push_back({x[k], y[k]});
+  while (points.size() > 1 && same_as_doubles(points.back(), points.front())) points.pop_back();
+  Shape shape;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const WrittenPoint &from = points[k], &to = points[(k + 1) % points.size()];
+    Side side;
+    side.from = side.written_from = from.enclosed(), side.to = side.written_to = to.enclosed();
+    shape.sides.push_back(side);
+    shape.exact.push_back({false, true, from.x, from.y, to.x, to.y, {}, {}});
+  }
+  shape.contour_starts.push_back(shape.sides.size());
+  shape.piece_starts.push_back(1);
+  bound(shape);
+  return shape;
+}
+
 bool same_edges(const Shape& a, const Shape& b, double tolerance) {
+  const auto equal = [](Span one, Span other) { return one.low == other.low && one.high == other.high; };
   const auto near = [&](const Vec& p, const Vec& q) {
+    // A difference is enclosed with rounding, also where there is none.
+    if (equal(p.x, q.x) && equal(p.y, q.y)) return true;
     const Vec d = p - q;
     return absolute(d.x).high <= tolerance && absolute(d.y).high <= tolerance;
   };
@@ -253,6 +280,39 @@ bool same_edges(const Shape& a, const Shape& b, double tolerance) {
 
 namespace {
 
+/// Orders written sides, each in one of its two directions.
+int compare(const WrittenSide& a, const WrittenSide& b) {
+  if (a.arc != b.arc) return a.arc ? 1 : -1;
+  for (const auto member : {&WrittenSide::from_x, &WrittenSide::from_y, &WrittenSide::to_x,
+                            &WrittenSide::to_y, &WrittenSide::centre_x, &WrittenSide::centre_y})
+    if (const int order = compare(a.*member, b.*member); order != 0) return order;
+  return 0;
+}
+
+std::vector<WrittenSide> sorted_sides(const Shape& shape) {
+  std::vector<WrittenSide> sides = shape.exact;
+  for (WrittenSide& side : sides) {
+    WrittenSide back = side;
+    std::swap(back.from_x, back.to_x), std::swap(back.from_y, back.to_y);
+    back.ccw = true;
+    if (side.arc ? !side.ccw : compare(back, side) < 0) side = back;
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const WrittenSide& a, const WrittenSide& b) { return compare(a, b) < 0; });
+  return sides;
+}
+
+}  // namespace
+
+bool same_outline(const Shape& a, const Shape& b) {
+  if (a.exact.size() != b.exact.size()) return false;
+  const std::vector<WrittenSide> one = sorted_sides(a), other = sorted_sides(b);
+  return std::equal(one.begin(), one.end(), other.begin(),
+                    [](const WrittenSide& s, const WrittenSide& t) { return compare(s, t) == 0; });
+}
+
+namespace {
+
 Vec turned(const Vec& v, const Motion& motion) {
   const Span x = motion.mirrored ? -v.x : v.x;
   return {motion.cosine * x - motion.sine * v.y, motion.sine * x + motion.cosine * v.y};
@@ -273,12 +333,7 @@ Shape placed(const Shape& shape, const Motion& motion) {
     std::swap(side.first, side.last);
     side.ccw = !side.ccw;
   }
-  moved.low_x = moved.low_y = kInfinity, moved.high_x = moved.high_y = -kInfinity;
-  for (const Side& side : moved.sides) {
-    const Box box = box_of(side);
-    moved.low_x = std::min(moved.low_x, box.low_x), moved.high_x = std::max(moved.high_x, box.high_x);
-    moved.low_y = std::min(moved.low_y, box.low_y), moved.high_y = std::max(moved.high_y, box.high_y);
-  }
+  bound(moved);
   return moved;
 }
 

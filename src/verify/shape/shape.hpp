@@ -1,14 +1,18 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "side_tree.hpp"
 #include "verify/number/span.hpp"
 #include "verify/read/fields.hpp"
 
 namespace lekalo::verify {
 
 /// Regions of lines and arcs as they are written, with every number enclosed in doubles. Lengths are in mm.
+
+[[nodiscard]] Span enclosed(const Decimal& value);
 
 struct Vec {
   Span x, y;
@@ -67,6 +71,8 @@ struct Shape {
   std::vector<std::size_t> piece_starts = {0};
   /// A box that holds the shape.
   double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+  /// Over the sides, made by `bound`.
+  std::shared_ptr<const SideTree> tree = {};
 };
 
 /// Reads `{"units": "mm" / "inch", "outer": [edges], "holes": [[edges], ...]}` or `{"units", "pieces":
@@ -76,6 +82,12 @@ struct Shape {
 /// `"open": true` is open.
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint,
                                bool inch = false);
+
+/// Makes the box of a shape and the tree over its sides. Whoever makes or moves sides calls it.
+void bound(Shape& shape);
+
+/// Returns the outline through points in mm, in their order, without those that repeat the one before.
+[[nodiscard]] Shape outline_through(const std::vector<Decimal>& x, const std::vector<Decimal>& y);
 
 /// Says whether two shapes have the same edges in the same order, each contour in either direction from the
 /// same first point, with coordinates equal to `tolerance` mm.
@@ -90,9 +102,6 @@ struct Motion {
 [[nodiscard]] Vec placed(const Vec& point, const Motion& motion);
 [[nodiscard]] Shape placed(const Shape& shape, const Motion& motion);
 
-struct Box {
-  double low_x, low_y, high_x, high_y;
-};
 /// Returns a box that holds the side.
 [[nodiscard]] Box box_of(const Side& side);
 

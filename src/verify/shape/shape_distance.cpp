@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::verify {
 namespace {
 
@@ -152,15 +154,6 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
   }
 }
 
-/// Returns a number that the distance of two boxes is not below.
-double gap(const Box& a, const Box& b) {
-  const double x =
-      std::max({0.0, (just(a.low_x) - just(b.high_x)).low, (just(b.low_x) - just(a.high_x)).low});
-  const double y =
-      std::max({0.0, (just(a.low_y) - just(b.high_y)).low, (just(b.low_y) - just(a.high_y)).low});
-  return length({just(x), just(y)}).low;
-}
-
 }  // namespace
 
 bool may_face(const Side& arc, const Vec& direction) { return faces(arc, direction) != Sure::no; }
@@ -201,27 +194,35 @@ Span distance(const Side& a, const Side& b) {
   return least.value();
 }
 
-Span distance(const Vec& p, const Shape& shape) {
+Box box_of(const Vec& p) { return {p.x.low, p.y.low, p.x.high, p.y.high}; }
+
+Span distance(const Vec& p, const Shape& shape, std::size_t except) {
   Span least{kInfinity, kInfinity};
-  for (const Side& side : shape.sides) {
-    const Span d = distance(p, side);
+  shape.tree->visit_near(box_of(p), least.high, [&](std::size_t k) {
+    if (k == except) return;
+    const Span d = distance(p, shape.sides[k]);
     least = {std::min(least.low, d.low), std::min(least.high, d.high)};
-  }
+  });
+  return least;
+}
+
+Span distance(const Side& side, const Shape& shape) {
+  Span least{kInfinity, kInfinity};
+  shape.tree->visit_near(box_of(side), least.high, [&](std::size_t k) {
+    const Span d = distance(side, shape.sides[k]);
+    least = {std::min(least.low, d.low), std::min(least.high, d.high)};
+  });
   return least;
 }
 
 Span distance(const Shape& a, const Shape& b) {
-  std::vector<Box> boxes;
-  for (const Side& side : b.sides) boxes.push_back(box_of(side));
   Span least{kInfinity, kInfinity};
-  for (const Side& one : a.sides) {
-    const Box box = box_of(one);
-    for (std::size_t j = 0; j < b.sides.size(); ++j) {
-      if (gap(box, boxes[j]) > least.high) continue;
-      const Span d = distance(one, b.sides[j]);
+  for (std::size_t i = 0; i < a.sides.size(); ++i)
+    b.tree->visit_near(a.tree->box(i), least.high, [&](std::size_t j) {
+      ask();
+      const Span d = distance(a.sides[i], b.sides[j]);
       least = {std::min(least.low, d.low), std::min(least.high, d.high)};
-    }
-  }
+    });
   return least;
 }
 

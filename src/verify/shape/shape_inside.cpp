@@ -1,7 +1,13 @@
 #include "shape_inside.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
+#include <map>
+#include <utility>
 
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
 
 namespace lekalo::verify {
@@ -56,69 +62,120 @@ std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
   return count;
 }
 
-/// Returns how often a contour winds about p.
-std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p, const Ray* ray) {
-  int sum = 0;
-  for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k) {
-    const Side side = ray != nullptr ? turned(shape.sides[k], *ray) : shape.sides[k];
-    const auto count = side.arc ? crossings_of_arc(side, p) : crossings_of_line(side, p);
-    if (!count) return std::nullopt;
-    sum += *count;
-  }
-  return sum;
+/// The rays that are tried in turn. Where one grazes an end or a tangent, another does not. The first runs
+/// along x. The others have directions of Pythagorean triples, whose angles are no fractions of a turn, while
+/// those of corners of regular shapes are.
+constexpr std::array<std::array<double, 3>, 6> kTriples{
+    {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
+
+std::size_t contour_of(const Shape& shape, std::size_t side) {
+  const auto after = std::upper_bound(shape.contour_starts.begin(), shape.contour_starts.end(), side);
+  return static_cast<std::size_t>(after - shape.contour_starts.begin()) - 1;
 }
 
-/// Says whether p is inside a contour. Where one ray grazes an end or a tangent, another does not. The first
-/// runs along x. The others have directions of Pythagorean triples, whose angles are no fractions of a turn,
-/// while those of corners of regular shapes are.
-std::optional<bool> inside(const Shape& shape, std::size_t contour, const Vec& p) {
-  constexpr std::array<std::array<double, 3>, 6> kTriples{
-      {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
-  for (const auto& [a, b, c] : kTriples) {
-    const bool straight = b == 0;
-    const Ray ray{just(a) / just(c), just(b) / just(c)};
-    const auto turns =
-        straight ? winding(shape, contour, p, nullptr) : winding(shape, contour, turned(p, ray), &ray);
-    if (!turns) continue;
-    if (*turns == 0) return false;
-    if (*turns == 1 || *turns == -1) return true;
-    return std::nullopt;
+constexpr std::size_t kNoContour = std::numeric_limits<std::size_t>::max();
+
+/// How often each contour that a ray from p meets winds about p; nothing where the ray does not tell.
+using Windings = std::map<std::size_t, std::optional<int>>;
+
+Windings windings(const Shape& shape, const Vec& p, const std::array<double, 3>& triple, std::size_t except) {
+  const bool straight = triple[1] == 0;
+  const Ray ray{just(triple[0]) / just(triple[2]), just(triple[1]) / just(triple[2])};
+  const Vec at = straight ? p : turned(p, ray);
+  Windings found;
+  const auto on_the_way = [&](const Box& box) {
+    const Vec corners{{box.low_x, box.high_x}, {box.low_y, box.high_y}};
+    const Vec room = straight ? corners : turned(corners, ray);
+    return compare(room.y, at.y) == 0 && compare(room.x, at.x) >= 0;
+  };
+  shape.tree->visit(on_the_way, [&](std::size_t k) {
+    const std::size_t contour = contour_of(shape, k);
+    if (contour == except) return;
+    const Side side = straight ? shape.sides[k] : turned(shape.sides[k], ray);
+    const auto count = side.arc ? crossings_of_arc(side, at) : crossings_of_line(side, at);
+    const auto sum = found.try_emplace(contour, 0).first;
+    sum->second = count && sum->second ? std::optional(*sum->second + *count) : std::nullopt;
+  });
+  return found;
+}
+
+/// The contours around a point, and those of which rounding leaves open whether they are; both ascending and
+/// without the contour that the point is on.
+struct Around {
+  std::vector<std::size_t> surely, maybe;
+};
+
+Around around(const Shape& shape, const Vec& p, std::size_t except = kNoContour) {
+  Around found;
+  std::vector<std::size_t> open;
+  for (std::size_t t = 0; t < kTriples.size() && (t == 0 || !open.empty()); ++t) {
+    std::vector<std::size_t> still_open;
+    const auto take = [&](std::size_t contour, const std::optional<int>& turns) {
+      if (!turns)
+        still_open.push_back(contour);
+      else if (*turns == 1 || *turns == -1)
+        found.surely.push_back(contour);
+      else if (*turns != 0)
+        found.maybe.push_back(contour);
+    };
+    const Windings met = windings(shape, p, kTriples[t], except);
+    if (t == 0) {
+      for (const auto& [contour, turns] : met) take(contour, turns);
+    } else {
+      for (const std::size_t contour : open)
+        if (const auto one = met.find(contour); one != met.end()) take(contour, one->second);
+    }
+    open = std::move(still_open);
   }
+  found.maybe.insert(found.maybe.end(), open.begin(), open.end());
+  std::sort(found.surely.begin(), found.surely.end());
+  std::sort(found.maybe.begin(), found.maybe.end());
+  return found;
+}
+
+/// Says whether any of the sorted numbers is one of [begin, end).
+bool has_any(const std::vector<std::size_t>& numbers, std::size_t begin, std::size_t end) {
+  const auto first = std::lower_bound(numbers.begin(), numbers.end(), begin);
+  return first != numbers.end() && *first < end;
+}
+
+/// Says whether a piece holds a point with these contours around it.
+std::optional<bool> piece_holds(const Shape& shape, std::size_t piece, const Around& at) {
+  const std::size_t outer = shape.piece_starts[piece], end = shape.piece_starts[piece + 1];
+  const bool in = has_any(at.surely, outer, outer + 1), maybe_in = has_any(at.maybe, outer, outer + 1);
+  if ((!in && !maybe_in) || has_any(at.surely, outer + 1, end)) return false;
+  if (in && !has_any(at.maybe, outer + 1, end)) return true;
   return std::nullopt;
 }
 
-std::optional<bool> piece_holds(const Shape& shape, std::size_t piece, const Vec& p) {
-  const std::size_t outer = shape.piece_starts[piece];
-  const auto in = inside(shape, outer, p);
-  if (in && !*in) return false;
-  bool sure = in.has_value();
-  for (std::size_t hole = outer + 1; hole < shape.piece_starts[piece + 1]; ++hole) {
-    const auto in_hole = inside(shape, hole, p);
-    if (in_hole && *in_hole) return false;
-    sure = sure && in_hole.has_value();
-  }
-  if (sure) return true;
-  return std::nullopt;
+/// Returns the piece that a contour belongs to.
+std::size_t piece_of(const Shape& shape, std::size_t contour) {
+  const auto after = std::upper_bound(shape.piece_starts.begin(), shape.piece_starts.end(), contour);
+  return static_cast<std::size_t>(after - shape.piece_starts.begin()) - 1;
 }
 
 /// Returns the answer for any point of a contour for which rounding lets it be decided.
 template <class Question>
-std::optional<bool> for_any_point(const Shape& shape, std::size_t contour, Question question) {
+auto for_any_point(const Shape& shape, std::size_t contour, Question question)
+    -> decltype(question(std::declval<Vec>())) {
   for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k)
     for (const Vec& p : points_of(shape.sides[k]))
-      if (const std::optional<bool> answer = question(p)) return answer;
+      if (auto answer = question(p)) return answer;
   return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<bool> holds(const Shape& shape, const Vec& p) {
+  const Around at = around(shape, p);
   bool sure = true;
-  for (std::size_t piece = 0; piece + 1 < shape.piece_starts.size(); ++piece) {
-    const auto in = piece_holds(shape, piece, p);
-    if (in && *in) return true;
-    sure = sure && in.has_value();
-  }
+  // A piece whose outer contour is not around the point does not hold it.
+  for (const auto* contours : {&at.surely, &at.maybe})
+    for (const std::size_t contour : *contours) {
+      const auto in = piece_holds(shape, piece_of(shape, contour), at);
+      if (in && *in) return true;
+      sure = sure && in.has_value();
+    }
   if (sure) return false;
   return std::nullopt;
 }
@@ -205,26 +262,27 @@ std::optional<std::string> fault_of_three(const Shape& shape, std::size_t i, std
   return fmt::format("sides {} and {} meet, or cannot be told from it", std::min(i, j), std::max(i, j));
 }
 
-std::optional<std::string> misplaced(const Shape& shape) {
-  for (std::size_t p = 0; p + 1 < shape.piece_starts.size(); ++p) {
-    const std::size_t outer = shape.piece_starts[p], end = shape.piece_starts[p + 1];
-    for (std::size_t h = outer + 1; h < end; ++h) {
-      const auto in_outer = for_any_point(shape, h, [&](const Vec& at) { return inside(shape, outer, at); });
-      if (!in_outer || !*in_outer)
-        return fmt::format("hole {} of piece {} is not inside it", h - outer - 1, p);
-      for (std::size_t k = outer + 1; k < end; ++k) {
-        if (k == h) continue;
-        const auto in_hole = for_any_point(shape, h, [&](const Vec& at) { return inside(shape, k, at); });
-        if (!in_hole || *in_hole)
-          return fmt::format("hole {} of piece {} lies in its hole {}", h - outer - 1, p, k - outer - 1);
-      }
-    }
-    for (std::size_t q = 0; q + 1 < shape.piece_starts.size(); ++q) {
-      if (q == p) continue;
-      const auto in_piece =
-          for_any_point(shape, outer, [&](const Vec& at) { return piece_holds(shape, q, at); });
-      if (!in_piece || *in_piece) return fmt::format("piece {} lies in the material of piece {}", p, q);
-    }
+std::optional<std::string> misplaced(const Shape& shape, std::size_t contour) {
+  const std::size_t p = piece_of(shape, contour), outer = shape.piece_starts[p];
+  const bool is_hole = contour != outer;
+  const auto at = for_any_point(shape, contour, [&](const Vec& point) -> std::optional<Around> {
+    Around found = around(shape, point, contour);
+    return found.maybe.empty() ? std::optional(found) : std::nullopt;
+  });
+  if (is_hole) {
+    if (!at || !has_any(at->surely, outer, outer + 1))
+      return fmt::format("hole {} of piece {} is not inside it", contour - outer - 1, p);
+    const auto other = std::upper_bound(at->surely.begin(), at->surely.end(), outer);
+    if (other != at->surely.end() && *other < shape.piece_starts[p + 1])
+      return fmt::format("hole {} of piece {} lies in its hole {}", contour - outer - 1, p,
+                         *other - outer - 1);
+    return std::nullopt;
+  }
+  if (!at) return fmt::format("piece {} lies in other pieces, or cannot be told from it", p);
+  for (const std::size_t around_it : at->surely) {
+    const std::size_t q = piece_of(shape, around_it);
+    if (q != p && piece_holds(shape, q, *at) == true)
+      return fmt::format("piece {} lies in the material of piece {}", p, q);
   }
   return std::nullopt;
 }
@@ -250,15 +308,23 @@ std::vector<std::size_t> numbers_of(const Shape& shape) {
 }  // namespace
 
 std::optional<std::string> fault_of(const Shape& shape) {
-  std::vector<Box> boxes;
-  for (const Side& side : shape.sides) boxes.push_back(box_of(side));
   const std::vector<std::size_t> number = numbers_of(shape);
+  const std::size_t most = limits::most_meeting_boxes(shape.sides.size());
+  std::size_t seen = 0;
   for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {
     const std::size_t begin = shape.contour_starts[c], end = shape.contour_starts[c + 1];
     for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < shape.sides.size(); ++j) {
-        const Box &a = boxes[i], &b = boxes[j];
-        if (a.low_x > b.high_x || b.low_x > a.high_x || a.low_y > b.high_y || b.low_y > a.high_y) continue;
+      std::vector<std::size_t> others;
+      shape.tree->visit([&](const Box& box) { return meet(box, shape.tree->box(i)); },
+                        [&](std::size_t j) {
+                          if (j > i) others.push_back(j);
+                        });
+      seen += others.size();
+      if (seen > most)
+        return fmt::format("more than {} pairs of its sides have boxes that meet, too many to look at", most);
+      std::sort(others.begin(), others.end());
+      ask(1 + others.size());
+      for (const std::size_t j : others) {
         const bool next = j < end && number[j] <= number[i] + 1;
         const bool round = j < end && number[i] == 0 && number[j] == number[end - 1];
         std::optional<std::string> fault;
@@ -272,7 +338,9 @@ std::optional<std::string> fault_of(const Shape& shape) {
       }
     }
   }
-  return misplaced(shape);
+  for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c)
+    if (auto fault = misplaced(shape, c)) return fault;
+  return std::nullopt;
 }
 
 }  // namespace lekalo::verify

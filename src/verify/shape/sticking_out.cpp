@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 
+#include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
 #include "stretch.hpp"
@@ -16,6 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// At most this many pieces of the outline, and as many squares, are looked at; the enclosure stays as wide
 /// as it is then.
 constexpr std::size_t kMostPieces = 20'000;
+/// All pieces together look at about this many sides, so that large shapes get fewer pieces.
+constexpr std::size_t kMostLooks = 4'000'000;
 
 // ---- the outline -----------------------------------------------------------------------------------------
 
@@ -28,21 +31,30 @@ struct Stretch {
 
 class Search {
  public:
-  Search(const Shape& part, const Shape& blank, double tolerance)
-      : part_(part), blank_(blank), tolerance_(tolerance) {}
+  Search(const Shape& part, const Shape& blank, double tolerance, double enough)
+      : part_(part),
+        blank_(blank),
+        tolerance_(tolerance),
+        enough_(enough),
+        most_pieces_(std::min(kMostPieces, kMostLooks / (part.sides.size() + blank.sides.size()) + 1)) {}
 
   Span run() {
     along_the_outline();
-    inside_the_outline();
-    return {low_, high_};
+    if (!decided()) inside_the_outline();
+    // Every point of the part is no farther from a point of the blank than some point of the part's outline.
+    double at_most = 0;
+    for (const Side& side : part_.sides) at_most = std::max(at_most, farthest(side, blank_.sides[0].from));
+    return {low_, std::min(high_, at_most)};
   }
 
  private:
   [[nodiscard]] double goal() const { return low_ + tolerance_; }
+  [[nodiscard]] bool decided() const { return low_ > enough_; }
+  [[nodiscard]] Span from_blank(const Vec& p) const { return distance(p, blank_); }
 
   /// Raises the low end where a point of the part sticks out by more.
   void reached_at(const Vec& p, double off) {
-    const double out = (distance(p, blank_) - just(off)).low;
+    const double out = (from_blank(p) - just(off)).low;
     if (!(out > low_)) return;
     const auto in = holds(blank_, p);
     if (in && !*in) low_ = out;
@@ -51,10 +63,13 @@ class Search {
   [[nodiscard]] double most_of(const Side& piece) const {
     const Corners corners = corners_of(piece);
     double most = kInfinity;
-    for (const Side& side : blank_.sides) most = std::min(most, farthest(piece, corners, side));
+    const Box box = box_of(piece);
+    // No point of the piece is nearer to a side than their boxes are to one another.
+    blank_.tree->visit_near(
+        box, most, [&](std::size_t k) { most = std::min(most, farthest(piece, corners, blank_.sides[k])); });
     // None of the piece sticks out when all of it lies in the blank's material.
     const Vec middle = (piece.from + piece.to) * just(0.5);
-    if (distance(middle, blank_).low > (just(farthest(piece, middle)) + just(piece.off)).high) {
+    if (from_blank(middle).low > (just(farthest(piece, middle)) + just(piece.off)).high) {
       const auto in = holds(blank_, middle);
       if (in && *in) return 0;
     }
@@ -72,10 +87,14 @@ class Search {
 
   void along_the_outline() {
     // Arcs are cut into eighths of a turn or less.
-    for (const Side& side : part_.sides) add(side, kInfinity, side.sweep == Sweep::less ? 2 : 3);
+    for (const Side& side : part_.sides) {
+      add(side, kInfinity, side.sweep == Sweep::less ? 2 : 3);
+      if (decided()) return;
+    }
     for (std::size_t looked = 0; !open_.empty(); ++looked) {
+      ask(1 + blank_.sides.size());
       const Stretch top = open_.top();
-      if (top.high <= goal() || looked == kMostPieces) break;
+      if (top.high <= goal() || looked == most_pieces_ || decided()) break;
       open_.pop();
       for (const Side& half : halves(top.piece)) add(half, top.high, 0);
     }
@@ -107,7 +126,7 @@ class Search {
 
   void add(std::priority_queue<Square>& open, const Vec& centre, double half, double at_most) {
     const double radius = 1.4142136 * half;
-    const Span out = distance(centre, blank_);
+    const Span out = from_blank(centre);
     double high = std::min(at_most, (out + just(radius)).high);
     // No point of the square sticks out by more than the outline does.
     if (high <= high_) return;
@@ -136,8 +155,9 @@ class Search {
                         2 * blur;
     add(open, {x, y}, half, kInfinity);
     for (std::size_t looked = 0; !open.empty(); ++looked) {
+      ask(1 + blank_.sides.size());
       const Square top = open.top();
-      if (top.high <= std::max(goal(), high_) || looked == kMostPieces) break;
+      if (top.high <= std::max(goal(), high_) || looked == most_pieces_ || decided()) break;
       open.pop();
       const double quarter = 0.5 * top.half;
       for (const double dx : {-quarter, quarter})
@@ -150,7 +170,8 @@ class Search {
 
   const Shape& part_;
   const Shape& blank_;
-  double tolerance_;
+  double tolerance_, enough_;
+  std::size_t most_pieces_;
   double low_ = 0, high_ = kInfinity;
   std::priority_queue<Stretch> open_;
 };
@@ -167,13 +188,16 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   std::vector<Nearest> near;
   const Span reach = out + just(2 * radius);
   std::size_t sides = 0;
-  for (const Side& side : blank_.sides) {
-    if (distance(centre, side).low > reach.high) continue;
+  bool bounds_fail = false;
+  blank_.tree->visit_near(box_of(centre), reach.high, [&](std::size_t k) {
+    const Side& side = blank_.sides[k];
+    if (bounds_fail || distance(centre, side).low > reach.high) return;
     ++sides;
     // The bounds below fail near the centre of an arc.
-    if (side.arc && !(length(centre - side.centre).low > 2 * radius)) return kInfinity;
-    add_nearest(side, centre, radius, out, reach, near);
-  }
+    bounds_fail = side.arc && !(length(centre - side.centre).low > 2 * radius);
+    if (!bounds_fail) add_nearest(side, centre, radius, out, reach, near);
+  });
+  if (bounds_fail) return kInfinity;
   // The distance from one line has no maximum, and that from one arc has it in the centre.
   if (sides == 1) return std::nullopt;
   for (Nearest& one : near) {
@@ -248,8 +272,8 @@ void Search::add_nearest(const Side& side, const Vec& centre, double radius, Spa
 
 }  // namespace
 
-Span sticking_out(const Shape& placed_part, const Shape& blank, double tolerance) {
-  return Search(placed_part, blank, tolerance).run();
+Span sticking_out(const Shape& placed_part, const Shape& blank, double tolerance, double enough) {
+  return Search(placed_part, blank, tolerance, enough).run();
 }
 
 }  // namespace lekalo::verify

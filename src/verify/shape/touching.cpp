@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
 
@@ -211,7 +212,8 @@ class Touching {
 
   [[nodiscard]] bool from_inside() {
     for (std::size_t i = 0; i < of_part_.size(); ++i)
-      for (std::size_t j = 0; j < of_blank_.size(); ++j) {
+      for (const std::size_t j : sides_meeting(blank_, part_.tree->box(i))) {
+        ask();
         if (distance(part_.sides[i], blank_.sides[j]).low > 0) continue;
         const bool written = part_.sides[i].written && blank_.sides[j].written;
         if (!written || !of_part_[i].known || !of_blank_[j].known) return false;
@@ -220,7 +222,7 @@ class Touching {
     return all(of_part_, part_,
                [&](std::size_t i, const Middle& m) { return part_stretch_is_inside(i, m); }) &&
            all(of_blank_, blank_, [&](std::size_t j, const Middle& m) {
-             return shared_by(of_part_, of_blank_[j], part_, m) != kNone || holds(part_, m.at) == false;
+             return shared_by(of_part_, of_blank_[j], part_, m) != kNoSide || holds(part_, m.at) == false;
            });
   }
 
@@ -229,7 +231,13 @@ class Touching {
   }
 
  private:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  static std::vector<std::size_t> sides_meeting(const Shape& shape, const Box& box) {
+    std::vector<std::size_t> sides;
+    shape.tree->visit([&](const Box& other) { return meet(box, other); },
+                      [&](std::size_t side) { sides.push_back(side); });
+    std::sort(sides.begin(), sides.end());
+    return sides;
+  }
 
   template <class Check>
   static bool all(const std::vector<ExactSide>& sides, const Shape& shape, Check&& check) {
@@ -249,7 +257,8 @@ class Touching {
   /// Returns the side of `others` that a stretch of `side` lies on.
   static std::size_t shared_by(const std::vector<ExactSide>& others, const ExactSide& side,
                                const Shape& shape, const Middle& middle) {
-    for (std::size_t j = 0; j < others.size(); ++j) {
+    for (const std::size_t j : sides_meeting(shape, box_of(middle.at))) {
+      ask();
       if (!side.known || !others[j].known || !shape.sides[j].written || !same_carrier(side, others[j]))
         continue;
       const Side& span = shape.sides[j];
@@ -260,19 +269,15 @@ class Touching {
       const Vec along = span.to - span.from;
       if (dot(along, middle.at - span.from).low > 0 && dot(along, span.to - middle.at).low > 0) return j;
     }
-    return kNone;
+    return kNoSide;
   }
 
   [[nodiscard]] bool part_stretch_is_inside(std::size_t i, const Middle& middle) const {
     const std::size_t j = shared_by(of_blank_, of_part_[i], blank_, middle);
-    if (j == kNone) return holds(blank_, middle.at) == true;
+    if (j == kNoSide) return holds(blank_, middle.at) == true;
     // The points to its left and right are taken nearer than any other side. Where the part has material at
     // such a point, the blank must have it too.
-    double near = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < part_.sides.size(); ++k)
-      if (k != i) near = std::min(near, distance(middle.at, part_.sides[k]).low);
-    for (std::size_t k = 0; k < blank_.sides.size(); ++k)
-      if (k != j) near = std::min(near, distance(middle.at, blank_.sides[k]).low);
+    double near = std::min(distance(middle.at, part_, i).low, distance(middle.at, blank_, j).low);
     if (of_part_[i].arc) near = std::min(near, part_.sides[i].radius.low);
     const Span& x = part_.sides[i].from.x;
     if (!(near < std::numeric_limits<double>::infinity())) near = std::max(1.0, std::abs(x.high));

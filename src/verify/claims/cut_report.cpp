@@ -1,0 +1,352 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lekalo/base/angle.hpp"
+#include "report_fields.hpp"
+#include "verify/pocket/nc_moves.hpp"
+#include "verify/pocket/stroke.hpp"
+#include "verify/shape/shape.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// mm that the tool may leave a pocket by; docs/design/pocket.md, step 9.
+constexpr double kMostGouge = 0.005;
+/// mm of path that a stretch lasts, to be one of the hot ones.
+constexpr double kLasting = 0.2;
+/// Words of a program have four decimals at least, and three on some controls.
+constexpr double kWordRounding = 5.1e-4;
+
+struct Figure {
+  std::string_view key;
+  double value;
+};
+
+std::vector<Figure> figures_of(const SimulateReport& r) {
+  return {{"coverage_percent", r.coverage_percent},
+          {"coverage_low_percent", r.coverage_low_percent},
+          {"uncut_width_mm", r.uncut_width_mm},
+          {"gouge_mm", r.gouge_mm},
+          {"engagement_max_deg", r.engagement_max_deg},
+          {"engagement_peak_deg", r.engagement_peak_deg},
+          {"engagement_p95_deg", r.engagement_p95_deg},
+          {"air_percent", r.air_percent},
+          {"entry_mm", r.entry_mm},
+          {"entry_layer_mm", r.entry_layer_mm},
+          {"rapid_cut_mm", r.rapid_cut_mm},
+          {"length_mm", r.length_mm},
+          {"turning_rad", r.turning_rad},
+          {"retracts", static_cast<double>(r.retracts)},
+          {"seconds", r.seconds},
+          {"lower_bound_seconds", r.lower_bound_seconds},
+          {"reachable_mm2", r.reachable_mm2},
+          {"uncut_mm2", r.uncut_mm2},
+          {"left_before_mm2", r.left_before_mm2}};
+}
+
+double rounded(double value) { return std::round(value * 1000) / 1000; }
+
+/// A stretch of path as reports have it, rounded to thousandths.
+struct Stretch {
+  std::array<double, 7> numbers{};  ///< from, to, z, length_mm, engagement_deg
+  friend bool operator==(const Stretch&, const Stretch&) = default;
+};
+
+/// The stretches outside entries, kLasting and longer, all along which more of the rim is in material than
+/// 1.25 times what a straight pass of this step-over meets, which is acos(1 - 2 step-over).
+std::vector<Stretch> hot_cuts(const SimulateReport& report, double step_over) {
+  const double cosine = 1 - 2 * step_over;
+  const double held =
+      1.25 * angle_between({1, 0}, {cosine, std::sqrt(1 - cosine * cosine)}) * kDegreesPerRadian;
+  std::vector<Stretch> hot;
+  const auto& samples = report.samples;
+  for (std::size_t i = 0; i < samples.size();) {
+    std::size_t end = i;
+    double length = 0, largest = 0;
+    for (; end < samples.size() && !samples[end].entry && samples[end].engagement > held; ++end) {
+      length += samples[end].length;
+      largest = std::max(largest, samples[end].engagement);
+    }
+    if (length >= kLasting - 1e-9)
+      hot.push_back(
+          {{rounded(samples[i].x), rounded(samples[i].y), rounded(samples[end - 1].x),
+            rounded(samples[end - 1].y), rounded(samples[end - 1].z), rounded(length), rounded(largest)}});
+    i = std::max(end, i + 1);
+  }
+  return hot;
+}
+
+/// The regions have the same open edges; these are few.
+bool same_open_edges(const Shape& a, const Shape& b, double tolerance) {
+  const auto near = [&](const Vec& p, const Vec& q) {
+    const Vec d = p - q;
+    return absolute(d.x).high <= tolerance && absolute(d.y).high <= tolerance;
+  };
+  const auto all_in = [&](const Shape& one, const Shape& other) {
+    return std::all_of(one.sides.begin(), one.sides.end(), [&](const Side& s) {
+      return !s.open || std::any_of(other.sides.begin(), other.sides.end(), [&](const Side& t) {
+        return t.open && t.arc == s.arc &&
+               ((near(s.from, t.from) && near(s.to, t.to)) || (near(s.from, t.to) && near(s.to, t.from)));
+      });
+    });
+  };
+  return all_in(a, b) && all_in(b, a);
+}
+
+/// Rechecks one report.
+class CutReport {
+ public:
+  CutReport(const Document& report, const std::vector<NamedFile>& names, const std::vector<Document>& files,
+            Json root)
+      : report_(report),
+        names_(names),
+        files_(files),
+        fields_(root, "", complaint_),
+        pocket_report_(kind_of(report) == Kind::pocket_report) {}
+
+  Result<ClaimReport> rechecked() {
+    check_format(fields_, pocket_report_ ? "lekalo-pocket" : "lekalo-simulate", complaint_);
+    (void)fields_.get("inputs"), (void)fields_.text("version");
+    if (pocket_report_) (void)fields_.get("outputs");
+    read_options();
+    LEKALO_CHECK(read_files());
+    LEKALO_CHECK(judge());
+    fields_.refuse_others();
+    LEKALO_CHECK(fine());
+    return std::move(claims_);
+  }
+
+ private:
+  [[nodiscard]] Result<void> fine() const {
+    if (complaint_.empty()) return {};
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, complaint_));
+  }
+
+  void read_options() {
+    options_.tool_diameter = fields_.number("tool_mm");
+    options_.stock_to_leave = fields_.number("stock_to_leave_mm");
+    options_.step_over = fields_.number("step_over");
+    options_.top = fields_.number("top_mm");
+    options_.acceleration = fields_.number("acceleration_mm_per_s2");
+    options_.rapid_feed = fields_.number("rapid_mm_per_min");
+    const auto control = words::control_named(fields_.text("control"));
+    if (!control) fields_.complain("field control is none that programs are read for");
+    options_.control = control.value_or(options_.control);
+  }
+
+  Result<void> read_files() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const std::string& role = names_[i].role;
+      if (role == "after")
+        earlier_.push_back({files_[i], names_[i].tool_mm});
+      else if (role == "program" && !program_)
+        program_ = files_[i];
+      else if (role == "pocket" && !pocket_)
+        pocket_ = files_[i];
+      else
+        fields_.complain(
+            fmt::format("the files that it names have the role \"{}\" twice, or no such report "
+                        "has it",
+                        excerpt(role)));
+    }
+    if (!program_) fields_.complain("it names no file with the role \"program\"");
+    if (!pocket_) fields_.complain("it names no file with the role \"pocket\"");
+    return fine();
+  }
+
+  /// Returns what the program is judged by: for a simulate report the file itself, for a pocket report the
+  /// regions stated.
+  Document regions() {
+    if (!pocket_report_) return *pocket_;
+    const Json stated = fields_.get("regions");
+    if (!stated.is_object()) fields_.complain("field regions is not an object");
+    return {report_.name + ", regions", stated.text};
+  }
+
+  /// Compares the regions stated with those of the input, where it is region JSON. One that does not say its
+  /// unit may have been read in either.
+  void compare_regions() {
+    const Shape stated = read_shape(fields_.get("regions"), "regions", complaint_);
+    const Result<Json> input = parse_json(pocket_->bytes, pocket_->name);
+    bool is_there = false, is_same = false;
+    for (const bool inch : {false, true}) {
+      std::string fault;
+      if (!input || !input->is_object() || !complaint_.empty()) break;
+      const Shape there = read_shape(*input, "pocket", fault, inch);
+      if (!fault.empty()) break;
+      is_there = true;
+      const double largest = std::max(
+          {std::abs(there.low_x), std::abs(there.low_y), std::abs(there.high_x), std::abs(there.high_y)});
+      // The decimals of the input became doubles, those in inches by one product more.
+      const double tolerance = 0x1p-49 * largest;
+      is_same =
+          is_same || (same_edges(stated, there, tolerance) && same_open_edges(stated, there, tolerance));
+    }
+    if (!is_there) {
+      claims_.stated_regions = true;
+      claims_.unchecked.push_back(
+          fmt::format("regions: that they are what {} becomes was not rechecked", pocket_->name));
+    } else if (!is_same) {
+      claims_.findings.push_back(fmt::format("regions are not those of {}", pocket_->name));
+    }
+  }
+
+  Result<void> judge() {
+    const Document where = regions();
+    LEKALO_CHECK(fine());
+    read_supposed();
+    LEKALO_CHECK(fine());
+    const Result<SimulateReport> judged = simulate(*program_, where, options_, earlier_);
+    // An option out of its range is one of the report, and not of a command line.
+    if (!judged && judged.error().code == ErrorCode::usage)
+      return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, judged.error().message));
+    if (!judged) return tl::unexpected(judged.error());
+    const SimulateReport& found = *judged;
+    for (const Figure& figure : figures_of(found)) compare(fields_, figure.key, figure.value, claims_);
+    compare_spots(found);
+    claims_.notes.push_back(fmt::format("the figures were made anew from {}", program_->name));
+    if (!pocket_report_) return fine();
+    compare_regions();
+    compare_stretches("hot_cuts", hot_cuts(found, options_.step_over));
+    read_ramps();
+    return compare_depth();
+  }
+
+  /// With `rest_of_mm` the larger tool's program is one that the path maker supposes.
+  void read_supposed() {
+    if (!pocket_report_ || !fields_.has("rest_of_mm")) return;
+    const double tool = fields_.number("rest_of_mm");
+    supposed_ = fields_.text("supposed_program");
+    earlier_.push_back({{"the supposed program", supposed_}, tool});
+    claims_.unchecked.push_back(fmt::format(
+        "rest_of_mm: that a tool of {} mm cuts what the supposed program cuts is not rechecked", tool));
+  }
+
+  void compare_spots(const SimulateReport& found) {
+    compare_items("uncut", found.uncut.size(), [&](ReportFields& item, std::size_t i) {
+      compare(item, "x", found.uncut[i].x, claims_);
+      compare(item, "y", found.uncut[i].y, claims_);
+      compare(item, "width_mm", found.uncut[i].width_mm, claims_);
+    });
+    compare_items("unreachable", found.unreachable.size(), [&](ReportFields& item, std::size_t i) {
+      compare(item, "x", found.unreachable[i].x, claims_);
+      compare(item, "y", found.unreachable[i].y, claims_);
+      compare(item, "distance_mm", found.unreachable[i].distance_mm, claims_);
+      compare(item, "area_mm2", found.unreachable[i].area_mm2, claims_);
+    });
+  }
+
+  template <class F>
+  void compare_items(std::string_view list, std::size_t wanted, F compare_item) {
+    std::size_t count = 0;
+    fields_.each(list, [&](Json item, const std::string& path) {
+      ReportFields fields(item, path, complaint_);
+      if (!complaint_.empty()) return;
+      if (count < wanted) {
+        compare_item(fields, count);
+        fields.refuse_others();
+      }
+      ++count;
+    });
+    if (count != wanted)
+      claims_.findings.push_back(fmt::format("{} has {} items and is to have {}", list, count, wanted));
+  }
+
+  Stretch read_stretch(ReportFields& item) {
+    Stretch stretch;
+    std::size_t at = 0;
+    for (const char* end : {"from", "to"}) {
+      item.each(end, [&](Json number, const std::string&) {
+        const auto value = number.is_number() ? parse_decimal(number.text) : std::nullopt;
+        if (value && at < 4)
+          stretch.numbers[at] = approximate(*value);
+        else
+          item.complain(fmt::format("field {} is not a list of two numbers", item.name(end)));
+        ++at;
+      });
+    }
+    if (at != 4) item.complain(fmt::format("field {} is not a list of two numbers", item.name("from")));
+    stretch.numbers[4] = item.number("z");
+    stretch.numbers[5] = item.number("length_mm");
+    stretch.numbers[6] = item.number("engagement_deg");
+    return stretch;
+  }
+
+  void compare_stretches(std::string_view list, const std::vector<Stretch>& found) {
+    compare_items(list, found.size(), [&](ReportFields& item, std::size_t i) {
+      if (!(read_stretch(item) == found[i]))
+        claims_.findings.push_back(fmt::format("{}[{}] is not what the program cuts there", list, i));
+    });
+  }
+
+  /// The engagement that a ramp saves was seen on a program that is not this one.
+  void read_ramps() {
+    std::size_t count = 0;
+    fields_.each("ramps", [&](Json item, const std::string& path) {
+      ReportFields fields(item, path, complaint_);
+      if (!complaint_.empty()) return;
+      (void)read_stretch(fields);
+      fields.refuse_others();
+      ++count;
+    });
+    if (count > 0)
+      claims_.unchecked.push_back(fmt::format(
+          "ramps: what {} stretches would have met without a ramp cannot be seen in the program", count));
+  }
+
+  /// The program goes down to the depth, but for what stays on the floor.
+  Result<void> compare_depth() {
+    const double depth = fields_.number("depth_mm"), stays = fields_.number("floor_stock_mm");
+    LEKALO_CHECK(fine());
+    LEKALO_TRY(const std::vector<Move> moves, read_moves(*program_, options_.top, options_.control));
+    double deepest = options_.top;
+    for (const Move& move : moves) deepest = std::min({deepest, move.from_z, move.to_z});
+    if (!(std::abs(options_.top - depth + stays - deepest) <= kWordRounding) || !(stays >= 0))
+      claims_.findings.push_back(fmt::format(
+          "the program goes down to Z {}, which is not depth_mm less floor_stock_mm below top_mm", deepest));
+    return fine();
+  }
+
+  const Document& report_;
+  const std::vector<NamedFile>& names_;
+  const std::vector<Document>& files_;
+  std::string complaint_;
+  ReportFields fields_;
+  bool pocket_report_;
+  SimulateOptions options_;
+  std::optional<Document> program_, pocket_;
+  std::string supposed_;
+  std::vector<EarlierProgram> earlier_;
+  ClaimReport claims_;
+};
+
+}  // namespace
+
+Result<ClaimReport> verify_cut_report(const Document& report, const std::vector<Document>& files) {
+  LEKALO_TRY(const Json root, parse_json(report.bytes, report.name));
+  LEKALO_TRY(const std::vector<NamedFile> names, named_files(report));
+  return CutReport(report, names, files, root).rechecked();
+}
+
+Result<ClaimReport> verify_pocket_program(const Document& program, const Document& pocket,
+                                          const SimulateOptions& options,
+                                          const std::vector<EarlierProgram>& earlier) {
+  LEKALO_TRY(const SimulateReport found, simulate(program, pocket, options, earlier));
+  ClaimReport report;
+  if (!(found.gouge_mm <= kMostGouge))
+    report.findings.push_back(fmt::format("the tool leaves the pocket by {} mm", found.gouge_mm));
+  if (!(found.rapid_cut_mm <= 0))
+    report.findings.push_back(fmt::format("{} mm of rapid motion meet material", found.rapid_cut_mm));
+  if (!found.uncut.empty())
+    report.findings.push_back(fmt::format(
+        "{} places that the tool can reach stay uncut, the widest {:.3f} mm wide at ({:.3f}, {:.3f})",
+        found.uncut.size(), found.uncut[0].width_mm, found.uncut[0].x, found.uncut[0].y));
+  report.notes.push_back(
+      fmt::format("coverage {:.4f} %, gouge {:.5f} mm", found.coverage_percent, found.gouge_mm));
+  return report;
+}
+
+}  // namespace lekalo::verify

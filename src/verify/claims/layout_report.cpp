@@ -1,0 +1,435 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "layout_claims.hpp"
+#include "report_fields.hpp"
+#include "same_layout.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// Sums of doubles over a million parts are nearer than this to the exact figure.
+constexpr double kSumRounding = 1e-12;
+constexpr double kStep = 0x1p-20;  // mm
+
+/// Twice the area inside an outline, in square steps; below 2^123.
+Wide twice_area(const GridOutline& outline) {
+  Wide sum = 0;
+  for (const GridEdge& e : outline.edges) sum += Wide{e.from.x} * e.to.y - Wide{e.to.x} * e.from.y;
+  return sum;
+}
+
+double mm2(Wide twice) { return 0.5 * static_cast<double>(twice) * kStep * kStep; }
+
+/// Pieces by hand, as placed or as wanted; `either` are wanted in whichever hand.
+struct Hands {
+  std::int64_t upright = 0, mirrored = 0, either = 0;
+};
+
+/// A sheet in use, and what its figures are to be.
+struct SheetFigures {
+  std::size_t stock = 0;
+  std::int64_t copy = 0;
+  std::vector<GridOutline> parts;
+  Wide parts_area = 0, material_area = 0;
+  std::int64_t last = 0;  ///< steps
+};
+
+std::vector<SheetFigures> sheets_of(const WrittenLayout& layout) {
+  std::map<std::pair<std::size_t, std::int64_t>, SheetFigures> sheets;
+  for (const WrittenPiece& piece : layout.placements) {
+    if (piece.copy >= layout.stocks[piece.stock].count) continue;
+    SheetFigures& sheet = sheets[{piece.stock, piece.copy}];
+    sheet.stock = piece.stock, sheet.copy = piece.copy;
+    sheet.parts.push_back(placed_outline(layout.parts[piece.part].outline, piece));
+    sheet.parts_area += twice_area(sheet.parts.back());
+    sheet.last = std::max(sheet.last, sheet.parts.back().box.high_x);
+  }
+  std::vector<SheetFigures> list;
+  for (auto& [which, sheet] : sheets) {
+    const WrittenStock& stock = layout.stocks[sheet.stock];
+    const GridBox& box = stock.outline.box;
+    const std::int64_t used = std::max(sheet.last, box.low_x + 1) - box.low_x;
+    sheet.material_area =
+        stock.kind == "strip" ? 2 * Wide{used} * (box.high_y - box.low_y) : twice_area(stock.outline);
+    list.push_back(std::move(sheet));
+  }
+  return list;
+}
+
+/// Says whether a rectangle is free: in the material, and of parts and defects.
+bool is_free(const GridBox& box, const SheetFigures& sheet, const WrittenStock& stock) {
+  if (!(box.low_x < box.high_x && box.low_y < box.high_y)) return false;
+  if (stock.open && box.high_x > std::max(sheet.last, stock.outline.box.low_x + 1)) return false;
+  const GridOutline rectangle = make_outline(
+      {{{box.low_x, box.low_y}, {box.high_x, box.low_y}, {box.high_x, box.high_y}, {box.low_x, box.high_y}}});
+  return !have_common_disc({&rectangle}, {&stock.outline}) &&
+         std::none_of(sheet.parts.begin(), sheet.parts.end(),
+                      [&](const GridOutline& part) {
+                        return have_common_disc({&rectangle, &part}, {});
+                      }) &&
+         std::none_of(stock.defects.begin(), stock.defects.end(), [&](const WrittenStockFeature& defect) {
+           return have_common_disc({&rectangle, &defect.outline}, {});
+         });
+}
+
+/// Rechecks one report of nest or check.
+class LayoutReport {
+ public:
+  LayoutReport(const Document& report, const std::vector<NamedFile>& names,
+               const std::vector<Document>& files, Json root)
+      : report_(report), names_(names), files_(files), fields_(root, "", complaint_) {}
+
+  Result<ClaimReport> nest() {
+    common("lekalo-nest");
+    (void)fields_.get("outputs"), (void)fields_.index("merges");
+    LEKALO_TRY(const Document layout, file("nested"));
+    LEKALO_TRY(written_, read_layout(layout));
+    LEKALO_TRY(const LayoutVerdict verdict, verify_layout(layout));
+    claims_.findings = sentences(verdict.violations);
+    LEKALO_CHECK(compare_given());
+    compare_sums();
+    compare_sheets();
+    compare_kits();
+    compare_unplaced();
+    fields_.refuse_others();
+    LEKALO_CHECK(fine());
+    claims_.notes.push_back(fmt::format("every rule and figure was rechecked for {} placements in {}",
+                                        verdict.placements, layout.name));
+    return std::move(claims_);
+  }
+
+  Result<ClaimReport> check() {
+    common("lekalo-check");
+    LEKALO_TRY(const Document layout, file("layout"));
+    const Json valid = fields_.get("valid");
+    if (!valid.is_bool()) fields_.complain("field valid is neither true nor false");
+    std::vector<std::string> checkers, disagreements;
+    fields_.each("checked_by", [&](Json, const std::string& path) { checkers.push_back(path); });
+    fields_.each("disagreements", [&](Json, const std::string& path) { disagreements.push_back(path); });
+    std::set<Finding> told;
+    fields_.each("violations", [&](Json item, const std::string& path) {
+      if (complaint_.empty() && !told.insert(read_violation(item, path)).second)
+        claims_.findings.push_back(fmt::format("{} is there twice", path));
+    });
+    fields_.refuse_others();
+    LEKALO_CHECK(fine());
+    const char* status = !disagreements.empty() ? "refuted" : told.empty() ? "valid" : "violations";
+    if (status_ != status)
+      claims_.findings.push_back(fmt::format("status is {} and is to be {}", status_, status));
+    if (valid.is_true() != told.empty())
+      claims_.findings.emplace_back("valid is not what the violations say");
+    if (!disagreements.empty())
+      claims_.unchecked.emplace_back("disagreements: what another checker found cannot be rechecked");
+    LEKALO_CHECK(compare_violations(layout, told));
+    return std::move(claims_);
+  }
+
+  /// Rechecks of a report of show what nest says too.
+  Result<ClaimReport> show() {
+    common("lekalo-show");
+    if (status_ != "shown") fields_.complain("field status is not \"shown\"");
+    LEKALO_TRY(const Document layout, file("layout"));
+    LEKALO_TRY(written_, read_layout(layout));
+    LEKALO_TRY(const LayoutVerdict verdict, verify_layout(layout));
+    compare(fields_, "violations", static_cast<double>(verdict.violations.size()), claims_);
+    sheets_ = sheets_of(written_);
+    compare_totals();
+    for (const char* list : {"sheets", "kits", "parts"}) {
+      fields_.each(list, [](Json, const std::string&) {});
+      claims_.unchecked.push_back(fmt::format("{}: what lekalo show counts there", list));
+    }
+    fields_.refuse_others();
+    LEKALO_CHECK(fine());
+    return std::move(claims_);
+  }
+
+ private:
+  using Finding =
+      std::tuple<std::string, std::uint64_t, std::uint64_t, std::string, std::int64_t, std::string>;
+
+  [[nodiscard]] Result<void> fine() const {
+    if (complaint_.empty()) return {};
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, complaint_));
+  }
+
+  /// The fields that every report on a layout has; seed, work, version, warnings and run are information.
+  void common(std::string_view format) {
+    check_format(fields_, format, complaint_);
+    status_ = fields_.text("status");
+    (void)fields_.get("inputs"), (void)fields_.text("version"), (void)fields_.index("work");
+    (void)fields_.index("seed");
+    fields_.each("warnings", [](Json, const std::string&) {});
+    if (!fields_.get("run").is_object()) fields_.complain("field run is not an object");
+  }
+
+  /// Returns the one file of a role.
+  Result<Document> file(const char* role) {
+    LEKALO_CHECK(fine());
+    std::optional<Document> found;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i].role != role) continue;
+      if (found) fields_.complain(fmt::format("it names two files with the role \"{}\"", role));
+      found = files_[i];
+    }
+    if (!found) fields_.complain(fmt::format("it names no file with the role \"{}\"", role));
+    LEKALO_CHECK(fine());
+    return *found;
+  }
+
+  Result<void> compare_given() {
+    const bool ordered =
+        std::any_of(names_.begin(), names_.end(), [](const NamedFile& f) { return f.role == "part"; });
+    if (ordered) {
+      claims_.unchecked.emplace_back(
+          "that stocks and parts are those of the order's drawings was not rechecked");
+      return {};
+    }
+    LEKALO_TRY(const Document given, file("layout"));
+    if (kind_of(given) != Kind::layout) {
+      claims_.unchecked.push_back(fmt::format(
+          "that stocks and parts are those of {}, which is in another form, was not rechecked", given.name));
+      return {};
+    }
+    LEKALO_TRY(const WrittenLayout before, read_layout(given, true));
+    for (std::string& difference : differences(written_, before))
+      claims_.findings.push_back(std::move(difference));
+    return {};
+  }
+
+  void compare_near(ReportFields& fields, std::string_view key, double found) {
+    const double written = fields.number(key);
+    if (!(std::abs(written - found) <= kSumRounding * std::abs(found)))
+      claims_.findings.push_back(fmt::format("{} is {} and is to be {}", fields.name(key), written, found));
+  }
+
+  void compare_totals() {
+    double cost = 0;
+    Wide parts = 0, material = 0;
+    for (const SheetFigures& sheet : sheets_) {
+      cost += written_.stocks[sheet.stock].cost;
+      parts += sheet.parts_area, material += sheet.material_area;
+    }
+    compare_near(fields_, "density", material > 0 ? mm2(parts) / mm2(material) : 0);
+    compare(fields_, "cost", cost, claims_);
+  }
+
+  void compare_sums() {
+    sheets_ = sheets_of(written_);
+    compare_totals();
+    if (sheets_.size() == 1) compare(fields_, "length", length_of(sheets_[0]), claims_);
+  }
+
+  static double length_of(const SheetFigures& sheet) { return static_cast<double>(sheet.last) * kStep; }
+
+  /// Calls compare_one(fields, i) for as many items as there are to be.
+  template <class F>
+  void compare_items(std::string_view list, std::size_t wanted, F compare_one) {
+    std::size_t count = 0;
+    fields_.each(list, [&](Json item, const std::string& path) {
+      ReportFields fields(item, path, complaint_);
+      if (complaint_.empty() && count < wanted) {
+        compare_one(fields, count);
+        fields.refuse_others();
+      }
+      ++count;
+    });
+    if (count != wanted)
+      claims_.findings.push_back(fmt::format("{} has {} items and is to have {}", list, count, wanted));
+  }
+
+  void compare_text(ReportFields& fields, const char* key, const std::string& found) {
+    if (const std::string written = fields.text(key); written != found)
+      claims_.findings.push_back(
+          fmt::format("{} is \"{}\" and is to be \"{}\"", fields.name(key), excerpt(written), found));
+  }
+
+  void compare_sheets() {
+    compare_items("stocks", sheets_.size(), [&](ReportFields& item, std::size_t i) {
+      const SheetFigures& sheet = sheets_[i];
+      const WrittenStock& stock = written_.stocks[sheet.stock];
+      compare_text(item, "stock", stock.id);
+      compare(item, "copy", static_cast<double>(sheet.copy), claims_);
+      compare(item, "parts", static_cast<double>(sheet.parts.size()), claims_);
+      compare_near(item, "density",
+                   sheet.material_area > 0 ? mm2(sheet.parts_area) / mm2(sheet.material_area) : 0);
+      compare(item, "length", length_of(sheet), claims_);
+      compare_remnant(item, sheet, stock);
+    });
+  }
+
+  /// The claim is that the rectangle is free, not that there is none larger.
+  void compare_remnant(ReportFields& item, const SheetFigures& sheet, const WrittenStock& stock) {
+    if (item.get("remnant").is_null()) return;
+    std::vector<std::int64_t> steps;
+    item.each("remnant", [&](Json number, const std::string&) {
+      const auto value = number.is_number() ? parse_decimal(number.text) : std::nullopt;
+      const auto step = value ? steps_of(approximate(*value), ToStep::nearest, 1e6) : std::nullopt;
+      if (!step || static_cast<double>(*step) * kStep != approximate(*value)) return;
+      steps.push_back(*step);
+    });
+    if (steps.size() != 4 || !is_free({steps[0], steps[1], steps[2], steps[3]}, sheet, stock))
+      claims_.findings.push_back(fmt::format("{} is no free rectangle", item.name("remnant")));
+  }
+
+  std::vector<Hands> placed_hands() const {
+    std::vector<Hands> hands(written_.parts.size());
+    for (const WrittenPiece& piece : written_.placements)
+      ++(piece.mirrored ? hands[piece.part].mirrored : hands[piece.part].upright);
+    return hands;
+  }
+
+  static void add(const WrittenKit& kit, std::int64_t times, std::vector<Hands>& to) {
+    for (const WrittenKitPiece& piece : kit.pieces) {
+      Hands& hands = to[piece.part];
+      (piece.mirrored ? (*piece.mirrored ? hands.mirrored : hands.upright) : hands.either) +=
+          times * piece.count;
+    }
+  }
+
+  /// Pieces that are wanted and not there.
+  static std::int64_t missing(const Hands& wanted, const Hands& there) {
+    const std::int64_t upright = there.upright - wanted.upright, mirrored = there.mirrored - wanted.mirrored;
+    const std::int64_t left = std::max<std::int64_t>(0, upright) + std::max<std::int64_t>(0, mirrored);
+    return std::max<std::int64_t>(0, -upright) + std::max<std::int64_t>(0, -mirrored) +
+           std::max<std::int64_t>(0, wanted.either - left);
+  }
+
+  /// The kits said to be complete can all be made of what is placed, and none could be made besides.
+  void compare_kits() {
+    const std::vector<Hands> there = placed_hands();
+    std::vector<Hands> taken(there.size());
+    std::vector<std::size_t> unfinished;
+    compare_items("kits", written_.kits.size(), [&](ReportFields& item, std::size_t i) {
+      const WrittenKit& kit = written_.kits[i];
+      compare_text(item, "kit", kit.id);
+      compare(item, "wanted", static_cast<double>(kit.demand), claims_);
+      compare(item, "value", kit.value, claims_);
+      const auto complete = static_cast<std::int64_t>(item.index("complete"));
+      add(kit, std::min<std::int64_t>(complete, kit.demand + 1), taken);
+      if (complete > kit.demand)
+        claims_.findings.push_back(fmt::format("{} is more than is wanted", item.name("complete")));
+      if (complete < kit.demand) unfinished.push_back(i);
+    });
+    const auto can_be_made = [&](const std::vector<Hands>& wanted) {
+      for (std::size_t part = 0; part < wanted.size(); ++part)
+        if (missing(wanted[part], there[part]) > 0) return false;
+      return true;
+    };
+    if (!can_be_made(taken))
+      claims_.findings.emplace_back("kits: more are complete than the placements make");
+    for (const std::size_t i : unfinished) {
+      std::vector<Hands> more = taken;
+      add(written_.kits[i], 1, more);
+      if (can_be_made(more))
+        claims_.findings.push_back(fmt::format("kits[{}].complete is less than the placements make", i));
+    }
+  }
+
+  void compare_unplaced() {
+    std::vector<Hands> wanted(written_.parts.size());
+    for (std::size_t p = 0; p < wanted.size(); ++p) wanted[p].either = written_.parts[p].demand;
+    for (const WrittenKit& kit : written_.kits) add(kit, kit.demand, wanted);
+    const std::vector<Hands> there = placed_hands();
+    std::map<std::string, std::int64_t> told;
+    fields_.each("unplaced", [&](Json item, const std::string& path) {
+      ReportFields fields(item, path, complaint_);
+      if (!complaint_.empty()) return;
+      const std::string part = fields.text("part");
+      told[part] += static_cast<std::int64_t>(fields.index("count"));
+      (void)fields.text("reason");
+      fields.refuse_others();
+    });
+    if (const char* status = told.empty() ? "complete" : "incomplete"; status_ != status)
+      claims_.findings.push_back(fmt::format("status is {} and is to be {}", excerpt(status_), status));
+    for (std::size_t p = 0; p < wanted.size(); ++p) {
+      const std::int64_t count = missing(wanted[p], there[p]);
+      const auto found = told.find(written_.parts[p].id);
+      if (const std::int64_t said = found == told.end() ? 0 : found->second; said != count)
+        claims_.findings.push_back(
+            fmt::format("unplaced says {} of \"{}\" and is to say {}", said, written_.parts[p].id, count));
+      if (found != told.end()) told.erase(found);
+    }
+    for (const auto& [part, count] : told)
+      claims_.findings.push_back(
+          fmt::format("unplaced names a part \"{}\", which is not there", excerpt(part)));
+  }
+
+  Finding read_violation(Json item, const std::string& path) {
+    ReportFields fields(item, path, complaint_);
+    if (!complaint_.empty()) return {};
+    Finding finding{fields.text("kind"),
+                    fields.index("a"),
+                    0,
+                    fields.text("stock"),
+                    static_cast<std::int64_t>(fields.index("copy")),
+                    {}};
+    if (!fields.get("b").is_null()) std::get<2>(finding) = fields.index("b");
+    if (fields.has("feature")) std::get<5>(finding) = fields.text("feature");
+    (void)fields.number("amount_mm");
+    fields.each("at", [](Json, const std::string&) {});
+    if (!fields.get("direction").is_null()) fields.each("direction", [](Json, const std::string&) {});
+    fields.refuse_others();
+    return finding;
+  }
+
+  Result<void> compare_violations(const Document& layout, const std::set<Finding>& told) {
+    if (kind_of(layout) != Kind::layout) {
+      claims_.unchecked.push_back(
+          fmt::format("violations: {} is in a form that the checker does not read", layout.name));
+      return {};
+    }
+    const Result<LayoutVerdict> verdict = verify_layout(layout);
+    if (!verdict) {
+      LEKALO_TRY(const WrittenLayout unmade, read_layout(layout, true));
+      claims_.unchecked.push_back(fmt::format("violations: {}", verdict.error().message));
+      return {};
+    }
+    std::set<Finding> found;
+    for (const LayoutViolation& v : verdict->violations)
+      found.emplace(std::string(name_of(v.kind)), v.a, v.b, v.stock, v.copy, v.feature);
+    if (found != told)
+      claims_.findings.push_back(
+          fmt::format("violations are not those of {}, which breaks {} rules", layout.name, found.size()));
+    if (!told.empty())
+      claims_.unchecked.emplace_back(
+          "violations: by how much, where, and the way out (amount_mm, at, direction)");
+    claims_.notes.push_back(fmt::format("every rule was rechecked for {} placements", verdict->placements));
+    return {};
+  }
+
+  const Document& report_;
+  const std::vector<NamedFile>& names_;
+  const std::vector<Document>& files_;
+  std::string complaint_, status_;
+  ReportFields fields_;
+  WrittenLayout written_;
+  std::vector<SheetFigures> sheets_;
+  ClaimReport claims_;
+};
+
+}  // namespace
+
+Result<ClaimReport> verify_layout_report(const Document& report, const std::vector<Document>& files) {
+  LEKALO_TRY(const Json root, parse_json(report.bytes, report.name));
+  LEKALO_TRY(const std::vector<NamedFile> names, named_files(report));
+  LayoutReport rechecked(report, names, files, root);
+  LEKALO_TRY(const Kind kind, kind_of(report));
+  switch (kind) {
+    case Kind::nest_report:
+      return rechecked.nest();
+    case Kind::show_report:
+      return rechecked.show();
+    default:
+      return rechecked.check();
+  }
+}
+
+}  // namespace lekalo::verify

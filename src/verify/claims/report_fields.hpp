@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/verify/claims.hpp"
+#include "verify/read/fields.hpp"
+
+namespace lekalo::verify {
+
+/// The fields of a report or of an object in it. Each is asked for by name, and refuse_others() complains
+/// about those that nobody asked for: a field that is not known may be a claim.
+class ReportFields {
+ public:
+  ReportFields(Json object, std::string path, std::string& complaint)
+      : object_(object), fields_(object, std::move(path), complaint) {}
+
+  [[nodiscard]] Json get(std::string_view key) {
+    known_.insert(std::string(key));
+    return fields_.get(key);
+  }
+  [[nodiscard]] bool has(std::string_view key) { return !get(key).text.empty(); }
+  [[nodiscard]] std::string text(std::string_view key) {
+    known_.insert(std::string(key));
+    return fields_.text(key);
+  }
+  [[nodiscard]] double number(std::string_view key) {
+    known_.insert(std::string(key));
+    return approximate(fields_.number(key));
+  }
+  [[nodiscard]] std::size_t index(std::string_view key) {
+    known_.insert(std::string(key));
+    return fields_.index(key);
+  }
+  template <class F>
+  void each(std::string_view key, F f) {
+    known_.insert(std::string(key));
+    fields_.each(key, f);
+  }
+  [[nodiscard]] std::string name(std::string_view key) const { return fields_.name(key); }
+  void complain(const std::string& sentence) { fields_.complain(sentence); }
+
+  void refuse_others() {
+    if (!object_.is_object()) return;
+    JsonItems items(object_);
+    while (items.next())
+      if (!known_.contains(items.key()))
+        complain(fmt::format("field {} is not one of such a report", name(excerpt(items.key()))));
+  }
+
+ private:
+  Json object_;
+  Fields fields_;
+  std::set<std::string, std::less<>> known_;
+};
+
+/// Complains unless `format` says this name and version 1, and the units are mm.
+inline void check_format(ReportFields& report, std::string_view name, std::string& complaint) {
+  ReportFields format(report.get("format"), "format", complaint);
+  if (!complaint.empty()) return;
+  if (format.text("name") != name) report.complain(fmt::format("field format.name is not {}", name));
+  if (format.index("version") != 1) report.complain("field format.version is not 1");
+  format.refuse_others();
+  if (report.text("units") != "mm") report.complain("field units is not \"mm\"");
+}
+
+/// Adds a finding where a number is not the one that the checker finds.
+inline void compare(ReportFields& fields, std::string_view key, double found, ClaimReport& report) {
+  const double written = fields.number(key);
+  if (written != found)
+    report.findings.push_back(fmt::format("{} is {} and is to be {}", fields.name(key), written, found));
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verify/layout/layout_document.hpp"
+
+namespace lekalo::verify {
+
+/// Says in sentences what a layout has otherwise than the one that it was made from. Placements may be there,
+/// gone or moved, but locked ones of `given` are there and where they were. Texts for people are not
+/// compared. Cost: O(bytes of both). \param given  may have outlines that are drawn and have no polygon yet
+[[nodiscard]] std::vector<std::string> differences(const WrittenLayout& layout, const WrittenLayout& given);
+
+}  // namespace lekalo::verify

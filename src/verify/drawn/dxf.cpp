@@ -1,0 +1,225 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+
+#include "drawn_file.hpp"
+#include "lekalo/base/double_of_text.hpp"
+#include "verify/number/exact.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+struct Group {
+  int code = 0;
+  std::string_view value;
+  std::size_t line = 0;  ///< of the value, from 1
+};
+
+/// Reads pairs of lines: a code, and its value without blanks around it.
+class Groups {
+ public:
+  explicit Groups(std::string_view text) : rest_(text) {}
+
+  /// Returns false at the end, and at a code that is no number.
+  bool next(Group& group) {
+    if (rest_.empty()) return false;
+    const std::string_view code = take_line();
+    const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), group.code);
+    if (error != std::errc{} || end != code.data() + code.size()) return false;
+    group.value = take_line();
+    group.line = line_;
+    return true;
+  }
+  [[nodiscard]] std::size_t line() const { return line_; }
+
+ private:
+  std::string_view take_line() {
+    ++line_;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+    return line;
+  }
+
+  std::string_view rest_;
+  std::size_t line_ = 0;
+};
+
+class DxfReader {
+ public:
+  explicit DxfReader(const Document& document) : name_(document.name), groups_(document.bytes) {}
+
+  Result<std::vector<DrawnLine>> read() {
+    Group group;
+    bool ended = false;
+    while (complaint_.empty() && groups_.next(group)) {
+      if (ended) complain(group, "it goes on after its end");
+      if (group.code == 0) {
+        finish_entity();
+        ended = group.value == "EOF";
+        begin(group);
+      } else {
+        take(group);
+      }
+    }
+    if (!ended) complain({0, "", groups_.line()}, "it ends in the middle");
+    if (complaint_.empty() && scale_ == 0) complaint_ = "it does not say its unit";
+    if (!complaint_.empty()) return failure(ErrorCode::bad_input, fmt::format("{}: {}", name_, complaint_));
+    for (DrawnLine& line : lines_)
+      for (Stroke& edge : line.edges) {
+        edge.from = scale_ * edge.from, edge.to = scale_ * edge.to, edge.centre = scale_ * edge.centre;
+        edge.radius *= scale_;
+      }
+    return std::move(lines_);
+  }
+
+ private:
+  void complain(const Group& group, const std::string& what) {
+    if (complaint_.empty()) complaint_ = fmt::format("line {}: {}", group.line, what);
+  }
+
+  void begin(const Group& group) {
+    entity_ = group.value;
+    if (entity_ == "SECTION" || entity_ == "ENDSEC") section_ = "";
+    if (section_ == "ENTITIES" && entity_ != "LWPOLYLINE" && entity_ != "CIRCLE" && entity_ != "LINE" &&
+        entity_ != "TEXT")
+      complain(group, fmt::format("lekalo writes no {}", excerpt(entity_)));
+    if (section_ == "BLOCKS" && entity_ != "BLOCK" && entity_ != "ENDBLK")
+      complain(group, fmt::format("lekalo writes no {} in a block", excerpt(entity_)));
+  }
+
+  void take(const Group& group) {
+    if (entity_ == "SECTION" && group.code == 2)
+      section_ = group.value;
+    else if (section_ == "HEADER")
+      take_header(group);
+    else if (section_ == "TABLES" && entity_ == "LAYER")
+      take_layer(group);
+    else if (section_ == "ENTITIES" && entity_ != "TEXT")
+      take_entity(group);
+  }
+
+  void take_header(const Group& group) {
+    if (group.code == 9) variable_ = group.value;
+    if (variable_ != "$INSUNITS" || group.code != 70) return;
+    scale_ = group.value == "4" ? 1 : group.value == "1" ? 25.4 : 0;
+    if (scale_ == 0) complain(group, "its unit is neither mm nor inch");
+  }
+
+  /// A layer that is off or frozen would hide what is on it.
+  void take_layer(const Group& group) {
+    if ((group.code == 70 && group.value != "0") || (group.code == 62 && group.value.starts_with("-")))
+      complain(group, "a layer is not shown");
+  }
+
+  void take_entity(const Group& group) {
+    switch (group.code) {
+      case 5:
+      case 330:
+      case 100:
+      case 43:
+        return;
+      case 8:
+        layer_ = group.value;
+        return;
+      case 90:
+        count_ = group.value;
+        return;
+      case 70:
+        closed_ = group.value == "1";
+        return;
+      default:
+        break;
+    }
+    const std::optional<double> number = double_of_text(group.value);
+    if (!number) return complain(group, fmt::format("{} is no number", excerpt(group.value)));
+    const bool polyline = entity_ == "LWPOLYLINE";
+    if (polyline && group.code == 10)
+      vertices_.push_back({{*number, 0}, 0});
+    else if (polyline && group.code == 20 && !vertices_.empty())
+      vertices_.back().at.y = *number;
+    else if (polyline && group.code == 42 && !vertices_.empty())
+      vertices_.back().bulge = *number;
+    else if (!polyline && (group.code == 30 || group.code == 31) && *number == 0)
+      return;
+    else if (!polyline && !numbers_.contains(group.code))
+      numbers_[group.code] = *number;
+    else
+      complain(group, fmt::format("lekalo writes no group {} there", group.code));
+  }
+
+  void finish_entity() {
+    if (section_ == "ENTITIES" && complaint_.empty()) {
+      if (entity_ == "LWPOLYLINE") add_polyline();
+      if (entity_ == "CIRCLE") add_circle();
+      if (entity_ == "LINE") add_line();
+    }
+    layer_.clear(), count_ = {}, closed_ = false, vertices_.clear(), numbers_.clear();
+  }
+
+  struct Vertex {
+    Place at;
+    double bulge = 0;
+  };
+
+  void add_polyline() {
+    DrawnLine line{layer_, {}, closed_};
+    if (!closed_ || vertices_.size() < 2 || count_ != fmt::format("{}", vertices_.size()))
+      complaint_ = fmt::format(
+          "line {}: a polyline that is not closed, or not of the vertices that it counts", groups_.line());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      const Place from = vertices_[i].at, to = vertices_[(i + 1) % vertices_.size()].at;
+      const double bulge = vertices_[i].bulge;
+      if (bulge == 0) {
+        line.edges.push_back(line_between(from, to));
+        continue;
+      }
+      // The bulge is the tangent of a quarter of the sweep, positive counter-clockwise.
+      const Place centre = 0.5 * (from + to) + (0.25 * (1 / bulge - bulge)) * left_of(to - from);
+      line.edges.push_back(arc_about(from, to, centre, bulge > 0));
+    }
+    lines_.push_back(std::move(line));
+  }
+
+  [[nodiscard]] bool has(std::initializer_list<int> codes) {
+    const bool all =
+        numbers_.size() == codes.size() &&
+        std::all_of(codes.begin(), codes.end(), [&](int code) { return numbers_.contains(code); });
+    if (!all) complaint_ = fmt::format("line {}: groups are missing in a {}", groups_.line(), entity_);
+    return all;
+  }
+
+  void add_circle() {
+    if (!has({10, 20, 40})) return;
+    const Place centre{numbers_[10], numbers_[20]}, start = centre + Place{numbers_[40], 0};
+    lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true});
+  }
+
+  void add_line() {
+    if (!has({10, 20, 11, 21})) return;
+    lines_.push_back(
+        {layer_, {line_between({numbers_[10], numbers_[20]}, {numbers_[11], numbers_[21]})}, false});
+  }
+
+  const std::string& name_;
+  Groups groups_;
+  std::string complaint_;
+  double scale_ = 0;
+  std::string section_, entity_, variable_, layer_;
+  std::string_view count_;
+  bool closed_ = false;
+  std::vector<Vertex> vertices_;
+  std::map<int, double> numbers_;
+  std::vector<DrawnLine> lines_;
+};
+
+}  // namespace
+
+Result<std::vector<DrawnLine>> read_dxf(const Document& document) { return DxfReader(document).read(); }
+
+}  // namespace lekalo::verify

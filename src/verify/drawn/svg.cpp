@@ -1,0 +1,241 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include <algorithm>
+#include <map>
+
+#include "drawn_file.hpp"
+#include "lekalo/base/double_of_text.hpp"
+#include "verify/number/exact.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+using Attributes = std::map<std::string, std::string_view, std::less<>>;
+
+/// Reads numbers and letters of an attribute from front to back.
+class Words {
+ public:
+  explicit Words(std::string_view text) : rest_(text) {}
+
+  [[nodiscard]] bool done() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == ',')) rest_.remove_prefix(1);
+    return rest_.empty();
+  }
+  /// Returns the letter that comes next, or 0.
+  char letter() {
+    if (done() || rest_.front() < 'A' || rest_.front() > 'Z') return 0;
+    const char c = rest_.front();
+    rest_.remove_prefix(1);
+    return c;
+  }
+  double number() {
+    if (done()) return bad();
+    std::size_t end = 1;
+    while (end < rest_.size() && rest_[end] != ' ' && rest_[end] != ',' &&
+           (rest_[end] < 'A' || rest_[end] > 'Z'))
+      ++end;
+    const std::optional<double> value = double_of_text(rest_.substr(0, end));
+    rest_.remove_prefix(end);
+    return value ? *value : bad();
+  }
+  [[nodiscard]] bool fine() const { return fine_; }
+
+ private:
+  double bad() {
+    fine_ = false;
+    return 0;
+  }
+  std::string_view rest_;
+  bool fine_ = true;
+};
+
+class SvgReader {
+ public:
+  explicit SvgReader(const Document& document) : name_(document.name), rest_(document.bytes) {}
+
+  Result<std::vector<DrawnLine>> read() {
+    while (complaint_.empty()) {
+      const std::size_t open = rest_.find('<');
+      if (open == std::string_view::npos) break;
+      if (!in_text_ && rest_.substr(0, open).find_first_not_of(" \r\n\t") != std::string_view::npos)
+        complain("text where lekalo writes none");
+      rest_.remove_prefix(open + 1);
+      const std::size_t close = rest_.find('>');
+      if (close == std::string_view::npos) return complained("an element is cut off");
+      element(rest_.substr(0, close));
+      rest_.remove_prefix(close + 1);
+    }
+    if (complaint_.empty() && (depth_ != 0 || !page_)) complain("an element is not closed");
+    if (!complaint_.empty()) return complained(complaint_);
+    return std::move(lines_);
+  }
+
+ private:
+  [[nodiscard]] tl::unexpected<Error> complained(const std::string& what) const {
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", name_, what));
+  }
+  void complain(const std::string& what) {
+    if (complaint_.empty()) complaint_ = fmt::format("{}: {}", what, excerpt(current_));
+  }
+
+  void element(std::string_view text) {
+    current_ = text;
+    if (text.starts_with("?xml")) return;
+    if (text.starts_with("/")) {
+      --depth_;
+      in_text_ = false;
+      return;
+    }
+    const bool alone = text.ends_with("/");
+    if (alone) text.remove_suffix(1);
+    if (!alone) ++depth_;
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    const std::string_view word = text.substr(0, end);
+    Attributes attributes;
+    if (!take_attributes(text.substr(end), attributes)) return complain("attributes that cannot be read");
+    if (word == "svg")
+      page(attributes);
+    else if (word == "g")
+      layer(attributes);
+    else if (word == "path")
+      path(attributes);
+    else if (word == "circle")
+      circle(attributes);
+    else if (word == "line")
+      line(attributes);
+    else if (word == "text")
+      in_text_ = true;
+    else
+      complain("lekalo writes no such element");
+  }
+
+  static bool take_attributes(std::string_view text, Attributes& attributes) {
+    for (;;) {
+      const std::size_t first = text.find_first_not_of(" \n");
+      if (first == std::string_view::npos) return true;
+      text.remove_prefix(first);
+      const std::size_t equals = text.find("=\"");
+      if (equals == std::string_view::npos) return false;
+      const std::size_t close = text.find('"', equals + 2);
+      if (close == std::string_view::npos) return false;
+      if (!attributes.emplace(text.substr(0, equals), text.substr(equals + 2, close - equals - 2)).second)
+        return false;
+      text.remove_prefix(close + 1);
+    }
+  }
+
+  /// Complains of an attribute that is not one of these.
+  void only(const Attributes& attributes, std::initializer_list<std::string_view> known) {
+    for (const auto& [key, value] : attributes)
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        complain(fmt::format("lekalo writes no attribute {} there", excerpt(key)));
+  }
+  double number(const Attributes& attributes, const char* key, std::string_view unit = "") {
+    const auto found = attributes.find(key);
+    std::string_view text = found == attributes.end() ? std::string_view() : found->second;
+    if (!text.ends_with(unit)) complain(fmt::format("{} is not in {}", key, unit));
+    text.remove_suffix(std::min(unit.size(), text.size()));
+    const std::optional<double> value = double_of_text(text);
+    if (!value) complain(fmt::format("{} is no number", key));
+    return value.value_or(0);
+  }
+
+  /// A unit of the page is a millimetre, and its corner lies where it says.
+  void page(const Attributes& attributes) {
+    only(attributes,
+         {"xmlns", "xmlns:inkscape", "version", "width", "height", "viewBox", "data-lekalo-corner"});
+    const double width = number(attributes, "width", "mm"), height = number(attributes, "height", "mm");
+    const auto view = attributes.find("viewBox"), corner = attributes.find("data-lekalo-corner");
+    if (view == attributes.end() || page_) return complain("a page without a viewBox, or a second one");
+    Words words(view->second);
+    const double x = words.number(), y = words.number(), across = words.number(), down = words.number();
+    if (!words.fine() || !words.done() || across != width || down != height)
+      complain("the page is not as large as its viewBox");
+    Words at(corner == attributes.end() ? "0 0" : corner->second);
+    const double left = at.number(), low = at.number();
+    if (!at.fine() || !at.done() || left != x || low != -y - height)
+      complain("the corner of the page is not that of its viewBox");
+    page_ = true;
+  }
+
+  void layer(const Attributes& attributes) {
+    only(attributes, {"inkscape:groupmode", "inkscape:label", "fill", "stroke", "stroke-width"});
+    const auto label = attributes.find("inkscape:label");
+    if (depth_ != 2 || label == attributes.end()) return complain("a group that is no layer");
+    layer_ = label->second;
+  }
+
+  void path(const Attributes& attributes) {
+    only(attributes, {"d", "data-lekalo-arcs"});
+    const auto data = attributes.find("d");
+    if (data == attributes.end()) return complain("a path without data");
+    Words words(data->second);
+    DrawnLine drawn{layer_, {}, false};
+    const auto place = [&] {
+      const double x = words.number(), y = words.number();
+      return Place{x, -y};
+    };
+    if (words.letter() != 'M') return complain("a path that does not begin with M");
+    const Place begin = place();
+    Place at = begin;
+    while (words.fine() && !words.done()) {
+      const char letter = words.letter();
+      if (drawn.closed || (letter != 'L' && letter != 'A' && letter != 'Z'))
+        return complain("a path with other words than M, L, A and a Z at its end");
+      if (letter == 'Z') {
+        if (at.x != begin.x || at.y != begin.y) drawn.edges.push_back(line_between(at, begin));
+        drawn.closed = true;
+        continue;
+      }
+      const Stroke edge = letter == 'L' ? line_between(at, place()) : arc(at, words);
+      drawn.edges.push_back(edge);
+      at = edge.to;
+    }
+    if (!words.fine() || !drawn.closed) return complain("path data that cannot be read");
+    lines_.push_back(std::move(drawn));
+  }
+
+  Stroke arc(Place from, Words& words) {
+    const double radius = words.number(), other = words.number(), turned = words.number(),
+                 large = words.number(), sweep = words.number(), x = words.number(), y = words.number();
+    const Place to{x, -y}, chord = to - from;
+    if (radius != other || turned != 0 || !(radius > 0) || !(length(chord) > 0))
+      complain("an arc that is not of a circle");
+    // The file counts y downwards, where sweep 0 is counter-clockwise.
+    const bool ccw = sweep == 0, wide = large != 0;
+    const double half = 0.5 * length(chord);
+    const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
+    const Place centre = 0.5 * (from + to) + (ccw != wide ? height : -height) * unit(left_of(chord));
+    return arc_about(from, to, centre, ccw);
+  }
+
+  void circle(const Attributes& attributes) {
+    only(attributes, {"cx", "cy", "r", "data-lekalo-arcs"});
+    const Place centre{number(attributes, "cx"), -number(attributes, "cy")},
+        start = centre + Place{number(attributes, "r"), 0};
+    lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true});
+  }
+
+  void line(const Attributes& attributes) {
+    only(attributes, {"x1", "y1", "x2", "y2"});
+    lines_.push_back({layer_,
+                      {line_between({number(attributes, "x1"), -number(attributes, "y1")},
+                                    {number(attributes, "x2"), -number(attributes, "y2")})},
+                      false});
+  }
+
+  const std::string& name_;
+  std::string_view rest_, current_;
+  std::string complaint_, layer_;
+  int depth_ = 0;
+  bool in_text_ = false, page_ = false;
+  std::vector<DrawnLine> lines_;
+};
+
+}  // namespace
+
+Result<std::vector<DrawnLine>> read_svg(const Document& document) { return SvgReader(document).read(); }
+
+}  // namespace lekalo::verify

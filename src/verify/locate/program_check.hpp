@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "lekalo/verify/verify.hpp"
+#include "verify/number/exact.hpp"
+#include "verify/read/json.hpp"
+
+namespace lekalo::verify {
+
+/// The claims of a result about the program that was written for its placement (docs/formats.md, `nc`).
+struct WrittenNc {
+  Decimal clearance, rounding_mm;
+  std::string mode;
+  std::size_t work_offset = 1;
+};
+[[nodiscard]] WrittenNc read_written_nc(Json value, std::string& complaint);
+
+/// Holds the program against the original one, moved by p -> R(theta) p + (x, y). Returns false where a note
+/// says that this was not rechecked.
+[[nodiscard]] bool check_program(const LocateInputs& inputs, const WrittenNc& nc, const Decimal& x,
+                                 const Decimal& y, const Decimal& theta, LocateReport& report);
+
+}  // namespace lekalo::verify

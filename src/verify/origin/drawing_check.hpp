@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "drawing.hpp"
+
+namespace lekalo::verify {
+
+/// How a result says that a drawing became a region.
+struct WrittenDrawing {
+  /// The layers that were taken; empty for all that are not hidden.
+  std::vector<std::string> layers;
+  /// Curves no longer than this that no outline needs were set aside, each at one of the places, mm.
+  double join = 0;
+  std::vector<Vec> set_aside;
+};
+[[nodiscard]] WrittenDrawing read_written_drawing(Json value, const std::string& path,
+                                                  std::string& complaint);
+
+struct DrawingVerdict {
+  std::string fault, open;
+  /// The layers of the curves along which each written edge of the region runs.
+  std::vector<std::set<std::string>> layers;
+};
+
+/// Says whether every point of the outline of `used` lies within `reach` of a curve that counts, and every
+/// such curve within it of the outline, or was set aside.
+[[nodiscard]] DrawingVerdict check_drawing(const WrittenDrawing& written, const ReadDrawing& drawing,
+                                           const Shape& used, double reach);
+
+}  // namespace lekalo::verify

@@ -1,0 +1,477 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "drawing.hpp"
+#include "verify/number/interval.hpp"
+#include "xml.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr int kDeepest = 32;
+constexpr std::size_t kMostCurves = 2'000'000;
+
+Span enclosed(const Fraction& value) {
+  const double near = cut_to_double(value);
+  return outwards(near, near);
+}
+
+/// Reads numbers and words of an attribute one by one.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : text_(text) {}
+  void skip() {
+    while (at_ < text_.size() && std::string_view(" \t\r\n,").find(text_[at_]) != std::string_view::npos)
+      ++at_;
+  }
+  [[nodiscard]] bool done() {
+    skip();
+    return at_ == text_.size();
+  }
+  [[nodiscard]] char peek() {
+    skip();
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  char take() { return at_ < text_.size() ? text_[at_++] : '\0'; }
+  std::string_view word() {
+    skip();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() &&
+           (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '%'))
+      ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+  std::optional<Decimal> number() {
+    skip();
+    std::size_t end = at_;
+    const auto digits = [&] {
+      const std::size_t begin = end;
+      while (end < text_.size() && text_[end] >= '0' && text_[end] <= '9') ++end;
+      return end > begin;
+    };
+    if (end < text_.size() && (text_[end] == '+' || text_[end] == '-')) ++end;
+    const bool whole = digits();
+    bool any = whole;
+    if (end < text_.size() && text_[end] == '.') ++end, any = digits() || any;
+    if (!any) return std::nullopt;
+    if (end + 1 < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
+      const std::size_t mantissa = end++;
+      if (text_[end] == '+' || text_[end] == '-') ++end;
+      if (!digits()) end = mantissa;
+    }
+    const std::string_view number = text_.substr(at_, end - at_);
+    at_ = end;
+    return parse_decimal(number);
+  }
+  /// A flag of an arc is one digit, after which the next number may follow at once.
+  std::optional<bool> flag() {
+    const char c = peek();
+    if (c != '0' && c != '1') return std::nullopt;
+    ++at_;
+    return c == '1';
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+struct Around {
+  Affine map;
+  std::string layer, group;
+  bool hidden_layer = false, hidden = false;
+};
+
+class SvgReader {
+ public:
+  SvgReader(const Document& document, Fraction mm_per_unit, double off)
+      : document_(document), fallback_(std::move(mm_per_unit)), maker_(drawing_, off) {}
+
+  Result<ReadDrawing> read() {
+    LEKALO_TRY(const XmlElement root, parse_xml(document_));
+    index(root);
+    if (root.name != "svg") complain("its root is no svg");
+    Around around;
+    if (complaint_.empty()) read_page(root, around);
+    for (const XmlElement& child : root.children) draw(child, around, 0);
+    if (!complaint_.empty())
+      return failure(ErrorCode::bad_input, fmt::format("{}: {}", document_.name, complaint_));
+    return std::move(drawing_);
+  }
+
+ private:
+  void complain(std::string sentence) {
+    if (complaint_.empty()) complaint_ = std::move(sentence);
+  }
+  void not_read(std::string what) { drawing_.not_read.insert(std::move(what)); }
+
+  void index(const XmlElement& element) {
+    layers_are_marked_ = layers_are_marked_ || element.get("inkscape:groupmode") == "layer";
+    if (element.name == "style" && (element.text.find("display") != std::string::npos ||
+                                    element.text.find("visibility") != std::string::npos ||
+                                    element.text.find("transform") != std::string::npos))
+      not_read("style sheets that hide or move");
+    if (const std::string_view id = element.get("id"); !id.empty()) by_id_.emplace(std::string(id), &element);
+    for (const XmlElement& child : element.children) index(child);
+  }
+
+  /// Returns mm in a unit of length; nothing for pixels and numbers alone.
+  static std::optional<Fraction> mm_of(std::string_view unit) {
+    if (unit == "mm") return Fraction(1);
+    if (unit == "cm") return Fraction(10);
+    if (unit == "in") return Fraction(127) / Fraction(5);
+    if (unit == "pt") return Fraction(127) / Fraction(360);
+    if (unit == "pc") return Fraction(127) / Fraction(30);
+    if (unit == "Q") return Fraction(1) / Fraction(4);
+    return std::nullopt;
+  }
+
+  void read_page(const XmlElement& root, Around& around) {
+    std::array<std::optional<Fraction>, 2> size;
+    bool said = false, pixels = false;
+    for (std::size_t k = 0; k < 2; ++k) {
+      Scanner scanner(root.get(k == 0 ? "width" : "height"));
+      const auto number = scanner.number();
+      if (!number) continue;
+      const std::string_view unit = scanner.word();
+      if (unit == "%") continue;
+      const auto mm = mm_of(unit);
+      said = said || mm.has_value(), pixels = pixels || !mm;
+      if (!mm && !unit.empty() && unit != "px") return complain("its page has a unit that is not known here");
+      size[k] = to_fraction(*number) * mm.value_or(fallback_);
+    }
+    drawing_.says_unit = said;
+    if (said && pixels) not_read("pages with two kinds of units");
+    std::array<Fraction, 4> view{0, 0, 0, 0};
+    const bool has_view = !root.get("viewBox").empty();
+    Scanner scanner(root.get("viewBox"));
+    for (std::size_t k = 0; has_view && k < 4; ++k) {
+      const auto number = scanner.number();
+      if (!number) return complain("its viewBox is not four numbers");
+      view[k] = to_fraction(*number);
+    }
+    if (has_view && !(view[2] > 0 && view[3] > 0)) return complain("its viewBox is empty");
+    Fraction scale_x = fallback_, scale_y = fallback_, height = 0;
+    if (has_view) {
+      if (!size[0] && !size[1]) size = {view[2] * fallback_, view[3] * fallback_};
+      if (!size[0]) size[0] = *size[1] * view[2] / view[3];
+      if (!size[1]) size[1] = *size[0] * view[3] / view[2];
+      scale_x = *size[0] / view[2], scale_y = *size[1] / view[3];
+      if (scale_x != scale_y && root.get("preserveAspectRatio") != "none")
+        return keep_ratio(root.get("preserveAspectRatio"), view, size, around);
+      height = *size[1];
+    } else {
+      if (!size[1]) not_read("pages without a height");
+      height = size[1].value_or(Fraction(0));
+      // Without a view box a unit of the drawing is a pixel of 1/96 inch where the page says its size.
+      if (said) scale_x = scale_y = Fraction(127) / Fraction(480);
+    }
+    set_page(around, scale_x, scale_y, -view[0] * scale_x, height + view[1] * scale_y);
+  }
+
+  void keep_ratio(std::string_view how, const std::array<Fraction, 4>& view,
+                  const std::array<std::optional<Fraction>, 2>& size, Around& around) {
+    const bool slice = how.find("slice") != std::string_view::npos;
+    const Fraction x = *size[0] / view[2], y = *size[1] / view[3];
+    const Fraction scale = (x < y) != slice ? x : y;
+    const auto placed_by = [&](const char* low, const char* high) {
+      return how.find(low) != std::string_view::npos    ? Fraction(0)
+             : how.find(high) != std::string_view::npos ? Fraction(1)
+                                                        : Fraction(1) / Fraction(2);
+    };
+    const Fraction left = (*size[0] - view[2] * scale) * placed_by("xMin", "xMax"),
+                   top = (*size[1] - view[3] * scale) * placed_by("YMin", "YMax");
+    set_page(around, scale, scale, left - view[0] * scale, *size[1] - top + view[1] * scale);
+  }
+
+  static void set_page(Around& around, const Fraction& sx, const Fraction& sy, const Fraction& x,
+                       const Fraction& y) {
+    around.map = {{enclosed(sx), just(0)}, {just(0), -enclosed(sy)}, {enclosed(x), enclosed(y)}};
+  }
+
+  static std::string_view property(const XmlElement& element, std::string_view name) {
+    const std::string_view style = element.get("style");
+    std::string_view found;
+    for (std::size_t at = 0; at < style.size();) {
+      const std::size_t end = std::min(style.find(';', at), style.size());
+      const std::string_view one = style.substr(at, end - at);
+      const std::size_t colon = one.find(':');
+      if (colon != std::string_view::npos && stripped(one.substr(0, colon)) == name)
+        found = stripped(one.substr(colon + 1));
+      at = end + 1;
+    }
+    return found.empty() ? element.get(name) : found;
+  }
+  static std::string_view stripped(std::string_view text) {
+    while (!text.empty() && std::string_view(" \t\r\n").find(text.front()) != std::string_view::npos)
+      text.remove_prefix(1);
+    while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos)
+      text.remove_suffix(1);
+    return text;
+  }
+
+  void draw(const XmlElement& element, Around around, int depth) {
+    if (!complaint_.empty()) return;
+    if (depth > kDeepest) return not_read("groups nested too deep");
+    if (drawing_.curves.size() > kMostCurves) return complain("it has too many curves");
+    const std::string& name = element.name;
+    const bool group = name == "g" || name == "a";
+    if (name == "svg" || name == "switch" || name == "symbol")
+      return name == "symbol" ? void() : not_read(name + " within the page");
+    if (!group && name != "path" && name != "line" && name != "polyline" && name != "polygon" &&
+        name != "rect" && name != "circle" && name != "ellipse" && name != "use")
+      return;
+    if (property(element, "transform").find("var(") != std::string_view::npos)
+      return not_read("transforms by variables");
+    around.map = around.map * read_transform(element.get("transform"));
+    if (property(element, "display") == "none") around.hidden_layer = true;
+    if (const auto visible = property(element, "visibility"); !visible.empty())
+      around.hidden = visible == "hidden" || visible == "collapse";
+    if (group) {
+      const std::string label(element.get("inkscape:label").empty() ? element.get("id")
+                                                                    : element.get("inkscape:label"));
+      const bool marked = element.get("inkscape:groupmode") == "layer";
+      if (layers_are_marked_ ? marked : around.layer.empty() && !label.empty()) around.layer = label;
+      for (const XmlElement& child : element.children) draw(child, around, depth + 1);
+      return;
+    }
+    if (name == "use") return draw_use(element, around, depth);
+    draw_shape(element, around.map);
+    maker_.done(around.layer, around.hidden || around.hidden_layer);
+  }
+
+  void draw_use(const XmlElement& element, Around around, int depth) {
+    std::string_view target = element.get("href").empty() ? element.get("xlink:href") : element.get("href");
+    const auto found = target.empty() ? by_id_.end() : by_id_.find(std::string(target.substr(1)));
+    if (found == by_id_.end()) return complain("a use of nothing");
+    if (found->second->name == "svg" || found->second->name == "symbol")
+      return not_read("uses of " + found->second->name);
+    around.map = around.map *
+                 Affine{{just(1), just(0)}, {just(0), just(1)}, {length(element, "x"), length(element, "y")}};
+    draw(*found->second, around, depth + 1);
+  }
+
+  Affine read_transform(std::string_view text) {
+    Affine map;
+    Scanner scanner(text);
+    while (!scanner.done()) {
+      const std::string word(scanner.word());
+      std::vector<Decimal> n;
+      if (scanner.peek() != '(') return complain("a transform that is not understood"), map;
+      scanner.take();
+      while (scanner.peek() != ')' && scanner.peek() != '\0')
+        if (const auto number = scanner.number())
+          n.push_back(*number);
+        else
+          return complain("a transform that is not understood"), map;
+      scanner.take();
+      const auto at = [&](std::size_t k) { return verify::enclosed(n[k]); };
+      Affine one;
+      if (word == "matrix" && n.size() == 6) {
+        one = {{at(0), at(1)}, {at(2), at(3)}, {at(4), at(5)}};
+      } else if (word == "translate" && (n.size() == 1 || n.size() == 2)) {
+        one.shift = {at(0), n.size() == 2 ? at(1) : just(0)};
+      } else if (word == "scale" && (n.size() == 1 || n.size() == 2)) {
+        one.x = {at(0), just(0)}, one.y = {just(0), at(n.size() - 1)};
+      } else if (word == "rotate" && (n.size() == 1 || n.size() == 3)) {
+        const Turn turn = turn_by_degrees(to_fraction(n[0]));
+        const Span c{turn.cosine.low_double(), turn.cosine.high_double()},
+            s{turn.sine.low_double(), turn.sine.high_double()};
+        one.x = {c, s}, one.y = {-s, c};
+        if (n.size() == 3) one.shift = Vec{at(1), at(2)} - one.direction({at(1), at(2)});
+      } else if ((word == "skewX" || word == "skewY") && n.size() == 1) {
+        const Turn turn = turn_by_degrees(to_fraction(n[0]));
+        const Span c{turn.cosine.low_double(), turn.cosine.high_double()},
+            s{turn.sine.low_double(), turn.sine.high_double()};
+        const Span slope = c.high < 0 ? -(s / -c) : s / c;
+        (word == "skewX" ? one.y.x : one.x.y) = slope;
+      } else {
+        return complain("a transform that is not understood"), map;
+      }
+      map = map * one;
+    }
+    return map;
+  }
+
+  /// Returns a length in user units; those of another unit count by 1/96 inch.
+  Span length(const XmlElement& element, std::string_view key) {
+    return verify::enclosed(decimal(element, key));
+  }
+  Decimal decimal(const XmlElement& element, std::string_view key) {
+    const std::string_view text = element.get(key);
+    if (text.empty()) return {};
+    Scanner scanner(text);
+    const auto number = scanner.number();
+    const std::string_view unit = scanner.word();
+    if (!number) return complain(fmt::format("{} is no length", key)), Decimal{};
+    if (!unit.empty() && unit != "px") not_read("lengths with units");
+    return *number;
+  }
+
+  void draw_shape(const XmlElement& element, const Affine& map) {
+    const std::string& name = element.name;
+    if (name == "path") return draw_path(element.get("d"), map);
+    if (name == "line")
+      return maker_.line(map, {length(element, "x1"), length(element, "y1")},
+                         {length(element, "x2"), length(element, "y2")});
+    if (name == "polyline" || name == "polygon")
+      return draw_points(element.get("points"), map, name == "polygon");
+    if (name == "rect") return draw_rectangle(element, map);
+    const Vec centre{length(element, "cx"), length(element, "cy")};
+    const Decimal rx = decimal(element, name == "circle" ? "r" : "rx"),
+                  ry = decimal(element, name == "circle" ? "r" : "ry");
+    if (sgn(rx.digits) <= 0 || sgn(ry.digits) <= 0) return;
+    if (compare(rx, ry) != 0)
+      return maker_.ellipse(map, centre, {verify::enclosed(rx), just(0)}, {just(0), verify::enclosed(ry)}, 0,
+                            360);
+    const Vec right{just(1), just(0)};
+    maker_.arc(map, {centre, verify::enclosed(rx), right, right, Sweep::full, Fraction(0), Fraction(360)});
+  }
+
+  void draw_points(std::string_view text, const Affine& map, bool closed) {
+    Scanner scanner(text);
+    std::vector<Vec> points;
+    while (!scanner.done()) {
+      const auto x = scanner.number(), y = scanner.number();
+      if (!x || !y) return complain("points that are no numbers");
+      points.push_back({verify::enclosed(*x), verify::enclosed(*y)});
+    }
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) maker_.line(map, points[k], points[k + 1]);
+    if (closed && points.size() > 2) maker_.line(map, points.back(), points.front());
+  }
+
+  void draw_rectangle(const XmlElement& element, const Affine& map) {
+    const Decimal width = decimal(element, "width"), height = decimal(element, "height");
+    if (sgn(width.digits) <= 0 || sgn(height.digits) <= 0) return;
+    if (!element.get("rx").empty() || !element.get("ry").empty()) {
+      if (sgn(decimal(element, "rx").digits) != 0 || sgn(decimal(element, "ry").digits) != 0)
+        return not_read("rectangles with round corners");
+    }
+    const Span x = length(element, "x"), y = length(element, "y");
+    const Span right = x + verify::enclosed(width), top = y + verify::enclosed(height);
+    maker_.line(map, {x, y}, {right, y}), maker_.line(map, {right, y}, {right, top});
+    maker_.line(map, {right, top}, {x, top}), maker_.line(map, {x, top}, {x, y});
+  }
+
+  void draw_path(std::string_view text, const Affine& map) {
+    Scanner scanner(text);
+    // The exact places keep relative steps from losing digits.
+    std::array<Fraction, 2> at{0, 0}, begin{0, 0}, control{0, 0};
+    char command = '\0', before = '\0';
+    const auto vec = [](const std::array<Fraction, 2>& p) { return Vec{enclosed(p[0]), enclosed(p[1])}; };
+    bool broken = false;
+    const auto number = [&]() -> Fraction {
+      const auto value = scanner.number();
+      if (!value) return broken = true, Fraction(0);
+      return to_fraction(*value);
+    };
+    while (!scanner.done() && !broken && complaint_.empty()) {
+      const char next = scanner.peek();
+      if (std::isalpha(static_cast<unsigned char>(next)) != 0)
+        scanner.take(), command = next;
+      else if (command == 'M')
+        command = 'L';
+      else if (command == 'm')
+        command = 'l';
+      const bool relative = command >= 'a';
+      const char upper = relative ? static_cast<char>(command - 'a' + 'A') : command;
+      const auto point = [&]() -> std::array<Fraction, 2> {
+        const Fraction x = number(), y = number();
+        if (!relative) return {x, y};
+        return {at[0] + x, at[1] + y};
+      };
+      const auto mirrored = [&](bool smooth) -> std::array<Fraction, 2> {
+        if (!smooth) return at;
+        return {2 * at[0] - control[0], 2 * at[1] - control[1]};
+      };
+      std::array<Fraction, 2> to = at;
+      if (upper == 'Z') {
+        maker_.line(map, vec(at), vec(begin));
+        to = begin;
+      } else if (upper == 'M') {
+        to = begin = point();
+      } else if (upper == 'L') {
+        to = point(), maker_.line(map, vec(at), vec(to));
+      } else if (upper == 'H' || upper == 'V') {
+        const std::size_t axis = upper == 'H' ? 0 : 1;
+        const Fraction value = number();
+        to[axis] = relative ? Fraction(at[axis] + value) : value;
+        maker_.line(map, vec(at), vec(to));
+      } else if (upper == 'C' || upper == 'S') {
+        const auto first = upper == 'C' ? point() : mirrored(before == 'C' || before == 'S');
+        const auto second = point();
+        to = point();
+        maker_.cubic(map, {vec(at), vec(first), vec(second), vec(to)});
+        control = second;
+      } else if (upper == 'Q' || upper == 'T') {
+        const auto pole = upper == 'Q' ? point() : mirrored(before == 'Q' || before == 'T');
+        to = point();
+        const auto blend = [&](const std::array<Fraction, 2>& end) -> std::array<Fraction, 2> {
+          return {(end[0] + 2 * pole[0]) / 3, (end[1] + 2 * pole[1]) / 3};
+        };
+        maker_.cubic(map, {vec(at), vec(blend(at)), vec(blend(to)), vec(to)});
+        control = pole;
+      } else if (upper == 'A') {
+        const Fraction rx = number(), ry = number();
+        number();
+        const auto large = scanner.flag(), sweep = scanner.flag();
+        to = point();
+        if (!large || !sweep) return complain("an arc of a path without its flags");
+        draw_arc(map, at, to, rx, ry, *large, *sweep);
+      } else {
+        return complain("a path that is not understood");
+      }
+      before = upper, at = to;
+    }
+    if (broken) complain("a path that breaks off");
+  }
+
+  void draw_arc(const Affine& map, const std::array<Fraction, 2>& at, const std::array<Fraction, 2>& to,
+                const Fraction& rx, const Fraction& ry, bool large, bool sweep) {
+    const Vec from{enclosed(at[0]), enclosed(at[1])}, end{enclosed(to[0]), enclosed(to[1])};
+    if (at == to) return;
+    if (rx == 0 || ry == 0) return maker_.line(map, from, end);
+    if (abs(rx) != abs(ry)) return not_read("arcs of ellipses in paths");
+    const Fraction dx = to[0] - at[0], dy = to[1] - at[1];
+    const Fraction square = dx * dx + dy * dy, room = 4 * rx * rx - square;
+    const Vec chord = end - from, left{-chord.y, chord.x};
+    DrawnArc arc;
+    // A radius too small for its chord makes half a turn; so do decimals that hardly reach it.
+    const double share = cut_to_double(room / square);
+    if (share <= 0) {
+      arc.centre = (from + end) * just(0.5), arc.radius = verify::length(chord) * just(0.5),
+      arc.sweep = Sweep::half;
+    } else {
+      if (share < 1e-6) not_read("arcs of nearly half a turn in paths");
+      const Span up = square_root(enclosed(room / square)) * just(0.5);
+      // With y down a sweep runs clockwise as it is seen, which is counter-clockwise in these numbers.
+      arc.centre = (from + end) * just(0.5) + left * (large == sweep ? -up : up);
+      arc.radius = enclosed(Fraction(abs(rx)));
+      arc.sweep = large ? Sweep::more : Sweep::less;
+    }
+    const Vec a = unit(from - arc.centre), b = unit(end - arc.centre);
+    arc.first = sweep ? a : b, arc.last = sweep ? b : a;
+    maker_.arc(map, arc);
+  }
+
+  const Document& document_;
+  Fraction fallback_;
+  ReadDrawing drawing_;
+  CurveMaker maker_;
+  std::map<std::string, const XmlElement*> by_id_;
+  bool layers_are_marked_ = false;
+  std::string complaint_;
+};
+
+}  // namespace
+
+Result<ReadDrawing> read_svg_drawing(const Document& document, const Fraction& mm_per_unit, double off) {
+  return SvgReader(document, mm_per_unit, off).read();
+}
+
+}  // namespace lekalo::verify

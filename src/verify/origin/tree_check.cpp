@@ -1,0 +1,316 @@
+#include "tree_check.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "near.hpp"
+#include "verify/shape/shape_distance.hpp"
+#include "verify/shape/shape_inside.hpp"
+#include "verify/shape/stretch.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Beyond so many looks at sides nothing more is shown.
+constexpr std::size_t kMostWork = 20'000'000;
+/// Beside corners nothing is shown of stretches as short as this share of the reach; but of so many in a row
+/// something must be.
+constexpr double kShort = 0.5;
+constexpr int kMostShort = 160;
+/// The tree is asked this many times the reach to the left and to the right of a stretch.
+constexpr double kAside = 2;
+/// A point this many times the reach away from all outlines of the tree is on none of them.
+constexpr double kFar = 8;
+
+enum class In { no, yes, open };
+
+/// Our knowledge of the tree's material beside one stretch of a curve.
+struct Beside {
+  In left = In::open, right = In::open;
+  /// The primitives along which the stretch runs.
+  std::vector<SideOfTree> along;
+};
+
+class TreeCheck {
+ public:
+  TreeCheck(const Tree& tree, const Shape& used, double reach)
+      : tree_(tree), primitives_(tree.primitives), used_(used), reach_(reach), outline_(pieces_of(used)) {}
+
+  TreeVerdict run() {
+    clip_half_planes();
+    if (!ends_in_window()) leave_open("the shape may have no end");
+    for (const Side& side : used_.sides) {
+      if (side.written || verdict_.along.empty()) verdict_.along.emplace_back();
+      check_edge(side);
+      if (!verdict_.fault.empty()) return verdict_;
+    }
+    for (const Primitive& primitive : primitives_)
+      for (const Side& side : primitive.shape.sides) {
+        check_side(side);
+        if (!verdict_.fault.empty()) return verdict_;
+      }
+    return verdict_;
+  }
+
+ private:
+  void leave_open(std::string sentence) {
+    if (verdict_.open.empty()) verdict_.open = std::move(sentence);
+  }
+
+  /// Half-planes become lines that are longer than everything else together.
+  void clip_half_planes() {
+    double size = std::max({-used_.low_x, -used_.low_y, used_.high_x, used_.high_y, 0.0});
+    for (const Primitive& primitive : primitives_)
+      for (const Side& side : primitive.shape.sides) {
+        const Box box = box_of(side);
+        size = std::max({size, -box.low_x, -box.low_y, box.high_x, box.high_y});
+      }
+    window_ = 4 * size;
+    for (Primitive& primitive : primitives_) {
+      if (!primitive.half_plane) continue;
+      Side& line = primitive.shape.sides[0];
+      const Vec along = unit(line.to - line.from);
+      const Vec foot = line.from - along * dot(along, line.from);
+      line.from = foot - along * just(window_), line.to = foot + along * just(window_);
+      bound(primitive.shape);
+    }
+  }
+
+  /// Beyond the window there is none of any primitive but half-planes.
+  bool ends_in_window() const {
+    std::vector<In> values;
+    for (const Primitive& primitive : primitives_) values.push_back(primitive.half_plane ? In::open : In::no);
+    return value_of(values) == In::no;
+  }
+
+  [[nodiscard]] In value_of(const std::vector<In>& primitives) const {
+    std::vector<In> values;
+    for (const Tree::Node& node : tree_.nodes) {
+      if (node.kind == Tree::Kind::primitive) {
+        values.push_back(primitives[node.primitive]);
+        continue;
+      }
+      bool any_open = false;
+      const auto one_is = [&](In wanted, std::size_t from) {
+        bool found = false;
+        for (std::size_t k = from; k < node.children.size(); ++k) {
+          const In child = values[node.children[k]];
+          found = found || child == wanted;
+          any_open = any_open || child == In::open;
+        }
+        return found;
+      };
+      In value = In::open;
+      if (node.kind == Tree::Kind::unite) {
+        value = one_is(In::yes, 0) ? In::yes : (any_open ? In::open : In::no);
+      } else if (node.kind == Tree::Kind::intersect) {
+        value = one_is(In::no, 0) ? In::no : (any_open ? In::open : In::yes);
+      } else {
+        const In first = values[node.children[0]];
+        const bool cut = one_is(In::yes, 1);
+        value = cut || first == In::no ? In::no : (any_open || first == In::open ? In::open : In::yes);
+      }
+      values.push_back(value);
+    }
+    return values.back();
+  }
+
+  static In in_half_plane(const Side& line, const Vec& p) {
+    const Span turn = cross(line.to - line.from, p - line.from);
+    return turn.low > 0 ? In::yes : (turn.high < 0 ? In::no : In::open);
+  }
+  [[nodiscard]] In in_primitive(const Primitive& primitive, const Vec& p) const {
+    if (primitive.half_plane) return in_half_plane(primitive.shape.sides[0], p);
+    const auto in = holds(primitive.shape, p);
+    return !in ? In::open : (*in ? In::yes : In::no);
+  }
+
+  static Vec middle_of(const Side& piece) {
+    if (!piece.arc) return (piece.from + piece.to) * just(0.5);
+    const Vec sum = piece.first + piece.last;
+    return piece.centre + unit(sum) * piece.radius;
+  }
+  /// Returns the direction that is to the left along the piece; along arcs as they run counter-clockwise.
+  static Vec left_of(const Side& piece) {
+    if (piece.arc) return -unit(piece.first + piece.last);
+    const Vec along = unit(piece.to - piece.from);
+    return {-along.y, along.x};
+  }
+
+  /// Returns the stretch that runs beside a piece, to the left of it for a distance above 0.
+  static Side aside_of(Side piece, double by) {
+    const Vec shift = left_of(piece) * just(by);
+    if (piece.arc) {
+      piece.radius = piece.radius - just(by);
+      piece.from = piece.centre + piece.first * piece.radius,
+      piece.to = piece.centre + piece.last * piece.radius;
+      return piece;
+    }
+    piece.from = piece.from + shift, piece.to = piece.to + shift;
+    return piece;
+  }
+  /// Says whether a piece surely does not meet a side. Its ends tell more than the line through it, which is
+  /// hardly known far from a short piece.
+  static bool surely_apart(const Side& piece, const Side& side) {
+    const Corners corners = corners_of(piece);
+    bool before = true, behind = true;
+    Span nearest = just(kInfinity);
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const Vec& at = corners.at[i];
+      const Span height =
+          side.arc ? length(at - side.centre) - side.radius : cross(side.to - side.from, at - side.from);
+      before = before && height.high < 0, behind = behind && height.low > 0;
+      if (i < 2) nearest = {std::min(nearest.low, length(at - side.centre).low), kInfinity};
+    }
+    // The corners are on one side of a line, or within a circle, with all between them.
+    if (before || (behind && !side.arc)) return true;
+    if (side.arc && behind) {
+      // The chord is nowhere nearer to the centre than this, and the arc nowhere farther from its chord.
+      const Span half = length(corners.at[1] - corners.at[0]) * just(0.5);
+      Span least = square_root(just(nearest.low) * just(nearest.low) - half * half);
+      if (piece.arc) least = least - half * half / piece.radius;
+      if (least.low > side.radius.high) return true;
+    }
+    const Vec middle = middle_of(piece);
+    return (distance(middle, side) - just(farthest(piece, middle))).low > 0 || distance(piece, side).low > 0;
+  }
+
+  /// Asks on which side of a piece there is material of the tree. Where no outline of a primitive meets the
+  /// two stretches beside the piece, one point of each tells for all of it.
+  /// \pre piece is a line or turns by less than a half
+  Beside beside(const Side& piece, const Corners& corners) {
+    const double aside = kAside * reach_;
+    Beside known;
+    if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
+    const Side left = aside_of(piece, aside), right = aside_of(piece, -aside);
+    const Vec at_left = middle_of(left), at_right = middle_of(right);
+    const Box box = box_of(piece);
+    std::vector<In> on_left, on_right;
+    for (std::size_t k = 0; k < primitives_.size(); ++k) {
+      const std::vector<Side>& sides = primitives_[k].shape.sides;
+      bool near = false;
+      work_ += sides.size() / 8;
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (gap(box, primitives_[k].shape.tree->box(i)) > 2 * aside) continue;
+        ++work_, near = true;
+        if (!surely_apart(left, sides[i]) || !surely_apart(right, sides[i])) return known;
+        if (farthest(piece, corners, sides[i]) <= reach_) known.along.push_back({k, i});
+      }
+      const In in = outside_box(k, at_left) ? In::no : in_primitive(primitives_[k], at_left);
+      on_left.push_back(in), on_right.push_back(near ? in_primitive(primitives_[k], at_right) : in);
+    }
+    known.left = value_of(on_left), known.right = value_of(on_right);
+    return known;
+  }
+  [[nodiscard]] bool outside_box(std::size_t k, const Vec& p) const {
+    if (primitives_[k].half_plane) return false;
+    const Shape& shape = primitives_[k].shape;
+    return p.x.high < shape.low_x || p.x.low > shape.high_x || p.y.high < shape.low_y ||
+           p.y.low > shape.high_y;
+  }
+
+  /// Calls `settled(piece, corners)` for parts of a side until it is true for all but the shortest.
+  template <class Settled>
+  bool halve(const Side& whole, Settled settled) {
+    std::vector<Side> open{whole};
+    int short_ones = 0;
+    while (!open.empty()) {
+      const Side piece = open.back();
+      open.pop_back();
+      const bool wide = piece.arc && piece.sweep != Sweep::less;
+      if (!wide) {
+        const Corners corners = corners_of(piece);
+        const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
+        if (settled(piece, corners)) {
+          short_ones = 0;
+          continue;
+        }
+        if (farthest(piece, middle) <= kShort * reach_) {
+          if (++short_ones > kMostShort) return false;
+          continue;
+        }
+        if (work_ > kMostWork) {
+          leave_open("more work than is spent on it would be needed");
+          return false;
+        }
+      }
+      at_ = piece.from;
+      for (const Side& half : halves(piece)) {
+        // A part that cannot be halved is as long as the whole.
+        if (!wide && half.arc && half.first.x.low == piece.first.x.low &&
+            half.last.x.low == piece.last.x.low && half.first.y.low == piece.first.y.low &&
+            half.last.y.low == piece.last.y.low)
+          return false;
+        open.push_back(half);
+      }
+    }
+    return true;
+  }
+
+  /// A side with a point farther from every primitive is none of the tree's.
+  [[nodiscard]] bool far_from_primitives(const Vec& p) const {
+    return std::all_of(primitives_.begin(), primitives_.end(), [&](const Primitive& primitive) {
+      return distance(p, primitive.shape).low > kFar * reach_;
+    });
+  }
+
+  void check_edge(const Side& side) {
+    std::set<SideOfTree>& along = verdict_.along.back();
+    for (const Vec& p : points_of(side))
+      if (far_from_primitives(p)) {
+        verdict_.fault = fmt::format("its outline at {} is none of the tree's", text_of(p));
+        return;
+      }
+    bool wrong = false;
+    const bool whole = halve(side, [&](const Side& piece, const Corners& corners) {
+      const Beside known = beside(piece, corners);
+      if (known.along.empty() || known.left == In::open || known.right == In::open) return false;
+      const Vec aside = left_of(piece) * just(kAside * reach_);
+      const auto in = holds(used_, middle_of(piece) + aside), out = holds(used_, middle_of(piece) - aside);
+      if (!in || !out) return false;
+      along.insert(known.along.begin(), known.along.end());
+      wrong = wrong || (known.left == In::yes) != *in || (known.right == In::yes) != *out;
+      return true;
+    });
+    if (wrong) verdict_.fault = fmt::format("its material about {} is not that of the tree", text_of(at_));
+    if (!whole || along.empty())
+      leave_open(fmt::format("its outline about {} is not shown to be the tree's", text_of(at_)));
+  }
+
+  void check_side(const Side& side) {
+    bool missing = false;
+    const bool whole = halve(side, [&](const Side& piece, const Corners& corners) {
+      if (!outline_.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
+      const Beside known = beside(piece, corners);
+      if (known.left == In::open || known.right == In::open) return false;
+      missing =
+          missing || (known.left != known.right && distance(middle_of(piece), used_).low > kFar * reach_);
+      return known.left == known.right || missing;
+    });
+    if (missing) verdict_.fault = fmt::format("it lacks the outline of the tree about {}", text_of(at_));
+    if (!whole) leave_open(fmt::format("the tree's outline about {} is not shown to be its", text_of(at_)));
+  }
+
+  static std::string text_of(const Vec& p) { return fmt::format("({}, {})", p.x.low, p.y.low); }
+
+  const Tree& tree_;
+  std::vector<Primitive> primitives_;
+  const Shape& used_;
+  double reach_;
+  double window_ = 0;
+  CurvePieces outline_;
+  std::size_t work_ = 0;
+  /// A place near the last piece that was cut.
+  Vec at_;
+  TreeVerdict verdict_;
+};
+
+}  // namespace
+
+TreeVerdict check_tree(const Tree& tree, const Shape& used, double reach) {
+  return TreeCheck(tree, used, reach).run();
+}
+
+}  // namespace lekalo::verify

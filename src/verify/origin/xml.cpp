@@ -1,0 +1,160 @@
+#include "xml.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace lekalo::verify {
+namespace {
+
+constexpr std::size_t kDeepest = 600;
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+class XmlReader {
+ public:
+  explicit XmlReader(std::string_view text) : text_(text) {
+    if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.remove_prefix(3);
+  }
+
+  std::optional<XmlElement> read() {
+    std::vector<XmlElement> open;
+    while (at_ < text_.size() && good_) {
+      if (text_[at_] != '<') {
+        const std::size_t end = std::min(text_.find('<', at_), text_.size());
+        if (!open.empty()) open.back().text += text_.substr(at_, end - at_);
+        at_ = end;
+      } else if (begins("<!--")) {
+        skip_to("-->");
+      } else if (begins("<![CDATA[")) {
+        const std::size_t begin = at_ + 9;
+        skip_to("]]>");
+        if (!open.empty() && good_) open.back().text += text_.substr(begin, at_ - 3 - begin);
+      } else if (begins("<?")) {
+        skip_to("?>");
+      } else if (begins("<!")) {
+        skip_declaration();
+      } else if (begins("</")) {
+        at_ += 2;
+        if (open.empty() || name() != open.back().name) return std::nullopt;
+        skip_blanks();
+        if (!take('>')) return std::nullopt;
+        if (open.size() == 1) return std::move(open.front());
+        XmlElement done = std::move(open.back());
+        open.pop_back();
+        open.back().children.push_back(std::move(done));
+      } else {
+        ++at_;
+        open.emplace_back();
+        if (open.size() > kDeepest) return std::nullopt;
+        const bool empty = read_tag(open.back());
+        if (!good_) return std::nullopt;
+        if (!empty) continue;
+        if (open.size() == 1) return std::move(open.front());
+        XmlElement done = std::move(open.back());
+        open.pop_back();
+        open.back().children.push_back(std::move(done));
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] bool begins(std::string_view with) const { return text_.substr(at_, with.size()) == with; }
+  void skip_to(std::string_view end) {
+    const std::size_t found = text_.find(end, at_);
+    good_ = good_ && found != std::string_view::npos;
+    at_ = good_ ? found + end.size() : text_.size();
+  }
+  /// A document type may not declare anything of its own.
+  void skip_declaration() {
+    const std::size_t end = text_.find('>', at_);
+    good_ = end != std::string_view::npos && text_.substr(at_, end - at_).find('[') == std::string_view::npos;
+    at_ = good_ ? end + 1 : text_.size();
+  }
+  void skip_blanks() {
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+  }
+  bool take(char c) {
+    const bool there = at_ < text_.size() && text_[at_] == c;
+    if (there) ++at_;
+    return there;
+  }
+  std::string name() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !is_blank(text_[at_]) &&
+           std::string_view("=/>").find(text_[at_]) == std::string_view::npos)
+      ++at_;
+    std::string name(text_.substr(begin, at_ - begin));
+    if (name.rfind("svg:", 0) == 0) name.erase(0, 4);
+    return name;
+  }
+
+  /// Returns whether the element ends with its tag.
+  bool read_tag(XmlElement& element) {
+    element.name = name();
+    good_ = good_ && !element.name.empty();
+    while (good_) {
+      skip_blanks();
+      if (take('>')) return false;
+      if (take('/')) {
+        good_ = take('>');
+        return true;
+      }
+      std::string key = name();
+      skip_blanks();
+      good_ = !key.empty() && take('=');
+      skip_blanks();
+      const char quote = at_ < text_.size() ? text_[at_] : '\0';
+      if (!good_ || (quote != '"' && quote != '\'')) return good_ = false;
+      const std::size_t begin = ++at_, end = text_.find(quote, begin);
+      if (end == std::string_view::npos) return good_ = false;
+      element.attributes.emplace_back(std::move(key), resolved(text_.substr(begin, end - begin)));
+      at_ = end + 1;
+    }
+    return false;
+  }
+
+  std::string resolved(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+      if (text[at] != '&') {
+        out += text[at++];
+        continue;
+      }
+      const std::size_t end = text.find(';', at);
+      const std::string_view word = text.substr(at + 1, end == std::string_view::npos ? 0 : end - at - 1);
+      constexpr std::pair<std::string_view, char> kNamed[] = {
+          {"lt", '<'}, {"gt", '>'}, {"amp", '&'}, {"quot", '"'}, {"apos", '\''}};
+      const auto* const named = std::find_if(std::begin(kNamed), std::end(kNamed),
+                                             [&](const auto& one) { return one.first == word; });
+      if (named != std::end(kNamed)) {
+        out += named->second;
+      } else if (word.substr(0, 1) == "#") {
+        // A character by its number draws nothing; only its being there counts.
+        out += '?';
+      } else {
+        good_ = false;
+        return out;
+      }
+      at = end + 1;
+    }
+    return out;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  bool good_ = true;
+};
+
+}  // namespace
+
+Result<XmlElement> parse_xml(const Document& document) {
+  std::optional<XmlElement> root = XmlReader(document.bytes).read();
+  if (root) return *std::move(root);
+  return failure(ErrorCode::bad_input,
+                 fmt::format("{}: it is no XML that is understood here", document.name));
+}
+
+}  // namespace lekalo::verify

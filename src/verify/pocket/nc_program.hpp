@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/nc_words.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "nc_arc.hpp"
+#include "nc_moves.hpp"
+
+namespace lekalo::verify {
+
+/// How a program is read.
+struct NcReading {
+  words::Control control = words::Control::linuxcnc;
+  /// The Z of the stock's upper face, mm.
+  double top = 0;
+  /// True for a program that is judged: everything that cuts has to be known. False for one that is compared
+  /// with another: the tool may change, and places need not be known.
+  bool judged = true;
+  /// M words that a shop allows beside those of the table.
+  std::vector<int> allowed_m = {};
+};
+
+/// A block that does something: its words but for places and for modes that its moves show, and its moves.
+struct NcEvent {
+  std::size_t line = 0;
+  std::string words;
+  /// Indices of its moves, the last one not among them.
+  std::size_t first_move = 0, end_move = 0;
+  /// An arc of G18 or G19, whose moves are chords.
+  std::optional<NcArc> upright;
+  /// The work offset that was selected last, in tenths of its G word; 0 before any.
+  int offset = 0;
+};
+
+struct NcProgram {
+  std::vector<Move> moves;
+  std::vector<NcEvent> events;
+};
+
+/// Reads a program to its end, with subprograms and expressions. A motion from a place that is not known has
+/// the same place as start and end, where it is not judged. Errors as of read_moves() where it is judged.
+[[nodiscard]] Result<NcProgram> read_program(const Document& program, const NcReading& reading);
+
+}  // namespace lekalo::verify

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "verify/pocket/stroke.hpp"
+
+namespace lekalo::verify {
+
+/// A cut of a profile program without a lift or the beam off: lines and arcs one after the other, mm.
+struct CutChain {
+  std::vector<Stroke> edges;  ///< an arc may have any sweep below a full turn
+  std::size_t line = 0;       ///< of the program, where the cut begins
+  bool rapid = false;         ///< true where G0 cuts
+};
+
+/// Reads the cuts of a profile program as lekalo writes it: the beam or spindle is on, and the tool is below
+/// Z 0 where the program has a Z. A block that only moves in Z begins another chain.
+///
+/// bad_input with the line for every word that lekalo does not write into such a program, and for cuts that
+/// begin at a place that is not known. Cost: O(bytes).
+[[nodiscard]] Result<std::vector<CutChain>> read_profile(const Document& program);
+
+}  // namespace lekalo::verify
