@@ -68,17 +68,38 @@ bool radii_agree(const Arc& arc, LengthUnit unit) noexcept {
   return high - low <= allowed || (high - low <= 0.001 * high && high - low <= 100 * allowed);
 }
 
+bool radii_nearly_agree(const Arc& arc) noexcept {
+  const double low = std::min(arc.start_radius, arc.end_radius),
+               high = std::max(arc.start_radius, arc.end_radius);
+  return low >= 0.00005 * kMillimetresPerInch && high - low <= std::min(0.5, 0.02 * high);
+}
+
 bool radius_reaches(const Vector& start, const Vector& end, const geom::DoubleDouble& radius) noexcept {
   const double half_chord = millimetres(end - start) / 2;
   return half_chord - std::abs(radius.hi) / kGrainsPerMillimetre <= 0.00005 * kMillimetresPerInch;
 }
 
+Vector in_plane(const Vector& p, const geom::DoubleDouble& z, int plane) noexcept {
+  if (plane == 170) return p;
+  return plane == 180 ? Vector{z, p.x} : Vector{p.y, z};
+}
+
+bool same_point(const Vector& a, const Vector& b) noexcept {
+  const Vector way = a - b;
+  return way.x.hi == 0 && way.y.hi == 0;
+}
+
+ArcEnds arc_ends(const Motion& motion) noexcept {
+  return {in_plane(to_vector(motion.start), to_double_double(motion.start_z), motion.plane),
+          in_plane(to_vector(motion.end), to_double_double(motion.end_z), motion.plane)};
+}
+
 Arc motion_arc(const Motion& motion) noexcept {
-  const Vector start = to_vector(motion.start), end = to_vector(motion.end);
-  return motion.kind == MotionKind::arc_by_radius
-             ? arc_by_radius(start, end, to_double_double(motion.radius), motion.clockwise)
-             : arc_by_centre(start, end, to_vector(motion.centre), motion.clockwise,
-                             motion.start == motion.end);
+  const auto [start, end] = arc_ends(motion);
+  if (motion.kind == MotionKind::arc_by_radius)
+    return arc_by_radius(start, end, to_double_double(motion.radius), motion.clockwise);
+  const Vector centre = in_plane(to_vector(motion.centre), to_double_double(motion.centre_z), motion.plane);
+  return arc_by_centre(start, end, centre, motion.clockwise, same_point(start, end));
 }
 
 std::optional<double> arc_deviation(const Arc& exact, const Arc& written) noexcept {

@@ -33,11 +33,26 @@ inline constexpr double kSmallestSweep = 2e-6;
 /// True when LinuxCNC's defaults accept the arc: the radii at the ends agree within 0.002 sqrt(2) inch (0.02
 /// sqrt(2) mm in G21), or within 0.1 %, and are not zero.
 [[nodiscard]] bool radii_agree(const Arc& arc, LengthUnit unit) noexcept;
+/// The same for controls other than LinuxCNC, which run a spiral where the radii are a few percent apart: 2 %
+/// and 0.5 mm.
+[[nodiscard]] bool radii_nearly_agree(const Arc& arc) noexcept;
 /// True when LinuxCNC accepts an arc by radius: its ends are no more than the diameter and 0.0001 inch apart.
 [[nodiscard]] bool radius_reaches(const Vector& start, const Vector& end,
                                   const geom::DoubleDouble& radius) noexcept;
 
-/// The arc of a motion of kind arc_by_centre or arc_by_radius, in the program's frame.
+/// The point of the arc's plane that has these coordinates, on the plane's two axes: x y, z x or y z.
+[[nodiscard]] Vector in_plane(const Vector& p, const geom::DoubleDouble& z, int plane) noexcept;
+
+/// True when not even the last digit tells them apart.
+[[nodiscard]] bool same_point(const Vector& a, const Vector& b) noexcept;
+
+struct ArcEnds {
+  Vector start, end;
+};
+/// The ends of a motion, in its plane and the program's frame.
+[[nodiscard]] ArcEnds arc_ends(const Motion& motion) noexcept;
+
+/// The arc of a motion of kind arc_by_centre or arc_by_radius, in its plane and the program's frame.
 [[nodiscard]] Arc motion_arc(const Motion& motion) noexcept;
 
 /// The largest distance in mm between points of the two arcs at equal fractions of their length. `exact` is

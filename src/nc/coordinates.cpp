@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "arc.hpp"
+#include "lekalo/base/stop.hpp"
 #include "modes.hpp"
 #include "white_list.hpp"
 
@@ -51,6 +52,7 @@ class CoordinatePass {
   void run() {
     const auto& motions = job_.interpretation.motions;
     for (std::size_t k = 0; k < motions.size(); ++k) write(motions[k], k);
+    deviation_mm += across_mm_;
   }
 
   std::vector<Edit> edits;
@@ -63,7 +65,9 @@ class CoordinatePass {
     const GridPoint start = here_;
     if (motion.x != nullptr || motion.y != nullptr) write_end(motion, k);
     bool kept = true;
-    if (motion.kind == MotionKind::arc_by_centre) {
+    if (motion.plane != 170) {
+      kept = keep_upright_arc(motion, start);
+    } else if (motion.kind == MotionKind::arc_by_centre) {
       const GridPoint centre = write_centre(motion, k, start);
       kept = keep_arc(motion,
                       arc_by_centre(motion_(motion.start), motion_(motion.end), motion_(motion.centre),
@@ -176,9 +180,34 @@ class CoordinatePass {
 
   bool keep_arc(const Motion& motion, const Arc& exact, const Arc& written) {
     const std::optional<double> deviation = arc_deviation(exact, written);
-    if (!deviation || !radii_agree(written, motion.unit) || !(written.sweep >= 0.75 * kSmallestSweep))
-      return false;
+    const bool round = radii_agree(written, motion.unit) ||
+                       (job_.control != words::Control::linuxcnc && radii_nearly_agree(written));
+    if (!deviation || !round || !(written.sweep >= 0.75 * kSmallestSweep)) return false;
     deviation_mm = std::max(deviation_mm, *deviation);
+    return true;
+  }
+
+  /// An arc outside the XY plane, which a pure shift carries without turning it. Its centre counts from its
+  /// written start.
+  bool keep_upright_arc(const Motion& motion, GridPoint start) {
+    const geom::DoubleDouble low = to_double_double(motion.start_z), high = to_double_double(motion.end_z);
+    const auto at = [&](const Vector& p, const geom::DoubleDouble& z) {
+      return in_plane(p, z, motion.plane);
+    };
+    const auto arc = [&](const Vector& from, const Vector& to, const Vector& centre) {
+      const Vector a = at(from, low), b = at(to, high);
+      return motion.kind == MotionKind::arc_by_radius
+                 ? arc_by_radius(a, b, to_double_double(motion.radius), motion.clockwise)
+                 : arc_by_centre(a, b, at(centre, to_double_double(motion.centre_z)), motion.clockwise,
+                                 same_point(a, b));
+    };
+    const Vector from = to_vector(start), to = to_vector(here_);
+    const Vector exact_from = motion_(motion.start), exact_to = motion_(motion.end);
+    const Vector way = to_vector(motion.centre - motion.start);
+    if (!keep_arc(motion, arc(exact_from, exact_to, exact_from + way), arc(from, to, from + way)))
+      return false;
+    // A place across the plane is off by no more than the ends are.
+    across_mm_ = std::max({across_mm_, millimetres(from - exact_from), millimetres(to - exact_to)});
     return true;
   }
 
@@ -231,6 +260,7 @@ class CoordinatePass {
   const RigidMotion& motion_;
   const std::vector<int>& extra_;
   GridPoint here_;
+  double across_mm_ = 0;
 };
 
 /// True when the words of a motion decide where it ends; otherwise it carries on from its start.
@@ -257,6 +287,7 @@ std::optional<std::size_t> refine(const std::vector<Motion>& motions, bool turns
     if (!may_grow(k) && !start_may_grow[k]) return k;
     growing[k] = true;
     for (std::size_t j = k; j-- > 0;) {
+      ask();
       const bool known = growing[j];  // what stands before it is then growing too
       growing[j] = true;
       if (sets_end(motions[j], turns) || known) break;
@@ -279,14 +310,19 @@ std::optional<std::size_t> overlong_line(std::string_view text) {
   return std::nullopt;
 }
 
-std::string frame_note(const RewriteOptions& options) {
+std::string frame_note(const RewriteJob& job) {
+  const RewriteOptions& options = job.options;
   const std::string offset = work_offset_name(options.work_offset);
+  std::string offsets;
+  for (const int number : job.interpretation.offsets)
+    offsets += (offsets.empty() ? "" : ", ") + work_offset_name(number);
+  if (offsets.empty()) offsets = offset;
   return options.scan_frame == ScanFrame::machine
              ? fmt::format(
                    "the scan was taken in machine coordinates: {} must be zero in X and Y and without "
                    "rotation "
                    "when the program runs, and no G52 or G92 shift may be active",
-                   offset)
+                   offsets)
              : fmt::format(
                    "the scan was taken in {}: the program must run in the same {}, unchanged since the scan",
                    offset, offset);
@@ -317,7 +353,7 @@ Result<Rewritten> rewrite_coordinates(const RewriteJob& job) {
           fmt::format("the rewritten line would have more than {} bytes; split the block", kMaxBlockLength));
     result.rounding_mm = rounded_up(pass.deviation_mm);
     result.motions = motions.size();
-    result.notes.push_back(frame_note(job.options));
+    result.notes.push_back(frame_note(job));
     if (pass.most_decimals > 0)
       result.notes.push_back(fmt::format(
           "rewritten numbers have {} decimals; a control that reads fewer adds its own rounding",

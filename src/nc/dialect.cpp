@@ -3,7 +3,7 @@
 #include <array>
 
 /// Each name stands for a post, the value of `post_NAME()`, which a file of its own defines: post_NAME.cpp.
-#define LEKALO_POSTS(each) each(linuxcnc) each(grbl) each(fanuc)
+#define LEKALO_POSTS(each) each(linuxcnc) each(grbl) each(fanuc) each(haas)
 
 #define LEKALO_DECLARED(name) Dialect post_##name();
 #define LEKALO_MADE(name) post_##name(),
@@ -15,6 +15,12 @@ LEKALO_POSTS(LEKALO_DECLARED)
 std::span<const Dialect> posts() noexcept {
   static const std::array all{LEKALO_POSTS(LEKALO_MADE)};
   return all;
+}
+
+const Dialect& post_of(words::Control language) noexcept {
+  for (const Dialect& post : posts())
+    if (post.language == language) return post;
+  return posts().front();
 }
 
 const Dialect* post_named(std::string_view name) noexcept {

@@ -110,6 +110,33 @@ std::string modal_prefix(const Interpretation& program, int work_offset, bool fo
   return words;
 }
 
+/// Under G68 no block may go to a point of the machine: it is cancelled before such a block, and said anew
+/// before the next motion in X and Y. Returns whether it is in force at the end.
+Result<bool> suspend_rotation(const RewriteJob& job, const std::string& turn, std::vector<Edit>& edits) {
+  const Interpretation& program = job.interpretation;
+  bool turned = true;
+  auto next = program.motions.begin();
+  for (const std::size_t index : program.machine_blocks) {
+    for (; next != program.motions.end() && next->block < index; ++next) {
+      if (turned) continue;
+      const Block& block = job.program.blocks[next->block];
+      if (next->incremental)
+        return refusal(job.name, block.line,
+                       "the motion after a point of the machine is in G91, but G68 must be given in G90");
+      edits.push_back({block.begin, 0, turn});
+      turned = true;
+    }
+    if (turned) edits.push_back({job.program.blocks[index].begin, 0, "G69" + job.program.line_end});
+    turned = false;
+  }
+  if (turned || next == program.motions.end()) return turned;
+  if (next->incremental)
+    return refusal(job.name, job.program.blocks[next->block].line,
+                   "the motion after a point of the machine is in G91, but G68 must be given in G90");
+  edits.push_back({job.program.blocks[next->block].begin, 0, turn});
+  return true;
+}
+
 Rewritten unchanged(const RewriteJob& job) {
   Rewritten result;
   result.program = job.text;
@@ -171,18 +198,14 @@ Result<Rewritten> insert_g68(const RewriteJob& job) {
                    "G69 would cancel the rotation of mode g68; remove it");
   if (program.motions.empty()) return unchanged(job);
   const std::size_t first_line = job.program.blocks[*program.first_axis_block].line;
-  if (program.late_work_offset)
-    return refusal(
-        job.name, *program.late_work_offset,
-        fmt::format(
-            "{} under G68 is not allowed: select it before the first motion (line {}), in a block of its own",
-            offset, first_line));
   if (program.incremental_at_first)
     return refusal(job.name, first_line,
                    "the first motion is in G91, but G68 must be given in G90: write G90 before it");
-  if (program.other_plane)
-    return refusal(job.name, *program.other_plane,
-                   "G68 turns the XY plane, and under it no other may be selected; remove G18 and G19");
+  if (program.sideways_bore)
+    return refusal(
+        job.name, *program.sideways_bore,
+        "G76 and G87 shift the tool sideways, and whether G68 turns that way is up to the control; "
+        "use mode coordinates");
   if (program.end_moves)
     return refusal(
         job.name, job.program.blocks[*program.end_block].line,
@@ -194,12 +217,19 @@ Result<Rewritten> insert_g68(const RewriteJob& job) {
 
   const RoundedMotion motion = round_motion(job, job.options.g68_angle_decimals, program.unit_at_first);
   const std::string& eol = job.program.line_end;
+  const std::string turn = fmt::format("G68 X0 Y0 R{}{}", motion.degrees, eol);
   std::vector<Edit> edits;
+  const bool says_offset = !program.offset_stated && !program.late_offsets.empty();
   edits.push_back(
       {job.program.blocks[*program.first_axis_block].begin, 0,
-       fmt::format("{}G52 X{} Y{}{}G68 X0 Y0 R{}{}", modal_prefix(program, job.options.work_offset, true),
-                   motion.x, motion.y, eol, motion.degrees, eol)});
-  const std::string cancel = fmt::format("{}G69{}G52 X0 Y0", program.cycle_at_end ? "G80 " : "", eol);
+       fmt::format("{}{}G52 X{} Y{}{}{}", says_offset ? offset + eol : "",
+                   modal_prefix(program, job.options.work_offset, true), motion.x, motion.y, eol, turn)});
+  // The same offset again is no change, and may not be said under G68.
+  for (const Word* word : program.late_offsets)
+    edits.push_back({word->letter_at, word->number_end - word->letter_at, ""});
+  LEKALO_TRY(const bool turned, suspend_rotation(job, turn, edits));
+  const std::string cancel = fmt::format("{}{}{}G52 X0 Y0", program.cycle_at_end ? "G80 " : "",
+                                         turned ? "G69" : "", turned || program.cycle_at_end ? eol : "");
   if (program.end_block)
     edits.push_back({job.program.blocks[*program.end_block].begin, 0, cancel + eol});
   else

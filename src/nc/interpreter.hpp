@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/nc/program.hpp"
 #include "lekalo/nc/rewrite.hpp"
@@ -33,6 +34,11 @@ struct Motion {
   GridPoint centre;              ///< arcs by centre only
   Grains radius = 0;             ///< arcs by radius only; negative: the long way round
   std::int64_t turns = 1;        ///< P of an arc
+  /// The plane of an arc: 170, 180 or 190. Outside G17 the heights count too, and the centre has one of X and
+  /// Y and a height.
+  int plane = 170;
+  Grains start_z = 0, end_z = 0, centre_z = 0;
+  bool inverse_time = false;                                          ///< G93
   const Word *x = nullptr, *y = nullptr, *i = nullptr, *j = nullptr;  ///< into the program
 };
 
@@ -48,16 +54,21 @@ struct Interpretation {
   std::optional<std::size_t> end_block;  ///< M2, M30 or the final %
   bool end_moves = false;                ///< the end block moves too
   bool cycle_at_end = false, compensation_at_end = false;
-  std::optional<std::size_t> late_work_offset;  ///< first G54.. not before first_axis_block: its line
-  std::optional<std::size_t> rotation_cancel;   ///< first G69: its line
-  std::optional<std::size_t> other_plane;       ///< first G18 or G19: its line
-  std::optional<std::size_t> program_number;    ///< O word: its line
+  /// The work offsets that the program selects, 1 to 9, each once, in the order of their first use.
+  std::vector<int> offsets;
+  std::vector<const Word*> late_offsets;       ///< G54.. not before first_axis_block
+  std::optional<std::size_t> rotation_cancel;  ///< first G69: its line
+  std::optional<std::size_t> other_plane;      ///< first G18 or G19: its line
+  std::optional<std::size_t> program_number;   ///< O word: its line
+  std::optional<std::size_t> sideways_bore;    ///< first G76 or G87: its line
+  /// The blocks that go to points of the machine after first_axis_block.
+  std::vector<std::size_t> machine_blocks;
   std::vector<std::string> notes;
 };
 
 /// Step 3 of docs/design/nc-rewrite.md: runs the program on the white list.
-/// \param program  must outlive the result
+/// \param program  must outlive the result, and every word of it be on the control's list
 [[nodiscard]] Result<Interpretation> interpret(const Program& program, const std::string& name,
-                                               const RewriteOptions& options);
+                                               const RewriteOptions& options, words::Control control);
 
 }  // namespace lekalo::nc

@@ -22,6 +22,7 @@ struct RewriteJob {
   const RigidMotion& machine_from_part;
   double theta = 0;
   const RewriteOptions& options;
+  words::Control control = words::Control::linuxcnc;
 };
 
 [[nodiscard]] Result<Rewritten> rewrite_coordinates(const RewriteJob& job);

@@ -7,6 +7,7 @@ namespace lekalo::nc {
 Dialect post_fanuc() {
   return {.name = "fanuc",
           .control = "Fanuc",
+          .language = words::Control::fanuc,
           .decimals = {.millimetre = 3, .inch = 4},
           .dwell = {.units_per_second = 1000, .decimals = 0},
           .tape_mark = "%",

@@ -7,6 +7,7 @@ namespace lekalo::nc {
 Dialect post_grbl() {
   return {.name = "grbl",
           .control = "GRBL",
+          .language = words::Control::grbl,
           .pocket = {.modes = "{unit} G17 G90 G40 G49 G80 G94\nG91.1\n{offset}", .end = "M30"},
           .profile = {.modes = "{unit} G17 G90\nG40 G49 G54 G94 G91.1", .end = "M2"},
           .tool_change = "(TOOL {tool})",

@@ -6,6 +6,7 @@ namespace lekalo::nc {
 Dialect post_linuxcnc() {
   return {.name = "linuxcnc",
           .control = "LinuxCNC",
+          .language = words::Control::linuxcnc,
           .pocket = {.modes = "{unit} G17 G90 G40 G49 G80 G94\nG91.1\n{offset}\nG61", .end = "M30"},
           .profile = {.modes = "{unit} G17 G90\nG40 G49 G80 G54 G94 G91.1 G61", .end = "M2"}};
 }

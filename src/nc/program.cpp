@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::nc {
 namespace {
 
@@ -131,9 +133,10 @@ class LineReader {
 
   Fault read_comment() {
     const std::size_t open = at_++;
-    for (; !at_end(); ++at_) {
-      if (peek() == '(') return "a comment inside a comment";
-      if (peek() == ')') return comment_fault(text_.substr(open + 1, at_++ - open - 1));
+    for (int depth = 1; !at_end(); ++at_) {
+      block_.nested_comment = block_.nested_comment || peek() == '(';
+      depth += peek() == '(' ? 1 : peek() == ')' ? -1 : 0;
+      if (depth == 0) return comment_fault(text_.substr(open + 1, at_++ - open - 1));
     }
     return "a comment is opened and not closed";
   }
@@ -190,16 +193,19 @@ tl::unexpected<Error> refusal(const std::string& name, std::size_t line, const s
   return failure(ErrorCode::program_refused, fmt::format("{}:{}: {}", name, line, reason));
 }
 
-Result<Program> parse_program(std::string_view text, const std::string& name) {
+Result<Program> parse_program(std::string_view text, const std::string& name,
+                              const std::vector<std::size_t>& lines) {
   Program program;
   bool seen_words = false;
   int marks = 0;
   for (std::size_t begin = 0; begin < text.size();) {
+    ask();
     std::size_t newline = text.find('\n', begin);
     const bool ends = newline != std::string_view::npos;
     if (!ends) newline = text.size();
     Block block;
-    block.line = program.blocks.size() + 1;
+    const std::size_t index = program.blocks.size();
+    block.line = index < lines.size() ? lines[index] : index + 1;
     block.begin = begin;
     block.end = newline > begin && ends && text[newline - 1] == '\r' ? newline - 1 : newline;
     if (ends && program.line_end.empty()) program.line_end = text.substr(block.end, newline + 1 - block.end);

@@ -30,7 +30,7 @@ void ProgramWriter::begin(std::optional<std::string_view> title) {
   if (dialect_->program_number.empty()) {
     if (title) comment(*title);
   } else {
-    line(std::string(dialect_->program_number) + (title ? " " + commented(*title) : ""));
+    line(std::string(dialect_->program_number) + (title ? " " + comment_of(*dialect_, *title) : ""));
   }
 }
 
@@ -57,7 +57,7 @@ void ProgramWriter::lines(std::string_view text, Places places) {
 
 void ProgramWriter::comment(std::string_view words) {
   const Dialect::Comment& marks = dialect_->comment;
-  const std::string text = commented(words);
+  const std::string text = comment_of(*dialect_, words);
   if (text.size() > marks.open.size() + marks.close.size()) line(text);
 }
 
@@ -78,8 +78,8 @@ std::string ProgramWriter::feed(double mm_per_min, int inch_decimals) const {
                                    : fmt::format(" F{:.1f}", mm_per_min);
 }
 
-std::string ProgramWriter::commented(std::string_view words) const {
-  const auto& [open, close, longest] = dialect_->comment;
+std::string comment_of(const Dialect& dialect, std::string_view words) {
+  const auto& [open, close, longest] = dialect.comment;
   return fmt::format("{}{}{}", open, plain(words, longest), close);
 }
 

@@ -9,62 +9,7 @@
 namespace lekalo::nc {
 namespace {
 
-struct GWord {
-  int tenths;
-  Group group;
-};
-
-constexpr std::array kWhiteList = {
-    GWord{kRapid, Group::motion},
-    GWord{kFeed, Group::motion},
-    GWord{kClockwise, Group::motion},
-    GWord{kCounterClockwise, Group::motion},
-    GWord{40, Group::dwell},
-    GWord{170, Group::plane},
-    GWord{180, Group::plane},
-    GWord{190, Group::plane},
-    GWord{200, Group::unit},
-    GWord{210, Group::unit},
-    GWord{400, Group::compensation},
-    GWord{410, Group::compensation},
-    GWord{420, Group::compensation},
-    GWord{430, Group::tool_length},
-    GWord{440, Group::tool_length},
-    GWord{490, Group::tool_length},
-    GWord{540, Group::work_offset},
-    GWord{550, Group::work_offset},
-    GWord{560, Group::work_offset},
-    GWord{570, Group::work_offset},
-    GWord{580, Group::work_offset},
-    GWord{590, Group::work_offset},
-    GWord{591, Group::work_offset},
-    GWord{592, Group::work_offset},
-    GWord{593, Group::work_offset},
-    GWord{610, Group::path_control},
-    GWord{611, Group::path_control},
-    GWord{640, Group::path_control},
-    GWord{690, Group::rotation_cancel},
-    GWord{730, Group::motion},
-    GWord{740, Group::motion},
-    GWord{kMotionOff, Group::cycle_cancel},
-    GWord{810, Group::motion},
-    GWord{820, Group::motion},
-    GWord{830, Group::motion},
-    GWord{840, Group::motion},
-    GWord{850, Group::motion},
-    GWord{860, Group::motion},
-    GWord{890, Group::motion},
-    GWord{900, Group::distance},
-    GWord{901, Group::centre_distance},
-    GWord{910, Group::distance},
-    GWord{911, Group::centre_distance},
-    GWord{930, Group::feed_mode},
-    GWord{940, Group::feed_mode},
-    GWord{950, Group::feed_mode},
-    GWord{970, Group::spindle_mode},
-    GWord{980, Group::retract},
-    GWord{990, Group::retract},
-};
+using words::Control;
 
 struct Reason {
   int from, to;  ///< tenths, both included
@@ -77,37 +22,93 @@ constexpr std::array kRefusedG = {
     Reason{70, 80, "lathe diameter and radius modes do not belong to a mill program"},
     Reason{100, 100, "it sets offsets inside the program; set them on the control before"},
     Reason{101, 101, "it sets offsets inside the program; set them on the control before"},
+    Reason{120, 130, "its circle begins in a direction of the machine; let the CAM system write it out"},
     Reason{150, 160, "polar coordinates cannot be rewritten; give X and Y"},
-    Reason{280, 281, "it moves to a point of the machine, which does not turn with the part"},
-    Reason{300, 301, "it moves to a point of the machine, which does not turn with the part"},
+    Reason{281, 281, "it sets a point of the machine inside the program"},
+    Reason{301, 301, "it sets a point of the machine inside the program"},
     Reason{330, 331, "thread cutting is not rewritten"},
     Reason{380, 389, "probing moves are not rewritten"},
     Reason{411, 411, "compensation by a radius in the program is not rewritten; use G41 with D"},
     Reason{421, 421, "compensation by a radius in the program is not rewritten; use G42 with D"},
-    Reason{500, 511, "scaling and mirroring would change under the rotation"},
+    Reason{434, 435, "with it the control turns the tool's tip about rotary axes"},
+    Reason{510, 511, "scaling and mirroring would change under the rotation"},
     Reason{520, 520, "it shifts the coordinate system inside the program"},
-    Reason{530, 530, "it moves in machine coordinates, which do not turn with the part"},
     Reason{541, 541, "extended work offsets are not rewritten; use G54 to G59.3"},
     Reason{650, 671, "subprograms and macros cannot be rewritten; let the CAM system write them out"},
     Reason{680, 682, "the program turns its own coordinates already"},
+    Reason{700, 720, "its holes lie in directions of the machine; let the CAM system write them out"},
     Reason{760, 760, "it threads on one control and bores with a sideways shift on another"},
     Reason{870, 880, "boring with a sideways shift or by hand is not rewritten"},
     Reason{920, 929, "it shifts the coordinate system inside the program"},
     Reason{960, 960, "constant surface speed follows X, which would change under the rotation"},
 };
 
-constexpr std::array kMWords = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30, 48, 49, 62, 63, 64, 65};
 constexpr std::array kSkippableMWords = {0, 1, 7, 8, 9};
+
+constexpr const char* kNotListed = "is not on the list of words that can be rewritten";
+
+std::string name_of(const Word& word) {
+  return word.letter + format_decimal(word.value.digits, word.value.decimals);
+}
+
+/// The way out for a word that another control knows.
+std::string other_control(const Word& word) {
+  for (const Control other : {Control::linuxcnc, Control::haas, Control::fanuc, Control::grbl})
+    if (listed(word, other) != nullptr)
+      return fmt::format("; {} controls know it: --control {}", name_of(other), word_of(other));
+  return "";
+}
+
+std::string refused_g(const Word& word) {
+  const std::string other = other_control(word);
+  if (const std::optional<int> tenths = tenths_of(word.value); tenths)
+    for (const Reason& reason : kRefusedG)
+      if (reason.from <= *tenths && *tenths <= reason.to)
+        return fmt::format("{}: {}{}", name_of(word), reason.why, other);
+  return fmt::format("{} {}{}", name_of(word), kNotListed, other);
+}
+
+std::string refused_m(const Word& word) {
+  const auto number = word.value.whole();
+  if (number && *number >= 96 && *number <= 99)
+    return fmt::format("{}: subprograms cannot be rewritten; let the CAM system write them out",
+                       name_of(word));
+  if (number && *number >= 70 && *number <= 73)
+    return fmt::format("{}: it saves or restores modal words, which are then not known here", name_of(word));
+  if (number == 60) return "M60: another pallet is another part";
+  if (const std::string other = other_control(word); !other.empty())
+    return fmt::format("{} {}{}", name_of(word), kNotListed, other);
+  if (!number || *number < 0 || *number > 999) return fmt::format("{} {}", name_of(word), kNotListed);
+  return fmt::format("{} {}; if it moves no axis, --allow FILE with the line {} lets it pass", name_of(word),
+                     kNotListed, name_of(word));
+}
+
+/// The reason to refuse a letter; none for a letter that can stand in a program on the list.
+std::optional<std::string> refused_letter(const Word& word) {
+  switch (word.letter) {
+    case 'A':
+    case 'B':
+    case 'C':
+      if (word.value.digits == 0) return std::nullopt;
+      return fmt::format("rotary axis {}: only X Y Z programs can be rewritten", word.letter);
+    case 'V':
+    case 'W':
+      return fmt::format("axis {}: only X Y Z programs can be rewritten", word.letter);
+    default:
+      if (words::is_letter_known(word.letter)) return std::nullopt;
+      return fmt::format("{} {}", word.letter, kNotListed);
+  }
+}
+
+std::optional<std::string> refusal_of(const Word& word, Control control, const std::vector<int>& allowed_m) {
+  if (word.letter != 'G' && word.letter != 'M') return refused_letter(word);
+  if (listed(word, control) != nullptr || is_allowed(word, allowed_m)) return std::nullopt;
+  return word.letter == 'G' ? refused_g(word) : refused_m(word);
+}
 
 }  // namespace
 
-std::optional<Group> group_of(int tenths) noexcept {
-  for (const GWord& word : kWhiteList)
-    if (word.tenths == tenths) return word.group;
-  return std::nullopt;
-}
-
-bool is_cycle(int tenths) noexcept { return group_of(tenths) == Group::motion && tenths > kCounterClockwise; }
+bool is_cycle(int tenths) noexcept { return tenths >= 730 && tenths <= 890 && tenths != words::kMotionOff; }
 
 int work_offset_of(int tenths) noexcept { return tenths <= 590 ? (tenths - 530) / 10 : tenths - 590 + 6; }
 
@@ -123,52 +124,84 @@ std::optional<int> tenths_of(Decimal value) noexcept {
   return static_cast<int>(decimals == 1 ? digits : 10 * digits);
 }
 
-std::string refused_g(Decimal value) {
-  const std::string word = "G" + format_decimal(value.digits, value.decimals);
-  if (const std::optional<int> tenths = tenths_of(value))
-    for (const Reason& reason : kRefusedG)
-      if (reason.from <= *tenths && *tenths <= reason.to) return fmt::format("{}: {}", word, reason.why);
-  return fmt::format("{} is not on the list of words that can be rewritten", word);
+const words::Word* listed(const Word& word, Control control) noexcept {
+  const auto tenths = tenths_of(word.value);
+  return tenths ? words::word_at(word.letter, *tenths, control) : nullptr;
 }
 
-bool m_on_list(int number) noexcept { return std::ranges::find(kMWords, number) != kMWords.end(); }
+bool is_allowed(const Word& word, const std::vector<int>& allowed_m) noexcept {
+  const auto number = word.value.whole();
+  return word.letter == 'M' && number && std::ranges::find(allowed_m, *number) != allowed_m.end();
+}
 
 bool m_may_be_skipped(int number) noexcept {
   return std::ranges::find(kSkippableMWords, number) != kSkippableMWords.end();
 }
 
-std::string refused_m(Decimal value) {
-  const std::string word = "M" + format_decimal(value.digits, value.decimals);
-  const auto number = value.whole();
-  if (number && *number >= 96 && *number <= 99)
-    return fmt::format("{}: subprograms cannot be rewritten; let the CAM system write them out", word);
-  if (number && *number >= 70 && *number <= 73)
-    return fmt::format("{}: it saves or restores modal words, which are then not known here", word);
-  if (number && *number >= 100 && *number <= 199)
-    return fmt::format("{}: what a user's own M word does is not known here", word);
-  return fmt::format("{} is not on the list of words that can be rewritten", word);
+std::vector<RefusedWord> refused_words(const Program& program, Control control,
+                                       const std::vector<int>& allowed_m) {
+  std::vector<RefusedWord> refused;
+  for (const Block& block : program.blocks) {
+    for (const Word& word : block.words)
+      if (const auto reason = refusal_of(word, control, allowed_m))
+        refused.push_back({block.line, name_of(word), *reason});
+    if (block.nested_comment && control == Control::linuxcnc)
+      refused.push_back({block.line, "(",
+                         "a comment inside a comment; Haas, Fanuc and GRBL controls read it: "
+                         "--control haas"});
+  }
+  return refused;
 }
 
-std::optional<std::string> refused_letter(char letter) {
-  constexpr std::string_view kPassing = "DFGHIJLMNOPQRSTXYZ";
-  if (kPassing.find(letter) != std::string_view::npos) return std::nullopt;
-  switch (letter) {
-    case 'A':
-    case 'B':
-    case 'C':
-      return fmt::format("rotary axis {}: only X Y Z programs can be rewritten", letter);
-    case 'U':
-    case 'V':
-    case 'W':
-      return fmt::format("axis {}: only X Y Z programs can be rewritten", letter);
-    case 'K':
-      return std::string(
-          "K: arcs outside the XY plane (G18, G19) do not stay in their plane when turned, and repeats by K "
-          "are not "
-          "rewritten");
-    default:
-      return fmt::format("{} is not on the list of words that can be rewritten", letter);
+namespace {
+
+/// The letters P, Q and D of blocks in which no word takes them for this control.
+std::size_t idle_letters(const Program& program, Control control) {
+  std::size_t idle = 0;
+  for (const Block& block : program.blocks)
+    for (const Word& word : block.words) {
+      if (std::string_view("PQD").find(word.letter) == std::string_view::npos) continue;
+      const bool used = std::ranges::any_of(block.words, [&](const Word& other) {
+        const words::Word* const known = listed(other, control);
+        return std::string_view("XYZ").find(other.letter) != std::string_view::npos ||
+               (known != nullptr && known->takes.find(word.letter) != std::string_view::npos);
+      });
+      if (!used && words::is_taken(word.letter, control)) ++idle;
+    }
+  return idle;
+}
+
+}  // namespace
+
+Control guess_control(const Program& program, const std::vector<int>& allowed_m) {
+  const bool numbered = std::ranges::any_of(program.blocks, [](const Block& block) {
+    return !block.words.empty() && block.words.front().letter == 'O';
+  });
+  const std::array order = numbered
+                               ? std::array{Control::fanuc, Control::haas, Control::linuxcnc, Control::grbl}
+                               : std::array{Control::linuxcnc, Control::fanuc, Control::haas, Control::grbl};
+  return *std::ranges::min_element(order, {}, [&](Control control) {
+    return refused_words(program, control, allowed_m).size() + idle_letters(program, control);
+  });
+}
+
+std::string sentence_of(const std::vector<RefusedWord>& refused) {
+  struct Group {
+    std::string reason, lines;
+    std::size_t count = 0;
+  };
+  std::vector<Group> groups;
+  for (const RefusedWord& word : refused) {
+    auto group = std::ranges::find(groups, word.reason, &Group::reason);
+    if (group == groups.end()) group = groups.insert(groups.end(), {word.reason, "", 0});
+    group->lines += fmt::format("{}{}", group->count++ == 0 ? "" : ", ", word.line);
   }
+  if (groups.size() == 1 && groups[0].count == 1) return groups[0].reason;
+  std::string sentence = fmt::format("{} words cannot be rewritten: ", refused.size());
+  for (const Group& group : groups)
+    sentence += fmt::format("{}line{} {}: {}", &group == &groups.front() ? "" : " / ",
+                            group.count == 1 ? "" : "s", group.lines, group.reason);
+  return sentence;
 }
 
 }  // namespace lekalo::nc

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/base/units.hpp"
 
 namespace lekalo::nc {
@@ -19,6 +20,8 @@ struct Dialect {
   std::string_view name;
   /// The control's own name, for sentences.
   std::string_view control;
+  /// The words that the control reads.
+  words::Control language = words::Control::linuxcnc;
 
   struct Decimals {
     /// The decimals of a coordinate that the control reads without dropping digits, 1 to 9.
@@ -64,6 +67,9 @@ struct Dialect {
 
 /// The list of all posts, in the order in which help shows them. The first one is taken if none is chosen.
 [[nodiscard]] std::span<const Dialect> posts() noexcept;
+
+/// Returns the post of the control that reads this language.
+[[nodiscard]] const Dialect& post_of(words::Control language) noexcept;
 
 /// Returns the post of this name, or nullptr.
 [[nodiscard]] const Dialect* post_named(std::string_view name) noexcept;

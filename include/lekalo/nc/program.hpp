@@ -28,22 +28,25 @@ struct Block {
   std::size_t begin = 0, end = 0;  ///< bytes without the line end
   bool block_delete = false;       ///< begins with `/`
   bool tape_mark = false;          ///< a lone `%`
+  bool nested_comment = false;     ///< holds a comment inside a comment
   std::vector<Word> words;
 };
 
 /// A program taken apart into words without losing a byte: what no word covers is comment, blank or line end.
 struct Program {
   std::vector<Block> blocks;  ///< every line, also empty ones
-  /// The end of the first line that has one, or "
-  /// ".
+  /// The end of the first line that has one, or a line feed.
   std::string line_end;
 };
 
 /// Takes the text apart. Refuses (ErrorCode::program_refused, `name:line: reason`) what is not made of
-/// comments and words with plain numbers: expressions, variables, named O words, polar words, nested or open
+/// comments and words with plain numbers: expressions, variables, named O words, polar words, open
 /// comments, comments that act (Python, probe and log files, printed variables), characters that are not
 /// ASCII outside comments, blanks inside a number, lines too long.
-[[nodiscard]] Result<Program> parse_program(std::string_view text, const std::string& name);
+/// \param lines  the number of each line for messages, where the text was made from another; else they count
+///               from 1
+[[nodiscard]] Result<Program> parse_program(std::string_view text, const std::string& name,
+                                            const std::vector<std::size_t>& lines = {});
 
 /// `name:line: reason` as ErrorCode::program_refused.
 [[nodiscard]] tl::unexpected<Error> refusal(const std::string& name, std::size_t line,

@@ -19,6 +19,9 @@ struct WrittenPoint {
   friend bool operator==(const WrittenPoint&, const WrittenPoint&) = default;
 };
 
+/// Text for the operator as a comment: capitals, digits, points and dashes between the marks of the dialect.
+[[nodiscard]] std::string comment_of(const Dialect& dialect, std::string_view words);
+
 /// A program in one dialect, line by line: what is alike in programs of every kind. Bytes are ASCII, and
 /// every line ends with `\n`. Amortised O(1) per byte.
 class ProgramWriter {
@@ -54,8 +57,6 @@ class ProgramWriter {
   [[nodiscard]] std::size_t line_count() const noexcept { return line_count_; }
 
  private:
-  [[nodiscard]] std::string commented(std::string_view words) const;
-
   const Dialect* dialect_;
   LengthUnit unit_;
   int decimals_;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/base/units.hpp"
 
 namespace lekalo::nc {
@@ -36,6 +38,13 @@ struct RewriteOptions {
   /// Decimals of a degree in `G68 R`, 0..9. Controls of increment system IS-B drop what is finer than 0.001
   /// degree, and the dropped angle would be in no bound.
   int g68_angle_decimals = 3;
+  /// Arcs of G18 and G19, which do not stay in their plane when turned, become chords that stay within this
+  /// of them, mm, 1e-5 to 1.
+  double chord_tolerance = 1e-3;
+  /// The control in whose language the program is. Without one it is guessed, and a note says so.
+  std::optional<words::Control> control = {};
+  /// M words that a shop allows beside those of the list: they move no axis.
+  std::vector<int> allowed_m = {};
 };
 
 struct Rewritten {
@@ -47,6 +56,8 @@ struct Rewritten {
   std::size_t motions = 0;
   /// Sentences for the operator: frame, offset to set, decimals.
   std::vector<std::string> notes;
+  /// The control as whose program it was read.
+  words::Control control = words::Control::linuxcnc;
 };
 
 /// Rewrites a program by the pose `p -> R(theta) p + (x, y)`, whose shift is in mm; theta, x and y count as

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::nc {
 namespace {
 
@@ -56,6 +58,7 @@ KerfProof::KerfProof(const std::vector<ProfilePart>& parts, const ProfileOptions
     const auto& curves = indices_[part].curves();
     Box all = box_of(curves.front());
     for (const Curve& curve : curves) {
+      ask();
       const Box box = box_of(curve);
       all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y)};
       all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y)};

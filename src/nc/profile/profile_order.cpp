@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/region_index.hpp"
 
@@ -81,6 +82,7 @@ class Tour {
       std::size_t best = k;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t i = k; i < cuts.size(); ++i) {
+        ask();
         const Point out = discs[i].centre - from;
         const double reach = least + discs[i].radius;
         if (geom::dot(out, out) > reach * reach) continue;
@@ -109,6 +111,7 @@ class Tour {
       for (std::size_t i = 1; i < n && comparisons_ < kMostComparisons; ++i) {
         comparisons_ += n - i;
         for (std::size_t j = i + 1; j <= n; ++j) {
+          ask();
           const double old_way = travel(at[i - 1], at[i]) + travel(at[j], at[j + 1]);
           const double new_way = travel(at[i - 1], at[j]) + travel(at[i], at[j + 1]);
           if (!(new_way < old_way * (1 - 0x1p-40))) continue;
