@@ -56,7 +56,8 @@ ApiAnswer list_layouts(Store& store) {
                  {"name", one.name},
                  {"revision", one.revision},
                  {"placements", one.placements},
-                 {"changed", one.changed}});
+                 {"changed", one.changed},
+                 {"damaged", one.damaged}});
   });
 }
 
@@ -121,7 +122,8 @@ ApiAnswer history(Store& store, LayoutId id) {
                  {"author", entry.author},
                  {"text", entry.text},
                  {"kind", name_of(entry.kind)},
-                 {"undone", entry.undone}});
+                 {"undone", entry.undone},
+                 {"damaged", entry.damaged}});
   });
 }
 
@@ -202,19 +204,30 @@ ApiAnswer wrong_method(const char* allow) {
   return answer;
 }
 
+/// The revision that a request gives; nothing where it gives none.
+Result<std::optional<Revision>> revision_in(const Target& target) {
+  const std::string* const text = target.find("revision");
+  if (text == nullptr) return std::optional<Revision>();
+  const auto revision = whole_number(*text);
+  if (!revision) return failure(ErrorCode::bad_input, "the revision is no whole number: ?revision=");
+  return std::optional<Revision>(static_cast<Revision>(*revision));
+}
+
 ApiAnswer copy_layout(Store& store, LayoutId id, const Target& target) {
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
-  const Result<LayoutId> made = store.copy(id, *name);
+  const Result<std::optional<Revision>> revision = revision_in(target);
+  if (!revision) return trouble(revision.error());
+  const Result<LayoutId> made = store.copy(id, *name, *revision);
   return made ? json_answer(201, {{"id", *made}}) : trouble(made.error());
 }
 
-ApiAnswer restore_layout(const ChangeRoom& change_room, LayoutId id, const Target& target) {
+ApiAnswer restore_layout(const ChangeRoom& change_room, const Target& target) {
   const std::string* const text = target.find("revision");
   const auto revision = text != nullptr ? whole_number(*text) : std::nullopt;
   if (!revision) return api_error(400, "the revision is missing or no whole number: ?revision=");
   Revision now = 0;
-  const Result<void> done = change_room(id, [&](Room& room) {
+  const Result<void> done = change_room([&](Room& room) {
     Result<Outbound> out = room.restore(static_cast<Revision>(*revision));
     now = room.revision();
     return out;
@@ -222,15 +235,17 @@ ApiAnswer restore_layout(const ChangeRoom& change_room, LayoutId id, const Targe
   return done ? json_answer(200, {{"revision", now}}) : trouble(done.error());
 }
 
-ApiAnswer rename_layout(const ChangeRoom& change_room, LayoutId id, const Target& target) {
+ApiAnswer rename_layout(const ChangeRoom& change_room, const Target& target) {
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
-  const Result<void> done = change_room(id, [&](Room& room) { return room.rename(*name); });
+  const Result<void> done = change_room([&](Room& room) { return room.rename(*name); });
   return done ? json_answer(200, {}) : trouble(done.error());
 }
 
-ApiAnswer remove_layout(const ChangeRoom& change_room, LayoutId id) {
-  const Result<void> done = change_room(id, [](Room& room) { return room.remove(); });
+ApiAnswer remove_layout(Store& store, const ChangeRoom& change_room, LayoutId id) {
+  Result<void> done = change_room([](Room& room) { return room.remove(); });
+  // A layout that cannot be read any more can be deleted all the same.
+  if (!done && done.error().code == ErrorCode::environment) done = store.remove(id);
   return done ? json_answer(200, {}) : trouble(done.error());
 }
 
@@ -284,20 +299,38 @@ ApiAnswer photo(Store& store, const ChangeRoom& change_room, const std::string& 
   }
   Result<void> done;
   if (method == "DELETE") {
-    done = change_room(id, [&](Room& room) { return room.remove_photo(*stock); });
+    done = change_room([&](Room& room) { return room.remove_photo(*stock); });
   } else {
     const Result<PhotoScale> scale = scale_in(target);
     if (!scale) return trouble(scale.error());
     if (method == "PATCH") {
-      done = change_room(id, [&](Room& room) { return room.set_photo_scale(*stock, *scale); });
+      done = change_room([&](Room& room) { return room.set_photo_scale(*stock, *scale); });
     } else {
       const std::string type = image_type(body);
       if (type.empty()) return api_error(415, "a photograph is a PNG or JPEG file; this is neither");
       const Photo given{*stock, type, static_cast<std::int64_t>(body.size()), *scale};
-      done = change_room(id, [&](Room& room) { return room.set_photo(given, body); });
+      done = change_room([&](Room& room) { return room.set_photo(given, body); });
     }
   }
   return done ? json_answer(200, {}) : trouble(done.error());
+}
+
+constexpr std::string_view kRoot = "/api/layouts";
+
+/// "/api/layouts/ID" and what stands behind it.
+struct LayoutPath {
+  LayoutId id = 0;
+  std::string_view what;
+};
+
+std::optional<LayoutPath> layout_path(std::string_view path) {
+  if (!path.starts_with(kRoot) || path.size() == kRoot.size() || path[kRoot.size()] != '/')
+    return std::nullopt;
+  path.remove_prefix(kRoot.size() + 1);
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const auto number = whole_number(path.substr(0, slash));
+  if (!number || *number == 0) return std::nullopt;
+  return LayoutPath{static_cast<LayoutId>(*number), path.substr(slash)};
 }
 
 }  // namespace
@@ -310,9 +343,28 @@ std::string image_type(std::string_view bytes) {
 
 std::size_t most_body(std::string_view method, std::string_view path) {
   constexpr std::size_t kLargestFile = std::size_t{64} << 20;
-  if (method == "POST" && path == "/api/layouts") return kLargestFile;
-  if (method == "PUT" && path.starts_with("/api/layouts/") && path.ends_with("/photo")) return kLargestPhoto;
-  return 0;
+  if (method == "POST" && path == kRoot) return kLargestFile;
+  const std::optional<LayoutPath> layout = layout_path(path);
+  return method == "PUT" && layout && layout->what == "/photo" ? kLargestPhoto : 0;
+}
+
+std::optional<LayoutId> layout_changed_by(std::string_view method, std::string_view path) {
+  const std::optional<LayoutPath> layout = layout_path(path);
+  if (!layout) return std::nullopt;
+  const auto& [id, what] = *layout;
+  const bool changes = (what.empty() && (method == "PATCH" || method == "DELETE")) ||
+                       (what == "/restore" && method == "POST") ||
+                       (what == "/photo" && (method == "PUT" || method == "PATCH" || method == "DELETE"));
+  return changes ? std::optional(id) : std::nullopt;
+}
+
+bool takes_long(std::string_view method, std::string_view path, std::size_t body) {
+  constexpr std::size_t kLargeFile = std::size_t{64} << 10;
+  const std::optional<LayoutPath> layout = layout_path(path);
+  if (!layout) return body > kLargeFile;
+  const std::string_view what = layout->what;
+  return (what == "/export" && method == "GET") ||
+         ((what == "/copy" || what == "/restore") && method == "POST");
 }
 
 ApiAnswer api_error(int status, const std::string& sentence) {
@@ -321,31 +373,23 @@ ApiAnswer api_error(int status, const std::string& sentence) {
 
 ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
                      const Target& target, const std::string& body, const std::atomic<bool>& given_up) {
-  constexpr std::string_view kRoot = "/api/layouts";
-  std::string_view rest = target.path;
   const ApiAnswer nothing = api_error(404, "there is nothing here");
-  if (!rest.starts_with(kRoot)) return nothing;
-  rest.remove_prefix(kRoot.size());
-  if (rest.empty()) {
+  if (target.path == kRoot) {
     if (method == "GET") return list_layouts(store);
     if (method == "POST") return create_layout(store, target, body, given_up);
     return wrong_method("GET, POST");
   }
-  if (rest.front() != '/') return nothing;
-  rest.remove_prefix(1);
-  const std::size_t slash = std::min(rest.find('/'), rest.size());
-  const auto number = whole_number(rest.substr(0, slash));
-  if (!number || *number == 0) return nothing;
-  const auto id = static_cast<LayoutId>(*number);
-  const std::string_view what = rest.substr(slash);
+  const std::optional<LayoutPath> path = layout_path(target.path);
+  if (!path) return nothing;
+  const auto& [id, what] = *path;
   if (what.empty()) {
-    if (method == "PATCH") return rename_layout(change_room, id, target);
-    if (method == "DELETE") return remove_layout(change_room, id);
+    if (method == "PATCH") return rename_layout(change_room, target);
+    if (method == "DELETE") return remove_layout(store, change_room, id);
     return wrong_method("PATCH, DELETE");
   }
   if (what == "/copy") return method == "POST" ? copy_layout(store, id, target) : wrong_method("POST");
   if (what == "/restore")
-    return method == "POST" ? restore_layout(change_room, id, target) : wrong_method("POST");
+    return method == "POST" ? restore_layout(change_room, target) : wrong_method("POST");
   if (what == "/history") return method == "GET" ? history(store, id) : wrong_method("GET");
   if (what == "/export") return method == "GET" ? export_layout(store, id, target) : wrong_method("GET");
   if (what == "/photos") return method == "GET" ? list_photos(store, id) : wrong_method("GET");

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,11 +36,17 @@ inline constexpr std::size_t kLargestPhoto = std::size_t{16} << 20;
 
 [[nodiscard]] ApiAnswer api_error(int status, const std::string& sentence);
 
-/// Runs a change of a layout where nobody else changes it. The layout is opened for that, and what the change
-/// says goes to the clients.
-using ChangeRoom = std::function<Result<void>(LayoutId, const std::function<Result<Outbound>(Room&)>&)>;
+/// Returns the layout that a request changes where nobody else does; nothing for requests that change none.
+[[nodiscard]] std::optional<LayoutId> layout_changed_by(std::string_view method, std::string_view path);
+/// Says whether a request is expected to take long: it reads a large file, or a whole layout from the store.
+[[nodiscard]] bool takes_long(std::string_view method, std::string_view path, std::size_t body);
+
+/// Changes the layout that the request changes, which is open and changed by nobody else meanwhile. What the
+/// change says goes to the clients.
+using ChangeRoom = std::function<Result<void>(const std::function<Result<Outbound>(Room&)>&)>;
 
 /// Answers a request whose path begins with /api.
+/// \param change_room  is called for the layout of layout_changed_by, and for no other
 /// \param method  as HTTP has it
 /// \param given_up  set when nobody waits for the answer any more. A file that has been read by then makes no
 /// layout.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lekalo/base/joined_text.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/io/text/json_writer.hpp"
@@ -166,9 +167,9 @@ Outbound Room::leave(ClientNumber client) {
   return out;
 }
 
-Outbound Room::handle(ClientNumber client, const ClientMessage& said) {
+Outbound Room::handle(ClientNumber client, const ClientMessage& said, const std::atomic<bool>& gone) {
   if (clients_.find(client) == clients_.end()) return {};
-  if (const auto* one = std::get_if<CommandMessage>(&said)) return command(client, *one);
+  if (const auto* one = std::get_if<CommandMessage>(&said)) return command(client, *one, gone);
   if (const auto* one = std::get_if<UndoMessage>(&said)) return undo(client, *one);
   if (const auto* one = std::get_if<StopMessage>(&said)) {
     stop(client, *one);
@@ -185,7 +186,7 @@ Outbound Room::resend(ClientNumber client) const {
   return out;
 }
 
-Outbound Room::command(ClientNumber client, const CommandMessage& said) {
+Outbound Room::command(ClientNumber client, const CommandMessage& said, const std::atomic<bool>& gone) {
   Outbound out;
   if (const auto nest = nest_request(said.text, document())) {
     if (*nest)
@@ -203,10 +204,18 @@ Outbound Room::command(ClientNumber client, const CommandMessage& said) {
     start({client, said, to_text(*command, document()), *command, std::move(*job), nullptr, 0});
     return out;
   }
-  Result<layout::Change> change = layout::plan(workspace_, *command, said.mode);
+  RunControl run;
+  run.stop = &gone;
+  std::string violations = "[]";
+  auto planned = stoppable(run, [&] {
+    Result<layout::Change> change = layout::plan(workspace_, *command, said.mode);
+    if (!change && change.error().code == ErrorCode::refuted)
+      violations = violations_of_refused(workspace_, *command);
+    return change;
+  });
+  if (!planned) return out;
+  Result<layout::Change>& change = *planned;
   if (change) return carry_out(client, said, to_text(*command, document()), std::move(*change));
-  const std::string violations =
-      change.error().code == ErrorCode::refuted ? violations_of_refused(workspace_, *command) : "[]";
   out.push_back(message(client, refused(said.seq, change.error().message, violations)));
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -46,7 +47,9 @@ class Room {
   /// it leaves.
   [[nodiscard]] Result<Outbound> join(ClientNumber client, const std::string& author);
   [[nodiscard]] Outbound leave(ClientNumber client);
-  [[nodiscard]] Outbound handle(ClientNumber client, const ClientMessage& message);
+  /// \param gone  set when nobody waits for the answer any more. What is still only planned is dropped then.
+  [[nodiscard]] Outbound handle(ClientNumber client, const ClientMessage& message,
+                                const std::atomic<bool>& gone = kNever);
   /// Says whether a long command of this client is under way. Its further commands then have to wait.
   [[nodiscard]] bool is_busy(ClientNumber client) const;
   /// Returns the jobs that are to be run now, each of them once. The room is told of them by job_progress,
@@ -101,13 +104,15 @@ class Room {
     std::shared_ptr<std::atomic<bool>> stop;
     int attempts = 0;
   };
+  static constexpr std::atomic<bool> kNever{false};
   struct Toucher {
     Revision revision = 0;
     std::string who;
     std::string text;
   };
 
-  [[nodiscard]] Outbound command(ClientNumber client, const CommandMessage& message);
+  [[nodiscard]] Outbound command(ClientNumber client, const CommandMessage& message,
+                                 const std::atomic<bool>& gone);
   /// Answers a command whose change is planned: the change is shown or carried out.
   [[nodiscard]] Outbound carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
                                    layout::Change change, bool stopped = false);

@@ -10,6 +10,8 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -23,9 +25,9 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::size_t kMostConnections = 512;
-/// The last words to clients may take this long.
-constexpr auto kFarewell = std::chrono::seconds(1);
+/// After a signal the last words to clients may take this long, and what was begun this long in all.
+constexpr std::chrono::milliseconds kFarewell{500}, kLastWork{1500};
+constexpr auto kSweepEvery = std::chrono::milliseconds(250);
 
 class Acceptor {
  public:
@@ -37,7 +39,7 @@ class Acceptor {
       if (error) return wait();  // out of descriptors, most likely
       error_code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
-      if (service_.connections < kMostConnections) start_visit(service_, std::move(socket));
+      start_visit(service_, std::move(socket));
       next();
     });
   }
@@ -59,21 +61,48 @@ class Acceptor {
   asio::steady_timer pause_;
 };
 
-/// Listens until a signal comes.
-Result<void> run_until_signal(Service& service, tcp::acceptor&& socket, const ServerOptions& options,
-                              const std::function<Result<void>(const std::string& url)>& listening) {
+/// Ends the connections whose clients are too slow.
+class Sweeper {
+ public:
+  explicit Sweeper(Service& service) : service_(service), timer_(service.io) {}
+  void next() {
+    timer_.expires_after(kSweepEvery);
+    timer_.async_wait([this](error_code error) {
+      if (error) return;
+      service_.places.sweep(std::chrono::steady_clock::now());
+      next();
+    });
+  }
+  void close() { timer_.cancel(); }
+
+ private:
+  Service& service_;
+  asio::steady_timer timer_;
+};
+
+/// Listens until a signal comes. Returns when it came.
+Result<LaneTime> run_until_signal(Service& service, tcp::acceptor&& socket, const ServerOptions& options,
+                                  const std::function<Result<void>(const std::string& url)>& listening) {
   Acceptor acceptor(service, std::move(socket));
+  Sweeper sweeper(service);
+  LaneTime signalled = std::chrono::steady_clock::now();
   asio::signal_set signals(service.io, SIGINT, SIGTERM);
   asio::steady_timer farewell(service.io);
   const auto stop = [&] {
     if (service.stopping) return;
     service.stopping = true;
+    signalled = std::chrono::steady_clock::now();
     acceptor.close();
-    for (const auto& [number, weak] : service.talks)
+    sweeper.close();
+    const auto talks = service.talks;  // one that is slow may go meanwhile
+    for (const auto& [number, weak] : talks)
       if (const std::shared_ptr<Talk> talk = weak.lock())
         talk->say_goodbye("the server stops; everything that was acknowledged is kept");
     farewell.expires_after(kFarewell);
-    farewell.async_wait([&](error_code) { service.io.stop(); });
+    farewell.async_wait([&](error_code) {
+      service.places.cut_all();
+      service.io.stop();
+    });
   };
   signals.async_wait([&](error_code problem, int) {
     if (problem) return;
@@ -83,12 +112,13 @@ Result<void> run_until_signal(Service& service, tcp::acceptor&& socket, const Se
 
   const std::string host =
       options.address.find(':') != std::string::npos ? "[" + options.address + "]" : options.address;
-  const std::string query = options.token.empty() ? "" : "?token=" + options.token;
+  const std::string query = options.tells_token ? "?token=" + options.token : "";
   if (Result<void> said = listening(fmt::format("http://{}:{}/{}", host, service.rules.port, query)); !said)
-    return said;
+    return tl::unexpected(said.error());
   acceptor.next();
+  sweeper.next();
   service.io.run();
-  return {};
+  return signalled;
 }
 
 }  // namespace
@@ -135,9 +165,12 @@ Result<void> serve(const ServerOptions& options, Store store,
   service.rules.port = socket.local_endpoint().port();
   service.rules.any_host = address.is_unspecified();
 
-  Result<void> done = run_until_signal(service, std::move(socket), options, listening);
-  service.end();
-  return done;
+  LEKALO_TRY(const LaneTime signalled, run_until_signal(service, std::move(socket), options, listening));
+  if (service.end(signalled + kLastWork)) return {};
+  // Work that nobody waits for is still under way, and does not hear that it should stop. What was
+  // acknowledged is on the disk, so the process may end under it as it may be killed.
+  std::fflush(nullptr);
+  std::_Exit(0);
 }
 
 }  // namespace lekalo::server

@@ -15,6 +15,8 @@ struct ServerOptions {
   /// The token that requests must carry; empty when none is asked for.
   /// \pre not empty unless the address is loopback
   std::string token;
+  /// True when the address that is told holds the token, because nobody knows it yet.
+  bool tells_token = false;
 };
 
 /// Says whether an address is one of this machine alone. Fails with ErrorCode::usage for a text that is no

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <chrono>
-#include <future>
 #include <new>
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "time_left.hpp"
 
@@ -19,26 +19,23 @@ namespace asio = boost::asio;
 constexpr std::size_t kMostJobs = 4;
 constexpr auto kProgressEvery = std::chrono::milliseconds(200);
 
+std::size_t processors() { return std::max(1U, std::thread::hardware_concurrency()); }
+
 }  // namespace
 
 Service::Service(const ServerOptions& options, Store opened)
     : store(std::move(opened)),
-      pool(std::clamp<std::size_t>(std::thread::hardware_concurrency(), 2, 4)),
-      job_pool(kMostJobs),
-      rules{options.address, 0, false, options.token} {}
+      rules{options.address, 0, false, options.token},
+      quick(std::clamp<std::size_t>(processors(), 2, 4)),
+      slow(std::max<std::size_t>(processors(), 2) + 1),
+      jobs(kMostJobs) {}
 
 std::shared_ptr<OpenRoom> Service::take_room(LayoutId id) {
   const std::lock_guard lock(rooms_lock);
-  std::shared_ptr<OpenRoom>& room = rooms[id];
-  if (!room) room = std::make_shared<OpenRoom>(id, pool);
-  ++room->users;
+  std::erase_if(rooms, [](const auto& one) { return one.second.expired(); });
+  std::shared_ptr<OpenRoom> room = rooms[id].lock();
+  if (!room) rooms[id] = room = std::make_shared<OpenRoom>(id, quick, slow);
   return room;
-}
-
-void Service::give_back(const std::shared_ptr<OpenRoom>& room) {
-  const std::lock_guard lock(rooms_lock);
-  const auto at = rooms.find(room->id);
-  if (--room->users == 0 && at != rooms.end() && at->second == room) rooms.erase(at);
 }
 
 Result<void> Service::open(OpenRoom& room) {
@@ -48,23 +45,11 @@ Result<void> Service::open(OpenRoom& room) {
   return {};
 }
 
-Result<void> Service::change_room(LayoutId id, const std::function<Result<Outbound>(Room&)>& change) {
-  const std::shared_ptr<OpenRoom> room = take_room(id);
-  std::promise<Result<void>> promise;
-  asio::post(room->strand, [&] {
-    Result<void> done = open(*room);
-    if (done) {
-      Result<Outbound> out = change(*room->room);
-      if (out)
-        deliver(std::move(*out));
-      else
-        done = tl::unexpected(out.error());
-    }
-    promise.set_value(std::move(done));
-  });
-  Result<void> done = promise.get_future().get();
-  give_back(room);
-  return done;
+Result<void> Service::change_room(OpenRoom& room, const std::function<Result<Outbound>(Room&)>& change) {
+  LEKALO_CHECK(open(room));
+  LEKALO_TRY(Outbound out, change(*room.room));
+  deliver(std::move(out));
+  return {};
 }
 
 void Service::deliver(Outbound out) {
@@ -86,20 +71,21 @@ void Service::free_client(ClientNumber client) {
   });
 }
 
-void Service::run_jobs(const std::shared_ptr<OpenRoom>& room) {
+void Service::run_jobs(const std::shared_ptr<OpenRoom>& room, const std::string& owner) {
   for (JobStart& start : room->room->take_jobs())
-    asio::post(job_pool, [this, room, start = std::move(start)] {
-      Result<layout::Change> found = run_job(room, start);
-      asio::post(room->strand, [this, room, number = start.number, found = std::move(found)] {
+    jobs.post(owner, [this, room, owner, start = std::move(start)] {
+      Result<layout::Change> found = run_job(room, owner, start);
+      room->turns->post(owner, [this, room, owner, number = start.number, found = std::move(found)] {
         const ClientNumber client = room->room->client_of(number);
         deliver(room->room->job_ended(number, found));
         if (!room->room->is_busy(client)) free_client(client);
-        run_jobs(room);
+        run_jobs(room, owner);
       });
     });
 }
 
-Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, const JobStart& start) {
+Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, const std::string& owner,
+                                        const JobStart& start) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   auto next = begin + kProgressEvery;
@@ -107,35 +93,55 @@ Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, c
   JobContext context;
   context.run.stop = start.stop.get();
   context.run.progress = [&](const Progress& progress) {
-    if (ending) *start.stop = true;
     const auto now = Clock::now();
     if (now < next) return;
     next = now + kProgressEvery;
     time_left.take(std::chrono::duration<double>(now - begin).count(), progress.fraction);
     const double fraction = progress.fraction;
     const std::optional<double> left = time_left.seconds();
-    asio::post(room->strand, [this, room, number = start.number, fraction, left] {
+    room->turns->post(owner, [this, room, number = start.number, fraction, left] {
       deliver(room->room->job_progress(number, fraction, left));
     });
   };
   context.improved = [&](const layout::Change& change) {
-    asio::post(room->strand, [this, room, number = start.number, change] {
+    room->turns->post(owner, [this, room, number = start.number, change] {
       deliver(room->room->job_improved(number, change));
     });
   };
-  try {
-    return start.job(start.document, context);
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::environment, "not enough memory for this");
+  {
+    const std::lock_guard lock(jobs_lock);
+    job_stops.insert(start.stop.get());
   }
+  Result<layout::Change> found = [&]() -> Result<layout::Change> {
+    try {
+      return start.job(start.document, context);
+    } catch (const std::bad_alloc&) {
+      return failure(ErrorCode::environment, "not enough memory for this");
+    }
+  }();
+  const std::lock_guard lock(jobs_lock);
+  job_stops.erase(start.stop.get());
+  return found;
 }
 
-void Service::end() {
-  ending = true;
-  api_pool.join();
-  job_pool.join();
-  pool.join();
+void Service::stop_jobs() {
+  const std::lock_guard lock(jobs_lock);
+  for (std::atomic<bool>* const stop : job_stops) *stop = true;
+}
+
+bool Service::end(LaneTime until) {
+  stop_jobs();
+  const bool jobs_ended = jobs.end(until), slow_ended = slow.end(until), quick_ended = quick.end(until);
+  if (!jobs_ended || !slow_ended || !quick_ended) return false;
+  std::vector<std::shared_ptr<OpenRoom>> left;
+  {
+    const std::lock_guard lock(rooms_lock);
+    for (const auto& [id, room] : rooms)
+      if (std::shared_ptr<OpenRoom> one = room.lock()) left.push_back(std::move(one));
+  }
+  for (const std::shared_ptr<OpenRoom>& room : left) room->turns->clear();
   network.reset();
+  return true;
 }
 
 }  // namespace lekalo::server

@@ -1,6 +1,9 @@
 #include "talk.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <boost/asio/post.hpp>
+#include <chrono>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -16,6 +19,7 @@ namespace {
 
 namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
 
 constexpr auto kSilence = std::chrono::seconds(60);
 constexpr int kMostFaults = 20;
@@ -24,23 +28,27 @@ constexpr std::size_t kMostHeld = 64;
 /// One WebSocket connection.
 class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocketTalk> {
  public:
-  WebSocketTalk(Service& service, tcp::socket&& socket, LayoutId layout, std::string author)
+  WebSocketTalk(Service& service, tcp::socket&& socket, std::unique_ptr<Place> place, LayoutId layout,
+                std::string author)
       : service_(service),
         socket_(std::move(socket), {std::string(kSubprotocol), kLargestMessage, kHeaderTime, kSilence}),
         number_(++service.last_client),
         author_(std::move(author)),
-        room_(service.take_room(layout)) {
-    ++service_.connections;
-  }
+        room_(service.take_room(layout)),
+        place_(std::move(place)) {}
   ~WebSocketTalk() override {
-    --service_.connections;
-    service_.give_back(room_);
+    // A large layout takes a while to be freed.
+    service_.slow.post(place_->peer(), [room = std::move(room_)] {});
   }
   WebSocketTalk(const WebSocketTalk&) = delete;
   WebSocketTalk& operator=(const WebSocketTalk&) = delete;
 
   void run(const Upgrade& request) {
     service_.talks[number_] = weak_from_this();
+    place_->work();
+    place_->hand_over([weak = weak_from_this()] {
+      if (const std::shared_ptr<WebSocketTalk> self = weak.lock()) self->over();
+    });
     socket_.accept(request, [self = shared_from_this()](bool done) {
       if (!done) return self->over();
       self->in_room([](WebSocketTalk& talk) {
@@ -56,6 +64,9 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   }
   void hear(const Outgoing& message) override {
     outbox_.push(message);
+    if (busy_) place_->heard(Clock::now());  // who waits for a long command is not silent
+    // Who reads fast may have more than there is room for, because that lasts a moment.
+    if (!count_bytes() && place_->waits_longer_than(std::chrono::seconds(1), Clock::now())) return over();
     write();
   }
   void say_goodbye(const std::string& sentence) override {
@@ -77,15 +88,18 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     if (!closing_) closing_ = code;
     write();
   }
-  /// Runs something on the room's strand, while the connection lives on.
-  template <class Work>
-  void in_room(Work work) {
-    asio::post(room_->strand, [self = shared_from_this(), work = std::move(work)]() mutable {
-      work(*self);
-      // The connection may end with this; that belongs to the network's thread.
-      Service& service = self->service_;
-      asio::post(service.io, [self = std::move(self)] {});
-    });
+  /// Runs something in the room's turn, while the connection lives on.
+  template <class Act>
+  void in_room(Act act, Length length = Length::brief) {
+    room_->turns->post(
+        place_->peer(),
+        [self = shared_from_this(), act = std::move(act)]() mutable {
+          act(*self);
+          // The connection may end with this; that belongs to the network's thread.
+          Service& service = self->service_;
+          asio::post(service.io, [self = std::move(self)] {});
+        },
+        length);
   }
   Result<void> join_room() {
     LEKALO_CHECK(service_.open(*room_));
@@ -110,6 +124,7 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   }
   void take() {
     const WebSocket::Message taken = socket_.message();
+    place_->heard(Clock::now());
     if (closing_) return read();
     Result<ClientMessage> message = taken.is_text
                                         ? parse_client_message(taken.bytes)
@@ -119,23 +134,18 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
       if (++faults_ == kMostFaults) close_after(WebSocket::Close::policy);
       return read();
     }
-    // During a long command others wait, but for what ends it.
-    const bool waits =
-        !std::holds_alternative<StopMessage>(*message) && !std::holds_alternative<SelectMessage>(*message);
-    if (waits && (busy_ || working_ > 0 || !held_.empty()))
-      held_.push_back(std::move(*message));
-    else
-      give(std::move(*message));
+    held_bytes_ += taken.bytes.size();
+    held_.emplace_back(std::move(*message), taken.bytes.size());
     go_on();
   }
   void give(ClientMessage message) {
     ++working_;
-    in_room([said = std::move(message)](WebSocketTalk& talk) {
+    const auto act = [said = std::move(message)](WebSocketTalk& talk) {
       bool busy = false;
-      if (talk.room_->room) {
-        talk.service_.deliver(talk.room_->room->handle(talk.number_, said));
+      if (talk.room_->room && !talk.gone_) {
+        talk.service_.deliver(talk.room_->room->handle(talk.number_, said, talk.gone_));
         busy = talk.room_->room->is_busy(talk.number_);
-        talk.service_.run_jobs(talk.room_);
+        talk.service_.run_jobs(talk.room_, talk.place_->peer());
       }
       asio::post(talk.service_.io, [self = talk.shared_from_this(), busy] {
         --self->working_;
@@ -143,19 +153,31 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
         self->busy_ = self->busy_ || busy;
         self->go_on();
       });
-    });
+    };
+    in_room(act, Length::as_before);
   }
-  /// The next message is read when this one is answered: who asks faster than he is answered waits.
+  /// A message is answered before the next is given to the room. Others are read meanwhile, because only who
+  /// reads hears that the client hangs up; who asks much faster than he is answered waits.
   void go_on() {
-    if (working_ > 0 || over_) return;
-    if (!busy_ && !held_.empty()) {
-      ClientMessage next = std::move(held_.front());
-      held_.pop_front();
-      return give(std::move(next));
+    if (over_) return;
+    // During a long command others wait, but for what ends it.
+    const auto passes = [this](const auto& one) {
+      return !busy_ || std::holds_alternative<StopMessage>(one.first) ||
+             std::holds_alternative<SelectMessage>(one.first);
+    };
+    const auto next = std::find_if(held_.begin(), held_.end(), passes);
+    if (working_ == 0 && next != held_.end()) {
+      ClientMessage message = std::move(next->first);
+      held_bytes_ -= next->second;
+      held_.erase(next);
+      give(std::move(message));
     }
-    if (!reading_ && held_.size() < kMostHeld) read();
+    if (!reading_ && held_.size() < kMostHeld && held_bytes_ < kLargestMessage) read();
   }
 
+  bool count_bytes() {
+    return place_->hold(outbox_.bytes() + (writing_ ? writing_->size() : 0), Clock::now());
+  }
   void write() {
     if (writing_ || over_) return;
     if (outbox_.empty()) {
@@ -171,8 +193,11 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     }
     if (closed_) return;
     writing_ = outbox_.pop();
+    place_->wait(Clock::now(), kPace * static_cast<int>(1 + writing_->size() / kPaceBytes));
     socket_.write(*writing_, [self = shared_from_this()](bool done) {
       self->writing_.reset();
+      self->place_->work();
+      static_cast<void>(self->count_bytes());
       if (!done) return self->over();
       self->write();
     });
@@ -180,7 +205,7 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
 
   void over() {
     if (over_) return;
-    over_ = true;
+    over_ = gone_ = true;
     service_.talks.erase(number_);
     socket_.cut();
     in_room([](WebSocketTalk& talk) {
@@ -196,16 +221,22 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   Outbox outbox_;
   std::shared_ptr<const std::string> writing_;
   std::optional<WebSocket::Close> closing_;
-  std::deque<ClientMessage> held_;  ///< wait for the end of a long command
-  int faults_ = 0, working_ = 0;    ///< working: messages the room has
+  std::unique_ptr<Place> place_;
+  /// Messages, with their bytes, that wait for their turn.
+  std::deque<std::pair<ClientMessage, std::size_t>> held_;
+  std::size_t held_bytes_ = 0;
+  int faults_ = 0, working_ = 0;  ///< working: messages the room has
   bool reading_ = false, busy_ = false, closed_ = false, over_ = false;
+  /// Says to the room's turns that nobody waits for what comes.
+  std::atomic<bool> gone_ = false;
 };
 
 }  // namespace
 
-void start_talk(Service& service, tcp::socket&& socket, LayoutId layout, std::string author,
-                const Upgrade& request) {
-  std::make_shared<WebSocketTalk>(service, std::move(socket), layout, std::move(author))->run(request);
+void start_talk(Service& service, tcp::socket&& socket, std::unique_ptr<Place> place, LayoutId layout,
+                std::string author, const Upgrade& request) {
+  std::make_shared<WebSocketTalk>(service, std::move(socket), std::move(place), layout, std::move(author))
+      ->run(request);
 }
 
 }  // namespace lekalo::server

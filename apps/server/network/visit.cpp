@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -17,8 +19,10 @@
 #include <optional>
 #include <utility>
 
+#include "admission.hpp"
 #include "api.hpp"
 #include "lekalo/base/plain_text.hpp"
+#include "lekalo/base/stop.hpp"
 #include "messages.hpp"
 #include "page.hpp"
 #include "talk.hpp"
@@ -33,39 +37,59 @@ namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
 using Request = http::request<http::string_body>;
 using Reply = http::response<http::string_body>;
 
 constexpr std::uint32_t kLargestHeader = 16 * 1024;
 constexpr std::uint64_t kLargestUpload = std::uint64_t{64} << 20;
-constexpr auto kBodyTime = seconds(120), kFarewell = seconds(1);
+constexpr auto kFarewell = seconds(1);
+
+/// Who counts as one: an address, and of those of IPv6 the first half, which one household has to itself.
+std::string peer_of(const asio::ip::address& address) {
+  if (!address.is_v6()) return address.to_string();
+  const asio::ip::address_v6 six = address.to_v6();
+  if (six.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, six).to_string();
+  asio::ip::address_v6::bytes_type bytes = six.to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), static_cast<unsigned char>(0));
+  return asio::ip::make_address_v6(bytes).to_string();
+}
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
 /// One HTTP connection, until it ends or becomes a Talk.
 class Visit : public std::enable_shared_from_this<Visit> {
  public:
-  Visit(Service& service, tcp::socket&& socket) : service_(service), socket_(std::move(socket)) {
-    ++service_.connections;
-  }
-  ~Visit() { --service_.connections; }
+  Visit(Service& service, tcp::socket&& socket) : service_(service), socket_(std::move(socket)) {}
   Visit(const Visit&) = delete;
   Visit& operator=(const Visit&) = delete;
 
+  /// Serves the connection if there is a place for it; else it ends.
+  void begin() {
+    error_code ignored;
+    const std::string peer = peer_of(socket_.socket().remote_endpoint(ignored).address());
+    place_ = service_.places.give(
+        peer,
+        [weak = weak_from_this()] {
+          if (const std::shared_ptr<Visit> self = weak.lock()) self->close();
+        },
+        Clock::now());
+    if (place_) read();
+  }
+
+ private:
   void read() {
     parser_.emplace();
     parser_->header_limit(kLargestHeader);
     // This limit holds until the header says what the body is for.
     parser_->body_limit(kLargestUpload);
-    socket_.expires_after(kHeaderTime);
+    place_->wait(Clock::now(), kHeaderTime);
     http::async_read_header(socket_, incoming_, *parser_,
                             [self = shared_from_this()](error_code error, std::size_t) {
                               if (error) return self->broken(error);
                               self->take_header();
                             });
   }
-
- private:
   [[nodiscard]] std::string_view field(http::field name) const { return view(parser_->get()[name]); }
 
   void take_header() {
@@ -73,18 +97,10 @@ class Visit : public std::enable_shared_from_this<Visit> {
     version_ = request.version();
     keep_alive_ = request.keep_alive() && !service_.stopping;
     head_ = request.method() == http::verb::head;
-    target_ = parse_target(view(request.target()));
-    if (!target_) return refuse(400, "the target of the request is not understood");
-    const std::string* const token = target_->find("token");
-    // Each of these headers may stand only once, because nobody could tell which of two counts.
-    for (const http::field once : {http::field::host, http::field::origin, http::field::cookie})
-      if (request.count(once) > 1) return refuse(400, "a header that may stand once stands twice");
-    const std::string why =
-        refusal(service_.rules, {field(http::field::host), field(http::field::origin),
-                                 field(http::field::authorization), field(http::field::cookie),
-                                 token != nullptr ? std::string_view(*token) : std::string_view()});
-    if (!why.empty()) return refuse(403, why);
-    new_token_ = token != nullptr && !service_.rules.token.empty();
+    tl::expected<Target, Declined> target = admit(service_.rules, request);
+    if (!target) return decline(target.error());
+    target_ = std::move(*target);
+    new_token_ = target_->find("token") != nullptr && !service_.rules.token.empty();
     if (target_->path == "/ws") return upgrade();
     const std::size_t most = most_body(view(request.method_string()), target_->path);
     parser_->body_limit(most);
@@ -101,20 +117,38 @@ class Visit : public std::enable_shared_from_this<Visit> {
     reply_->prepare_payload();
     write_reply([this] { read_body(); });
   }
-  /// The compiler builds the writing of a reply once, here.
+  /// Writes the reply piece by piece, because who takes none of it for a while loses the place.
   void write_reply(std::function<void()> then) {
-    http::async_write(socket_, *reply_,
-                      [self = shared_from_this(), then = std::move(then)](error_code error, std::size_t) {
-                        if (!error) then();
-                      });
+    serializer_.emplace(*reply_);
+    place_->wait(Clock::now(), kPace);
+    write_more(std::move(then));
+  }
+  void write_more(std::function<void()> then) {
+    http::async_write_some(
+        socket_, *serializer_,
+        [self = shared_from_this(), then = std::move(then)](error_code error, std::size_t count) mutable {
+          if (error) return;
+          self->place_->moved(count, Clock::now());
+          if (!self->serializer_->is_done()) return self->write_more(std::move(then));
+          self->serializer_.reset();
+          then();
+        });
   }
   void read_body() {
-    socket_.expires_after(kBodyTime);
-    http::async_read(socket_, incoming_, *parser_,
-                     [self = shared_from_this()](error_code error, std::size_t) {
-                       if (error) return self->broken(error);
-                       self->answer();
-                     });
+    place_->wait(Clock::now(), kPace);
+    read_more();
+  }
+  void read_more() {
+    if (parser_->is_done()) return answer();
+    http::async_read_some(
+        socket_, incoming_, *parser_, [self = shared_from_this()](error_code error, std::size_t count) {
+          if (error) return self->broken(error);
+          const Places::Time now = Clock::now();
+          self->place_->moved(count, now);
+          if (!self->place_->hold(self->parser_->get().body().size(), now))
+            return self->refuse(503, "too many files are on their way to the server; try again in a minute");
+          self->read_more();
+        });
   }
   void broken(error_code error) {
     if (error == http::error::body_limit) return refuse(413, "the request is too large");
@@ -131,6 +165,26 @@ class Visit : public std::enable_shared_from_this<Visit> {
     send(api_error(status, sentence));
   }
 
+  /// Refuses a request; a wrong token later and later where there are many of one peer.
+  void decline(const Declined& why) {
+    if (!why.wrong_token) return refuse(why.status, why.sentence);
+    const Places::Time now = Clock::now();
+    const std::optional<double> wait =
+        service_.guesses.wrong(place_->peer(), std::chrono::duration<double>(now.time_since_epoch()).count());
+    if (!wait) return close();
+    if (*wait == 0) return refuse(why.status, why.sentence);
+    place_->wait(now, kHeaderTime);
+    pause_.expires_after(std::chrono::milliseconds(static_cast<int>(*wait * 1000)));
+    pause_.async_wait([self = shared_from_this()](error_code) {
+      self->refuse(429, "too many wrong tokens came from your address; wait before the next");
+    });
+  }
+  void close() {
+    given_up_ = true;
+    error_code ignored;
+    socket_.socket().close(ignored);
+  }
+
   void upgrade() {
     const Request& request = parser_->get();
     if (!websocket::is_upgrade(request)) return refuse(400, "/ws is a WebSocket");
@@ -145,9 +199,9 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (author != nullptr && (author->size() > kLongestAuthor || !is_plain_text(*author)))
       return refuse(400, "an author has at most 64 bytes of UTF-8 without control characters");
     if (service_.stopping) return refuse(503, "the server is about to stop");
-    // The WebSocket has time-outs of its own.
-    socket_.expires_never();
-    server::start_talk(service_, socket_.release_socket(), static_cast<LayoutId>(*id),
+    if (!place_->stay(Clock::now()))
+      return refuse(503, "too many pages are open; close some, or try again later");
+    server::start_talk(service_, socket_.release_socket(), std::move(place_), static_cast<LayoutId>(*id),
                        author != nullptr ? *author : std::string(), request);
   }
 
@@ -155,24 +209,47 @@ class Visit : public std::enable_shared_from_this<Visit> {
     Request request = parser_->release();
     const std::string method(view(request.method_string()));
     if (!target_->path.starts_with("/api")) return send(answer_page(method, target_->path));
-    // The answer may take long, so it is not made on the network's thread.
+    // The answer may take a while, so it is not made on the network's thread.
     watch();
-    asio::post(service_.api_pool, [self = shared_from_this(), method,
-                                   body = std::move(request.body())]() mutable {
-      Service& service = self->service_;
-      const auto change_room = [&service](LayoutId id, const std::function<Result<Outbound>(Room&)>& change) {
-        return service.change_room(id, change);
-      };
-      auto answer = std::make_shared<ApiAnswer>();
-      try {
-        *answer = answer_api(service.store, change_room, method, *self->target_, body, self->given_up_);
-      } catch (const std::bad_alloc&) {
-        *answer = api_error(503, "not enough memory for this");
-      }
+    place_->work();
+    const bool is_long = takes_long(method, target_->path, request.body().size());
+    const std::optional<LayoutId> changed = layout_changed_by(method, target_->path);
+    const std::shared_ptr<OpenRoom> room = changed ? service_.take_room(*changed) : nullptr;
+    Work work = [self = shared_from_this(), method, room, is_long,
+                 body = std::make_shared<const std::string>(std::move(request.body()))]() mutable {
+      if (is_long && self->given_up_)
+        self->answer_ = api_error(503, "nobody waited for this any more when its turn came");
+      else
+        self->make_answer(method, *body, room.get());
       // This thread lets go of the visit here, because whatever a connection does when it ends belongs to the
       // network's thread.
-      asio::post(service.io, [self = std::move(self), answer] { self->send(std::move(*answer)); });
-    });
+      Service& service = self->service_;
+      asio::post(service.io, [self = std::move(self)] { self->send(std::move(self->answer_)); });
+    };
+    if (room)
+      room->turns->post(place_->peer(), std::move(work), is_long ? Length::lengthy : Length::brief);
+    else if (is_long)
+      service_.slow.post(place_->peer(), std::move(work));
+    else
+      service_.quick.post(std::move(work));
+  }
+  /// Makes the answer. It is called in the turn of the room, where the request changes one.
+  void make_answer(const std::string& method, const std::string& body, OpenRoom* room) {
+    const auto change_room = [&](const std::function<Result<Outbound>(Room&)>& change) {
+      return service_.change_room(*room, change);
+    };
+    const auto answer = [&] {
+      return answer_api(service_.store, change_room, method, *target_, body, given_up_);
+    };
+    RunControl control;
+    control.stop = &given_up_;
+    try {
+      // A change of a room that has begun is done to the end.
+      const tl::expected<ApiAnswer, Stopped> made = room != nullptr ? answer() : stoppable(control, answer);
+      answer_ = made ? *made : api_error(503, made.error().what());
+    } catch (const std::bad_alloc&) {
+      answer_ = api_error(503, "not enough memory for this");
+    }
   }
 
   /// Notes when the client goes away before it is answered, so that the work for it can stop.
@@ -187,6 +264,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
   }
 
   void send(ApiAnswer answer) {
+    if (!place_->hold(answer.body.size(), Clock::now()))
+      answer = api_error(503, "too many files are on their way from the server; try again in a minute");
     reply_.emplace(static_cast<http::status>(answer.status), version_);
     reply_->set(http::field::content_type, answer.type);
     reply_->set("Content-Security-Policy",
@@ -211,8 +290,9 @@ class Visit : public std::enable_shared_from_this<Visit> {
     reply_->body() = std::move(answer.body);
     reply_->prepare_payload();
     if (head_) reply_->body().clear();
-    socket_.expires_after(kBodyTime);
     write_reply([this] {
+      reply_.reset();
+      static_cast<void>(place_->hold(0, Clock::now()));
       if (keep_alive_) return read();
       hang_up();
     });
@@ -222,7 +302,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
   void hang_up() {
     error_code ignored;
     socket_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    socket_.expires_after(kFarewell);
+    place_->wait(Clock::now(), kFarewell);
     rest_ = std::make_unique<std::array<char, 65536>>();
     swallow();
   }
@@ -237,21 +317,25 @@ class Visit : public std::enable_shared_from_this<Visit> {
 
   Service& service_;
   beast::tcp_stream socket_;
+  asio::steady_timer pause_{service_.io};
+  std::unique_ptr<Place> place_;
   beast::flat_buffer incoming_{kLargestHeader + 65536};
   std::optional<http::request_parser<http::string_body>> parser_;
   std::optional<Target> target_;
   std::optional<Reply> reply_;
+  std::optional<http::response_serializer<http::string_body>> serializer_;
+  ApiAnswer answer_;
   std::unique_ptr<std::array<char, 65536>> rest_;
   std::size_t swallowed_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = false, head_ = false, new_token_ = false;
-  std::atomic<bool> given_up_ = false;
+  std::atomic<bool> given_up_ = false;  ///< nobody waits for the answer any more
 };
 
 }  // namespace
 
 void start_visit(Service& service, tcp::socket&& socket) {
-  std::make_shared<Visit>(service, std::move(socket))->read();
+  std::make_shared<Visit>(service, std::move(socket))->begin();
 }
 
 }  // namespace lekalo::server

@@ -5,6 +5,8 @@
 namespace lekalo::server {
 namespace {
 
+constexpr const char* kDamagedPages = "the file is no store, or is damaged";
+
 tl::unexpected<Error> trouble(sqlite3* database) {
   const int code = sqlite3_errcode(database);
   std::string reason;
@@ -24,7 +26,7 @@ tl::unexpected<Error> trouble(sqlite3* database) {
       break;
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      reason = "the file is no store, or is damaged";
+      reason = kDamagedPages;
       break;
     case SQLITE_CANTOPEN:
       reason = "the file cannot be opened";
@@ -36,6 +38,8 @@ tl::unexpected<Error> trouble(sqlite3* database) {
 }
 
 }  // namespace
+
+bool tells_damaged_pages(const Error& error) { return error.message.starts_with(kDamagedPages); }
 
 Statement& Statement::bind(int index, std::int64_t value) {
   sqlite3_bind_int64(raw_.get(), index, value);
@@ -103,6 +107,23 @@ Result<Database> Database::open(const std::string& path) {
   return database;
 }
 
+Result<void> Database::copy_to(const Database& target) const {
+  sqlite3_backup* const copy = sqlite3_backup_init(target.raw_.get(), "main", raw_.get(), "main");
+  if (copy == nullptr) return trouble(target.raw_.get());
+  sqlite3_backup_step(copy, -1);
+  if (sqlite3_backup_finish(copy) != SQLITE_OK) return trouble(target.raw_.get());
+  return {};
+}
+
+void Database::keep_log() const noexcept {
+  sqlite3_db_config(raw_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+}
+
+bool Database::lacked_room() const {
+  const int code = sqlite3_extended_errcode(raw_.get());
+  return code == SQLITE_FULL || code == SQLITE_IOERR_WRITE;
+}
+
 Result<Statement> Database::prepare(std::string_view sql) const {
   sqlite3_stmt* raw = nullptr;
   if (sqlite3_prepare_v2(raw_.get(), sql.data(), static_cast<int>(sql.size()), &raw, nullptr) != SQLITE_OK)
@@ -128,9 +149,7 @@ Result<Transaction> Transaction::begin(const Database& database) {
 
 Transaction::~Transaction() {
   // A failed statement may have rolled back by itself.
-  if (database_ != nullptr && database_->in_transaction()) {
-    if (Result<void> back = database_->run("ROLLBACK"); !back) return;  // nothing is left to try
-  }
+  if (database_ != nullptr && database_->in_transaction()) database_->roll_back();
 }
 
 Result<void> Transaction::commit() { return database_->run("COMMIT"); }

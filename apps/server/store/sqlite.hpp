@@ -13,6 +13,9 @@ namespace lekalo::server {
 
 /// A thin layer over the C interface of SQLite: handles close themselves, and failures are sentences.
 
+/// Says whether a failure is that of a file whose pages are damaged.
+[[nodiscard]] bool tells_damaged_pages(const Error& error);
+
 class Statement {
  public:
   explicit Statement(sqlite3_stmt* raw) : raw_(raw) {}
@@ -39,8 +42,15 @@ class Statement {
 
 class Database {
  public:
-  /// Opens a file for reading and writing. Fails with ErrorCode::environment.
+  /// Opens a file for reading and writing; one that may not be written, for reading. Fails with
+  /// ErrorCode::environment.
   [[nodiscard]] static Result<Database> open(const std::string& path);
+  /// Returns an empty one that is no file.
+  [[nodiscard]] static Result<Database> in_memory() { return open(":memory:"); }
+  /// Copies every page into another one, whose content is lost.
+  [[nodiscard]] Result<void> copy_to(const Database& target) const;
+  /// Leaves the log as it is when this is closed.
+  void keep_log() const noexcept;
   [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
   /// Runs one or more statements without parameters. Their rows are ignored.
   [[nodiscard]] Result<void> run(const char* sql) const;
@@ -48,6 +58,10 @@ class Database {
   [[nodiscard]] Result<std::int64_t> number(std::string_view sql) const;
   [[nodiscard]] std::int64_t last_row() const { return sqlite3_last_insert_rowid(raw_.get()); }
   [[nodiscard]] std::int64_t changed_rows() const { return sqlite3_changes(raw_.get()); }
+  /// Undoes an open transaction. It says nothing where that fails, and needs no memory to say it.
+  void roll_back() const noexcept { sqlite3_exec(raw_.get(), "ROLLBACK", nullptr, nullptr, nullptr); }
+  /// Says whether the last failure was for want of room on the disk.
+  [[nodiscard]] bool lacked_room() const;
   [[nodiscard]] bool in_transaction() const { return sqlite3_get_autocommit(raw_.get()) == 0; }
 
  private:

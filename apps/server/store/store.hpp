@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/layout/command.hpp"
 #include "lekalo/layout/document.hpp"
+#include "outside_revision.hpp"
 #include "sqlite.hpp"
 
 namespace lekalo::server {
@@ -19,9 +21,11 @@ using Revision = std::int64_t;
 
 /// After so many changes a layout is written whole again, so that opening it reads at most so many changes.
 inline constexpr Revision kSnapshotEvery = 256;
-/// The format that is written. Format 1 had no changes of features and no photographs; a store of that format
-/// is converted when it is opened.
-inline constexpr std::int64_t kStoreFormat = 2;
+/// The format that is written. Formats 1 (without photographs) and 2 had no digests; a store of those formats
+/// is brought forward when it is opened, after a copy beside it (PATH.format-2).
+inline constexpr std::int64_t kStoreFormat = 3;
+/// This much is kept free beside a store (PATH-reserve), so that layouts can be removed from a full disk.
+inline constexpr std::int64_t kReserveBytes = std::int64_t{4} << 20;
 
 enum class ChangeKind : std::uint8_t { command, undo, redo, restore };
 [[nodiscard]] const char* name_of(ChangeKind kind) noexcept;
@@ -44,6 +48,8 @@ struct LayoutSummary {
   Revision revision = 0;
   std::int64_t placements = 0;
   std::string changed;  ///< UTC, ISO 8601
+  /// True where this summary is not as it was written; load() says more.
+  bool damaged = false;
 };
 
 struct HistoryEntry {
@@ -54,6 +60,8 @@ struct HistoryEntry {
   Revision target = 0;
   /// True for a command that is undone now.
   bool undone = false;
+  /// True for a change that is missing or not as it was written. Nothing else of it is known then.
+  bool damaged = false;
 };
 
 struct StoredLayout {
@@ -75,16 +83,40 @@ struct Photo {
   PhotoScale scale;
 };
 
+enum class StoreUse : std::uint8_t {
+  serve,   ///< the store is brought forward where it is old, and its revision is kept outside it
+  inspect  ///< nothing of the store or beside it is changed
+};
+
+/// The findings of a check of everything in a store.
+struct StoreCheck {
+  std::int64_t layouts = 0, revisions = 0, photos = 0;
+  std::vector<std::string> damage;  ///< sentences
+  /// False where the file itself is damaged, so that a copy of its pages would be too.
+  bool readable = true;
+};
+
 /// The layouts of a server in one SQLite file: docs/design/server.md. Each function that changes something is
 /// one transaction. It is on the disk when the function returns (WAL, synchronous=FULL), and after a failure
 /// nothing of it counts. Functions fail with ErrorCode::usage for layouts and revisions that are not there,
-/// and with ErrorCode::environment for the disk. They may be called from several threads, which take turns.
+/// and with ErrorCode::environment for the disk and for damage: what a row says is given back only where it
+/// fits its digest, and the sentence about damage names the newest state that is whole. They may be called
+/// from several threads, which take turns.
 class Store {
  public:
-  /// Opens the file, or makes one that its owner alone can read. Fails with ErrorCode::environment for a file
-  /// that cannot be read and written, is used by another server, is damaged, is another program's, or was
-  /// written by a newer format.
-  [[nodiscard]] static Result<Store> open(const std::string& path);
+  /// Opens the file. To serve, one that is not there is made, and its owner alone can read it. Fails with
+  /// ErrorCode::environment for a file that cannot be read and written, is used by another server, is damaged
+  /// as a whole, is another program's, was written by a newer format, or holds less than was acknowledged;
+  /// with ErrorCode::bad_input for a file to inspect that is not there.
+  [[nodiscard]] static Result<Store> open(const std::string& path, StoreUse use = StoreUse::serve);
+  /// Returns sentences about what was found at opening: damage, and what was brought forward.
+  [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }
+
+  /// Reads everything and holds it against its digests. Cost: O(bytes of the store), and that of carrying out
+  /// every change.
+  [[nodiscard]] Result<StoreCheck> check();
+  /// Writes the store into a new file, complete without a log. Fails with ErrorCode::environment.
+  [[nodiscard]] Result<void> write_copy(const std::string& path);
 
   [[nodiscard]] Result<LayoutId> create(const std::string& name, const layout::Document& document,
                                         const std::string& origin = {});
@@ -93,9 +125,15 @@ class Store {
   [[nodiscard]] Result<std::optional<LayoutId>> find_origin(const std::string& origin);
   [[nodiscard]] Result<std::vector<LayoutSummary>> list();
   [[nodiscard]] Result<StoredLayout> load(LayoutId id);
+  /// Returns the newest state that is as it was written. Fails with ErrorCode::environment where none is.
+  [[nodiscard]] Result<StoredLayout> newest_whole(LayoutId id);
   [[nodiscard]] Result<layout::Document> state_at(LayoutId id, Revision revision);
-  [[nodiscard]] Result<LayoutId> copy(LayoutId id, const std::string& name);
+  /// Makes a layout of the newest state of another one, or of that of a revision.
+  [[nodiscard]] Result<LayoutId> copy(LayoutId id, const std::string& name,
+                                      std::optional<Revision> revision = std::nullopt);
   [[nodiscard]] Result<void> rename(LayoutId id, const std::string& name);
+  /// Removes a layout, damaged or not, and gives its room on the disk back. It works on a full disk too, as
+  /// long as the reserve is there.
   [[nodiscard]] Result<void> remove(LayoutId id);
 
   /// Adds the next revision. \param after  the document with the change carried out
@@ -115,15 +153,42 @@ class Store {
   [[nodiscard]] Result<void> remove_photo(LayoutId id, const std::string& stock);
 
  private:
-  Store(std::string path, Database database) : path_(std::move(path)), database_(std::move(database)) {}
+  /// A layout carried as far as it is whole.
+  struct Replay {
+    StoredLayout layout;
+    bool any = false;     ///< false where no state is whole; the document is empty then
+    std::string problem;  ///< why it did not come to the revision that was wanted; empty where it did
+  };
+
+  Store(std::string path, StoreUse use, Database database)
+      : path_(std::move(path)), use_(use), database_(std::move(database)) {}
   [[nodiscard]] Result<void> prepare_file();
-  [[nodiscard]] Result<StoredLayout> load_locked(LayoutId id, std::optional<Revision> revision);
+  [[nodiscard]] Result<void> bring_forward(std::int64_t format);
+  [[nodiscard]] Result<void> check_schema() const;
+  [[nodiscard]] Result<void> check_revision();
+  [[nodiscard]] Result<void> note_damage();
+  /// Runs the work as one transaction, and keeps its number outside when it is on the disk.
+  [[nodiscard]] Result<void> change(const std::function<Result<void>()>& work);
+  /// These two let others have their turn while they look at what they have read.
+  [[nodiscard]] Result<Replay> replay(LayoutId id, std::optional<Revision> revision,
+                                      std::unique_lock<std::mutex>& turn);
+  [[nodiscard]] Result<StoredLayout> load_in_turn(LayoutId id, std::optional<Revision> revision,
+                                                  std::unique_lock<std::mutex>& turn);
+  /// \param text  the document as it is stored
   [[nodiscard]] Result<LayoutId> create_rows(const std::string& name, const layout::Document& document,
-                                             const std::string& origin);
-  [[nodiscard]] Result<void> one_row(LayoutId id, Result<void> done);
+                                             const std::string& text, const std::string& origin);
+  [[nodiscard]] Result<std::string> image_locked(LayoutId id, const std::string& stock) const;
+  [[nodiscard]] Result<void> copy_photos(LayoutId from, LayoutId to);
+  [[nodiscard]] Result<void> check_layout(LayoutId id, StoreCheck& check, std::unique_lock<std::mutex>& turn);
+  [[nodiscard]] Result<void> check_photos(LayoutId id, StoreCheck& check) const;
+  void make_reserve() const noexcept;
 
   std::string path_;
+  StoreUse use_;
   Database database_;
+  OutsideRevision outside_;
+  OutsideRevision::Kept kept_;
+  std::vector<std::string> notices_;
   /// The mutex is behind a pointer so that a store can be moved.
   std::unique_ptr<std::mutex> turn_ = std::make_unique<std::mutex>();
 };

@@ -30,7 +30,7 @@ export const CHOICES: Record<ChosenForm, { name: string; sheetEach: boolean; fie
     sheetEach: true,
     fields: [
       { name: 'process', of: ['laser', 'plasma', 'router'] },
-      { name: 'post', of: ['linuxcnc', 'grbl', 'fanuc'] },
+      { name: 'post', of: ['linuxcnc', 'grbl', 'fanuc', 'haas'] },
       UNIT,
       { name: 'kerf', required: true },
       { name: 'feed', required: true },
