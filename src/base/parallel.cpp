@@ -1,5 +1,7 @@
 #include "lekalo/base/parallel.hpp"
 
+#include "lekalo/base/stop.hpp"
+
 #ifdef LEKALO_WITH_THREADS
 #include <algorithm>
 #include <atomic>
@@ -35,7 +37,10 @@ void share_out(std::size_t count, unsigned threads, const std::function<void(std
   others.reserve(workers - 1);
   try {
     while (others.size() + 1 < workers)
-      others.emplace_back([&work, &next, worker = others.size() + 1] { work(worker, next++); });
+      others.emplace_back([&work, &next, worker = others.size() + 1, caller = Listening::now()] {
+        const Listening as_the_caller(caller);
+        work(worker, next++);
+      });
   } catch (const std::exception&) {
     // Those that run take the rest.
   }

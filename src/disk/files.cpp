@@ -73,12 +73,13 @@ std::string temporary_name(const std::string& target) {
   return fmt::format("{}/.lekalo-{}-{}.tmp", folder_of(target), ::getpid(), counter++);
 }
 
-/// Creates a new file beside `target`; -1 with errno on failure.
+/// Creates a new file beside `target` and says its name; -1 with errno on failure.
 int create_beside(const std::string& target, std::string& name) {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
-    name = temporary_name(target);
-    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    std::string free_name = temporary_name(target);
+    const int file = ::open(free_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) name = std::move(free_name);  // which cannot fail: a file whose name is lost would stay
     if (file >= 0 || errno != EEXIST) return file;
   }
   return -1;
@@ -168,14 +169,14 @@ Result<void> AtomicFiles::add(const std::string& path, std::string_view bytes) {
     if (same) return failure(ErrorCode::usage, fmt::format("{}: named for two outputs", path));
   }
 
-  std::string temporary;
+  // The place for its name comes before the file: what is made is removed even when memory ends.
+  pending_.push_back({{}, target, {}, replaces});
+  std::string& temporary = pending_.back().temporary;
   Descriptor file(create_beside(target, temporary));
-  if (file.number() < 0) return trouble(ErrorCode::environment, path, "cannot be written");
-  pending_.push_back({temporary, target, {}, replaces});
-  if (!write_all(file.number(), bytes) || (replaces && !keep_attributes(file.number(), old)) ||
-      ::fsync(file.number()) != 0 || !file.close()) {
-    const auto why = trouble(ErrorCode::environment, path, "cannot be written");
-    ::unlink(temporary.c_str());
+  if (file.number() < 0 || !write_all(file.number(), bytes) ||
+      (replaces && !keep_attributes(file.number(), old)) || ::fsync(file.number()) != 0 || !file.close()) {
+    auto why = trouble(ErrorCode::environment, path, "cannot be written");
+    if (!temporary.empty()) ::unlink(temporary.c_str());
     pending_.pop_back();
     return why;
   }
@@ -186,15 +187,17 @@ Result<void> AtomicFiles::commit() {
   // A second name for each file that goes, so that a rename that fails halfway can be undone. File systems
   // without hard links go without: one file is atomic there, several are not.
   for (Pending& file : pending_) {
-    const std::string backup = temporary_name(file.target);
-    if (::link(file.target.c_str(), backup.c_str()) == 0) file.backup = backup;
+    std::string backup = temporary_name(file.target);
+    if (::link(file.target.c_str(), backup.c_str()) == 0) file.backup = std::move(backup);
   }
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     if (::rename(pending_[i].temporary.c_str(), pending_[i].target.c_str()) == 0) continue;
-    const auto why = trouble(ErrorCode::environment, pending_[i].target, "cannot be written");
+    const int why = errno;
     undo(i);
+    const std::string target = std::move(pending_[i].target);
     discard();
-    return why;
+    errno = why;
+    return trouble(ErrorCode::environment, target, "cannot be written");
   }
   for (Pending& file : pending_) {
     file.temporary.clear();

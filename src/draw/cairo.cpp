@@ -1,6 +1,9 @@
 #include "cairo.hpp"
 
+#include <new>
+
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
 
@@ -26,6 +29,7 @@ class Painter {
     paint(item.paint);
   }
   void operator()(const TextItem& item) const {
+    ask(64);
     const std::string text = io::clean_text(item.text);
     cairo_select_font_face(canvas_, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            item.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -51,6 +55,7 @@ class Painter {
   void trace(const std::vector<geom::Ring>& lines, bool closed) const {
     cairo_new_path(canvas_);
     for (const geom::Ring& line : lines) {
+      ask(16 + line.size());
       cairo_new_sub_path(canvas_);
       for (const geom::Point p : line) cairo_line_to(canvas_, p.x, p.y);
       if (closed) cairo_close_path(canvas_);
@@ -83,7 +88,11 @@ void paint_scene(const Scene& scene, cairo_t* canvas) {
 }
 
 cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count) {
-  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  try {
+    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  } catch (const std::bad_alloc&) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
   return CAIRO_STATUS_SUCCESS;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
@@ -79,6 +80,7 @@ class Places {
   }
   static bool crosses(const Ring& ring, const Rect& box) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
+      ask();
       if (clipped({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]}, box)) return true;
     }
     return false;

@@ -11,6 +11,7 @@
 
 #include "colour.hpp"
 #include "layout_tables.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
@@ -49,6 +50,7 @@ constexpr Colour kPartLine{52, 62, 75}, kBad{200, 0, 27}, kDefectFill{120, 40, 4
 std::vector<Ring> rings_of(const geom::GridRegion& outline) {
   std::vector<Ring> rings;
   for (std::size_t l = 0; l < outline.loops(); ++l) {
+    ask();
     Ring& ring = rings.emplace_back();
     for (std::uint32_t i = outline.loop_starts[l]; i < outline.loop_starts[l + 1]; ++i)
       ring.push_back(geom::mm_from_grid(outline.points[i]));
@@ -119,6 +121,7 @@ class Composer {
       bool any = false;
       if (placed != on_sheet_.end())
         for (const Placement* placement : placed->second) {
+          ask();
           const geom::GridBox one = bounds(placed_outline(document_.parts[placement->part], *placement));
           const geom::Box mm{geom::mm_from_grid(one.low), geom::mm_from_grid(one.high)};
           parts = any ? joined(parts, mm) : mm;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "colour.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
 #include "region_rings.hpp"
@@ -95,6 +96,7 @@ class Composer {
         line.clear();
       };
       for (const PocketStretch& s : picture_.path) {
+        ask();
         if (look_of(s) != wanted) {
           flush();
           continue;

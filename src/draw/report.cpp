@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
@@ -216,10 +218,26 @@ Result<Report> make_report(const io::LocateDocument& document, ReportShapes shap
 namespace {
 
 /// Quotes a field as RFC 4180 asks for.
+/// Marks text that a spreadsheet would run as a formula, so that it shows it instead: an apostrophe goes
+/// before it. Some take a semicolon or a tab for the end of a cell, so what follows one counts as a beginning
+/// too.
+std::string not_run(const std::string& text) {
+  if (double_of_text(text)) return text;
+  std::string safe;
+  bool begins = true;
+  for (const char c : text) {
+    if (begins && std::string_view("=+-@\t\r").find(c) != std::string_view::npos) safe += '\'';
+    safe += c;
+    begins = std::string_view(",;\t\r\n\"").find(c) != std::string_view::npos || (begins && c == ' ');
+  }
+  return safe;
+}
+
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  const std::string safe = not_run(text);
+  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
   std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
 

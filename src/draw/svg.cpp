@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
 #include "scene.hpp"
@@ -23,6 +24,7 @@ std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.g
 std::string path_data(const std::vector<geom::Ring>& lines, bool closed) {
   std::string data;
   for (const geom::Ring& line : lines) {
+    ask(1 + line.size());
     for (std::size_t i = 0; i < line.size(); ++i) {
       data += i == 0 ? "M" : "L";
       data += number(line[i].x) + " " + number(line[i].y);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::field {
 namespace {
 
@@ -25,6 +27,7 @@ class March {
   void run(const geom::RegionIndex& start) {
     for (const std::size_t n : begin(start)) update_about(n);
     while (!heap_.empty()) {
+      ask();
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
       const auto [time, n] = heap_.back();
       heap_.pop_back();

@@ -7,6 +7,7 @@
 
 #include "grid_quadratic.hpp"
 #include "grid_tiles.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/base/wide.hpp"
 
 namespace lekalo::field {
@@ -213,6 +214,7 @@ class Sampler {
     Block& block = space.block;
     const std::size_t rows_at_once = std::max<std::size_t>(1, kBlock / tile.columns);
     for (std::size_t j = 0; j < tile.rows; j += rows_at_once) {
+      ask(1 + tile.columns);
       const std::size_t rows = std::min(rows_at_once, tile.rows - j), n = rows * tile.columns;
       for (std::size_t r = 0; r < rows; ++r) {
         const geom::Point begin = frame.node(tile.column, tile.row + j + r) - middle;

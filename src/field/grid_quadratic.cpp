@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "grid_tiles.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/base/wide.hpp"
 
 /// The quadratic conjunction over tiles. Every segment counts everywhere, but a subtree of the fold whose
@@ -472,6 +473,7 @@ class Sampler {
     const std::size_t rows_at_once = std::max<std::size_t>(1, kBlock / tile.columns);
     for (std::size_t j = 0; j < tile.rows; j += rows_at_once)
       for (std::size_t first = 0; first < tile.columns; first += kBlock) {
+        ask(16);
         const std::size_t columns = std::min(kBlock, tile.columns - first), column = tile.column + first;
         const std::size_t rows = std::min(rows_at_once, tile.rows - j);
         for (std::size_t r = 0; r < rows; ++r) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::field {
 namespace {
 
@@ -18,6 +20,7 @@ LevelLines::LevelLines(const GridFrame& frame, const std::vector<double>& values
   assert(values.size() == frame.size());
   squares_.assign(squares_across_ * (frame.rows / kSquare + 1), {kNone, -kNone});
   for (std::size_t s = 0; s < squares_.size(); ++s) {
+    ask();
     const std::size_t x = s % squares_across_ * kSquare, y = s / squares_across_ * kSquare;
     for (std::size_t j = y; j <= y + kSquare && j < frame.rows; ++j)
       for (std::size_t i = x; i <= x + kSquare && i < frame.columns; ++i) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::field {
 namespace {
 
@@ -23,6 +25,7 @@ VoxelImages voxel_images(const FieldGrid& grid, std::uint16_t palette) {
   for (auto& image : result.images) image.resize(grid.frame.size());
   const Unit unit = unit_of(grid.frame);
   for (std::size_t j = 0; j < grid.frame.rows; ++j) {
+    ask(1 + grid.frame.columns);
     for (std::size_t i = 0; i < grid.frame.columns; ++i) {
       const std::size_t n = j * grid.frame.columns + i;
       const geom::Point at = (1 / unit.length) * (grid.frame.node(i, j) - unit.middle);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "point_table.hpp"
 
@@ -22,7 +24,11 @@ class Arranger {
 
   Arrangement run() {
     cut_into_pieces();
-    snap_points();
+    if (!snap_points()) {
+      made_ = {};
+      made_.too_much = true;
+      return std::move(made_);
+    }
     stop_at_vertices();
     cut_into_stretches();
     merge_coinciding();
@@ -35,8 +41,9 @@ class Arranger {
       append_pieces(outlines_.edges[i], i, 0.25 * made_.snap, made_.pieces);
   }
 
-  /// The points of the operands come first, so that they stay where they are.
-  void snap_points() {
+  /// The points of the operands come first, so that they stay where they are. Returns false where more meets
+  /// than limits let through.
+  bool snap_points() {
     PointTable table(made_.snap, 2 * made_.pieces.size());
     for (const Edge& edge : outlines_.edges) table.snapped(edge.from);
     for (const Piece& piece : made_.pieces)
@@ -45,21 +52,30 @@ class Arranger {
     std::vector<Box> boxes;
     for (const Piece& piece : made_.pieces) boxes.push_back(grown(box_of(piece), made_.snap));
     const BoxTree tree(std::move(boxes));
-    std::vector<Stop> crossed;
-    tree.visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+    const std::size_t most = limits::most_meeting_pieces(made_.pieces.size());
+    std::size_t seen = 0, met = 0;
+    const bool all = tree.visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
       const Crossings found = crossings(made_.pieces[i], made_.pieces[j], made_.snap);
-      for (int k = 0; k < found.count; ++k)
-        crossed.push_back({i, table.snapped(found.points[static_cast<std::size_t>(k)]), 0});
+      for (int k = 0; k < found.count; ++k) table.snapped(found.points[static_cast<std::size_t>(k)]);
+      met += static_cast<std::size_t>(found.count);
+      return ++seen <= most && met <= limits::kMostCrossings;
     });
     made_.vertices = table.points();
-    for (std::uint32_t v = 0; v < made_.vertices.size(); ++v) {
+    const auto stop_pieces_at = [&](std::uint32_t v) {
       const Box around = grown({made_.vertices[v], made_.vertices[v]}, kHot * made_.snap);
-      tree.visit_meeting(around, [&](std::uint32_t i) { consider(i, v); });
-    }
+      return tree.visit_meeting_while(around, [&](std::uint32_t i) {
+        consider(i, v);
+        return ++seen <= 2 * most;
+      });
+    };
+    for (std::uint32_t v = 0; all && v < made_.vertices.size(); ++v)
+      if (!stop_pieces_at(v)) return false;
+    return all;
   }
 
   /// Stops piece i at vertex v if the piece passes through it.
   void consider(std::uint32_t i, std::uint32_t v) {
+    ask();
     const Piece& piece = made_.pieces[i];
     if (v == ends_[i][0] || v == ends_[i][1]) return;
     const Point p = made_.vertices[v];

@@ -60,6 +60,8 @@ struct Arrangement {
   std::vector<std::uint32_t> origin_starts;
   /// The edges in the order of their stretches. An edge without weight is here only if it is short.
   std::vector<MapEdge> edges;
+  /// True when there is more than limits let through; then nothing else is there.
+  bool too_much = false;
 };
 /// Edges that cancel are left out, but not those of up to this many snaps across the mouth of a crack. They
 /// make the crack a face, and a thin face is turned over (PlanarMap::loops).

@@ -1,31 +1,23 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <limits>
 #include <vector>
 
-#include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/region.hpp"
-#include "lekalo/geom/region_index.hpp"
 
 namespace lekalo::geom::detail {
 
-/// Finds which of many contours hold a point. The index of a contour's edges is made when its box first holds
-/// one.
-class Containment {
- public:
-  /// \pre the contours outlive this
-  explicit Containment(std::vector<const Contour*> contours);
+inline constexpr std::size_t kNoContour = std::numeric_limits<std::size_t>::max();
 
-  /// Returns the numbers of the other contours around the first point of this one, ascending; for a point on
-  /// a contour rounding decides. O(log n + boxes of contours around the point + their edges met by a ray).
-  [[nodiscard]] std::vector<std::size_t> around(std::size_t contour);
-
- private:
-  std::vector<const Contour*> contours_;
-  /// A tree of the contours' boxes.
-  BoxTree tree_;
-  std::vector<std::optional<RegionIndex>> indices_;
+/// How a contour lies among others.
+struct Enclosed {
+  std::size_t by = kNoContour;  ///< the innermost contour around it
+  std::size_t depth = 0;        ///< how many contours are around it
 };
+
+/// Finds what is around each of many contours, by one sweep over the plane from below. Contours that meet may
+/// seem to lie in each other in any way, though never in a circle. O(n log n) for n edges.
+[[nodiscard]] std::vector<Enclosed> enclosed_contours(const std::vector<const Contour*>& contours);
 
 }  // namespace lekalo::geom::detail

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/geom/wide_product.hpp"
@@ -149,6 +150,7 @@ GridBox bounds_of(const GridPoint* points, std::size_t n) noexcept {
 /// where a whole loop lies.
 Result<void> check_nesting(const GridRegion& region) {
   const auto inside = [&](std::size_t hole, std::size_t loop) {
+    ask(1 + loop_size(region, loop) / 16);
     return locate_in_loop(loop_begin(region, loop), loop_size(region, loop), *loop_begin(region, hole)) ==
            PointLocation::inside;
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "around_vertex.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 
 namespace lekalo::geom::detail {
@@ -134,6 +135,7 @@ class LoopReader {
 
   /// Adds the edge that some steps of one line, or of one arc, make up.
   void add_part(std::size_t begin, std::size_t end) {
+    ask();
     const Step &first = steps_[begin], &last = steps_[end - 1];
     const Piece& piece = piece_of(first);
     Made m;

@@ -1,4 +1,3 @@
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -9,14 +8,8 @@
 #include "lekalo/geom/region_check.hpp"
 
 namespace lekalo::geom {
-namespace {
-
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-}  // namespace
 
 Result<std::vector<Region>> nest_contours(std::vector<Contour> contours) {
-  std::vector<double> areas;
   for (std::size_t i = 0; i < contours.size(); ++i) {
     auto checked = make_region(std::move(contours[i]));
     if (!checked) {
@@ -25,31 +18,19 @@ Result<std::vector<Region>> nest_contours(std::vector<Contour> contours) {
                      fmt::format("contour {}{}", i, checked.error().message.substr(kOuter.size())));
     }
     contours[i] = std::move(checked->outer);
-    areas.push_back(signed_area(contours[i]));
   }
   std::vector<const Contour*> all;
   for (const Contour& contour : contours) all.push_back(&contour);
-  detail::Containment containment(std::move(all));
-  std::vector<std::size_t> owner(contours.size(), kNone), region_of(contours.size(), kNone);
+  const std::vector<detail::Enclosed> enclosed = detail::enclosed_contours(all);
+  std::vector<std::size_t> region_of(contours.size(), 0);
   std::vector<Region> regions;
   for (std::size_t i = 0; i < contours.size(); ++i) {
-    const auto around = containment.around(i);
-    for (const std::size_t c : around)
-      if (owner[i] == kNone || areas[c] < areas[owner[i]]) owner[i] = c;
-    if (around.size() % 2 != 0) continue;
-    owner[i] = i;
+    if (enclosed[i].depth % 2 != 0) continue;
     region_of[i] = regions.size();
     regions.push_back({contours[i], {}});
   }
-  for (std::size_t i = 0; i < contours.size(); ++i) {
-    if (owner[i] == i) continue;
-    const std::size_t outline = region_of[owner[i]];
-    // Contours that cross may seem to hold each other in any way; fault_of names them below.
-    if (outline == kNone)
-      regions.push_back({contours[i], {}});
-    else
-      regions[outline].holes.push_back(reversed(contours[i]));
-  }
+  for (std::size_t i = 0; i < contours.size(); ++i)
+    if (enclosed[i].depth % 2 != 0) regions[region_of[enclosed[i].by]].holes.push_back(reversed(contours[i]));
   if (const auto fault = fault_of(regions)) return failure(ErrorCode::bad_input, *fault);
   return regions;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "overlay.hpp"
@@ -75,6 +76,7 @@ class Brush {
   }
   /// Sweeps the right of one edge.
   void sweep(const Edge& edge) {
+    ask();
     if (edge.kind == EdgeKind::line)
       along_line(edge);
     else if (is_circle(edge))

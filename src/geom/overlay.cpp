@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "lekalo/base/limits.hpp"
 #include "loop_contour.hpp"
 
 namespace lekalo::geom::detail {
@@ -42,13 +43,19 @@ std::optional<std::vector<Region>> regions_of(const std::vector<std::uint32_t>& 
 
 /// Steps 1 to 5 of docs/design/boolean.md with one snapping distance; nothing where they contradict
 /// themselves.
-std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep, double snap,
-                                        double operand_error) {
+Result<std::optional<BooleanResult>> overlay_at(const Outlines& outlines, KeepRule keep, double snap,
+                                                double operand_error) {
   // Steps 1 and 2: pieces, and snapping them.
   const Arrangement arrangement = arrange(outlines, snap);
+  if (arrangement.too_much)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("the {} edges meet each other in more than {} places, or nearly; combine fewer "
+                    "shapes at a time",
+                    outlines.edges.size(), limits::kMostCrossings));
   // Step 3: the map of faces, which may contradict itself.
   const auto map = PlanarMap::make(arrangement);
-  if (!map) return std::nullopt;
+  if (!map) return std::optional<BooleanResult>();
   // Step 4: faces are kept or dropped, and the kept ones are bounded by loops.
   std::vector<PlanarMap::Loop> loops = map->loops(keep);
   const auto first = [](const PlanarMap::Loop& loop) {
@@ -72,14 +79,14 @@ std::optional<BooleanResult> overlay_at(const Outlines& outlines, KeepRule keep,
     contours.push_back(std::move(made.contour));
   }
   auto regions = regions_of(groups, std::move(contours));
-  if (!regions) return std::nullopt;
+  if (!regions) return std::optional<BooleanResult>();
   // A loop so thin that rounding could turn it is no region. Snapping coarser points together may resolve it.
   for (const Region& region : *regions) {
     const auto again = make_region(region.outer, region.holes);
-    if (!again || !(*again == region)) return std::nullopt;
+    if (!again || !(*again == region)) return std::optional<BooleanResult>();
   }
   result.regions = std::move(*regions);
-  return result;
+  return std::optional(std::move(result));
 }
 
 }  // namespace
@@ -88,8 +95,10 @@ Result<BooleanResult> overlay(const Outlines& outlines, KeepRule keep, double op
   double snap = kBooleanSnap * extent(outlines);
   if (snap == 0) return BooleanResult{};
   // Step 3: where the drawing contradicts itself, everything is done again with a coarser snap.
-  for (int attempt = 0; attempt < kAttempts; ++attempt, snap *= kCoarser)
-    if (auto result = overlay_at(outlines, keep, snap, operand_error)) return *std::move(result);
+  for (int attempt = 0; attempt < kAttempts; ++attempt, snap *= kCoarser) {
+    LEKALO_TRY(auto result, overlay_at(outlines, keep, snap, operand_error));
+    if (result) return *std::move(result);
+  }
   return failure(
       ErrorCode::bad_input,
       fmt::format("the outlines are too tangled: points up to {:.3g} mm apart were joined and they still "

@@ -7,6 +7,7 @@
 
 #include "around_vertex.hpp"
 #include "disjoint_sets.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "thin_loop.hpp"
@@ -196,6 +197,7 @@ bool PlanarMap::find_windings() {
     winding_[face_[components_[c].outside]] = outside;
     std::vector<std::uint32_t> waiting{components_[c].outside};
     while (!waiting.empty()) {
+      ask();
       const std::uint32_t first = waiting.back();
       waiting.pop_back();
       std::uint32_t h = first;
@@ -279,6 +281,7 @@ void PlanarMap::turn_thin_faces(std::vector<char>& kept) const {
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < thin.size(); ++i) {
+      ask(1 + walks[i].half_edges.size() / 16);
       double other = 0, same = 0;
       for (const std::uint32_t h : walks[i].half_edges)
         (kept[face_[h ^ 1]] != kept[thin[i]] ? other : same) += chord_length(a_, h);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
+#include "lekalo/geom/same_outline.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::geom {
@@ -227,6 +229,36 @@ Box bounds(const Contour& contour) noexcept {
     }
   }
   return box;
+}
+
+namespace {
+
+/// Returns the edges, each in one of its two directions, in one order.
+std::vector<Edge> sorted_edges(const std::vector<Region>& regions) {
+  const auto key = [](const Edge& e) {
+    return std::tuple(e.kind, e.from.x, e.from.y, e.to.x, e.to.y, e.centre.x, e.centre.y);
+  };
+  std::vector<Edge> edges;
+  const auto add = [&](const Contour& contour) {
+    for (const Edge& edge : contour) {
+      const bool back = edge.kind == EdgeKind::line
+                            ? std::tie(edge.to.x, edge.to.y) < std::tie(edge.from.x, edge.from.y)
+                            : edge.kind == EdgeKind::arc_cw;
+      edges.push_back(back ? reversed(edge) : edge);
+    }
+  };
+  for (const Region& region : regions) {
+    add(region.outer);
+    for (const Contour& hole : region.holes) add(hole);
+  }
+  std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
+  return edges;
+}
+
+}  // namespace
+
+bool same_outline(const std::vector<Region>& a, const std::vector<Region>& b) {
+  return edges_in(a) == edges_in(b) && sorted_edges(a) == sorted_edges(b);
 }
 
 Edge reversed(Edge edge) noexcept {

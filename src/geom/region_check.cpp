@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "containment.hpp"
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/predicates.hpp"
@@ -60,6 +62,31 @@ bool cross_again(const Curve& a, const Curve& b, Point shared) {
   return along > 0 && along < b.length;
 }
 
+/// The first meeting is looked for among this share of the pairs that may be looked at.
+constexpr std::size_t kSoon = 8;
+
+/// Says whether the lines or circles that carry two edges are surely further apart than `limit`. It is much
+/// cheaper than the distance of the edges, and settles most pairs whose boxes meet.
+bool carriers_apart(const Curve& a, const Curve& b, double limit) {
+  const bool line = a.edge.kind == EdgeKind::line, other_line = b.edge.kind == EdgeKind::line;
+  if (!line && other_line) return carriers_apart(b, a, limit);
+  if (line) {
+    const auto beside = [&](const Curve& one, Point p) { return cross(one.unit, p - one.edge.from); };
+    if (!other_line) {
+      const double off = std::abs(beside(a, b.edge.centre));
+      return off - b.radius > limit + 4 * kEdgeDistanceError * (off + b.radius);
+    }
+    const auto on_one_side = [&](const Curve& one, const Curve& two) {
+      const double from = beside(one, two.edge.from), to = beside(one, two.edge.to);
+      return std::min(from, to) > 4 * limit || std::max(from, to) < -4 * limit;
+    };
+    return on_one_side(a, b) || on_one_side(b, a);
+  }
+  const double apart = norm(b.edge.centre - a.edge.centre), radii = a.radius + b.radius;
+  return std::max(apart - radii, std::abs(a.radius - b.radius) - apart) >
+         limit + 4 * kEdgeDistanceError * (apart + radii);
+}
+
 class Checker {
  public:
   explicit Checker(const std::vector<Region>& regions) : regions_(regions) {
@@ -76,7 +103,11 @@ class Checker {
     }
   }
 
-  [[nodiscard]] std::optional<MeetingEdges> first_meeting() const {
+  struct Meetings {
+    std::optional<MeetingEdges> first;
+    bool too_many = false;  ///< boxes meet, so that not all could be looked at
+  };
+  [[nodiscard]] Meetings meetings() const {
     std::vector<Box> boxes;
     boxes.reserve(curves_.size());
     double largest = 0;
@@ -88,19 +119,32 @@ class Checker {
     const double limit = kEdgeDistanceError * largest;
     const Point margin{limit, limit};
     for (Box& box : boxes) box = {box.low - margin, box.high + margin};
-    std::optional<MeetingEdges> first;
-    BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
-      if (first && std::pair(first->a, first->b) < std::pair(i, j)) return;
-      if (joined_only_at_their_end(i, j, limit)) return;
+    Meetings all;
+    const std::size_t most = limits::most_meeting_boxes(curves_.size());
+    std::size_t seen = 0;
+    BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
+      ask();
+      // Once there is one, the search for the first one ends early: a drawing of which everything crosses
+      // everything is as wrong by any of its crossings.
+      if (++seen > (all.first ? most / kSoon : most)) return all.too_many = !all.first, false;
+      if (all.first && std::pair(all.first->a, all.first->b) < std::pair(i, j)) return true;
+      if (carriers_apart(curves_[i], curves_[j], limit) || joined_only_at_their_end(i, j, limit)) return true;
       const ClosestPoints close = closest_points(curves_[i], curves_[j]);
-      if (!(close.distance > limit)) first = MeetingEdges{i, j, close.a};
+      if (!(close.distance > limit)) all.first = MeetingEdges{i, j, close.a};
+      return true;
     });
-    return first;
+    return all;
   }
 
   [[nodiscard]] std::optional<std::string> run() const {
-    const Names names(regions_);
-    if (const auto meeting = first_meeting()) {
+    const Meetings all = meetings();
+    if (all.too_many)
+      return fmt::format(
+          "more than {} pairs of its {} edges have boxes that meet, too many to see whether any two cross; "
+          "leave out hatching and long slanting slots",
+          limits::most_meeting_boxes(curves_.size()), curves_.size());
+    if (const auto& meeting = all.first) {
+      const Names names(regions_);
       const std::uint32_t c = contour_of_[meeting->a], d = contour_of_[meeting->b];
       return fmt::format("edge {} of the {} meets edge {} of the {} at ({}, {}) mm", meeting->a - starts_[c],
                          names.contour(c), meeting->b - starts_[d], names.contour(d), meeting->at.x,
@@ -138,25 +182,29 @@ class Checker {
       outer.push_back(piece_of.size());
       piece_of.insert(piece_of.end(), regions_[p].holes.size() + 1, p);
     }
-    detail::Containment containment(contours_);
+    const std::vector<detail::Enclosed> enclosed = detail::enclosed_contours(contours_);
     for (std::size_t c = 0; c < contours_.size(); ++c) {
-      const std::size_t p = piece_of[c];
+      const std::size_t p = piece_of[c], by = enclosed[c].by;
       const Point at = contours_[c]->front().from;
       const std::string of = regions_.size() > 1 ? fmt::format(" of piece {}", p) : "";
-      const auto around = containment.around(c);
-      const auto inside = [&](std::size_t d) { return std::binary_search(around.begin(), around.end(), d); };
-      if (c != outer[p] && !inside(outer[p]))
+      if (c == outer[p]) {
+        const bool in_material = by != detail::kNoContour && by == outer[piece_of[by]];
+        if (in_material)
+          return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", p, piece_of[by],
+                             at.x, at.y);
+        continue;
+      }
+      if (by == outer[p]) continue;
+      std::size_t other_hole = detail::kNoContour;
+      std::size_t around = by;
+      for (; around != detail::kNoContour && around != outer[p]; around = enclosed[around].by)
+        if (piece_of[around] == p) other_hole = std::min(other_hole, around);
+      if (around == detail::kNoContour)
         return fmt::format("hole {}{} lies outside the outer contour, at ({}, {}) mm", c - outer[p] - 1, of,
                            at.x, at.y);
-      for (std::size_t k = 0; k < around.size(); ++k) {
-        const std::size_t d = around[k], q = piece_of[d];
-        if (c != outer[p] && q == p && d != outer[p])
-          return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", c - outer[p] - 1, of,
-                             d - outer[p] - 1, at.x, at.y);
-        const bool in_hole = k + 1 < around.size() && piece_of[around[k + 1]] == q;
-        if (c == outer[p] && q != p && d == outer[q] && !in_hole)
-          return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", p, q, at.x, at.y);
-      }
+      if (other_hole != detail::kNoContour)
+        return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", c - outer[p] - 1, of,
+                           other_hole - outer[p] - 1, at.x, at.y);
     }
     return std::nullopt;
   }
@@ -170,7 +218,7 @@ class Checker {
 }  // namespace
 
 std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions) {
-  return Checker(regions).first_meeting();
+  return Checker(regions).meetings().first;
 }
 
 std::optional<std::string> fault_of(const std::vector<Region>& regions) { return Checker(regions).run(); }

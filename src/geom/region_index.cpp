@@ -1,9 +1,7 @@
 #include "lekalo/geom/region_index.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "lekalo/geom/predicates.hpp"
+#include "monotone.hpp"
 
 namespace lekalo::geom {
 namespace {
@@ -16,42 +14,12 @@ int crosses_line(const Edge& line, Point p) {
   return side == (line.from.y < line.to.y ? 1 : -1) ? 1 : 0;
 }
 
-/// Returns the x at which a stretch of an arc, on the right or the left half of its circle, is at height y.
-///
-/// An end may miss the circle by half the difference of the radii. Where the circle is nearly level, the
-/// circle at the end's height is much further off along the ray. So the x goes no further than this quarter
-/// of the stretch reaches, and the jump from the end to the circle stays as near to the arc as its end is.
-double crossing_of_half(const Curve& arc, Point begin, Point end, bool right, double y) {
-  const Point centre = arc.edge.centre;
-  const double h = y - centre.y, side = right ? 1 : -1;
-  const double half = std::sqrt(std::max(0.0, (arc.radius - h) * (arc.radius + h)));
-  const Point low = begin.y <= end.y ? begin : end, high = begin.y <= end.y ? end : begin;
-  const Point outer = h >= 0 ? high : low, inner = h >= 0 ? low : high;
-  const bool beyond_axis = h >= 0 ? inner.y < centre.y : inner.y >= centre.y;
-  const auto [least, most] = std::minmax({outer.x, beyond_axis ? centre.x + side * arc.radius : inner.x});
-  return std::clamp(centre.x + side * half, least, most);
-}
-
 int crosses_arc(const Curve& arc, Point p) {
-  // A counter-clockwise arc runs upwards on the circle's right half and downwards on its left, so it is split
-  // where it is highest and lowest. A turning point exactly at an end does not split. Each stretch is
-  // half-open, so that stretches that share an end count it once.
-  const Edge& edge = arc.edge;
-  const Point centre = edge.centre;
-  const bool forwards = edge.kind == EdgeKind::arc_ccw;
-  bool right = arc.first.x > 0 || (arc.first.x == 0 && arc.first.y < 0);
-  const bool ends_right = arc.last.x > 0 || (arc.last.x == 0 && arc.last.y > 0);
-  const int splits = right != ends_right ? 1 : (arc.beyond_half || arc.full ? 2 : 0);
-  const Point last = forwards ? edge.to : edge.from;
-  Point begin = forwards ? edge.from : edge.to;
   int found = 0;
-  for (int i = 0; i <= splits; ++i) {
-    const Point turning{centre.x, right ? centre.y + arc.radius : centre.y - arc.radius};
-    const Point end = i == splits ? last : turning;
-    if ((begin.y <= p.y) != (end.y <= p.y) && crossing_of_half(arc, begin, end, right, p.y) > p.x) ++found;
-    begin = end;
-    right = !right;
-  }
+  detail::visit_monotone(arc, [&](const detail::Monotone& stretch) {
+    // Each stretch is half-open, so that stretches that share an end count it once.
+    if ((stretch.begin.y <= p.y) != (stretch.end.y <= p.y) && detail::arc_x_at(stretch, p.y) > p.x) ++found;
+  });
   return found;
 }
 

@@ -13,7 +13,7 @@ namespace lekalo::jobs {
 Result<Layout> open_layout(File file, const io::PartOptions& parts, const io::FindItems& find) {
   LEKALO_TRY(io::AnyLayout read, io::read_any_layout(file.bytes, file.name, parts, find));
   Layout layout;
-  layout.sha256 = io::sha256(file.bytes);
+  layout.inputs.push_back({"layout", file.name, io::sha256(file.bytes)});
   layout.document = std::move(read.document);
   layout.notices = std::move(read.notices);
   layout.form = read.form;
@@ -32,7 +32,8 @@ io::JsonWriter begin_layout_json(const char* format, const std::string& status, 
                                  std::uint64_t seed, std::uint64_t work) {
   io::JsonWriter json = begin_document(format);
   json.fields({{"status", status}, {"units", "mm"}}).key("inputs").begin_list();
-  json.object({{"role", "layout"}, {"path", layout.name}, {"sha256", layout.sha256}});
+  for (const LayoutInput& input : layout.inputs)
+    json.object({{"role", input.role}, {"path", input.name}, {"sha256", input.sha256}});
   json.end().key("warnings").list(layout.notices);
   json.fields({{"seed", seed}, {"work", work}, {"version", kVersion}});
   return json;

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/locate/allowance.hpp"
@@ -29,8 +31,10 @@ std::vector<io::InputRecord> input_records(const LocateJob& job, const LocateInp
       record.unit = contour->unit, record.points = contour->points.size(), record.dropped = contour->dropped;
     records.push_back(std::move(record));
   }
-  for (const auto& [role, file] :
-       {std::pair{"nc", &job.program}, {"features", &job.features}, {"last-result", &job.earlier}})
+  for (const auto& [role, file] : {std::pair{"nc", &job.program},
+                                   {"allow", &job.allow},
+                                   {"features", &job.features},
+                                   {"last-result", &job.earlier}})
     if (*file) records.push_back({role, record_of(**file), std::nullopt, 0, {}});
   return records;
 }
@@ -88,6 +92,7 @@ io::LocateDocument document_of(const LocateJob& job, const LocateInputs& in, Sea
     return d;
   }
   d.part = p.part.regions, d.part_tolerance = p.part.tolerance, d.part_cut = in.part_cut;
+  d.part_drawing = in.part.drawing, d.blank_drawing = in.blank.drawing;
   d.blank = p.blank.regions, d.blank_tolerance = p.blank.tolerance, d.scan = in.blank.scan;
   d.mirror = p.mirror, d.locked = p.locked;
   if (found.demands) d.demands = record_of(*p.demands, std::move(*found.demands));
@@ -135,12 +140,16 @@ void place_proof(const LocateJob& job, Located& made) {
 }
 
 /// Puts the bytes about to be handed out before the independent checker. Where a proof was made it has to
-/// hold, also one that is too long to be kept. Edges of features that the checker cannot rebuild may stay
-/// open.
+/// hold, also one that is too long to be kept. Claims that the checker leaves
+/// open, which a note of it names, are no reason to withhold a result.
 Result<void> self_check(const LocateJob& job, const Located& made) {
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
-  if (job.features) inputs.features = {job.features->name, job.features->bytes};
+  for (const auto& [file, to] : {std::pair{&job.features, &inputs.features},
+                                 {&job.program, &inputs.program},
+                                 {&job.earlier, &inputs.earlier}})
+    if (*file) *to = verify::Document{(*file)->name, (*file)->bytes};
+  if (!made.program.empty()) inputs.written_program = verify::Document{job.outputs.program, made.program};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
   if (inputs.certificate && !made.document.certificate_file) {
@@ -153,8 +162,10 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
   const auto wanted = job.options.method != LocateMethod::certified ? verify::Verdict::unproved
                       : leaves_choice_open(made.document)           ? verify::Verdict::incomplete
                                                                     : verify::Verdict::confirmed;
-  const bool edges_open = job.features && report && report->verdict == verify::Verdict::incomplete;
-  if (edges_open || (report && report->verdict == wanted)) return {};
+  const bool left_open =
+      report && wanted == verify::Verdict::confirmed &&
+      (report->verdict == verify::Verdict::incomplete || report->verdict == verify::Verdict::stated_regions);
+  if (left_open || (report && report->verdict == wanted)) return {};
   const std::string why =
       !report ? "self-check: " + report.error().message
               : "self-check refuted the result: " +
@@ -178,6 +189,18 @@ void claim_what_just_fits(const LocateJob& job, io::LocateDocument& d) {
   place_proof(job, claim);
   claim.result = io::result_json(claim.document);
   if (self_check(job, claim)) d = claimed;
+}
+
+/// Raises the bound of a search over poses by a share of its distance from what was found. The search bounds
+/// a large cell by a chord where the checker, which halves the cell, takes the arc: where such cells are left
+/// when the work ends, the checker may need a bound that is looser by what its halves are wide.
+void loosen_bound(double share, double found_bound, io::LocateDocument& d) {
+  d.upper_bound = found_bound + share * std::max(found_bound - d.placement.clearance, 0.0);
+  const bool infeasible = *d.upper_bound < d.min_allowance;
+  d.status = io::name_of(infeasible ? locate::Status::infeasible : locate::Status::stopped);
+  d.warnings.push_back(
+      fmt::format("the bound {} was found, and the checker proves {}; more --work brings them together",
+                  found_bound, *d.upper_bound));
 }
 
 void add_comparison(const LocateInputs& in, io::LocateDocument& d) {
@@ -215,6 +238,26 @@ void add_deviations(const LocateJob& job, const LocateInputs& in, Located& made)
       {job.outputs.deviations, io::sha256(made.deviations)}, deviations.size(), *least, *greatest};
 }
 
+/// Looks for the least of a few looser bounds that the checker proves, and leaves the result with it in
+/// `made`. Without one the refusal is that of the bound as it was found.
+Result<void> check_with_looser_bound(const LocateJob& job, const LocateInputs& in, Result<void> refused,
+                                     Located& made) {
+  const io::LocateDocument found = made.document;
+  const bool by_poses =
+      !found.convex() && !found.demands && found.upper_bound && job.options.method == LocateMethod::certified;
+  if (!by_poses || refused.error().code != ErrorCode::refuted) return refused;
+  for (double share = 0x1p-10; share <= 1; share *= 4) {
+    made.document = found;
+    loosen_bound(share, *found.upper_bound, made.document);
+    made.result = io::result_json(made.document);
+    if (!self_check(job, made)) continue;
+    LEKALO_CHECK(add_pictures(job, in, made));
+    made.result = io::result_json(made.document);
+    return self_check(job, made);
+  }
+  return refused;
+}
+
 }  // namespace
 
 const char* name_of(LocateMethod method) noexcept {
@@ -241,14 +284,25 @@ Result<Located> locate_checked(const Searcher& searcher, const LocateJob& job) {
   LEKALO_CHECK(add_program(job, made));
   LEKALO_CHECK(add_pictures(job, in, made));
   made.result = io::result_json(made.document);
-  LEKALO_CHECK(self_check(job, made));
+  Result<void> checked = self_check(job, made);
+  if (!checked) checked = check_with_looser_bound(job, in, std::move(checked), made);
+  LEKALO_CHECK(checked);
   return made;
 }
 
 Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwatch& stopwatch) {
+  const RunControl nobody;
+  std::optional<Listening> to_the_end;
   return locate_checked(
       [&](const locate::Problem& problem, const LocateOptions& options) {
-        return searched(problem, options, run, stopwatch);
+        // The search looks at the control itself, and ends with its best so far. That is then proved and
+        // told, whoever has asked for the stop.
+        auto search = [&] {
+          const Listening listening(nobody);
+          return searched(problem, options, run, stopwatch);
+        }();
+        if (run.stop_requested()) to_the_end.emplace(nobody);
+        return search;
       },
       job);
 }

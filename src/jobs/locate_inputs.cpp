@@ -33,6 +33,13 @@ const char* only_convex_has(const LocateJob& job) {
   return nullptr;
 }
 
+/// Says whether part and blank are the same bytes, read in the same way.
+bool is_one_file(const LocateJob& job) {
+  const io::OutlineOptions &part = job.options.part, &blank = job.options.blank;
+  return job.part.bytes == job.blank.bytes && part.units == blank.units && part.join == blank.join &&
+         part.curve == blank.curve && part.layers == blank.layers && !part.scan && !blank.scan;
+}
+
 bool asks_for_regions(const LocateJob& job) {
   const LocateOptions& o = job.options;
   return o.mirror != locate::Mirror::no || o.locked.x || o.locked.y || job.features ||
@@ -120,8 +127,13 @@ Result<LocateInputs> read_inputs(const LocateJob& job) {
   LEKALO_CHECK(apply_features(job, demands, in));
   const bool plain = demands.features.empty() && demands.minimum == o.min_allowance && !in.part_cut &&
                      o.trade_off == 0 && o.criterion.choose == nullptr;
-  in.problem = {
-      std::move(in.part.outline), std::move(in.blank.outline), window_of(o), o.mirror, o.locked, {}};
+  in.problem = {std::move(in.part.outline),
+                std::move(in.blank.outline),
+                window_of(o),
+                o.mirror,
+                o.locked,
+                {},
+                is_one_file(job)};
   if (!plain) in.problem.demands = std::move(demands);
   return in;
 }

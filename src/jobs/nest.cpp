@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "layout_json.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/jobs/check.hpp"
 #include "nest_checked.hpp"
 #include "report_document.hpp"
@@ -146,6 +148,10 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
                                      ? nester(document, search, control)
                                      : nester(selection_of(document, options.only), search, control));
   LEKALO_CHECK(fine);
+  // The best until a stop is checked and told all the same.
+  const RunControl nobody;
+  std::optional<Listening> to_the_end;
+  if (control.stop_requested()) to_the_end.emplace(nobody);
   LEKALO_TRY(Confirmed best, confirmed(document, found.document));
   layout::Completeness completeness = layout::completeness(layout::Workspace(best.document));
   return Nested{
@@ -158,12 +164,14 @@ Result<Nested> nest(const Document& document, const NestOptions& options, const 
 }
 
 std::string nest_json(const Layout& given, const NestOptions& options, const Nested& nested,
-                      double cpu_seconds) {
+                      const std::string& written_as, double cpu_seconds) {
   io::JsonWriter json = begin_layout_json("lekalo-nest", nested.unplaced.empty() ? "complete" : "incomplete",
                                           given, options.seed, nested.work);
-  json.fields({{"merges", nested.merges},
-               {"density", nested.completeness.density},
-               {"cost", nested.completeness.cost}});
+  json.key("outputs").begin_list();
+  write_file(json, "nested", {written_as, nested.bytes});
+  json.end().fields({{"merges", nested.merges},
+                     {"density", nested.completeness.density},
+                     {"cost", nested.completeness.cost}});
   const auto& sheets = nested.completeness.sheets;
   if (sheets.size() == 1) json.field("length", sheets[0].used_length_mm);
   json.key("stocks").list(sheets, [&](const layout::SheetUse& use) { write(json, use, nested.document); });

@@ -111,7 +111,8 @@ Result<Pocketed> made_and_judged(const PocketJob& job, const PhaseListener& phas
   made.hot_cuts = hot_cuts(made.report, job.options.path.step_over);
   made.ramps = reported_ramps(judged.ramps);
   made.notices = std::move(outline.notices);
-  made.json = pocket_json(job, made);
+  const std::string supposed = job.options.rest_of > 0 ? before.programs.front().program.bytes : "";
+  made.json = pocket_json(job, made, ground.document, supposed);
   LEKALO_CHECK(add_pictures(job, ground, made));
   LEKALO_CHECK(add_images(job, ground, made));
   return made;

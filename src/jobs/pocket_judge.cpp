@@ -49,11 +49,12 @@ class Judge {
  public:
   Judge(const PocketJob& job, const PocketGround& ground, const std::vector<verify::EarlierProgram>& before,
         const PhaseListener& phases)
-      : job_(job), o_(job.options), ground_(ground), before_(before), phases_(phases) {
-    machining_.tool_diameter = o_.path.tool_diameter;
-    machining_.stock_to_leave = o_.path.stock_to_leave;
-    machining_.step_over = o_.path.step_over;
-  }
+      : job_(job),
+        o_(job.options),
+        ground_(ground),
+        before_(before),
+        phases_(phases),
+        machining_(machining_of(job.options)) {}
 
   /// Steps 9 and 10 of docs/design/pocket.md; only the product's own paths get shallower passes and ramps.
   Result<JudgedProgram> run(mill::PocketPath given) {
@@ -183,6 +184,15 @@ class Judge {
 };
 
 }  // namespace
+
+verify::SimulateOptions machining_of(const PocketOptions& options) {
+  verify::SimulateOptions machining;
+  machining.tool_diameter = options.path.tool_diameter;
+  machining.stock_to_leave = options.path.stock_to_leave;
+  machining.step_over = options.path.step_over;
+  machining.control = options.program.post.language;
+  return machining;
+}
 
 Result<JudgedProgram> judged_program(mill::PocketPath path, const PocketJob& job, const PocketGround& ground,
                                      const std::vector<verify::EarlierProgram>& before,

@@ -18,6 +18,9 @@ struct JudgedProgram {
   std::vector<mill::Ramp> ramps;
 };
 
+/// Returns what programs of a job are judged with.
+[[nodiscard]] verify::SimulateOptions machining_of(const PocketOptions& options);
+
 /// A path as a program, made better by what the checker finds along it: links that cut run at the cut's feed,
 /// shallower passes go ahead of what meets too much of the rim, what these do not help is cut in ramps, and
 /// feeds follow the engagement if that is wanted.

@@ -5,6 +5,7 @@
 
 #include "lekalo/base/version.hpp"
 #include "lekalo/mill/straight_pass.hpp"
+#include "pocket_judge.hpp"
 #include "report_document.hpp"
 
 namespace lekalo::jobs {
@@ -63,7 +64,8 @@ std::vector<ReportedStretch> reported_ramps(const std::vector<mill::Ramp>& ramps
   return list;
 }
 
-std::string pocket_json(const PocketJob& job, const Pocketed& made) {
+std::string pocket_json(const PocketJob& job, const Pocketed& made, const std::string& regions,
+                        const std::string& supposed) {
   const PocketOptions& o = job.options;
   io::JsonWriter json = begin_document("lekalo-pocket");
   json.field("units", "mm").key("inputs").begin_list();
@@ -71,14 +73,13 @@ std::string pocket_json(const PocketJob& job, const Pocketed& made) {
   write_earlier(json, job.after);
   json.end().key("outputs").begin_list();
   write_file(json, "program", {job.written_as, made.program});
-  json.end().fields({{"tool_mm", o.path.tool_diameter},
-                     {"step_over", o.path.step_over},
-                     {"depth_mm", o.path.depth},
-                     {"stock_to_leave_mm", o.path.stock_to_leave}});
-  if (o.rest_of > 0) json.field("rest_of_mm", o.rest_of);
+  write_machining(json.end(), machining_of(o));
+  json.fields({{"depth_mm", o.path.depth}, {"floor_stock_mm", o.path.floor_stock}});
+  if (o.rest_of > 0) json.fields({{"rest_of_mm", o.rest_of}, {"supposed_program", supposed}});
   write_report(json, made.report);
   write(json.key("hot_cuts"), made.hot_cuts);
   write(json.key("ramps"), made.ramps);
+  json.key("regions").raw() += regions;
   json.field("version", kVersion);
   return end_document(json);
 }

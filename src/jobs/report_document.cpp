@@ -33,6 +33,16 @@ void write_earlier(JsonWriter& json, const std::vector<EarlierProgram>& earlier)
     begin_file(json, "after", before.program).field("tool_mm", before.tool_diameter).end();
 }
 
+void write_machining(JsonWriter& json, const verify::SimulateOptions& machining) {
+  json.fields({{"tool_mm", machining.tool_diameter},
+               {"stock_to_leave_mm", machining.stock_to_leave},
+               {"step_over", machining.step_over},
+               {"top_mm", machining.top},
+               {"acceleration_mm_per_s2", machining.acceleration},
+               {"rapid_mm_per_min", machining.rapid_feed},
+               {"control", words::word_of(machining.control)}});
+}
+
 void write_report(JsonWriter& json, const verify::SimulateReport& r) {
   json.fields({{"coverage_percent", r.coverage_percent},
                {"coverage_low_percent", r.coverage_low_percent},

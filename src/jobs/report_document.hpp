@@ -20,6 +20,9 @@ void write_file(io::JsonWriter& json, const char* role, const File& file);
 /// The same of programs that ran before, into a list that is open.
 void write_earlier(io::JsonWriter& json, const std::vector<EarlierProgram>& earlier);
 
+/// The options that a program was judged with, into an object that is open.
+void write_machining(io::JsonWriter& json, const verify::SimulateOptions& machining);
+
 /// The checker's figures under their names in docs/formats.md, into an object that is open.
 void write_report(io::JsonWriter& json, const verify::SimulateReport& report);
 

@@ -17,8 +17,7 @@ std::string report_json(const SimulateJob& job, const verify::SimulateReport& r)
   write_file(json, "program", job.program);
   write_file(json, "pocket", job.pocket);
   write_earlier(json, job.after);
-  json.end().fields(
-      {{"tool_mm", job.machining.tool_diameter}, {"stock_to_leave_mm", job.machining.stock_to_leave}});
+  write_machining(json.end(), job.machining);
   write_report(json, r);
   json.field("version", kVersion);
   return end_document(json);

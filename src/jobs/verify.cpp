@@ -24,18 +24,21 @@ class Evidence {
       if (written.input(role) == nullptr)
         return failure(ErrorCode::bad_input,
                        fmt::format("{}: \"inputs\" names no file with the role \"{}\"", result_.name, role));
-    for (const io::InputRecord& record : written.inputs) LEKALO_CHECK(take(record, written));
+    for (const io::InputRecord& record : written.inputs) LEKALO_CHECK(take(record));
     if (written.certificate_file) {
       LEKALO_TRY(certificate_, needed("certificate", *written.certificate_file));
     }
-    if (written.nc_output) compare_program(*written.nc_output);
+    if (written.nc_output) take_program(*written.nc_output);
     return {};
   }
 
   [[nodiscard]] Result<Verified> judged() const {
     verify::LocateInputs inputs{document(result_), document(*input("part")), document(*input("blank")), {}};
     if (certificate_) inputs.certificate = document(*certificate_);
-    if (const File* const features = input("features")) inputs.features = document(*features);
+    for (const auto& [role, to] :
+         {std::pair{"features", &inputs.features}, {"nc", &inputs.program}, {"last-result", &inputs.earlier}})
+      if (const File* const file = input(role)) *to = document(*file);
+    if (program_) inputs.written_program = document(*program_);
     Verified verified;
     LEKALO_TRY(verified.report, verify::verify_locate(inputs));
     verify::LocateReport& report = verified.report;
@@ -66,25 +69,14 @@ class Evidence {
     return *std::move(file);
   }
 
-  /// Takes the file of an input, with a note where the result has something from it that is not rechecked.
-  Result<void> take(const io::InputRecord& record, const io::WrittenResult& written) {
+  Result<void> take(const io::InputRecord& record) {
     const std::string& role = record.role;
     if (input(role) != nullptr)
       return failure(ErrorCode::bad_input,
                      fmt::format("{}: \"inputs\" names two files with the role \"{}\"", result_.name, role));
     LEKALO_TRY(File file, needed(role, record.file));
-    if (const std::string claim = left_out(role, written); !claim.empty())
-      notes_.push_back(fmt::format("of the {} file {} only the bytes were compared: {} was not rechecked",
-                                   role, file.name, claim));
     inputs_.emplace_back(role, std::move(file));
     return {};
-  }
-
-  /// Returns the claim that would need more than the bytes of an input; empty: there is none.
-  static std::string left_out(const std::string& role, const io::WrittenResult& written) {
-    if (role == "part" || role == "blank" || role == "features") return "";
-    if (role == "nc") return written.nc_output ? "that the program of the result is this one, moved," : "";
-    return role == "last-result" ? "the comparison with it" : "what the result has from it";
   }
 
   [[nodiscard]] const File* input(const std::string& role) const {
@@ -93,12 +85,14 @@ class Evidence {
     return nullptr;
   }
 
-  void compare_program(const io::FileRecord& written) {
-    const Result<std::optional<File>> program = found("NC program", written);
+  /// A program that is not there may have gone to the machine; the checker says that it was not compared.
+  void take_program(const io::FileRecord& written) {
+    Result<std::optional<File>> program = found("NC program", written);
     if (!program)
       notes_.push_back(program.error().message);
-    else if (!*program)
-      notes_.push_back(fmt::format("the NC program {} is not there, so it was not compared", written.path));
+    else
+      program_ = *std::move(program);
+    if (program && !program_) notes_.push_back(fmt::format("the NC program {} is not there", written.path));
   }
 
   static const char* name_of(verify::Verdict verdict) {
@@ -107,6 +101,8 @@ class Evidence {
         return "confirmed";
       case verify::Verdict::incomplete:
         return "incomplete";
+      case verify::Verdict::stated_regions:
+        return "confirmed for the stated regions";
       case verify::Verdict::unproved:
         return "unproved";
       case verify::Verdict::refuted:
@@ -138,7 +134,7 @@ class Evidence {
   const FileFinder& find_;
   /// With their roles, in the order of the result.
   std::vector<std::pair<std::string, File>> inputs_;
-  std::optional<File> certificate_;
+  std::optional<File> certificate_, program_;
   std::vector<std::string> mismatches_, notes_;
 };
 

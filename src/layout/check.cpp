@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/phi/outline_relation.hpp"
 #include "lekalo/phi/separation.hpp"
@@ -87,6 +88,7 @@ struct Placed {
 void add_stock_violations(const Document& document, const Placed& placed, const Features& features,
                           Depths depths, std::vector<Violation>& to) {
   const Placement& placement = *placed.placement;
+  ask(1 + placed.outline.points.size());
   const auto add = [&](std::optional<Violation> violation) {
     if (violation) to.push_back(*violation);
   };
@@ -230,6 +232,7 @@ std::optional<Violation> quality_violation(const Document& document, const Place
 std::optional<Violation> pair_violation(const Document& document, const Placement& a,
                                         const GridRegion& outline_a, const Placement& b,
                                         const GridRegion& outline_b, Depths depths) {
+  ask(1 + (outline_a.points.size() + outline_b.points.size()) / 8);
   Violation violation = on_its_own(ViolationKind::overlap, a);
   violation.b = b.id;
   if (phi::interiors_meet(outline_a, outline_b))

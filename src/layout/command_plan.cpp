@@ -9,6 +9,7 @@
 
 #include "group.hpp"
 #include "lekalo/base/plain_text.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/layout/command.hpp"
 #include "places.hpp"
 
@@ -263,6 +264,7 @@ class Planner {
         const std::vector<std::uint64_t> ids = foremost_first(work, sheets[i], direction);
         const double begun = round == 0 ? 0 : round + 1, share = round == 0 ? 2 : 1;
         for (std::size_t k = 0; k < ids.size() && !stopped; ++k) {
+          ask();
           LEKALO_TRY(auto moved, settled_by(work, ids[k], direction));
           any = any || moved;
           ++settled;

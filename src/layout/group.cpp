@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::layout {
 namespace {
@@ -138,6 +139,7 @@ bool Group::slide(Point direction, double length) {
   const GridBox around = box();
   const double leg = norm(in_doubles(around.high - around.low)) + 1024;
   while (length > 0) {
+    ask();
     Way next = way(direction, std::min(leg, length));
     const phi::SlideEnd end =
         phi::slide(next.path, std::move(next.events), [&](GridPoint shift) { return is_clear(shift); });

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "group.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/layout/command.hpp"
 
 namespace lekalo::layout {
@@ -144,6 +145,7 @@ class Snapper {
     });
     shifts.push_back(0);
     for (const double shift : shifts) {
+      ask();
       Placement lifted = placed;
       lifted.at = lifted.at + nearest_step(lift + shift * along);
       Group group(workspace_, {lifted});
@@ -185,6 +187,7 @@ std::optional<std::vector<Placement>> nearest_place(const Workspace& workspace,
   int ring = 0;
   for (double radius = std::max(16.0, size / 64); radius <= most && radius < best; radius *= 1.25, ++ring) {
     for (int step = 0; step < kDirections; ++step) {
+      ask();
       // The directions of a ring lie between those of the ring before.
       const GridPoint direction = direction_of_step(2 * step + ring % 2, 2 * kDirections);
       const GridPoint shift = nearest_step(radius * 0x1p-52 * in_doubles(direction));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/phi/outline_relation.hpp"
 
 namespace lekalo::layout {
@@ -41,6 +42,7 @@ class FreeSpace {
     // largest rectangle under them.
     std::vector<std::int64_t> height(static_cast<std::size_t>(columns) + 1, 0);
     for (std::int64_t y = 0; y < rows; ++y) {
+      ask(1 + static_cast<std::uint64_t>(columns));
       for (std::int64_t x = 0; x < columns; ++x) {
         const GridPoint low = within_.low + GridPoint{x * cell, y * cell};
         auto& h = height[static_cast<std::size_t>(x)];

@@ -1,6 +1,7 @@
 #include "lekalo/locate/locate.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "lekalo/geom/pose.hpp"
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double kConvexGap = 1e-9, kRegionGap = 1e-3;  ///< mm
 constexpr std::uint64_t kRegionWork = 2'000'000;
+/// Shapes of this many edges get all of that.
+constexpr std::uint64_t kOrdinaryEdges = 1000;
 
 std::uint32_t number_of(const std::vector<std::uint32_t>& numbers, std::uint32_t index) {
   return numbers.empty() ? index : numbers[index];
@@ -57,7 +60,7 @@ Result<Found> by_poses(const RegionProblem& shapes, const RegionOptions& search)
   found.status = r.status, found.best = r.best, found.mirrored = r.mirrored, found.work = r.work;
   found.upper_bound = r.upper_bound, found.shortfall = r.shortfall;
   found.contacts = std::move(r.contacts);
-  found.proof = PoseProof{r.pivot, std::move(r.certificate)};
+  found.proof = PoseProof{r.pivot, std::move(r.certificate), r.own_outline};
   return found;
 }
 
@@ -68,9 +71,19 @@ Result<Found> by_demands(const Demands& demands, const RegionProblem& shapes, co
   found.status = r->status, found.best = r->best, found.mirrored = r->mirrored, found.work = r->work;
   found.shortfall = std::max(0.0, -r->margin);
   found.contacts = std::move(r->contacts);
-  found.proof = PoseProof{r->proof.pivot, std::move(r->proof.certificate)};
+  found.proof = PoseProof{r->proof.pivot, std::move(r->proof.certificate), OwnOutline::no};
   found.demands = std::move(*r);
   return found;
+}
+
+/// A unit of work looks at the edges of a shape, and shapes of more edges need more units to no end. So the
+/// work that nobody has limited shrinks with the square of the edges.
+std::uint64_t most_work(const RegionProblem& shapes, std::uint64_t asked) {
+  if (asked != std::numeric_limits<std::uint64_t>::max()) return std::min(asked, kRegionWork);
+  const std::uint64_t edges = geom::edges_in(shapes.part) + geom::edges_in(shapes.blank);
+  if (edges <= kOrdinaryEdges) return kRegionWork;
+  const double share = static_cast<double>(kOrdinaryEdges) / static_cast<double>(edges);
+  return static_cast<std::uint64_t>(static_cast<double>(kRegionWork) * share * share) + 1;
 }
 
 }  // namespace
@@ -85,12 +98,13 @@ Result<Found> locate(const Problem& problem, const Options& options) {
   if (options.alternatives)
     return failure(ErrorCode::usage, "alternatives are listed for convex outlines alone");
   const RegionProblem shapes{problem.part.regions,   problem.blank.regions,   problem.window, problem.mirror,
-                             problem.part.tolerance, problem.blank.tolerance, problem.locked, {}};
+                             problem.part.tolerance, problem.blank.tolerance, problem.locked, {},
+                             problem.one_file};
   RegionOptions search;
   search.gap = options.gap.value_or(kRegionGap);
   search.min_allowance = options.min_allowance;
   search.run = options.run;
-  search.run.work_limit = std::min(options.run.work_limit, kRegionWork);
+  search.run.work_limit = most_work(shapes, options.run.work_limit);
   return problem.demands ? by_demands(*problem.demands, shapes, search) : by_poses(shapes, search);
 }
 

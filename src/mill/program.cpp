@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/nc/program_writer.hpp"
 
@@ -42,6 +43,7 @@ class Writer {
     begin();
     lines_are_of(kNoMove);
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
+      ask();
       if (at_)
         follow(path.moves[i]);
       else

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/wide_product.hpp"
 
 namespace lekalo::phi {
@@ -25,6 +26,7 @@ struct Edge {
 /// Returns the edges of a region, moved, whose boxes come within `margin` of `window`.
 std::vector<Edge> edges_near(const GridRegion& region, GridPoint shift, const GridBox& window,
                              std::int64_t margin = 0) {
+  ask(1 + region.points.size() / 16);
   std::vector<Edge> edges;
   for (std::size_t l = 0; l < region.loops(); ++l) {
     const std::uint32_t begin = region.loop_starts[l], end = region.loop_starts[l + 1];
@@ -98,6 +100,7 @@ bool boundaries_mix(const GridRegion& a, const GridRegion& b, GridPoint shift, b
   const std::vector<Edge> near = edges_near(b, shift, box_a);
   if (near.empty()) return false;
   for (const Edge& edge : edges_near(a, {}, box_b)) {
+    ask(1 + near.size() / 16);
     const GridBox box = box_of(edge.from, edge.to);
     for (const Edge& other : near)
       if (boxes_meet(box, box_of(other.from, other.to)) && material_meets(edge, other, outside_of_a))
@@ -190,6 +193,7 @@ bool edges_nearer_than(const GridRegion& a, const GridRegion& b, std::int64_t ga
   const std::vector<Edge> near = edges_near(b, shift, box_a, gap);
   if (near.empty()) return false;
   for (const Edge& edge : edges_near(a, {}, box_b, gap)) {
+    ask(1 + near.size() / 16);
     const GridBox box = box_of(edge.from, edge.to);
     for (const Edge& other : near) {
       if (!boxes_meet(box, box_of(other.from, other.to), gap)) continue;
@@ -224,6 +228,7 @@ EdgeDistance edge_distance(const GridRegion& a, const GridRegion& b, GridPoint s
     best = p_on_a ? EdgeDistance{0, end, on_edge} : EdgeDistance{0, on_edge, end};
   };
   for (const Edge& edge : edges_near(a, {}, bounds(a))) {
+    ask(1 + others.size() / 16);
     const GridBox box = box_of(edge.from, edge.to);
     if (beyond(box, box_b)) continue;
     for (const Edge& other : others) {

@@ -3,8 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::phi {
+namespace {
+
+/// The farther half of so many contacts is dropped: far from any contact all pairs of edges would be within a
+/// wide margin.
+constexpr std::size_t kMostContacts = 8192;
+
+/// Drops the farther half of the contacts and returns how far the rest reach.
+double keep_nearer_half(std::vector<RegionContact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(), [](const RegionContact& a, const RegionContact& b) {
+    return std::tie(a.distance, a.part_edge, a.blank_edge) < std::tie(b.distance, b.part_edge, b.blank_edge);
+  });
+  contacts.resize(contacts.size() / 2);
+  return contacts.back().distance;
+}
+
+}  // namespace
 
 using geom::BlankFromPart;
 using geom::Curve;
@@ -55,20 +74,22 @@ bool RegionClearance::inside(const BlankFromPart& pose) const {
 RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double margin,
                                            std::vector<RegionContact>* contacts) const {
   if (contacts != nullptr) contacts->clear();
-  double least = std::numeric_limits<double>::infinity(), limit = least;
+  double least = std::numeric_limits<double>::infinity(), limit = least, most = least;
   const geom::Pose<geom::PartFrame, geom::BlankFrame> back = pose.inverse();
   for (std::uint32_t i = 0; i < disc_.size(); ++i) {
     const Curve moved = placed(part_.curves()[i], pose);
     blank_.visit_within(pose(disc_[i].centre), disc_[i].radius, limit, [&](std::uint32_t j) {
       const geom::ClosestPoints close = closest_points(moved, blank_.curves()[j]);
       if (close.distance > limit) return;
-      if (close.distance < least) least = close.distance, limit = least + margin;
+      if (close.distance < least) least = close.distance, limit = std::min(least + margin, most);
       // A shared end belongs to the edge that begins there, so that it makes one contact and not two.
       const Curve& other = blank_.curves()[j];
       const bool elsewhere =
           (close.a == moved.edge.to && !moved.full) || (close.b == other.edge.to && !other.full);
       if (contacts != nullptr && !elsewhere)
         contacts->push_back({i, j, back(close.a), close.b, close.distance});
+      if (contacts != nullptr && contacts->size() == kMostContacts)
+        limit = most = std::min(limit, keep_nearer_half(*contacts));
     });
   }
   if (contacts != nullptr)
@@ -98,6 +119,7 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
     return blank_.contains(q) ? -distance : distance;
   };
   constexpr double kRelative = 1.0 / 256;
+  constexpr std::size_t kMostSquares = 1'000'000;
   double reached = 0;
   for (const Curve& curve : part_.curves()) reached = std::max(reached, outside(curve.edge.from));
   struct Square {
@@ -107,11 +129,17 @@ double RegionClearance::depth(const BlankFromPart& pose, double tolerance) const
   const geom::Box box = part_.bounds();
   std::vector<Square> open{
       {0.5 * (box.low + box.high), 0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y)}};
-  while (!open.empty()) {
+  for (std::size_t looked = 0; !open.empty(); ++looked) {
+    ask();
     const Square square = open.back();
     open.pop_back();
     const double radius = 1.4142135623730952 * square.half;
     const double out = outside(square.centre);
+    // Past the limit each square counts with the most that its middle allows.
+    if (looked > kMostSquares) {
+      reached = std::max(reached, out + radius);
+      continue;
+    }
     if (out + radius <= reached + std::max(tolerance, kRelative * reached)) continue;
     const double to_part = part_.contains(square.centre) ? 0 : part_.nearest(square.centre).distance;
     if (to_part > radius) continue;

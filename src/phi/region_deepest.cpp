@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/phi/region.hpp"
 
@@ -109,6 +110,7 @@ class Deepest {
 
   double run() {
     for (std::size_t looked = 0; !open_.empty() && looked < RegionClearance::kMostPieces; ++looked) {
+      ask();
       const Piece piece = open_.top();
       if (piece.most <= best_ + tolerance_) break;
       open_.pop();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/stop.hpp"
 #include "pair_memory.hpp"
 
 namespace lekalo::phi {
@@ -432,6 +433,7 @@ bool Scene::container_forbids(BodyIndex index, const Question& q) const {
 }
 
 bool Scene::forbidden(const Probe& probe) const {
+  ask();
   const Question q = question(probe);
   // Step 2 of docs/design/scene.md: the body that blocked this way last is asked first.
   BodyIndex* blocker = nullptr;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/phi/outline_relation.hpp"
 #include "slide_out.hpp"
 
@@ -220,6 +221,7 @@ StickingOut sticking_out(const GridRegion& container, const GridRegion& a) {
   StickingOut most;
   bool found = false;
   for (const GridPoint p : a.points) {
+    ask(1 + container.points.size() / 16);
     if (locate_point(container, p) != geom::PointLocation::outside) continue;
     double squared = std::numeric_limits<double>::infinity();
     for (std::size_t l = 0; l < container.loops(); ++l) {

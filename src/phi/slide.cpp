@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::phi {
 namespace {
 
@@ -101,6 +103,7 @@ void add_all(const GridRegion& one, Point one_at, const GridRegion& other, Point
     const std::uint32_t begin = other.loop_starts[l], end = other.loop_starts[l + 1];
     Point from = in_doubles(other.points[end - 1]) + other_at;
     for (std::uint32_t i = begin; i < end; ++i) {
+      lekalo::ask(1 + points.size() / 16);
       const Point to = in_doubles(other.points[i]) + other_at;
       if (window.meets(from, to)) {
         const SweptBox near{{std::min(from.x, to.x) - reach + std::min(0.0, -way.x),

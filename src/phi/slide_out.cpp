@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::phi {
 
 using geom::GridPoint;
@@ -43,6 +45,7 @@ void SlideOut::Outline::turn(Point direction) {
 }
 
 void SlideOut::Outline::cross_line(double height, std::vector<double>& places) const {
+  ask(1 + turned.size() / 16);
   places.clear();
   for (std::size_t l = 0; l + 1 < loop_starts.size(); ++l) {
     const Point* before = &turned[loop_starts[l + 1] - 1];
@@ -70,6 +73,7 @@ double SlideOut::least_at(double height) {
     moved = false;
     for (std::size_t i = 0; i + 1 < line_a_.size(); i += 2)
       for (std::size_t j = 0; j + 1 < line_b_.size(); j += 2) {
+        ask();
         const double from = line_b_[j] - line_a_[i + 1], to = line_b_[j + 1] - line_a_[i];
         if (from >= distance || to <= distance) continue;
         distance = to;
@@ -96,6 +100,7 @@ void SlideOut::Outline::collect_edges(double from, double to) {
 }
 
 void SlideOut::Outline::cross_slab(double bottom, double top) {
+  ask(1 + active.size() / 16);
   std::erase_if(active, [&](const Edge* edge) { return edge->high <= bottom; });
   while (next < edges.size() && edges[next].low <= bottom) {
     if (edges[next].high > bottom) active.push_back(&edges[next]);

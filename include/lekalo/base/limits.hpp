@@ -52,4 +52,17 @@ inline constexpr std::int64_t kMostId = (std::int64_t{1} << 53) - 1;
 /// Costs of stocks and values of kits.
 inline constexpr double kMostMoney = 1e12;
 
+/// Edges of outlines are compared with those whose boxes meet theirs. Of ordinary outlines that is a handful
+/// each; where almost every box meets every other, as those of slanting slots or of nested circles do, it
+/// would be the square of their number.
+[[nodiscard]] constexpr std::size_t most_meeting_boxes(std::size_t edges) noexcept {
+  return 8'000'000 + 16 * edges;
+}
+/// Unions, differences and offsets of shapes cut edges into pieces, most of which meet a few others.
+[[nodiscard]] constexpr std::size_t most_meeting_pieces(std::size_t edges) noexcept {
+  return 4 * most_meeting_boxes(edges);
+}
+/// Places where pieces of edges meet.
+inline constexpr std::size_t kMostCrossings = 1'000'000;
+
 }  // namespace lekalo::limits

@@ -9,7 +9,7 @@ namespace lekalo {
 /// when all are done. The caller's thread is one of them and begins with number 0; which thread takes which
 /// of the others is open, so a result may not depend on it. Where the system gives no more threads, fewer do
 /// the work. What act throws is thrown here, when no thread works any more; then some numbers may not be
-/// done.
+/// done. Every thread listens to the stop of the caller's (base/stop.hpp).
 ///
 /// This is the only place of the library that starts threads. Compiled without LEKALO_WITH_THREADS (an option
 /// of CMake) it calls act in ascending order, as it does for one thread. Flags that another thread sets, and

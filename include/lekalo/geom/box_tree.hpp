@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/polygon.hpp"
 
 namespace lekalo::geom {
@@ -21,12 +22,22 @@ class BoxTree {
   /// Calls visit(i) for every box i that meets `box`, touching included.
   template <class Visit>
   void visit_meeting(const Box& box, Visit&& visit) const {
-    if (!nodes_.empty()) descend(0, box, visit);
+    visit_meeting_while(box, [&](std::uint32_t i) { return visit(i), true; });
+  }
+  /// Does the same until visit returns false. Returns whether it never did.
+  template <class Visit>
+  bool visit_meeting_while(const Box& box, Visit&& visit) const {
+    return nodes_.empty() || descend(0, box, visit);
   }
   /// Calls visit(i, j), i < j, once for every two boxes that meet.
   template <class Visit>
   void visit_pairs(Visit&& visit) const {
-    if (!nodes_.empty()) within(0, visit);
+    visit_pairs_while([&](std::uint32_t i, std::uint32_t j) { return visit(i, j), true; });
+  }
+  /// Does the same until visit returns false. Returns whether it never did.
+  template <class Visit>
+  bool visit_pairs_while(Visit&& visit) const {
+    return nodes_.empty() || within(0, visit);
   }
 
  private:
@@ -42,52 +53,47 @@ class BoxTree {
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
 
   template <class Visit>
-  void descend(std::uint32_t at, const Box& box, Visit& visit) const {
+  bool descend(std::uint32_t at, const Box& box, Visit& visit) const {
     const Node& node = nodes_[at];
-    if (!boxes_meet(node.box, box)) return;
-    if (node.right != 0) {
-      descend(at + 1, box, visit);
-      descend(node.right, box, visit);
-      return;
-    }
+    if (!boxes_meet(node.box, box)) return true;
+    if (node.right != 0) return descend(at + 1, box, visit) && descend(node.right, box, visit);
+    ask();
     for (std::uint32_t i = node.begin; i < node.end; ++i)
-      if (boxes_meet(boxes_[order_[i]], box)) visit(order_[i]);
+      if (boxes_meet(boxes_[order_[i]], box) && !visit(order_[i])) return false;
+    return true;
   }
 
   template <class Visit>
-  void pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
+  bool pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
     const std::uint32_t a = std::min(order_[i], order_[j]), b = std::max(order_[i], order_[j]);
-    if (boxes_meet(boxes_[a], boxes_[b])) visit(a, b);
+    return !boxes_meet(boxes_[a], boxes_[b]) || visit(a, b);
   }
 
   template <class Visit>
-  void within(std::uint32_t at, Visit& visit) const {
+  bool within(std::uint32_t at, Visit& visit) const {
     const Node& node = nodes_[at];
-    if (node.right != 0) {
-      within(at + 1, visit);
-      within(node.right, visit);
-      between(at + 1, node.right, visit);
-      return;
-    }
+    if (node.right != 0)
+      return within(at + 1, visit) && within(node.right, visit) && between(at + 1, node.right, visit);
+    ask();
     for (std::uint32_t i = node.begin; i < node.end; ++i)
-      for (std::uint32_t j = i + 1; j < node.end; ++j) pair(i, j, visit);
+      for (std::uint32_t j = i + 1; j < node.end; ++j)
+        if (!pair(i, j, visit)) return false;
+    return true;
   }
 
   template <class Visit>
-  void between(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+  bool between(std::uint32_t a, std::uint32_t b, Visit& visit) const {
     const Node &left = nodes_[a], &right = nodes_[b];
-    if (!boxes_meet(left.box, right.box)) return;
+    if (!boxes_meet(left.box, right.box)) return true;
     const bool split_left = left.right != 0 && left.end - left.begin >= right.end - right.begin;
-    if (split_left || (left.right != 0 && right.right == 0)) {
-      between(a + 1, b, visit);
-      between(left.right, b, visit);
-    } else if (right.right != 0) {
-      between(a, b + 1, visit);
-      between(a, right.right, visit);
-    } else {
-      for (std::uint32_t i = left.begin; i < left.end; ++i)
-        for (std::uint32_t j = right.begin; j < right.end; ++j) pair(i, j, visit);
-    }
+    if (split_left || (left.right != 0 && right.right == 0))
+      return between(a + 1, b, visit) && between(left.right, b, visit);
+    if (right.right != 0) return between(a, b + 1, visit) && between(a, right.right, visit);
+    ask();
+    for (std::uint32_t i = left.begin; i < left.end; ++i)
+      for (std::uint32_t j = right.begin; j < right.end; ++j)
+        if (!pair(i, j, visit)) return false;
+    return true;
   }
 
   std::vector<Box> boxes_;

@@ -12,13 +12,20 @@
 
 namespace lekalo::jobs {
 
+/// A file that a layout was made of, as reports name it.
+struct LayoutInput {
+  std::string role;    ///< "layout", "part" or "sheet"
+  std::string name;    ///< of the file
+  std::string sha256;  ///< of its bytes, lower-case hexadecimal
+};
+
 /// A layout as all jobs take it. open_layout makes it of a file; a program that has a document already fills
 /// in `document` and leaves the rest empty.
 struct Layout {
-  /// The name of the file, for sentences and reports; empty where there is none.
+  /// The name of the file, for sentences; empty where there is none.
   std::string name;
-  /// The hash of the file's bytes, lower-case hexadecimal.
-  std::string sha256;
+  /// The files it was made of: its own, or those of an order (jobs/order.hpp).
+  std::vector<LayoutInput> inputs;
   /// The file's own bytes where they are a layout ("lekalo-layout/1"), else empty.
   std::string bytes;
   layout::Document document;

@@ -74,6 +74,8 @@ struct LocateJob {
   std::optional<File> features = {};
   /// An NC program in the part's frame.
   std::optional<File> program = {};
+  /// M words that move no axis, beside those that lekalo knows (nc/allow_list.hpp).
+  std::optional<File> allow = {};
   /// The result of an earlier probing, to compare with.
   std::optional<File> earlier = {};
   LocateOptions options = {};

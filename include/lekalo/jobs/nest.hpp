@@ -71,8 +71,9 @@ struct Nested {
 
 /// The figures as "lekalo-nest" JSON (docs/cli.md), ending in a line end.
 /// \param given        what was nested
+/// \param written_as   the name of the file that nested.bytes go to; empty: none
 /// \param cpu_seconds  processor time of the run as the caller measured it
 [[nodiscard]] std::string nest_json(const Layout& given, const NestOptions& options, const Nested& nested,
-                                    double cpu_seconds);
+                                    const std::string& written_as, double cpu_seconds);
 
 }  // namespace lekalo::jobs

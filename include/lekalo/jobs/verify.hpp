@@ -24,10 +24,9 @@ struct Verified {
 };
 
 /// Rechecks a result of a localisation against the files that it names: their digests, and everything that
-/// verify::verify_locate proves. Every input has to be there; notes name those of which only the bytes are
-/// compared. The NC program that was written is no evidence for the placement, but a result that names
-/// other bytes than those found is not true; one that is not there may have gone to the machine, and a note
-/// says so.
+/// verify::verify_locate proves. Every input has to be there and is used. The NC program that was written is
+/// held against the original, moved; one that is not there may have gone to the machine, and the verdict is
+/// incomplete then.
 ///
 /// Errors: bad_input where the result, one of its inputs or the certificate is not there or cannot be read,
 /// and where two inputs have one role.

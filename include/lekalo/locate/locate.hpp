@@ -21,6 +21,8 @@ struct Problem {
   Mirror mirror = Mirror::no;
   LockedShift locked;
   std::optional<Demands> demands;
+  /// As in RegionProblem.
+  bool one_file = false;
 };
 
 struct Options {
@@ -33,7 +35,8 @@ struct Options {
   /// the best are listed too, mm.
   std::optional<double> alternatives;
   /// The unit of work is that of the search beneath. Regions stop by themselves after 2,000,000 units, which
-  /// are some minutes and some gigabytes.
+  /// are some minutes and some gigabytes; without a limit here those of more than 1,000 edges do so after
+  /// fewer, as the square of their edges grows.
   RunControl run;
 };
 

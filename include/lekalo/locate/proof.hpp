@@ -21,6 +21,8 @@ struct PoseProof {
   geom::Point pivot;  ///< part coordinates
   /// Empty when nothing is proved, or when the proof is kept elsewhere.
   std::vector<CoverTree> trees;
+  /// The other reason: the part has the outline of the blank.
+  OwnOutline own_outline = OwnOutline::no;
 };
 
 /// The kind says from which search a placement comes, also where the proof itself is not there.

@@ -45,6 +45,8 @@ struct RegionProblem {
   /// With caps the search maximises the least of the clearance and what each cap has left (`most` less the
   /// greatest depth of its edges). That number stands for the clearance everywhere here.
   std::vector<Cap> caps = {};
+  /// Part and blank were read from one file in one way, so that equal regions stand for equal outlines.
+  bool one_file = false;
 };
 
 struct RegionOptions {
@@ -93,6 +95,14 @@ struct CoverTree {
   std::vector<BallTerm> terms;
 };
 
+/// A part in a blank of its own outline needs no search. No placement of it has any clearance, because with
+/// it grown by that the blank would have to hold more than its own area; and it has 0 where it lies.
+enum class OwnOutline : std::uint8_t {
+  no,
+  regions,  ///< the regions are the same, and their tolerances count
+  file      ///< the outlines are the same, whatever the tolerances
+};
+
 struct RegionResult {
   Status status = Status::stopped;
   /// The best placement. Its clearance is rounded down, so that an exact recheck never finds less.
@@ -107,11 +117,16 @@ struct RegionResult {
   /// The pivot of the certificate, part coordinates.
   geom::Point pivot;
   std::vector<CoverTree> certificate;
+  /// The other proof, without a certificate.
+  OwnOutline own_outline = OwnOutline::no;
   std::uint64_t work = 0;
 };
 
 /// Searches the whole window. ErrorCode::usage for a window with from > to, a gap that is not positive or a
 /// value that is not finite; bad_input for shapes without edges. Deterministic; single-threaded.
+///
+/// A part in a blank of its own outline (geom::same_outline) that may lie as it is drawn does so, without a
+/// search.
 ///
 /// Cost: a few thousand boxes where the optimum is a sharp peak, each O(log edges) while large and O(edges)
 /// when small; grows as the clearance gets flat in some direction (parts of k-fold symmetry, roomy blanks).

@@ -19,9 +19,10 @@ enum class Reason : std::uint8_t {
   no_angle,   ///< no angle is allowed for it, or its grain fits no stock
   too_large,  ///< it fits on no stock at any angle tried, even if the stock were whole and good
   no_zone,    ///< it would fit, but zones or defects were too bad for it wherever it was tried
-  no_stock    ///< no place was found on the stock that is left, which is no proof that there is none
+  no_stock,   ///< no place was found on the stock that is left, which is no proof that there is none
+  not_tried   ///< the run ended before its turn came
 };
-/// The word for a reason: "no-angle", "too-large", "no-zone", "no-stock".
+/// The word for a reason: "no-angle", "too-large", "no-zone", "no-stock", "not-tried".
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;
 
 /// Pieces of a part that are not placed.
@@ -64,7 +65,8 @@ struct Options {
 /// Places all pieces that the document wants (layout::wanted) beside its locked placements.
 ///
 /// It is deterministic: the same document, options and control.work_limit give the same layout, whatever
-/// the threads. A run that was stopped by its flag is repeated by its `work` as the limit.
+/// the threads. A run that was stopped by its flag is repeated by its `work` as the limit, unless it was
+/// stopped before its first layout was whole: then it has what lay there, or what was given.
 ///
 /// It fails with bad_input where the document has no stock or wants nothing, where locked placements break
 /// a rule, and for more than 100,000 pieces. Angles of ranges are tried in steps of 360 / angles degrees.

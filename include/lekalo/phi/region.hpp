@@ -34,7 +34,8 @@ class RegionClearance {
   };
   /// \param contacts  if given, filled with the pairs of points at most `margin` further apart than the
   ///                  least distance. Every pair of edges gives its nearest two points, but not those that
-  ///                  another pair of edges gives as well.
+  ///                  another pair of edges gives as well. The nearest thousands are kept where there are
+  ///                  more.
   /// Cost: O((n + k) log m) for n edges of the part, m of the blank and k pairs that come close.
   [[nodiscard]] Value at(const geom::BlankFromPart& pose, double margin = 0,
                          std::vector<RegionContact>* contacts = nullptr) const;

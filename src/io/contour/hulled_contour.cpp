@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "contour_points.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 
@@ -66,6 +67,7 @@ class HullChords {
   [[nodiscard]] std::size_t farthest_straight(std::size_t i, std::size_t last) const {
     std::size_t good = i + 1, step = 1;
     while (good + step <= last && straight(i, good + step)) {
+      ask();
       good += step;
       step *= 2;
     }

@@ -7,6 +7,7 @@
 
 #include "contour_points.hpp"
 #include "hulled_contour.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 
@@ -138,6 +139,7 @@ bool is_beyond(const geom::ConvexPolygon& polygon, const std::vector<Side>& side
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) nearest = nearer(sides[0], i, nearest) ? i : nearest;
   for (std::size_t k = 0; k < sides.size(); ++k) {
+    ask();
     while (nearer(sides[k], polygon.next(nearest), nearest)) nearest = polygon.next(nearest);
     const Point v = polygon[nearest];
     if (geom::turn(sides[k].from, sides[k].to, sides[k].deepest_point, v) <= 0) return false;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "bezier.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -171,7 +172,8 @@ class Follower {
     double at = 0, step = 1;
     Point from = first;
     while (at < end) {
-      if (made.edges.size() == kMostCurves) return std::nullopt;
+      ask();
+      if (made.edges.size() == kMostEdgesOfACurve) return std::nullopt;
       const double rest = end - at;
       // The last two steps share what is left, so that no short remainder stays at the end.
       double next = rest <= step ? end : at + (rest < 2 * step ? rest / 2 : step);
@@ -254,7 +256,7 @@ Result<CurveEdges> follow(const BezierChain& chain, Point first, Point last, dou
   }
   return failure(ErrorCode::bad_input,
                  fmt::format("is not within {} mm of {} lines and arcs; use a larger curve tolerance",
-                             tolerance, kMostCurves));
+                             tolerance, kMostEdgesOfACurve));
 }
 
 Result<CurveEdges> edges(const Edge& edge, double) {

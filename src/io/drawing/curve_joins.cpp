@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::io {
 namespace {
 
@@ -40,6 +42,7 @@ class EndGrid {
   std::optional<EndNumber> visit_pairs(Visit&& visit) const {
     std::size_t next_column = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
+      ask();
       const Cell& cell = cells_[i];
       std::size_t seen = 0;
       const auto look_at = [&](const Cell& other) {

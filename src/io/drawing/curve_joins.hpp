@@ -30,7 +30,7 @@ struct CurveJoins {
 };
 
 /// More loose ends than this within about twice the reach of a join are no drawing of contours.
-inline constexpr std::size_t kMostEndsNearby = 256;
+inline constexpr std::size_t kMostEndsNearby = 64;
 
 /// Joins ends in pairs. Two ends are joined when they are at most `tolerance` apart, both still free, and no
 /// other free end is within the tolerance of one of them and at most twice as far from it; nearest pairs

@@ -1,11 +1,13 @@
 #include "curve_overlaps.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "arc_middle.hpp"
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 
@@ -109,70 +111,129 @@ LaidCurve laid_curve(const std::vector<Edge>& edges) {
   return made;
 }
 
-std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, double reach) {
-  std::vector<std::uint32_t> numbers;
-  std::vector<Box> boxes;
-  for (std::uint32_t i = 0; i < curves.size(); ++i) {
-    if (!curves[i].used) continue;
-    numbers.push_back(i);
-    boxes.push_back(grown(curves[i].box, reach));
+namespace {
+
+/// Looks for curves that lie on others, the largest first, because only the smaller one can lie on the other
+/// whole.
+class Copies {
+ public:
+  Copies(const std::vector<LaidCurve>& curves, double reach)
+      : curves_(curves), reach_(reach), on_(curves.size()) {
+    for (std::uint32_t i = 0; i < curves.size(); ++i)
+      if (curves[i].used) order_.push_back(i);
+    std::sort(order_.begin(), order_.end(),
+              [this](std::uint32_t i, std::uint32_t j) { return before(i, j); });
   }
-  // The larger curve is kept, because only the smaller one can lie on the other whole; of equal ones the
-  // first.
-  const auto before = [&](std::uint32_t i, std::uint32_t j) {
-    return curves[i].size != curves[j].size ? curves[i].size > curves[j].size : i < j;
-  };
-  std::vector<LyingOn> found;
-  geom::BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t p, std::uint32_t q) {
-    std::uint32_t a = numbers[p], b = numbers[q];
+
+  std::vector<LyingOn> run() {
+    set_equal_ones_aside();
+    std::vector<Box> boxes;
+    for (const std::uint32_t i : order_) boxes.push_back(grown(curves_[i].box, reach_));
+    const geom::BoxTree tree(boxes);
+    std::size_t left = limits::most_meeting_boxes(order_.size());
+    for (std::uint32_t p = 0; p < order_.size(); ++p) {
+      const std::uint32_t a = order_[p];
+      // A curve that lies on one that lies on another is measured against that one.
+      if (on_[a]) continue;
+      // A curve whose copy is a little longer still counts as the copy.
+      const Box room = grown(curves_[a].box, 2 * reach_);
+      const bool all = tree.visit_meeting_while(boxes[p], [&](std::uint32_t q) {
+        if (left-- == 0) return false;
+        if (q > p) consider(order_[q], a, room);
+        return true;
+      });
+      if (!all) break;
+    }
+    return result();
+  }
+
+ private:
+  /// The order in which curves are kept: larger ones first, of equal ones the first.
+  [[nodiscard]] bool before(std::uint32_t i, std::uint32_t j) const {
+    return curves_[i].size != curves_[j].size ? curves_[i].size > curves_[j].size : i < j;
+  }
+
+  void consider(std::uint32_t b, std::uint32_t a, const Box& room) {
     // Most pairs are neighbours along an outline: the shorter one's box does not fit in the other's.
-    if (!before(a, b)) std::swap(a, b);
-    // A curve whose copy is a little longer still counts as the copy.
-    const Box room = grown(curves[a].box, 2 * reach);
-    const Box& box = curves[b].box;
-    if (!(box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x &&
-          box.high.y <= room.high.y))
+    const Box& box = curves_[b].box;
+    if (on_[b] || !(box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x &&
+                    box.high.y <= room.high.y))
       return;
-    if (const auto far = lies_on(curves[b], curves[a], reach))
-      found.push_back({b, a, are_equal(*curves[b].edges, *curves[a].edges) ? 0 : *far + rounding(room)});
-  });
-  std::sort(found.begin(), found.end(), [&](const LyingOn& s, const LyingOn& t) {
-    return s.curve != t.curve ? before(s.curve, t.curve) : before(s.on, t.on);
-  });
-  std::vector<bool> dropped(curves.size(), false);
-  std::vector<LyingOn> result;
-  for (const LyingOn& one : found) {
-    if (dropped[one.curve] || dropped[one.on]) continue;
-    dropped[one.curve] = true;
-    result.push_back(one);
+    if (const auto far = lies_on(curves_[b], curves_[a], reach_))
+      on_[b] = LyingOn{b, a, are_equal(*curves_[b].edges, *curves_[a].edges) ? 0 : *far + rounding(room)};
   }
-  std::sort(result.begin(), result.end(),
-            [](const LyingOn& s, const LyingOn& t) { return s.curve < t.curve; });
-  return result;
+
+  /// Leaves the first of curves with the same numbers in the order. A hundred copies of one curve would be
+  /// ten thousand pairs.
+  void set_equal_ones_aside() {
+    const auto key = [this](std::uint32_t i) {
+      const std::vector<Edge>& edges = *curves_[i].edges;
+      return std::tie(edges.front().from.x, edges.front().from.y, edges.back().to.x, edges.back().to.y);
+    };
+    std::vector<std::uint32_t> sorted = order_;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+    for (std::size_t k = 1; k < sorted.size(); ++k) {
+      const std::uint32_t one = sorted[k - 1], next = sorted[k];
+      if (*curves_[one].edges != *curves_[next].edges) continue;
+      on_[next] = LyingOn{next, on_[one] ? on_[one]->on : one, 0};
+      equal_.push_back(next);
+    }
+    std::erase_if(order_, [this](std::uint32_t i) { return on_[i].has_value(); });
+  }
+
+  [[nodiscard]] std::vector<LyingOn> result() {
+    // A curve equal to one that lies on another lies on that other as well.
+    for (const std::uint32_t i : equal_)
+      if (const auto& first = on_[on_[i]->on]) on_[i] = LyingOn{i, first->on, first->distance};
+    std::vector<LyingOn> found;
+    for (const std::optional<LyingOn>& one : on_)
+      if (one) found.push_back(*one);
+    return found;
+  }
+
+  const std::vector<LaidCurve>& curves_;
+  double reach_;
+  std::vector<std::uint32_t> order_, equal_;
+  std::vector<std::optional<LyingOn>> on_;
+};
+
+}  // namespace
+
+std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, double reach) {
+  return Copies(curves, reach).run();
 }
 
 std::vector<Overlap> overlapping_ends(const std::vector<LooseEnd>& ends, double reach) {
+  const auto point_of = [](const LooseEnd& end) { return end.at_end ? end.line.to : end.line.from; };
   std::vector<Box> boxes;
   for (const LooseEnd& end : ends) boxes.push_back(grown(curve_box(make_curve(end.line)), reach));
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  geom::BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
-    if (ends[i].curve != ends[j].curve) pairs.push_back({i, j});
-  });
-  std::sort(pairs.begin(), pairs.end());
+  const geom::BoxTree tree(boxes);
   std::vector<bool> taken(ends.size(), false);
   std::vector<Overlap> found;
-  for (const auto& [i, j] : pairs) {
-    if (taken[i] || taken[j]) continue;
-    const Curve a = make_curve(ends[i].line), b = make_curve(ends[j].line);
-    const Point p = ends[i].at_end ? a.edge.to : a.edge.from, q = ends[j].at_end ? b.edge.to : b.edge.from;
-    const double far = std::max(norm(p - nearest_on(b, p)), norm(q - nearest_on(a, q)));
-    // Each beyond the other's end by a good deal more than they are apart sidewise.
-    if (!(far <= reach) || !(norm(p - q) >= 16 * far)) continue;
-    const Point other = ends[j].at_end ? b.edge.from : b.edge.to;
-    if (other == p) continue;
-    taken[i] = taken[j] = true;
-    found.push_back({ends[i].curve, ends[j].curve, ends[i].at_end, ends[j].at_end,
-                     far + rounding(grown(curve_box(a), reach))});
+  std::size_t left = limits::most_meeting_boxes(ends.size());
+  for (std::uint32_t i = 0; i < ends.size() && left > 0; ++i) {
+    if (taken[i]) continue;
+    const Curve a = make_curve(ends[i].line);
+    const Point p = point_of(ends[i]);
+    std::optional<std::uint32_t> first;
+    double distance = 0;
+    tree.visit_meeting_while({p, p}, [&](std::uint32_t j) {
+      if (--left == 0) return false;
+      if (j <= i || taken[j] || (first && *first < j) || ends[i].curve == ends[j].curve) return true;
+      const Curve b = make_curve(ends[j].line);
+      const Point q = point_of(ends[j]);
+      const double far = std::max(norm(p - nearest_on(b, p)), norm(q - nearest_on(a, q)));
+      // Each beyond the other's end by a good deal more than they are apart sidewise.
+      if (!(far <= reach) || !(norm(p - q) >= 16 * far)) return true;
+      const Point other = ends[j].at_end ? b.edge.from : b.edge.to;
+      if (!(other == p)) first = j, distance = far;
+      return true;
+    });
+    if (!first) continue;
+    taken[i] = taken[*first] = true;
+    found.push_back({ends[i].curve, ends[*first].curve, ends[i].at_end, ends[*first].at_end,
+                     distance + rounding(grown(curve_box(a), reach))});
   }
   return found;
 }

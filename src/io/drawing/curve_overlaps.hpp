@@ -31,7 +31,8 @@ struct LyingOn {
 /// direction. `on` is a curve that lies on none itself: the longest such, the first of equals. A curve of
 /// less than 16 `reach` must lie nearer, within a sixteenth of its size, so that short neighbours in a fine
 /// outline are not taken for copies of each other. In ascending order of `curve`.
-/// Cost: O((n + k) log n), k pairs of curves whose boxes come within reach.
+/// Cost: O((n + k) log n), k pairs of curves whose boxes come within reach, equal curves apart. The search
+/// ends after limits::most_meeting_boxes of them, and copies may then be left.
 [[nodiscard]] std::vector<LyingOn> curves_on_others(const std::vector<LaidCurve>& curves, double reach);
 
 /// Two lines that lie on each other for a part, an end of each: where the second is to begin or end instead,

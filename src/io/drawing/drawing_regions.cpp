@@ -15,6 +15,7 @@
 #include "curve_joins.hpp"
 #include "curve_overlaps.hpp"
 #include "layers.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_check.hpp"
@@ -156,6 +157,7 @@ class Assembly {
 
   [[nodiscard]] Result<void> join() {
     for (int round = 0; round < kMostRounds; ++round) {
+      ask(worked_.size());
       std::vector<OpenCurve> open(worked_.size());
       for (std::size_t i = 0; i < open.size(); ++i) {
         open[i].used = is_open(i);
@@ -283,6 +285,7 @@ class Assembly {
       return refuse(open_sentence(chain, open));
     }
     for (const Chain& chain : chains_) {
+      ask(1 + chain.links.size());
       if (chain.closed) continue;
       OpenChain listed{loose_end(chain, false), loose_end(chain, true), {}};
       for (const Link& link : chain.links) {
@@ -478,6 +481,17 @@ class Assembly {
 
 Result<DrawnRegions> make_regions(const Drawing& drawing, const DrawingOptions& options) {
   return Assembly(drawing, options).run();
+}
+
+DrawingRecord record_of(const Drawing& drawing, const DrawingOptions& how, const DrawnRegions& drawn) {
+  DrawingRecord record{how.take, how.join_tolerance, {}};
+  for (const std::uint32_t curve : drawn.specks) {
+    const Shape& shape = drawing.curves[curve].shape;
+    if (const auto* edge = std::get_if<geom::Edge>(&shape)) record.set_aside.push_back(edge->from);
+    if (const auto* arc = std::get_if<EllipseArc>(&shape)) record.set_aside.push_back(arc->from);
+    if (const auto* spline = std::get_if<Spline>(&shape)) record.set_aside.push_back(spline->poles.front());
+  }
+  return record;
 }
 
 }  // namespace lekalo::io

@@ -6,7 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "io/drawing/copies.hpp"
 #include "io/text/refusal.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/excerpt.hpp"
 #include "text.hpp"
 
@@ -61,12 +63,13 @@ class Expansion {
     for (auto& [name, block] : blocks_) find_blocks(block);
     LEKALO_CHECK(weigh(model, 0));
     const std::size_t total = weights_.at(&model).cost;
-    if (total > kMostCurves) {
+    std::size_t drawn = model.cost;
+    for (const auto& [name, block] : blocks_) drawn = sum(drawn, block.cost);
+    if (const std::size_t most = std::min(kMostCurves, sum(drawn, kMostCopies)); total > most)
       return refuse(file_,
-                    fmt::format("with its blocks and arrays this drawing has more than {} curves; keep "
+                    fmt::format("with its blocks and arrays this drawing has {} curves, more than {}; keep "
                                 "what is to be cut",
-                                kMostCurves));
-    }
+                                total, most));
     count_unread(model);
     drop_empty_insertions(model);
     if (model.insertions.empty()) return model;
@@ -215,6 +218,7 @@ class Expansion {
     const std::uint32_t layer = insertion.layer == DxfLayers::kZero ? inherited : insertion.layer;
     const std::uint32_t hides = frozen == kNotFrozen && layers_[layer].frozen ? layer : frozen;
     for (std::uint32_t row = 0; row < insertion.rows; ++row) {
+      ask(1 + insertion.columns);
       for (std::uint32_t column = 0; column < insertion.columns; ++column) {
         const Affine local = placement(insertion, block.base, column, row);
         const Affine all = map == nullptr ? local : composed(*map, local);

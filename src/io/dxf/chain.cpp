@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "io/text/refusal.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/excerpt.hpp"
 
 namespace lekalo::io {
@@ -112,6 +113,7 @@ Result<std::vector<ChainLink>> chain_lines(const std::vector<DxfLine>& lines, do
   grid.use(0);
   geom::Point at = lines[0].ends[1];
   while (chain.size() < lines.size()) {
+    ask();
     bool crowded = false;
     const auto next = grid.nearest(at, crowded);
     if (crowded) {

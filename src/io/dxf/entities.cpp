@@ -7,6 +7,7 @@
 
 #include "io/text/refusal.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "text.hpp"
 
 namespace lekalo::io {
@@ -103,6 +104,7 @@ Result<bool> DxfEntities::take_common() {
 
 Result<void> DxfEntities::read_numbers(const Wanted* first, const Wanted* last, Numbers& numbers) {
   while (at_.next() && at_.code() != 0) {
+    ask();
     LEKALO_TRY(const auto taken, take_common());
     if (taken) continue;
     const Wanted* wanted =

@@ -9,6 +9,7 @@
 #include "header.hpp"
 #include "io/text/refusal.hpp"
 #include "layers.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/dxf/dxf.hpp"
 #include "stated_arcs.hpp"
 #include "text.hpp"
@@ -37,6 +38,7 @@ class DxfDrawing {
  private:
   Result<void> read_sections() {
     while (at_.next()) {
+      ask();
       if (at_.at(0, "EOF")) return {};
       if (at_.code() == 999) continue;  // a comment
       if (!at_.at(0, "SECTION")) {

@@ -163,6 +163,7 @@ Result<ReadOutline> OutlineFile::read_drawing() const {
   how.take = options_.layers;
   LEKALO_TRY(DrawnRegions drawn, make_regions(drawing, how));
   ReadOutline read;
+  read.drawing = record_of(drawing, how, drawn);
   read.outline.regions = std::move(drawn.regions);
   read.outline.tolerance = drawn.tolerance;
   for (const std::uint32_t curve : drawn.curve_of_edge)
@@ -177,7 +178,7 @@ Result<ReadOutline> OutlineFile::read_scan() const {
   if (options_.scan) how.scan = options_.scan->measurement, how.slice = options_.scan->slice;
   LEKALO_TRY(ScanBlank scan, read_scan_blank(bytes_, name_, how));
   ReadOutline read;
-  read.scan = record_of(scan);
+  read.scan = record_of(scan, how);
   read.outline.regions = std::move(scan.blank.regions);
   read.notices = std::move(scan.notices);
   return read;

@@ -136,7 +136,45 @@ Result<DrawnParts> drawn_parts(std::string_view bytes, const std::string& name, 
   return tree.root().find("shape") ? of_tree(bytes, name, options) : of_regions(bytes, name, options);
 }
 
+Result<layout::Stock> make_sheet(const geom::Region& region, std::string id, const std::string& name,
+                                 double chord_tolerance) {
+  layout::Stock sheet;
+  sheet.id = std::move(id);
+  auto outline = detail::outline_of_curves(region, geom::ChordSide::shrink, chord_tolerance);
+  if (!outline)
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: sheet {}: {}", name, excerpt(sheet.id), outline.error().message));
+  sheet.outline = *std::move(outline);
+  return sheet;
+}
+
+/// A notice where outlines are not exactly what is drawn.
+void tell_tolerance(double tolerance, const std::string& name, std::vector<std::string>& notices) {
+  if (tolerance > geom::kGridStep)
+    notices.push_back(
+        fmt::format("{}: outlines are within {:.2g} mm of what is drawn (ellipses, splines, "
+                    "joined ends)",
+                    name, tolerance));
+}
+
 }  // namespace
+
+Result<StocksFile> read_stocks(std::string_view bytes, const std::string& name, const PartOptions& options) {
+  LEKALO_TRY(DrawnParts drawn, drawn_parts(bytes, name, options));
+  StocksFile file;
+  file.notices = std::move(drawn.notices);
+  if (drawn.sheets.empty())
+    for (DrawnPart& one : drawn.parts) drawn.sheets.push_back(std::move(one.region));
+  for (std::size_t i = 0; i < drawn.sheets.size(); ++i) {
+    const std::string stem = id_of_file(name);
+    LEKALO_TRY(layout::Stock sheet,
+               make_sheet(drawn.sheets[i], i == 0 ? stem : fmt::format("{}-{}", stem, i + 1), name,
+                          options.chord_tolerance));
+    file.stocks.push_back(std::move(sheet));
+  }
+  tell_tolerance(drawn.tolerance, name, file.notices);
+  return file;
+}
 
 Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, const PartOptions& options) {
   auto drawn = drawn_parts(bytes, name, options);
@@ -147,14 +185,9 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
   PartsFile file;
   file.notices = std::move(drawn->notices);
   for (std::size_t i = 0; i < drawn->sheets.size(); ++i) {
-    layout::Stock sheet;
-    sheet.id = i == 0 ? "SHEET" : fmt::format("SHEET-{}", i + 1);
-    auto outline =
-        detail::outline_of_curves(drawn->sheets[i], geom::ChordSide::shrink, options.chord_tolerance);
-    if (!outline)
-      return failure(ErrorCode::bad_input,
-                     fmt::format("{}: sheet {}: {}", name, sheet.id, outline.error().message));
-    sheet.outline = *std::move(outline);
+    LEKALO_TRY(layout::Stock sheet,
+               make_sheet(drawn->sheets[i], i == 0 ? "SHEET" : fmt::format("SHEET-{}", i + 1), name,
+                          options.chord_tolerance));
     file.stocks.push_back(std::move(sheet));
   }
   std::set<std::string> ids;
@@ -183,11 +216,7 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
     part.outline = *std::move(outline);
     file.parts.push_back(std::move(part));
   }
-  if (drawn->tolerance > geom::kGridStep)
-    file.notices.push_back(
-        fmt::format("{}: outlines are within {:.2g} mm of what is drawn (ellipses, splines, "
-                    "joined ends)",
-                    name, drawn->tolerance));
+  tell_tolerance(drawn->tolerance, name, file.notices);
   return file;
 }
 

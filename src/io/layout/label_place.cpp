@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::io {
 namespace {
 
@@ -62,6 +64,7 @@ LabelPlace label_place(const geom::GridRegion& outline) {
                   0};
   double widest = -1;
   for (int row = 1; row < kRows; ++row) {
+    ask(1 + outline.points.size() / 16);
     const double y = row_of(box, row, kRows);
     const std::vector<double> crossings = crossings_at(outline, y);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -110,6 +111,7 @@ std::vector<std::size_t> depths(const std::vector<PlacedShape>& parts,
   std::vector<geom::GridBox> boxes;
   for (const GridRegion& outline : outlines) boxes.push_back(bounds(outline));
   for (std::size_t around = 0; around < parts.size(); ++around) {
+    ask(parts.size());
     if (outlines[around].loops() < 2) continue;
     GridRegion full;
     full.points.assign(outlines[around].points.begin(),

@@ -63,6 +63,7 @@ void write(JsonWriter& json, const TrimRecord& trim) {
 void write(JsonWriter& json, const NcRecord& nc) {
   json.begin_object().fields({{"mode", nc.mode},
                               {"scan_frame", nc.scan_frame},
+                              {"control", nc.control},
                               {"work_offset", nc.work_offset},
                               {"rounding_mm", nc.rounding_mm},
                               {"clearance", nc.clearance},
@@ -178,6 +179,10 @@ void write(JsonWriter& json, const locate::CoverTree& tree, const locate::CoverT
   json.end().end();
 }
 
+const char* name_of(locate::OwnOutline own) {
+  return own == locate::OwnOutline::file ? "same file" : "same outline";
+}
+
 void write_cover(JsonWriter& json, geom::Point pivot, const std::vector<locate::CoverTree>& trees) {
   write(json.begin_object().key("pivot"), pivot);
   json.key("trees").list(trees, [&](const locate::CoverTree& tree) {
@@ -268,7 +273,27 @@ void write(JsonWriter& json, const ScanRecord& scan) {
                               {"loss", scan.loss}});
   json.key("assumptions").list(scan.assumptions);
   json.key("unknown").list(scan.unknown);
-  json.key("dropped").list(scan.dropped).end();
+  json.key("dropped").list(scan.dropped);
+  json.fields({{"units", scan.unit == LengthUnit::inch ? "inch" : "mm"},
+               {"min_radius", scan.min_radius},
+               {"max_dip", scan.max_dip}});
+  json.key("slice");
+  if (scan.slice)
+    json.object({{"height", scan.slice->height}, {"thickness", scan.slice->thickness}});
+  else
+    json.value(nullptr);
+  json.key("left_out").list(scan.left_out).key("outlines");
+  if (scan.ordered)
+    json.value(nullptr);
+  else
+    json.list(scan.outlines, [&](const std::vector<std::uint32_t>& outline) { json.list(outline); });
+  json.end();
+}
+
+void write(JsonWriter& json, const DrawingRecord& drawing) {
+  json.begin_object().key("layers").list(drawing.layers);
+  json.field("join", drawing.join).key("set_aside");
+  json.list(drawing.set_aside, [&](geom::Point p) { write(json, p); }).end();
 }
 
 template <class Record>
@@ -292,6 +317,10 @@ void write(JsonWriter& json, const LocateDocument& d, const locate::PoseProof& p
     json.value(nullptr);
   lines(json, {{"part_cut", d.part_cut}});
   write_or_null(line_of(json, "scan"), d.scan);
+  line_of(json, "drawings").begin_object();
+  write_or_null(json.key("part"), d.part_drawing);
+  write_or_null(json.key("blank"), d.blank_drawing);
+  json.end();
   write_or_null(line_of(json, "demands"), d.demands);
   line_of(json, "tolerances").object({{"part", d.part_tolerance}, {"blank", d.blank_tolerance}});
   line_of(json, "regions").begin_object();
@@ -304,7 +333,10 @@ void write(JsonWriter& json, const LocateDocument& d, const locate::PoseProof& p
     trees != nullptr && !trees->empty() ? write_cover(json, pivot, *trees) : void(json.value(nullptr));
   };
   const locate::DemandProof* const largest = largest_proof(d);
-  cover("certificate", proof.pivot, &proof.trees);
+  if (proof.own_outline != locate::OwnOutline::no)
+    line_of(json, "certificate").value(name_of(proof.own_outline));
+  else
+    cover("certificate", proof.pivot, &proof.trees);
   cover("largest_certificate", largest != nullptr ? largest->pivot : geom::Point{},
         largest != nullptr ? &largest->certificate : nullptr);
   write_certificate_file(json, d);
@@ -331,10 +363,16 @@ std::size_t size_of(const std::vector<locate::CoverTree>& trees) {
   for (const locate::CoverTree& tree : trees) leaves += tree.nodes.size() / 2 + 1;
   return leaves;
 }
-std::size_t size_of(const locate::PoseProof& proof) { return size_of(proof.trees); }
+std::size_t size_of(const locate::PoseProof& proof) {
+  return size_of(proof.trees) + (proof.own_outline == locate::OwnOutline::no ? 0 : 1);
+}
 
 void write_certificates(JsonWriter& json, const LocateDocument& d, const locate::PoseProof& proof) {
-  write_cover(json.line(0).key("certificate"), proof.pivot, proof.trees);
+  json.line(0).key("certificate");
+  if (proof.own_outline != locate::OwnOutline::no)
+    json.value(name_of(proof.own_outline));
+  else
+    write_cover(json, proof.pivot, proof.trees);
   if (const locate::DemandProof* const largest = largest_proof(d))
     write_cover(json.line(0).key("largest_certificate"), largest->pivot, largest->certificate);
   json.line(0).end();
@@ -419,7 +457,7 @@ std::size_t proof_size(const LocateDocument& d) {
 
 bool has_proof(const LocateDocument& d) noexcept {
   const auto* const angles = std::get_if<locate::AngleProof>(&d.proof);
-  return angles != nullptr ? !angles->intervals.empty() : !std::get<locate::PoseProof>(d.proof).trees.empty();
+  return angles != nullptr ? !angles->intervals.empty() : size_of(std::get<locate::PoseProof>(d.proof)) > 0;
 }
 
 std::string certificate_text(const LocateDocument& d) {

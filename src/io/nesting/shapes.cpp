@@ -8,6 +8,7 @@
 
 #include "io/layout/layout_outline.hpp"
 #include "lekalo/base/joined_text.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/nesting/nesting_files.hpp"
 
@@ -42,6 +43,7 @@ std::size_t without_spikes(std::vector<GridPoint>& loop) {
   // Around the first point.
   std::size_t begin = 0;
   for (bool changed = true; changed && kept.size() - begin > 2;) {
+    ask(kept.size());
     changed = true;
     if (kept.back() == kept[begin]) {
       kept.pop_back();

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "io/contour/contour_points.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -270,6 +271,7 @@ class PlyReader {
 
   Result<void> skip(const Element& element) {
     for (std::uint64_t row = 0; row < element.rows; ++row) {
+      ask();
       if (encoding_ == Encoding::ascii) {
         if (!next_line()) return ends_early(element, row);
         continue;
@@ -326,6 +328,7 @@ class PlyReader {
     }
     if (rest_.size() / stride < element.rows) return ends_early(element, rest_.size() / stride);
     for (std::size_t row = 0; row < element.rows; ++row) {
+      ask();
       PlyPoint point;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!column_[axis]) continue;

@@ -158,7 +158,7 @@ Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& nam
   return made;
 }
 
-ScanRecord record_of(const ScanBlank& scan) {
+ScanRecord record_of(const ScanBlank& scan, const ScanBlankOptions& options) {
   const locate::GuaranteedBlank& b = scan.blank;
   return {scan.file.points.points.size(),
           b.proved(),
@@ -171,7 +171,13 @@ ScanRecord record_of(const ScanBlank& scan) {
           b.loss,
           b.assumptions,
           scan.unknown,
-          scan.dropped};
+          scan.dropped,
+          scan.file.unit,
+          options.scan.min_radius,
+          options.scan.max_dip,
+          options.slice,
+          b.dropped,
+          b.ordered ? std::vector<std::vector<std::uint32_t>>() : b.outlines};
 }
 
 }  // namespace lekalo::io

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "io/text/decimal.hpp"
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::io::detail {
 namespace {
@@ -158,19 +159,22 @@ Result<SvgDocument> read_svg_document(std::string_view bytes, const std::string&
     return refuse("this SVG is compressed (.svgz); unpack it with gunzip first");
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree);
-  if (parser == nullptr) return failure(ErrorCode::environment, "out of memory for the XML parser");
+  const auto no_memory = [] { return failure(ErrorCode::environment, "out of memory for the XML parser"); };
+  if (parser == nullptr) return no_memory();
   // The seed of expat's hash tables may be any number, because nothing depends on their order.
   XML_SetHashSalt(parser.get(), 1);
   Builder builder(parser.get(), name);
   // The text is given to expat in chunks, because expat counts in int.
-  constexpr std::size_t kChunk = std::size_t{1} << 24;
+  constexpr std::size_t kChunk = std::size_t{1} << 16;
   for (std::size_t at = 0;; at += kChunk) {
+    ask(1024);
     const std::string_view chunk = bytes.substr(at, kChunk);
     const bool last = at + chunk.size() == bytes.size();
     const XML_Status status =
         XML_Parse(parser.get(), chunk.data(), static_cast<int>(chunk.size()), last ? 1 : 0);
     if (!builder.refused.empty()) return failure(ErrorCode::bad_input, builder.refused);
     if (status != XML_STATUS_OK) {
+      if (XML_GetErrorCode(parser.get()) == XML_ERROR_NO_MEMORY) return no_memory();
       return failure(ErrorCode::bad_input,
                      fmt::format("{}, line {}: this is not well-formed XML from here on ({})", name,
                                  XML_GetCurrentLineNumber(parser.get()),

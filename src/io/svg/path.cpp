@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::io::detail {
@@ -22,6 +23,7 @@ class PathReader {
     scanner_.skip_blanks();
     if (scanner_.rest() == "none") return std::vector<PathSegment>{};
     while (!scanner_.at_end()) {
+      ask();
       command_ = scanner_.peek();
       constexpr std::string_view kCommands = "MmZzLlHhVvCcSsQqTtAa";
       if (kCommands.find(command_) == std::string_view::npos)

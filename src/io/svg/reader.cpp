@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "document.hpp"
+#include "io/drawing/copies.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/svg/svg.hpp"
 #include "shapes.hpp"
 #include "stated_arcs.hpp"
@@ -17,8 +19,16 @@ namespace {
 
 using namespace detail;
 
-/// The most elements drawn, with all copies, because uses of uses can grow without curves too.
-constexpr std::size_t kMostElements = 2 * kMostCurves;
+/// Copies are drawn from their text, which counts as one more copy for every so many bytes.
+constexpr std::size_t kBytesOfACopy = 64;
+
+/// Returns how many copies drawing an element again counts as.
+std::size_t cost_of(const SvgElement& element) {
+  std::size_t bytes = 0;
+  for (const char* key : {"d", "points", "style", "class"})
+    if (const std::string* text = element.attribute(key)) bytes += text->size();
+  return 1 + bytes / kBytesOfACopy;
+}
 
 /// Elements that draw nothing where they stand, and have no outline to lose.
 constexpr std::string_view kSilent[] = {"title",  "desc",   "metadata", "style",
@@ -45,6 +55,7 @@ struct Context {
   /// The property visibility, which a child can undo.
   bool visible = true;
   std::size_t depth = 0;
+  bool copied = false;  ///< by a use
 };
 
 /// Step 6 of docs/design/svg.md: walks through the elements and collects their curves.
@@ -135,8 +146,8 @@ class SvgReader {
   }
 
   Result<void> draw(const SvgElement& element, Context context) {
-    if (++drawn_ > kMostElements)
-      return fault(element, fmt::format("more than {} elements, copies counted", kMostElements));
+    if (context.copied && (copies_ += cost_of(element)) > kMostCopies)
+      return fault(element, fmt::format("uses make more than {} copies of elements", kMostCopies));
     const std::string& name = element.name;
     if (name == "defs") {
       for (const std::uint32_t child : element.children)
@@ -242,6 +253,7 @@ class SvgReader {
     if (used == nullptr)
       return fault(element, fmt::format("there is no element {} to use", excerpt(*target)));
     LEKALO_CHECK(shifted(element, context));
+    context.copied = true;
     if (used->name != "symbol" && used->name != "svg") return draw(*used, context);
     see(*used, context);
     LEKALO_CHECK(moved(*used, context));
@@ -257,6 +269,7 @@ class SvgReader {
       return fault(element, fmt::format("more than {} curves, copies counted", kMostCurves));
     std::vector<BoundedShape> placed_shapes;
     for (const BoundedShape& one : *shapes) {
+      ask();
       auto placed_shape = image(context.map, one);
       if (!placed_shape) {
         return fault(element, fmt::format("its transforms make it flat, or bring it beyond {:g} mm",
@@ -298,7 +311,7 @@ class SvgReader {
   Drawing drawing_;
   std::map<std::string, Unread> unread_;
   std::map<std::pair<std::string, bool>, std::uint32_t> layers_;
-  std::size_t drawn_ = 0, unfit_arcs_ = 0;
+  std::size_t copies_ = 0, unfit_arcs_ = 0;
 };
 
 }  // namespace

@@ -73,15 +73,16 @@ Declarations declarations(std::string_view text) {
   return found;
 }
 
-bool has_class(const SvgElement& element, std::string_view wanted) {
-  const std::string* classes = element.attribute("class");
-  bool found = false;
-  if (classes == nullptr) return false;
-  std::string blanks = *classes;
+/// Returns the classes of an element.
+std::vector<std::string> classes_of(const SvgElement& element) {
+  std::vector<std::string> classes;
+  const std::string* said = element.attribute("class");
+  if (said == nullptr) return classes;
+  std::string blanks = *said;
   for (char& c : blanks)
     if (c == '\t' || c == '\n' || c == '\r') c = ' ';
-  split(blanks, ' ', [&](std::string_view one) { found = found || one == wanted; });
-  return found;
+  split(blanks, ' ', [&](std::string_view one) { classes.emplace_back(one); });
+  return classes;
 }
 
 void overwrite(Visibility& all, const Visibility& says) {
@@ -94,8 +95,6 @@ void overwrite(Visibility& all, const Visibility& says) {
 StyleSheet::StyleSheet(const SvgDocument& document) {
   for (const SvgElement& element : document.elements)
     if (element.name == "style") read(without_comments(element.text), element.line);
-  std::stable_sort(rules_.begin(), rules_.end(),
-                   [](const Rule& a, const Rule& b) { return a.weight < b.weight; });
 }
 
 void StyleSheet::read(std::string_view sheet, std::size_t line) {
@@ -128,8 +127,7 @@ void StyleSheet::read_rule(std::string_view selectors, std::string_view body, st
   if (found.says.display.empty() && found.says.visibility.empty()) return;
   split(selectors, ',', [&](std::string_view selector) {
     const std::string_view all = selector;
-    Rule rule;
-    rule.says = found.says;
+    Selector rule;
     const std::size_t end = std::min(selector.find_first_of(".#"), selector.size());
     rule.element = selector.substr(0, end);
     if (rule.element == "*") rule.element.clear();
@@ -149,8 +147,10 @@ void StyleSheet::read_rule(std::string_view selectors, std::string_view body, st
           fmt::format("style sheet of line {}: the selector {} is not read", line, excerpt(all)));
       return;
     }
-    rule.weight = (rule.id.empty() ? 0 : 100) + (rule.cls.empty() ? 0 : 10) + (rule.element.empty() ? 0 : 1);
-    rules_.push_back(std::move(rule));
+    Rule& known = rules_[std::move(rule)];
+    const std::size_t order = rules_read_++;
+    if (!found.says.display.empty()) known.display = {found.says.display, order};
+    if (!found.says.visibility.empty()) known.visibility = {found.says.visibility, order};
   });
 }
 
@@ -159,12 +159,26 @@ Visibility StyleSheet::of(const SvgElement& element) const {
   if (const std::string* said = element.attribute("display")) all.display = lower(trimmed(*said));
   if (const std::string* said = element.attribute("visibility")) all.visibility = lower(trimmed(*said));
   const std::string* id = element.attribute("id");
-  for (const Rule& rule : rules_) {
-    if (!rule.element.empty() && rule.element != element.name) continue;
-    if (!rule.id.empty() && (id == nullptr || *id != rule.id)) continue;
-    if (!rule.cls.empty() && !has_class(element, rule.cls)) continue;
-    overwrite(all, rule.says);
-  }
+  std::vector<std::string> classes = classes_of(element);
+  classes.emplace_back();
+  // An id outweighs a class, a class the name of an element, and a later rule an earlier one.
+  std::pair<int, std::size_t> of_display{-1, 0}, of_visibility{-1, 0};
+  const auto look = [&](const Selector& selector, int weight) {
+    const auto rule = rules_.find(selector);
+    if (rule == rules_.end()) return;
+    const auto take = [&](const Said& said, std::string& to, std::pair<int, std::size_t>& taken) {
+      const std::pair rank{weight, said.order};
+      if (!said.value.empty() && rank > taken) to = said.value, taken = rank;
+    };
+    take(rule->second.display, all.display, of_display);
+    take(rule->second.visibility, all.visibility, of_visibility);
+  };
+  for (const std::string& cls : classes)
+    for (const std::string& name : {element.name, std::string()}) {
+      const int weight = (cls.empty() ? 0 : 10) + (name.empty() ? 0 : 1);
+      look({name, {}, cls}, weight);
+      if (id != nullptr && !id->empty()) look({name, *id, cls}, weight + 100);
+    }
   if (const std::string* style = element.attribute("style"))
     overwrite(all, declarations(without_comments(*style)).says);
   return all;

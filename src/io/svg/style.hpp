@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,15 +27,24 @@ class StyleSheet {
   [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }
 
  private:
+  /// The name of an element, its id and a class of it; what is empty stands for any.
+  struct Selector {
+    std::string element, id, cls;
+    friend auto operator<=>(const Selector&, const Selector&) = default;
+  };
+  /// A property as the last rule of one selector has it, and how many rules there were before.
+  struct Said {
+    std::string value;
+    std::size_t order = 0;
+  };
   struct Rule {
-    std::string element, id, cls;  ///< empty: any
-    int weight = 0;
-    Visibility says;
+    Said display, visibility;
   };
   void read(std::string_view sheet, std::size_t line);
   void read_rule(std::string_view selectors, std::string_view body, std::size_t line);
 
-  std::vector<Rule> rules_;
+  std::map<Selector, Rule> rules_;
+  std::size_t rules_read_ = 0;
   std::vector<std::string> notices_;
 };
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::io {
 namespace {
 
@@ -16,21 +18,40 @@ class Translation {
  public:
   Translation(std::string_view bytes, JsonEvents& listener) : bytes_(bytes), listener_(listener) {}
 
-  bool null() { return listener_.null(); }
+  bool null() {
+    ask();
+    return listener_.null();
+  }
   bool boolean(bool value) { return listener_.boolean(value); }
-  bool number_integer(std::int64_t value) { return listener_.integer(value); }
+  bool number_integer(std::int64_t value) {
+    ask();
+    return listener_.integer(value);
+  }
   bool number_unsigned(std::uint64_t value) {
+    ask();
     return value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())
                ? listener_.integer(static_cast<std::int64_t>(value))
                : listener_.number(static_cast<double>(value), fmt::format("{}", value));
   }
-  bool number_float(double value, const std::string& text) { return listener_.number(value, text); }
-  bool string(const std::string& value) { return listener_.text(value); }
+  bool number_float(double value, const std::string& text) {
+    ask();
+    return listener_.number(value, text);
+  }
+  bool string(const std::string& value) {
+    ask();
+    return listener_.text(value);
+  }
   bool binary(Json::binary_t&) { return false; }  // JSON has none
-  bool start_object(std::size_t) { return listener_.begin_object(); }
+  bool start_object(std::size_t) {
+    ask();
+    return listener_.begin_object();
+  }
   bool key(const std::string& value) { return listener_.key(value); }
   bool end_object() { return listener_.end_object(); }
-  bool start_array(std::size_t) { return listener_.begin_list(); }
+  bool start_array(std::size_t) {
+    ask();
+    return listener_.begin_list();
+  }
   bool end_array() { return listener_.end_list(); }
 
   bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) {

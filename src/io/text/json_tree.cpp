@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "decimal.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/excerpt.hpp"
 #include "lekalo/io/text/json_events.hpp"
 
@@ -42,6 +43,7 @@ std::string JsonValue::path() const {
   while (value.at_ != at_) {
     std::size_t index = 0;
     for (const JsonValue item : value) {
+      ask();
       if (at_ >= tree_->nodes_[item.at_].end) {
         ++index;
         continue;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "refusal.hpp"
 #include "rows.hpp"
 
@@ -84,6 +85,7 @@ class TextReader {
 
   Result<void> read(std::string_view bytes) {
     while (!bytes.empty()) {
+      ask();
       const std::size_t end = std::min(bytes.find('\n'), bytes.size());
       ++row_.line;
       const std::string_view whole = bytes.substr(0, end), line = without_comment(whole);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -180,6 +181,7 @@ class EdgeSearch {
     const double at_a = sign * a.allowance, at_b = sign * b.allowance, length = b.along - a.along;
     double most = 0.5 * (at_a + at_b + length);
     for (const std::uint32_t j : {a.blank_edge, b.blank_edge}) {
+      ask();
       const double far = largest_distance(a.in_blank, b.in_blank, blank_.curves()[j]);
       most = std::min(most, far + track_.sagitta(length));
     }

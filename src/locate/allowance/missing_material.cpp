@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/locate/edge_allowance.hpp"
 
@@ -49,6 +50,7 @@ class Missing {
     const geom::Box box = part_.bounds();
     add(0.5 * (box.low + box.high), 0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y));
     for (std::size_t step = 0; step < kMostSplits && !open.empty(); ++step) {
+      ask();
       const Square square = open.front();
       if (!(square.most > enough(best.depth, least))) break;
       std::pop_heap(open.begin(), open.end());

@@ -503,7 +503,7 @@ void PoseSearch::polish(MeasuredPose found, double trust) {
   constexpr int kMostSteps = 40;
   double margin = 2 * trust;
   found = measure(found.theta, found.pivot, margin);
-  for (int step = 0; step < kMostSteps && !contacts_.empty(); ++step) {
+  for (int step = 0; step < kMostSteps && !contacts_.empty() && !run_.stop_requested(); ++step) {
     const geom::SinCos turn = geom::sincos(found.theta);
     std::vector<CellRow> rows;
     for (const PoseContact& contact : contacts_) {
@@ -667,6 +667,7 @@ void PoseSearch::climb_from_anywhere() {
     const double share = (2 * k + 1.0) / count - 1;
     const MeasuredPose start = measure(root_.theta + share * root_.half_theta, root_.pivot, fine_);
     if (start.value > best_.value) best_ = start;
+    if (run_.stop_requested()) return;  // some placement is there to be told
     polish(start, 0.25 * scale_);
   }
 }

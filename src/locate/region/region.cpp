@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lekalo/base/limits.hpp"
+#include "lekalo/geom/same_outline.hpp"
 #include "lekalo/phi/region.hpp"
 #include "locate/search/search_limits.hpp"
 #include "pose_search.hpp"
@@ -63,6 +64,10 @@ std::optional<std::uint32_t> optional_cap(std::uint32_t cap) {
   return cap == kNoCap ? std::nullopt : std::optional(cap);
 }
 
+/// The search cannot close a gap smaller than this part of the coordinates: the bound of every box has a few
+/// times 2^-35 of them for rounding.
+constexpr double kLeastGap = 0x1p-32;
+
 class RegionLocaliser {
  public:
   RegionLocaliser(const RegionProblem& problem, const RegionOptions& options)
@@ -76,6 +81,7 @@ class RegionLocaliser {
       far_ += std::abs(locked.value_or(0));
     // The pivot need not be material. If it is not, the box grows by its distance from the material.
     pivot_off_ = given_.part().contains(part_origin_) ? 0 : given_.part().nearest(part_origin_).distance;
+    gap_ = std::max(options.gap, kLeastGap * far_);
   }
 
   RegionResult run() {
@@ -114,7 +120,7 @@ class RegionLocaliser {
     result.upper_bound += problem_.part_tolerance + problem_.blank_tolerance;
     result.upper_bound = std::nextafter(result.upper_bound, std::numeric_limits<double>::infinity());
     result.shortfall = std::max(0.0, options_.min_allowance - result.best.clearance);
-    const bool closed = result.upper_bound - result.best.clearance <= std::max(options_.gap, 2 * taken());
+    const bool closed = result.upper_bound - result.best.clearance <= std::max(gap_, 2 * taken());
     result.status = finished && closed ? Status::optimal : Status::stopped;
     if (result.upper_bound < options_.min_allowance) result.status = Status::infeasible;
     return result;
@@ -136,7 +142,7 @@ class RegionLocaliser {
     return rounding() + 2 * (problem_.part_tolerance + problem_.blank_tolerance);
   }
   [[nodiscard]] double rounding() const { return 64 * geom::kEdgeDistanceError * far_; }
-  [[nodiscard]] double search_gap() const { return std::max(options_.gap - taken(), 0.25 * options_.gap); }
+  [[nodiscard]] double search_gap() const { return std::max(gap_ - taken(), 0.25 * gap_); }
 
   /// Placements where more of the part sticks out than this are not searched, mm.
   [[nodiscard]] double furthest_out() const {
@@ -173,11 +179,10 @@ class RegionLocaliser {
     const BlankFromPart pose =
         BlankFromPart::from_angle(placement.theta, {placement.x, placement.y}, mirrored);
     const phi::RegionClearance::Value value = given_.at(pose);
-    double measured = value.inside ? value.distance : -given_.depth(pose, 0.25 * options_.gap);
+    double measured = value.inside ? value.distance : -given_.depth(pose, 0.25 * gap_);
     std::vector<phi::RegionContact> places;
     for (const LocalCap& cap : local_caps({}, false))
-      measured =
-          std::min(measured, cap.most - given_.deepest(pose, cap.edges, 0.125 * options_.gap, 0, places));
+      measured = std::min(measured, cap.most - given_.deepest(pose, cap.edges, 0.125 * gap_, 0, places));
     const double far = far_ + std::abs(placement.x) + std::abs(placement.y);
     placement.clearance =
         measured - 4 * geom::kEdgeDistanceError * far - problem_.part_tolerance - problem_.blank_tolerance;
@@ -246,7 +251,29 @@ class RegionLocaliser {
   phi::RegionClearance given_;
   Point part_origin_, blank_origin_;
   double far_ = 0, pivot_off_ = 0;
+  double gap_ = 0;  ///< that is searched for, mm
 };
+
+/// Says whether the part may lie as it is drawn: not turned, not shifted, not mirrored.
+bool may_stay(const RegionProblem& problem) {
+  return problem.window.from <= 0 && problem.window.to >= 0 && problem.mirror != Mirror::yes &&
+         problem.locked.x.value_or(0) == 0 && problem.locked.y.value_or(0) == 0;
+}
+
+/// Returns the placement of a part in a blank of its own outline, which needs no search.
+RegionResult in_own_outline(const RegionProblem& problem, double min_allowance) {
+  RegionResult result;
+  result.own_outline = problem.one_file ? OwnOutline::file : OwnOutline::regions;
+  result.found = true;
+  // Twice the sum of doubles is rounded up by more than the sum was rounded down.
+  const double off =
+      problem.one_file ? 0 : (problem.part_tolerance + problem.blank_tolerance) * (1 + 0x1p-50);
+  result.upper_bound = off;
+  result.best.clearance = 0 - off;
+  result.shortfall = std::max(0.0, min_allowance - result.best.clearance);
+  result.status = result.upper_bound < min_allowance ? Status::infeasible : Status::optimal;
+  return result;
+}
 
 }  // namespace
 
@@ -260,6 +287,8 @@ Result<RegionResult> locate_regions(const RegionProblem& problem, const RegionOp
     if (locked && !(std::abs(*locked) <= limits::kLargestCoordinate))
       return failure(ErrorCode::usage,
                      fmt::format("a locked x or y must be a number up to {:g}", limits::kLargestCoordinate));
+  if (problem.caps.empty() && may_stay(problem) && geom::same_outline(problem.part, problem.blank))
+    return in_own_outline(problem, options.min_allowance);
   return RegionLocaliser(problem, options).run();
 }
 

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "point_hash.hpp"
 #include "scan_order.hpp"
@@ -45,6 +46,7 @@ class EdgeCells {
     // and one row more on each side for rounding.
     const Point low = a.x <= b.x ? a : b, high = a.x <= b.x ? b : a;
     for (std::int64_t x = hash_.index(low.x), end = hash_.index(high.x); x <= end && !found; ++x) {
+      ask();
       double y0 = low.y, y1 = high.y;
       if (high.x > low.x) {
         const double slope = (high.y - low.y) / (high.x - low.x);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "parity_index.hpp"
 #include "point_hash.hpp"
@@ -54,6 +55,7 @@ class Links {
     for (std::uint32_t i = 0; i < chosen_.size(); ++i) hash.insert(i, at(i));
     std::vector<std::pair<double, std::uint32_t>> near;
     for (std::uint32_t i = 0; i < chosen_.size(); ++i) {
+      ask();
       near.clear();
       hash.visit_near(at(i), link, [&](std::uint32_t j) {
         const double d = distance(at(i), at(j));
@@ -204,6 +206,7 @@ double median_nearest(const geom::Ring& points, const std::vector<std::uint32_t>
   std::vector<double> nearest;
   const std::size_t stride = std::max<std::size_t>(1, n / 2000);
   for (std::size_t k = 0; k < n; k += stride) {
+    ask();
     const Point p = points[sorted[k]];
     double least = std::numeric_limits<double>::infinity();
     for (double reach = cell; reach <= 8 * cell && !(least <= reach); reach *= 2) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/field/contour_model.hpp"
 #include "lekalo/mill/fragments.hpp"
 
@@ -52,6 +53,7 @@ Result<field::FieldGrid> floz_field(const std::vector<geom::Region>& pockets, co
       continue;
     }
     for (std::size_t n = 0; n < grid.value.size(); ++n) {
+      ask();
       const field::Jet both = field::disjunction(jet_at(whole, n), jet_at(grid, n), logic);
       whole.value[n] = static_cast<float>(both.value);
       whole.dx[n] = static_cast<float>(both.gradient.x), whole.dy[n] = static_cast<float>(both.gradient.y);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/region_index.hpp"
 
@@ -203,6 +204,7 @@ Result<std::vector<Region>> divided(const Region& region, const Chord& chord) {
 Result<std::vector<Region>> convex_fragments(const std::vector<Region>& regions) {
   std::vector<Region> open(regions.rbegin(), regions.rend()), done;
   while (!open.empty()) {
+    ask();
     const Region region = std::move(open.back());
     open.pop_back();
     const auto cut = done.size() + open.size() < kMostFragments ? shortest_cut(region) : std::nullopt;

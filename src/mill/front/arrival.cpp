@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "mill/path/arc_through.hpp"
 #include "step_law.hpp"
@@ -49,6 +50,7 @@ Result<std::vector<Region>> ArrivalField::before(double time) const {
   using Place = field::LevelLines::Place;
   std::vector<geom::Contour> contours;
   for (std::vector<Place>& line : lines_->at(time)) {
+    ask(1 + line.size());
     const std::size_t n = line.size();
     // A line begins at a place that is not smooth, if it has one, so that the fit may break there.
     const auto rough = std::find_if(line.begin(), line.end(), [](const Place& p) { return !p.known; });

@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "mill/path/edge_path.hpp"
 
@@ -60,6 +61,7 @@ void ClearedGrid::own_layer(const Growth& growth, std::size_t layer, std::size_t
     const Point p = node(n);
     for (std::size_t i = first; i < last; ++i)
       for (const Point q : places[i - first]) {
+        ask();
         const double d = dot(q - p, q - p);
         if (d < least) least = d, owner_[n] = i + 1;
       }
@@ -67,6 +69,7 @@ void ClearedGrid::own_layer(const Growth& growth, std::size_t layer, std::size_t
   std::vector<std::size_t> queue = std::move(rim_);
   rim_.clear();
   for (std::size_t i = 0; i < queue.size(); ++i) {
+    ask();
     bool on_rim = false;
     around(queue[i], [&](std::size_t m) {
       if (owner_[m] != kNone) return;
@@ -127,6 +130,7 @@ std::vector<Point> ClearedGrid::way(Point from, Point to) const {
   cost[begin] = 0;
   queue.emplace(norm(node(begin) - node(goal)), begin);
   while (!queue.empty()) {
+    ask();
     const std::size_t n = queue.top().second;
     queue.pop();
     if (n == goal) break;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/path/edge_path.hpp"
 
@@ -107,6 +108,7 @@ class Walker {
     }
     const std::size_t n = places.size();
     for (std::size_t i = 0; i < n; ++i) {
+      ask();
       const Place& p = places[i];
       if (!(p.room > 0) || places[(i + n - 1) % n].room >= p.room || places[(i + 1) % n].room > p.room)
         continue;
@@ -220,6 +222,7 @@ class Walker {
     double step = last.radius;
     int outside = 0;
     for (std::size_t i = 0; i < kMostSteps; ++i) {
+      ask();
       if (last.radius < kLeastLoop * r_ && leads_on(last, heading)) {
         if (!slot(last, heading, parent)) return;
         ends.reset();
@@ -311,6 +314,7 @@ class Walker {
     const double reach = kSlotStep * r_;
     bool goes_on = false, is_met = false;
     while (way.size() < kMostSteps) {
+      ask();
       const Peak peak = peak_ahead(way.back(), reach, heading);
       if (!(peak.room > 0)) break;
       heading = unit(peak.at - way.back());

@@ -6,6 +6,7 @@
 #include "arrival.hpp"
 #include "corridors.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -165,6 +166,7 @@ class Grower {
       if (held) share = std::min(1.0, 1.06 * share);
       held = true;
       for (int trial = 0;; ++trial) {
+        ask();
         LEKALO_TRY(auto tried, reached_by(field, time + share));
         cut = std::move(tried);
         fronts = split_at_walls(fresh_stretches(cut, before), before);
@@ -189,6 +191,7 @@ class Grower {
     if (fronts.empty()) return false;
     std::vector<Region> pieces = growth_.cut.back();
     for (const Front& front : fronts) {
+      ask(1 + front.edges.size());
       if (!front.loop) continue;
       const Edge& arc = front.edges.front();
       LEKALO_TRY(auto disc, geom::make_region({{EdgeKind::arc_ccw, arc.from, arc.from, arc.centre}}));

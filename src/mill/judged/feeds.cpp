@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/front/step_law.hpp"
 
@@ -54,6 +55,7 @@ double stepped(double feed, const std::array<double, 6>& steps) {
 void look_around(std::vector<MovePart>& parts) {
   std::vector<double> least(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    ask();
     double feed = parts[i].feed, way = 0;
     for (std::size_t k = i + 1; k < parts.size() && parts[k].joined && way < kAround; ++k) {
       feed = std::min(feed, parts[k].feed);

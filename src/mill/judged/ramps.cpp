@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/mill/path_way.hpp"
 #include "lekalo/mill/straight_pass.hpp"
@@ -72,6 +73,7 @@ class Ramping {
       now = {};
     };
     for (std::size_t i = first; i <= last; ++i) {
+      ask();
       double at = way_.begin_of(i);
       for (const MoveLoad& load : loads[i]) {
         const double from = at;

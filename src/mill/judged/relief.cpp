@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/front/step_law.hpp"
 #include "mill/path/allowed_places.hpp"
@@ -167,6 +168,7 @@ bool Relief::leave_out(const std::vector<std::vector<MoveLoad>>& loads) {
 
 void Relief::try_next(Site& site) {
   while (site.trials < static_cast<int>(std::size(kDepths))) {
+    ask();
     // A straight stretch would need the depth that lies between the two angles.
     const double depth =
         kDepths[site.trials++] * radius_ *
@@ -180,6 +182,7 @@ void Relief::try_next(Site& site) {
 bool Relief::is_inside(const Edge& edge) const {
   const double pieces = std::max(1.0, std::ceil(length_of(edge) / (kSpacing * radius_)));
   for (double k = 0; k <= pieces; ++k) {
+    ask();
     const Point p = place_at(edge, k / pieces);
     if (!limit_.contains(p) && limit_.nearest(p).distance > kOutside) return false;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/offset.hpp"
 
 namespace lekalo::mill {
@@ -69,6 +70,7 @@ Result<std::vector<Region>> union_of(const std::vector<Region>& pieces) {
   while (groups.size() > 1) {
     std::vector<std::vector<Region>> larger;
     for (std::size_t i = 0; i < groups.size(); i += 2) {
+      ask();
       if (i + 1 == groups.size()) {
         larger.push_back(std::move(groups[i]));
         break;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/mill/straight_pass.hpp"
 #include "mill/front/load.hpp"
 #include "mill/path/edge_path.hpp"
@@ -72,6 +73,7 @@ Result<Corners::Peel> Corners::deepest_peel(std::size_t outer, const Front& zone
     std::vector<Front> passes;
     double depth = 0;
     for (const Front& front : *fronts) {
+      ask();
       if (!lies_on(front.edges.front().from, zone) || !lies_on(front.edges.back().to, zone)) continue;
       passes.push_back(front);
       for (const Point p : places_on(front.edges, 0.1 * piece_.tool_radius))

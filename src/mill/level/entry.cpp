@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "mill/front/step_law.hpp"
@@ -89,6 +90,7 @@ Entry widest_disc(const std::vector<Region>& places, double tool_radius) {
   const Point size = box.high - box.low;
   for (int y = 0; y <= kPlaces; ++y)
     for (int x = 0; x <= kPlaces; ++x) {
+      ask();
       const Point p = box.low + Point{size.x * x / kPlaces, size.y * y / kPlaces};
       const double depth = depth_at(p);
       if (depth > most) most = depth, best = p;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "lekalo/base/stop.hpp"
 #include "mill/front/step_law.hpp"
 #include "mill/path/edge_path.hpp"
 #include "wall_way.hpp"
@@ -68,6 +69,7 @@ void FrontPasses::cut_all() {
 
 void FrontPasses::cut_all(const std::vector<std::size_t>& among) {
   while (const auto front = next(among)) {
+    ask();
     cut(fronts()[*front]);
     tool_.set_done(*front);
   }

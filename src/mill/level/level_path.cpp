@@ -6,6 +6,7 @@
 #include "corners.hpp"
 #include "entry.hpp"
 #include "front_passes.hpp"
+#include "lekalo/base/stop.hpp"
 #include "mill/front/fields.hpp"
 #include "mill/path/edge_path.hpp"
 #include "mill/path/mirror.hpp"
@@ -35,6 +36,7 @@ Result<PocketPath> cleared_from_entries(const Piece& piece, const PocketOptions&
   FrontPasses passes(piece, tool, o, listener);
   std::vector<Region> left = piece.fields.regions.empty() ? piece.allowed.regions : piece.fields.regions;
   while (!left.empty()) {
+    ask();
     const Entry entry = widest_disc(left, piece.tool_radius);
     LEKALO_TRY(const auto start, start_region(entry, piece));
     LEKALO_CHECK(passes.grow_from(start));
@@ -78,6 +80,7 @@ LeftPlace& place_of(const Front& front, std::vector<LeftPlace>& places) {
 Result<void> cut_corners(ToolMotion& tool, Corners& corners, std::vector<std::size_t> which) {
   const auto far = [&](std::size_t i) { return norm(corners.zones()[i].edges.back().to - tool.at()); };
   while (!which.empty()) {
+    ask(1 + which.size());
     const auto next = std::min_element(which.begin(), which.end(),
                                        [&](std::size_t a, std::size_t b) { return far(a) < far(b); });
     LEKALO_CHECK(corners.cut(*next, tool));
@@ -105,6 +108,7 @@ Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions&
   std::erase_if(places, [](const LeftPlace& place) { return place.is_empty(); });
   const RegionIndex start(cleared);
   while (!places.empty()) {
+    ask(1 + places.size());
     auto place = places.begin();
     if (tool.moves().empty()) {
       const Front& first = !place->fronts.empty()  ? fronts[place->fronts.front()]

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cleared.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/mill/fragments.hpp"
@@ -98,6 +99,7 @@ class Levels {
       begin = first_down;
     }
     for (std::size_t i = begin; i < plan.moves.size(); ++i) {
+      ask();
       PathMove move = plan.moves[i];
       if (move.z <= 0) move.z += top;
       const bool stays = !path_.moves.empty() && move.shape == geom::EdgeKind::line &&

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "mill/path/edge_path.hpp"
 
 namespace lekalo::mill {
@@ -167,6 +168,7 @@ Result<void> cut_walls(ToolMotion& tool, Corners& corners, const Piece& piece,
   std::vector<std::size_t> left(walls.contour_starts().size() - 1);
   std::iota(left.begin(), left.end(), std::size_t{0});
   while (!left.empty()) {
+    ask();
     const WallStart start = wall_start(walls, left, stops, ends, piece, tool.at());
     std::erase(left, start.contour);
     LEKALO_CHECK(cut_wall(tool, corners, start, stops));
@@ -192,6 +194,7 @@ void cut_missed_walls(ToolMotion& tool, const Piece& piece, const std::vector<Re
   for (const geom::Curve& wall : piece.allowed.index.curves()) {
     const double pieces = std::max(1.0, std::ceil(length_of(wall.edge) / (kMissedPiece * piece.tool_radius)));
     for (double i = 0; i < pieces; ++i) {
+      ask();
       const Point middle = place_at(wall.edge, (i + 0.5) / pieces);
       if (passes.are_near(middle)) continue;
       if (!cleared.empty() && (before.contains(middle) || before.nearest(middle).distance < kMissed))

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 
 namespace lekalo::mill {
@@ -44,6 +45,7 @@ std::optional<Fit> fitting_arc(std::span<const Point> points, double tolerance) 
   if (!(chord > 0)) return std::nullopt;
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    ask();
     const Point along = points[i + 1] - points[i - 1];
     const double length = norm(along);
     if (!(length > 0)) return std::nullopt;

@@ -52,15 +52,16 @@ State empty_state(const Problem& problem, const Items& items) {
 
 /// nest.md, step 11.
 State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
-            const std::vector<std::uint32_t>& order, const std::function<bool()>& enough) {
+            const std::vector<std::uint32_t>& order, const std::function<bool()>& enough,
+            const tuning::Tries& tries) {
   const auto& bins = problem.bins();
   const bool strip = problem.is_strip();
   double widest = 0;
   for (const Forms& forms : items.forms)
     for (std::uint32_t f = forms.first; f < forms.last; ++f)
       widest = std::max(widest, problem.forms()[f].box.x1 - problem.forms()[f].box.x0);
-  const std::size_t tries = std::clamp(tuning::kBuildTries / std::max<std::size_t>(1, items.movable()),
-                                       tuning::kLeastBuildTries, tuning::kMostBuildTries);
+  const std::size_t of_one =
+      std::clamp(tries.in_all / std::max<std::size_t>(1, items.movable()), tries.least, tries.most);
   State state = from;
   if (strip) {
     double end = std::max(bins[0].locked_reach, bins[0].box.x0), area = 0;
@@ -95,7 +96,7 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
       const std::vector<std::uint32_t> in_use = placer.state().open_bins;
       return std::any_of(in_use.begin(), in_use.end(), [&](std::uint32_t bin) {
         if (full.contains({bin, items.forms[i].first})) return false;
-        const bool found = placer.place_low(i, bin, tries);
+        const bool found = placer.place_low(i, bin, of_one);
         if (!found && !strip && alike) full.insert({bin, items.forms[i].first});
         return found;
       });
@@ -114,7 +115,7 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
       tried.push_back(bins[bin].stock);
       if (!placer.can_hold(bin, i)) continue;
       placer.open_bin(bin);
-      placed = placer.place_low(i, bin, tuning::kMostBuildTries);
+      placed = placer.place_low(i, bin, tries.most);
       if (!placed) placer.close_bin(bin);
     }
     if (!placed && alike) hopeless.push_back(items.forms[i]);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "nest/tuning/tuning.hpp"
 #include "placer.hpp"
 
 namespace lekalo::nest {
@@ -17,7 +18,8 @@ namespace lekalo::nest {
 /// is found stay nowhere, and items that lie somewhere stay there. It ends early, between two items, when
 /// `enough` says so. The result breaks no rule.
 [[nodiscard]] State built(const Problem& problem, const Items& items, Placer& placer, const State& from,
-                          const std::vector<std::uint32_t>& order, const std::function<bool()>& enough);
+                          const std::vector<std::uint32_t>& order, const std::function<bool()>& enough,
+                          const tuning::Tries& tries = tuning::kBuildTries);
 
 /// Items by priority, then by size, large ones first.
 [[nodiscard]] std::vector<std::uint32_t> by_size(const Problem& problem, const Items& items);

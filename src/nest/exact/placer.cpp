@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/layout/check.hpp"
 #include "nest/tuning/tuning.hpp"
 
@@ -109,6 +110,7 @@ bool Placer::can_hold(std::uint32_t bin, std::size_t i) {
 
 bool Placer::is_free(std::size_t i, std::uint32_t form, std::uint32_t b, geom::GridPoint at) {
   ++work_;
+  ask();
   const layout::Document& document = problem_.document();
   const std::uint32_t p = items_.parts[i];
   const layout::Part& part = document.parts[p];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "lekalo/layout/check.hpp"
 #include "nest/tuning/tuning.hpp"
@@ -20,14 +21,14 @@ struct Steps {
 
 layout::Document placed(const Problem& problem, const Items& items, const State& state,
                         const std::vector<Steps>& at) {
-  layout::Document document = problem.document();
+  layout::Document document = problem.given();
   std::erase_if(document.placements, [](const layout::Placement& p) { return !p.locked; });
   for (std::size_t i = 0; i < items.movable(); ++i) {
     const Spot& spot = state.spots[i];
     if (spot.bin == kNowhere) continue;
     const Form& form = problem.forms()[spot.form];
     layout::Placement placement;
-    placement.id = problem.document().next_id + i;
+    placement.id = problem.given().next_id + i;
     placement.part = items.parts[i];
     placement.stock = problem.bins()[spot.bin].stock;
     placement.copy = problem.bins()[spot.bin].copy;
@@ -36,7 +37,7 @@ layout::Document placed(const Problem& problem, const Items& items, const State&
     placement.at = {std::llround(at[i].x), std::llround(at[i].y)};
     document.placements.push_back(placement);
   }
-  document.next_id = problem.document().next_id + items.movable();
+  document.next_id = problem.given().next_id + items.movable();
   return document;
 }
 
@@ -81,14 +82,25 @@ std::size_t worst_of(const Problem& problem, const Items& items, std::uint64_t f
   return worst;
 }
 
+/// The violations of a document in which only the pieces of these have moved since the last check.
+std::vector<layout::Violation> checked_again(const layout::Document& document,
+                                             const std::vector<layout::Violation>& before) {
+  std::set<std::uint64_t> ids;
+  for (const layout::Violation& v : before) ids.insert({v.a, v.b});
+  std::vector<layout::Placement> moved, others;
+  for (const layout::Placement& p : document.placements) (ids.contains(p.id) ? moved : others).push_back(p);
+  return layout::check_some(document, moved, others);
+}
+
 /// Shifts pieces that break a rule by what is missing, over and over; nothing where that does not end.
 /// `at_first` gets the violations of the first round.
 std::optional<Settled> mended(const Problem& problem, const Items& items, const State& state,
                               std::vector<Steps> at, std::vector<layout::Violation>& at_first) {
-  const std::uint64_t first = problem.document().next_id;
+  const std::uint64_t first = problem.given().next_id;
+  std::vector<layout::Violation> violations;
   for (int round = 0; round < tuning::kSettleRounds; ++round) {
     layout::Document document = placed(problem, items, state, at);
-    std::vector<layout::Violation> violations = layout::check(document);
+    violations = round == 0 ? layout::check(document) : checked_again(document, violations);
     if (violations.empty()) {
       Settled done{std::move(document), state};
       for (std::size_t i = 0; i < items.movable(); ++i) {
@@ -100,7 +112,7 @@ std::optional<Settled> mended(const Problem& problem, const Items& items, const 
     }
     const bool can_end = std::all_of(violations.begin(), violations.end(), can_be_shifted);
     for (const layout::Violation& v : violations) shift(v, first, at);
-    if (round == 0) at_first = std::move(violations);
+    if (round == 0) at_first = violations;
     if (!can_end) return std::nullopt;
   }
   return std::nullopt;
@@ -137,7 +149,7 @@ Settled settled(const Problem& problem, const Items& items, State state) {
       done->is_whole = is_whole;
       return std::move(*done);
     }
-    state.spots[worst_of(problem, items, problem.document().next_id, broken)].bin = kNowhere;
+    state.spots[worst_of(problem, items, problem.given().next_id, broken)].bin = kNowhere;
     is_whole = false;
   }
 }

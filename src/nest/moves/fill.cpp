@@ -31,7 +31,7 @@ void exchange(Search& search) {
 State without_conflicts(Search& search, State state) {
   Separator& separator = search.separator;
   separator.load(state);
-  while (separator.overlap() > 0 && !separator.is_stopped()) {
+  while (separator.overlap() > 0) {
     std::size_t least = search.items.movable();
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < search.items.movable(); ++i) {
@@ -57,7 +57,6 @@ State refilled(Search& search, const State& state) {
   const bool alike = items.partners.empty();
   std::set<std::pair<std::uint32_t, std::uint32_t>> full;  // bin, first form
   for (const std::uint32_t i : search.nowhere(state)) {
-    if (search.separator.is_stopped()) break;
     for (const std::uint32_t bin : state.open_bins) {
       const std::pair key(bin, items.forms[i].first);
       if (full.contains(key)) continue;

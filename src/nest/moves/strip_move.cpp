@@ -99,7 +99,7 @@ bool StripMove::take(Search& search) {
 /// nest.md, step 4.
 void StripMove::compact(Search& search) {
   Separator& separator = search.separator;
-  for (double share = tuning::kCompactFrom; share > tuning::kCompactTo && !separator.is_stopped();) {
+  for (double share = tuning::kCompactFrom; share > tuning::kCompactTo;) {
     const double length = best_length(search);
     separator.load(search.best.state);
     squeeze(search, length, length * (1 - share), search.random().uniform());

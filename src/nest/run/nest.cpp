@@ -4,7 +4,10 @@
 
 #include <algorithm>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/layout/check.hpp"
+#include "nest/table/simplify.hpp"
+#include "outer_outlines.hpp"
 #include "run.hpp"
 
 namespace lekalo::nest {
@@ -38,6 +41,25 @@ Result<void> check_document(const layout::Document& document, bool from_given) {
   return {};
 }
 
+/// The layout of a run that was stopped before it began: the given one where it breaks no rule, or what is
+/// locked of it.
+Nested as_given(const layout::Document& document, bool from_given) {
+  const RunControl to_the_end;
+  const Listening listening(to_the_end);
+  Nested nested;
+  nested.document = document;
+  if (!from_given || !layout::check(document).empty())
+    std::erase_if(nested.document.placements, [](const layout::Placement& p) { return !p.locked; });
+  nested.merges = 1;
+  for (std::uint32_t p = 0; p < document.parts.size(); ++p) {
+    const auto placed = std::count_if(nested.document.placements.begin(), nested.document.placements.end(),
+                                      [&](const layout::Placement& one) { return one.part == p; });
+    const std::int64_t missing = layout::wanted(document, p) - placed;
+    if (missing > 0) nested.unplaced.push_back({p, missing, Reason::not_tried});
+  }
+  return nested;
+}
+
 }  // namespace
 
 std::string_view name_of(Reason reason) noexcept {
@@ -50,6 +72,8 @@ std::string_view name_of(Reason reason) noexcept {
       return "no-zone";
     case Reason::no_stock:
       return "no-stock";
+    case Reason::not_tried:
+      return "not-tried";
   }
   return "";
 }
@@ -59,10 +83,19 @@ Result<Nested> nest(const layout::Document& document, const Options& options, co
   SearchOptions search;
   search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
   search.given_angles = options.from_given;
-  const Problem problem(document, search);
-  Wanted wanted = wanted_items(problem, options.from_given);
-  add_partners(problem, options.pair_distance, wanted.items);
-  return run(problem, wanted, options, control);
+  // A run has a work limit of its own, and nothing but its flag ends it sooner.
+  RunControl until_stop;
+  until_stop.stop = control.stop;
+  const Listening listening(until_stop);
+  try {
+    const layout::Document searched = with_outer_outlines(document, options.from_given);
+    const Problem problem(document, searched, search);
+    Wanted wanted = wanted_items(problem, options.from_given);
+    add_partners(problem, options.pair_distance, wanted.items);
+    return run(problem, wanted, options, control);
+  } catch (const Stopped&) {
+    return as_given(document, options.from_given);
+  }
 }
 
 }  // namespace lekalo::nest

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "lekalo/base/parallel.hpp"
+#include "lekalo/base/stop.hpp"
 #include "nest/exact/builder.hpp"
 #include "nest/exact/reason.hpp"
 #include "nest/exact/settle.hpp"
@@ -19,6 +20,8 @@ namespace {
 /// The numbers of the random streams that build the first states: this one for the first strand, and the
 /// following ones for the others. The strands themselves have the streams below.
 constexpr std::uint64_t kBuilderStreams = 1000;
+/// The number of the random stream of the sketch.
+constexpr std::uint64_t kSketchStream = 999;
 /// The numbers of the random streams that place again what the exact check took out: this one and the
 /// following ones, by merge.
 constexpr std::uint64_t kMendingStreams = 1'000'000;
@@ -33,29 +36,20 @@ struct Begun {
 class Run {
  public:
   Run(const Problem& problem, const Wanted& wanted, const Options& options, const RunControl& control)
-      : problem_(problem), wanted_(wanted), options_(options), control_(control) {
-    for (std::size_t k = 0; k < tuning::kStrands; ++k) {
-      strands_.push_back(std::make_unique<Strand>(problem, wanted.items, options.seed, k));
-      strands_.back()->watch(control.stop);
-    }
-    begun_.resize(tuning::kStrands);
-  }
+      : problem_(problem), wanted_(wanted), options_(options), control_(control), begun_(tuning::kStrands) {}
 
   Nested go() {
-    best_.document = problem_.document();
+    best_.document = problem_.given();
     std::erase_if(best_.document.placements, [](const layout::Placement& p) { return !p.locked; });
     best_.unplaced = wanted_.unplaced;
     if (wanted_.items.movable() == 0) return best_;
+    sketch();
     build();
-    if (is_over()) return best_;
-    each_strand([&](Strand& strand, std::size_t k) { strand.start(begun_[k].state); });
-    while (!is_over() &&
-           std::any_of(strands_.begin(), strands_.end(), [](const auto& l) { return !l->is_done(); })) {
-      each_strand([](Strand& strand, std::size_t) { strand.run(tuning::kSegment); });
-      // A stop may end the strands in the middle. The work since the last merge does not count then, so that
-      // the same work gives the same result again.
-      if (control_.stop_requested()) break;
-      merge();
+    // A stop takes down whatever goes on, and the best stays as it was shown last. The work since the last
+    // merge does not count then, so that the same work gives the same result again.
+    try {
+      if (!is_over()) search();
+    } catch (const Stopped&) {
     }
     return best_;
   }
@@ -68,63 +62,128 @@ class Run {
 
   bool is_over() const { return control_.stop_requested() || best_.work >= control_.work_limit; }
 
-  /// Builds the first layouts and shows the better one. A run that ends here ends between two pieces of the
-  /// first strand, and the other strands do not count, so that the same work ends it there again.
+  void search() {
+    for (std::size_t k = 0; k < count_; ++k)
+      strands_.push_back(std::make_unique<Strand>(problem_, wanted_.items, options_.seed, k));
+    each_strand([&](Strand& strand, std::size_t k) { strand.start(begun_[k].state); });
+    while (!is_over() &&
+           std::any_of(strands_.begin(), strands_.end(), [](const auto& l) { return !l->is_done(); })) {
+      each_strand([&](Strand& strand, std::size_t k) {
+        const std::uint64_t before = strand.work();
+        strand.run(tuning::kSegment, [&] {
+          if (k == 0) tell(best_.work + strand.work() - before);  // on the caller's thread
+        });
+      });
+      merge();
+    }
+  }
+
+  /// Shows something at once where the first layouts of a large order take their time. Its work does not
+  /// count, because nothing goes on from it.
+  void sketch() {
+    const std::size_t items = wanted_.items.movable();
+    std::size_t corners = 0;
+    for (const std::uint32_t part : wanted_.items.parts)
+      corners += problem_.document().parts[part].outline.polygon.points.size();
+    if (items < tuning::kManyToBuild && corners < tuning::kManyCorners) return;
+    // Two outlines take time by the product of their corners.
+    const double detail =
+        std::max(1.0, static_cast<double>(corners) / static_cast<double>(items * tuning::kEnoughCorners));
+    tuning::Tries tries = tuning::kSketchTries;
+    tries.in_all = static_cast<std::size_t>(static_cast<double>(tries.in_all) / (detail * detail));
+    Placer placer(problem_, wanted_.items, Random(options_.seed, kSketchStream));
+    State state;
+    try {
+      state =
+          built(problem_, wanted_.items, placer, wanted_.start, by_size(problem_, wanted_.items), {}, tries);
+    } catch (const Stopped&) {
+      state = placer.state();
+    }
+    is_sketch_ = true;
+    show_to_the_end(state, merit_of(problem_, wanted_.items, state));
+    is_sketch_ = false;
+    has_sketch_ = true;
+    tell(0);
+  }
+
+  /// Builds the first layouts and shows the better one. A run that its work ends here ends between two pieces
+  /// of the first strand, and the other strands do not count, so that the same work ends it there again. One
+  /// that is stopped shows the pieces that lie.
   void build() {
     const std::vector<std::uint32_t> order = by_size(problem_, wanted_.items);
     std::atomic<bool> first_ended{false};
-    each_strand([&](Strand&, std::size_t k) {
+    share_out(count_, options_.threads, [&](std::size_t k) {
       Begun& begun = begun_[k];
       Placer placer(problem_, wanted_.items, Random(options_.seed, kBuilderStreams + k));
-      begun.state = built(problem_, wanted_.items, placer, wanted_.start, order, [&] {
-        begun.ended_early =
-            first_ended || (placer.work() >= tuning::kFirstWork &&
-                            (control_.stop_requested() || (k == 0 && placer.work() >= control_.work_limit)));
-        if (k == 0 && begun.ended_early) first_ended = true;
-        return begun.ended_early;
-      });
+      try {
+        begun.state = built(problem_, wanted_.items, placer, wanted_.start, order, [&] {
+          if (k == 0) tell(placer.work());
+          begun.ended_early = first_ended || (k == 0 && placer.work() >= tuning::kFirstWork &&
+                                              placer.work() >= control_.work_limit);
+          if (k == 0 && begun.ended_early) first_ended = true;
+          return begun.ended_early;
+        });
+      } catch (const Stopped&) {
+        begun.state = placer.state();
+        begun.ended_early = true;
+      }
       begun.work = placer.work();
     });
     if (begun_[0].work >= control_.work_limit ||
         std::any_of(begun_.begin(), begun_.end(), [](const Begun& b) { return b.ended_early; }))
-      strands_.resize(1);
+      count_ = 1;
     begin_merge();
     std::size_t first = 0;
     std::vector<Merit> merits;
-    for (std::size_t k = 0; k < strands_.size(); ++k) {
+    for (std::size_t k = 0; k < count_; ++k) {
       merits.push_back(merit_of(problem_, wanted_.items, begun_[k].state));
       if (merits[k] < merits[first]) first = k;
     }
-    show(settled(problem_, wanted_.items, begun_[first].state), merits[first]);
+    if (!has_sketch_ || merits[first] < merit_) show_to_the_end(begun_[first].state, merits[first]);
     end_merge();
   }
 
+  /// Shows a state that breaks no rule, whoever wants to stop.
+  void show_to_the_end(const State& state, const Merit& merit) {
+    const RunControl nobody;
+    const Listening listening(nobody);
+    show(settled(problem_, wanted_.items, state), merit);
+  }
+
   void begin_merge() {
-    ++best_.merges;
-    best_.work = 0;
-    for (std::size_t k = 0; k < strands_.size(); ++k) best_.work += begun_[k].work + strands_[k]->work();
+    merges_ = best_.merges + 1;
+    work_ = 0;
+    for (std::size_t k = 0; k < count_; ++k) work_ += begun_[k].work;
+    for (const auto& strand : strands_) work_ += strand->work();
   }
 
   void end_merge() {
+    best_.merges = merges_;
+    best_.work = work_;
+    tell(best_.work);
+  }
+
+  void tell(std::uint64_t work) const {
     if (!control_.progress) return;
     const double part = control_.work_limit == std::numeric_limits<std::uint64_t>::max()
                             ? 0
-                            : static_cast<double>(best_.work) / static_cast<double>(control_.work_limit);
-    control_.progress({best_.work, std::min(1.0, part)});
+                            : static_cast<double>(work) / static_cast<double>(control_.work_limit);
+    control_.progress({work, std::min(1.0, part)});
   }
 
   void show(Settled exact, const Merit& merit) {
+    Nested better{numbered(std::move(exact.document)), {}, work_, merges_};
+    better.unplaced = unplaced_of(better.document);
     state_ = std::move(exact.state);
     merit_ = merit;
-    best_.document = numbered(std::move(exact.document));
-    count_unplaced();
+    best_ = std::move(better);
     if (options_.improved) options_.improved(best_);
   }
 
   /// Shows a state from which the exact check took something out. What was taken out gets another place. The
   /// strand then goes on from the best layout, whether this one was better or not.
   void show_mended(Strand& strand, const State& rest) {
-    Placer placer(problem_, wanted_.items, Random(options_.seed, kMendingStreams + best_.merges));
+    Placer placer(problem_, wanted_.items, Random(options_.seed, kMendingStreams + merges_));
     const State mended = built(problem_, wanted_.items, placer, rest, by_size(problem_, wanted_.items), {});
     const Merit merit = merit_of(problem_, wanted_.items, mended);
     if (merit < merit_) show(settled(problem_, wanted_.items, mended), merit);
@@ -175,25 +234,36 @@ class Run {
     return document;
   }
 
-  void count_unplaced() {
-    best_.unplaced = wanted_.unplaced;
-    std::vector<std::int64_t> missing(problem_.document().parts.size(), 0);
+  std::vector<Unplaced> unplaced_of(const layout::Document& document) {
+    std::vector<Unplaced> unplaced = wanted_.unplaced;
+    std::vector<std::int64_t> missing(document.parts.size(), 0);
     for (const std::uint32_t part : wanted_.items.parts) ++missing[part];
-    for (const layout::Placement& p : best_.document.placements)
+    std::vector<bool> lies(document.parts.size(), false);
+    for (const layout::Placement& p : document.placements) {
+      lies[p.part] = true;
       if (!p.locked) --missing[p.part];
+    }
     for (std::uint32_t p = 0; p < missing.size(); ++p)
-      if (missing[p] > 0) best_.unplaced.push_back({p, missing[p], reason_of(p)});
-    std::stable_sort(best_.unplaced.begin(), best_.unplaced.end(),
+      if (missing[p] > 0) unplaced.push_back({p, missing[p], reason_of(p, lies[p])});
+    std::stable_sort(unplaced.begin(), unplaced.end(),
                      [](const Unplaced& a, const Unplaced& b) { return a.part < b.part; });
+    return unplaced;
   }
 
-  Reason reason_of(std::uint32_t part) {
+  Reason reason_of(std::uint32_t part, bool lies) {
+    if (is_sketch_ || begun_[0].ended_early) return Reason::not_tried;
     // If another piece of the part has a place, this one only lacks room.
-    for (const layout::Placement& p : best_.document.placements)
-      if (p.part == part) return Reason::no_stock;
+    if (lies) return Reason::no_stock;
     const auto known = reasons_.find(part);
     if (known != reasons_.end()) return known->second;
-    return reasons_[part] = reason_alone(problem_, part);
+    RunControl until_stop;
+    until_stop.stop = control_.stop;
+    const Listening listening(until_stop);
+    try {
+      return reasons_[part] = reason_alone(problem_, part);
+    } catch (const Stopped&) {
+      return Reason::not_tried;
+    }
   }
 
   const Problem& problem_;
@@ -202,6 +272,10 @@ class Run {
   const RunControl& control_;
   std::vector<std::unique_ptr<Strand>> strands_;
   std::vector<Begun> begun_;
+  /// The strands that count.
+  std::size_t count_ = tuning::kStrands;
+  /// Those of the merge that goes on; best_ has those of the last one that was done.
+  std::uint64_t work_ = 0, merges_ = 0;
   /// By strand: the merges since it gained something or led.
   std::vector<int> alone_;
   /// By strand: its merit at the last merge.
@@ -209,6 +283,7 @@ class Run {
   Merit merit_;
   /// The state that best_ shows, on the grid.
   State state_;
+  bool is_sketch_ = false, has_sketch_ = false;
   Nested best_;
   std::map<std::uint32_t, Reason> reasons_;
 };

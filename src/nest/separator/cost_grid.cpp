@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/base/wide.hpp"
 #include "nest/tuning/tuning.hpp"
 
@@ -104,11 +105,13 @@ const CostGrid::Raster& CostGrid::raster(std::uint32_t fixed, std::uint32_t move
   made.rows = static_cast<std::uint32_t>(std::ceil(range.y1 / pitch_) - made.row + 1);
   made.stride = (blocks_of(made.columns) + 1) * kBlock;
   made.values.assign(std::size_t{made.stride} * made.rows, 0);
-  for (std::uint32_t r = 0; r < made.rows; ++r)
+  for (std::uint32_t r = 0; r < made.rows; ++r) {
+    ask(1 + made.columns / 8);
     for (std::uint32_t c = 0; c < made.columns; ++c)
       made.values[std::size_t{r} * made.stride + c] =
           rounded(cost_(a, b, (made.column + static_cast<std::int32_t>(c)) * pitch_,
                         (made.row + static_cast<std::int32_t>(r)) * pitch_));
+  }
   added_ += std::uint64_t{made.columns} * made.rows * tuning::kMadeNode;
   return made;
 }
@@ -116,10 +119,12 @@ const CostGrid::Raster& CostGrid::raster(std::uint32_t fixed, std::uint32_t move
 void CostGrid::add_obstacles(NodeGrid& to, const std::vector<Obstacle>& obstacles, std::uint32_t moved) {
   const Form& form = problem_.forms()[moved];
   for (const Obstacle& o : obstacles)
-    for (std::uint32_t r = 0; r < to.rows; ++r)
+    for (std::uint32_t r = 0; r < to.rows; ++r) {
+      ask(1 + to.columns / 8);
       for (std::uint32_t c = 0; c < to.columns; ++c)
         to.sums[std::size_t{r} * to.stride + c] += rounded(
             cost_(problem_.forms()[o.form], form, to.x0 + c * pitch_ - o.x, to.y0 + r * pitch_ - o.y));
+    }
   added_ += std::uint64_t{to.columns} * to.rows * obstacles.size() * tuning::kMadeNode;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
 #include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
@@ -136,6 +137,7 @@ void Separator::gather(const Box& box, std::uint32_t bin, std::size_t but) {
 /// The weighted cost of item i there, with the items gathered around; it ends early above the limit.
 double Separator::evaluate(std::size_t i, const Spot& spot, double limit) {
   ++work_;
+  ask();
   const Form& form = problem_.forms()[spot.form];
   const Box around = form.box.at(spot.x, spot.y, problem_.widest_gap());
   double sum = 0;
@@ -311,7 +313,7 @@ double Separator::overlap() {
   std::fill(in_conflict_.begin(), in_conflict_.end(), 0);
   double sum = 0;
   for (std::size_t i = 0; i < items_.movable(); ++i) {
-    if (is_stopped()) break;
+    ask();
     if (state_.spots[i].bin == kNowhere) continue;
     gather(boxes_[i], state_.spots[i].bin, i);
     const Spot& spot = state_.spots[i];
@@ -365,10 +367,7 @@ double Separator::pass() {
   for (std::uint32_t i = 0; i < items_.movable(); ++i)
     if (in_conflict_[i]) order_.push_back(i);
   for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[random_.below(k)]);
-  for (const std::uint32_t i : order_) {
-    if (is_stopped()) break;
-    move(i);
-  }
+  for (const std::uint32_t i : order_) move(i);
   const double sum = overlap();
   double most = 0;
   for (Conflict& c : conflicts_) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -52,11 +51,6 @@ class Separator {
   void load(const State& state);
   const State& state() const noexcept { return state_; }
   Random& random() noexcept { return random_; }
-  /// When this flag gets set, pass(), relax() and overlap() end in the middle, and their results mean
-  /// nothing.
-  void watch(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
-  bool is_stopped() const noexcept { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
-
   /// Sets all weights back to 1.
   void forget_weights();
   /// The sum of all depths now, mm; 0 where the state is valid but for rounding.
@@ -158,7 +152,6 @@ class Separator {
   std::vector<std::size_t> raised_;  ///< indices of weights above 1
   BoxList list_;
   std::optional<NeighbourGrid> cells_;  ///< used instead of the list where there are many items
-  const std::atomic<bool>* stop_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> order_;
   struct Conflict {

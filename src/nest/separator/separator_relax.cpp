@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lekalo/base/stop.hpp"
 #include "nest/tuning/tuning.hpp"
 #include "separator.hpp"
 
@@ -38,7 +39,8 @@ bool Separator::relax(int rounds) {
   const auto pairs = close_pairs(gap + tuning::kCloseMargin * unit_);
   double first = 0, least = std::numeric_limits<double>::infinity();
   int stalled = 0;
-  for (int round = 0; round < rounds && stalled <= tuning::kStalledRounds && !is_stopped(); ++round) {
+  for (int round = 0; round < rounds && stalled <= tuning::kStalledRounds; ++round) {
+    ask(1 + pairs.size() / 8);
     double sum = 0;
     for (const auto& [i, j] : pairs) {
       const Box &a = boxes_[i], &b = boxes_[j];

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/base/stop.hpp"
 #include "nest/tuning/tuning.hpp"
 #include "separator.hpp"
 
@@ -38,7 +39,7 @@ void Separator::make_room(std::uint32_t bin, geom::Point at) {
   for (const auto& entry : order) {
     const double less = entry.first;
     const std::uint32_t i = entry.second;
-    if (is_stopped()) return;
+    ask();
     if (less == 0) continue;
     Spot spot = state_.spots[i];
     const geom::Point way = (-1 / less) * (middle(i) - at);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "nest/separator/lattice_unit.hpp"
 #include "nest/tuning/tuning.hpp"
 
@@ -56,7 +57,8 @@ void Strand::begin_turn(const Move* last) {
 
 /// Begins attempts until there is something to separate.
 void Strand::next_attempt(Outcome outcome) {
-  for (int vain = 0; !search_.separator.is_stopped(); ++vain) {
+  for (int vain = 0;; ++vain) {
+    ask();
     if (outcome == Outcome::over) begin_turn(move_);
     if (is_done()) return;
     outcome = move_->attempt(search_);
@@ -84,9 +86,12 @@ void Strand::step() {
   next_attempt(outcome);
 }
 
-void Strand::run(std::uint64_t work) {
+void Strand::run(std::uint64_t work, const std::function<void()>& stepped) {
   const std::uint64_t until = this->work() + work;
-  while (!is_done() && this->work() < until && !search_.separator.is_stopped()) step();
+  while (!is_done() && this->work() < until) {
+    step();
+    if (stepped) stepped();
+  }
 }
 
 }  // namespace lekalo::nest

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "schedule.hpp"
@@ -23,9 +24,8 @@ class Strand {
   /// Goes on from a valid state, better or not, and forgets what it had.
   void go_on_from(const State& state);
   /// Runs until about so much more work is done; less where nothing is left to be gained.
-  void run(std::uint64_t work);
-  /// When this flag gets set, run() ends in the middle, and what the strand has is worth nothing.
-  void watch(const std::atomic<bool>* stop) noexcept { search_.separator.watch(stop); }
+  /// \param stepped  hears of every step; may be empty
+  void run(std::uint64_t work, const std::function<void()>& stepped = {});
 
   const State& best() const noexcept { return search_.best.state; }
   const Merit& merit() const noexcept { return search_.best.merit; }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <optional>
 #include <utility>
+
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::nest {
 namespace {
@@ -55,6 +57,7 @@ Loop joined_loops(const geom::GridRegion& region) {
   for (std::size_t h = 0; h < holes.size(); ++h) {
     const GridPoint from = points[holes[h][0]];
     const auto is_free = [&](GridPoint to) {
+      ask(1 + joined.size() / 16);
       const auto meets = [&](const Loop& loop) {
         for (std::size_t k = 0; k < loop.size(); ++k)
           if (crosses(from, to, points[loop[k]], points[loop[(k + 1) % loop.size()]])) return true;
@@ -93,51 +96,76 @@ Loop joined_loops(const geom::GridRegion& region) {
   return joined;
 }
 
-std::vector<Loop> triangles_of(const std::vector<GridPoint>& points, Loop loop) {
+/// A corner of a loop as an ear: the triangle with its neighbours.
+struct Ear {
+  std::uint32_t corner = 0;
+  bool is_known = false;
+  int side = 0;
+  double quality = 0;
+  /// A corner in the triangle, which cannot be cut off before that one is gone.
+  std::optional<std::uint32_t> blocked_by;
+};
+
+void find_out(const std::vector<GridPoint>& points, std::vector<Ear>& loop, std::size_t k) {
+  const std::size_t n = loop.size();
+  Ear& ear = loop[k];
+  const GridPoint a = points[loop[(k + n - 1) % n].corner], b = points[ear.corner],
+                  c = points[loop[(k + 1) % n].corner];
+  ear.is_known = true;
+  ear.side = geom::turn(a, b, c);
+  ear.blocked_by.reset();
+  if (ear.side <= 0) return;
+  ask(1 + n / 16);
+  for (std::size_t m = 0; m < n && !ear.blocked_by; ++m) {
+    const GridPoint p = points[loop[m].corner];
+    if (!(p == a || p == b || p == c) && holds(a, b, c, p)) ear.blocked_by = loop[m].corner;
+  }
+  const GridPoint d = c - a;
+  const double area = static_cast<double>(cross(b - a, d));
+  const double length = static_cast<double>(d.x) * static_cast<double>(d.x) +
+                        static_cast<double>(d.y) * static_cast<double>(d.y);
+  ear.quality = length > 0 ? area / length : 0;
+}
+
+/// The ear to be cut off: a corner on a line, where there is nothing to cut off, or else the fattest one,
+/// because thin ones make many pieces.
+std::size_t best_ear(const std::vector<GridPoint>& points, std::vector<Ear>& loop) {
+  const std::size_t n = loop.size();
+  std::size_t best = n;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!loop[k].is_known) find_out(points, loop, k);
+    const Ear& ear = loop[k];
+    if (ear.side == 0) return k;
+    if (ear.side > 0 && !ear.blocked_by && (best == n || ear.quality > loop[best].quality)) best = k;
+  }
+  if (best < n) return best;
+  // This cannot be in a simple loop; a triangle that turns left covers more, never less.
+  for (std::size_t k = 0; k < n; ++k)
+    if (loop[k].side > 0) return k;
+  return 0;
+}
+
+std::vector<Loop> triangles_of(const std::vector<GridPoint>& points, const Loop& corners) {
   std::vector<Loop> triangles;
-  while (loop.size() > 3) {
+  std::vector<Ear> loop;
+  for (const std::uint32_t corner : corners) loop.push_back({corner, false, 0, 0, {}});
+  const auto add = [&](std::size_t k) {
     const std::size_t n = loop.size();
-    std::size_t ear = n;
-    // The fattest ear goes first, because thin ones make many pieces.
-    double best = -1;
-    for (std::size_t k = 0; k < n; ++k) {
-      const GridPoint a = points[loop[(k + n - 1) % n]], b = points[loop[k]], c = points[loop[(k + 1) % n]];
-      const int side = geom::turn(a, b, c);
-      if (side == 0) {  // the corner lies on a line, and there is nothing to cut off
-        ear = k;
-        best = -1;
-        break;
-      }
-      if (side < 0) continue;
-      bool blocked = false;
-      for (std::size_t m = 0; m < n && !blocked; ++m) {
-        const GridPoint p = points[loop[m]];
-        if (p == a || p == b || p == c) continue;
-        blocked = holds(a, b, c, p);
-      }
-      if (blocked) continue;
-      const GridPoint d = c - a;
-      const double area = static_cast<double>(cross(b - a, d));
-      const double length = static_cast<double>(d.x) * static_cast<double>(d.x) +
-                            static_cast<double>(d.y) * static_cast<double>(d.y);
-      const double quality = length > 0 ? area / length : 0;
-      if (quality > best) {
-        best = quality;
-        ear = k;
-      }
-    }
-    if (ear == n) {  // this cannot be in a simple loop; a triangle that turns left covers more, never less
-      for (std::size_t k = 0; k < n && ear == n; ++k)
-        if (geom::turn(points[loop[(k + n - 1) % n]], points[loop[k]], points[loop[(k + 1) % n]]) > 0)
-          ear = k;
-      if (ear == n) ear = 0;
-    }
-    const Loop triangle = {loop[(ear + n - 1) % n], loop[ear], loop[(ear + 1) % n]};
+    const Loop triangle = {loop[(k + n - 1) % n].corner, loop[k].corner, loop[(k + 1) % n].corner};
     if (geom::turn(points[triangle[0]], points[triangle[1]], points[triangle[2]]) > 0)
       triangles.push_back(triangle);
-    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(ear));
+  };
+  while (loop.size() > 3) {
+    const std::size_t n = loop.size(), k = best_ear(points, loop);
+    ask(1 + n / 64);
+    add(k);
+    const std::uint32_t gone = loop[k].corner;
+    loop[(k + n - 1) % n].is_known = loop[(k + 1) % n].is_known = false;
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
+    for (Ear& ear : loop)
+      if (ear.blocked_by == gone) ear.is_known = false;
   }
-  if (geom::turn(points[loop[0]], points[loop[1]], points[loop[2]]) > 0) triangles.push_back(loop);
+  add(1);
   return triangles;
 }
 
@@ -168,6 +196,7 @@ std::vector<ConvexPiece> convex_pieces(const geom::GridRegion& region) {
   if (region.empty()) return {};
   std::vector<Loop> pieces = triangles_of(region.points, joined_loops(region));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
+    ask(1 + pieces.size() / 4);
     for (std::size_t j = i + 1; j < pieces.size();) {
       if (join(region.points, pieces[i], pieces[j])) {
         pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));

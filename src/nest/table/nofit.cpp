@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "lekalo/base/stop.hpp"
 #include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
@@ -98,6 +99,9 @@ double area_in_common(const ConvexPiece& p, const ConvexPiece& q, Point t) {
   return 0.5 * twice;
 }
 
+/// Looks at a box that are a step together.
+constexpr std::size_t kPerStep = 64;
+
 using Intervals = std::vector<std::pair<double, double>>;  ///< along a segment, mm
 
 struct Contact {
@@ -115,6 +119,7 @@ void add_contacts(const SearchOutline& edges_of, const SearchOutline& corners_of
       const Point out = {along.y, -along.x};
       const double size = norm(out);
       if (size == 0) continue;
+      ask();
       for (const auto& corners : corners_of.loops) {
         const std::size_t n = corners.size();
         for (std::size_t v = 0; v < n; ++v) {
@@ -136,6 +141,7 @@ void add_contacts(const SearchOutline& edges_of, const SearchOutline& corners_of
 void cover(const std::vector<Sum>& sums, Point start, Point direction, double length, double reserve,
            Intervals& into) {
   into.clear();
+  ask(1 + sums.size() / kPerStep);
   Bounds box;
   box.add(start);
   box.add(start + length * direction);
@@ -218,6 +224,7 @@ NoFit::NoFit(const SearchOutline& a, const SearchOutline& b, double gap, std::si
   Bounds all;
   for (const ConvexPiece& p : a.pieces)
     for (const ConvexPiece& q : b.pieces) {
+      ask();
       sums.push_back(difference_of(p, q));
       all.add(sums.back().box.low);
       all.add(sums.back().box.high);
@@ -262,6 +269,7 @@ NoFit::NoFit(const SearchOutline& a, const SearchOutline& b, double gap, std::si
   for (std::uint32_t j = 0; j <= area_rows; ++j)
     for (std::uint32_t i = 0; i <= area_columns_; ++i) {
       const Point t = {x0_ + i / area_per_mm_, y0_ + j / area_per_mm_};
+      ask(1 + sums.size() / kPerStep);
       double area = 0;
       auto sum = sums.begin();
       for (const ConvexPiece& p : a.pieces)
@@ -289,6 +297,7 @@ template <class Index>
 void NoFit::fill(std::uint32_t x, std::uint32_t y, std::uint32_t size, const std::vector<Index>& candidates,
                  std::vector<Index>& lists) {
   if (x >= columns_ || y >= rows_) return;
+  ask(1 + candidates.size() / kPerStep);
   const double side = 1 / per_mm_;
   const double radius = 0.5 * size * side * 1.4142136 + tie_;
   const Point centre = {x0_ + (x + 0.5 * size) * side, y0_ + (y + 0.5 * size) * side};

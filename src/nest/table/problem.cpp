@@ -30,6 +30,11 @@ SearchOutline outline_of(const GridRegion& region) {
   return outline;
 }
 
+/// The region, or where it has very many corners one that holds it, larger by at most a share of a size, mm.
+GridRegion with_few_corners(const GridRegion& region, double size) {
+  return simplified(region, tuning::kSimplify * size, tuning::kMostCorners);
+}
+
 double hull_area(std::vector<Point> points) {
   std::sort(points.begin(), points.end(),
             [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -62,7 +67,7 @@ SearchOutline frame_around(const std::vector<geom::GridPoint>& loop, std::int64_
   frame.points = {low, {high.x, low.y}, high, {low.x, high.y}};
   frame.points.insert(frame.points.end(), loop.rbegin(), loop.rend());
   frame.loop_starts = {0, 4, static_cast<std::uint32_t>(frame.points.size())};
-  return outline_of(frame);
+  return outline_of(with_few_corners(frame, geom::mm_from_grid(width)));
 }
 
 GridRegion region_of(std::vector<geom::GridPoint> loop) {
@@ -138,8 +143,9 @@ SearchOutline demanding_more(const layout::Part& part, int than, bool mirrored) 
 
 }  // namespace
 
-Problem::Problem(const layout::Document& document, const SearchOptions& options)
-    : document_(&document), options_(options) {
+Problem::Problem(const layout::Document& document, const layout::Document& searched,
+                 const SearchOptions& options)
+    : document_(&searched), given_(&document), options_(options) {
   // Obstacles come first, because a table is in the frame of the first of two shapes, and a border's window
   // is upright.
   add_bins();
@@ -202,8 +208,8 @@ void Problem::add_parts() {
       SearchShape shape;
       shape.part = p;
       shape.whole =
-          outline_of(simplified(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
-                                tuning::kSimplify * std::sqrt(hull_areas_.back()), tuning::kEnoughCorners));
+          outline_of(outer_outline(geom::turned(part.outline.polygon, geom::GridRotation{}, mirrored == 1),
+                                   std::sqrt(hull_areas_.back())));
       for (const int quality : qualities)
         shape.demanding.emplace_back(quality, demanding_more(part, quality, mirrored == 1));
       shapes_.push_back(std::move(shape));
@@ -257,14 +263,14 @@ void Problem::add_stock_obstacles(std::uint32_t s, Bin& bin) {
   for (std::size_t l = 1; l < stock.outline.polygon.loops(); ++l) {
     auto hole = loop_of(stock.outline.polygon, l);
     std::reverse(hole.begin(), hole.end());
-    add(border, outline_of(region_of(std::move(hole))));
+    add(border, outline_of(with_few_corners(region_of(std::move(hole)), std::sqrt(bin.area))));
   }
   std::map<int, SearchOutline> defects, zones;
   for (const layout::Defect& defect : stock.defects)
     add(defects[defect.severity],
         outline_of(simplified(defect.outline.polygon, tuning::kSimplifyDefect, tuning::kEnoughCorners)));
   for (const layout::QualityZone& zone : stock.zones)
-    add(zones[zone.quality], outline_of(zone.outline.polygon));
+    add(zones[zone.quality], outline_of(with_few_corners(zone.outline.polygon, std::sqrt(bin.area))));
   const auto put = [&](Kind kind, int level, SearchOutline shape) {
     bin.obstacles.push_back({obstacle_form(kind, level, std::move(shape)), 0, 0});
     shapes_.back().window = bin.box;

@@ -76,9 +76,15 @@ inline constexpr std::uint32_t kStrip = 0;
 class Problem {
  public:
   /// \param document  outlives the problem; placements that are not locked do not count
-  Problem(const layout::Document& document, const SearchOptions& options);
+  Problem(const layout::Document& document, const SearchOptions& options)
+      : Problem(document, document, options) {}
+  /// \param searched  outlives the problem: the document with outlines that hold those of `document`
+  Problem(const layout::Document& document, const layout::Document& searched, const SearchOptions& options);
 
+  /// The document as it is searched (with_outer_outlines).
   const layout::Document& document() const noexcept { return *document_; }
+  /// The document as it was given: what counts in the end.
+  const layout::Document& given() const noexcept { return *given_; }
   const std::vector<Form>& forms() const noexcept { return forms_; }
   /// The form of a part at this rotation; the number of forms where it has none.
   std::uint32_t form_of(std::uint32_t part, geom::GridRotation rotation, bool mirrored) const noexcept;
@@ -141,7 +147,7 @@ class Problem {
   std::uint32_t angle_index(geom::GridRotation rotation);
   void add_form(std::uint32_t shape, geom::GridRotation rotation, bool mirrored);
 
-  const layout::Document* document_;
+  const layout::Document *document_, *given_;
   SearchOptions options_;
   std::vector<SearchShape> shapes_;
   std::vector<Form> forms_;

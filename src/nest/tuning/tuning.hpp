@@ -27,6 +27,11 @@ namespace tuning {
 inline constexpr double kSimplify = 0.0005;
 /// Corners. Outlines with no more than these are not simplified. Table time grows with the square of it.
 inline constexpr std::size_t kEnoughCorners = 48;
+/// Corners, and the largest share of a part's size. An outline that has more of them even when it is
+/// simplified is simplified further, by twice the share each time. More corners: seconds for a table, minutes
+/// for one of some thousand. A larger share: a visible gap around detailed parts.
+inline constexpr std::size_t kMostCorners = 200;
+inline constexpr double kSimplifyMost = 0.008;
 /// mm. As kSimplify, for defects, whose own size says little about what matters.
 inline constexpr double kSimplifyDefect = 0.1;
 /// Cells of the raster of one table. More: tables take longer and fall out of the cache (1,024, 2,048 and
@@ -167,9 +172,17 @@ inline constexpr double kDown = 0.05;
 /// Shares of the item's narrow side: the first and the last step of sliding left and down. A larger last
 /// one leaves gaps that only the search closes.
 inline constexpr double kFirstSlide = 0.5, kLastSlide = 1e-4;
-/// Places tried of one piece on one stock: all pieces share the first number, within the limits. 200 to 400
-/// places left 75 of the 280 pieces of Test7 out where 10,000 leave 60.
-inline constexpr std::size_t kBuildTries = 2'000'000, kLeastBuildTries = 200, kMostBuildTries = 10'000;
+/// Places tried of one piece on one stock: all pieces share a number, within limits.
+struct Tries {
+  std::size_t in_all, least, most;
+};
+/// Those of a first layout. 200 to 400 places left 75 of the 280 pieces of Test7 out where 10,000 leave 60.
+inline constexpr Tries kBuildTries = {2'000'000, 200, 10'000};
+/// Those of the sketch before it, which is made where that would take a second and more. More: a large order shows
+/// nothing for seconds. Fewer: what it shows lies loosely, until the first layout comes.
+inline constexpr Tries kSketchTries = {40'000, 10, 200};
+/// Items, and corners of all of them together, from which on there is a sketch.
+inline constexpr std::size_t kManyToBuild = 30, kManyCorners = 5000;
 /// Places tried of a piece on empty stock, to say why it is not placed. Fewer: "too large" of what is not.
 inline constexpr std::size_t kReasonTries = 4000;
 

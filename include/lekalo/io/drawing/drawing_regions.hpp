@@ -73,6 +73,16 @@ struct DrawnRegions {
   std::vector<std::string> notices;
 };
 
+/// A record of how a drawing became regions, for results, so that somebody else can follow.
+struct DrawingRecord {
+  std::vector<std::string> layers;  ///< that were taken; empty for all that are not hidden
+  double join = 0;                  ///< the join tolerance, mm
+  /// A point of every curve that was set aside because it is no longer than `join`, mm.
+  std::vector<geom::Point> set_aside;
+};
+[[nodiscard]] DrawingRecord record_of(const Drawing& drawing, const DrawingOptions& how,
+                                      const DrawnRegions& drawn);
+
 /// Joins, closes, nests and checks. Fails with ErrorCode::bad_input, naming entity, line, layer and place: a
 /// chain that does not close, three ends in one place, outlines that cross or touch (exactly decided between
 /// lines; where arcs are involved, within rounding, for crossing), a layer that is not there, no closed

@@ -10,6 +10,7 @@
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/io/contour/contour_file.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
 #include "lekalo/io/scan/scan_file.hpp"
 #include "lekalo/locate/outline.hpp"
 
@@ -51,6 +52,7 @@ struct ReadOutline {
   std::vector<std::string> notices;
   std::optional<ScanRecord> scan;        ///< of a blank that was measured
   std::optional<ContourRecord> contour;  ///< of a convex outline
+  std::optional<DrawingRecord> drawing;  ///< of regions that were drawn
 };
 
 /// A file of an outline in any form: regions, a tree of primitives, a drawing, points along one outline, or a

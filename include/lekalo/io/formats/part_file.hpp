@@ -45,4 +45,15 @@ struct PartsFile {
 [[nodiscard]] Result<PartsFile> read_parts(std::string_view bytes, const std::string& name,
                                            const PartOptions& options = {});
 
+struct StocksFile {
+  std::vector<layout::Stock> stocks;
+  std::vector<std::string> notices;
+};
+
+/// The sheets in a file of the same forms: each closed outline with its holes is one. They are called after
+/// the file, "-2", "-3" behind it; arcs are kept beside the chords that replace them, which lie in the
+/// material. Fails as read_parts does.
+[[nodiscard]] Result<StocksFile> read_stocks(std::string_view bytes, const std::string& name,
+                                             const PartOptions& options = {});
+
 }  // namespace lekalo::io

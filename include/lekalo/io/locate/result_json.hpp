@@ -10,6 +10,7 @@
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/io/contour/contour_file.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
 #include "lekalo/io/scan/scan_file.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/placement.hpp"
@@ -36,7 +37,7 @@ struct InputRecord {
 };
 
 struct NcRecord {
-  std::string mode, scan_frame;
+  std::string mode, scan_frame, control;
   int work_offset = 1;
   double rounding_mm = 0;
   /// The clearance that the written program keeps, mm: never above clearance - rounding_mm.
@@ -114,6 +115,8 @@ struct LocateDocument {
   locate::Mirror mirror = locate::Mirror::no;
   locate::LockedShift locked;
   std::optional<DemandRecord> demands;
+  /// How drawings became the regions.
+  std::optional<DrawingRecord> part_drawing, blank_drawing;
   /// The scan that `blank` was made from.
   std::optional<ScanRecord> scan;
 

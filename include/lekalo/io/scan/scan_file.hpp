@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,8 +71,15 @@ struct ScanRecord {
   bool proved = false, ordered = false;
   double guard = 0, step = 0, median_spacing = 0, widest = 0, deepest = 0, loss = 0;
   std::vector<std::string> assumptions, unknown, dropped;  ///< sentences
+  // How the points became the blank, so that somebody else can follow.
+  LengthUnit unit = LengthUnit::millimetre;
+  std::optional<double> min_radius, max_dip;
+  std::optional<ScanSlice> slice;
+  /// Indices among the points that count; the outlines for points in no order.
+  std::vector<std::uint32_t> left_out;
+  std::vector<std::vector<std::uint32_t>> outlines;
 };
-[[nodiscard]] ScanRecord record_of(const ScanBlank& scan);
+[[nodiscard]] ScanRecord record_of(const ScanBlank& scan, const ScanBlankOptions& options);
 
 /// Fails as parse_scan and guaranteed_blank do, naming the file.
 [[nodiscard]] Result<ScanBlank> read_scan_blank(std::string_view bytes, const std::string& name,

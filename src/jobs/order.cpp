@@ -1,0 +1,152 @@
+#include "lekalo/jobs/order.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "lekalo/geom/grid.hpp"
+#include "lekalo/io/formats/any_layout.hpp"
+#include "lekalo/io/text/sha256.hpp"
+#include "lekalo/io/text/words.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+/// Gives ids that nothing else has: a name, then the name with -2, -3 behind it.
+class FreeIds {
+ public:
+  std::string take(const std::string& base) {
+    std::string id = base;
+    std::size_t& last = last_of_[base];
+    if (last == 0) last = 1;
+    while (!taken_.insert(id).second) id = fmt::format("{}-{}", base, ++last);
+    return id;
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, std::size_t> last_of_;
+};
+
+/// Says whether a file holds more than outlines.
+bool is_layout(const File& file) {
+  const auto read = io::read_any_layout(file.bytes, file.name);
+  return read && !read->document.stocks.empty();
+}
+
+class OrderMaker {
+ public:
+  explicit OrderMaker(const Order& order) : order_(order) {}
+
+  Result<Layout> make() {
+    LEKALO_CHECK(said_enough());
+    for (const OrderedPart& part : order_.parts) take(part);
+    std::int64_t pieces = 0;
+    for (const layout::Part& part : made_.document.parts) pieces += part.demand;
+    for (const OrderedStock& stock : order_.stocks) take(stock, std::max<std::int64_t>(pieces, 1));
+    rules();
+    if (!faults_.empty()) return failure(ErrorCode::bad_input, faults_);
+    return std::move(made_);
+  }
+
+ private:
+  [[nodiscard]] Result<void> said_enough() const {
+    std::string missing;
+    if (order_.parts.empty()) missing = "no part is ordered";
+    if (order_.stocks.empty())
+      missing += std::string(missing.empty() ? "" : ", and ") + "there is no sheet to cut from";
+    if (missing.empty()) return {};
+    return failure(ErrorCode::usage, missing);
+  }
+
+  void fault(const std::string& sentence) { faults_ += (faults_.empty() ? "" : "; ") + sentence; }
+
+  void add_input(const char* role, const File& file) {
+    made_.inputs.push_back({role, file.name, io::sha256(file.bytes)});
+  }
+
+  void notices(std::vector<std::string>& said) {
+    for (std::string& notice : said)
+      if (std::find(made_.notices.begin(), made_.notices.end(), notice) == made_.notices.end())
+        made_.notices.push_back(std::move(notice));
+  }
+
+  void take(const OrderedPart& ordered) {
+    add_input("part", ordered.file);
+    auto read = io::read_parts(ordered.file.bytes, ordered.file.name, order_.reading);
+    if (!read)
+      return fault(is_layout(ordered.file)
+                       ? ordered.file.name +
+                             ": is a layout or a job already, with sheets and rules of its own; give it alone"
+                       : read.error().message);
+    notices(read->notices);
+    const std::string name =
+        ordered.name.empty() ? io::clean_text(io::stem_of(ordered.file.name)) : io::clean_text(ordered.name);
+    for (layout::Part& part : read->parts) {
+      part.id = part_ids_.take(name.empty() ? "part" : name);
+      part.name.clear();
+      part.demand *= ordered.quantity;
+      part.rotations = ordered.rotations;
+      part.may_mirror = ordered.may_mirror;
+      part.grain = ordered.grain;
+      part.priority = ordered.priority;
+      made_.document.parts.push_back(std::move(part));
+    }
+  }
+
+  void take(const OrderedStock& ordered, std::int64_t enough) {
+    const std::int64_t count = ordered.count.value_or(enough);
+    if (!ordered.size) return take_drawn(ordered.file, count);
+    layout::Stock stock;
+    const bool strip = ordered.size->width_mm == 0;
+    stock.kind = strip ? layout::StockKind::strip : layout::StockKind::sheet;
+    stock.open_length = strip;
+    stock.count = strip ? 1 : count;
+    const std::int64_t width = strip ? layout::kLongestStrip : geom::grid_from_mm(ordered.size->width_mm);
+    stock.outline.polygon = geom::rectangle({{0, 0}, {width, geom::grid_from_mm(ordered.size->height_mm)}});
+    add(std::move(stock), strip ? fmt::format("strip-{:g}", ordered.size->height_mm)
+                                : fmt::format("{:g}x{:g}", ordered.size->width_mm, ordered.size->height_mm));
+  }
+
+  void take_drawn(const File& file, std::int64_t count) {
+    add_input("sheet", file);
+    auto read = io::read_stocks(file.bytes, file.name, order_.reading);
+    if (!read) return fault(read.error().message);
+    notices(read->notices);
+    for (layout::Stock& stock : read->stocks) {
+      stock.count = count;
+      const std::string id = stock.id;
+      add(std::move(stock), id);
+    }
+  }
+
+  void add(layout::Stock stock, const std::string& id) {
+    stock.id = stock_ids_.take(id);
+    stock.grain_degrees = order_.grain_degrees;
+    // A sheet costs what it holds, so that a small one is taken where it is enough.
+    if (!stock.open_length) stock.cost = geom::area_mm2(stock.outline.polygon) * 1e-6;
+    made_.document.stocks.push_back(std::move(stock));
+  }
+
+  void rules() {
+    const double gap = std::max(order_.gap_mm, order_.kerf_mm);
+    if (gap > order_.gap_mm)
+      made_.notices.push_back(fmt::format(
+          "the gap of {:g} mm is narrower than the cut; it is raised to {:g} mm", order_.gap_mm, gap));
+    made_.document.rules = {geom::grid_from_mm_up(gap), geom::grid_from_mm_up(order_.border_mm), 0};
+  }
+
+  const Order& order_;
+  Layout made_;
+  FreeIds part_ids_, stock_ids_;
+  std::string faults_;
+};
+
+}  // namespace
+
+Result<Layout> open_order(const Order& order) { return OrderMaker(order).make(); }
+
+}  // namespace lekalo::jobs
