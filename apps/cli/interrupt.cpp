@@ -56,7 +56,11 @@ StopRequests::~StopRequests() {
   setitimer(ITIMER_REAL, &none, nullptr);
 }
 
-const std::atomic<bool>* StopRequests::flag() const noexcept { return &stop_flag; }
+const std::atomic<bool>* StopRequests::flag() noexcept { return &stop_flag; }
+
+ToTheEnd::ToTheEnd() {
+  if (stop_flag.load(std::memory_order_relaxed)) listening_.emplace(nobody_);
+}
 
 ProgressLine::ProgressLine(std::string what, std::string note)
     : what_(std::move(what)),

@@ -6,12 +6,14 @@
 #include <string>
 
 #include "lekalo/base/run_control.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/jobs/phases.hpp"
 
 namespace lekalo::cli {
 
-/// Turns Ctrl-C (and SIGTERM) and a time limit into a stop flag. The first Ctrl-C asks the search to stop
-/// with the best so far, the second ends the program as usual. At most one lives at a time.
+/// Turns Ctrl-C (and SIGTERM) and a time limit into a stop flag, as long as a command runs. The first Ctrl-C
+/// asks for the best so far, or for nothing where there is none, the second ends the program as usual. At
+/// most one lives at a time.
 class StopRequests {
  public:
   /// `seconds`: set the flag by itself after this time.
@@ -19,7 +21,18 @@ class StopRequests {
   ~StopRequests();
   StopRequests(const StopRequests&) = delete;
   StopRequests& operator=(const StopRequests&) = delete;
-  [[nodiscard]] const std::atomic<bool>* flag() const noexcept;
+  [[nodiscard]] static const std::atomic<bool>* flag() noexcept;
+};
+
+/// While this lives, nothing is stopped that was not to be stopped before: what a search has found until a
+/// stop is written, drawn and told to the end.
+class ToTheEnd {
+ public:
+  ToTheEnd();
+
+ private:
+  RunControl nobody_;
+  std::optional<Listening> listening_;
 };
 
 /// A line on stderr with the time left, for work of more than a second, where stderr is a terminal.

@@ -1,6 +1,8 @@
 #include <csignal>
+#include <cstdint>
 #include <exception>
 #include <new>
+#include <optional>
 #include <variant>
 
 #include "commands/check_command.hpp"
@@ -8,12 +10,17 @@
 #include "commands/export_command.hpp"
 #include "commands/locate_command.hpp"
 #include "commands/nest_command.hpp"
+#include "commands/new_command.hpp"
 #include "commands/pocket_command.hpp"
 #include "commands/serve_command.hpp"
 #include "commands/show_command.hpp"
 #include "commands/simulate_command.hpp"
+#include "commands/store_command.hpp"
 #include "commands/verify_command.hpp"
+#include "interrupt.hpp"
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/stop.hpp"
+#include "lekalo/verify/memory.hpp"
 #include "options/options.hpp"
 #include "outputs.hpp"
 
@@ -29,14 +36,40 @@ Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }
 Result<int> run(const EditOptions& options) { return run_edit(options); }
 Result<int> run(const NestOptions& options) { return run_nest(options); }
+Result<int> run(const NewOptions& options) { return run_new(options); }
 Result<int> run(const ServeOptions& options) { return run_serve(options); }
+Result<int> run(const StoreOptions& options) { return run_store(options); }
 Result<int> run(const PrintText& command) {
   return print(command.text).map([] { return 0; });
 }
 
+template <class Options>
+std::optional<double> seconds_of(const Options& options) {
+  if constexpr (requires { options.seconds; })
+    return options.seconds;
+  else
+    return std::nullopt;
+}
+
+/// A command that Ctrl-C, SIGTERM and its time may end wherever it is.
+template <class Options>
+Result<int> run_until_stopped(const Options& options, std::uint64_t steps) {
+  const StopRequests stop(seconds_of(options));
+  RunControl control;
+  control.stop = StopRequests::flag();
+  control.work_limit = steps;
+  const auto status = stoppable(control, [&] { return run(options); });
+  if (status) return *status;
+  complain(status.error().what());
+  return status.error().out_of_work() ? exit_status(ErrorCode::bad_input) : 1;
+}
+/// The server has stops of its own, one for each of its jobs.
+Result<int> run_until_stopped(const ServeOptions& options, std::uint64_t) { return run(options); }
+
 int run_command_line(int argc, char** argv) {
-  const Result<int> status = parse_command_line(argc, argv).and_then([](const Command& command) {
-    return std::visit([](const auto& options) { return run(options); }, command);
+  const Result<int> status = parse_command_line(argc, argv).and_then([](const CommandLine& line) {
+    return std::visit([&](const auto& options) { return run_until_stopped(options, line.steps); },
+                      line.command);
   });
   if (status) return *status;
   complain(status.error().message);
@@ -49,6 +82,7 @@ int run_command_line(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A reader of stdout that went away is an error to report, after which half-written files are removed.
   std::signal(SIGPIPE, SIG_IGN);
+  lekalo::verify::let_numbers_throw_bad_alloc();
   try {
     return lekalo::cli::run_command_line(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "lekalo/disk/files.hpp"
 
@@ -82,13 +84,19 @@ Result<void> deliver(const std::string& path, std::string_view text) {
 }
 
 void complain(std::string_view message) {
-  std::string line = "lekalo: ";
+  // Without memory of its own: "not enough memory" is one of the messages.
+  std::array<char, 512> block;
+  std::size_t size = 0;
+  const auto put = [&](char c) {
+    block[size++] = c;
+    if (size == block.size() || c == '\n') std::fwrite(block.data(), 1, std::exchange(size, 0), stderr);
+  };
+  for (const char c : std::string_view("lekalo: ")) put(c);
   for (const char c : message) {
     const auto byte = static_cast<unsigned char>(c);
-    line += byte < 0x20 || byte == 0x7f ? '?' : c;
+    put(byte < 0x20 || byte == 0x7f ? '?' : c);
   }
-  line += '\n';
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  put('\n');
 }
 
 }  // namespace lekalo::cli

@@ -48,6 +48,13 @@ double degrees(double radians) { return radians * kDegreesPerRadian; }
 std::string headline(const io::LocateDocument& d) {
   if (d.scan && !d.scan->proved)
     return "Stretches of the blank are unknown: what follows holds for the rest of it, and is no yes.";
+  const bool undecided = d.shortfall > 0 && !d.demands && d.upper_bound && *d.upper_bound >= d.min_allowance;
+  if (d.status == "optimal" && undecided)
+    return d.min_allowance > 0
+               ? fmt::format(
+                     "The demanded allowance is kept within {}; whether all of it can be is undecided.",
+                     mm_up(d.shortfall))
+               : fmt::format("The part fits within {}; whether it fits is undecided.", mm_up(d.shortfall));
   if (d.status == "optimal") return "The best placement was found and proved.";
   if (d.status == "infeasible" && d.demands)
     return "No placement meets the demands; this is proved. The one that misses least:";

@@ -25,20 +25,20 @@ Result<void> read_if_named(const std::string& path, std::optional<jobs::File>& t
 }
 
 Result<jobs::LocateJob> read_files(const LocateOptions& o) {
-  jobs::LocateJob job{{}, {}, {}, {}, {}, o.job, o.outputs, o.warnings};
+  jobs::LocateJob job{{}, {}, {}, {}, {}, {}, o.job, o.outputs, o.warnings};
   LEKALO_TRY(job.part, read_named(o.part));
   LEKALO_TRY(job.blank, read_named(o.blank));
   LEKALO_CHECK(read_if_named(o.nc, job.program));
+  LEKALO_CHECK(read_if_named(o.allow, job.allow));
   LEKALO_CHECK(read_if_named(o.features, job.features));
   LEKALO_CHECK(read_if_named(o.compare, job.earlier));
   return job;
 }
 
 Result<jobs::Located> located(const jobs::LocateJob& job, const LocateOptions& o) {
-  const StopRequests stop(o.seconds);
   std::optional<ProgressLine> line;
   RunControl run;
-  run.stop = stop.flag();
+  run.stop = StopRequests::flag();
   run.work_limit = o.work;
   run.progress = [&line](const Progress& progress) {
     if (!line) line.emplace("searching");
@@ -86,10 +86,12 @@ Result<int> run_locate(const LocateOptions& o) {
                              {{"--part", o.part},
                               {"--blank", o.blank},
                               {"--nc", o.nc},
+                              {"--allow", o.allow},
                               {"--compare", o.compare},
                               {"--features", o.features}}));
   LEKALO_TRY(const jobs::LocateJob job, read_files(o));
   LEKALO_TRY(const jobs::Located made, located(job, o));
+  const ToTheEnd to_the_end;
   LEKALO_TRY(const std::vector<std::string> written, write_all(o, made));
   tell(locate_summary(made.document, written));
   return made.holds() ? 0 : 1;

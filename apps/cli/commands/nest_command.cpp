@@ -9,7 +9,9 @@
 #include "interrupt.hpp"
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/nest.hpp"
+#include "order_input.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
@@ -32,6 +34,8 @@ const char* sentence_of(nest::Reason reason) {
       return "nowhere on the stock are zones and defects good enough for it";
     case nest::Reason::no_stock:
       return "no stock is left with room for it";
+    case nest::Reason::not_tried:
+      return "the time was over before its turn";
   }
   return "";
 }
@@ -46,6 +50,19 @@ std::string text_of(const jobs::NestStanding& standing) {
   return text;
 }
 
+Result<jobs::Layout> read_input(const NestOptions& o) {
+  const std::vector<NamedPath> outputs{
+      {"--output", o.output}, {"--picture", o.picture}, {"--stream", o.stream}};
+  if (o.order) return read_order_input(*o.order, outputs);
+  LEKALO_TRY(jobs::Layout input, read_layout_input(o.source, outputs));
+  if (input.document.stocks.empty())
+    return failure(ErrorCode::usage,
+                   fmt::format("{} has parts and no sheet to place them on; say one: --sheet 3000x1500, or "
+                               "--strip 1500",
+                               io::as_utf8(o.source.path)));
+  return input;
+}
+
 /// Nests with a stream of better layouts, a progress line, and a clock that may end it.
 Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOptions& o) {
   using Clock = std::chrono::steady_clock;
@@ -57,10 +74,9 @@ Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOp
     options.improved = [&](const layout::Document&, std::string_view bytes) {
       return deliver(o.stream, bytes);
     };
-  const StopRequests stop(o.seconds);
   ProgressLine line("nesting");
   RunControl control;
-  control.stop = stop.flag();
+  control.stop = StopRequests::flag();
   control.work_limit = o.work;
   control.progress = [&](const Progress& progress) {
     const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -73,12 +89,11 @@ Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOp
 }  // namespace
 
 Result<int> run_nest(const NestOptions& o) {
-  LEKALO_TRY(const jobs::Layout input,
-             read_layout_input(o.source,
-                               {{"--output", o.output}, {"--picture", o.picture}, {"--stream", o.stream}}));
+  LEKALO_TRY(const jobs::Layout input, read_input(o));
   const double start = processor_seconds();
   LEKALO_TRY(const jobs::Nested nested, nest_watched(input.document, o));
   const double seconds = processor_seconds() - start;
+  const ToTheEnd to_the_end;
   disk::AtomicFiles files;
   if (!o.output.empty()) LEKALO_CHECK(files.add(o.output, nested.bytes));
   if (!o.picture.empty()) {
@@ -87,7 +102,7 @@ Result<int> run_nest(const NestOptions& o) {
   }
   LEKALO_CHECK(files.commit());
   if (o.json)
-    LEKALO_CHECK(print(jobs::nest_json(input, o.search, nested, seconds)));
+    LEKALO_CHECK(print(jobs::nest_json(input, o.search, nested, o.output, seconds)));
   else if (o.output.empty())
     LEKALO_CHECK(print(nested.bytes));
   std::string said = notes(input.notices) + completeness_text(nested.document, nested.completeness);

@@ -12,6 +12,7 @@
 #include "lekalo/jobs/verify.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
+#include "verify_claims.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -31,12 +32,15 @@ struct Place {
   const char *option, *role;
   std::string VerifyOptions::*path;
 };
-constexpr std::array<Place, 6> kPlaces{{{"--part", "part", &VerifyOptions::part},
+constexpr std::array<Place, 9> kPlaces{{{"--part", "part", &VerifyOptions::part},
                                         {"--blank", "blank", &VerifyOptions::blank},
                                         {"--features", "features", &VerifyOptions::features},
                                         {"--nc", "nc", &VerifyOptions::program},
                                         {"--compare", "last-result", &VerifyOptions::earlier},
-                                        {"--certificate", "certificate", &VerifyOptions::certificate}}};
+                                        {"--certificate", "certificate", &VerifyOptions::certificate},
+                                        {"--pocket", "pocket", &VerifyOptions::pocket},
+                                        {"--program", "program", &VerifyOptions::cut_program},
+                                        {"--layout", "layout", &VerifyOptions::layout}}};
 
 std::string given_instead(const VerifyOptions& o, const std::string& role) {
   for (const Place& place : kPlaces)
@@ -75,6 +79,7 @@ int exit_status_of(verify::Verdict verdict) {
     case verify::Verdict::confirmed:
       return 0;
     case verify::Verdict::incomplete:
+    case verify::Verdict::stated_regions:
     case verify::Verdict::unproved:
       return 1;
     case verify::Verdict::refuted:
@@ -89,6 +94,8 @@ const char* sentence_of(verify::Verdict verdict) {
       return "Confirmed: the clearance and the bound hold.\n";
     case verify::Verdict::incomplete:
       return "Incomplete: the clearance and the bound hold, but not everything was rechecked.\n";
+    case verify::Verdict::stated_regions:
+      return "Confirmed for the stated regions: how a file became its region was not rechecked.\n";
     case verify::Verdict::unproved:
       return "Unproved: the clearance holds, but there is no certificate for a bound.\n";
     case verify::Verdict::refuted:
@@ -114,11 +121,13 @@ std::string words(const verify::LocateReport& report) {
 
 Result<int> run_verify(const VerifyOptions& o) {
   LEKALO_TRY(const std::string bytes, disk::read_file(o.result));
+  const jobs::FileFinder finder = [&](const std::string& role, const std::string& path) {
+    return find(o, role, path);
+  };
+  LEKALO_TRY(const verify::Kind kind, verify::kind_of({o.result, bytes}));
+  if (kind != verify::Kind::placement) return verify_other(o, bytes, kind, finder);
   LEKALO_CHECK(check_words(o, bytes));
-  LEKALO_TRY(const jobs::Verified verified,
-             jobs::verify({o.result, bytes}, [&](const std::string& role, const std::string& path) {
-               return find(o, role, path);
-             }));
+  LEKALO_TRY(const jobs::Verified verified, jobs::verify({o.result, bytes}, finder));
   if (o.json) LEKALO_CHECK(print(verified.json));
   tell(words(verified.report));
   return exit_status_of(verified.report.verdict);

@@ -10,8 +10,13 @@ void add_layout_source(Form& form, LayoutWords& w, bool required) {
       "layout", w.path, "FILE",
       "A layout, a job or placements of a nesting program, a drawing, regions: told apart by content")
       .required = required;
+  OptionAdder{form, "Reading"}("--instance", w.instance, "FILE",
+                               "Of placements: the file of the items, when not where they say");
+  add_drawings_reading(form, w);
+}
+
+void add_drawings_reading(Form& form, LayoutWords& w) {
   const OptionAdder add(form, "Reading");
-  add("--instance", w.instance, "FILE", "Of placements: the file of the items, when not where they say");
   add("--units", w.units, list_of(kUnits, "|"), "Of files that do not say theirs [mm]");
   add("--chord-tolerance", w.chords, "MM", "How far chords lie from the arcs of drawings [0.01]");
   add("--join", w.join, "MM", "Loose ends of drawings this near to each other are joined [0.01]");
@@ -30,9 +35,9 @@ Result<LayoutSource> to_layout_source(const LayoutWords& w) {
   source.parts.drawing.take = w.layers;
   WordReader reader;
   if (!w.units.empty()) reader.choice("--units", w.units, kUnits, source.parts.unit.emplace());
-  constexpr const char* kLength = "a number of millimetres";
-  reader.number("--chord-tolerance", w.chords, 0x1p-16, 1000.0, kLength, source.parts.chord_tolerance);
-  reader.number("--join", w.join, 0.0, 1000.0, kLength, source.parts.drawing.join_tolerance);
+  constexpr const char* kLength = "a length up to 1000 mm, as 0.2 or 1/64in";
+  reader.length("--chord-tolerance", w.chords, 0x1p-16, 1000.0, kLength, source.parts.chord_tolerance);
+  reader.length("--join", w.join, 0.0, 1000.0, kLength, source.parts.drawing.join_tolerance);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
   return source;
 }

@@ -13,6 +13,8 @@ struct LayoutWords {
 };
 
 void add_layout_source(Form& form, LayoutWords& words, bool required = true);
+/// The part of these options that says how drawings are read.
+void add_drawings_reading(Form& form, LayoutWords& words);
 void add_layout_outputs(Form& form, LayoutWords& words);
 
 [[nodiscard]] Result<LayoutSource> to_layout_source(const LayoutWords& words);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "control_word.hpp"
 #include "lekalo/io/formats/drawing_formats.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
@@ -29,10 +30,10 @@ constexpr std::array kMirrors{Word<locate::Mirror>{"no", locate::Mirror::no},
 /// As typed.
 struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
-      alternatives, nc, nc_out, nc_mode, nc_angle_decimals, wcs, scan_frame, output, certificate, picture,
-      report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y, features, criterion, give_up,
-      trade_off, join, curve, uncertainty, coverage, min_radius, max_dip, step, drop_outliers, simplify,
-      slice_height, slice_thickness;
+      alternatives, nc, nc_out, nc_mode, nc_angle_decimals, control, allow, chord_tolerance, wcs, scan_frame,
+      output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
+      features, criterion, give_up, trade_off, join, curve, uncertainty, coverage, min_radius, max_dip, step,
+      drop_outliers, simplify, slice_height, slice_thickness;
   std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window;
   bool json = false;
@@ -157,8 +158,15 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
                "--nc: say with --nc-out FILE where the rewritten program goes");
   read.require(o.outputs.program.empty() || !o.nc.empty(),
                "--nc-out: say with --nc FILE which program to rewrite");
+  o.allow = words.allow;
   read.require(!o.nc.empty() || (words.nc_mode.empty() && words.wcs.empty() && words.scan_frame.empty()),
                "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
+  read.require(
+      !o.nc.empty() || (words.control.empty() && words.allow.empty() && words.chord_tolerance.empty()),
+      "--control, --allow and --chord-tolerance need --nc FILE, the program to rewrite");
+  read_control(read, words.control, o.job.rewrite.control);
+  read.number("--chord-tolerance", words.chord_tolerance, 1e-5, 1.0, "a length from 0.00001 to 1 mm",
+              o.job.rewrite.chord_tolerance);
   read.choice("--nc-mode", words.nc_mode, kModes, o.job.rewrite.mode);
   read.choice("--scan-frame", words.scan_frame, kScanFrames, o.job.rewrite.scan_frame);
   read.number("--nc-angle-decimals", words.nc_angle_decimals, 0, 9, "a whole number from 0 to 9",
@@ -318,6 +326,10 @@ void add_program_options(Form& form, LocateWords& w) {
   add("--nc-out", w.nc_out, "FILE", "The program for the blank as it lies");
   add("--nc-mode", w.nc_mode, list_of(kModes, "|"),
       "Turn every coordinate, or let the control do it: LinuxCNC G10 L2, Fanuc G68 [coordinates]");
+  add("--control", w.control, control_list(), "Whose words the program has [guessed, and told]");
+  add("--allow", w.allow, "FILE", "M words that move no axis, one a line, beside those that lekalo knows");
+  add("--chord-tolerance", w.chord_tolerance, "MM",
+      "Of the chords for arcs of G18 and G19, which do not stay in their plane when turned [0.001]");
   add("--wcs", w.wcs, "N", "Work offset that the program runs in: 1 is G54 .. 9 is G59.3 [1]");
   add("--nc-angle-decimals", w.nc_angle_decimals, "N",
       "Decimals of a degree that the control takes in G68 R [3]");

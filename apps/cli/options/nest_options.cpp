@@ -3,6 +3,7 @@
 #include "layout_words.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
+#include "order_words.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 /// As typed.
 struct NestWords {
   LayoutWords layout;
+  OrderWords order;
   std::string output, stream, time, work, seed, threads, angles, pairs;
   bool from_scratch = false;
 };
@@ -18,6 +20,12 @@ Result<Command> to_nest(const NestWords& w) {
   LEKALO_CHECK(fine_picture(w.layout.picture));
   NestOptions o;
   LEKALO_TRY(o.source, to_layout_source(w.layout));
+  LEKALO_TRY(o.order, to_order(w.order, w.layout));
+  if (!o.order && w.layout.path.empty())
+    return failure(
+        ErrorCode::usage,
+        "nothing says what is to be placed: give the file of a layout, or drawings and sheets, as in "
+        "lekalo nest --part side.dxf=4 --sheet 3000x1500 (see lekalo nest --help)");
   o.output = w.output;
   o.stream = w.stream;
   o.search.from_given = !w.from_scratch;
@@ -48,7 +56,8 @@ Result<Command> to_nest(const NestWords& w) {
 Typed add_nest_form(Form& form) {
   auto words = std::make_shared<NestWords>();
   NestWords& w = *words;
-  add_layout_source(form, w.layout);
+  add_layout_source(form, w.layout, false);
+  add_order(form, w.order);
   const OptionAdder write(form);
   write("-o,--output", w.output, "FILE", "Write the layout to this file [stdout]");
   write("--stream", w.stream, "FILE", "Replace this file with every better layout as it is found");

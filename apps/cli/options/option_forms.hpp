@@ -20,6 +20,8 @@ using Typed = std::function<Result<Command>()>;
 [[nodiscard]] Typed add_export_form(Form& form);
 [[nodiscard]] Typed add_edit_form(Form& form);
 [[nodiscard]] Typed add_nest_form(Form& form);
+[[nodiscard]] Typed add_new_form(Form& form);
 [[nodiscard]] Typed add_serve_form(Form& form);
+[[nodiscard]] Typed add_store_form(Form& form);
 
 }  // namespace lekalo::cli

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <charconv>
+#include <optional>
 #include <string>
 
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/units.hpp"
+#include "length_word.hpp"
 
 namespace lekalo::cli {
 
@@ -35,7 +37,7 @@ std::string list_of(const std::array<Word<T>, N>& words, const char* separator) 
 inline constexpr std::array kUnits{Word<LengthUnit>{"mm", LengthUnit::millimetre},
                                    Word<LengthUnit>{"inch", LengthUnit::inch}};
 
-/// Turns words into values and keeps the first complaint. Words become numbers here rather than in CLI11,
+/// Turns words into values and keeps all complaints. Words become numbers here rather than in CLI11,
 /// whose messages do not name the range and which takes "nan" and "0x10".
 class WordReader {
  public:
@@ -49,6 +51,17 @@ class WordReader {
     const auto [stop, error] = std::from_chars(word.data(), end, parsed);
     if (error == std::errc{} && stop == end && low <= parsed && parsed <= high) {
       value = parsed;
+    } else {
+      complain(fmt::format("{}: \"{}\" is not {}", option, word, wanted));
+    }
+  }
+  /// Reads a length with or without a unit (length_word.hpp).
+  void length(const char* option, const std::string& word, double low, double high, const char* wanted,
+              double& mm) {
+    if (word.empty()) return;
+    const std::optional<double> read = length_of(word);
+    if (read && low <= *read && *read <= high) {
+      mm = *read;
     } else {
       complain(fmt::format("{}: \"{}\" is not {}", option, word, wanted));
     }
@@ -70,9 +83,7 @@ class WordReader {
   [[nodiscard]] const std::string& complaint() const { return complaint_; }
 
  private:
-  void complain(const std::string& complaint) {
-    if (complaint_.empty()) complaint_ = complaint;
-  }
+  void complain(const std::string& complaint) { complaint_ += (complaint_.empty() ? "" : "; ") + complaint; }
   std::string complaint_;
 };
 

@@ -1,8 +1,17 @@
 #include "options.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <utility>
+
 #include "command_line.hpp"
 #include "completion.hpp"
 #include "option_forms.hpp"
+#include "option_words.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -25,17 +34,31 @@ constexpr CommandForm kForms[] = {
     {"export", "Write a layout or a job of another program in another form", add_export_form},
     {"edit", "Carry out a file of commands on a layout: move, slide, settle, ...", add_edit_form},
     {"nest", "Place parts on strips, sheets and hides, densely", add_nest_form},
+    {"new", "Write the layout that an order of drawings and sheets describes, to be edited", add_new_form},
     {"serve", "Correct layouts in a browser, with a live exact check", add_serve_form},
+    {"store", "Check, copy and put back the layouts of a server", add_store_form},
 };
+
+/// The commands whose work is counted in steps.
+constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "check",
+                                             "show",   "export", "edit"};
+bool counts_steps(std::string_view command) {
+  return std::find(std::begin(kWorkInSteps), std::end(kWorkInSteps), command) != std::end(kWorkInSteps);
+}
 
 }  // namespace
 
-Result<Command> parse_command_line(int argc, char** argv) {
+Result<CommandLine> parse_command_line(int argc, char** argv) {
   std::vector<Form> forms;
   std::vector<Typed> typed;
+  std::string steps;
   for (const CommandForm& command : kForms) {
     Form& form = forms.emplace_back(Form{command.name, command.help, {}, {}});
     typed.push_back(command.add(form));
+    if (counts_steps(command.name))
+      OptionAdder{form}(
+          "--work", steps, "N",
+          fmt::format("Give up after N steps of work, each a microsecond or less [{}]", kUsualSteps));
   }
   std::string shell;
   Form& completion = forms.emplace_back(Form{"completion", "Print a completion script for a shell", {}, {}});
@@ -48,8 +71,15 @@ Result<Command> parse_command_line(int argc, char** argv) {
   });
 
   LEKALO_TRY(const Asked asked, read_command_line(forms, argc, argv));
-  if (const auto* const text = std::get_if<std::string>(&asked)) return PrintText{*text};
-  return typed[std::get<std::size_t>(asked)]();
+  if (const auto* const text = std::get_if<std::string>(&asked)) return CommandLine{PrintText{*text}};
+  LEKALO_TRY(CommandLine line, typed[std::get<std::size_t>(asked)]().map(
+                                   [](Command&& command) { return CommandLine{std::move(command)}; }));
+  if (counts_steps(forms[std::get<std::size_t>(asked)].name)) line.steps = kUsualSteps;
+  WordReader read;
+  read.number("--work", steps, std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max(),
+              "a whole number from 1 to 2^64 - 1", line.steps);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return line;
 }
 
 }  // namespace lekalo::cli

@@ -13,14 +13,16 @@
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/nest.hpp"
+#include "lekalo/jobs/order.hpp"
 #include "lekalo/jobs/pocket.hpp"
+#include "lekalo/verify/claims.hpp"
 #include "lekalo/verify/simulate.hpp"
 
 namespace lekalo::cli {
 
 /// Holds what `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
-  std::string part, blank, nc, compare, features;
+  std::string part, blank, nc, allow, compare, features;
   std::string output, picture, report, allowances, drawing;  ///< the other outputs are named in `outputs`
   jobs::LocateOptions job;
   jobs::LocateOutputs outputs;
@@ -30,10 +32,25 @@ struct LocateOptions {
   std::vector<std::string> warnings;  ///< options that have no effect here
 };
 
+/// A program that ran before with a tool of its own.
+struct EarlierFile {
+  std::string path;
+  double tool_diameter = 0;  ///< mm
+};
+
 struct VerifyOptions {
   std::string result;
   /// Instead of the paths in the result; may be empty.
   std::string part, blank, features, program, earlier, certificate;
+  /// Files that one which is no placement was made from; may be empty.
+  std::string layout, pocket;
+  /// The place where the program of a report is now; may be empty.
+  std::string cut_program;
+  std::optional<double> tool_diameter;
+  verify::SimulateOptions machining;
+  std::vector<EarlierFile> after;
+  verify::ExportWords export_words;
+  std::optional<double> kerf, tolerance;
   bool json = false;
 };
 
@@ -44,10 +61,30 @@ struct LayoutSource {
   io::PartOptions parts;
 };
 
-/// A program that ran before with a tool of its own.
-struct EarlierFile {
-  std::string path;
-  double tool_diameter = 0;  ///< mm
+/// Files of parts as they were typed: a file, a folder or a pattern, and how many of each outline are wanted.
+struct PartWord {
+  std::string files;
+  std::optional<std::int64_t> count;
+};
+
+/// Stock as it was typed: a size, or else the file of a drawing.
+struct StockWord {
+  std::string said;
+  std::optional<jobs::SheetSize> size;
+  std::optional<std::int64_t> count;
+};
+
+/// A job that is made of drawings.
+struct OrderSource {
+  std::vector<PartWord> parts;
+  std::string table;  ///< a file of rows; may be empty
+  std::vector<StockWord> stocks;
+  double gap_mm = 0, border_mm = 0, kerf_mm = 0;
+  /// These count for parts whose row of the table says nothing else.
+  std::vector<layout::AngleRange> rotations;
+  bool may_mirror = false;
+  std::optional<double> grain_degrees;
+  io::PartOptions reading;
 };
 
 struct SimulateOptions {
@@ -92,12 +129,18 @@ struct EditOptions {
 
 struct NestOptions {
   LayoutSource source;
-  std::string output, picture;  ///< may be empty; output: stdout, unless the report goes there
-  std::string stream;           ///< every better layout; may be empty
+  std::optional<OrderSource> order;  ///< instead of the source
+  std::string output, picture;       ///< may be empty; output: stdout, unless the report goes there
+  std::string stream;                ///< every better layout; may be empty
   jobs::NestOptions search;
   std::optional<double> seconds;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
   bool json = false;
+};
+
+struct NewOptions {
+  OrderSource order;
+  std::string output;  ///< empty: stdout
 };
 
 struct ServeOptions {
@@ -105,7 +148,13 @@ struct ServeOptions {
   std::string store;    ///< empty: among the user's data
   std::string listen = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0: any
-  std::string token;          ///< empty: none given
+  std::string token_file;     ///< empty: none given
+};
+
+enum class StoreAction : std::uint8_t { check, backup, restore };
+struct StoreOptions {
+  StoreAction action = StoreAction::check;
+  std::string file, output;  ///< output is empty for a check
 };
 
 /// Text for stdout and nothing else to do: help, version, a completion script.
@@ -113,10 +162,21 @@ struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, CheckOptions,
-                             ShowOptions, ExportOptions, EditOptions, NestOptions, ServeOptions, PrintText>;
+using Command =
+    std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, CheckOptions, ShowOptions,
+                 ExportOptions, EditOptions, NestOptions, NewOptions, ServeOptions, StoreOptions, PrintText>;
+
+/// The steps of work (base/stop.hpp) after which a command that does not search gives up, so that no input
+/// takes for ever: docs/limits.md.
+inline constexpr std::uint64_t kUsualSteps = 20'000'000'000;
+
+/// A command and how much work it may take. Searches have a limit of their own, which counts their own units.
+struct CommandLine {
+  Command command;
+  std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
+};
 
 /// ErrorCode::usage with one sentence for everything that is not a command line of lekalo.
-[[nodiscard]] Result<Command> parse_command_line(int argc, char** argv);
+[[nodiscard]] Result<CommandLine> parse_command_line(int argc, char** argv);
 
 }  // namespace lekalo::cli

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 
 #include "layout_words.hpp"
@@ -11,7 +10,7 @@ namespace {
 /// As typed.
 struct ServeWords {
   LayoutWords layout;
-  std::string store, listen = "127.0.0.1", port, token;
+  std::string store, listen = "127.0.0.1", port, token_file;
 };
 
 Result<Command> to_serve(const ServeWords& w) {
@@ -21,14 +20,7 @@ Result<Command> to_serve(const ServeWords& w) {
   read.number("--port", w.port, std::uint16_t{0}, std::uint16_t{65535}, "a whole number from 0 to 65535",
               port);
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
-  constexpr std::size_t kShortest = 8, kLongest = 200;
-  const bool plain = std::all_of(w.token.begin(), w.token.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
-  });
-  if (!w.token.empty() && (!plain || w.token.size() < kShortest || w.token.size() > kLongest))
-    return failure(ErrorCode::usage,
-                   fmt::format("--token: has to be {} to {} letters, digits, - or _", kShortest, kLongest));
-  return Command(ServeOptions{std::move(source), w.store, w.listen, port, w.token});
+  return Command(ServeOptions{std::move(source), w.store, w.listen, port, w.token_file});
 }
 
 }  // namespace
@@ -42,7 +34,9 @@ Typed add_serve_form(Form& form) {
       "The layouts and all that was done to them [lekalo/layouts.sqlite among the user's data]");
   add("--port", w.port, "N", "0: any that is free [8080]");
   add("--listen", w.listen, "ADDRESS", "Elsewhere than on this machine alone, with a token [127.0.0.1]");
-  add("--token", w.token, "TEXT", "What whoever opens the page has to know [made and printed with --listen]");
+  add("--token-file", w.token_file, "FILE",
+      "Holds what whoever opens the page has to know [the variable LEKALO_TOKEN; made and printed with "
+      "--listen]");
   form.footer =
       "The first line on stdout is \"listening URL\"; Ctrl-C stops it.\n"
       "Exit codes: 0 stopped, 2 wrong command line, 3 the file cannot be read, 5 the port or the store\n"

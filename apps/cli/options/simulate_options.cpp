@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "after_words.hpp"
+#include "control_word.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 #include "step_over_word.hpp"
@@ -11,7 +12,7 @@ namespace {
 /// The words of the command line as they were typed.
 struct SimulateWords {
   std::string program, pocket, tool, stock_to_leave, step_over, top, acceleration, rapid, samples, picture,
-      animation;
+      animation, control;
   std::vector<std::string> after;
   bool json = false;
 };
@@ -20,6 +21,7 @@ Result<Command> to_simulate(const SimulateWords& w) {
   WordReader read;
   SimulateOptions o{w.program, w.pocket, {}, {}, w.samples, w.picture, w.animation, w.json};
   read_after(read, w.after, o.after);
+  read_control(read, w.control, o.machining.control);
   read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
                "--picture " + w.picture + ": the name has to end in .svg or .png");
   const char* const above = "a number above 0";
@@ -40,7 +42,7 @@ Typed add_simulate_form(Form& form) {
   auto words = std::make_shared<SimulateWords>();
   SimulateWords& w = *words;
   const OptionAdder add(form);
-  add("program", w.program, "FILE", "NC program: G0 to G3, G20/G21, G90/G91").required = true;
+  add("program", w.program, "FILE", "NC program of X, Y and Z").required = true;
   add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
       .required = true;
   add("--tool", w.tool, "MM", "Diameter of the tool").required = true;
@@ -50,6 +52,7 @@ Typed add_simulate_form(Form& form) {
   add("--top", w.top, "MM", "Z of the stock's upper face [0]");
   add("--acceleration", w.acceleration, "MM/S2", "Of the machine, for the time [500]");
   add("--rapid", w.rapid, "MM/MIN", "Feed of G0 [5000]");
+  add("--control", w.control, control_list(), "Whose words the program has [linuxcnc]");
   add("--samples", w.samples, "FILE", "Write the engagement along the path as CSV");
   add("--picture", w.picture, "FILE", "Draw the path coloured by engagement (.svg or .png)");
   add("--animation", w.animation, "FILE", "Write a page that plays the cut (.html)");

@@ -1,24 +1,90 @@
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <string_view>
 
+#include "after_words.hpp"
+#include "control_word.hpp"
+#include "lekalo/io/layout/layout_export.hpp"
 #include "option_forms.hpp"
+#include "option_words.hpp"
 
 namespace lekalo::cli {
+namespace {
+
+/// The words of the command line as they were typed, where they are to become numbers.
+struct VerifyWords {
+  VerifyOptions options;
+  std::string tool, stock_to_leave, top, kerf, tolerance, only, control;
+  std::vector<std::string> after;
+};
+
+/// Layers as export takes them, with commas between.
+void read_layers(WordReader& read, const std::string& words, std::vector<std::string>& layers) {
+  for (std::size_t begin = 0; !words.empty() && begin <= words.size();) {
+    const std::size_t end = std::min(words.find(',', begin), words.size());
+    layers.push_back(words.substr(begin, end - begin));
+    read.require(std::find(std::begin(io::kExportLayers), std::end(io::kExportLayers), layers.back()) !=
+                     std::end(io::kExportLayers),
+                 fmt::format("--only: \"{}\" is no layer of an export", layers.back()));
+    begin = end + 1;
+  }
+}
+
+Result<Command> to_verify(const VerifyWords& w) {
+  WordReader read;
+  VerifyOptions o = w.options;
+  read_after(read, w.after, o.after);
+  if (!w.tool.empty())
+    read.number("--tool", w.tool, 1e-3, 1e4, "a diameter from 0.001 to 10000 mm", o.tool_diameter.emplace());
+  read.number("--stock-to-leave", w.stock_to_leave, 0.0, 1e4, "a length from 0 to 10000 mm",
+              o.machining.stock_to_leave);
+  read.number("--top", w.top, -1e6, 1e6, "a height within 1000 m of 0, in mm", o.machining.top);
+  if (!w.kerf.empty())
+    read.number("--kerf", w.kerf, 0.01, 100.0, "a width from 0.01 to 100 mm", o.kerf.emplace());
+  if (!w.tolerance.empty())
+    read.number("--tolerance", w.tolerance, 1e-4, 25.0, "a length from 0.0001 to 25 mm",
+                o.tolerance.emplace());
+  read_control(read, w.control, o.machining.control);
+  read_layers(read, w.only, o.export_words.only);
+  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
+  return Command(std::move(o));
+}
+
+}  // namespace
 
 Typed add_verify_form(Form& form) {
-  auto o = std::make_shared<VerifyOptions>();
+  auto words = std::make_shared<VerifyWords>();
+  VerifyWords& w = *words;
+  VerifyOptions& o = w.options;
   const OptionAdder add(form);
-  add("result", o->result, "FILE", "Result written by lekalo locate -o").required = true;
-  add("--part", o->part, "FILE", "Where the part file is now, when not where the result says");
-  add("--blank", o->blank, "FILE", "Where the blank file is now");
-  add("--features", o->features, "FILE", "Where the file of features is now");
-  add("--nc", o->program, "FILE", "Where the NC program that was moved is now");
-  add("--compare", o->earlier, "FILE", "Where the earlier result is now");
-  add("--certificate", o->certificate, "FILE", "Where the certificate file is now");
-  add("--json", o->json, "Print the report as JSON on stdout");
+  add("result", o.result, "FILE", "What lekalo wrote: a placement, layout, report, program or export")
+      .required = true;
+  add("--part", o.part, "FILE", "Where the part file is now, when not where the result says");
+  add("--blank", o.blank, "FILE", "Where the blank file is now");
+  add("--features", o.features, "FILE", "Where the file of features is now");
+  add("--nc", o.program, "FILE", "Where the NC program that was moved is now");
+  add("--compare", o.earlier, "FILE", "Where the earlier result is now");
+  add("--certificate", o.certificate, "FILE", "Where the certificate file is now");
+  add("--layout", o.layout, "FILE", "The layout that a layout, an export or a profile program was made from");
+  add("--pocket", o.pocket, "FILE", "The pocket that a program clears, or where that of a report is now");
+  add("--program", o.cut_program, "FILE", "Where the program of a report is now");
+  add("--tool", w.tool, "MM", "Diameter of the tool of a program");
+  add("--stock-to-leave", w.stock_to_leave, "MM", "What a program leaves on every wall [0]");
+  add("--top", w.top, "MM", "Z of the stock's upper face, of a program [0]");
+  add_after(add, w.after);
+  add("--control", w.control, control_list(), "Whose words a pocket's program has [linuxcnc]");
+  add("--kerf", w.kerf, "MM", "Width of the cut of a profile program");
+  add("--tolerance", w.tolerance, "MM",
+      "As for export: of chords in a plot [0.02], or how far the kerf may enter a part [0.01]");
+  add("--sheet", o.export_words.sheet, "SHEET", "The sheet of an export or a profile program, as for export");
+  add("--only", w.only, "LAYER,...", "The layers of an export that has not all, as for export");
+  add("--json", o.json, "Print the report as JSON on stdout");
   form.footer =
-      "Exit codes: 0 confirmed, 1 clearance confirmed but there is no proof of the bound or a claim was not\n"
-      "rechecked, 4 refuted, 2 wrong command line, 3 a file cannot be read.";
-  return [o] { return Result<Command>(*o); };
+      "Exit codes: 0 confirmed, 1 what was rechecked holds, but there is no proof of the bound or a claim "
+      "was\n"
+      "not rechecked, 4 refuted, 2 wrong command line or more has to be given, 3 a file cannot be read.";
+  return [words] { return to_verify(*words); };
 }
 
 }  // namespace lekalo::cli

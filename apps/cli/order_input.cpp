@@ -1,0 +1,131 @@
+#include "order_input.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "lekalo/disk/file_words.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
+#include "lekalo/io/formats/order_table.hpp"
+#include "lekalo/io/text/words.hpp"
+#include "lekalo/jobs/order.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string shown(const std::string& path) { return path == "-" ? "standard input" : io::as_utf8(path); }
+
+class OrderReader {
+ public:
+  OrderReader(const OrderSource& source, const std::vector<NamedPath>& outputs)
+      : source_(source), outputs_(outputs) {}
+
+  Result<jobs::Layout> read() {
+    order_.gap_mm = source_.gap_mm;
+    order_.border_mm = source_.border_mm;
+    order_.kerf_mm = source_.kerf_mm;
+    order_.grain_degrees = source_.grain_degrees;
+    order_.reading = source_.reading;
+    if (source_.parts.empty() && source_.table.empty())
+      fault("no part is ordered; say --part FILE=N, a folder, a pattern in quotes, or --order TABLE",
+            ErrorCode::usage);
+    if (source_.stocks.empty())
+      fault("there is no sheet to cut from; say --sheet 3000x1500, --sheet hide.dxf or --strip 1500",
+            ErrorCode::usage);
+    for (const PartWord& word : source_.parts) {
+      io::OrderRow row;
+      row.file = word.files;
+      row.quantity = word.count.value_or(1);
+      add_parts(row, "");
+    }
+    if (!source_.table.empty()) add_table();
+    for (const StockWord& word : source_.stocks) add_stock(word);
+    if (!faults_.empty()) return failure(code_, faults_);
+    LEKALO_CHECK(check_outputs(outputs_, inputs_));
+    LEKALO_TRY(jobs::Layout layout, jobs::open_order(order_));
+    layout.notices.insert(layout.notices.begin(), notices_.begin(), notices_.end());
+    return layout;
+  }
+
+ private:
+  void fault(const std::string& sentence, ErrorCode code = ErrorCode::bad_input) {
+    if (faults_.empty()) code_ = code;
+    faults_ += (faults_.empty() ? "" : "; ") + sentence;
+  }
+
+  std::optional<jobs::File> file(const char* option, const std::string& path) {
+    Result<std::string> bytes = disk::read_file(path == "-" ? "/dev/stdin" : path);
+    if (!bytes) {
+      fault(bytes.error().message);
+      return std::nullopt;
+    }
+    inputs_.push_back({option, path});
+    return jobs::File{shown(path), *std::move(bytes)};
+  }
+
+  void add_parts(const io::OrderRow& row, const std::string& folder) {
+    const bool near = !folder.empty() && row.file != "-" && fs::path(row.file).is_relative();
+    const std::string word = near ? (fs::path(folder) / row.file).string() : row.file;
+    const auto files = disk::files_meant(
+        word, [](const std::string& name) { return io::drawing_format_by_ending(name) != nullptr; });
+    if (!files)
+      return fault((row.line > 0 ? fmt::format("{}: line {}: ", shown(source_.table), row.line) : "") +
+                   files.error().message);
+    for (const std::string& path : *files) {
+      std::optional<jobs::File> read = file("--part", path);
+      if (!read) continue;
+      jobs::OrderedPart part;
+      part.file = *std::move(read);
+      part.quantity = row.quantity;
+      part.name = row.name;
+      part.rotations = row.rotations.value_or(source_.rotations);
+      part.may_mirror = row.may_mirror.value_or(source_.may_mirror);
+      part.grain = row.grain;
+      if (!part.grain && source_.grain_degrees) part.grain = layout::Grain{*source_.grain_degrees, 0};
+      part.priority = row.priority;
+      order_.parts.push_back(std::move(part));
+    }
+  }
+
+  void add_table() {
+    const std::optional<jobs::File> table = file("--order", source_.table);
+    if (!table) return;
+    const auto rows = io::read_order(table->bytes, table->name);
+    if (!rows) return fault(rows.error().message);
+    notices_.insert(notices_.end(), rows->notices.begin(), rows->notices.end());
+    const std::string folder = source_.table == "-" ? "" : fs::path(source_.table).parent_path().string();
+    for (const io::OrderRow& row : rows->rows) add_parts(row, folder);
+  }
+
+  void add_stock(const StockWord& word) {
+    jobs::OrderedStock stock;
+    stock.size = word.size;
+    stock.count = word.count;
+    if (!stock.size) {
+      std::optional<jobs::File> read = file("--sheet", word.said);
+      if (!read) return;
+      stock.file = *std::move(read);
+    }
+    order_.stocks.push_back(std::move(stock));
+  }
+
+  const OrderSource& source_;
+  const std::vector<NamedPath>& outputs_;
+  jobs::Order order_;
+  std::vector<NamedPath> inputs_;
+  std::vector<std::string> notices_;
+  std::string faults_;
+  ErrorCode code_ = ErrorCode::bad_input;
+};
+
+}  // namespace
+
+Result<jobs::Layout> read_order_input(const OrderSource& order, const std::vector<NamedPath>& outputs) {
+  return OrderReader(order, outputs).read();
+}
+
+}  // namespace lekalo::cli
