@@ -14,7 +14,7 @@ fuzz_seconds=${LEKALO_FUZZ_SECONDS:-60}
 note() { say "$*" | tee -a "$summary"; }
 
 # Steps by name, or all; the summary of a run of some is added to that of the runs before it.
-known=(dev clang builds-agree asan tsan fuzz bench demo)
+known=(dev clang builds-agree asan tsan fuzz coverage mutation bench demo)
 for name in "$@"; do
   case " ${known[*]} " in
     *" $name "*) ;;
@@ -54,6 +54,11 @@ threaded() {
   LEKALO_CASES=$sanitizer_cases run_ctest tsan --timeout 7200 -R '^(unit|property|differential|e2e)\.(field|nest|mill|serve|io_files|cli_)'
 }
 
+# On a machine that does nothing else, the server answers in the time that it is to keep.
+dev_alone() {
+  LEKALO_FULL=1 build_and_test dev
+}
+
 few_cases() {
   LEKALO_CASES=$sanitizer_cases build_and_test "$1"
 }
@@ -89,6 +94,23 @@ fuzz_all() {
   "$root/fuzz/run.sh" "$fuzz_seconds"
 }
 
+# The quick suite, and how much of each module it runs: the table is the end of the log.
+coverage() {
+  find "$root/build/coverage" -name '*.gcda' -delete 2>/dev/null || true
+  unset LEKALO_CASES
+  build_and_test coverage
+  "$root/tools/coverage.py" "$root/build/coverage" --files >"$out/coverage-files.txt"
+  "$root/tools/coverage.py" "$root/build/coverage" | tee "$out/coverage.txt"
+}
+
+# What the tests of the checker would not notice: 0 mutants that nobody has explained. The quick counts, for each
+# mutant is a run of its own.
+mutation() {
+  build_preset mutation
+  unset LEKALO_CASES
+  "$root/tools/mutants.py" run "$root/build/mutation/tests/mutation/copy" "$root/build/mutation/tests/mutation/mutants"
+}
+
 describe_run() {
   local git=(git -C "$root" -c safe.directory='*')
   note "commit    $("${git[@]}" rev-parse HEAD 2>/dev/null || say unknown)$(
@@ -104,12 +126,14 @@ mkdir -p "$out"
 [ "$#" -gt 0 ] || : >"$summary"
 "$root/tools/setup.sh" --full
 describe_run
-step dev build_and_test dev
+step dev dev_alone
 step clang few_cases clang
 step builds-agree builds_agree
 step asan few_cases asan
 step tsan threaded
 step fuzz fuzz_all
+step coverage coverage
+step mutation mutation
 step bench "$root/bench/run.sh"
 step demo "$root/demo.sh"
 

@@ -11,7 +11,6 @@ packages=(
   g++ cmake ninja-build pkg-config ccache
   libexpected-dev libfmt-dev libcli11-dev nlohmann-json3-dev # header libraries and text
   libmpfr-dev libgmp-dev                                     # exact checks
-  libssl-dev                                                 # SHA-256 of inputs
   libpng-dev                                                 # M-images
   libcairo2-dev                                              # PNG pictures
   libexpat1-dev                                              # XML of SVG drawings

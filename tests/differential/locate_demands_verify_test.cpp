@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/region_cases.hpp"
@@ -61,10 +62,11 @@ std::string feature_file(const io::DemandRecord& demands) {
 }
 
 verify::LocateReport checked(const io::LocateDocument& document) {
-  const std::string text = io::result_json(document), features = feature_file(*document.demands);
+  const std::string text = io::result_json(document), features = feature_file(*document.demands),
+                    part = io::regions_json(document.part), blank = io::regions_json(document.blank);
   const auto report = verify::verify_locate({{"result.json", text},
-                                             {"part.json", "{}"},
-                                             {"blank.json", "{}"},
+                                             {"part.json", part},
+                                             {"blank.json", blank},
                                              std::nullopt,
                                              verify::Document{"features.json", features}});
   EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);

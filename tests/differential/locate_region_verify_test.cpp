@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/region_cases.hpp"
@@ -30,8 +31,9 @@ io::LocateDocument document_of(const cases::RegionCase& one, const locate::Regio
 
 verify::LocateReport checked(const io::LocateDocument& document) {
   const std::string text = io::result_json(document);
+  const std::string part = io::regions_json(document.part), blank = io::regions_json(document.blank);
   const auto report =
-      verify::verify_locate({{"result.json", text}, {"part.json", "{}"}, {"blank.json", "{}"}, std::nullopt});
+      verify::verify_locate({{"result.json", text}, {"part.json", part}, {"blank.json", blank}, std::nullopt});
   EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
   return report.value_or(verify::LocateReport{});
 }

@@ -73,6 +73,25 @@ TEST(CliLimits, APartAtTheLimitOfCoordinatesIsAnsweredWithAProof) {
   EXPECT_NE(ran.err.find("this is proved"), std::string::npos) << ran.err;
 }
 
+/// A search that is stopped while its cells are large has a bound that the checker does not prove as it is.
+TEST(CliLimits, AWildPointOfAScanIsAnsweredWithABoundThatTheCheckerProves) {
+  const TemporaryFolder folder;
+  std::string scan = read_bytes(region("flange-scan.csv"));
+  const std::string number = "245.764";
+  ASSERT_NE(scan.find(number), std::string::npos);
+  scan.replace(scan.find(number), number.size(), "3600");
+  write_bytes(folder / "scan.csv", scan);
+  fs::copy(region("flange.json"), folder / "flange.json");
+  const Ran ran =
+      run(folder.path(), {"locate", "--part", "flange.json", "--blank", "scan.csv", "--uncertainty", "0.01",
+                          "--min-radius", "4", "--work", "100", "-o", "r.json"});
+  EXPECT_LE(ran.status, 1) << ran.err;
+  EXPECT_NE(ran.err.find("the checker proves"), std::string::npos) << ran.err;
+  const Ran verified = run(folder.path(), {"verify", "r.json"});
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_NE(verified.err.find("not measured, and nothing is proved there"), std::string::npos) << verified.err;
+}
+
 std::string test_name(const testing::TestParamInfo<Attack>& info) {
   std::string name;
   for (const char c : info.param.name) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';

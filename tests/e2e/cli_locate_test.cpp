@@ -284,7 +284,7 @@ TEST_F(Plate, CtrlCStopsWithTheBestSoFarAndWritesIt) {
   write_bytes(folder_ / "part.csv", regular_polygon(4999, 90));
   write_bytes(folder_ / "blank.csv", regular_polygon(5000, 100));
   Program program(folder_.path(), kLocatePlate + Words{"--gap", "1e-13", "-o", "out.json", "--json"});
-  program.send_when_caught(SIGINT);
+  program.send_after_work(SIGINT, 0.3);
   const Ran ran = program.wait();
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_TRUE(fs::exists(folder_ / "out.json"));

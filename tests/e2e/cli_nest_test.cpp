@@ -46,7 +46,7 @@ TEST(CliNest, CtrlCKeepsTheBest) {
   const TemporaryFolder folder;
   write_bytes(folder / "order.json", order().dump());
   Program program(folder.path(), {"nest", "order.json", "-o", "layout.json", "--time", "600"});
-  program.send_when_caught(SIGINT);
+  program.send_after_work(SIGINT, 0.5);
   EXPECT_EQ(program.wait().status, 0);
   EXPECT_EQ(run(folder.path(), {"check", "layout.json"}).status, 0);
 }

@@ -5,10 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string>
 #include <thread>
 
 namespace lekalo::test {
@@ -47,7 +50,8 @@ std::map<std::string, std::string> TemporaryFolder::files() const {
   return found;
 }
 
-Program::Program(const fs::path& folder, const Words& words, const std::string& stdout_path) {
+Program::Program(const fs::path& folder, const Words& words, const std::string& stdout_path,
+                 Words more_environment) {
   const std::string out = stdout_path.empty() ? (streams_ / "out").string() : stdout_path;
   const std::string err = (streams_ / "err").string();
   std::vector<std::string> all{cases::program()};
@@ -61,6 +65,7 @@ Program::Program(const fs::path& folder, const Words& words, const std::string& 
   const int to_err = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (to_out < 0 || to_err < 0 || dup2(to_out, 1) < 0 || dup2(to_err, 2) < 0 || chdir(folder.c_str()) != 0)
     _exit(127);
+  for (std::string& one : more_environment) putenv(one.data());
   execv(argv[0], argv.data());
   _exit(127);
 }
@@ -68,6 +73,25 @@ Program::Program(const fs::path& folder, const Words& words, const std::string& 
 void Program::send_when_caught(int signal_number) const {
   while (running() && !catches(signal_number)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(process_, signal_number);
+}
+
+void Program::send_after_work(int signal_number, double seconds) const {
+  while (running() && !(catches(signal_number) && used() >= seconds))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(process_, signal_number);
+}
+
+double Program::used() const {
+  std::ifstream file("/proc/" + std::to_string(process_) + "/stat");
+  std::string words;
+  std::getline(file, words);
+  std::istringstream fields(words.substr(std::min(words.size(), words.rfind(')') + 1)));
+  std::string field;
+  double ticks = 0;
+  constexpr int kUser = 12, kSystem = 13;  // behind the name, where the state is the first
+  for (int k = 1; k <= kSystem && fields >> field; ++k)
+    if (k >= kUser) ticks += std::stod(field);
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 Ran Program::wait() {

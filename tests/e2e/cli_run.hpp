@@ -47,16 +47,22 @@ struct Ran {
 /// A running program; its output goes to files outside the folder it works in.
 class Program {
  public:
-  Program(const fs::path& folder, const Words& words, const std::string& stdout_path = "");
+  /// \param more_environment  NAME=VALUE, beside what the test itself runs in
+  Program(const fs::path& folder, const Words& words, const std::string& stdout_path = "",
+          Words more_environment = {});
   /// Sends a signal once the program has a handler for it; before, it would only be killed. One that ends
   /// without ever having one shows in its exit status.
   void send_when_caught(int signal_number) const;
+  /// Sends a signal once the program has used so much processor time; none where it ends before.
+  void send_after_work(int signal_number, double seconds) const;
   [[nodiscard]] Ran wait();
 
  private:
   /// A field of the kernel's word about the process, for instance "State".
   [[nodiscard]] std::string status_field(const std::string& name) const;
   [[nodiscard]] bool running() const;
+  /// Processor time so far, seconds.
+  [[nodiscard]] double used() const;
   [[nodiscard]] bool catches(int signal_number) const;
 
   TemporaryFolder streams_;

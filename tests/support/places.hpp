@@ -8,5 +8,7 @@ namespace lekalo::cases {
 
 [[nodiscard]] std::string source_dir();
 [[nodiscard]] std::string program();
+/// The library that makes calls fail (support/faults/faults.cpp); empty where the build has none.
+[[nodiscard]] std::string faults_library();
 
 }  // namespace lekalo::cases

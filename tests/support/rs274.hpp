@@ -27,9 +27,18 @@ struct Call {
   std::string arguments;
   std::vector<double> numbers;  ///< those of a motion
   double unit = 1;              ///< millimetres in the unit of its numbers
+  char plane = 'Z';             ///< the axis across the plane of an arc
 
   [[nodiscard]] bool straight() const { return name == "STRAIGHT_FEED" || name == "STRAIGHT_TRAVERSE"; }
   [[nodiscard]] bool arc() const { return name == "ARC_FEED"; }
+  [[nodiscard]] bool upright() const { return arc() && plane != 'Z'; }
+  /// x, y, z where a motion ends.
+  [[nodiscard]] std::array<double, 3> end() const {
+    const auto n = [&](std::size_t k) { return numbers.at(k); };
+    if (!arc()) return {n(0), n(1), n(2)};
+    if (plane == 'Y') return {n(1), n(5), n(0)};
+    return plane == 'X' ? std::array{n(5), n(0), n(1)} : std::array{n(0), n(1), n(5)};
+  }
 };
 
 struct Run {
@@ -85,9 +94,17 @@ class Oracle {
     result.accepted = status == 0;
     result.errors = errors;
     double unit = 1;
+    char plane = 'Z';
     std::istringstream lines(output);
     for (std::string line; std::getline(lines, line);)
-      if (std::optional<Call> call = parse(line, unit)) result.calls.push_back(std::move(*call));
+      if (std::optional<Call> call = parse(line, unit)) {
+        if (call->name == "SELECT_PLANE")
+          plane = call->arguments.find("XY") != std::string::npos   ? 'Z'
+                  : call->arguments.find("XZ") != std::string::npos ? 'Y'
+                                                                    : 'X';
+        call->plane = plane;
+        result.calls.push_back(std::move(*call));
+      }
     return result;
   }
 
@@ -151,11 +168,17 @@ class Comparison {
       return original.accepted ? "the rewritten program is not accepted: " + written.errors
                                : "only the original is not accepted: " + original.errors;
     const std::vector<Call> a = relevant(original.calls, false), b = relevant(written.calls, true);
-    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
-      if (std::string what = differ(a[k], b[k]); !what.empty())
-        return what + "\n  " + a[k].name + a[k].arguments + "\n  " + b[k].name + b[k].arguments;
+    std::size_t next = 0;
+    for (const Call& call : a) {
+      if (next == b.size()) return "the rewritten program has fewer calls";
+      const Call& other = b[next];
+      const std::string what =
+          call.upright() && other.straight() ? differ_from_chords(call, b, next) : differ(call, b[next++]);
+      if (!what.empty())
+        return what + "\n  " + call.name + call.arguments + "\n  " + other.name + other.arguments;
+      if (call.straight() || call.arc()) at_ = call.end();
     }
-    return a.size() == b.size() ? "" : "one has more calls than the other";
+    return next == b.size() ? "" : "the rewritten program has more calls";
   }
 
   std::size_t motions = 0;   ///< compared
@@ -167,8 +190,8 @@ class Comparison {
     std::vector<Call> kept;
     PlaneMotion frame;
     for (Call call : calls) {
-      if (call.name == "USE_LENGTH_UNITS") continue;
-      if (call.name == "COMMENT" && call.arguments.find("interpreter:") != std::string::npos) continue;
+      // Comments may stand for calls and assignments, and chords need another plane; neither moves.
+      if (call.name == "USE_LENGTH_UNITS" || call.name == "COMMENT" || call.name == "SELECT_PLANE") continue;
       if (announced_ && call.name == "SET_G5X_OFFSET") {
         frame.x = call.numbers.at(1) * call.unit;
         frame.y = call.numbers.at(2) * call.unit;
@@ -184,7 +207,15 @@ class Comparison {
     return kept;
   }
 
+  /// An arc outside the XY plane is only ever shifted.
   static void place(const PlaneMotion& frame, Call& call) {
+    if (call.upright()) {
+      const double x = frame.x / call.unit, y = frame.y / call.unit;
+      for (const std::size_t k : {0U, 2U})
+        call.numbers[call.plane == 'Y' ? k + 1 : k] += call.plane == 'Y' ? x : y;
+      call.numbers[5] += call.plane == 'Y' ? y : x;
+      return;
+    }
     move(frame, call, 0);
     if (call.arc()) move(frame, call, 2);
   }
@@ -207,10 +238,55 @@ class Comparison {
     place(pose_, image);
     for (std::size_t k = 0; k < image.numbers.size(); ++k) {
       const double off = std::abs(image.numbers[k] - b.numbers.at(k));
-      const bool in_plane = k < 2 || (a.arc() && k < 4);
+      const bool in_plane = k < 2 || (a.arc() && k < 4) || (a.upright() && k == 5);
       if (in_plane) largest_units = std::max(largest_units, off);
       if (!(off <= (in_plane ? tolerance_ : 0))) return "different positions";
     }
+    return "";
+  }
+
+  /// Lines that stand for an arc, each end and middle near the point of the arc at the same share.
+  std::string differ_from_chords(const Call& a, const std::vector<Call>& b, std::size_t& next) {
+    const bool zx = a.plane == 'Y';
+    const std::size_t first = zx ? 2 : 1, second = zx ? 0 : 2, across = zx ? 1 : 0;
+    const std::array<double, 3> end = a.end();
+    const double u = a.numbers.at(2), v = a.numbers.at(3), turns = a.numbers.at(4);
+    const double pi = 3.14159265358979323846, way = turns > 0 ? 1 : -1;
+    const double r0 = std::hypot(at_[first] - u, at_[second] - v),
+                 r1 = std::hypot(end[first] - u, end[second] - v);
+    const double begin = std::atan2(at_[second] - v, at_[first] - u);
+    double sweep = way * (std::atan2(end[second] - v, end[first] - u) - begin);
+    while (sweep <= 1e-4) sweep += 2 * pi;
+    sweep += 2 * pi * (std::abs(turns) - 1);
+    const auto point = [&](double share) {
+      std::array<double, 3> p = at_;
+      const double angle = begin + way * share * sweep, radius = r0 + share * (r1 - r0);
+      p[first] = u + radius * std::cos(angle), p[second] = v + radius * std::sin(angle);
+      p[across] += share * (end[across] - at_[across]);
+      return share == 1 ? end : p;
+    };
+    const double near = tolerance_ + 1.1e-3 / a.unit;
+    const auto off = [&](const std::array<double, 3>& p, const std::array<double, 3>& q) {
+      const auto image = pose_(p[0] * a.unit, p[1] * a.unit);
+      return std::hypot(std::hypot(image[0] / a.unit - q[0], image[1] / a.unit - q[1]), p[2] - q[2]);
+    };
+    std::size_t last = next;
+    while (last < b.size() && b[last].straight() && !(off(end, b[last].end()) <= tolerance_ * 2)) ++last;
+    if (last == b.size() || !b[last].straight()) return "no chords end where the arc ends";
+    const auto count = static_cast<double>(last + 1 - next);
+    std::array<double, 3> before = b[next].end();
+    for (std::size_t k = 0; next <= last; ++next, ++k) {
+      const std::array<double, 3> here = b[next].end();
+      if (b[next].name != "STRAIGHT_FEED") return "a chord that is no feed";
+      if (!(off(point(static_cast<double>(k + 1) / count), here) <= near)) return "a chord off the arc";
+      const std::array<double, 3> middle{(before[0] + here[0]) / 2, (before[1] + here[1]) / 2,
+                                         (before[2] + here[2]) / 2};
+      if (k > 0 && !(off(point((static_cast<double>(k) + 0.5) / count), middle) <= near))
+        return "a chord whose middle is off the arc";
+      before = here;
+    }
+    ++motions;
+    placed_ = true;
     return "";
   }
 
@@ -220,6 +296,7 @@ class Comparison {
     return true;
   }
 
+  std::array<double, 3> at_{};  ///< of the original
   PlaneMotion pose_;
   double tolerance_;
   bool announced_;

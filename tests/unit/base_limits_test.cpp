@@ -311,19 +311,28 @@ std::string with_commas(std::int64_t value) {
 TEST(Limits, ThePageStatesThem) {
   using namespace limits;
   const std::string page = source_file("docs/limits.md");
-  for (const std::string& said :
-       {fmt::format("{} digits", kMostDigits), fmt::format("1e-{}", kMostPlaces),
-        with_commas(static_cast<std::int64_t>(kLargestCoordinate)) + " mm",
-        fmt::format("{:g} mm", kSmallestCoordinate), fmt::format("{:g} mm", kLargestDerived),
-        with_commas(static_cast<std::int64_t>(kLargestFactor)),
-        with_commas(static_cast<std::int64_t>(kLargestProgramCoordinate)) + " mm",
-        with_commas(static_cast<std::int64_t>(kLargestOutline)) + " mm",
-        with_commas(static_cast<std::int64_t>(kLargestPlacement)) + " mm",
-        fmt::format("{} mm", kShortestSide),
-        with_commas(static_cast<std::int64_t>(kMostDegrees)) + " degrees", fmt::format("{}", kLargestSine),
-        fmt::format("{} mm", kMostChordTolerance), with_commas(kMostCount), with_commas(kMostKits),
-        with_commas(kMostLevel), with_commas(kMostSeverity), with_commas(kMostId),
-        fmt::format("{:g}", kMostMoney)})
+  for (const std::string& said : {fmt::format("{} digits", kMostDigits),
+                                  fmt::format("1e-{}", kMostPlaces),
+                                  with_commas(static_cast<std::int64_t>(kLargestCoordinate)) + " mm",
+                                  fmt::format("{:g} mm", kSmallestCoordinate),
+                                  fmt::format("{:g} mm", kLargestDerived),
+                                  with_commas(static_cast<std::int64_t>(kLargestFactor)),
+                                  with_commas(static_cast<std::int64_t>(kLargestProgramCoordinate)) + " mm",
+                                  with_commas(static_cast<std::int64_t>(kLargestOutline)) + " mm",
+                                  with_commas(static_cast<std::int64_t>(kLargestPlacement)) + " mm",
+                                  fmt::format("{} mm", kShortestSide),
+                                  with_commas(static_cast<std::int64_t>(kMostDegrees)) + " degrees",
+                                  fmt::format("{}", kLargestSine),
+                                  fmt::format("{} mm", kMostChordTolerance),
+                                  with_commas(kMostCount),
+                                  with_commas(kMostKits),
+                                  with_commas(kMostLevel),
+                                  with_commas(kMostSeverity),
+                                  with_commas(kMostId),
+                                  fmt::format("{:g}", kMostMoney),
+                                  with_commas(most_meeting_boxes(0)) + " and 16 for each edge",
+                                  with_commas(most_meeting_pieces(0)) + " and 64 for each edge",
+                                  "| " + with_commas(kMostCrossings) + " |"})
     EXPECT_NE(page.find(said), std::string::npos) << said;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lekalo/geom/same_outline.hpp"
+
 namespace lekalo::geom {
 namespace {
 
@@ -61,6 +63,54 @@ TEST(RegionCheck, NamesWhatLiesInTheWrongPlace) {
             "hole 1 lies inside hole 0, at (6, 5) mm");
   EXPECT_EQ(fault_of({region(square(0, 0, 10)), region(square(2, 2, 1))}),
             "piece 1 lies in the material of piece 0, at (2, 2) mm");
+}
+
+TEST(RegionCheck, TellsApartWhatIsNestedDeeply) {
+  std::vector<Region> rings;
+  for (int k = 0; k < 2000; ++k)
+    rings.push_back(region(circle({0, 0}, 10.0 + 2 * k + 1), {circle({0, 0}, 10.0 + 2 * k)}));
+  EXPECT_EQ(fault_of(rings), std::nullopt);
+  // The hole of the innermost ring is filled by another piece, and then by one with a hole of its own inside.
+  rings.push_back(region(circle({0, 0}, 9)));
+  EXPECT_EQ(fault_of(rings), std::nullopt);
+  rings.push_back(region(circle({1, 0}, 3)));
+  EXPECT_EQ(fault_of(rings), "piece 2001 lies in the material of piece 2000, at (4, 0) mm");
+}
+
+TEST(RegionCheck, FindsTheInnermostContourBesideSlopesAndTips) {
+  // A comb whose teeth lean over small squares, and squares beside it at the same heights.
+  std::vector<Point> comb{{0, -5}, {200, -5}};
+  for (int k = 10; k-- > 0;) {
+    comb.push_back({20.0 * k + 19, 0});
+    comb.push_back({20.0 * k + 25, 40});
+    comb.push_back({20.0 * k, 0});
+  }
+  std::vector<Region> pieces{region(polygon(comb))};
+  for (int k = 0; k < 9; ++k) pieces.push_back(region(square(20.0 * k + 28, 30, 4)));
+  EXPECT_EQ(fault_of(pieces), std::nullopt);
+  pieces.push_back(region(square(30, 5, 1)));
+  EXPECT_EQ(fault_of(pieces), "piece 10 lies in the material of piece 0, at (30, 5) mm");
+}
+
+TEST(RegionCheck, SaysWhenBoxesMeetTooOften) {
+  std::vector<Contour> slots;
+  for (int k = 0; k < 2500; ++k) {
+    const double x = k, y = 0;
+    slots.push_back(polygon({{x, y}, {x + 9000, y + 8000}, {x + 9000, y + 8000.3}, {x, y + 0.3}}));
+  }
+  const auto fault = fault_of({region(square(-10, -10, 20000), slots)});
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_EQ(fault->substr(0, 40), "more than 8160064 pairs of its 10004 edg");
+}
+
+TEST(RegionCheck, SameOutlinesMayBeginAnywhereAndRunEitherWay) {
+  const std::vector<Region> plate{region(square(0, 0, 10), {circle({3, 3}, 1), square(6, 6, 2)})};
+  const std::vector<Region> other{
+      region(polygon({{10, 10}, {0, 10}, {0, 0}, {10, 0}}), {square(6, 6, 2), circle({3, 3}, 1)})};
+  EXPECT_TRUE(same_outline(plate, other));
+  EXPECT_FALSE(same_outline(plate, {region(square(0, 0, 10), {circle({3, 3}, 1)})}));
+  EXPECT_FALSE(
+      same_outline(plate, {region(square(0, 0, 10), {circle({3, 3}, 1), square(6, 6, 2.0000001)})}));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST(JobsLayout, IsOpenedWithItsNameDigestAndOwnBytes) {
   const auto layout = open_layout({"squares.json", bytes});
   ASSERT_TRUE(layout) << layout.error().message;
   EXPECT_EQ(layout->name, "squares.json");
-  EXPECT_EQ(layout->sha256, io::sha256(bytes));
+  EXPECT_EQ(layout->inputs.at(0).sha256, io::sha256(bytes));
   EXPECT_EQ(layout->document, cases::two_squares());
   EXPECT_EQ(layout_bytes(*layout), bytes);
   EXPECT_FALSE(layout->form);

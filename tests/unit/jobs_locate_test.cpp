@@ -61,6 +61,7 @@ verify::Verdict verdict(const LocateJob& job, const Located& located) {
                if (role == "certificate") return File{"c.json", located.certificate};
                if (role == "part") return job.part;
                if (role == "nc") return job.program;
+               if (role == "NC program") return File{"o.nc", located.program};
                if (role == "features") return job.features;
                if (role == "last-result") return job.earlier;
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
@@ -262,7 +263,7 @@ TEST(JobsLocate, ErrorsNameTheFileAndThePlace) {
        ErrorCode::bad_input,
        {"f.json"}},
       {[](LocateJob& j) {
-         j.program = File{"part.nc", "G21 G90 G17\nG54\nG0 X0 Y0\n#1=2\nM2\n"};
+         j.program = File{"part.nc", "G21 G90 G17\nG54\nG0 X0 Y0\nM101\nM2\n"};
          j.outputs.program = "o.nc";
        },
        ErrorCode::program_refused,

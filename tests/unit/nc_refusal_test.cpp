@@ -31,10 +31,22 @@ void expect_refusals(const std::vector<Case>& cases) {
 
 TEST(NcRefusal, OfWordsThatMeanAnotherFrame) {
   expect_refusals({
-      {"G21\nG53 G0 X0 Y0\n", "2: G53: it moves in machine coordinates, which do not turn with the part"},
-      {"G28\n", "1: G28: it moves to a point of the machine, which does not turn with the part"},
-      {"G28.1\n", "1: G28.1: it moves to a point of the machine, which does not turn with the part"},
-      {"G30 Z0\n", "1: G30: it moves to a point of the machine, which does not turn with the part"},
+      {"G21\nG53 G0 X0 Y0\n",
+       "2: G53: it moves X and Y to a point of the machine while Z stands where the program left it; send Z "
+       "home in a block before (G28 G91 Z0 or G53 G0 Z0)"},
+      {"G28\n",
+       "1: G28: it moves X and Y to a point of the machine while Z stands where the program left it; send Z "
+       "home in a block before (G28 G91 Z0 or G53 G0 Z0)"},
+      {"G21 G0\nG28 G91 Z0\nG43 H1 Z3\nG28 G91 X0 Y0\n",
+       "4: G28: it moves X and Y to a point of the machine while Z stands where the program left it; send Z "
+       "home in a block before (G28 G91 Z0 or G53 G0 Z0)"},
+      {"G21\nG28 G91 Z0\nG90 G28 X0 Y0\n",
+       "3: G28: it goes by a point of the program; write G91 X0 Y0, which goes by none"},
+      {"G21\nG91 G0\nG53 Z0\n", "3: G53 under G91, where controls differ; write G90"},
+      {"G28.1\n", "1: G28.1: it sets a point of the machine inside the program"},
+      {"G30 X0\n",
+       "1: G30: it moves X and Y to a point of the machine while Z stands where the program left it; send Z "
+       "home in a block before (G28 G91 Z0 or G53 G0 Z0)"},
       {"G52 X1\n", "1: G52: it shifts the coordinate system inside the program"},
       {"G92 X0 Y0\n", "1: G92: it shifts the coordinate system inside the program"},
       {"G92.1\n", "1: G92.1: it shifts the coordinate system inside the program"},
@@ -45,24 +57,39 @@ TEST(NcRefusal, OfWordsThatMeanAnotherFrame) {
       {"G54.1 P3\n", "1: G54.1: extended work offsets are not rewritten; use G54 to G59.3"},
       {"G54\nG0 X0 Y0\nG55\n",
        "3: G55 is selected, but the motion is computed for G54: several work offsets cannot be rewritten; if "
-       "G55 is the only one, choose it (work offset 2: --wcs 2)"},
+       "G55 is the only one, choose it (work offset 2: --wcs 2)",
+       RewriteMode::offset},
       {"G59.3\n",
        "1: G59.3 is selected, but the motion is computed for G54: several work offsets cannot be rewritten; "
-       "if G59.3 is the only one, choose it (work offset 9: --wcs 9)"},
+       "if G59.3 is the only one, choose it (work offset 9: --wcs 9)",
+       RewriteMode::offset},
+      {"G54\nG0 X0 Y0\nG55\nX5\n",
+       "4: moves in X while Y is not known; give both X and Y in the first move, and in the first one after "
+       "a "
+       "tool change"},
   });
 }
 
 TEST(NcRefusal, OfWhatIsNoPlainNumber) {
   expect_refusals({
-      {"G0 X[1+2] Y0\n",
-       "1: expressions ([...]) cannot be rewritten; let the CAM system write plain numbers"},
-      {"G0 X#1 Y0\n", "1: variables (#) cannot be rewritten; let the CAM system write plain numbers"},
-      {"#1=5\n", "1: variables (#) cannot be rewritten; let the CAM system write plain numbers"},
+      {"G0 X[1+2 Y0\n",
+       "1: an expression that is not understood: a bracket ] is missing, or a word before it"},
+      {"G0 X#1 Y0\n", "1: variable #1 is read and was not set in this program"},
+      {"#5221=5\n", "1: variable #5221: only #1 to #999 and named ones are a program's own"},
+      {"#1=5 G1 X#1\n",
+       "1: an assignment that is not understood, or beside other words; give it a block of its own"},
+      {"#1=1\nG0 X[#1/0] Y0\n", "2: a division by 0"},
+      {"#1=1\nM98 P2\nM30\nO2\nG0 X#1 Y0\nM99\n",
+       "5: variable #1 in a subprogram, where controls differ whether it is the caller's; #100 to #999 and "
+       "#<_name> are"},
+      {"#1=-4\nG0 X[SQRT[#1]] Y0\n", "2: SQRT of a number below 0"},
+      {"#1=1\nIF [#1 GT 0] GOTO 5\n",
+       "2: IF, GOTO and WHILE cannot be rewritten; let the CAM system write them out"},
       {"G21\nG0 @5 ^30\n", "2: polar words (@ ^) cannot be rewritten; give X and Y"},
       {"G0 X1.2.3 Y0\n", "1: X1.2.3 is not a number"},
       {"G0 X-- Y0\n", "1: X-- is not a number"},
       {"G0 X Y0\n", "1: the letter X has no number"},
-      {"G0 X1e5 Y0\n", "1: E is not on the list of words that can be rewritten"},
+      {"G0 X1e5 Y0\n", "1: E without a word that takes it in its block"},
       {"G0 X1 2 Y0\n", "1: a blank inside the number after X1"},
       {"G0 X1 .5 Y0\n", "1: a blank inside the number after X1"},
       {"G0 X1234567890.1234567890 Y0\n", "1: the number of X1234567890.1234567890 has more than 18 digits"},
@@ -76,20 +103,24 @@ TEST(NcRefusal, OfSubprogramsAndHiddenState) {
       "O words (subprograms, branches) cannot be rewritten; let the CAM system write them out";
   const std::string named = "1: " + subprograms, later = "2: " + subprograms;
   expect_refusals({
-      {"o<drill> sub\n", named.c_str()},
-      {"O100 sub\n", named.c_str()},
-      {"O100 call [1]\n", named.c_str()},
+      {"o<drill> sub\n", "1: the subprogram O<DRILL> has no end in this file"},
+      {"O100 sub\n", "1: the subprogram O100 has no end in this file"},
+      {"O100 call [1]\n", "1: a call with arguments cannot be rewritten; let the CAM system write it out"},
       {"G21\nO200\n", later.c_str()},
       {"O1.5\n", named.c_str()},
       {"N1 O5\n", named.c_str()},
-      {"M98 P100\n", "1: M98: subprograms cannot be rewritten; let the CAM system write them out"},
-      {"M97 P100\n", "1: M97: subprograms cannot be rewritten; let the CAM system write them out"},
-      {"M99\n", "1: M99: subprograms cannot be rewritten; let the CAM system write them out"},
+      {"M98 P100\n",
+       "1: the subprogram O100 is not in this file; put it there, or let the CAM system write it out"},
+      {"M97 P100\n", "1: the subprogram N100 is not in this file, or has no M99"},
+      {"M99\n", "1: M99 in the main program, which then never ends"},
       {"G65 P9010\n",
        "1: G65: subprograms and macros cannot be rewritten; let the CAM system write them out"},
       {"M70\n", "1: M70: it saves or restores modal words, which are then not known here"},
-      {"M110\n", "1: M110: what a user's own M word does is not known here"},
-      {"M60\n", "1: M60 is not on the list of words that can be rewritten"},
+      {"M110\n",
+       "1: M110 is not on the list of words that can be rewritten; if it moves no axis, --allow FILE with "
+       "the "
+       "line M110 lets it pass"},
+      {"M60\n", "1: M60: another pallet is another part"},
       {"M3.5\n", "1: M3.5 is not on the list of words that can be rewritten"},
       {"G21\n(PY,x=1)\n", "2: the comment (PY,...) acts on the control; remove it"},
       {";py,import os\n", "1: the comment (PY,...) acts on the control; remove it"},
@@ -112,22 +143,35 @@ TEST(NcRefusal, OfWordsOffTheList) {
       {"G38.2 Z-1\n", "1: G38.2: probing moves are not rewritten"},
       {"G41.1 D3\n", "1: G41.1: compensation by a radius in the program is not rewritten; use G41 with D"},
       {"G42.1 D3\n", "1: G42.1: compensation by a radius in the program is not rewritten; use G42 with D"},
-      {"G76 P1\n", "1: G76: it threads on one control and bores with a sideways shift on another"},
-      {"G87 X1\n", "1: G87: boring with a sideways shift or by hand is not rewritten"},
       {"G96 S100\n", "1: G96: constant surface speed follows X, which would change under the rotation"},
-      {"G12 I5\n", "1: G12 is not on the list of words that can be rewritten"},
+      {"G12 I5\n",
+       "1: G12: its circle begins in a direction of the machine; let the CAM system write it out"},
       {"G1.25\n", "1: G1.25 is not on the list of words that can be rewritten"},
       {"G-1\n", "1: G-1 is not on the list of words that can be rewritten"},
       {"G0 X0 Y0 A90\n", "1: rotary axis A: only X Y Z programs can be rewritten"},
       {"G0 B1\n", "1: rotary axis B: only X Y Z programs can be rewritten"},
       {"G0 C1\n", "1: rotary axis C: only X Y Z programs can be rewritten"},
-      {"G0 U1\n", "1: axis U: only X Y Z programs can be rewritten"},
+      {"G0 U1\n", "1: U without G4 in its block"},
       {"G0 W1\n", "1: axis W: only X Y Z programs can be rewritten"},
-      {"G21\nG0 X0 Y0\nG81 X1 Z-1 R1 K3\n",
-       "3: K: arcs outside the XY plane (G18, G19) do not stay in their plane when turned, and repeats by K "
-       "are not "
-       "rewritten"},
   });
+}
+
+TEST(NcRefusal, NamesAllUnknownWordsAtOnceWithTheirLinesAndTheWayOut) {
+  expect_refusals({
+      {"G21\nG187 P1\nM130\nG59.1\nG92 X0\nM130\n",
+       "3: 4 words cannot be rewritten: lines 3, 6: M130 is not on the list of words that can be rewritten; "
+       "if "
+       "it moves no axis, --allow FILE with the line M130 lets it pass / line 4: G59.1 is not on the list of "
+       "words that can be rewritten; LinuxCNC controls know it: --control linuxcnc / line 5: G92: it shifts "
+       "the coordinate system inside the program"},
+  });
+  RewriteOptions options{.control = lekalo::words::Control::haas, .allowed_m = {130}};
+  EXPECT_TRUE(rewrite_program("G21\nG187 P1 E0.01\nM130 P2\nM19 R90\n", "p.nc", 1, 2, 0.5, options));
+  options.control = lekalo::words::Control::linuxcnc;
+  for (const char* bores : {"G76 P1\n", "G87 X1\n"})
+    EXPECT_FALSE(rewrite_program(bores, "p.nc", 1, 2, 0.5, options)) << bores;
+  options.control = lekalo::words::Control::grbl;
+  EXPECT_FALSE(rewrite_program("G21\nG43 H1\n", "p.nc", 1, 2, 0.5, options));
 }
 
 TEST(NcRefusal, OfMotionThatIsNotKnown) {
@@ -165,9 +209,13 @@ TEST(NcRefusal, OfMotionThatIsNotKnown) {
 TEST(NcRefusal, OfArcsAndCyclesThatCannotBeKept) {
   expect_refusals({
       {"G0 X0 Y0\nG18 G2 X1 I5\n",
-       "2: an arc outside the XY plane (G18, G19) does not stay in its plane when turned"},
+       "2: an arc outside the XY plane from a Z that is not known; give Z before it"},
+      {"G0 X0 Y0 Z0\nG18 G2 X1 J5\n", "2: J beside an arc of G18, which has no such centre"},
+      {"G0 X0 Y0 Z0\nG18 G2 X10 I5 M30\n",
+       "2: an arc of G18 or G19 beside M0, M1, M2 or M30; give them a block of their own"},
+      {"G0 X0 Y0 Z0\nG93\nG18 G2 X10 I5\n", "3: an arc of G18 or G19 under G93 without F in its block"},
       {"G0 X0 Y0\nG19 G3 Y1 J5\n",
-       "2: an arc outside the XY plane (G18, G19) does not stay in its plane when turned"},
+       "2: an arc outside the XY plane from a Z that is not known; give Z before it"},
       {"G0 X0 Y0\nG18 G81 X1 Z1 R1\n", "2: a canned cycle outside the XY plane (G18, G19)"},
       {"G0 X0 Y0\nG18 G41 D1 X1\n", "2: G41 and G42 are rewritten in the XY plane (G17) only"},
       {"G0 X0 Y0\nG2 X1 Y1\n", "2: an arc without centre (I J) or radius (R)"},
@@ -212,7 +260,7 @@ TEST(NcRefusal, OfBlocksThatSayTwoThings) {
       {"G0 X0 Y0 L2\n", "1: L without X, Y or Z of a canned cycle in its block"},
       {"G0 X0 Y0 P2\n", "1: P without G2, G3, G4, G64, a canned cycle or M62 to M65 in its block"},
       {"G0 X0 Y0 Q2\n", "1: Q without G64 or a canned cycle in its block"},
-      {"G0 X0 Y0 H2\n", "1: H without G43, G44 or G49 in its block"},
+      {"G0 X0 Y0 H2\n", "1: H without G43 or G44 in its block"},
       {"G0 X0 Y0 D2\n", "1: D without G41 or G42 in its block"},
       {"G0 X0 Y0\nG4 X2\n",
        "2: G4 beside axis words: some controls read X as seconds; give the dwell a block of its own"},
@@ -224,7 +272,7 @@ TEST(NcRefusal, OfBytesThatDoNotBelongThere) {
   const std::string grows = "G21\nG0 X0 Y0 Z1 (" + std::string(238, 'x') + ")\n";
   expect_refusals({
       {"(open\n", "1: a comment is opened and not closed"},
-      {"G21\n(a (b) c)\n", "2: a comment inside a comment"},
+      {"G21\n(a (b) c\n", "2: a comment is opened and not closed"},
       {"G21 )\n", "1: a comment is closed that was not opened"},
       {"G0 X1 Y0 \xC3\xA9\n", "1: byte 0xC3 outside a comment is not ASCII"},
       {"\xEF\xBB\xBFG21\n", "1: byte 0xEF outside a comment is not ASCII"},
@@ -248,16 +296,17 @@ TEST(NcRefusal, OfWhatOneModeCannotDo) {
       {"O1\nG0 X0 Y0\n", "1: LinuxCNC, for which mode offset is, has no program numbers (O)", offset},
       {"G69\nG0 X0 Y0\n", "1: LinuxCNC, for which mode offset is, has no G69", offset},
       {"G21 G69\nG0 X0 Y0\n", "1: G69 would cancel the rotation of mode g68; remove it", g68},
-      {"G90 G54 G0 X0 Y0\n",
-       "1: G54 under G68 is not allowed: select it before the first motion (line 1), in a block of its own",
+      {"G0 X0 Y0\nG55\n",
+       "2: G55 is selected, but the motion is computed for G54: several work offsets cannot be rewritten; if "
+       "G55 is the only one, choose it (work offset 2: --wcs 2)",
        g68},
-      {"G0 X0 Y0\nG54\n",
-       "2: G54 under G68 is not allowed: select it before the first motion (line 1), in a block of its own",
+      {"%\nO1\nG0 X0 Y0\nG76 X1 Y1 Z-1 R1 Q.1\nM30\n%\n",
+       "4: G76 and G87 shift the tool sideways, and whether G68 turns that way is up to the control; use "
+       "mode "
+       "coordinates",
        g68},
       {"G91\nG0 Z5\nG90 X0 Y0\n",
        "2: the first motion is in G91, but G68 must be given in G90: write G90 before it", g68},
-      {"G0 X0 Y0\nG19\nG17\n",
-       "2: G68 turns the XY plane, and under it no other may be selected; remove G18 and G19", g68},
       {"G0 X0 Y0\nG0 Z5 M30\n",
        "2: the block that ends the program moves too, but the rotation must be cancelled in between: split "
        "it",

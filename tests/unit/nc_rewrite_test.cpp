@@ -255,13 +255,14 @@ TEST(NcRewrite, SaysInWhichFrameTheProgramMustRun) {
 
 TEST(NcRewrite, SaysWhatItHadToAssume) {
   const auto notes = rewritten("G1 Z5 F100\nG0 X1 Y2.\nG41 D1 X5.\n", 1, 2, 0.5).notes;
-  ASSERT_EQ(notes.size(), 6U);
+  ASSERT_EQ(notes.size(), 7U);
   EXPECT_EQ(notes[1], "rewritten numbers have 5 decimals; a control that reads fewer adds its own rounding");
   EXPECT_EQ(notes[2].rfind("line 1: feeds from wherever the machine stands", 0), 0U) << notes[2];
   EXPECT_EQ(notes[3].rfind("the program names no unit before line 2: millimetres are assumed", 0), 0U)
       << notes[3];
   EXPECT_EQ(notes[4].rfind("line 2: X1 has no decimal point", 0), 0U) << notes[4];
   EXPECT_EQ(notes[5].rfind("line 3: with G41/G42 the bound", 0), 0U) << notes[5];
+  EXPECT_EQ(notes[6], "read as a program for LinuxCNC controls; --control names another");
 }
 
 // --------------------------------------------------------------------------------------------------------------

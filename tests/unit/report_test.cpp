@@ -118,6 +118,28 @@ TEST(Report, SaysWhichDemandsOfFeaturesAreMetAndByHowMuchNot) {
   EXPECT_NE(csv.find(",\"bore, \"\"H7\"\"\"\n"), std::string::npos);
 }
 
+TEST(Report, WritesNoCellThatASpreadsheetWouldRun) {
+  const auto cell = [](const std::string& name) {
+    const std::vector<draw::ReportFeature> features{{name, {4}, {}, {}, {}}};
+    const std::string csv = allowances_csv(report_of(plate_with_hole(), features));
+    const std::size_t at = csv.find("\n0,1,4,");
+    const std::size_t end = csv.find('\n', at + 1);
+    std::string line = csv.substr(at, end - at);
+    for (int commas = 0; commas < 10; ++commas) line.erase(0, line.find(',') + 1);
+    return line;
+  };
+  EXPECT_EQ(cell("=1+2"), "'=1+2");
+  EXPECT_EQ(cell("+cmd"), "'+cmd");
+  EXPECT_EQ(cell("@SUM(A1)"), "'@SUM(A1)");
+  EXPECT_EQ(cell("-x"), "'-x");
+  EXPECT_EQ(cell("\t=x"), "'\t'=x");
+  EXPECT_EQ(cell(" =x"), " '=x");
+  EXPECT_EQ(cell("a;=x"), "a;'=x");
+  EXPECT_EQ(cell("=HYPERLINK(\"a\")"), "\"'=HYPERLINK(\"\"a\"\")\"");
+  EXPECT_EQ(cell("-3.5"), "-3.5");  // a number is no formula
+  EXPECT_EQ(cell("bore - 7"), "bore - 7");
+}
+
 TEST(Report, OfDemandsThatAreMetFindsNothingMissingNeitherByRoundingNorOnTheRimOfAFinishedFeature) {
   const std::vector<Region> part = plate(0, 40, 20);
   const std::vector<Region> blank{region(polygon({{-2, -2}, {39.99, -2}, {39.99, 22}, {-2, 22}}))};

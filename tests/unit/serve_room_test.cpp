@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "lekalo/layout/check.hpp"
-#include "server/access.hpp"
 #include "server/network/outbox.hpp"
 #include "support/json.hpp"
 #include "support/layout_cases.hpp"
@@ -65,6 +65,14 @@ class TwoClients : public testing::Test {
   layout::Document first_;
   std::vector<std::pair<ClientNumber, Json>> heard_;
 };
+
+TEST_F(TwoClients, WhatNobodyWaitsForIsNotDone) {
+  const std::atomic<bool> gone = true;
+  EXPECT_TRUE(
+      room_->handle(1, CommandMessage{1, layout::Mode::strict, "move 1 by 1 0", false}, gone).empty());
+  EXPECT_EQ(room_->revision(), 0);
+  EXPECT_EQ(command(1, "move 1 by 1 0").front()["type"], "done");
+}
 
 TEST_F(TwoClients, GetTheLayoutWhenTheyComeIn) {
   EXPECT_EQ(heard_[0].second["type"], "layout");
@@ -431,23 +439,6 @@ TEST(Outbox, DropsWhatAFreshLayoutSaysAndAsksForOneOnce) {
   EXPECT_EQ(box.pop()->size(), 60u);
   EXPECT_EQ(box.bytes(), 0u);
   EXPECT_FALSE(box.take_refresh());
-}
-
-TEST(Access, AsksForOurNameOurPageAndTheToken) {
-  const AccessRules open{"127.0.0.1", 8080, false, ""};
-  EXPECT_EQ(refusal(open, {"127.0.0.1:8080", "", "", "", ""}), "");
-  EXPECT_EQ(refusal(open, {"localhost:8080", "http://localhost:8080", "", "", ""}), "");
-  for (const char* host : {"", "evil.example:8080", "127.0.0.1", "127.0.0.1:8081", "127.0.0.1:8080.evil"})
-    EXPECT_NE(refusal(open, {host, "", "", "", ""}), "") << host;
-  for (const char* origin : {"http://evil.example", "null", "https://localhost:8080", "http://localhost"})
-    EXPECT_NE(refusal(open, {"localhost:8080", origin, "", "", ""}), "") << origin;
-  const AccessRules locked{"0.0.0.0", 80, true, "secret99"};
-  EXPECT_NE(refusal(locked, {"any:80", "", "", "", ""}), "");
-  EXPECT_NE(refusal(locked, {"any:80", "", "Bearer secret9", "", "x"}), "");
-  EXPECT_NE(refusal(locked, {"any:80", "", "", "lekalo_token=wrong; lekalo_token=secret99", ""}), "");
-  EXPECT_EQ(refusal(locked, {"any:80", "", "", "", "secret99"}), "");
-  EXPECT_EQ(refusal(locked, {"any:80", "", "Bearer secret99", "", ""}), "");
-  EXPECT_EQ(refusal(locked, {"any:80", "", "", "a=b; lekalo_token=secret99", ""}), "");
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 #include "support/layout_commands.hpp"
+#include "support/places.hpp"
 
 namespace lekalo::server {
 namespace {
@@ -187,11 +188,11 @@ TEST_F(StoreFile, RefusesANewerFormat) {
   { Store store = open(); }
   {
     Database database = Database::open(path_).value();
-    ASSERT_TRUE(database.run("PRAGMA user_version=3"));
+    ASSERT_TRUE(database.run("PRAGMA user_version=4"));
   }
   const Result<Store> store = Store::open(path_);
   ASSERT_FALSE(store);
-  EXPECT_NE(store.error().message.find("format 3"), std::string::npos);
+  EXPECT_NE(store.error().message.find("format 4"), std::string::npos);
 }
 
 TEST_F(StoreFile, NoticesDamage) {
@@ -292,18 +293,25 @@ TEST_F(StoreFile, KeepsDefectsAndZonesThatWereDrawn) {
 }
 
 TEST_F(StoreFile, OfTheFirstFormatIsTakenOver) {
-  LayoutId id = 0;
-  {
-    Store store = open();
-    id = store.create("a", cases::two_squares()).value();
-  }
+  fs::copy_file(fs::path(cases::source_dir()) / "tests/corpus/data/written-0.1/store.sqlite", path_);
+  fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_write);
   {
     Database database = Database::open(path_).value();
     ASSERT_TRUE(database.run("DROP TABLE photo; PRAGMA user_version=1"));
   }
-  { EXPECT_EQ(open().load(id)->document, cases::two_squares()); }
+  std::string first;
+  {
+    Store store = open();
+    EXPECT_EQ(store.notices().size(), 1U);
+    first = io::write_layout(store.load(1)->document);
+    EXPECT_TRUE(store.photos(2)->empty());
+  }
   Store store = open();
-  EXPECT_EQ(store.load(id)->document, cases::two_squares());
+  EXPECT_TRUE(store.notices().empty());
+  EXPECT_EQ(io::write_layout(store.load(1)->document), first);
+  EXPECT_TRUE(fs::exists(path_ + ".format-1"));
+  // An id that was given before is not given again.
+  EXPECT_GT(store.create("new", cases::two_squares()).value(), 2);
 }
 
 TEST(ChangeText, IsExactAndRefusesEverythingElse) {

@@ -28,8 +28,8 @@ TEST(VerifyFeatures, EveryWordOfAFileIsTaken) {
     {"name": "bore", "contour": 1, "finished": 0.01},
     {"name": "slot", "label": "SLOT", "minimum": null}], "ignore": [{"outer": []}]})");
   EXPECT_EQ(complaint, "");
-  EXPECT_TRUE(stated.says_unit);
-  EXPECT_TRUE(stated.ignores);
+  EXPECT_TRUE(stated.unit);
+  EXPECT_FALSE(stated.ignored.empty());
   EXPECT_EQ(stated.minimum, 0.5);
   ASSERT_EQ(stated.features.size(), 3U);
   const StatedFeature &base = stated.features[0], &bore = stated.features[1], &slot = stated.features[2];
@@ -50,10 +50,10 @@ TEST(VerifyFeatures, EveryWordOfAFileIsTaken) {
 TEST(VerifyFeatures, AnEmptyFileDemandsNothing) {
   const auto [stated, complaint] = read("{}");
   EXPECT_EQ(complaint, "");
-  EXPECT_FALSE(stated.says_unit || stated.ignores);
+  EXPECT_FALSE(stated.unit || !stated.ignored.empty());
   EXPECT_EQ(stated.minimum, 0);
   EXPECT_TRUE(stated.features.empty());
-  EXPECT_FALSE(read(R"({"ignore": []})").stated.ignores);
+  EXPECT_TRUE(read(R"({"ignore": []})").stated.ignored.empty());
 }
 
 TEST(VerifyFeatures, InchesAreTakenWhereTheFileOrTheCallerSaysSo) {

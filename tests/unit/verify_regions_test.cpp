@@ -15,6 +15,17 @@
 namespace lekalo::verify {
 namespace {
 
+/// The file of a region as a result writes it.
+std::string file_of(const std::string& result, const std::string& role) {
+  const std::size_t begin = result.find('{', result.find("\"" + role + "\":", result.find("\"regions\"")));
+  std::size_t end = begin;
+  for (int depth = 0; end < result.size(); ++end) {
+    depth += result[end] == '{' ? 1 : result[end] == '}' ? -1 : 0;
+    if (depth == 0) break;
+  }
+  return result.substr(begin, end + 1 - begin);
+}
+
 /// A ring of radii 5 and 10 in a ring of radii 4 and 12 about (100, 50): its clearance there is 1 mm.
 struct Rings {
   std::string status = "optimal", mirror = "no", mirrored = "false";
@@ -55,8 +66,11 @@ struct Rings {
   }
   [[nodiscard]] Result<LocateReport> report() const {
     const std::string result = text();
-    return verify_locate(
-        {{"result.json", result}, {"part.json", part_file}, {"blank.json", "[]"}, std::nullopt});
+    const std::string part = part_file == "[]" ? file_of(result, "part") : part_file;
+    return verify_locate({{"result.json", result},
+                          {"part.json", part},
+                          {"blank.json", file_of(result, "blank")},
+                          std::nullopt});
   }
   [[nodiscard]] std::string first_finding() const {
     const auto checked = report();
@@ -143,7 +157,7 @@ TEST(VerifyRegions, EveryFalseClaimIsFound) {
        },
        "apart, not 2.1"},
       {[](Rings& r) { r.part_file = R"({"units": "mm", "outer": )" + Rings::circle("0", "0", 9) + "}"; },
-       "the part used is not the shape in part.json"},
+       "the part used is not what part.json means: it has other edges"},
   };
   for (const auto& [falsify, expected] : table) {
     Rings rings;
@@ -183,7 +197,10 @@ std::string pinned(const std::string& upper, const std::string& tolerance, const
 TEST(VerifyRegions, ABallInTheBlanksHoleProvesNoMoreThanItsRadius) {
   const auto verdict = [](const std::string& upper, const std::string& tolerance) {
     const std::string text = pinned(upper, tolerance);
-    const auto report = verify_locate({{"r", text}, {"part.json", "[]"}, {"blank.json", "[]"}, std::nullopt});
+    const auto report = verify_locate({{"r", text},
+                                       {"part.json", file_of(text, "part")},
+                                       {"blank.json", file_of(text, "blank")},
+                                       std::nullopt});
     EXPECT_TRUE(report.has_value()) << report.error().message;
     if (report && report->verdict == Verdict::refuted) {
       EXPECT_NE(report->findings.front().find("its contacts do not prove"), std::string::npos)
@@ -194,7 +211,10 @@ TEST(VerifyRegions, ABallInTheBlanksHoleProvesNoMoreThanItsRadius) {
   EXPECT_EQ(verdict("-0.099", "0"), Verdict::confirmed);
   // A part that sticks out by less than 0.099 may have its pivot as much beyond the blank.
   const std::string small = pinned("-0.099", "0", "12.09");
-  const auto near = verify_locate({{"r", small}, {"p", "[]"}, {"b", "[]"}, std::nullopt});
+  const auto near = verify_locate({{"r", small},
+                                   {"part.json", file_of(small, "part")},
+                                   {"blank.json", file_of(small, "blank")},
+                                   std::nullopt});
   ASSERT_TRUE(near.has_value());
   ASSERT_FALSE(near->findings.empty());
   EXPECT_NE(near->findings[0].find("the box of the pivot does not cover the blank"), std::string::npos);
@@ -220,7 +240,10 @@ double least_proved(const std::string& at, const std::string& from, const std::s
  "locked": {{"x": {0}, "y": 0}}, "demands": null, "scan": null, "part_cut": false}})",
         at, upper, upper - 0.5, Rings::circle("0", "0", 11), Rings::circle("1000000", "0", 12), from, to,
         nodes);
-    const auto report = verify_locate({{"r", text}, {"p", "[]"}, {"b", "[]"}, std::nullopt});
+    const auto report = verify_locate({{"r", text},
+                                       {"part.json", file_of(text, "part")},
+                                       {"blank.json", file_of(text, "blank")},
+                                       std::nullopt});
     EXPECT_TRUE(report.has_value()) << report.error().message;
     if (!report) return false;
     for (const std::string& finding : report->findings)
@@ -294,6 +317,69 @@ TEST(VerifyRegions, PointsOnGrazingRaysAreDecided) {
             std::optional<bool>(true));
   EXPECT_LE(signed_distance(at(0, 3), keyhole).low, 2);
   EXPECT_GE(signed_distance(at(0, 3), keyhole).high, 2);
+}
+
+/// A plate in a blank of its own outline, which begins elsewhere and runs the other way. Its files are no
+/// drawings, so that at best the regions as stated are confirmed.
+struct OwnOutline {
+  std::string certificate = "same outline", upper = "0", clearance = "0", gap = "0", x = "0",
+              tolerances = R"({"part": 0, "blank": 0})";
+  std::string corner = "30", part_file = "[]", blank_file = "[]";
+
+  [[nodiscard]] Verdict verdict() const {
+    const auto line = [](const std::string& a, const std::string& b) {
+      return fmt::format(R"({{"line": {{"from": [{}], "to": [{}]}}}})", a, b);
+    };
+    const std::string part =
+        fmt::format("[{}, {}, {}]", line("0, 0", "30, 0"), line("30, 0", "0, 20"), line("0, 20", "0, 0"));
+    const std::string far = corner + ", 0";
+    const std::string blank =
+        fmt::format("[{}, {}, {}]", line("0, 20", far), line(far, "0, 0"), line("0, 0", "0, 20"));
+    const std::string result = fmt::format(
+        R"({{"format": {{"name": "lekalo-locate", "version": 1}}, "status": "optimal", "units": "mm",
+ "x": {}, "y": 0, "theta": 0, "theta_deg": 0, "mirrored": false, "mirror": "no", "clearance": {},
+ "upper_bound": {}, "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
+ "regions": {{"part": {{"units": "mm", "outer": {}, "holes": []}},
+ "blank": {{"units": "mm", "outer": {}, "holes": []}}}}, "contacts": [], "certificate": "{}",
+ "certificate_file": null, "locked": null, "demands": null, "scan": null, "part_cut": false}})",
+        x, clearance, upper, gap, tolerances, part, blank, certificate);
+    const auto report = verify_locate(
+        {{"result.json", result}, {"part.dxf", part_file}, {"blank.dxf", blank_file}, std::nullopt});
+    EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
+    return report ? report->verdict : Verdict::unproved;
+  }
+};
+
+TEST(VerifyRegions, APartInItsOwnOutlineHasNothingToSpare) {
+  EXPECT_EQ(OwnOutline{}.verdict(), Verdict::stated_regions);
+  OwnOutline more;
+  more.clearance = "1e-300", more.upper = "1e-300";
+  EXPECT_EQ(more.verdict(), Verdict::refuted);
+  OwnOutline less;
+  less.clearance = "-2", less.upper = "-1", less.gap = "1";
+  EXPECT_EQ(less.verdict(), Verdict::refuted);
+  OwnOutline other;
+  other.corner = "30.000000000000004";
+  EXPECT_EQ(other.verdict(), Verdict::refuted);
+  OwnOutline shifted;
+  shifted.x = "1e-12";
+  EXPECT_EQ(shifted.verdict(), Verdict::refuted);
+  OwnOutline word;
+  word.certificate = "no doubt";
+  EXPECT_EQ(word.verdict(), Verdict::refuted);
+}
+
+TEST(VerifyRegions, TolerancesCountButForOneFile) {
+  OwnOutline drawn;
+  drawn.tolerances = R"({"part": 0.01, "blank": 0.01})";
+  EXPECT_EQ(drawn.verdict(), Verdict::refuted);
+  drawn.certificate = "same file";
+  EXPECT_EQ(drawn.verdict(), Verdict::stated_regions);
+  drawn.blank_file = "[ ]";
+  EXPECT_EQ(drawn.verdict(), Verdict::refuted);
+  drawn.certificate = "same outline", drawn.clearance = "-0.0201", drawn.upper = "0.0201",
+  drawn.gap = "0.0402";
+  EXPECT_NE(drawn.verdict(), Verdict::stated_regions);  // its shortfall is missing
 }
 
 }  // namespace

@@ -493,14 +493,14 @@ TEST(VerifySimulate, WhatItCannotJudgeIsRefusedByName) {
     EXPECT_NE(complaint_of(program, pocket).find(words), std::string::npos)
         << program << complaint_of(program, pocket);
   };
-  says(kBegin + "G41 D1\n", "part.ngc:4: G41 is not understood");
-  says(kBegin + "G1 X#1 F100\n", "X is not followed by a plain number");
+  says(kBegin + "G41 D1\n", "part.ngc:4: G41 makes the control compute path or feed");
+  says(kBegin + "G1 X#1 F100\n", "variable #1 is read and was not set");
   says(kBegin + "G3 X20 Y20 I1 J1 F100\n", "mm from its centre");
   says(kBegin + "G3 X20 Y20 F100\n", "without I, J or R");
   says(kBegin + "G3 X40 Y20 R2 F100\n", "no arc of radius");
   says("G1 X1 Y1 Z-1\n", "before any F");
   says("G91 G0 X1\n", "no block has said");
-  says(kBegin + "G1 X1e9 F100\n", "E is not");
+  says(kBegin + "G1 X1e9 F100\n", "no word of the block takes E");
   says(kBegin + "G1 X9999999 F100\n", "farther than");
   says("(open\n", "not closed");
   says("", "never goes below");

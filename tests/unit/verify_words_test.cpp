@@ -3,15 +3,19 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
-#include "nc/white_list.hpp"
+#include "lekalo/base/nc_words.hpp"
+#include "lekalo/nc/rewrite.hpp"
 #include "verify/pocket/nc_moves.hpp"
-#include "verify/pocket/nc_words.hpp"
 
 namespace lekalo::verify {
 namespace {
+
+using words::Control;
 
 const std::string kBegin = "G21 G90 G17\nG0 Z5\nG0 X10 Y10\n";  // a word after it stands on line 4
 
@@ -29,34 +33,98 @@ std::string lines_of(const std::string& program) {
   return lines;
 }
 
-TEST(VerifyWords, EveryCodeThatIsNotKnownIsRefusedByName) {
+constexpr std::array kControls{Control::linuxcnc, Control::haas, Control::fanuc, Control::grbl};
+
+/// A block in which this word can stand, behind kBegin.
+std::string block_with(const words::Word& word) {
+  std::string text = fmt::format("{}{:g}", word.letter, word.tenths / 10.0);
+  const auto takes = [&](char letter) { return word.takes.find(letter) != std::string_view::npos; };
+  if (word.group == words::Group::motion && word.tenths > words::kCounterClockwise)
+    return text + " X12 Y13 Z-1 R1 Q1 P1 F100";
+  if (word.letter == 'M') return text + (takes('P') ? " P1" : "");
+  if (word.tenths == words::kClockwise || word.tenths == words::kCounterClockwise) return text + " I5 F100";
+  if (word.group == words::Group::once && word.tenths == words::kMachineFrame) return "G0 " + text + " Z0";
+  if (word.group == words::Group::once && word.tenths != words::kDwell) return text + " Z3";
+  if (word.group == words::Group::motion) return text + " X12 F100";
+  if (takes('P') && word.group != words::Group::look_ahead) text += " P1";
+  if (takes('H')) text += " H1";
+  if (takes('D')) text += " D1";
+  return text;
+}
+
+std::string checker_says(const std::string& program, Control control) {
+  const auto moves = read_moves({"p.ngc", program}, 0, control);
+  return moves ? "" : moves.error().message;
+}
+
+std::string rewriter_says(const std::string& program, Control control) {
+  const auto moved = nc::rewrite_program(program, "p.ngc", 1, 2, 0.5, {.control = control});
+  return moved ? "" : moved.error().message;
+}
+
+TEST(VerifyWords, EveryCodeThatIsNotKnownIsRefusedByNameByBothReaders) {
   std::size_t known = 0, refused = 0;
-  for (const char letter : {'G', 'M'})
-    for (int tenths = 0; tenths <= (letter == 'G' ? 999 : 1999); ++tenths) {
-      const std::string word = fmt::format("{}{:g}", letter, tenths / 10.0);
-      if (code_of(letter, tenths / 10.0) != nullptr) {
-        ++known;
-        continue;
+  for (const Control control : kControls)
+    for (const char letter : {'G', 'M'})
+      for (int tenths = 0; tenths <= 1999; tenths += letter == 'G' ? 1 : 10) {
+        const std::string word = fmt::format("{}{:g}", letter, tenths / 10.0);
+        if (words::word_at(letter, tenths, control) != nullptr) {
+          ++known;
+          continue;
+        }
+        ++refused;
+        const std::string program = kBegin + word + "\nM2\n";
+        if (tenths >= 970 && tenths <= 990 && letter == 'M') continue;  // subprograms are another matter
+        EXPECT_EQ(checker_says(program, control), "p.ngc:4: " + word + " is not understood here");
+        EXPECT_TRUE(rewriter_says(program, control).starts_with("p.ngc:4: " + word)) << word;
       }
-      ++refused;
-      EXPECT_EQ(complaint_of(kBegin + word + "\nM2\n"), "p.ngc:4: " + word + " is not understood here");
-    }
-  EXPECT_EQ(known, known_codes().size());
-  EXPECT_GT(refused, 2900U);
+  std::size_t rows = 0;
+  for (const words::Word& word : words::kWords)
+    for (const Control control : kControls) rows += words::knows(word, control) ? 1 : 0;
+  EXPECT_EQ(known, rows);
+  EXPECT_GT(refused, 7000U);
   for (const char* word : {"G0.05", "G-1", "G1000", "M3.5", "M-2", "G59.15"})
     EXPECT_NE(complaint_of(kBegin + word + "\nM2\n").find("is not understood here"), std::string::npos)
         << word;
+}
+
+/// The rewriter (src/nc) and the checker share no code, only the table of words.
+TEST(VerifyWords, BothReadersOfProgramsTakeEveryWordOfTheTableForEachControl) {
+  std::size_t taken = 0, not_judged = 0;
+  for (const Control control : kControls)
+    for (const words::Word& word : words::kWords) {
+      if (!words::knows(word, control)) continue;
+      if (word.group == words::Group::work_offset || word.group == words::Group::tool_length) continue;
+      const bool taps =
+          word.letter == 'G' && (word.tenths == 740 || word.tenths == 840 || word.tenths == 860);
+      const std::string spindle = taps ? (word.tenths == 740 ? "S500 M4\n" : "S500 M3\n") : "";
+      const std::string retract = control == Control::grbl ? "" : "G98\n";
+      const std::string program = kBegin + retract + spindle + block_with(word) + "\n";
+      SCOPED_TRACE(fmt::format("{}: {}", words::word_of(control), program));
+      EXPECT_EQ(rewriter_says(program, control), "");
+      if (word.judged) {
+        ++taken;
+        EXPECT_EQ(checker_says(program, control), "");
+      } else {
+        ++not_judged;
+        EXPECT_NE(checker_says(program, control).find("which is not judged"), std::string::npos);
+      }
+    }
+  EXPECT_GT(taken, 180U);
+  EXPECT_GT(not_judged, 10U);
 }
 
 TEST(VerifyWords, ALetterAloneIsReadOnlyWhereItMovesOrNeedsNoCode) {
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     if (letter == 'G' || letter == 'M') continue;
     const std::string complaint = complaint_of(kBegin + letter + "1\nM2\n");
-    const std::string_view read = "FNSTXYZ", needy = "HIJPQR";
+    const std::string_view read = "FNSTXYZ", needy = "DEHIJKLPQRU", rotary = "ABC";
     if (read.find(letter) != std::string_view::npos)
       EXPECT_EQ(complaint, "") << letter;
     else if (letter == 'O')
       EXPECT_EQ(complaint, "p.ngc:4: subprograms are not understood");
+    else if (rotary.find(letter) != std::string_view::npos)
+      EXPECT_NE(complaint.find("turns the part"), std::string::npos) << complaint;
     else if (needy.find(letter) != std::string_view::npos)
       EXPECT_EQ(complaint, fmt::format("p.ngc:4: no word of the block takes {}", letter));
     else
@@ -64,26 +132,36 @@ TEST(VerifyWords, ALetterAloneIsReadOnlyWhereItMovesOrNeedsNoCode) {
   }
 }
 
-/// The rewriter (src/nc) has a list of its own; the two may differ only as stated here.
-TEST(VerifyWords, BothReadersOfProgramsKnowTheSameWordsButForThese) {
-  std::string rewriter_alone, checker_alone;
-  const auto compare = [&](const std::string& word, bool rewritten, bool checked) {
-    if (rewritten && !checked) rewriter_alone += word + " ";
-    if (checked && !rewritten) checker_alone += word + " ";
-  };
-  for (int tenths = 0; tenths <= 999; ++tenths)
-    compare(fmt::format("G{:g}", tenths / 10.0), nc::group_of(tenths).has_value(),
-            code_of('G', tenths / 10.0) != nullptr);
-  for (int number = 0; number <= 199; ++number)
-    compare(fmt::format("M{}", number), nc::m_on_list(number), code_of('M', number) != nullptr);
-  for (char letter = 'A'; letter <= 'Z'; ++letter)
-    compare(std::string(1, letter), !nc::refused_letter(letter).has_value(),
-            letter == 'G' || letter == 'M' || kTakenLetters.find(letter) != std::string_view::npos ||
-                kFreeLetters.find(letter) != std::string_view::npos);
-  // Other planes, compensation, cycles and feeds that depend on more than F turn with the part as any word
-  // does, and what they cut is not judged.
-  EXPECT_EQ(rewriter_alone, "G18 G19 G41 G42 G44 G69 G73 G74 G81 G82 G83 G84 G85 G86 G89 G93 G95 D L ");
-  EXPECT_EQ(checker_alone, "");
+TEST(VerifyWords, EachControlReadsItsOwnForms) {
+  const std::string z_home = kBegin + "G1 Z-1 F99\nG0 Z5\nG28 G91 Z0\nG90\nG53 G0 Z0\nM30\n";
+  for (const Control control : kControls) EXPECT_EQ(checker_says(z_home, control), "");
+  for (const char* line : {"(a (b) c)", "G4 X1.", "D1", "G0 G28 Z9", "G80 G0"}) {
+    EXPECT_EQ(checker_says(kBegin + line + "\nM2\n", Control::fanuc), "") << line;
+    EXPECT_NE(checker_says(kBegin + line + "\nM2\n", Control::linuxcnc), "") << line;
+  }
+  EXPECT_EQ(checker_says(kBegin + "/M8\nM2\n", Control::linuxcnc), "");
+}
+
+TEST(VerifyWords, CyclesAreReadAsTheMovesTheyMake) {
+  EXPECT_EQ(lines_of(kBegin + "G99 G81 X20 Y20 Z-3 R1 F9\nX30\nG80\nG0 Z5\nM2\n"), "4* 4* 4 4* 5* 5 5* 7* ");
+  EXPECT_EQ(complaint_of(kBegin + "G98 G81 X20 Y20 Z-3 F9\n"),
+            "p.ngc:4: G81 without Z and R in its first block");
+  EXPECT_EQ(complaint_of(kBegin + "G98 G83 X20 Z-3 R1 F9\n"), "p.ngc:4: G83 without Q in its first block");
+  EXPECT_EQ(complaint_of(kBegin + "G98 G81 X20 Z-3 R-4 F9\n"), "p.ngc:4: R of a cycle is below its Z");
+  EXPECT_EQ(complaint_of(kBegin + "G18 G81 X20 Z-3 R1 F9\n"), "p.ngc:4: a canned cycle outside the XY plane");
+  EXPECT_EQ(complaint_of("G21 G90\nG81 X20 Y2 Z-3 R1 F9\n"),
+            "p.ngc:2: a canned cycle from a place that no block has said");
+}
+
+TEST(VerifyWords, AnArcInAnotherPlaneIsReadAsChords) {
+  const auto moves = read_moves({"p.ngc", kBegin + "G18 G2 X11 Z4 I1 K0 F9\nM2\n"}, 0);
+  ASSERT_TRUE(moves) << moves.error().message;
+  EXPECT_GT(moves->size(), 20U);
+  for (const Move& move : *moves) {
+    EXPECT_FALSE(move.arc);
+    EXPECT_NEAR(std::hypot(move.to.x - 11, move.to_z - 5), 1, 1e-9);
+  }
+  EXPECT_EQ(moves->back().to_z, 4);
 }
 
 struct Refused {
@@ -102,7 +180,7 @@ TEST(VerifyWords, WordsThatDoNotFitTogetherAreRefusedWithTheLine) {
       {"M0 M30\n", "4: M0 and M30 exclude"},
       {"M0 M3 M8 M48 M64 P1\n", "4: more than 4 M words"},
       {"G4 P0 G1 X200 F9\n", "4: a dwell beside a motion"},
-      {"G4 X1\n", "4: a dwell beside a motion"},
+      {"G4 X1\n", "4: G4 without P"},
       {"G4 P0 G1\n", "4: a dwell beside a motion"},
       {"G4\n", "4: G4 without P"},
       {"G4 P-1\n", "4: P is below 0"},
@@ -137,9 +215,13 @@ TEST(VerifyWords, WordsThatDoNotFitTogetherAreRefusedWithTheLine) {
       {"X1 X2\n", "4: X is given twice"},
       {"G0 X+-1\n", "4: X is not followed by a plain number"},
       {"G0 X1 2\n", "4: the character \"2\" is not understood"},
-      {"G0 X[1]\n", "4: X is not followed by a plain number"},
-      {"#1=2\n", "4: the character \"#\" is not understood"},
+      {"G0 X[1\n", "4: an expression that is not understood"},
+      {"#5220=2\n", "4: variable #5220 is not one of a program's own"},
+      {"G0 X#7\n", "4: variable #7 is read and was not set"},
+      {"#1=2 X1\n", "4: a variable that is neither set alone"},
+      {"M98 P7\n", "4: a subprogram that is not in this file"},
       {"/G0 X1\n", "4: a block that may be skipped"},
+      {"/F100\n", "4: a block that may be skipped"},
       {"G0 N10 X1\n", "4: N does not begin its block"},
       {"N10 N20\n", "4: N does not begin its block"},
       {"N1.5 X1\n", "4: N is not followed by a plain number"},
