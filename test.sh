@@ -3,7 +3,8 @@
 #
 #   ./test.sh          the quick suite on the dev preset
 #   ./test.sh --full [STEP...]   the long counts, every preset, the fuzz programs; everything logged in test-out/
-#                      (steps: dev clang builds-agree asan tsan fuzz bench demo; all of them without names)
+#                      (steps: dev clang builds-agree asan tsan fuzz coverage mutation bench demo; all of them
+#                      without names)
 #
 # LEKALO_SEED=N chooses the seed of the random cases; a failing test prints the one it used.
 set -euo pipefail
