@@ -3,13 +3,16 @@
 //
 //   short_NAME [CORPUS FOLDER]
 //
-// LEKALO_CASES inputs, by LEKALO_SEED. An input that stops the program is left in ./found-NAME.
+// LEKALO_CASES inputs, by LEKALO_SEED. An input that stops the program, that takes 20 s, or after which the
+// process has ever held more than a gigabyte, is left in ./found-NAME, and fails the run.
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -28,10 +31,13 @@ namespace {
 
 constexpr std::size_t kStandardCases = 4000;
 constexpr std::size_t kLargestInput = 1 << 14;
+constexpr unsigned kMostSeconds = 20;      // for one input
+constexpr std::size_t kMostMegabytes = 1024;  // what a command may take for an input of a megabyte
 constexpr std::array<std::string_view, 12> kAwkward{
     "nan", "-inf", "1e308", "-1e-320", "0", "-1", "99999999999999999999", "1e9", "\xff", "[[", "\r", "\""};
 
 std::string current, found;
+double slowest_seconds = 0;
 
 void leave_input(int signal) {
   const int file = ::open(found.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -93,9 +99,24 @@ void mutate(std::string& bytes, const std::string& other, lekalo::Random& random
   if (bytes.size() > kLargestInput) bytes.resize(kLargestInput);
 }
 
+/// The most memory that this process has held so far.
+std::size_t megabytes_held() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  return static_cast<std::size_t>(used.ru_maxrss) / 1024;
+}
+
 void try_input(std::string input) {
+  using Clock = std::chrono::steady_clock;
   current = std::move(input);
+  ::alarm(kMostSeconds);
+  const Clock::time_point start = Clock::now();
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(current.data()), current.size());
+  slowest_seconds = std::max(slowest_seconds, std::chrono::duration<double>(Clock::now() - start).count());
+  if (megabytes_held() > kMostMegabytes) {
+    std::fprintf(stderr, "more than %zu MB are held after an input\n", kMostMegabytes);
+    std::raise(SIGABRT);
+  }
 }
 
 }  // namespace
@@ -104,7 +125,7 @@ int main(int argc, char** argv) {
   const std::uint64_t seed = lekalo::cases::seed();
   const std::size_t cases = lekalo::cases::case_count(kStandardCases);
   found = "found-" + std::filesystem::path(argv[0]).filename().string();
-  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, leave_input);
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) std::signal(signal, leave_input);
 
   lekalo::Random random(seed);
   std::vector<std::string> seeds{"", random_bytes(random, 16), random_bytes(random, 200),
@@ -119,5 +140,6 @@ int main(int argc, char** argv) {
     for (std::uint64_t k = own.below(6) + 1; k > 0; --k) mutate(input, other, own);
     try_input(std::move(input));
   }
-  std::printf("%zu inputs, seed %llu\n", cases + seeds.size(), static_cast<unsigned long long>(seed));
+  std::printf("%zu inputs, seed %llu, slowest %.3f s, at most %zu MB\n", cases + seeds.size(),
+              static_cast<unsigned long long>(seed), slowest_seconds, megabytes_held());
 }
