@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::size_t kStandardCases = 4000;
 constexpr std::size_t kLargestInput = 1 << 14;
-constexpr unsigned kMostSeconds = 20;      // for one input
+constexpr unsigned kMostSeconds = 20;         // for one input
 constexpr std::size_t kMostMegabytes = 1024;  // what a command may take for an input of a megabyte
 constexpr std::array<std::string_view, 12> kAwkward{
     "nan", "-inf", "1e308", "-1e-320", "0", "-1", "99999999999999999999", "1e9", "\xff", "[[", "\r", "\""};
@@ -125,7 +125,8 @@ int main(int argc, char** argv) {
   const std::uint64_t seed = lekalo::cases::seed();
   const std::size_t cases = lekalo::cases::case_count(kStandardCases);
   found = "found-" + std::filesystem::path(argv[0]).filename().string();
-  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) std::signal(signal, leave_input);
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM})
+    std::signal(signal, leave_input);
 
   lekalo::Random random(seed);
   std::vector<std::string> seeds{"", random_bytes(random, 16), random_bytes(random, 200),

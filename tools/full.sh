@@ -8,7 +8,6 @@ failed=()
 export LEKALO_SEED=${LEKALO_SEED:-1}
 export LEKALO_CASES=${LEKALO_CASES:-10000}
 export LEKALO_SHARED_DATA=${LEKALO_SHARED_DATA:-$root/../shared/data} # required here
-sanitizer_cases=${LEKALO_SANITIZER_CASES:-500}
 fuzz_seconds=${LEKALO_FUZZ_SECONDS:-60}
 
 note() { say "$*" | tee -a "$summary"; }
@@ -48,19 +47,29 @@ build_and_test() {
   run_ctest "$1" --timeout 7200
 }
 
-# What starts threads: fields, nesting, the server, and the commands over them. The rest would be slow for nothing.
+# The quick counts: a sanitizer and another compiler look for what a few cases show as well as many.
+quick_suite() {
+  unset LEKALO_CASES
+  export UBSAN_OPTIONS=print_stacktrace=1
+  build_and_test "$1"
+}
+
+# The tests of what starts threads: share_out, the fields and nests and simulations over it, the server, and the
+# commands over them. The others would be built and run for nothing.
 threaded() {
-  build_preset tsan
-  LEKALO_CASES=$sanitizer_cases run_ctest tsan --timeout 7200 -R '^(unit|property|differential|e2e)\.(field|nest|mill|serve|io_files|cli_)'
+  unset LEKALO_CASES
+  local tests='^(unit|property|differential|e2e)\.(base_(parallel|stop)|field|jobs|nest|mill|serve|verify_simulate|io_files|cli_(nest|order|pocket))' targets
+  (cd "$root" && cmake --preset tsan)
+  mapfile -t targets < <(cd "$root" && ctest --preset tsan -N -R "$tests" |
+    sed -n 's/^ *Test *#[0-9]*: \([a-z0-9]*\)\./\1_/p')
+  [ "${#targets[@]}" -gt 0 ] || fail "no test has threads"
+  build_preset tsan --target lekalo "${targets[@]}"
+  run_ctest tsan --timeout 7200 -R "$tests"
 }
 
 # On a machine that does nothing else, the server answers in the time that it is to keep.
 dev_alone() {
   LEKALO_FULL=1 build_and_test dev
-}
-
-few_cases() {
-  LEKALO_CASES=$sanitizer_cases build_and_test "$1"
 }
 
 # Two compilers, the same bytes: results of the examples, but for the field that varies from run to run.
@@ -116,7 +125,7 @@ describe_run() {
   note "commit    $("${git[@]}" rev-parse HEAD 2>/dev/null || say unknown)$(
     [ -z "$("${git[@]}" status --porcelain 2>/dev/null)" ] || say ' with local changes')"
   note "seed      $LEKALO_SEED"
-  note "cases     $LEKALO_CASES (sanitizers $sanitizer_cases), fuzzing $fuzz_seconds s a program"
+  note "cases     $LEKALO_CASES (dev alone; the others run the quick counts), fuzzing $fuzz_seconds s a program"
   note "compilers $(c++ --version | head -n 1); $(clang++ --version | head -n 1)"
   note "machine   $(nproc) processors, $(uname -m), $(date -u +%Y-%m-%dT%H:%M:%SZ)"
   note ""
@@ -127,9 +136,9 @@ mkdir -p "$out"
 "$root/tools/setup.sh" --full
 describe_run
 step dev dev_alone
-step clang few_cases clang
+step clang quick_suite clang
 step builds-agree builds_agree
-step asan few_cases asan
+step asan quick_suite asan
 step tsan threaded
 step fuzz fuzz_all
 step coverage coverage

@@ -44,6 +44,13 @@ TEST(OrderTable, QuotesHoldQuotesAndLineEnds) {
   EXPECT_EQ(table->rows.at(1).line, 4u);
 }
 
+TEST(OrderTable, LinesThatEndInACarriageReturnAloneAreCounted) {
+  const auto table = read_order("file,quantity\ra.dxf,1\r\rb.dxf,2\r", "o.csv");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->rows.at(0).line, 2u);
+  EXPECT_EQ(table->rows.at(1).line, 4u);
+}
+
 TEST(OrderTable, ColumnsThatNobodyKnowsAreTold) {
   const auto table = read_order(
       "\xEF\xBB\xBF"

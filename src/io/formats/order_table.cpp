@@ -78,7 +78,8 @@ Cells cells_of(std::string_view bytes, char separator) {
   };
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const char c = bytes[i];
-    if (c == '\n') ++line;
+    const bool ends_line = c == '\n' || (c == '\r' && (i + 1 == bytes.size() || bytes[i + 1] != '\n'));
+    if (ends_line) ++line;
     if (quoted) {
       if (c == '"' && i + 1 < bytes.size() && bytes[i + 1] == '"') {
         cell += '"';
@@ -94,7 +95,7 @@ Cells cells_of(std::string_view bytes, char separator) {
       opened = line;
     } else if (c == separator) {
       end_cell();
-    } else if (c == '\n' || (c == '\r' && (i + 1 == bytes.size() || bytes[i + 1] != '\n'))) {
+    } else if (ends_line) {
       end_row();
     } else if (!was_quoted || trimmed({&c, 1}).size() == 1) {
       cell += c;

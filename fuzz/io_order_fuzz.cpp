@@ -1,0 +1,35 @@
+// Any bytes as an order in a table: one sentence, or rows that can be made.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "lekalo/io/formats/order_table.hpp"
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lekalo;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const auto order = io::read_order(bytes, "fuzz.csv");
+  if (!order) {
+    require(order.error().code == ErrorCode::bad_input && order.error().message.starts_with("fuzz.csv"));
+    return 0;
+  }
+  std::size_t last = 1;
+  for (const io::OrderRow& row : order->rows) {
+    require(row.line > last && !row.file.empty());
+    require(row.quantity >= 1 && row.quantity <= 1'000'000'000);
+    require(!row.rotations || !row.rotations->empty());
+    require(!row.grain || std::isfinite(row.grain->degrees));
+    last = row.line;
+  }
+  return 0;
+}
