@@ -7,6 +7,7 @@ failed=()
 
 export LEKALO_SEED=${LEKALO_SEED:-1}
 export LEKALO_CASES=${LEKALO_CASES:-10000}
+export LEKALO_TIMES=${LEKALO_TIMES:-20}
 export LEKALO_SHARED_DATA=${LEKALO_SHARED_DATA:-$root/../shared/data} # required here
 fuzz_seconds=${LEKALO_FUZZ_SECONDS:-60}
 
@@ -49,7 +50,7 @@ build_and_test() {
 
 # The quick counts: a sanitizer and another compiler look for what a few cases show as well as many.
 quick_suite() {
-  unset LEKALO_CASES
+  unset LEKALO_CASES LEKALO_TIMES
   export UBSAN_OPTIONS=print_stacktrace=1
   build_and_test "$1"
 }
@@ -57,7 +58,7 @@ quick_suite() {
 # The tests of what starts threads: share_out, the fields and nests and simulations over it, the server, and the
 # commands over them. The others would be built and run for nothing.
 threaded() {
-  unset LEKALO_CASES
+  unset LEKALO_CASES LEKALO_TIMES
   local tests='^(unit|property|differential|e2e)\.(base_(parallel|stop)|field|jobs|nest|mill|serve|verify_simulate|io_files|cli_(nest|order|pocket))' targets
   (cd "$root" && cmake --preset tsan)
   mapfile -t targets < <(cd "$root" && ctest --preset tsan -N -R "$tests" |
@@ -67,8 +68,8 @@ threaded() {
   run_ctest tsan --timeout 7200 -R "$tests"
 }
 
-# On a machine that does nothing else, the server answers in the time that it is to keep.
-dev_alone() {
+# The long counts. On a machine that does nothing else, the server answers in the time that it is to keep.
+long_counts() {
   LEKALO_FULL=1 build_and_test dev
 }
 
@@ -92,7 +93,7 @@ builds_agree() {
     (cd "$data/layouts" && "$root/build/$build/lekalo" nest shoes.json --work 300000 \
       -o "$out/agree-$build/nested.json")
     # 200 sessions of 200 commands each: what they did, and replayed, as one number.
-    LEKALO_CASES=5000 "$root/build/$build/tests/property_layout_commands" --gtest_filter='*Undone*' |
+    LEKALO_CASES=5000 LEKALO_TIMES=1000 "$root/build/$build/tests/property_layout_commands" --gtest_filter='*Undone*' |
       grep '^digest' >"$out/agree-$build/sessions.txt"
   done
   diff -r "$out/agree-dev" "$out/agree-clang"
@@ -106,7 +107,7 @@ fuzz_all() {
 # The quick suite, and how much of each module it runs: the table is the end of the log.
 coverage() {
   find "$root/build/coverage" -name '*.gcda' -delete 2>/dev/null || true
-  unset LEKALO_CASES
+  unset LEKALO_CASES LEKALO_TIMES
   build_and_test coverage
   "$root/tools/coverage.py" "$root/build/coverage" --files >"$out/coverage-files.txt"
   "$root/tools/coverage.py" "$root/build/coverage" | tee "$out/coverage.txt"
@@ -116,7 +117,7 @@ coverage() {
 # mutant is a run of its own.
 mutation() {
   build_preset mutation
-  unset LEKALO_CASES
+  unset LEKALO_CASES LEKALO_TIMES
   "$root/tools/mutants.py" run "$root/build/mutation/tests/mutation/copy" "$root/build/mutation/tests/mutation/mutants"
 }
 
@@ -125,7 +126,7 @@ describe_run() {
   note "commit    $("${git[@]}" rev-parse HEAD 2>/dev/null || say unknown)$(
     [ -z "$("${git[@]}" status --porcelain 2>/dev/null)" ] || say ' with local changes')"
   note "seed      $LEKALO_SEED"
-  note "cases     $LEKALO_CASES (dev alone; the others run the quick counts), fuzzing $fuzz_seconds s a program"
+  note "cases     $LEKALO_CASES, at most $LEKALO_TIMES times the quick count (dev alone; the others run the quick counts), fuzzing $fuzz_seconds s a program"
   note "compilers $(c++ --version | head -n 1); $(clang++ --version | head -n 1)"
   note "machine   $(nproc) processors, $(uname -m), $(date -u +%Y-%m-%dT%H:%M:%SZ)"
   note ""
@@ -135,7 +136,7 @@ mkdir -p "$out"
 [ "$#" -gt 0 ] || : >"$summary"
 "$root/tools/setup.sh" --full
 describe_run
-step dev dev_alone
+step dev long_counts
 step clang quick_suite clang
 step builds-agree builds_agree
 step asan quick_suite asan

@@ -135,6 +135,7 @@ def main():
     lekalo, source = os.path.abspath(sys.argv[1]), sys.argv[2]
     examples = os.path.join(source, "examples")
     count, seed = int(os.environ.get("LEKALO_CASES", "60")), int(os.environ.get("LEKALO_SEED", "1"))
+    count = min(count, 60 * int(os.environ.get("LEKALO_TIMES", "1000000")))
     by_line = {}
     for mutant in mutants(examples):
         by_line.setdefault(mutant[0], []).append(mutant)

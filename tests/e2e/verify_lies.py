@@ -128,7 +128,7 @@ def matches(rules, path):
 
 
 def main(lekalo, source):
-    count = int(os.environ.get("LEKALO_CASES", "40"))
+    count = min(int(os.environ.get("LEKALO_CASES", "40")), 40 * int(os.environ.get("LEKALO_TIMES", "1000000")))
     draw = random.Random(int(os.environ.get("LEKALO_SEED", "1")))
     claims = confirmed = everything = 0
     faults = []

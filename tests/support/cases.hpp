@@ -23,10 +23,14 @@
 
 namespace lekalo::cases {
 
-/// LEKALO_CASES when set (the full suite sets it), else `standard`.
+/// LEKALO_CASES when set, else `standard`. With LEKALO_TIMES it is at most so many times `standard`: the full
+/// suite sets both, since ten thousand cases take a second of one test and days of another.
 inline std::size_t case_count(std::size_t standard) {
-  const char* text = std::getenv("LEKALO_CASES");
-  return text != nullptr ? static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) : standard;
+  const auto number = [](const char* name, std::size_t otherwise) {
+    const char* text = std::getenv(name);
+    return text != nullptr ? static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) : otherwise;
+  };
+  return std::min(number("LEKALO_CASES", standard), standard * number("LEKALO_TIMES", 1'000'000'000));
 }
 
 /// LEKALO_SEED when set, else 1. Print it with every failure.
