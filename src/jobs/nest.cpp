@@ -135,6 +135,7 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
   search.angles = options.angles;
   search.from_given = options.from_given;
   search.pair_distance = options.pair_distance;
+  search.remnant = options.remnant;
   // This stays without an error until a check refutes a better layout, or the caller does not take it.
   Result<void> fine;
   search.improved = [&](const nest::Nested& better) {

@@ -142,5 +142,42 @@ TEST_F(Row, AttemptsThatAreAlwaysInVainEndAStrand) {
   EXPECT_TRUE(strand.is_done());
 }
 
+/// Returns the size of the box that holds four squares of 10 mm on a sheet 40 mm wide and 60 mm high.
+geom::Point box_of_four_squares(Remnant remnant) {
+  layout::Document document = cases::two_squares();
+  document.placements.clear();
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 40, 60)});
+  document.parts.resize(1);
+  document.parts[0].outline = cases::outline_of({cases::box_loop(0, 0, 10, 10)});
+  document.parts[0].rotations = {{0, 0}};
+  document.parts[0].demand = 4;
+  Options options;
+  options.remnant = remnant;
+  RunControl control;
+  control.work_limit = 400'000;
+  const auto nested = nest(document, options, control);
+  EXPECT_TRUE(nested && nested->unplaced.empty());
+  geom::Point reach;
+  for (const layout::Placement& p : nested->document.placements) {
+    const geom::GridBox box = geom::bounds(placed_outline(document.parts[0], p));
+    reach.x = std::max(reach.x, geom::mm_from_grid(box.high.x));
+    reach.y = std::max(reach.y, geom::mm_from_grid(box.high.y));
+  }
+  return reach;
+}
+
+TEST(Remnant, OneCutAlongTheSideThatLeavesMoreFreesARectangle) {
+  EXPECT_NEAR(box_of_four_squares(Remnant::rectangle).y, 10, 0.01);  // in a row, which leaves 40 x 50
+}
+
+TEST(Remnant, AStripIsAsHighAsTheSheet) {
+  EXPECT_NEAR(box_of_four_squares(Remnant::strip).x, 10, 0.01);  // in a column, which leaves 30 x 60
+}
+
+TEST(Remnant, ACornerLeavesAllBeyondTheSmallestBox) {
+  const geom::Point box = box_of_four_squares(Remnant::corner);
+  EXPECT_NEAR(box.x * box.y, 400, 1);
+}
+
 }  // namespace
 }  // namespace lekalo::nest

@@ -8,11 +8,15 @@
 namespace lekalo::cli {
 namespace {
 
+constexpr std::array kRemnants{Word<nest::Remnant>{"rectangle", nest::Remnant::rectangle},
+                               Word<nest::Remnant>{"strip", nest::Remnant::strip},
+                               Word<nest::Remnant>{"corner", nest::Remnant::corner}};
+
 /// As typed.
 struct NestWords {
   LayoutWords layout;
   OrderWords order;
-  std::string output, stream, time, work, seed, threads, angles, pairs;
+  std::string output, stream, time, work, seed, threads, angles, pairs, remnant;
   bool from_scratch = false;
 };
 
@@ -42,6 +46,7 @@ Result<Command> to_nest(const NestWords& w) {
   if (!w.pairs.empty())
     read.number("--pairs", w.pairs, 0.001, 1e6, "a distance from 0.001 to 1,000,000 mm",
                 o.search.pair_distance);
+  read.choice("--remnant", w.remnant, kRemnants, o.search.remnant);
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
@@ -68,6 +73,9 @@ Typed add_nest_form(Form& form) {
   add("--seed", w.seed, "S", "Seed of all random choices [0]");
   add("--angles", w.angles, "N", "Angles to try of parts that may be turned anyhow [24]");
   add("--pairs", w.pairs, "MM", "Left and right pieces of a kit lie so near one another, middle to middle");
+  add("--remnant", w.remnant, list_of(kRemnants, "|"),
+      "Of the last sheet, keep what one cut frees, what one cut along y frees, or all beyond a corner "
+      "[corner]");
   add("--from-scratch", w.from_scratch, "Drop what lies there and is not locked, instead of improving it");
   form.footer =
       "Locked placements stay. Others are where the search begins, and the result is no worse; what is "

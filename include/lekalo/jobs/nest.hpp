@@ -34,6 +34,8 @@ struct NestOptions {
   bool from_given = true;
   /// The left and right pieces of a kit lie no further apart than this, middle to middle, mm; 0 for no limit.
   double pair_distance = 0;
+  /// The rest of the last sheet that is worth most.
+  nest::Remnant remnant = nest::Remnant::corner;
   /// Ids of the only placements that may move, ascending: everything else stays, and nothing is added. Empty:
   /// all that are not locked, and what is wanted and not there is added.
   std::vector<std::uint64_t> only;

@@ -33,6 +33,14 @@ struct Unplaced {
   friend bool operator==(const Unplaced&, const Unplaced&) = default;
 };
 
+/// The rest of the sheet used least that is worth most; it decides between layouts that place as much on
+/// stock as dear. Strips have one rest, whatever this says.
+enum class Remnant : std::uint8_t {
+  corner,     ///< all beyond a box at the lower left corner: two cuts free it, as two pieces or one angle
+  rectangle,  ///< all beyond one cut across the sheet, parallel to either side, whichever frees more
+  strip       ///< all beyond one cut parallel to y: a piece as high as the sheet
+};
+
 /// The result of nest().
 struct Nested {
   /// The given document with other placements, ascending by id. Locked placements are as they were. It
@@ -58,6 +66,7 @@ struct Options {
   /// pieces, lie on one sheet with the middles of their boxes at most so far apart. It holds for pieces
   /// that are placed anew.
   double pair_distance = 0;
+  Remnant remnant = Remnant::corner;
   /// Called at a merge with every better layout, from the calling thread; may be empty.
   std::function<void(const Nested&)> improved;
 };

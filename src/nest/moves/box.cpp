@@ -5,7 +5,12 @@
 
 namespace lekalo::nest {
 
-SmallerBox::Size SmallerBox::size_of(const Search& search, const State& state) const {
+bool SmallerBox::is_across(const Search& search) const {
+  return search.problem.remnant() != Remnant::corner && !search.problem.bins()[bin_].open;
+}
+
+BoxSize SmallerBox::size_of(const Search& search, const State& state) const {
+  if (is_across(search)) return box_in_use(search.problem, search.items, state, bin_);
   return {reach_of(search.problem, search.items, state, bin_, 0),
           reach_of(search.problem, search.items, state, bin_, 1)};
 }
@@ -24,19 +29,20 @@ bool SmallerBox::begin(Search& search) {
 }
 
 /// nest-sheets.md, step 6.
-SmallerBox::Size SmallerBox::wanted(Search& search, Size now) const {
+BoxSize SmallerBox::wanted(Search& search, BoxSize now) const {
   Random& random = search.random();
   const Bin& bin = search.problem.bins()[bin_];
   const double used = used_area(search.problem, search.items, search.current.state, bin_);
-  const Size most = {bin.box.x1 - bin.box.x0, bin.box.y1 - bin.box.y0};
-  Size least = {std::max(search.separator.least_side(bin_, 0), bin.locked_reach - bin.box.x0),
-                std::max(search.separator.least_side(bin_, 1), bin.locked_top - bin.box.y0)};
+  const BoxSize most = {bin.box.x1 - bin.box.x0, bin.box.y1 - bin.box.y0};
+  BoxSize least = {std::max(search.separator.least_side(bin_, 0), bin.locked_reach - bin.box.x0),
+                   std::max(search.separator.least_side(bin_, 1), bin.locked_top - bin.box.y0)};
   if (bin.open) {
     least.w = std::max(least.w, used / most.h);
     return {std::max(least.w, now.w * (1 - smaller_)), most.h};
   }
+  if (is_across(search)) return wanted_across(search, now, least, most);
   double area = std::max(now.area() * (1 - smaller_), used / tuning::kFullest);
-  Size size;
+  BoxSize size;
   if (is_kick_) {
     area = now.area() * (1 + tuning::kKickRoom);
     const double low = std::log(std::max(least.w, area / most.h)),
@@ -62,10 +68,21 @@ SmallerBox::Size SmallerBox::wanted(Search& search, Size now) const {
   return size;
 }
 
+BoxSize SmallerBox::wanted_across(Search& search, BoxSize now, BoxSize least, BoxSize most) const {
+  const double used = used_area(search.problem, search.items, search.current.state, bin_);
+  const double area = is_kick_ ? now.area() * (1 + tuning::kKickRoom)
+                               : std::max(now.area() * (1 - smaller_), used / tuning::kFullest);
+  bool along_x = now.h == most.h;
+  // A kick may turn the cut, where either side will do.
+  if (is_kick_ && search.problem.remnant() == Remnant::rectangle) along_x = search.random().below(2) == 0;
+  return along_x ? BoxSize{std::clamp(area / most.h, std::min(least.w, most.w), most.w), most.h}
+                 : BoxSize{most.w, std::clamp(area / most.w, std::min(least.h, most.h), most.h)};
+}
+
 Outcome SmallerBox::attempt(Search& search) {
   Separator& separator = search.separator;
   separator.load(search.current.state);
-  const Size now = size_of(search, search.current.state), size = wanted(search, now);
+  const BoxSize now = size_of(search, search.current.state), size = wanted(search, now);
   if (!is_kick_ && size.area() >= now.area() * (1 - 1e-12)) return Outcome::failed;
   const Box& stock = search.problem.bins()[bin_].box;
   for (std::size_t i = 0; i < search.items.movable(); ++i) {

@@ -15,13 +15,13 @@ class SmallerBox final : public Move {
   Outcome on_failure(Search& search) override;
 
  private:
-  struct Size {
-    double w = 0, h = 0;  ///< mm
-    double area() const noexcept { return w * h; }
-  };
-  Size size_of(const Search& search, const State& state) const;
+  /// The box that holds what lies on the sheet.
+  BoxSize size_of(const Search& search, const State& state) const;
   /// The box that is asked for next. \pre the separator holds the current state
-  Size wanted(Search& search, Size now) const;
+  BoxSize wanted(Search& search, BoxSize now) const;
+  /// True where one cut is to free the rest, so that the box goes across the sheet.
+  bool is_across(const Search& search) const;
+  BoxSize wanted_across(Search& search, BoxSize now, BoxSize least, BoxSize most) const;
 
   std::uint32_t bin_ = 0;
   double smaller_ = 0;  ///< share of the box's area

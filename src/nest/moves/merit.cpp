@@ -65,11 +65,21 @@ double reach_of(const Problem& problem, const Items& items, const State& state, 
   return std::max(0.0, reach);
 }
 
+BoxSize box_in_use(const Problem& problem, const Items& items, const State& state, std::uint32_t b) {
+  const Bin& bin = problem.bins()[b];
+  const Remnant remnant = problem.remnant();
+  const double height = bin.box.y1 - bin.box.y0;
+  const BoxSize along_x = {reach_of(problem, items, state, b, 0), height};
+  if (bin.open || remnant == Remnant::strip) return along_x;
+  const double top = reach_of(problem, items, state, b, 1);
+  if (remnant == Remnant::corner) return {along_x.w, top};
+  const BoxSize along_y = {bin.box.x1 - bin.box.x0, top};
+  return along_y.area() < along_x.area() ? along_y : along_x;
+}
+
 double leftover_of(const Problem& problem, const Items& items, const State& state, std::uint32_t b) {
   const Bin& bin = problem.bins()[b];
-  const double height = bin.box.y1 - bin.box.y0;
-  return (bin.box.x1 - bin.box.x0) * height -
-         reach_of(problem, items, state, b, 0) * (bin.open ? height : reach_of(problem, items, state, b, 1));
+  return (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) - box_in_use(problem, items, state, b).area();
 }
 
 std::uint32_t emptiest(const Problem& problem, const Items& items, const State& state) {

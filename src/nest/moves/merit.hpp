@@ -26,7 +26,15 @@ struct Merit {
 /// 0, along y for axis 1.
 [[nodiscard]] double reach_of(const Problem& problem, const Items& items, const State& state,
                               std::uint32_t bin, int axis);
-/// Area of a bin outside the box, from its lower left corner, that holds what lies on it, mm^2.
+/// The box at a bin's lower left corner that holds what lies on it and beyond which the rest is worth having,
+/// mm: as high or as wide as the bin where one cut is to free the rest (Remnant).
+struct BoxSize {
+  double w = 0, h = 0;  ///< mm
+  [[nodiscard]] double area() const noexcept { return w * h; }
+};
+[[nodiscard]] BoxSize box_in_use(const Problem& problem, const Items& items, const State& state,
+                                 std::uint32_t bin);
+/// Area of a bin outside that box, mm^2.
 [[nodiscard]] double leftover_of(const Problem& problem, const Items& items, const State& state,
                                  std::uint32_t bin);
 /// The open bin with the largest leftover. \pre a bin is open

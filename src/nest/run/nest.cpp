@@ -83,6 +83,7 @@ Result<Nested> nest(const layout::Document& document, const Options& options, co
   SearchOptions search;
   search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
   search.given_angles = options.from_given;
+  search.remnant = options.remnant;
   // A run has a work limit of its own, and nothing but its flag ends it sooner.
   RunControl until_stop;
   until_stop.stop = control.stop;

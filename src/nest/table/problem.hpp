@@ -7,6 +7,7 @@
 
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/document.hpp"
+#include "lekalo/nest/nest.hpp"
 #include "made_once.hpp"
 #include "nest/tuning/tuning.hpp"
 #include "nofit.hpp"
@@ -68,6 +69,7 @@ struct SearchOptions {
   /// Gives parts the angles at which unlocked placements lie too, if they may have them.
   bool given_angles = false;
   std::size_t cells = tuning::kRasterCells;  ///< about so many in the raster of a table
+  Remnant remnant = Remnant::corner;
 };
 
 /// The only bin of a problem that is one strip.
@@ -93,6 +95,7 @@ class Problem {
   std::uint32_t part_of(const Form& form) const noexcept { return shapes_[form.shape].part; }
   SearchShape::Kind kind_of(const Form& form) const noexcept { return shapes_[form.shape].kind; }
   const std::vector<Bin>& bins() const noexcept { return bins_; }
+  Remnant remnant() const noexcept { return options_.remnant; }
   /// One strip is all the stock, and its length is what is sought.
   bool is_strip() const noexcept { return bins_.size() == 1 && bins_[kStrip].open; }
   double area_of(std::uint32_t part) const noexcept { return areas_[part]; }
