@@ -34,7 +34,7 @@ if(NOT EXISTS ${installed} OR ${SOURCES}/package-lock.json IS_NEWER_THAN ${insta
 endif()
 
 # The page that is there is the right one where all that it is made of has the same bytes.
-file(GLOB_RECURSE sources ${SOURCES}/src/*)
+file(GLOB_RECURSE sources ${SOURCES}/src/* ${SOURCES}/../examples/orders/* ${SOURCES}/../examples/layouts/*)
 foreach(name index.html package-lock.json tsconfig.json vite.config.ts build_page.cmake)
   list(APPEND sources ${SOURCES}/${name})
 endforeach()

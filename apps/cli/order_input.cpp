@@ -10,7 +10,7 @@
 #include "lekalo/io/formats/drawing_formats.hpp"
 #include "lekalo/io/formats/order_table.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "lekalo/jobs/order.hpp"
+#include "lekalo/jobs/order_words.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -25,15 +25,12 @@ class OrderReader {
       : source_(source), outputs_(outputs) {}
 
   Result<jobs::Layout> read() {
-    order_.gap_mm = source_.gap_mm;
-    order_.border_mm = source_.border_mm;
-    order_.kerf_mm = source_.kerf_mm;
-    order_.grain_degrees = source_.grain_degrees;
+    order_ = jobs::order_of(source_.terms);
     order_.reading = source_.reading;
     if (source_.parts.empty() && source_.table.empty())
       fault("no part is ordered; say --part FILE=N, a folder, a pattern in quotes, or --order TABLE",
             ErrorCode::usage);
-    if (source_.stocks.empty())
+    if (source_.terms.stocks.empty())
       fault("there is no sheet to cut from; say --sheet 3000x1500, --sheet hide.dxf or --strip 1500",
             ErrorCode::usage);
     for (const PartWord& word : source_.parts) {
@@ -43,7 +40,7 @@ class OrderReader {
       add_parts(row, "");
     }
     if (!source_.table.empty()) add_table();
-    for (const StockWord& word : source_.stocks) add_stock(word);
+    for (const jobs::StockWord& word : source_.terms.stocks) add_stock(word);
     if (!faults_.empty()) return failure(code_, faults_);
     LEKALO_CHECK(check_outputs(outputs_, inputs_));
     LEKALO_TRY(jobs::Layout layout, jobs::open_order(order_));
@@ -78,16 +75,7 @@ class OrderReader {
     for (const std::string& path : *files) {
       std::optional<jobs::File> read = file("--part", path);
       if (!read) continue;
-      jobs::OrderedPart part;
-      part.file = *std::move(read);
-      part.quantity = row.quantity;
-      part.name = row.name;
-      part.rotations = row.rotations.value_or(source_.rotations);
-      part.may_mirror = row.may_mirror.value_or(source_.may_mirror);
-      part.grain = row.grain;
-      if (!part.grain && source_.grain_degrees) part.grain = layout::Grain{*source_.grain_degrees, 0};
-      part.priority = row.priority;
-      order_.parts.push_back(std::move(part));
+      order_.parts.push_back(jobs::ordered_part(row, *std::move(read), source_.terms));
     }
   }
 
@@ -101,7 +89,7 @@ class OrderReader {
     for (const io::OrderRow& row : rows->rows) add_parts(row, folder);
   }
 
-  void add_stock(const StockWord& word) {
+  void add_stock(const jobs::StockWord& word) {
     jobs::OrderedStock stock;
     stock.size = word.size;
     stock.count = word.count;

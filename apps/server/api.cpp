@@ -14,6 +14,7 @@
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/layout.hpp"
+#include "order_form.hpp"
 
 namespace lekalo::server {
 namespace {
@@ -68,29 +69,16 @@ Result<std::string> name_in(const Target& target) {
   return check_layout_name(*name).map([&] { return *name; });
 }
 
-/// "WIDTHxHEIGHT" and how many of them, for files that hold parts alone.
-Result<void> add_sheet(layout::Document& document, const std::string& size, const std::string* count) {
-  constexpr double kLeast = 1, kMost = 0x1p17;  // mm
-  constexpr std::uint64_t kMostSheets = 10'000;
-  const auto wrong = [](const std::string& why) { return failure(ErrorCode::bad_input, why); };
-  if (!document.stocks.empty()) return wrong("the file has stock of its own; leave the sheet out");
-  const std::size_t cross = std::min(size.find('x'), size.size());
-  const auto width = double_of_text(std::string_view(size).substr(0, cross)),
-             height = double_of_text(std::string_view(size).substr(std::min(cross + 1, size.size())));
-  for (const auto& side : {width, height})
-    if (!side || !(*side >= kLeast && *side <= kMost))
-      return wrong(fmt::format("the sheet is WIDTHxHEIGHT in mm, each from {} to {}: ?sheet=2500x1250",
-                               kLeast, kMost));
-  const auto copies = count != nullptr ? whole_number(*count) : std::optional<std::uint64_t>(1);
-  if (!copies || *copies < 1 || *copies > kMostSheets)
-    return wrong(fmt::format("the count of sheets is a whole number from 1 to {}", kMostSheets));
-  layout::Stock stock;
-  stock.id = "sheet";
-  stock.count = static_cast<std::int64_t>(*copies);
-  const std::int64_t x = geom::grid_from_mm(*width), y = geom::grid_from_mm(*height);
-  stock.outline.polygon = {{{0, 0}, {x, 0}, {x, y}, {0, y}}, {0, 4}};
-  document.stocks.push_back(std::move(stock));
-  return {};
+ApiAnswer made_layout(Store& store, const std::string& name, const Result<jobs::Layout>& made,
+                      const std::atomic<bool>& given_up) {
+  if (!made) return api_error(400, made.error().message);
+  if (given_up) return api_error(503, name + ": nobody waits for it any more");
+  const Result<LayoutId> id = store.create(name, made->document);
+  if (!id) return trouble(id.error());
+  JsonWriter json(io::JsonLayout::compact);
+  json.begin_object().fields({{"id", *id}, {"stocks", made->document.stocks.size()}});
+  json.key("notices").list(made->notices).end();
+  return json_answer(201, json);
 }
 
 ApiAnswer create_layout(Store& store, const Target& target, const std::string& body,
@@ -98,19 +86,8 @@ ApiAnswer create_layout(Store& store, const Target& target, const std::string& b
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
   if (body.empty()) return api_error(400, *name + ": the file is empty");
-  Result<jobs::Layout> file = jobs::open_layout({*name, body});
-  if (!file) return trouble(file.error());
-  if (const std::string* const sheet = target.find("sheet")) {
-    const Result<void> added = add_sheet(file->document, *sheet, target.find("count"));
-    if (!added) return trouble(added.error());
-  }
-  if (given_up) return api_error(503, *name + ": nobody waits for it any more");
-  const Result<LayoutId> id = store.create(*name, file->document);
-  if (!id) return trouble(id.error());
-  JsonWriter json(io::JsonLayout::compact);
-  json.begin_object().fields({{"id", *id}, {"stocks", file->document.stocks.size()}});
-  json.key("notices").list(file->notices).end();
-  return json_answer(201, json);
+  if (target.find("order") != nullptr) return made_layout(store, *name, ordered_layout(body), given_up);
+  return made_layout(store, *name, jobs::open_layout({*name, body}), given_up);
 }
 
 ApiAnswer history(Store& store, LayoutId id) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -71,7 +73,12 @@ TEST(LocateOwnOutline, EveryOutlineOfTheCorpusHasNothingToSpareInItself) {
 TEST(LocateOwnOutline, NorHaveThoseOfTheSharedDrawings) {
   const std::string folder = cases::shared_data();
   if (folder.empty()) GTEST_SKIP() << "no ../shared/data; LEKALO_SHARED_DATA names another folder";
-  EXPECT_GE(place_in_themselves(outlines_in({fs::path(folder) / "drawings", fs::path(folder) / "dxf"})), 20U);
+  std::vector<fs::path> files = outlines_in({fs::path(folder) / "drawings", fs::path(folder) / "dxf"});
+  // The independent checker reads every curve of large drawings again, which takes minutes for all of them.
+  constexpr std::uintmax_t kQuickBytes = 20'000;
+  if (std::getenv("LEKALO_FULL") == nullptr)
+    std::erase_if(files, [](const fs::path& path) { return fs::file_size(path) > kQuickBytes; });
+  EXPECT_GE(place_in_themselves(files), 20U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <sys/mount.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -116,33 +117,82 @@ TEST(Serve, ExportsForMachinesAsTheCommandLineDoes) {
         << wrong;
 }
 
-TEST(Serve, LaysThePartsOfADrawingOnASheetThatIsGiven) {
+/// A form as browsers send it.
+std::string form_of(std::initializer_list<std::array<std::string, 3>> fields) {
+  std::string body;
+  for (const auto& [name, file, value] : fields)
+    body += "------x\r\nContent-Disposition: form-data; name=\"" + name + "\"" +
+            (file.empty() ? "" : "; filename=\"" + file + "\"\r\nContent-Type: image/svg+xml") + "\r\n\r\n" +
+            value + "\r\n";
+  return body + "------x--\r\n";
+}
+
+constexpr const char* kTray =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="40mm" viewBox="0 0 50 40">
+<rect x="5" y="5" width="20" height="10"/></svg>)";
+
+TEST(Serve, MakesOneLayoutOfAnOrderOfManyDrawingsAsTheCommandDoes) {
   const TemporaryFolder folder;
   const ServerProcess server(folder.path());
-  const std::string drawing =
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="40mm" viewBox="0 0 50 40">
-<rect x="5" y="5" width="20" height="10"/></svg>)";
-  const auto post = [&](const std::string& more, const std::string& file) {
-    return ask(server, http::verb::post, "/api/layouts?name=a.svg" + more, file);
+  const auto post = [&](const std::string& body) {
+    return ask(server, http::verb::post, "/api/layouts?name=job&order=1", body);
   };
-  const Answer without = post("", drawing);
-  ASSERT_EQ(without.status, 201u) << without.body;
-  EXPECT_EQ(Json::parse(without.body)["stocks"], 0);
-  const Answer with = post("&sheet=300.5x200&count=3", drawing);
-  ASSERT_EQ(with.status, 201u) << with.body;
-  EXPECT_EQ(Json::parse(with.body)["stocks"], 1);
-  const Json made =
-      Json::parse(ask(server, http::verb::get, "/api/layouts/2/export?form=layout").body)["stocks"][0];
-  EXPECT_EQ(made["count"], 3);
-  EXPECT_EQ(made["outline"]["polygon"]["outer"], Json::parse("[[0, 0], [300.5, 0], [300.5, 200], [0, 200]]"));
-  Client client(server, 2);
+  const Answer made = post(
+      form_of({{"table", "", "file,quantity,rotations,mirror\ntray.svg,4,\"0,90\",no\nlid.svg,2,any,yes\n"},
+               {"sheet", "", "300.5x200=3"},
+               {"gap", "", "4"},
+               {"kerf", "", "1/8in"},
+               {"file", "tray.svg", kTray},
+               {"file", "lid.svg", kTray}}));
+  ASSERT_EQ(made.status, 201u) << made.body;
+  const std::string written = ask(server, http::verb::get, "/api/layouts/1/export?form=layout").body;
+  const Json document = Json::parse(written);
+  EXPECT_EQ(document["stocks"][0]["count"], 3);
+  EXPECT_EQ(document["stocks"][0]["outline"]["polygon"]["outer"],
+            Json::parse("[[0, 0], [300.5, 0], [300.5, 200], [0, 200]]"));
+  EXPECT_EQ(document["parts"][0]["demand"], 4);
+  EXPECT_EQ(document["parts"][1]["id"], "lid");
+  Client client(server, 1);
   client.hear("layout");
-  EXPECT_EQ(client.command("fit a sheet 2")["type"], "done");
-  for (const char* wrong : {"&sheet=", "&sheet=300", "&sheet=300x", "&sheet=x200", "&sheet=0x5",
-                            "&sheet=nanx5", "&sheet=1e9x5", "&sheet=300x200x1", "&sheet=300x200&count=0",
-                            "&sheet=300x200&count=1.5", "&sheet=300x200&count=999999"})
-    EXPECT_EQ(post(wrong, drawing).status, 400u) << wrong;
-  EXPECT_EQ(post("&sheet=300x200", squares()).status, 400u);  // it has a sheet
+  EXPECT_EQ(client.command("fit tray 300.5x200 2")["type"], "done");
+
+  write_bytes(folder / "tray.svg", kTray);
+  write_bytes(folder / "lid.svg", kTray);
+  write_bytes(folder / "o.csv",
+              "file,quantity,rotations,mirror\ntray.svg,4,\"0,90\",no\nlid.svg,2,any,yes\n");
+  const auto command = run(folder.path(), {"new", "--order", "o.csv", "--sheet", "300.5x200=3", "--gap", "4",
+                                           "--kerf", "1/8in", "-o", "o.json"});
+  ASSERT_EQ(command.status, 0) << command.err;
+  EXPECT_EQ(read_bytes(folder / "o.json"), written);
+}
+
+TEST(Serve, TellsEverythingThatIsWrongWithAnOrderAndMakesNothing) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  const auto refusal = [&](const std::string& body) {
+    const Answer answer = ask(server, http::verb::post, "/api/layouts?name=job&order=1", body);
+    EXPECT_EQ(answer.status, 400u) << answer.body;
+    return Json::parse(answer.body)["error"].get<std::string>();
+  };
+  const std::string said = refusal(form_of(
+      {{"sheet", "", "300x"}, {"gap", "", "wide"}, {"colour", "", "red"}, {"file", "tray.svg", kTray}}));
+  for (const char* part : {"colour", "gap: \"wide\""}) EXPECT_NE(said.find(part), std::string::npos) << said;
+  EXPECT_NE(refusal(form_of({{"sheet", "", "300x200"}})).find("no part is ordered"), std::string::npos);
+  EXPECT_NE(refusal(form_of({{"file", "tray.svg", kTray}})).find("no sheet"), std::string::npos);
+  EXPECT_NE(
+      refusal(
+          form_of({{"table", "", "file\nlid.svg\n"}, {"sheet", "", "300x200"}, {"file", "tray.svg", kTray}}))
+          .find("lid.svg"),
+      std::string::npos);
+  EXPECT_NE(refusal(form_of({{"sheet", "", "hide.svg"}, {"file", "tray.svg", kTray}})).find("hide.svg"),
+            std::string::npos);
+  const std::string whole = form_of({{"sheet", "", "300x200"}, {"file", "tray.svg", kTray}});
+  for (std::size_t end = 0; end < whole.size() - 4; end += 7) {  // cut short on the way
+    const Answer answer =
+        ask(server, http::verb::post, "/api/layouts?name=job&order=1", whole.substr(0, end));
+    EXPECT_EQ(answer.status, 400u) << end;
+  }
+  EXPECT_EQ(Json::parse(ask(server, http::verb::get, "/api/layouts").body)["layouts"].size(), 0u);
 }
 
 TEST(Serve, MakesNoLayoutOfAFileThatNobodyWaitsFor) {

@@ -9,7 +9,7 @@
 
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/units.hpp"
-#include "length_word.hpp"
+#include "lekalo/io/text/length_word.hpp"
 
 namespace lekalo::cli {
 
@@ -55,11 +55,11 @@ class WordReader {
       complain(fmt::format("{}: \"{}\" is not {}", option, word, wanted));
     }
   }
-  /// Reads a length with or without a unit (length_word.hpp).
+  /// Reads a length with or without a unit (io/text/length_word.hpp).
   void length(const char* option, const std::string& word, double low, double high, const char* wanted,
               double& mm) {
     if (word.empty()) return;
-    const std::optional<double> read = length_of(word);
+    const std::optional<double> read = io::length_of(word);
     if (read && low <= *read && *read <= high) {
       mm = *read;
     } else {

@@ -13,7 +13,7 @@
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/nest.hpp"
-#include "lekalo/jobs/order.hpp"
+#include "lekalo/jobs/order_words.hpp"
 #include "lekalo/jobs/pocket.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "lekalo/verify/simulate.hpp"
@@ -67,23 +67,11 @@ struct PartWord {
   std::optional<std::int64_t> count;
 };
 
-/// Stock as it was typed: a size, or else the file of a drawing.
-struct StockWord {
-  std::string said;
-  std::optional<jobs::SheetSize> size;
-  std::optional<std::int64_t> count;
-};
-
 /// A job that is made of drawings.
 struct OrderSource {
   std::vector<PartWord> parts;
   std::string table;  ///< a file of rows; may be empty
-  std::vector<StockWord> stocks;
-  double gap_mm = 0, border_mm = 0, kerf_mm = 0;
-  /// These count for parts whose row of the table says nothing else.
-  std::vector<layout::AngleRange> rotations;
-  bool may_mirror = false;
-  std::optional<double> grain_degrees;
+  jobs::OrderTerms terms;
   io::PartOptions reading;
 };
 

@@ -219,7 +219,7 @@ export class Editor {
     name: string,
     method: string,
     address: string,
-    body?: Blob,
+    body?: Blob | FormData,
   ): Promise<Answer | null> {
     const one = new Transfer(kind, name, () => this.tell('transfer'));
     this.transfers.add(one);

@@ -11,6 +11,7 @@ import { act, type Action } from '../tools/actions';
 export interface BarEvents {
   openLayout(id: number): void;
   takeFiles(files: FileList | null): void;
+  newLayout(): void;
   copyLayout(): void;
   nameLayout(): void;
   save(form: string): void;
@@ -112,11 +113,13 @@ function files(editor: Editor, layouts: Layouts, events: BarEvents): HTMLElement
     'aria-label': t('open.file'),
     change: (e) => events.takeFiles((e.target as HTMLInputElement).files),
   });
+  const begin = h('button', { 'data-action': 'new.layout', click: events.newLayout }, t('new.layout'));
   return h(
     'span',
     { class: 'files' },
     h('span', { class: 'brand' }, 'lekalo'),
     choice,
+    begin,
     button('open.file', () => file.click()),
     file,
     button('copy.layout', events.copyLayout),

@@ -1,7 +1,8 @@
 // The layouts that the server keeps: opened, made of files, copied, named and deleted.
 
 import { layoutDialog } from '../dialogs/layout_dialog';
-import { sheetDialog, type SheetSize } from '../dialogs/sheet_dialog';
+import { orderDialog } from '../dialogs/order_dialog';
+import { firstTerms, type OrderTerms, type Stock } from '../dialogs/order_form';
 import type { Editor } from '../editor/editor';
 import { showDialog } from '../html/elements';
 import { t } from '../i18n';
@@ -24,6 +25,21 @@ export interface LayoutsEvents {
   listed(): void;
   /** A layout is going to be opened. */
   opening(): void;
+  /** There is none to open. */
+  empty(): void;
+}
+
+/** The terms of the last order. A browser's memory may hold anything. */
+function keptTerms(): OrderTerms {
+  const terms = firstTerms();
+  try {
+    const kept = JSON.parse(stored('order') ?? '{}') as Partial<OrderTerms>;
+    for (const key of ['gap', 'border', 'kerf'] as const) terms[key] = String(kept[key] ?? terms[key]);
+    const stocks = (kept.stocks ?? []).filter((one: Stock) => one.kind !== 'drawing');
+    return stocks.length > 0 ? { ...terms, stocks } : terms;
+  } catch {
+    return terms;
+  }
 }
 
 export class Layouts {
@@ -45,7 +61,7 @@ export class Layouts {
     const wanted = Number(new URL(location.href).searchParams.get('layout'));
     const first = this.known.find((one) => one.id === wanted) ?? this.known[0];
     if (first) this.open(first.id);
-    else this.editor.say(t('none.layouts'));
+    else this.events.empty();
   }
 
   open(id: number): void {
@@ -91,24 +107,51 @@ export class Layouts {
     });
   }
 
-  async takeFiles(files: FileList | null): Promise<void> {
-    for (const file of [...(files ?? [])]) {
-      const made = await this.take(file);
-      if (typeof made === 'string') this.editor.say(made);
-      else if (made?.stocks === 0) this.askSheet(file, made.id);
-    }
+  /** Several drawings are one new layout; other files are layouts of their own. */
+  async takeFiles(files: FileList | readonly File[] | null): Promise<void> {
+    const all = [...(files ?? [])];
+    const drawings = all.filter(({ name }) => /\.(dxf|svg)$/i.test(name));
+    // A drawing that comes alone may have its sheets with it, as those have that lekalo exported.
+    const together = drawings.length > 1 ? drawings : [];
+    for (const file of all.filter((one) => !together.includes(one))) await this.takeFile(file);
+    if (together.length > 0) this.begin(together);
+  }
+
+  private async takeFile(file: File): Promise<void> {
+    const made = await this.take(file.name, '', file);
+    if (typeof made === 'string') this.editor.say(made);
+    // Outlines alone: they are ordered with something to cut them from, in place of the layout without it.
+    else if (made?.stocks === 0) this.begin([file], made.id);
+  }
+
+  /** Asks for a new layout of these drawings, which takes the place of the layout `without` stock. */
+  begin(drawings: readonly File[], without = 0): void {
+    const terms = keptTerms();
+    const dialog = orderDialog(drawings, terms, {
+      make: async (name, form) => {
+        const made = await this.take(name, '&order=1', form);
+        if (made === null || typeof made === 'string') return made ?? t('transfer.cancelled');
+        store('order', JSON.stringify({ ...terms, stocks: terms.stocks.map((one) => ({ ...one, file: null })) }));
+        if (without !== 0) {
+          await this.api(`/api/layouts/${without}`, { method: 'DELETE' });
+          await this.read();
+        }
+        return null;
+      },
+    });
+    showDialog(dialog);
   }
 
   /**
-   * Makes a layout of a file and opens it.
+   * Makes a layout and opens it.
    *
    * @returns a string: the reason why not; null: it was cancelled
    */
-  private async take(file: File, sheet: Record<string, string> = {}): Promise<Made | string | null> {
+  private async take(name: string, form: string, body: Blob | FormData): Promise<Made | string | null> {
     const { editor } = this;
     try {
-      const address = `/api/layouts?${new URLSearchParams({ name: file.name, ...sheet })}`;
-      const answer = await editor.transfer('open', t('transfer.open', { name: file.name }), 'POST', address, file);
+      const address = `/api/layouts?${new URLSearchParams({ name })}${form}`;
+      const answer = await editor.transfer('open', t('transfer.open', { name }), 'POST', address, body);
       if (!answer) return null;
       if (answer.status !== 201) return await sentenceOf(answer);
       const made = JSON.parse(await answer.body.text()) as Made;
@@ -119,20 +162,6 @@ export class Layouts {
     } catch (error) {
       return error instanceof Error ? error.message : String(error);
     }
-  }
-
-  /** A file of parts without stock is taken once more with a sheet, in place of the layout `without` one. */
-  private askSheet(file: File, without: number): void {
-    const kept = JSON.parse(stored('sheet') ?? '{"width": "2500", "height": "1250", "count": "1"}') as SheetSize;
-    const dialog = sheetDialog(file.name, kept, async (size) => {
-      const made = await this.take(file, { sheet: `${size.width}x${size.height}`, count: size.count });
-      if (made === null || typeof made === 'string') return made ?? t('transfer.cancelled');
-      store('sheet', JSON.stringify(size));
-      await this.api(`/api/layouts/${without}`, { method: 'DELETE' });
-      await this.read();
-      return null;
-    });
-    showDialog(dialog);
   }
 
   async copy(): Promise<void> {

@@ -22,6 +22,7 @@ import { LongBar } from './long_bar';
 import { PicturePane } from './picture_pane';
 import { store, stored } from './settings';
 import { StatusLine } from './status_line';
+import { welcome } from './welcome';
 
 const firstTheme = (): Theme =>
   (stored('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light')) === 'dark'
@@ -44,8 +45,13 @@ export class Page {
   private readonly longBar = new LongBar(this.editor, () => this.pane.focus());
   private readonly layouts = new Layouts(this.editor, {
     listed: () => this.showBar(),
-    opening: () => this.pane.begin(),
+    opening: () => {
+      this.welcome.remove();
+      this.pane.begin();
+    },
+    empty: () => this.showWelcome(),
   });
+  private welcome: HTMLElement = h('section');
   private theme = firstTheme();
   private side: Side = 'violations';
   private panelsDue = false;
@@ -121,12 +127,14 @@ export class Page {
       this.showSide();
     });
     this.status.show();
+    if (this.welcome.isConnected) this.showWelcome();
   }
   private showBar(): void {
     const { editor, layouts, pane } = this;
     showBar(this.bar, this.tools, editor, layouts.known, {
       openLayout: (id) => layouts.open(id),
       takeFiles: (files) => void layouts.takeFiles(files),
+      newLayout: () => layouts.begin([]),
       copyLayout: () => void layouts.copy(),
       nameLayout: () => layouts.name(),
       save: (form) => void saveAs(editor, form),
@@ -138,6 +146,17 @@ export class Page {
       language: () => this.changeLanguage(),
       help: () => this.showHelp(),
     });
+  }
+  private showWelcome(): void {
+    const isThere = this.welcome.isConnected;
+    this.welcome.remove();
+    this.welcome = welcome({
+      begin: () => this.layouts.begin([]),
+      open: () => this.bar.querySelector<HTMLInputElement>('input[type="file"]')?.click(),
+      sample: (file) => void this.layouts.takeFiles([file]),
+    });
+    this.pane.element.append(this.welcome);
+    if (!isThere) this.welcome.querySelector('button')?.focus();
   }
   private showTray(): void {
     const { editor, pane } = this;

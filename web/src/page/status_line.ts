@@ -44,6 +44,7 @@ export class StatusLine {
   private connection(): string {
     const { editor } = this;
     const others = [...editor.others.keys()].filter((client) => client >= 0).length;
+    if (editor.layoutId === 0) return '';
     // Gestures that a long command keeps waiting are not being saved.
     const waiting = editor.long ? 1 + editor.queued.length : 0;
     const state = t(editor.pending > waiting ? 'state.saving' : `state.${editor.connection}`);

@@ -12,6 +12,8 @@ export const violationId = (v: Violation): string => `violation-${v.kind}-${v.a}
 const MOST_SHOWN = 500;
 
 export function violations(editor: Editor, show: (v: Violation) => void): HTMLElement {
+  // Without a layout there is nothing to check yet.
+  if (editor.layoutId === 0) return h('p');
   const list = editor.violations;
   if (list === null) return h('p', { class: 'note', role: 'status' }, t('violations.unknown'));
   const { checking } = editor;

@@ -30,7 +30,7 @@ export class Transfer {
    *
    * @returns null: it was given up
    */
-  send(method: string, address: string, body?: Blob): Promise<Answer | null> {
+  send(method: string, address: string, body?: Blob | FormData): Promise<Answer | null> {
     const { request } = this;
     const time = new TimeLeft();
     request.open(method, address);

@@ -297,8 +297,11 @@ async function dropFile(page, name, text) {
   await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
 }
 
+const tray =
+  '<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100"><rect id="lid" x="5" y="5" width="60" height="30"/><circle id="disc" cx="120" cy="50" r="20"/></svg>';
+
 inEditor(
-  'takes a dropped layout, and a drawing with the sheet that it asks for',
+  'takes a dropped layout, and a drawing with the material that it asks for',
   async (page, server) => {
     await dropFile(
       page,
@@ -306,31 +309,63 @@ inEditor(
       JSON.stringify({ ...smallLayout, name: 'Again', placements: smallLayout.placements.slice(0, 1) }),
     );
     await page.waitForFunction(() => document.querySelectorAll('.mirror li').length === 1);
-    const svg =
-      '<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100"><rect id="lid" x="5" y="5" width="60" height="30"/><circle id="disc" cx="120" cy="50" r="20"/></svg>';
-    await dropFile(page, 'parts.svg', svg);
-    await page.waitForSelector('dialog [data-field="width"]');
-    await page.fill('dialog [data-field="width"]', 'wide');
-    await command(page, 'sheet.give');
-    await page.waitForFunction(() =>
-      /the sheet is WIDTHxHEIGHT/.test(document.querySelector('dialog .trouble').textContent),
-    );
-    await page.fill('dialog [data-field="width"]', '300,5');
-    await page.fill('dialog [data-field="height"]', '200');
-    await page.fill('dialog [data-field="count"]', '2');
-    await command(page, 'sheet.give');
+    await dropFile(page, 'parts.svg', tray);
+    await page.waitForSelector('dialog [data-field="width.0"]');
+    await page.fill('dialog [data-field="gap"]', 'wide');
+    await command(page, 'order.make');
+    await page.waitForFunction(() => /gap: "wide"/.test(document.querySelector('dialog .trouble').textContent));
+    await page.fill('dialog [data-field="gap"]', '2,5');
+    await page.fill('dialog [data-field="width.0"]', '300,5');
+    await page.fill('dialog [data-field="height.0"]', '200');
+    await page.fill('dialog [data-field="count.0"]', '2');
+    await command(page, 'order.make');
     await page.waitForSelector('dialog', { state: 'detached' });
-    await page.waitForSelector('[data-id="part-disc"]');
-    await page.click('[data-id="part-disc"] .piece');
+    await page.waitForSelector('[data-id="part-parts-2"]');
+    await page.click('[data-id="part-parts-2"] .piece');
     await settled(page);
     assert.equal(await placed(page), 1);
     await command(page, 'side.sheets');
-    assert.equal(await page.locator('[data-id^="sheet-sheet-"]').count(), 2);
+    assert.equal(await page.locator('[data-id^="sheet-300.5x200-"]').count(), 2);
     // The layout without a sheet is gone.
     assert.equal((await (await fetch(new URL('/api/layouts', server.url))).json()).layouts.length, 3);
   },
   { expected: ['400'] },
 );
+
+inEditor('makes one job of five dropped drawings, from an empty page to G-code', async (page, server) => {
+  for (const { id } of (await (await fetch(new URL('/api/layouts', server.url))).json()).layouts)
+    await page.evaluate((one) => fetch(`/api/layouts/${one}`, { method: 'DELETE' }), id);
+  await page.goto(server.url);
+  await page.waitForSelector('.welcome');
+  assert.equal(await page.locator('.welcome [data-action^="sample."]').count(), 3);
+  const data = await page.evaluateHandle((text) => {
+    const transfer = new DataTransfer();
+    for (let i = 1; i <= 5; ++i) transfer.items.add(new File([text], `tray${i}.svg`));
+    return transfer;
+  }, tray);
+  await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
+  await page.waitForSelector('dialog [data-field="quantity.4"]');
+  await page.fill('dialog [data-field="quantity.1"]', '3');
+  await page.selectOption('dialog [data-field="rotations.0"]', '0');
+  await page.fill('dialog [data-field="width.0"]', '600');
+  await page.fill('dialog [data-field="height.0"]', '400');
+  await page.fill('dialog [data-field="count.0"]', '');
+  await command(page, 'order.make');
+  await page.waitForSelector('dialog', { state: 'detached' });
+  await page.waitForSelector('[data-id="part-tray5-2"]');
+  assert.equal(await page.locator('.welcome').count(), 0);
+  assert.match(await page.textContent('[data-id="part-tray2"]'), /0\/3/);
+  await page.click('[data-id="part-tray1"] .piece');
+  await settled(page);
+  await command(page, 'menu.export');
+  await command(page, 'export.gcode');
+  await page.fill('dialog [data-field="kerf"]', '0,2');
+  await page.fill('dialog [data-field="feed"]', '2000');
+  const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
+  const file = join(server.folder, 'out.nc');
+  await download.saveAs(file);
+  assert.match(readFileSync(file, 'utf8'), /F2000/);
+});
 
 inEditor('reads the drawing that it has exported: parts and sheets, no labels', async (page, server) => {
   await command(page, 'menu.export');

@@ -1,4 +1,4 @@
-#include "length_word.hpp"
+#include "lekalo/io/text/length_word.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "lekalo/base/units.hpp"
 
-namespace lekalo::cli {
+namespace lekalo::io {
 namespace {
 
 struct Unit {
@@ -73,4 +73,4 @@ std::optional<double> length_of(std::string_view word) {
   return *number * mm;
 }
 
-}  // namespace lekalo::cli
+}  // namespace lekalo::io

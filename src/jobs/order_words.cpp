@@ -1,0 +1,133 @@
+#include "lekalo/jobs/order_words.hpp"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "lekalo/base/limits.hpp"
+#include "lekalo/io/text/length_word.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+bool fine_side(double mm) { return limits::kShortestSide <= mm && mm <= limits::kLargestOutline; }
+
+/// "3000x1500", "8ftx4ft", "48x96in"; nothing for names of files.
+std::optional<SheetSize> size_of(const std::string& word) {
+  for (std::size_t at = word.find('x'); at != std::string::npos; at = word.find('x', at + 1)) {
+    const std::string right = word.substr(at + 1);
+    std::string left = word.substr(0, at);
+    const auto height = io::length_of(right);
+    if (!height || !io::length_of(left)) continue;
+    // A unit that stands once, at the end, counts for both.
+    const bool without_unit = left.find_last_of("0123456789.") == left.find_last_not_of(' ');
+    const std::size_t unit = right.find_last_of("0123456789.");
+    if (without_unit) left += right.substr(unit + 1);
+    return SheetSize{*io::length_of(left), *height};
+  }
+  return std::nullopt;
+}
+
+class TermsReader {
+ public:
+  TermsReader(const OrderWords& words, std::string_view prefix) : words_(words), prefix_(prefix) {}
+
+  Result<OrderTerms> read() {
+    for (const std::string& word : words_.sheets) add_sheet(word);
+    for (const std::string& word : words_.strips) add_strip(word);
+    constexpr const char* kLength = "a length from 0 to 262144 mm, as 4, 1/8in or 3 mm";
+    length("gap", words_.gap, 0, kLength, terms_.gap_mm);
+    length("border", words_.border, 0, kLength, terms_.border_mm);
+    length("kerf", words_.kerf, 0, kLength, terms_.kerf_mm);
+    if (!words_.rotations.empty()) {
+      const auto angles = io::rotations_of(words_.rotations);
+      if (!angles) complain("rotations", words_.rotations, "is not \"any\" or degrees, as in 0,90");
+      terms_.rotations = angles.value_or(std::vector<layout::AngleRange>{});
+    }
+    if (!words_.grain.empty()) {
+      terms_.grain_degrees = io::grain_of(words_.grain);
+      if (!terms_.grain_degrees) complain("grain", words_.grain, "is not x, y or a number of degrees");
+    }
+    terms_.may_mirror = words_.may_mirror;
+    if (!complaint_.empty()) return failure(ErrorCode::usage, complaint_);
+    return std::move(terms_);
+  }
+
+ private:
+  void complain(const char* name, const std::string& word, const std::string& trouble) {
+    complaint_ +=
+        fmt::format("{}{}{}: \"{}\" {}", complaint_.empty() ? "" : "; ", prefix_, name, word, trouble);
+  }
+
+  void length(const char* name, const std::string& word, double low, const char* wanted, double& mm) {
+    if (word.empty()) return;
+    const std::optional<double> read = io::length_of(word);
+    if (read && low <= *read && *read <= limits::kLargestOutline)
+      mm = *read;
+    else
+      complain(name, word, fmt::format("is not {}", wanted));
+  }
+
+  void add_sheet(const std::string& word) {
+    const auto counted = counted_word(word);
+    if (!counted) return complain("sheet", word, "does not end in a number from 1 to 1,000,000,000");
+    StockWord stock{counted->word, size_of(counted->word), counted->count};
+    if (stock.size && !(fine_side(stock.size->width_mm) && fine_side(stock.size->height_mm)))
+      complain("sheet", word,
+               fmt::format("has a side that is not from {} to {} mm", limits::kShortestSide,
+                           limits::kLargestOutline));
+    terms_.stocks.push_back(std::move(stock));
+  }
+
+  void add_strip(const std::string& word) {
+    StockWord stock{word, SheetSize{}, std::nullopt};
+    length("strip", word, limits::kShortestSide, "the width of a strip from 0.001 to 262144 mm",
+           stock.size->height_mm);
+    terms_.stocks.push_back(std::move(stock));
+  }
+
+  const OrderWords& words_;
+  std::string_view prefix_;
+  OrderTerms terms_;
+  std::string complaint_;
+};
+
+}  // namespace
+
+Result<OrderTerms> read_order_words(const OrderWords& words, std::string_view prefix) {
+  return TermsReader(words, prefix).read();
+}
+
+std::optional<CountedWord> counted_word(const std::string& word) {
+  const std::size_t equals = word.find_last_of('=');
+  const bool digits = equals != std::string::npos && equals + 1 < word.size() &&
+                      word.find_first_not_of("0123456789", equals + 1) == std::string::npos;
+  if (!digits) return CountedWord{word, std::nullopt};
+  const auto count = io::quantity_of(word.substr(equals + 1));
+  if (!count) return std::nullopt;
+  return CountedWord{word.substr(0, equals), count};
+}
+
+OrderedPart ordered_part(const io::OrderRow& row, File file, const OrderTerms& terms) {
+  OrderedPart part;
+  part.file = std::move(file);
+  part.quantity = row.quantity;
+  part.name = row.name;
+  part.rotations = row.rotations.value_or(terms.rotations);
+  part.may_mirror = row.may_mirror.value_or(terms.may_mirror);
+  part.grain = row.grain;
+  if (!part.grain && terms.grain_degrees) part.grain = layout::Grain{*terms.grain_degrees, 0};
+  part.priority = row.priority;
+  return part;
+}
+
+Order order_of(const OrderTerms& terms) {
+  Order order;
+  order.gap_mm = terms.gap_mm;
+  order.border_mm = terms.border_mm;
+  order.kerf_mm = terms.kerf_mm;
+  order.grain_degrees = terms.grain_degrees;
+  return order;
+}
+
+}  // namespace lekalo::jobs

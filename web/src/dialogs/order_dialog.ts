@@ -1,0 +1,223 @@
+// Asks for a new layout: drawings with how many of each, and what they are cut from.
+
+import { h } from '../html/elements';
+import { t, type Key } from '../i18n';
+import { formOf, ROTATIONS, type OrderedFile, type OrderTerms, type Stock, type StockKind } from './order_form';
+
+export interface OrderEvents {
+  /** Gives the reason why the server refused, or null. */
+  make(name: string, form: FormData): Promise<string | null>;
+}
+
+const KINDS: readonly StockKind[] = ['sheet', 'strip', 'drawing'];
+
+const option = (value: string, text: string, chosen: string): HTMLOptionElement =>
+  h('option', { value, selected: value === chosen }, text);
+
+class OrderDialog {
+  readonly element: HTMLDialogElement;
+  private readonly name = this.text('name', '', t('order.name'));
+  private readonly parts = h('tbody');
+  private readonly stocks = h('tbody');
+  private readonly trouble = h('p', { class: 'trouble', role: 'alert' });
+  private readonly ok = h('button', { type: 'submit', 'data-action': 'order.make' }, t('order.make'));
+
+  constructor(
+    private readonly files: OrderedFile[],
+    private readonly terms: OrderTerms,
+    private readonly events: OrderEvents,
+  ) {
+    this.element = h(
+      'dialog',
+      { class: 'order', 'aria-label': t('order.title') },
+      h('h2', {}, t('order.title')),
+      h('form', { submit: (e) => this.submit(e) }, ...this.rows(), this.trouble, this.buttons()),
+    );
+    this.element.addEventListener('close', () => this.element.remove());
+    this.showParts();
+    this.showStocks();
+  }
+
+  private rows(): HTMLElement[] {
+    const head = (...keys: Key[]): HTMLElement =>
+      h('thead', {}, h('tr', {}, ...keys.map((key) => h('th', {}, t(key))), h('th')));
+    return [
+      h('label', { class: 'wide' }, h('span', {}, t('order.name')), this.name),
+      h('h3', {}, t('order.parts')),
+      h('table', {}, head('order.file', 'order.quantity', 'order.rotations', 'order.mirror'), this.parts),
+      this.adder(),
+      h('h3', {}, t('order.stock')),
+      h('table', {}, head('order.kind', 'order.width', 'order.height', 'order.count'), this.stocks),
+      h(
+        'button',
+        { type: 'button', 'data-action': 'order.stock.add', click: () => this.addStock() },
+        t('order.stock.add'),
+      ),
+      h(
+        'div',
+        { class: 'fields' },
+        ...(['gap', 'border', 'kerf'] as const).map((key) => {
+          const input = this.text(key, this.terms[key], t(`order.${key}`));
+          input.addEventListener('input', () => (this.terms[key] = input.value));
+          return h('label', {}, h('span', {}, t(`order.${key}`)), input);
+        }),
+      ),
+    ];
+  }
+
+  private buttons(): HTMLElement {
+    return h(
+      'div',
+      { class: 'buttons' },
+      h(
+        'button',
+        { type: 'button', 'data-action': 'order.cancel', click: () => this.element.close() },
+        t('export.cancel'),
+      ),
+      this.ok,
+    );
+  }
+
+  private text(field: string, value: string, label: string): HTMLInputElement {
+    return h('input', { 'data-field': field, 'aria-label': label, autocomplete: 'off', value });
+  }
+
+  /** Drawings may be chosen, or dropped on the dialog. */
+  private adder(): HTMLElement {
+    const chosen = h('input', {
+      type: 'file',
+      multiple: true,
+      hidden: true,
+      'data-action': 'order.file',
+      'aria-label': t('order.add'),
+      change: () => this.addFiles(chosen.files),
+    });
+    const drop = (e: Event): void => {
+      e.preventDefault();
+      e.stopPropagation();
+      if (e.type === 'drop') this.addFiles((e as DragEvent).dataTransfer?.files ?? null);
+    };
+    return h(
+      'div',
+      { class: 'adder', dragover: drop, drop },
+      h('button', { type: 'button', 'data-action': 'order.add', click: () => chosen.click() }, t('order.add')),
+      chosen,
+    );
+  }
+
+  private addFiles(files: FileList | null): void {
+    for (const file of files ?? [])
+      this.files.push({ file, quantity: '1', rotations: this.files[0]?.rotations ?? 'any', mirror: false });
+    this.showParts();
+  }
+
+  private addStock(): void {
+    this.terms.stocks.push({ kind: 'sheet', width: '', height: '', count: '', file: null });
+    this.showStocks();
+  }
+
+  private remover(label: string, remove: () => void): HTMLElement {
+    return h(
+      'td',
+      {},
+      h('button', { type: 'button', class: 'icon', title: label, 'aria-label': label, click: remove }, '×'),
+    );
+  }
+
+  private showParts(): void {
+    // A layout that nobody has named is called after its first drawing.
+    this.name.placeholder = this.files[0]?.file.name.replace(/\.[^.]*$/, '') ?? '';
+    const row = (one: OrderedFile, i: number): HTMLElement => {
+      const quantity = this.text(`quantity.${i}`, one.quantity, t('order.quantity'));
+      quantity.inputMode = 'numeric';
+      quantity.addEventListener('input', () => (one.quantity = quantity.value));
+      const rotations = h(
+        'select',
+        {
+          'aria-label': t('order.rotations'),
+          'data-field': `rotations.${i}`,
+          change: () => (one.rotations = rotations.value),
+        },
+        ...ROTATIONS.map((value) => option(value, value === 'any' ? t('order.any') : value, one.rotations)),
+      );
+      const mirror = h('input', {
+        type: 'checkbox',
+        checked: one.mirror,
+        'aria-label': t('order.mirror'),
+        'data-field': `mirror.${i}`,
+        change: () => (one.mirror = mirror.checked),
+      });
+      const cells = [one.file.name, quantity, rotations, mirror].map((cell) => h('td', {}, cell));
+      return h(
+        'tr',
+        {},
+        ...cells,
+        this.remover(t('order.remove'), () => (this.files.splice(i, 1), this.showParts())),
+      );
+    };
+    this.parts.replaceChildren(...this.files.map(row));
+    if (this.files.length === 0) this.parts.replaceChildren(h('tr', {}, h('td', { colspan: 5 }, t('order.empty'))));
+  }
+
+  private showStocks(): void {
+    this.stocks.replaceChildren(...this.terms.stocks.map((stock, i) => this.stockRow(stock, i)));
+  }
+
+  private stockRow(stock: Stock, i: number): HTMLElement {
+    const kind = h(
+      'select',
+      {
+        'aria-label': t('order.kind'),
+        'data-field': `kind.${i}`,
+        change: () => {
+          stock.kind = kind.value as StockKind;
+          this.showStocks();
+        },
+      },
+      ...KINDS.map((value) => option(value, t(`order.kind.${value}`), stock.kind)),
+    );
+    const field = (key: 'width' | 'height' | 'count'): HTMLInputElement => {
+      const input = this.text(`${key}.${i}`, stock[key], t(`order.${key}`));
+      input.inputMode = 'decimal';
+      if (key === 'count') input.placeholder = t('order.count.any');
+      input.addEventListener('input', () => (stock[key] = input.value));
+      return input;
+    };
+    const drawing = h('input', {
+      type: 'file',
+      'data-field': `drawing.${i}`,
+      'aria-label': t('order.kind.drawing'),
+      change: () => (stock.file = drawing.files?.[0] ?? null),
+    });
+    const cells =
+      stock.kind === 'sheet'
+        ? [h('td', {}, field('width')), h('td', {}, field('height')), h('td', {}, field('count'))]
+        : stock.kind === 'strip'
+          ? [h('td'), h('td', {}, field('height')), h('td')]
+          : [h('td', { colspan: 2 }, drawing), h('td', {}, field('count'))];
+    const remove = (): void => {
+      this.terms.stocks.splice(i, 1);
+      this.showStocks();
+    };
+    return h('tr', {}, h('td', {}, kind), ...cells, this.remover(t('order.remove'), remove));
+  }
+
+  private submit(e: Event): void {
+    e.preventDefault();
+    void (async () => {
+      this.ok.disabled = true;
+      this.trouble.textContent = '';
+      const name = this.name.value.trim() || this.name.placeholder || t('order.title');
+      const refused = await this.events.make(name, formOf(this.files, this.terms));
+      this.ok.disabled = false;
+      if (refused === null) this.element.close();
+      else this.trouble.textContent = refused;
+    })();
+  }
+}
+
+/** @param terms are those of the last order, and are changed as they are typed */
+export function orderDialog(files: readonly File[], terms: OrderTerms, events: OrderEvents): HTMLDialogElement {
+  const ordered = files.map((file) => ({ file, quantity: '1', rotations: 'any', mirror: false }));
+  return new OrderDialog(ordered, terms, events).element;
+}
