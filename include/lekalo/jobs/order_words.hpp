@@ -12,7 +12,7 @@
 
 namespace lekalo::jobs {
 
-/// What an order says beside its parts, as people type it: the options of `lekalo nest`, and the fields of
+/// The terms of an order beside its parts, as people type them: the options of `lekalo nest`, and the fields of
 /// the page. Lengths may have units (io::length_of).
 struct OrderWords {
   std::vector<std::string> sheets;  ///< "3000x1500", "8ftx4ft=5", or the file of a drawing

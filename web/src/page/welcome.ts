@@ -1,4 +1,4 @@
-// What an empty page says: how a layout is begun, and three that are there to be tried.
+// An empty page says how a layout is begun, and offers three that can be tried.
 
 import coats from '../../../examples/orders/coats.json?raw';
 import frames from '../../../examples/orders/frames.json?raw';
