@@ -150,6 +150,7 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
                                  {&job.earlier, &inputs.earlier}})
     if (*file) *to = verify::Document{(*file)->name, (*file)->bytes};
   if (!made.program.empty()) inputs.written_program = verify::Document{job.outputs.program, made.program};
+  if (made.document.deviations) inputs.deviations = verify::Document{job.outputs.deviations, made.deviations};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
   if (inputs.certificate && !made.document.certificate_file) {

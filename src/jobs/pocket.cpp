@@ -112,7 +112,7 @@ Result<Pocketed> made_and_judged(const PocketJob& job, const PhaseListener& phas
   made.ramps = reported_ramps(judged.ramps);
   made.notices = std::move(outline.notices);
   const std::string supposed = job.options.rest_of > 0 ? before.programs.front().program.bytes : "";
-  made.json = pocket_json(job, made, ground.document, supposed);
+  made.json = pocket_json(job, made, outline, ground.document, supposed);
   LEKALO_CHECK(add_pictures(job, ground, made));
   LEKALO_CHECK(add_images(job, ground, made));
   return made;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/version.hpp"
+#include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/mill/straight_pass.hpp"
 #include "pocket_judge.hpp"
 #include "report_document.hpp"
@@ -64,8 +65,8 @@ std::vector<ReportedStretch> reported_ramps(const std::vector<mill::Ramp>& ramps
   return list;
 }
 
-std::string pocket_json(const PocketJob& job, const Pocketed& made, const std::string& regions,
-                        const std::string& supposed) {
+std::string pocket_json(const PocketJob& job, const Pocketed& made, const io::ReadOutline& outline,
+                        const std::string& regions, const std::string& supposed) {
   const PocketOptions& o = job.options;
   io::JsonWriter json = begin_document("lekalo-pocket");
   json.field("units", "mm").key("inputs").begin_list();
@@ -80,6 +81,9 @@ std::string pocket_json(const PocketJob& job, const Pocketed& made, const std::s
   write(json.key("hot_cuts"), made.hot_cuts);
   write(json.key("ramps"), made.ramps);
   json.key("regions").raw() += regions;
+  json.field("tolerance_mm", outline.outline.tolerance).key("open_layers").list(o.open_layers);
+  io::write_record(json.key("drawing"), outline.drawing);
+  io::write_record(json.key("scan"), outline.scan);
   json.field("version", kVersion);
   return end_document(json);
 }

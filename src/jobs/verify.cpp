@@ -28,7 +28,8 @@ class Evidence {
     if (written.certificate_file) {
       LEKALO_TRY(certificate_, needed("certificate", *written.certificate_file));
     }
-    if (written.nc_output) take_program(*written.nc_output);
+    if (written.nc_output) take_written("NC program", *written.nc_output, program_);
+    if (written.deviations) take_written("deviations", *written.deviations, deviations_);
     return {};
   }
 
@@ -39,6 +40,7 @@ class Evidence {
          {std::pair{"features", &inputs.features}, {"nc", &inputs.program}, {"last-result", &inputs.earlier}})
       if (const File* const file = input(role)) *to = document(*file);
     if (program_) inputs.written_program = document(*program_);
+    if (deviations_) inputs.deviations = document(*deviations_);
     Verified verified;
     LEKALO_TRY(verified.report, verify::verify_locate(inputs));
     verify::LocateReport& report = verified.report;
@@ -85,14 +87,15 @@ class Evidence {
     return nullptr;
   }
 
-  /// A program that is not there may have gone to the machine; the checker says that it was not compared.
-  void take_program(const io::FileRecord& written) {
-    Result<std::optional<File>> program = found("NC program", written);
-    if (!program)
-      notes_.push_back(program.error().message);
+  /// A program that is not there may have gone to the machine, and a table to whoever reads it; the checker
+  /// says that it was not compared.
+  void take_written(const char* role, const io::FileRecord& written, std::optional<File>& to) {
+    Result<std::optional<File>> file = found(role, written);
+    if (!file)
+      notes_.push_back(file.error().message);
     else
-      program_ = *std::move(program);
-    if (program && !program_) notes_.push_back(fmt::format("the NC program {} is not there", written.path));
+      to = *std::move(file);
+    if (file && !to) notes_.push_back(fmt::format("the {} file {} is not there", role, written.path));
   }
 
   static const char* name_of(verify::Verdict verdict) {
@@ -134,7 +137,7 @@ class Evidence {
   const FileFinder& find_;
   /// With their roles, in the order of the result.
   std::vector<std::pair<std::string, File>> inputs_;
-  std::optional<File> certificate_, program_;
+  std::optional<File> certificate_, program_, deviations_;
   std::vector<std::string> mismatches_, notes_;
 };
 

@@ -102,12 +102,38 @@ TEST_F(VerifyClaims, ReportsOfPocketAndSimulateAreMadeAnew) {
   }
 }
 
-TEST_F(VerifyClaims, APocketFromADrawingIsConfirmedForTheRegionsStated) {
-  write_bytes(folder_ / "p.svg",
-              R"(<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="30mm" viewBox="0 0 50 30">)"
-              R"(<path d="M0 0H50V30H0Z"/></svg>)");
-  keep({"pocket", "p.svg", "--tool", "8", "--depth", "1", "-o", "p.ngc", "--json"}, "r.json");
-  expect(1, {"r.json"}, "Confirmed for the stated regions");
+/// 50 x 30 with an open left side, a round island, and an opening with a fold of an ellipse.
+const std::string kDrawing =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="30mm" viewBox="0 0 50 30">)"
+    R"(<g id="WALL"><path d="M0 0H40A10 8 0 0 1 50 8V30H0"/></g><g id="OPEN"><path d="M0 30V0"/></g>)"
+    R"(<g id="ISLAND"><rect x="0.2in" y="12" width="8" height="6" rx="2"/></g></svg>)";
+
+TEST_F(VerifyClaims, ThePocketOfADrawingIsDerivedFromIt) {
+  write_bytes(folder_ / "p.svg", kDrawing);
+  keep({"pocket", "p.svg", "--tool", "6", "--depth", "1", "--open-layer", "OPEN", "--island-layer", "ISLAND",
+        "-o", "p.ngc", "--json"},
+       "r.json");
+  expect(0, {"r.json"}, "Confirmed");
+  const std::string before = read_bytes(folder_ / "r.json");
+  change("r.json", "\"OPEN\"", "\"WALL\"");
+  expect(4, {"r.json"}, "its layer is");
+  write_bytes(folder_ / "r.json", before);
+  change("r.json", "\"tolerance_mm\": ", "\"tolerance_mm\": -");
+  expect(3, {"r.json"}, "below 0");
+}
+
+TEST_F(VerifyClaims, ThePocketOfATreeIsDerivedFromIt) {
+  const std::string tree = R"({"units": "mm", "shape": {"difference": [
+      {"rectangle": {"corner": [0, 0], "size": [60, 40]}}, {"circle": {"centre": [30, 20], "radius": 6}}]}})";
+  write_bytes(folder_ / "tree.json", tree);
+  keep({"pocket", "tree.json", "--tool", "8", "--depth", "1", "-o", "p.ngc", "--json"}, "r.json");
+  expect(0, {"r.json"}, "Confirmed");
+  // Another tree, named with its own digest, is one of other regions.
+  const std::string digest = Json::parse(read_bytes(folder_ / "r.json"))["inputs"][0]["sha256"];
+  change("tree.json", "\"radius\": 6", "\"radius\": 5");
+  keep({"pocket", "tree.json", "--tool", "8", "--depth", "1", "-o", "q.ngc", "--json"}, "q.json");
+  change("r.json", digest, Json::parse(read_bytes(folder_ / "q.json"))["inputs"][0]["sha256"]);
+  expect(4, {"r.json"}, "regions are not what tree.json means");
 }
 
 TEST_F(VerifyClaims, AProgramAloneSaysWhatToAdd) {

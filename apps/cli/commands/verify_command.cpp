@@ -48,14 +48,14 @@ std::string given_instead(const VerifyOptions& o, const std::string& role) {
   return "";
 }
 
-/// A file of the result, where an option says or where the result does. A program that is not there may have
-/// gone to the machine; another file that is not there cannot be read.
+/// A file of the result, where an option says or where the result does. A program or a table that was written
+/// may have gone elsewhere; another file that is not there cannot be read.
 Result<std::optional<jobs::File>> find(const VerifyOptions& o, const std::string& role,
                                        const std::string& path) {
   const std::string instead = given_instead(o, role);
   const std::string place = instead.empty() ? where_is(path, o.result) : instead;
   std::error_code error;
-  if (role == "NC program" && !fs::exists(place, error)) return std::nullopt;
+  if ((role == "NC program" || role == "deviations") && !fs::exists(place, error)) return std::nullopt;
   LEKALO_TRY(std::string bytes, disk::read_file(place));
   return jobs::File{place, std::move(bytes)};
 }

@@ -29,6 +29,8 @@ struct LocateInputs {
   std::optional<Document> program = std::nullopt, written_program = std::nullopt;
   /// The earlier result that this one was compared with.
   std::optional<Document> earlier = std::nullopt;
+  /// The file of deviations that was written, where it is still there.
+  std::optional<Document> deviations = std::nullopt;
 };
 
 enum class Verdict {

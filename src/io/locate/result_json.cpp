@@ -449,6 +449,11 @@ std::string result_json(const LocateDocument& d) {
   return json.take() + "\n";
 }
 
+void write_record(JsonWriter& json, const std::optional<DrawingRecord>& drawing) {
+  write_or_null(json, drawing);
+}
+void write_record(JsonWriter& json, const std::optional<ScanRecord>& scan) { write_or_null(json, scan); }
+
 std::size_t proof_size(const LocateDocument& d) {
   const locate::DemandProof* const largest = largest_proof(d);
   return std::visit([](const auto& proof) { return size_of(proof); }, d.proof) +
@@ -532,6 +537,7 @@ Result<WrittenResult> read_result(std::string_view bytes, const std::string& nam
                       read.number(root, "clearance")};
   result.mirrored = read.truth(root, "mirrored");
   result.certificate_file = read.optional_file(root.find("certificate_file"));
+  result.deviations = read.optional_file(root.find("deviations"));
   if (const auto nc = root.find("nc"); !is_null(nc))
     result.nc_output = read.optional_file(nc->find("output"));
   if (!read.complaint().empty()) return failure(ErrorCode::bad_input, read.complaint());

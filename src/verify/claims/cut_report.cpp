@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "lekalo/base/angle.hpp"
 #include "report_fields.hpp"
+#include "verify/origin/origin.hpp"
 #include "verify/pocket/nc_moves.hpp"
 #include "verify/pocket/stroke.hpp"
+#include "verify/read/known_fields.hpp"
 #include "verify/shape/shape.hpp"
 
 namespace lekalo::verify {
@@ -77,6 +81,17 @@ std::vector<Stretch> hot_cuts(const SimulateReport& report, double step_over) {
     i = std::max(end, i + 1);
   }
   return hot;
+}
+
+/// Names of layers compare without the case of A to Z.
+bool is_among(const std::vector<std::string>& layers, const std::string& name) {
+  const auto same = [](char a, char b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return lower(a) == lower(b);
+  };
+  return std::any_of(layers.begin(), layers.end(), [&](const std::string& layer) {
+    return std::equal(layer.begin(), layer.end(), name.begin(), name.end(), same);
+  });
 }
 
 /// The regions have the same open edges; these are few.
@@ -166,31 +181,66 @@ class CutReport {
     return {report_.name + ", regions", stated.text};
   }
 
-  /// Compares the regions stated with those of the input, where it is region JSON. One that does not say its
-  /// unit may have been read in either.
-  void compare_regions() {
+  void leave_open(const std::string& why) {
+    claims_.stated_regions = true;
+    claims_.unchecked.push_back(
+        fmt::format("regions: that they are what {} becomes was not rechecked: {}", pocket_->name, why));
+  }
+
+  /// Derives the regions from the pocket's file anew.
+  Result<void> compare_regions() {
+    refuse_unknown_fields(fields_.get("regions"), "regions", complaint_);
     const Shape stated = read_shape(fields_.get("regions"), "regions", complaint_);
-    const Result<Json> input = parse_json(pocket_->bytes, pocket_->name);
-    bool is_there = false, is_same = false;
-    for (const bool inch : {false, true}) {
-      std::string fault;
-      if (!input || !input->is_object() || !complaint_.empty()) break;
-      const Shape there = read_shape(*input, "pocket", fault, inch);
-      if (!fault.empty()) break;
-      is_there = true;
-      const double largest = std::max(
-          {std::abs(there.low_x), std::abs(there.low_y), std::abs(there.high_x), std::abs(there.high_y)});
-      // The decimals of the input became doubles, those in inches by one product more.
-      const double tolerance = 0x1p-49 * largest;
-      is_same =
-          is_same || (same_edges(stated, there, tolerance) && same_open_edges(stated, there, tolerance));
+    if (!fields_.has("tolerance_mm")) {
+      leave_open("the report does not say how it was read, as those of lekalo 0.1 did not");
+      return fine();
     }
-    if (!is_there) {
-      claims_.stated_regions = true;
-      claims_.unchecked.push_back(
-          fmt::format("regions: that they are what {} becomes was not rechecked", pocket_->name));
-    } else if (!is_same) {
-      claims_.findings.push_back(fmt::format("regions are not those of {}", pocket_->name));
+    const double tolerance = fields_.number("tolerance_mm");
+    if (!(tolerance >= 0)) fields_.complain("field tolerance_mm is below 0");
+    const Json drawing = fields_.get("drawing"), scan = fields_.get("scan");
+    for (const auto& [key, value] : {std::pair{"drawing", drawing}, {"scan", scan}})
+      if (value.text.empty()) fields_.complain(fmt::format("field {} is missing", key));
+    std::vector<std::string> open_layers;
+    fields_.each("open_layers", [&](Json item, const std::string& path) {
+      if (!item.is_string()) return fields_.complain(path + " is not a text");
+      open_layers.push_back(json_text(item));
+    });
+    for (const auto& [key, value] : {std::pair{"drawing", drawing}, {"scan", scan}})
+      refuse_unknown_fields(value, key, complaint_);
+    LEKALO_CHECK(fine());
+    const Origin origin = check_origin({*pocket_, stated, tolerance, scan, drawing});
+    if (origin.fault)
+      claims_.findings.push_back(
+          fmt::format("regions are not what {} means: {}", pocket_->name, *origin.fault));
+    else if (origin.open)
+      leave_open(*origin.open);
+    else
+      compare_open_edges(stated, origin, open_layers, tolerance);
+    if (tolerance > 0)
+      claims_.notes.push_back(fmt::format("regions are within {} mm of what the file means", tolerance));
+    return fine();
+  }
+
+  /// An edge is open where the file says so, or where the curve that it runs along lies on an open layer.
+  void compare_open_edges(const Shape& stated, const Origin& origin,
+                          const std::vector<std::string>& open_layers, double tolerance) {
+    if (origin.in_file && !same_open_edges(stated, *origin.in_file, tolerance))
+      claims_.findings.push_back(fmt::format("the open edges are not those of {}", pocket_->name));
+    std::size_t edge = 0;
+    for (const Side& side : stated.sides) {
+      if (!side.written) continue;
+      const std::set<std::string> none, &layers = edge < origin.labels.size() ? origin.labels[edge] : none;
+      ++edge;
+      const auto listed = static_cast<std::size_t>(std::count_if(
+          layers.begin(), layers.end(), [&](const std::string& l) { return is_among(open_layers, l); }));
+      if (origin.in_file && listed == 0) continue;
+      if (side.open ? listed == 0 : listed > 0 && listed == layers.size())
+        claims_.findings.push_back(fmt::format("edge {} of regions is {}, but its layer is {}", edge - 1,
+                                               side.open ? "open" : "a wall",
+                                               side.open ? "none of open_layers" : "one of open_layers"));
+      else if (listed > 0 && listed < layers.size())
+        claims_.unchecked.push_back(
+            fmt::format("regions: which of two layers edge {} runs along, an open one or not", edge - 1));
     }
   }
 
@@ -209,7 +259,7 @@ class CutReport {
     compare_spots(found);
     claims_.notes.push_back(fmt::format("the figures were made anew from {}", program_->name));
     if (!pocket_report_) return fine();
-    compare_regions();
+    LEKALO_CHECK(compare_regions());
     compare_stretches("hot_cuts", hot_cuts(found, options_.step_over));
     read_ramps();
     return compare_depth();

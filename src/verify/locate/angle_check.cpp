@@ -116,9 +116,9 @@ class AngleCheck {
     check_placements();
     check_derived();
     check_comparison();
-    all_rechecked_ =
-        check_deviations(result_, part_points_, blank_points_, report_.findings, report_.notes) &&
-        all_rechecked_;
+    all_rechecked_ = check_deviations(result_, inputs_.deviations, part_points_, blank_points_,
+                                      report_.findings, report_.notes) &&
+                     all_rechecked_;
     if (inputs_.features)
       find("there is a file of features, but a result for convex outlines has no demands");
     EdgeLines edges(scene_.blank(), result_.trim ? std::vector<std::size_t>() : result_.blank.dropped,
@@ -390,12 +390,15 @@ void AngleCheck::check_comparison() {
   if (last_) check_clearance("comparison.last_pose_clearance", *last_);
 }
 
-/// Step 8: the contacts may be no further than the closest pair by more than a tolerance.
+/// Step 8: the contacts may be no further than the closest pair by more than a tolerance, and at an optimum
+/// their multipliers balance.
 void AngleCheck::check_contacts(EdgeLines& edges) {
   const Pose pose = pose_of(result_.best);
   const Ring& corners = scene_.blank().points;
   const Interval slack =
       share(size_of(corners), kContactPlaces) + share(largest_coordinate(corners), kRoundoffPlaces);
+  double right = 0, up = 0, whole = 0;
+  bool pushes = true;
   for (std::size_t i = 0; i < result_.contacts.size(); ++i) {
     const WrittenContact& contact = result_.contacts[i];
     std::string why;
@@ -415,7 +418,17 @@ void AngleCheck::check_contacts(EdgeLines& edges) {
       find("contact {}: part vertex {} is {} mm farther from blank edge {} than the closest pair", i,
            contact.part_vertex, text(farther), contact.blank_edge);
     }
+    const double share = contact.multiplier / edge->length.high_double();
+    right = right + share * rough(edge->direction.x).high_double();
+    up = up + share * rough(edge->direction.y).high_double();
+    whole = whole + contact.multiplier;
+    pushes = pushes && contact.multiplier >= 0;
   }
+  // Along edges instead of normals the sums are turned by a right angle, all alike.
+  const bool balance =
+      pushes && std::max({std::abs(right), std::abs(up), std::abs(whole - 1)}) <= kMultiplierTolerance;
+  if (result_.status == "optimal" && !result_.contacts.empty() && report_.findings.empty() && !balance)
+    find("the multipliers of the contacts do not balance, so these do not hold the part");
 }
 
 /// Steps 5 and 6.

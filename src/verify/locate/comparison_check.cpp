@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "verify/number/interval.hpp"
 #include "verify/read/fields.hpp"
+#include "verify/read/text_rows.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -120,7 +122,43 @@ std::optional<WrittenPlacement> check_comparison(const ResultDocument& result, c
   return last;
 }
 
-bool check_deviations(const ResultDocument& result, const RoundedPoints& part, const RoundedPoints& blank,
+namespace {
+
+/// Holds a table of deviations: a line for each point of the blank, in the order of its file, with the
+/// point's number and its place, which is that of the file but for the rounding of inches.
+std::optional<std::string> fault_of_table(const Document& table, const RoundedPoints& blank,
+                                          const std::vector<double>& off, double slack) {
+  Lines lines(table.bytes);
+  if (const auto head = lines.next(); !head || *head != "index,x,y,deviation")
+    return "its first line is not index,x,y,deviation";
+  for (std::size_t k = 0; k < blank.size(); ++k) {
+    std::string_view rest = lines.next().value_or("");
+    std::array<double, 4> numbers{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t end = i < 3 ? rest.find(',') : rest.size();
+      const auto number = parse_decimal(rest.substr(0, end));
+      if (!number || end == std::string_view::npos)
+        return fmt::format("line {} is not four numbers", lines.number());
+      numbers[i] = approximate(*number);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    const auto& [x, y] = blank[k];
+    const bool is_point = std::abs(numbers[1] - x) <= 0x1p-52 * std::abs(x) &&
+                          std::abs(numbers[2] - y) <= 0x1p-52 * std::abs(y);
+    if (numbers[0] != static_cast<double>(k) || !is_point)
+      return fmt::format("line {} is not of point {} of the blank", lines.number(), k);
+    if (!(std::abs(numbers[3] - off[k]) <= slack))
+      return fmt::format("line {} says {} mm, but the point lies {} mm off the part", lines.number(),
+                         numbers[3], off[k]);
+  }
+  if (lines.next()) return fmt::format("it goes on in line {}", lines.number());
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool check_deviations(const ResultDocument& result, const std::optional<Document>& table,
+                      const RoundedPoints& part, const RoundedPoints& blank,
                       std::vector<std::string>& findings, std::vector<std::string>& notes) {
   if (!result.deviations) return true;
   const WrittenDeviations& d = *result.deviations;
@@ -128,25 +166,32 @@ bool check_deviations(const ResultDocument& result, const RoundedPoints& part, c
     findings.push_back(
         fmt::format("deviations.points is {}, but the blank has {} points", d.points, blank.size()));
   if (static_cast<double>(part.size()) * static_cast<double>(blank.size()) > kMostPairs) {
-    notes.emplace_back("the range of deviations was not rechecked: there are too many points");
+    notes.emplace_back("the deviations were not rechecked: there are too many points");
     return false;
   }
   const RoundedTurn turn = rounded_turn(approximate(result.best.theta));
   const double x = approximate(result.best.x), y = approximate(result.best.y);
-  double least = std::numeric_limits<double>::infinity(), greatest = -least, size = 1;
+  double size = 1;
+  std::vector<double> off;
   for (const auto& [px, py] : blank) {
     // Distances are the same in the part's frame.
-    const double off = outside(turn.cosine * (px - x) + turn.sine * (py - y),
-                               turn.cosine * (py - y) - turn.sine * (px - x), part);
-    least = std::min(least, off), greatest = std::max(greatest, off);
+    off.push_back(outside(turn.cosine * (px - x) + turn.sine * (py - y),
+                          turn.cosine * (py - y) - turn.sine * (px - x), part));
     size = std::max({size, std::abs(px), std::abs(py)});
   }
   const double slack = 1e-12 * size;
-  if (!(std::abs(approximate(d.least) - least) <= slack) ||
-      !(std::abs(approximate(d.greatest) - greatest) <= slack))
+  const auto [least, greatest] = std::minmax_element(off.begin(), off.end());
+  if (!(std::abs(approximate(d.least) - *least) <= slack) ||
+      !(std::abs(approximate(d.greatest) - *greatest) <= slack))
     findings.push_back(fmt::format(
         "deviations run from {} to {} mm, but the blank's points lie from {} to {} mm off the part",
-        approximate(d.least), approximate(d.greatest), least, greatest));
+        approximate(d.least), approximate(d.greatest), *least, *greatest));
+  if (!table) {
+    notes.emplace_back("the table of deviations was not rechecked: it is not there");
+    return false;
+  }
+  if (const auto fault = fault_of_table(*table, blank, off, slack))
+    findings.push_back(fmt::format("{} is not the table of deviations: {}", table->name, *fault));
   return true;
 }
 

@@ -20,10 +20,11 @@ using RoundedPoints = std::vector<std::pair<double, double>>;
                                                                const RoundedPoints& part,
                                                                std::vector<std::string>& findings);
 
-/// Holds the least and the greatest distance of a point of the blank's file from the placed part against the
-/// file, within 1e-12 of the coordinates. Returns false where a note says that there are too many points.
-[[nodiscard]] bool check_deviations(const ResultDocument& result, const RoundedPoints& part,
-                                    const RoundedPoints& blank, std::vector<std::string>& findings,
-                                    std::vector<std::string>& notes);
+/// Holds the distances of the points of the blank's file from the placed part, each in the table that was
+/// written and the range in the result, against those of the files, within 1e-12 of the coordinates. Returns
+/// false where a note says what was not looked at: there are too many points, or the table is not there.
+[[nodiscard]] bool check_deviations(const ResultDocument& result, const std::optional<Document>& table,
+                                    const RoundedPoints& part, const RoundedPoints& blank,
+                                    std::vector<std::string>& findings, std::vector<std::string>& notes);
 
 }  // namespace lekalo::verify

@@ -82,6 +82,7 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
     ++leaves_;
     std::vector<Term> terms;
     Fields leaf(*item, name, complaint);
+    if (leaf.size() != 1) leaf.complain(name + " has more than its contacts");
     if (!read_leaf(leaf.get("contacts"), terms, complaint, name)) return;
     if (failed_ == kMostFailures || proved(cell, terms, 0)) continue;
     ++failed_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "verify/read/fields.hpp"
+#include "verify/read/known_fields.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -128,6 +129,7 @@ void read_extras(Fields& fields, ResultDocument& result, std::string& complaint)
 
 Result<ResultDocument> read_result_document(Json written, const std::string& name) {
   std::string complaint;
+  refuse_unknown_fields(written, complaint);
   Fields fields(written, "", complaint);
   if (!has_format(fields, "lekalo-locate")) {
     return bad(name, "field format does not say lekalo-locate, version 1");
@@ -165,6 +167,7 @@ Result<ResultDocument> read_result_document(Json written, const std::string& nam
 Result<Json> read_certificate_document(const Document& document) {
   LEKALO_TRY(const Json root, parse_json(document.bytes, document.name));
   std::string complaint;
+  refuse_unknown_fields(root, complaint);
   Fields fields(root, "", complaint);
   if (!has_format(fields, "lekalo-certificate")) {
     return bad(document.name, "field format does not say lekalo-certificate, version 1");

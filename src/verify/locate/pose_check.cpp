@@ -8,6 +8,7 @@
 #include "feature_check.hpp"
 #include "pose_document.hpp"
 #include "verify/number/interval.hpp"
+#include "verify/read/known_fields.hpp"
 #include "verify/shape/region_clearance.hpp"
 #include "verify/shape/same_outline.hpp"
 #include "verify/shape/shape_distance.hpp"
@@ -21,11 +22,23 @@ constexpr double kReadingTolerance = 1e-6;
 /// An angle of the pose may be off the window by this, relatively: degrees and radians are rounded.
 constexpr double kAngleTolerance = 4e-15;
 
+/// Says whether a point may lie on the written edge of that number, or on what joins it to its circle.
+bool lies_on(const Vec& p, std::size_t edge, const Shape& shape, double slack) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < shape.sides.size(); ++k) {
+    const bool joins_next = !shape.sides[k].written && count == edge;
+    if (shape.sides[k].written) ++count;
+    if ((count == edge + 1 || joins_next) && distance(p, shape.sides[k]).low <= slack) return true;
+  }
+  return false;
+}
+
 class PoseCheck {
  public:
   PoseCheck(const LocateInputs& inputs, Json result) : inputs_(inputs), root_(result) {}
 
   Result<LocateReport> run() {
+    refuse_unknown_fields(root_, complaint_);
     r_ = read_region_document(root_, complaint_);
     if (!complaint_.empty()) return bad(inputs_.result.name);
     check_shape("part", r_.part);
@@ -225,10 +238,10 @@ void PoseCheck::check_contacts() {
     const double size =
         std::max(std::abs(r_.blank.high_x - r_.blank.low_x), std::abs(r_.blank.high_y - r_.blank.low_y));
     const double slack = kReadingTolerance * std::max(1.0, size);
-    if (!(distance(contact.part, r_.part).low <= slack))
-      find("contact {}: part_at is not on the part's outline", i);
-    if (!(distance(contact.blank, r_.blank).low <= slack))
-      find("contact {}: blank_at is not on the blank's outline", i);
+    if (!lies_on(contact.part, contact.part_edge, r_.part, slack))
+      find("contact {}: part_at is not on edge {} of the part", i, contact.part_edge);
+    if (!lies_on(contact.blank, contact.blank_edge, r_.blank, slack))
+      find("contact {}: blank_at is not on edge {} of the blank", i, contact.blank_edge);
     const Span apart = length(verify::placed(contact.part, motion_) - contact.blank);
     if (!(apart.low <= contact.distance + slack && apart.high >= contact.distance - slack))
       find("contact {}: its points are {} mm apart, not {}", i, apart.low, contact.distance);
@@ -286,6 +299,7 @@ Json PoseCheck::certificate_of(const char* key) {
   if (!(here.text.empty() || here.is_null()) || !r_.in_file || !inputs_.certificate) return here;
   const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
   if (!root) return complaint_ = "it is no JSON document", Json{};
+  refuse_unknown_fields(*root, complaint_);
   return Fields(*root, "", complaint_).get(key);
 }
 

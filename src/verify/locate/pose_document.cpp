@@ -89,7 +89,8 @@ RegionDocument read_region_document(Json root, std::string& complaint) {
         return contact.complain(fmt::format("{} is not two numbers", contact.name(key))), Vec{};
       return Vec{numbers[0], numbers[1]};
     };
-    r.contacts.push_back({point("part_at"), point("blank_at"), approximate(contact.number("distance")),
+    r.contacts.push_back({contact.index("part_edge"), contact.index("blank_edge"), point("part_at"),
+                          point("blank_at"), approximate(contact.number("distance")),
                           approximate(contact.number("multiplier"))});
   });
   r.in_file = !fields.get("certificate_file").text.empty() && !fields.get("certificate_file").is_null();

@@ -14,6 +14,8 @@ namespace lekalo::verify {
 /// The fields of a result for regions, which boxes of poses prove (docs/formats.md).
 
 struct WrittenTouch {
+  /// Numbers of edges through all pieces, each outer contour before its holes.
+  std::size_t part_edge = 0, blank_edge = 0;
   Vec part, blank;
   double distance = 0, multiplier = 0;
 };

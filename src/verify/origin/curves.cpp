@@ -4,6 +4,7 @@
 
 #include "drawing.hpp"
 #include "verify/number/interval.hpp"
+#include "verify/shape/stretch.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -46,8 +47,7 @@ void CurveMaker::arc(const Affine& map, const DrawnArc& arc) {
   const bool mirrors = handed.high < 0;
   const Vec off = mirrors ? map.y + turned : map.y - turned;
   if (!(length(off).high <= kKeepsCircles * size.low)) {
-    if (!arc.from_deg)
-      return void(drawing_.not_read.insert("arcs whose angles are not stated, scaled unequally"));
+    if (!arc.from_deg) return strokes(map, arc);
     return ellipse(map, arc.centre, {arc.radius, just(0)}, {just(0), arc.radius}, *arc.from_deg, *arc.to_deg);
   }
   Side side;
@@ -60,6 +60,32 @@ void CurveMaker::arc(const Affine& map, const DrawnArc& arc) {
   side.from = side.centre + side.first * side.radius, side.to = side.centre + side.last * side.radius;
   if (!(side.radius.low > 0)) return;
   curve_.pieces.push_back({side, (length(off) * arc.radius).high});
+}
+
+/// An arc whose angles are not stated is halved until its chords are near enough.
+void CurveMaker::strokes(const Affine& map, const DrawnArc& arc) {
+  Side whole;
+  whole.arc = true;
+  whole.centre = arc.centre, whole.radius = arc.radius;
+  whole.first = arc.first, whole.last = arc.last, whole.sweep = arc.sweep;
+  const double reach = (arc.radius * (length(map.x) + length(map.y))).high;
+  const auto on_circle = [&](const Vec& direction) { return map(arc.centre + direction * arc.radius); };
+  std::vector<Side> open{whole};
+  for (double count = 0; !open.empty(); ++count) {
+    if (!(count <= kMostStrokes))
+      return void(drawing_.not_read.insert("arcs of ellipses that are large against the tolerance"));
+    const Side piece = open.back();
+    open.pop_back();
+    // Less than half a turn is at most pi / 2 times its chord on the unit circle, and a chord of h is within
+    // h^2 / 8 of the half diameters.
+    const double turn = 1.5708 * length(piece.first - piece.last).high;
+    if (piece.sweep == Sweep::less && turn * turn * reach <= 8 * off_) {
+      curve_.pieces.push_back({line_between(on_circle(piece.first), on_circle(piece.last)), off_});
+      continue;
+    }
+    const std::array<Side, 2> two = halves(piece);
+    open.push_back(two[1]), open.push_back(two[0]);
+  }
 }
 
 void CurveMaker::bulge(const Affine& map, const Vec& from, const Vec& to, const Decimal& bulge) {

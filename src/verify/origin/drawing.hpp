@@ -61,6 +61,8 @@ class CurveMaker {
   void done(const std::string& layer, bool hidden);
 
  private:
+  void strokes(const Affine& map, const DrawnArc& arc);
+
   ReadDrawing& drawing_;
   double off_;
   DrawnCurve curve_;

@@ -18,7 +18,7 @@ constexpr std::size_t kMostCurves = 2'000'000;
 
 Span enclosed(const Fraction& value) {
   const double near = cut_to_double(value);
-  return outwards(near, near);
+  return Fraction(near) == value ? just(near) : outwards(near, near);
 }
 
 /// Reads numbers and words of an attribute one by one.
@@ -298,19 +298,19 @@ class SvgReader {
     return map;
   }
 
-  /// Returns a length in user units; those of another unit count by 1/96 inch.
-  Span length(const XmlElement& element, std::string_view key) {
-    return verify::enclosed(decimal(element, key));
-  }
-  Decimal decimal(const XmlElement& element, std::string_view key) {
+  Span length(const XmlElement& element, std::string_view key) { return enclosed(fraction(element, key)); }
+  /// Returns a length in user units, which are pixels of 1/96 inch where it has a unit of its own.
+  Fraction fraction(const XmlElement& element, std::string_view key) {
     const std::string_view text = element.get(key);
-    if (text.empty()) return {};
+    if (text.empty()) return 0;
     Scanner scanner(text);
     const auto number = scanner.number();
     const std::string_view unit = scanner.word();
-    if (!number) return complain(fmt::format("{} is no length", key)), Decimal{};
-    if (!unit.empty() && unit != "px") not_read("lengths with units");
-    return *number;
+    if (!number) return complain(fmt::format("{} is no length", key)), Fraction(0);
+    if (unit.empty() || unit == "px") return to_fraction(*number);
+    const auto mm = mm_of(unit);
+    if (!mm) not_read("lengths in shares of the page or of letters");
+    return to_fraction(*number) * mm.value_or(1) * 480 / 127;
   }
 
   void draw_shape(const XmlElement& element, const Affine& map) {
@@ -323,14 +323,13 @@ class SvgReader {
       return draw_points(element.get("points"), map, name == "polygon");
     if (name == "rect") return draw_rectangle(element, map);
     const Vec centre{length(element, "cx"), length(element, "cy")};
-    const Decimal rx = decimal(element, name == "circle" ? "r" : "rx"),
-                  ry = decimal(element, name == "circle" ? "r" : "ry");
-    if (sgn(rx.digits) <= 0 || sgn(ry.digits) <= 0) return;
-    if (compare(rx, ry) != 0)
-      return maker_.ellipse(map, centre, {verify::enclosed(rx), just(0)}, {just(0), verify::enclosed(ry)}, 0,
-                            360);
+    const Fraction rx = fraction(element, name == "circle" ? "r" : "rx"),
+                   ry = fraction(element, name == "circle" ? "r" : "ry");
+    if (rx <= 0 || ry <= 0) return;
+    if (rx != ry)
+      return maker_.ellipse(map, centre, {enclosed(rx), just(0)}, {just(0), enclosed(ry)}, 0, 360);
     const Vec right{just(1), just(0)};
-    maker_.arc(map, {centre, verify::enclosed(rx), right, right, Sweep::full, Fraction(0), Fraction(360)});
+    maker_.arc(map, {centre, enclosed(rx), right, right, Sweep::full, Fraction(0), Fraction(360)});
   }
 
   void draw_points(std::string_view text, const Affine& map, bool closed) {
@@ -346,16 +345,36 @@ class SvgReader {
   }
 
   void draw_rectangle(const XmlElement& element, const Affine& map) {
-    const Decimal width = decimal(element, "width"), height = decimal(element, "height");
-    if (sgn(width.digits) <= 0 || sgn(height.digits) <= 0) return;
-    if (!element.get("rx").empty() || !element.get("ry").empty()) {
-      if (sgn(decimal(element, "rx").digits) != 0 || sgn(decimal(element, "ry").digits) != 0)
-        return not_read("rectangles with round corners");
+    const Fraction width = fraction(element, "width"), height = fraction(element, "height");
+    if (width <= 0 || height <= 0) return;
+    // A radius that is not given is the other one, and none is above half a side.
+    const auto radius = [&](const char* key, const char* otherwise, const Fraction& side) {
+      const Fraction given = fraction(element, element.get(key).empty() ? otherwise : key);
+      return std::min<Fraction>(given, side / 2);
+    };
+    const Fraction rx = radius("rx", "ry", width), ry = radius("ry", "rx", height);
+    const Fraction left = fraction(element, "x"), low = fraction(element, "y"), right = left + width,
+                   top = low + height;
+    const bool round = rx > 0 && ry > 0;
+    const Fraction in_x = round ? rx : Fraction(0), in_y = round ? ry : Fraction(0);
+    const auto at = [](const Fraction& x, const Fraction& y) { return Vec{enclosed(x), enclosed(y)}; };
+    maker_.line(map, at(left + in_x, low), at(right - in_x, low));
+    maker_.line(map, at(right, low + in_y), at(right, top - in_y));
+    maker_.line(map, at(right - in_x, top), at(left + in_x, top));
+    maker_.line(map, at(left, top - in_y), at(left, low + in_y));
+    if (!round) return;
+    const std::array<Vec, 5> ways{{{just(1), just(0)},
+                                   {just(0), just(1)},
+                                   {just(-1), just(0)},
+                                   {just(0), just(-1)},
+                                   {just(1), just(0)}}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Fraction x = k == 0 || k == 3 ? Fraction(right - rx) : Fraction(left + rx);
+      const Fraction y = k < 2 ? Fraction(top - ry) : Fraction(low + ry);
+      const Vec centre = at(x, y);
+      maker_.arc(map * Affine{{enclosed(rx), just(0)}, {just(0), enclosed(ry)}, centre},
+                 {{just(0), just(0)}, just(1), ways[k], ways[k + 1], Sweep::less, {}, {}});
     }
-    const Span x = length(element, "x"), y = length(element, "y");
-    const Span right = x + verify::enclosed(width), top = y + verify::enclosed(height);
-    maker_.line(map, {x, y}, {right, y}), maker_.line(map, {right, y}, {right, top});
-    maker_.line(map, {right, top}, {x, top}), maker_.line(map, {x, top}, {x, y});
   }
 
   void draw_path(std::string_view text, const Affine& map) {
@@ -417,12 +436,11 @@ class SvgReader {
         maker_.cubic(map, {vec(at), vec(blend(at)), vec(blend(to)), vec(to)});
         control = pole;
       } else if (upper == 'A') {
-        const Fraction rx = number(), ry = number();
-        number();
+        const Fraction rx = number(), ry = number(), turned = number();
         const auto large = scanner.flag(), sweep = scanner.flag();
         to = point();
         if (!large || !sweep) return complain("an arc of a path without its flags");
-        draw_arc(map, at, to, rx, ry, *large, *sweep);
+        draw_arc(map, at, to, {abs(rx), abs(ry), turned, *large, *sweep});
       } else {
         return complain("a path that is not understood");
       }
@@ -431,31 +449,62 @@ class SvgReader {
     if (broken) complain("a path that breaks off");
   }
 
+  /// The numbers of an arc of a path beside its ends.
+  struct PathArc {
+    Fraction rx, ry, turned_deg;
+    bool large = false, sweep = false;
+  };
   void draw_arc(const Affine& map, const std::array<Fraction, 2>& at, const std::array<Fraction, 2>& to,
-                const Fraction& rx, const Fraction& ry, bool large, bool sweep) {
+                const PathArc& said) {
     const Vec from{enclosed(at[0]), enclosed(at[1])}, end{enclosed(to[0]), enclosed(to[1])};
     if (at == to) return;
-    if (rx == 0 || ry == 0) return maker_.line(map, from, end);
-    if (abs(rx) != abs(ry)) return not_read("arcs of ellipses in paths");
+    if (said.rx == 0 || said.ry == 0) return maker_.line(map, from, end);
     const Fraction dx = to[0] - at[0], dy = to[1] - at[1];
-    const Fraction square = dx * dx + dy * dy, room = 4 * rx * rx - square;
-    const Vec chord = end - from, left{-chord.y, chord.x};
+    if (said.rx == said.ry)
+      return draw_round(map, {from, end, enclosed(said.rx), room_over(dx, dy, said.rx)}, said);
+    // On the ellipse's own axes, in its half diameters, from the first end on, it is an arc of radius 1.
+    const Turn turn = turn_by_degrees(said.turned_deg);
+    const bool straight = said.turned_deg == 0;
+    const Span c = straight ? just(1) : Span{turn.cosine.low_double(), turn.cosine.high_double()},
+               s = straight ? just(0) : Span{turn.sine.low_double(), turn.sine.high_double()};
+    const Span rx = enclosed(said.rx), ry = enclosed(said.ry);
+    const Affine axes{{c * rx, s * rx}, {-(s * ry), c * ry}, from};
+    const Vec way = end - from, over{(c * way.x + s * way.y) / rx, (c * way.y - s * way.x) / ry};
+    const Span square = dot(over, over), room = (just(4) - square) / square;
+    const Span exact = straight ? room_over(dx / said.rx, dy / said.ry, 1) : room;
+    draw_round(map * axes, {{just(0), just(0)}, over, just(1), exact}, said);
+  }
+
+  /// What is left of the square of the diameter above that of the chord, in the latter; 0 where that is so
+  /// exactly.
+  static Span room_over(const Fraction& dx, const Fraction& dy, const Fraction& radius) {
+    const Fraction square = dx * dx + dy * dy;
+    return enclosed(Fraction((4 * radius * radius - square) / square));
+  }
+
+  /// An arc of a circle between two ends.
+  struct RoundArc {
+    Vec from, to;
+    Span radius, room;
+  };
+  void draw_round(const Affine& map, const RoundArc& round, const PathArc& said) {
+    const Vec chord = round.to - round.from, left{-chord.y, chord.x};
     DrawnArc arc;
-    // A radius too small for its chord makes half a turn; so do decimals that hardly reach it.
-    const double share = cut_to_double(room / square);
-    if (share <= 0) {
-      arc.centre = (from + end) * just(0.5), arc.radius = verify::length(chord) * just(0.5),
+    // A radius too small for its chord makes half a turn.
+    if (round.room.high <= 0) {
+      arc.centre = (round.from + round.to) * just(0.5), arc.radius = verify::length(chord) * just(0.5),
       arc.sweep = Sweep::half;
     } else {
-      if (share < 1e-6) not_read("arcs of nearly half a turn in paths");
-      const Span up = square_root(enclosed(room / square)) * just(0.5);
+      // Where the decimals hardly reach half a turn the centre hangs on their rounding.
+      if (round.room.low < 1e-6) return not_read("arcs of nearly half a turn in paths");
+      const Span up = square_root(round.room) * just(0.5);
       // With y down a sweep runs clockwise as it is seen, which is counter-clockwise in these numbers.
-      arc.centre = (from + end) * just(0.5) + left * (large == sweep ? -up : up);
-      arc.radius = enclosed(Fraction(abs(rx)));
-      arc.sweep = large ? Sweep::more : Sweep::less;
+      arc.centre = (round.from + round.to) * just(0.5) + left * (said.large == said.sweep ? -up : up);
+      arc.radius = round.radius;
+      arc.sweep = said.large ? Sweep::more : Sweep::less;
     }
-    const Vec a = unit(from - arc.centre), b = unit(end - arc.centre);
-    arc.first = sweep ? a : b, arc.last = sweep ? b : a;
+    const Vec a = unit(round.from - arc.centre), b = unit(round.to - arc.centre);
+    arc.first = said.sweep ? a : b, arc.last = said.sweep ? b : a;
     maker_.arc(map, arc);
   }
 

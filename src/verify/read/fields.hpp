@@ -30,6 +30,7 @@ class Fields {
     }
   }
 
+  [[nodiscard]] std::size_t size() const { return members_.size(); }
   [[nodiscard]] Json get(std::string_view key) const {
     const auto found = members_.find(key);
     return found == members_.end() ? Json{} : found->second;

@@ -12,6 +12,7 @@
 #include "lekalo/io/contour/contour_file.hpp"
 #include "lekalo/io/drawing/drawing_regions.hpp"
 #include "lekalo/io/scan/scan_file.hpp"
+#include "lekalo/io/text/json_writer.hpp"
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/placement.hpp"
 #include "lekalo/locate/proof.hpp"
@@ -136,6 +137,10 @@ struct LocateDocument {
 /// finite.
 [[nodiscard]] std::string result_json(const LocateDocument& document);
 
+/// Writes how a drawing or a scan became regions as results have it, or null, where a value is due.
+void write_record(JsonWriter& json, const std::optional<DrawingRecord>& drawing);
+void write_record(JsonWriter& json, const std::optional<ScanRecord>& scan);
+
 /// How many intervals of the angle or boxes of poses prove what the document says, that of largest allowances
 /// included.
 [[nodiscard]] std::size_t proof_size(const LocateDocument& document);
@@ -157,7 +162,7 @@ struct WrittenResult {
   std::vector<InputRecord> inputs;  ///< role and file only
   locate::Placement placement;
   bool mirrored = false;
-  std::optional<FileRecord> certificate_file, nc_output;
+  std::optional<FileRecord> certificate_file, nc_output, deviations;
 
   /// The first input with this role, or nullptr.
   [[nodiscard]] const InputRecord* input(std::string_view role) const noexcept;

@@ -1,0 +1,142 @@
+#include "known_fields.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "verify/number/exact.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// A member that an object may have, and those of the objects that stand there, alone or in a list; none
+/// where its reader looks itself.
+struct Known {
+  std::string_view name;
+  std::span<const Known> members = {};
+};
+
+constexpr Known kFormat[] = {{"name"}, {"version"}};
+constexpr Known kInputs[] = {{"role"}, {"path"}, {"sha256"}, {"units"}, {"points"}, {"dropped"}};
+constexpr Known kContacts[] = {{"part_vertex"}, {"blank_edge"}, {"multiplier"}, {"part_edge"},
+                               {"part_at"},     {"blank_at"},   {"distance"}};
+constexpr Known kTriple[] = {{"part_vertex"}, {"blank_edge"}, {"multiplier"}};
+constexpr Known kTrees[] = {{"mirrored"}, {"theta"}, {"x"}, {"y"}, {"nodes"}};
+constexpr Known kIntervals[] = {{"from"}, {"to"}, {"contacts", kTriple}};
+constexpr Known kCertificate[] = {{"from"}, {"to"}, {"contacts", kTriple}, {"pivot"}, {"trees", kTrees}};
+constexpr Known kFile[] = {{"path"}, {"sha256"}, {"intervals"}};
+constexpr Known kAlternatives[] = {{"x"}, {"y"}, {"theta"}, {"theta_deg"}, {"clearance"}};
+constexpr Known kTrim[] = {{"tolerance"}, {"loss"}, {"contour"}};
+constexpr Known kNc[] = {{"mode"},      {"scan_frame"}, {"control"}, {"work_offset"},  {"rounding_mm"},
+                         {"clearance"}, {"motions"},    {"notes"},   {"output", kFile}};
+constexpr Known kComparison[] = {
+    {"same_part"},          {"dx"}, {"dy"}, {"dtheta"}, {"dtheta_deg"}, {"largest_shift"}, {"last_clearance"},
+    {"last_pose_clearance"}};
+constexpr Known kDeviations[] = {{"path"}, {"sha256"}, {"points"}, {"least"}, {"greatest"}};
+constexpr Known kShift[] = {{"x"}, {"y"}};
+constexpr Known kLine[] = {{"from"}, {"to"}};
+constexpr Known kArc[] = {{"from"}, {"to"}, {"centre"}, {"ccw"}};
+constexpr Known kEdge[] = {{"line", kLine}, {"arc", kArc}, {"open"}};
+constexpr Known kPiece[] = {{"outer", kEdge}, {"holes", kEdge}};
+constexpr Known kRegion[] = {{"units"}, {"outer", kEdge}, {"holes", kEdge}, {"pieces", kPiece}};
+constexpr Known kRegions[] = {{"part", kRegion}, {"blank", kRegion}};
+constexpr Known kSlice[] = {{"height"}, {"thickness"}};
+constexpr Known kScan[] = {{"points"},         {"proved"},   {"ordered"}, {"guard"},      {"step"},
+                           {"median_spacing"}, {"widest"},   {"deepest"}, {"loss"},       {"assumptions"},
+                           {"unknown"},        {"dropped"},  {"units"},   {"min_radius"}, {"max_dip"},
+                           {"slice", kSlice},  {"left_out"}, {"outlines"}};
+constexpr Known kDrawing[] = {{"layers"}, {"join"}, {"set_aside"}};
+constexpr Known kDrawings[] = {{"part", kDrawing}, {"blank", kDrawing}};
+constexpr Known kTolerances[] = {{"part"}, {"blank"}};
+constexpr Known kFeatures[] = {{"name"},    {"edges"}, {"minimum"}, {"target"},
+                               {"maximum"}, {"scale"}, {"finished"}};
+constexpr Known kProof[] = {{"grown_for"}, {"most"}, {"shift"}, {"bound"}};
+constexpr Known kSmallest[] = {{"margin"}, {"found"}, {"bound"}, {"gap"}, {"kept"}, {"proof", kProof}};
+constexpr Known kTradeOff[] = {{"x"},        {"y"},      {"theta"},   {"theta_deg"},    {"clearance"},
+                               {"mirrored"}, {"margin"}, {"largest"}, {"largest_bound"}};
+constexpr Known kDemands[] = {
+    {"minimum"},      {"features", kFeatures},  {"criterion"},  {"give_up"}, {"margin"},
+    {"margin_bound"}, {"margin_found"},         {"margin_gap"}, {"largest"}, {"smallest_largest", kSmallest},
+    {"deviation"},    {"trade_off", kTradeOff}, {"grown_for"},  {"shift"},   {"bound"}};
+constexpr Known kPlacement[] = {{"format", kFormat},
+                                {"status"},
+                                {"units"},
+                                {"inputs", kInputs},
+                                {"warnings"},
+                                {"seed"},
+                                {"work"},
+                                {"version"},
+                                {"method"},
+                                {"x"},
+                                {"y"},
+                                {"theta"},
+                                {"theta_deg"},
+                                {"mirrored"},
+                                {"clearance"},
+                                {"upper_bound"},
+                                {"gap"},
+                                {"min_allowance"},
+                                {"shortfall"},
+                                {"window_deg"},
+                                {"contacts", kContacts},
+                                {"certificate", kCertificate},
+                                {"largest_certificate", kCertificate},
+                                {"certificate_file", kFile},
+                                {"alternatives", kAlternatives},
+                                {"alternatives_complete"},
+                                {"trim", kTrim},
+                                {"mirror"},
+                                {"locked", kShift},
+                                {"part_cut"},
+                                {"scan", kScan},
+                                {"drawings", kDrawings},
+                                {"demands", kDemands},
+                                {"tolerances", kTolerances},
+                                {"regions", kRegions},
+                                {"nc", kNc},
+                                {"comparison", kComparison},
+                                {"deviations", kDeviations},
+                                {"run"},
+                                // Of a certificate's file.
+                                {"intervals", kIntervals}};
+constexpr Known kOfReports[] = {{"regions", kRegion}, {"drawing", kDrawing}, {"scan", kScan}};
+
+void look(Json value, std::span<const Known> known, const std::string& path, std::string& complaint) {
+  if (!complaint.empty() || !(value.is_object() || value.is_array())) return;
+  JsonItems items(value);
+  if (value.is_array()) {
+    for (std::size_t i = 0; const auto item = items.next(); ++i)
+      look(*item, known, fmt::format("{}[{}]", path, i), complaint);
+    return;
+  }
+  std::set<std::string_view> seen;
+  while (const auto item = items.next()) {
+    const std::string name =
+        path.empty() ? excerpt(items.key()) : fmt::format("{}.{}", path, excerpt(items.key()));
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.name == items.key(); });
+    if (found == known.end())
+      complaint = fmt::format("field {} is not one of a placement", name);
+    else if (!seen.insert(found->name).second)
+      complaint = fmt::format("field {} is given twice", name);
+    else if (!found->members.empty())
+      look(*item, found->members, name, complaint);
+    if (!complaint.empty()) return;
+  }
+}
+
+}  // namespace
+
+void refuse_unknown_fields(Json placement, std::string& complaint) {
+  look(placement, kPlacement, "", complaint);
+}
+
+void refuse_unknown_fields(Json value, const std::string& key, std::string& complaint) {
+  for (const Known& one : kOfReports)
+    if (one.name == key) look(value, one.members, key, complaint);
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,141 @@
+"""Changes of a file that was written, one at a time.
+
+Of JSON: every number by its last place up and down, by its sign and by more, every text and truth, every member and
+item taken out, members given twice and members that are not known, neighbours of a list exchanged and lists turned
+round. Of a text of lines: every number by one in its last digit and by its sign, every word taken out, every line
+taken out, every two lines exchanged.
+"""
+
+import copy
+import json
+import math
+import re
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Change:
+    path: str  # "/inputs/0/sha256", or "line 7"
+    how: str
+    make: object = field(repr=False)  # gives the bytes of the file after the change
+    old: object = field(default=None, repr=False)
+
+    def text(self):
+        return self.make()
+
+
+def at_path(document, path):
+    for key in path.split("/")[1:]:
+        document = document[int(key)] if isinstance(document, list) else document[key]
+    return document
+
+
+def nodes(value, path=""):
+    yield path, value
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from nodes(inner, f"{path}/{key}")
+    elif isinstance(value, list):
+        for k, inner in enumerate(value):
+            yield from nodes(inner, f"{path}/{k}")
+
+
+def of_number(value, step):
+    yield "last place up", step(value, 1)
+    yield "last place down", step(value, -1)
+    yield "sign", -value if value else 1
+    yield "more", value + 0.5
+    yield "less", value - 0.5
+
+
+def next_double(value, way):
+    return math.nextafter(float(value), way * math.inf)
+
+
+def of_value(value, step):
+    if isinstance(value, bool):
+        yield "truth", not value
+    elif isinstance(value, (int, float)):
+        yield from of_number(value, step)
+    elif isinstance(value, str):
+        yield "text", value + "x"
+        yield "no text", ""
+    elif value is None:
+        yield "not null", 1
+    elif isinstance(value, list):
+        if len(value) > 1 and value != value[::-1]:
+            yield "turned round", value[::-1]
+        for k in range(len(value) - 1):
+            if value[k] != value[k + 1]:
+                yield f"exchanged {k}", value[:k] + [value[k + 1], value[k]] + value[k + 2:]
+
+
+TWICE = "given twice "
+
+
+def of_json(text, step=next_double):
+    """All changes of a JSON document. `step` gives the neighbour of a number of this document."""
+    tree = json.loads(text)
+
+    def with_change(path, change):
+        def make():
+            made = copy.deepcopy(tree)
+            *around, last = path.split("/")[1:]
+            parent = at_path(made, "".join("/" + key for key in around))
+            change(parent, int(last) if isinstance(parent, list) else last)
+            # A member of a dictionary cannot be there twice before it is text.
+            return json.dumps(made).replace('"' + TWICE, '"')
+        return make
+
+    def put(value):
+        return lambda parent, key: parent.__setitem__(key, value)
+
+    def take_out(parent, key):
+        del parent[key]
+
+    def give_twice(parent, key):
+        parent[TWICE + key] = parent[key]
+
+    for path, value in nodes(tree):
+        if path:
+            yield Change(path, "deleted", with_change(path, take_out), value)
+            if not isinstance(at_path(tree, path.rsplit("/", 1)[0]), list):
+                yield Change(path, "given twice", with_change(path, give_twice), value)
+            for how, changed in of_value(value, step):
+                yield Change(path, how, with_change(path, put(changed)), value)
+        if isinstance(value, dict):
+            member = f"{path}/not_known"
+            yield Change(member, "added", with_change(member, lambda parent, key: parent.__setitem__(key, 1)))
+
+
+NUMBER = re.compile(r"-?\d+(?:\.\d*)?|-?\.\d+")
+
+
+def of_text(text, skip=lambda line: False):
+    """All changes of a text of lines. Of lines that `skip` names only the whole is changed."""
+    lines = text.splitlines(keepends=True)
+    for number, line in enumerate(lines):
+        def changed(made, number=number):
+            return lambda: "".join(lines[:number] + made + lines[number + 1:])
+        path = f"line {number + 1}"
+        yield Change(path, "deleted", changed([]), line)
+        if number + 1 < len(lines) and line != lines[number + 1]:
+            other = lines[:number] + [lines[number + 1], line] + lines[number + 2:]
+            yield Change(path, "exchanged", lambda other=other: "".join(other), line)
+        if skip(line):
+            continue
+        for found in NUMBER.finditer(line):
+            begin, end = found.span()
+            last = end - 1 if line[end - 1] != "." else end - 2
+            digit = str(int(line[last]) + 1) if line[last] != "9" else "8"
+            word = line[:begin], line[begin:end], line[end:]
+            turned = word[1][1:] if word[1].startswith("-") else "-" + word[1]
+            yield Change(path, "last digit", changed([line[:last] + digit + line[last + 1:]]), line)
+            yield Change(path, "sign", changed([word[0] + turned + word[2]]), line)
+            if "." in word[1]:
+                more = f"{float(word[1]) + 0.05:.{len(word[1].split('.')[1])}f}"
+                yield Change(path, "a bit more", changed([word[0] + more + word[2]]), line)
+        for found in re.finditer(r"\S+", line):
+            left = line[:found.start()] + line[found.end():]
+            if left.strip():
+                yield Change(path, "word deleted", changed([left]), line)

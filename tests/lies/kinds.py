@@ -1,0 +1,163 @@
+"""The kinds of results, each made by the program itself from the examples."""
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+
+import changes
+import truth
+
+PLATE = '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">' \
+        '<g id="WALL"><path d="M0 0H60V40H0"/></g><g id="OPEN"><path d="M0 40V0"/></g>' \
+        '<g id="ISLAND"><circle cx="30" cy="20" r="6"/></g></svg>'
+TREE = {"units": "mm", "shape": {"difference": [
+    {"rectangle": {"corner": [0, 0], "size": [60, 40]}, "name": "frame"},
+    {"circle": {"centre": [30, 20], "radius": 6}, "name": "stud"}]}}
+POCKET = {"units": "mm", "outer": [
+    {"line": {"from": [0, 0], "to": [40, 0]}}, {"line": {"from": [40, 0], "to": [40, 24]}},
+    {"line": {"from": [40, 24], "to": [0, 24]}}, {"line": {"from": [0, 24], "to": [0, 0]}}]}
+SHEET = "steel 2 mm#1"
+
+
+@dataclass
+class Kind:
+    name: str
+    files: list  # copied, paths in the source tree
+    commands: list  # that make the result; the last may end with a file for its standard output
+    target: str  # the file that is changed
+    verify: list
+    oracle: object  # of (truth.Context); gives a function of a change: "information", "true" or None
+    written: dict = field(default_factory=dict)  # files written beforehand
+    inputs: list = field(default_factory=list)  # also changed, exchanged and taken away
+    base: int = 0  # exit status of verify on the untouched result
+    step: object = changes.next_double
+    form: str = "json"
+    report_of: str = ""  # the document whose digests follow the target, so that nothing but its meaning is amiss
+    skip: object = lambda line: False
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def all_changes(kind, text):
+    if kind.form == "json":
+        return list(changes.of_json(text, kind.step))
+    return list(changes.of_text(text, kind.skip))
+
+
+def kinds():
+    loc, reg = "examples/localisation/", "examples/regions/"
+    plate = [loc + "example-1-part.csv", loc + "example-1-blank.csv", loc + "part.nc"]
+    bracket = [reg + "bracket.json", reg + "casting.json", reg + "bracket-features.json", reg + "bracket.nc"]
+    flange = [reg + "flange.json", reg + "flange-scan.csv"]
+    convex = ["locate", "--part", "example-1-part.csv", "--blank", "example-1-blank.csv"]
+    region = ["locate", "--part", "bracket.json", "--blank", "casting.json", "--gap", "0.05"]
+    first = convex + ["-o", "first.json"]
+    full = convex + ["-o", "r.json", "--compare", "first.json", "--nc", "part.nc", "--nc-out", "o.nc",
+                     "--deviations", "d.csv", "--alternatives", "0.5"]
+    of_r = ["verify", "r.json"]
+    yield Kind("placement, convex", plate, [first, full], "r.json", of_r, truth.convex,
+               inputs=["example-1-part.csv", "example-1-blank.csv", "part.nc", "first.json", "o.nc", "d.csv"])
+    yield Kind("placement, convex, proof in a file", plate, [convex + ["-o", "r.json", "--certificate", "c.json"]],
+               "c.json", of_r, truth.convex_certificate, report_of="r.json", inputs=["r.json"])
+    for role in ("part", "blank"):
+        yield Kind(f"placement, convex, another {role}", plate, [convex + ["-o", "r.json"]],
+                   f"example-1-{role}.csv", of_r, truth.convex_input(role), form="text", report_of="r.json")
+    yield Kind("placement, convex, trimmed", [], [["locate", "--part", "part.csv", "--blank", "blank.csv", "--trim",
+                                                   "0.05", "-o", "r.json"]], "r.json", of_r, truth.convex,
+               written={"part.csv": "0 0\n80 0\n80 40\n0 40\n",
+                        "blank.csv": "100 100\n145 100.03\n190 100\n190 150\n100 150\n"},
+               inputs=["part.csv", "blank.csv"])
+    yield Kind("table of deviations", plate, [first, full], "d.csv", of_r, truth.deviations, form="text",
+               report_of="r.json")
+    yield Kind("placement, regions", bracket, [region + ["-o", "r.json", "--nc", "bracket.nc", "--nc-out", "o.nc"]],
+               "r.json", of_r, truth.regions, inputs=["bracket.json", "casting.json", "bracket.nc", "o.nc"])
+    yield Kind("placement, regions, window and mirror", bracket,
+               [region + ["-o", "r.json", "--window", "-10", "10", "--mirror", "either", "--min-allowance", "1"]],
+               "r.json", of_r, truth.regions, inputs=["bracket.json", "casting.json"])
+    for role, file in (("part", "bracket.json"), ("blank", "casting.json")):
+        yield Kind(f"placement, regions, another {role}", bracket, [region + ["-o", "r.json"]], file, of_r,
+                   truth.region_input, report_of="r.json")
+    yield Kind("placement, demands", bracket,
+               [region + ["-o", "r.json", "--features", "bracket-features.json"]], "r.json", of_r, truth.demands,
+               inputs=["bracket.json", "casting.json", "bracket-features.json"])
+    yield Kind("placement, demands, largest", bracket,
+               [region + ["-o", "r.json", "--features", "bracket-features.json", "--criterion", "largest",
+                          "--give-up", "0.1", "--trade-off", "2"]], "r.json", of_r, truth.demands,
+               inputs=["bracket-features.json"])
+    yield Kind("placement, demands, another features file", bracket,
+               [region + ["-o", "r.json", "--features", "bracket-features.json"]], "bracket-features.json", of_r,
+               truth.features_input, report_of="r.json")
+    yield Kind("placement, scan", flange,
+               [["locate", "--part", "flange.json", "--blank", "flange-scan.csv", "--uncertainty", "0.01",
+                 "--min-radius", "4", "--min-allowance", "1", "--gap", "0.2", "-o", "r.json"]], "r.json", of_r,
+               truth.regions, inputs=["flange.json", "flange-scan.csv"])
+    yield Kind("placement, drawing", bracket,
+               [region + ["--drawing", "placed.dxf"],
+                ["locate", "--part", "placed.dxf", "--part-layers", "PART", "--blank", "placed.dxf",
+                 "--blank-layers", "BLANK", "--window", "-2", "2", "--gap", "0.05", "-o", "r.json"]], "r.json",
+               of_r, truth.regions, inputs=["placed.dxf"])
+    yield Kind("program, rewritten", bracket,
+               [region + ["-o", "r.json", "--nc", "bracket.nc", "--nc-out", "o.nc"]], "o.nc", of_r,
+               truth.rewritten, form="text", report_of="r.json")
+    yield from of_layouts()
+    yield from of_pockets()
+
+
+def of_layouts():
+    frames = ["examples/orders/frames.json"]
+    nest = ["nest", "frames.json", "--work", "3000", "--threads", "1", "-o", "nested.json", "--json", ">report.json"]
+    step = lambda value, way: value + way * 2 ** -20
+    against = ["--layout", "nested.json"]
+    yield Kind("layout", frames, [nest], "nested.json", ["verify", "nested.json", "--layout", "frames.json"],
+               truth.layout, step=step, inputs=["frames.json"])
+    yield Kind("report of nest", frames, [nest], "report.json", ["verify", "report.json"], truth.nest_report,
+               inputs=["frames.json", "nested.json"])
+    yield Kind("report of check", frames, [nest, ["check", "nested.json", "--json", ">c.json"]], "c.json",
+               ["verify", "c.json"], truth.check_report, inputs=["nested.json"])
+    yield Kind("report of check, rules broken", frames,
+               [nest, truth.push_one, ["check", "nested.json", "--json", ">c.json"]], "c.json", ["verify", "c.json"],
+               truth.check_report, inputs=["nested.json"], base=1)
+    yield Kind("report of show", frames, [nest, ["show", "nested.json", "--json", ">s.json"]], "s.json",
+               ["verify", "s.json"], truth.check_report, inputs=["nested.json"], base=1)
+    for words in (["--process", "laser", "--pierce", "0.3"], ["--process", "router", "--depth", "4", "--pass", "3",
+                                                              "--plunge", "200", "--speed", "9000"]):
+        yield Kind("program, profile, " + words[1], frames,
+                   [nest, ["export", "nested.json", "--format", "gcode", "--kerf", "0.3", "--feed", "2000",
+                           "--lead-in", "2", "--sheet", SHEET, "-o", "cut.nc"] + words], "cut.nc",
+                   ["verify", "cut.nc", "--kerf", "0.3", "--sheet", SHEET] + against, truth.profile, form="text",
+                   inputs=["nested.json"])
+    for form in ("dxf", "svg", "hpgl"):
+        sheet = ["--sheet", SHEET] if form == "hpgl" else []
+        yield Kind("export, " + form.upper(), frames,
+                   [nest, ["export", "nested.json", "--format", form, "-o", "out"] + sheet], "out",
+                   ["verify", "out"] + against + sheet, truth.export(form), form="text", inputs=["nested.json"])
+
+
+def of_pockets():
+    cut = ["--tool", "10", "--depth", "2", "-o", "p.ngc", "--json", ">r.json"]
+    made = {"pocket.json": json.dumps(POCKET)}
+    plain = ["pocket", "pocket.json"] + cut
+    of_r = ["verify", "r.json"]
+    yield Kind("report of pocket", [], [plain], "r.json", of_r, truth.pocket_report, written=made,
+               inputs=["pocket.json", "p.ngc"])
+    yield Kind("report of pocket, after another tool", ["tests/corpus/pockets/L.json"],
+               [["pocket", "L.json", "--tool", "20", "--depth", "2", "-o", "rough.ngc"],
+                ["pocket", "L.json", "--tool", "8", "--depth", "2", "--after", "rough.ngc:20", "-o", "p.ngc", "--json",
+                 ">r.json"]], "r.json", of_r, truth.pocket_report, inputs=["L.json", "p.ngc", "rough.ngc"])
+    yield Kind("report of pocket, from a tree", [], [["pocket", "tree.json"] + cut], "r.json", of_r,
+               truth.pocket_report, written={"tree.json": json.dumps(TREE)}, inputs=["tree.json"])
+    yield Kind("report of pocket, from a drawing", [],
+               [["pocket", "p.svg", "--island-layer", "ISLAND", "--open-layer", "OPEN"] + cut], "r.json", of_r,
+               truth.pocket_report, written={"p.svg": PLATE}, inputs=["p.svg"])
+    yield Kind("report of pocket, another tree", [], [["pocket", "tree.json"] + cut], "tree.json", of_r,
+               truth.tree_input, written={"tree.json": json.dumps(TREE)}, report_of="r.json")
+    yield Kind("report of simulate", [], [plain, ["simulate", "p.ngc", "--pocket", "pocket.json", "--tool", "10",
+                                                  "--json", ">s.json"]], "s.json", ["verify", "s.json"],
+               truth.pocket_report, written=made, inputs=["pocket.json", "p.ngc"])
+    yield Kind("program, pocket, in its report", [], [plain], "p.ngc", of_r, truth.pocket_program, written=made,
+               form="text", report_of="r.json")
+    yield Kind("program, pocket, alone", [], [plain], "p.ngc",
+               ["verify", "p.ngc", "--pocket", "pocket.json", "--tool", "10"], truth.pocket_program_alone,
+               written=made, form="text", inputs=["pocket.json"])
