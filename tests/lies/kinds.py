@@ -60,7 +60,7 @@ def kinds():
     yield Kind("placement, convex", plate, [first, full], "r.json", of_r, truth.convex,
                inputs=["example-1-part.csv", "example-1-blank.csv", "part.nc", "first.json", "o.nc", "d.csv"])
     yield Kind("placement, convex, proof in a file", plate, [convex + ["-o", "r.json", "--certificate", "c.json"]],
-               "c.json", of_r, truth.convex_certificate, report_of="r.json", inputs=["r.json"])
+               "c.json", of_r, truth.convex_certificate, report_of="r.json")
     for role in ("part", "blank"):
         yield Kind(f"placement, convex, another {role}", plate, [convex + ["-o", "r.json"]],
                    f"example-1-{role}.csv", of_r, truth.convex_input(role), form="text", report_of="r.json")
@@ -111,7 +111,7 @@ def of_layouts():
     step = lambda value, way: value + way * 2 ** -20
     against = ["--layout", "nested.json"]
     yield Kind("layout", frames, [nest], "nested.json", ["verify", "nested.json", "--layout", "frames.json"],
-               truth.layout, step=step, inputs=["frames.json"])
+               truth.layout, step=step)
     yield Kind("report of nest", frames, [nest], "report.json", ["verify", "report.json"], truth.nest_report,
                inputs=["frames.json", "nested.json"])
     yield Kind("report of check", frames, [nest, ["check", "nested.json", "--json", ">c.json"]], "c.json",
@@ -126,13 +126,12 @@ def of_layouts():
         yield Kind("program, profile, " + words[1], frames,
                    [nest, ["export", "nested.json", "--format", "gcode", "--kerf", "0.3", "--feed", "2000",
                            "--lead-in", "2", "--sheet", SHEET, "-o", "cut.nc"] + words], "cut.nc",
-                   ["verify", "cut.nc", "--kerf", "0.3", "--sheet", SHEET] + against, truth.profile, form="text",
-                   inputs=["nested.json"])
+                   ["verify", "cut.nc", "--kerf", "0.3", "--sheet", SHEET] + against, truth.profile, form="text")
     for form in ("dxf", "svg", "hpgl"):
         sheet = ["--sheet", SHEET] if form == "hpgl" else []
         yield Kind("export, " + form.upper(), frames,
                    [nest, ["export", "nested.json", "--format", form, "-o", "out"] + sheet], "out",
-                   ["verify", "out"] + against + sheet, truth.export(form), form="text", inputs=["nested.json"])
+                   ["verify", "out"] + against + sheet, truth.export(form), form="text")
 
 
 def of_pockets():
@@ -158,6 +157,3 @@ def of_pockets():
                truth.pocket_report, written=made, inputs=["pocket.json", "p.ngc"])
     yield Kind("program, pocket, in its report", [], [plain], "p.ngc", of_r, truth.pocket_program, written=made,
                form="text", report_of="r.json")
-    yield Kind("program, pocket, alone", [], [plain], "p.ngc",
-               ["verify", "p.ngc", "--pocket", "pocket.json", "--tool", "10"], truth.pocket_program_alone,
-               written=made, form="text", inputs=["pocket.json"])

@@ -168,7 +168,7 @@ class Cover:
 
     def __init__(self, part, blank, pivot):
         self.part, self.blank, self.pivot = part, blank, tuple(map(float, pivot))
-        self.known_balls = {}
+        self.known_depths = {}
 
     def leaves(self, tree):
         """Every leaf with its box, or None where the nodes do not make up a subdivision."""
@@ -187,25 +187,23 @@ class Cover:
             boxes += [tuple(high), tuple(low)]
         return None if boxes else made
 
-    def ball_holds(self, ball, edges, sign):
-        """A ball lies in the material of the part, or in none of the blank's."""
-        key = (*ball, sign)
-        if key not in self.known_balls:
-            x, y, r = map(number, ball)
-            self.known_balls[key] = sign * depth((x, y), edges) >= r
-        return self.known_balls[key]
+    def radius(self, x, y, r, edges, sign):
+        """As much of a ball as lies in the material of the part, or in none of the blank's."""
+        key = (x, y, sign)
+        if key not in self.known_depths:
+            self.known_depths[key] = float(sign * depth((number(x), number(y)), edges))
+        return min(r, self.known_depths[key])
 
     def proves(self, contacts, box, mirrored, bound):
         """No pose of the box has more clearance than `bound`, by the balls of a leaf."""
         whole = sum(c[6] for c in contacts)
         if whole <= 0 or any(c[6] < 0 or c[2] < 0 or c[5] < 0 for c in contacts):
             return False
-        for a, b, r, c, d, s, _ in contacts:
-            if not (self.ball_holds((a, b, r), self.part, 1) and self.ball_holds((c, d, s), self.blank, -1)):
-                return False
+        contacts = [(a, b, self.radius(a, b, r, self.part, 1), c, d, self.radius(c, d, s, self.blank, -1), m)
+                    for a, b, r, c, d, s, m in contacts if m > 0]
         if any(-c[5] > bound for c in contacts):
             return False
-        terms = [((-1 if mirrored else 1) * (a - self.pivot[0] * 1), b - self.pivot[1], r + s, c, d, m / whole)
+        terms = [((-1 if mirrored else 1) * (a - self.pivot[0]), b - self.pivot[1], r + s, c, d, m / whole)
                  for a, b, r, c, d, s, m in contacts]
         slope = sum(m * math.hypot(u, v) for u, v, *_, m in terms)
 

@@ -8,8 +8,9 @@ true after it, else None.
 import csv
 import io
 import json
-import math
 import re
+import subprocess
+import tempfile
 
 import changes
 import exact
@@ -23,10 +24,18 @@ class Context:
 
     def __init__(self, folder, kind, text):
         self.kind, self.text = kind, text
+        self.lekalo = folder.lekalo
         self.files = {path.name: folder.read(path.name) for path in folder.path.iterdir() if path.is_file()}
 
     def json(self, name):
         return json.loads(self.files[name])
+
+    def runs(self, text, words):
+        """Another command takes the changed file with exit status 0."""
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(text)
+            file.flush()
+            return subprocess.run([self.lekalo] + words + [file.name], capture_output=True).returncode == 0
 
 
 def matches(rules, path):
@@ -250,13 +259,16 @@ def convex_input(role):
 
 
 def moved_holds(document, files):
-    """The rounding that a program claims is one that it keeps."""
-    nc = document["nc"]
-    return nc is None or program_holds(files["o.nc"], files[input_named(document, "nc")], document)
-
-
-def input_named(document, role):
-    return next(entry["path"] for entry in document["inputs"] if entry["role"] == role)
+    """A program is the original moved by the pose before: of what is said of it only the bounds may be looser, and
+    the pose is off by less than the rounding does not use."""
+    before = json.loads(files["r.json"])
+    nc, last = document["nc"], before["nc"]
+    if nc is None:
+        return last is None
+    if any(abs(document[k] - before[k]) > 1e-12 for k in ("x", "y", "theta")):
+        return False
+    return nc["rounding_mm"] >= last["rounding_mm"] and all(
+        nc[k] == last[k] for k in last if k not in ("rounding_mm", "clearance", "motions", "notes", "scan_frame"))
 
 
 class Regions:
@@ -281,8 +293,9 @@ class Regions:
         return document["upper_bound"] - sum(document["tolerances"].values())
 
     def key(self, contacts, box, tree, document):
-        return json.dumps([contacts, box, tree["mirrored"], document["certificate"]["pivot"],
-                           document["regions"], self.bound(document)])
+        same = document["regions"] is self.before["regions"] or document["regions"] == self.before["regions"]
+        return json.dumps([contacts, box, tree["mirrored"], document["certificate"]["pivot"], same,
+                           self.bound(document)])
 
     @staticmethod
     def covers(document, edges):
@@ -346,7 +359,8 @@ class Regions:
                     return False
         return True
 
-    def contacts_hold(self, document, edges):
+    @staticmethod
+    def contacts_hold(document, edges):
         motion = shapes.Motion(document["x"], document["y"], document["theta"], document["mirrored"])
         slack = D("1e-6") * max(1, *shapes.box_of(edges["blank"]))
         for contact in document["contacts"]:
@@ -418,20 +432,22 @@ def regions(context):
 
 
 def region_input(context):
-    """Another part or blank: its numbers are those of the regions used, whatever stands beside."""
+    """Another part or blank: its numbers are those of the regions used, within the tolerance of the result."""
     before = json.loads(context.text)
+    document = context.json("r.json")
+    slack = min(document["tolerances"].values()) / 4
 
     def holds(change):
         after = document_of(change)
         if after is None:
             return None
-        kept = [{k: d[k] for k in ("units", "outer", "holes", "pieces") if k in d} for d in (before, after)]
-        if kept[0] == kept[1]:
+        # A word that no region has says nothing of its outline.
+        if change.how == "added" or change.path in ("/name", "/source"):
             return True
-        one, other = map(list, map(changes.nodes, kept))
-        # A full circle runs either way, and what a double does not tell apart is read as the same.
+        one, other = map(list, map(changes.nodes, (before, after)))
         return [p for p, _ in one] == [p for p, _ in other] and all(
-            a == b or p.endswith("/ccw") and circle(before, p) for (p, a), (_, b) in zip(one, other)
+            a == b or (is_number(a) and is_number(b) and abs(a - b) <= slack) or
+            p.endswith("/ccw") and circle(before, p) for (p, a), (_, b) in zip(one, other)
             if not isinstance(a, (dict, list))) or None
     return holds
 
@@ -444,27 +460,21 @@ def circle(document, path):
 NC_NUMBER = re.compile(r"([A-Z])(-?[\d.]+)")
 
 
-def program_holds(text, original, document):
-    """Word by word the program is the original: places of motions moved, within its rounding, and all else the same.
-
-    Only what these programs have is read: absolute places, arcs by I and J, one plane.
-    """
-    return text == original
-
-
 def rewritten(context):
-    before = [line for line in context.text.splitlines()]
+    """The words are the same, and only comments are others; or one place of a motion has moved by less than what the
+    rounding of its decimals leaves of the rounding that is claimed."""
+    before = words_of_program(context.text)
+    document = context.json("r.json")
+    room = document["nc"]["rounding_mm"] - 0.71e-5
+
+    def same(a, b):
+        return a == b or (isinstance(a, tuple) and isinstance(b, tuple) and a[0] == b[0] and a[0] in "XYIJ" and
+                          abs(a[1] - b[1]) <= room)
 
     def holds(change):
-        # Comments and blanks are no words; a number written with other digits is the same number.
-        def meaning(text):
-            made = []
-            for line in text.splitlines():
-                line = re.sub(r"\([^)]*\)", "", line).split(";")[0]
-                words = [(k, float(v)) for k, v in NC_NUMBER.findall(line.upper())]
-                made.append(words or line.strip())
-            return [line for line in made if line]
-        return meaning(change.text()) == meaning("\n".join(before)) or None
+        after = words_of_program(change.text())
+        return len(before) == len(after) and all(
+            len(one) == len(other) and all(map(same, one, other)) for one, other in zip(before, after)) or None
     return holds
 
 
@@ -472,16 +482,209 @@ def nothing(context):
     return lambda change: None
 
 
-def placements(context):
-    return lambda change: "information" if matches(OF_PLACEMENTS, change.path) else None
+def derived_pose(document):
+    return all(pose_is_allowed(document, pose) for pose in [document] + document["demands"]["trade_off"])
 
 
-demands = placements
-features_input = tree_input = nothing
-layout = nest_report = check_report = pocket_report = nothing
+def keeps_margins(document):
+    """At every placement each edge that is not finished has its minimum, and the margin times its scale."""
+    edges, said = Regions.edges_in(document), document["demands"]
+    less = sum(map(number, document["tolerances"].values()))
+    rules = {k: feature for feature in said["features"] for k in feature["edges"]}
+    for pose, margin, largest in [(document, said["margin"], said["largest"])] + [
+            (point, point["margin"], point["largest"]) for point in said["trade_off"]]:
+        motion = shapes.Motion(pose["x"], pose["y"], pose["theta"], pose["mirrored"])
+        for k, edge in enumerate(edges["part"]):
+            rule = rules.get(k, {"minimum": said["minimum"], "scale": 1, "finished": False, "maximum": None})
+            if rule["finished"]:
+                continue
+            allowance = shapes.distance([edge.moved(motion)], edges["blank"])
+            if (allowance - less - number(max(rule["minimum"], said["minimum"]))) / number(rule["scale"]) < \
+                    number(margin):
+                return False
+        if number(pose["clearance"]) > shapes.distance([e.moved(motion) for e in edges["part"]], edges["blank"]) - less:
+            return False
+    return True
+
+
+def demands(context):
+    """Of demands only the bounds that may be looser are decided here."""
+    before = json.loads(context.text)
+
+    def holds(change):
+        if matches(OF_PLACEMENTS + [r"/contacts/\d+/multiplier$"], change.path):
+            return "information"
+        after = document_of(change)
+        if after is None or not same_form(before, after):
+            return None
+        if "/certificate/" in change.path or "/largest_certificate/" in change.path:
+            return None
+        if re.match(r"/contacts/\d+/(part_at|blank_at|distance)", change.path):
+            return Regions.contacts_hold(after, Regions.edges_in(after)) or None
+        if change.how.startswith("last place") and re.search(r"/(x|y|theta)$", change.path):
+            return (derived_pose(after) and keeps_margins(after)) or None
+        # Not more than was found, and not less than was proved.
+        way = {"/clearance": -1, "/demands/margin_bound": 1, "/demands/largest": 1, "/demands/margin": -1,
+               "/demands/smallest_largest/kept": 1, "/demands/smallest_largest/bound": -1,
+               "/demands/smallest_largest/found": 1}.get(change.path)
+        if way is None:
+            return None
+        value = changes.at_path(after, change.path)
+        return way * (value - change.old) >= 0 or abs(value - change.old) <= 1e-15 * abs(change.old) or None
+    return holds
+
+
+def features_input(context):
+    return nothing(context)
+
+
+tree_input = nothing
+OF_REPORTS = [r"/(version|seed|work|run|warnings|checked_by|merges)(/.*)?$", r"/unplaced/\d+/reason$",
+              r"/inputs/\d+/path$", r"/outputs/\d+/path$"]
+
+
+def of_report(holds):
+    """An oracle of a report whose claims are numbers that are compared as they are."""
+    def oracle(context):
+        before = json.loads(context.text)
+
+        def answer(change):
+            if matches(OF_REPORTS, change.path):
+                return "information"
+            after = document_of(change)
+            return after is not None and holds(change, before, after) or None
+        return answer
+    return oracle
+
+
+def nest_holds(change, before, after):
+    """A density within 1e-12, and a smaller rectangle in what is free."""
+    if change.path.endswith("/density"):
+        return same_form(before, after) and abs(changes.at_path(after, change.path) - change.old) <= 1e-12
+    found = re.match(r"(/stocks/\d+/remnant)(/|$)", change.path)
+    if not found or not same_form(before, after):
+        return False
+    one, other = (changes.at_path(d, found[1]) for d in (before, after))
+    return one[0] <= other[0] < other[2] <= one[2] and one[1] <= other[1] < other[3] <= one[3]
+
+
+def pocket_holds(change, before, after):
+    """A looser tolerance; the last place of an option is within the rounding of every figure made with it."""
+    path = change.path
+    if path == "/tolerance_mm":
+        return is_number(after.get("tolerance_mm")) and after["tolerance_mm"] >= before["tolerance_mm"]
+    if path == "/drawing/join":
+        return same_form(before, after) and after["drawing"]["join"] >= before["drawing"]["join"]
+    if path == "/regions/holes" and change.how == "deleted":
+        return before["regions"]["holes"] == []
+    if path.endswith("/ccw"):
+        return circle(before, path)
+    if change.how.startswith("last place"):
+        return matches([r"/(tool_mm|stock_to_leave_mm|step_over|top_mm|acceleration_mm_per_s2|rapid_mm_per_min|depth_mm|"
+                        r"floor_stock_mm)$", r"/regions/", r"/inputs/\d+/tool_mm$"], path)
+    return False
+
+
+nest_report, pocket_report = of_report(nest_holds), of_report(pocket_holds)
+check_report = of_report(lambda change, before, after: False)
+
+
+def layout(context):
+    """Names are for people; a placement may lie as it likes while the engine, which shares nothing with the checker,
+    finds no rule broken."""
+    before = json.loads(context.text)
+
+    def answer(change):
+        if change.path.endswith("/name") or change.path == "/next_id":
+            return "information"
+        after = document_of(change)
+        if after is None or dict(before, placements=0) != dict(after, placements=0):
+            return None
+        return context.runs(change.text(), ["check"]) or None
+    return answer
+
+
+def words_of_program(text):
+    made = []
+    for line in text.splitlines():
+        words = re.sub(r"\([^)]*\)", "", line).split(";")[0].split()
+        if words:
+            made.append([(word[0], float(word[1:])) if NC_NUMBER.fullmatch(word) else word for word in words])
+    return made
+
+
+def pocket_program(context):
+    """The words are the same, and only comments are others."""
+    before = words_of_program(context.text)
+    return lambda change: words_of_program(change.text()) == before or None
+
+
 profile = profile_of.oracle
-pocket_program = pocket_program_alone = nothing
+
+
+def without(text, begin, end):
+    return re.sub(re.escape(begin) + r".*?" + re.escape(end), "", text, flags=re.DOTALL)
+
+
+def claims_of_dxf(text):
+    """Unit, layers that are off, and the layers and places of entities that are no texts."""
+    claims, entity, section, variable = [], "", "", ""
+    lines = text.splitlines()
+    for code, value in zip(lines[::2], lines[1::2]):
+        group = int(code)
+        if group == 0:
+            entity = value
+            if value in ("SECTION", "ENDSEC"):
+                section = ""
+        if entity == "SECTION" and group == 2:
+            section = value
+        if group == 9:
+            variable = value
+        if section == "HEADER" and variable == "$INSUNITS" and group == 70:
+            claims.append(value)
+        if section == "TABLES" and entity == "LAYER" and group in (70, 62):
+            claims.append(value if group == 70 else "off" if value.startswith("-") else "")
+        if section == "ENTITIES" and entity != "TEXT" and group in (0, 8, 10, 20, 30, 11, 21, 31, 40, 42, 70, 90):
+            claims += [code.strip(), value.strip()]
+    return " ".join(claims)
+
+
+def claims_of(form, text):
+    if form == "dxf":
+        return claims_of_dxf(text)
+    if form == "hpgl":
+        return without(without(without(text, "LB", "\x03;"), "SI", ";"), "LO", ";")
+    text = without(text, "<text", "</text>")
+    for name in ("stroke", "stroke-width", "fill", "xmlns", "xmlns:inkscape", "version"):
+        text = without(text, f' {name}="', '"')
+    return without(text, "<?", "?>")
+
+
+def tokens_of(text):
+    return re.findall(r"-?(?:\d+\.?\d*|\.\d+)(?:e-?\d+)?|[^\s\d]", text)
+
+
+def same_tokens(one, other, within):
+    def same(a, b):
+        try:
+            return abs(float(a) - float(b)) <= within
+        except ValueError:
+            return a == b
+    return len(one) == len(other) and all(map(same, one, other))
 
 
 def export(form):
-    return nothing
+    """What is claimed is the same, to a millionth or two."""
+    def oracle(context):
+        before = tokens_of(claims_of(form, context.text))
+
+        def answer(change):
+            try:
+                after = tokens_of(claims_of(form, change.text()))
+            except ValueError:
+                return None
+            if same_tokens(before, after, 0):
+                return "information"
+            return same_tokens(before, after, 2e-6) or None
+        return answer
+    return oracle
