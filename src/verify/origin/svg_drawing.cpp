@@ -475,7 +475,7 @@ class SvgReader {
     draw_round(map * axes, {{just(0), just(0)}, over, just(1), exact}, said);
   }
 
-  /// What is left of the square of the diameter above that of the chord, in the latter; 0 where that is so
+  /// Returns the square of the diameter less that of the chord, in the latter; 0 where they are the same
   /// exactly.
   static Span room_over(const Fraction& dx, const Fraction& dy, const Fraction& radius) {
     const Fraction square = dx * dx + dy * dy;
@@ -495,7 +495,7 @@ class SvgReader {
       arc.centre = (round.from + round.to) * just(0.5), arc.radius = verify::length(chord) * just(0.5),
       arc.sweep = Sweep::half;
     } else {
-      // Where the decimals hardly reach half a turn the centre hangs on their rounding.
+      // The centre hangs on the rounding of decimals that hardly reach half a turn.
       if (round.room.low < 1e-6) return not_read("arcs of nearly half a turn in paths");
       const Span up = square_root(round.room) * just(0.5);
       // With y down a sweep runs clockwise as it is seen, which is counter-clockwise in these numbers.

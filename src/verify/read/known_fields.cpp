@@ -100,7 +100,7 @@ constexpr Known kPlacement[] = {{"format", kFormat},
                                 {"comparison", kComparison},
                                 {"deviations", kDeviations},
                                 {"run"},
-                                // Of a certificate's file.
+                                // A file of a certificate has these.
                                 {"intervals", kIntervals}};
 constexpr Known kOfReports[] = {{"regions", kRegion}, {"drawing", kDrawing}, {"scan", kScan}};
 
