@@ -147,6 +147,7 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
       {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
   for (const auto& [file, to] : {std::pair{&job.features, &inputs.features},
                                  {&job.program, &inputs.program},
+                                 {&job.allow, &inputs.allow},
                                  {&job.earlier, &inputs.earlier}})
     if (*file) *to = verify::Document{(*file)->name, (*file)->bytes};
   if (!made.program.empty()) inputs.written_program = verify::Document{job.outputs.program, made.program};

@@ -36,8 +36,10 @@ class Evidence {
   [[nodiscard]] Result<Verified> judged() const {
     verify::LocateInputs inputs{document(result_), document(*input("part")), document(*input("blank")), {}};
     if (certificate_) inputs.certificate = document(*certificate_);
-    for (const auto& [role, to] :
-         {std::pair{"features", &inputs.features}, {"nc", &inputs.program}, {"last-result", &inputs.earlier}})
+    for (const auto& [role, to] : {std::pair{"features", &inputs.features},
+                                   {"nc", &inputs.program},
+                                   {"allow", &inputs.allow},
+                                   {"last-result", &inputs.earlier}})
       if (const File* const file = input(role)) *to = document(*file);
     if (program_) inputs.written_program = document(*program_);
     if (deviations_) inputs.deviations = document(*deviations_);

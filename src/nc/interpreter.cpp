@@ -21,7 +21,10 @@ Fault Interpreter::run_block(std::size_t index) {
 
   BlockWords words;
   if (Fault fault = collect(block, control_, options_.allowed_m, words)) return fault;
-  if (block.block_delete) return check_skippable(block);
+  if (block.block_delete) {
+    if (Fault fault = check_skippable(block)) return fault;
+    return check_takers(words, control_, nullptr);
+  }
   if (Fault fault = check_program_number(block, words)) return fault;
   any_words_ = true;
   note_first_axis_block(words);

@@ -118,8 +118,9 @@ Motion Interpreter::begin_motion(const BlockWords& words, MotionKind kind) const
   motion.start = motion.end = modal_.position;
   motion.x = words['X'];
   motion.y = words['Y'];
-  motion.i = words['I'];
-  motion.j = words['J'];
+  const bool turns = kind == MotionKind::arc_by_centre || kind == MotionKind::arc_by_radius;
+  motion.i = turns ? words['I'] : nullptr;
+  motion.j = turns ? words['J'] : nullptr;
   return motion;
 }
 
@@ -252,7 +253,7 @@ Fault Interpreter::drill(const BlockWords& words) {
 
 Fault Interpreter::read_repeats(const BlockWords& words, Motion& motion, bool& drills) const {
   for (const char letter : {'L', 'K'}) {
-    if (words[letter] == nullptr) continue;
+    if (words[letter] == nullptr || (letter == 'K' && control_ == Control::haas)) continue;
     const std::int64_t least = control_ == Control::linuxcnc ? 1 : 0;
     const auto repeats = words[letter]->value.whole();
     if (letter == 'K' && control_ == Control::linuxcnc)

@@ -193,8 +193,7 @@ tl::unexpected<Error> refusal(const std::string& name, std::size_t line, const s
   return failure(ErrorCode::program_refused, fmt::format("{}:{}: {}", name, line, reason));
 }
 
-Result<Program> parse_program(std::string_view text, const std::string& name,
-                              const std::vector<std::size_t>& lines) {
+Program parse_program(std::string_view text, const std::vector<std::size_t>& lines) {
   Program program;
   bool seen_words = false;
   int marks = 0;
@@ -210,8 +209,9 @@ Result<Program> parse_program(std::string_view text, const std::string& name,
     block.end = newline > begin && ends && text[newline - 1] == '\r' ? newline - 1 : newline;
     if (ends && program.line_end.empty()) program.line_end = text.substr(block.end, newline + 1 - block.end);
 
-    if (Fault fault = LineReader(text, block).read()) return refusal(name, block.line, *fault);
-    if (Fault fault = tape_mark_fault(block, seen_words, marks)) return refusal(name, block.line, *fault);
+    Fault fault = LineReader(text, block).read();
+    if (!fault) fault = tape_mark_fault(block, seen_words, marks);
+    if (fault) program.faults.push_back({block.line, *std::move(fault)});
     program.blocks.push_back(std::move(block));
     begin = newline + 1;
   }

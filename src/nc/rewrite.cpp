@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "foreign.hpp"
@@ -18,6 +19,8 @@ namespace lekalo::nc {
 namespace {
 
 constexpr double kLargestShift = 1e6;  // mm
+/// Editors put it before a text in UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// Computed numbers are written with twelve decimals; a hundred thousand steps add up to less.
 constexpr double kComputed = 1e-5;  // mm
 
@@ -76,16 +79,57 @@ struct Reading {
   Interpretation interpretation;
 };
 
-/// Steps 2 and 3: takes a text apart and follows it.
-Result<Reading> read(std::string_view text, const std::string& name, const std::vector<std::size_t>& lines,
-                     const RewriteOptions& options, std::optional<words::Control>& control) {
-  Reading reading{text, {}, {}};
-  LEKALO_TRY(reading.program, parse_program(text, name, lines));
-  if (!control) control = guess_control(reading.program, options.allowed_m);
-  const auto refused = refused_words(reading.program, *control, options.allowed_m);
-  if (!refused.empty()) return refusal(name, refused.front().line, sentence_of(refused));
-  LEKALO_TRY(reading.interpretation, interpret(reading.program, name, options, *control));
+/// Step 3.
+Result<Reading> follow(std::string_view text, Program program, const std::string& name,
+                       const RewriteOptions& options, words::Control control) {
+  Reading reading{text, std::move(program), {}};
+  std::vector<LineFault> faults = reading.program.faults;
+  std::ranges::move(refused_words(reading.program, control, options.allowed_m), std::back_inserter(faults));
+  if (!faults.empty()) return refusal_of_all(name, std::move(faults));
+  LEKALO_TRY(reading.interpretation, interpret(reading.program, name, options, control));
   return reading;
+}
+
+/// Refuses a program that could not be unfolded, and names the unknown words of its other lines too.
+tl::unexpected<Error> refuse_folded(std::string_view text, const std::string& name, LineFault fault,
+                                    const RewriteOptions& options) {
+  Program program = parse_program(text);
+  const auto folded = [&](std::size_t line) {
+    const Block& block = program.blocks[line - 1];
+    return line == fault.line || is_folded_line(text.substr(block.begin, block.end - block.begin));
+  };
+  const words::Control control = options.control.value_or(guess_control(program, options.allowed_m, ~0U));
+  std::vector<LineFault> faults = program.faults;
+  std::ranges::move(refused_words(program, control, options.allowed_m), std::back_inserter(faults));
+  std::erase_if(faults, [&](const LineFault& each) { return folded(each.line); });
+  faults.push_back(std::move(fault));
+  return refusal_of_all(name, std::move(faults));
+}
+
+/// The control that was named, or the one in whose language the program most likely is.
+Result<words::Control> control_of(const Unfolded& unfolded, const Program& program, const std::string& name,
+                                  const RewriteOptions& options) {
+  const auto others = [](const FlowUse& use) {
+    std::string list;
+    for (const words::Control each :
+         {words::Control::linuxcnc, words::Control::haas, words::Control::fanuc, words::Control::grbl})
+      if (knows(*use.word, each)) list += fmt::format("{}{}", list.empty() ? "" : "|", word_of(each));
+    return list;
+  };
+  unsigned controls = ~0U;
+  for (const FlowUse& use : unfolded.uses) {
+    if (options.control && !knows(*use.word, *options.control))
+      return refusal(name, use.line,
+                     fmt::format("{} is no word of {} controls; --control {} has it", use.word->name,
+                                 words::name_of(*options.control), others(use)));
+    controls &= use.word->controls;
+    if (controls == 0)
+      return refusal(name, use.line,
+                     fmt::format("{} is a word of {} controls alone, and line {} has one of others",
+                                 use.word->name, others(use), unfolded.uses.front().line));
+  }
+  if (options.control) return *options.control;
+  return guess_control(program, options.allowed_m, controls);
 }
 
 /// An arc outside the XY plane stays an arc where nothing turns and its centre counts from its start.
@@ -104,29 +148,39 @@ Result<Rewritten> rewrite_program(std::string_view text, const std::string& name
                                   double theta, const RewriteOptions& options) {
   // The steps of docs/design/nc-rewrite.md.
   LEKALO_CHECK(check_request(name, x, y, theta, options));  // 1
+  const bool marked = text.starts_with(kByteOrderMark);
+  if (marked) text.remove_prefix(kByteOrderMark.size());
   if (const auto foreign = foreign_program(text))
     return refusal(
         name, foreign->line,
         fmt::format("{} is a word of {} controls, whose language is not rewritten; let the CAM system "
                     "write the program for LinuxCNC, Haas, Fanuc or GRBL",
                     foreign->word, foreign->control));
-  std::optional<words::Control> control = options.control;
-  LEKALO_TRY(const Unfolded unfolded, unfold(text, name));                                   // 2
-  LEKALO_TRY(Reading reading, read(unfolded.text, name, unfolded.lines, options, control));  // 2 and 3
+  auto written_out = unfold(text);  // 2
+  if (!written_out) return refuse_folded(text, name, std::move(written_out.error()), options);
+  const Unfolded& unfolded = *written_out;
+  Program program = parse_program(unfolded.text, unfolded.lines);
+  LEKALO_TRY(const words::Control control, control_of(unfolded, program, name, options));
+  LEKALO_TRY(Reading reading, follow(unfolded.text, std::move(program), name, options, control));  // 3
   const RigidMotion machine_from_part(x, y, theta);
   Straightened chords;
   if (must_straighten(reading.interpretation, machine_from_part, options)) {  // 4
     LEKALO_TRY(chords, straighten(unfolded.text, name, reading.program, reading.interpretation,
                                   options.chord_tolerance));
-    LEKALO_TRY(reading, read(chords.text, name, chords.lines, options, control));
+    LEKALO_TRY(reading,
+               follow(chords.text, parse_program(chords.text, chords.lines), name, options, control));
   }
   const RewriteJob job{reading.text,      name,  reading.program, reading.interpretation,
-                       machine_from_part, theta, options,         *control};
+                       machine_from_part, theta, options,         control};
   LEKALO_TRY(Rewritten result, run_mode(job));  // 5
   // 6. What the mode has to say comes first.
   const std::vector<std::string>& notes = reading.interpretation.notes;
   result.notes.insert(result.notes.end(), notes.begin(), notes.end());
-  result.control = *control;
+  result.notes.insert(result.notes.end(), unfolded.notes.begin(), unfolded.notes.end());
+  result.control = control;
+  if (marked)
+    result.notes.emplace_back(
+        "the byte order mark at its beginning, which controls stumble over, is left out");
   if (unfolded.computed > 0) result.rounding_mm += kComputed;
   result.rounding_mm =
       chords.arcs > 0 ? rounded_up(result.rounding_mm + chords.chord_mm) : result.rounding_mm;
@@ -143,7 +197,7 @@ Result<Rewritten> rewrite_program(std::string_view text, const std::string& name
                     unfolded.computed));
   if (!options.control)
     result.notes.push_back(
-        fmt::format("read as a program for {} controls; --control names another", words::name_of(*control)));
+        fmt::format("read as a program for {} controls; --control names another", words::name_of(control)));
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "expression.hpp"
 #include "lekalo/base/double_of_text.hpp"
+#include "lekalo/base/nc_names.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/nc/program.hpp"
 
@@ -91,8 +92,26 @@ bool has_m(std::string_view code, std::string_view number) {
   return false;
 }
 
+/// The number or name behind O.
+std::string name_of(std::string_view code) {
+  if (!code.starts_with('O')) return {};
+  if (code.substr(1).starts_with('<'))
+    return std::string(code.substr(1, std::min(code.find('>'), code.size() - 1)));
+  return std::string(digits_of(code));
+}
+
+bool branches(std::string_view code) {
+  constexpr std::array kWords{"IF[", "WHILE[", "GOTO", "DO1", "DO2", "DO3", "END1", "END2", "END3"};
+  constexpr std::array kOWords{"IF[",     "ELSE",      "ELSEIF[", "ENDIF", "WHILE[",  "ENDWHILE",
+                               "REPEAT[", "ENDREPEAT", "DO",      "BREAK", "CONTINUE"};
+  if (std::ranges::any_of(kWords, [&](std::string_view word) { return code.starts_with(word); })) return true;
+  if (!code.starts_with('O')) return false;
+  const std::string_view rest = code.substr(std::min(1 + name_of(code).size(), code.size()));
+  return std::ranges::any_of(kOWords, [&](std::string_view word) { return rest.starts_with(word); });
+}
+
 bool is_folded(std::string_view code) {
-  if (code.find_first_of("#[") != std::string_view::npos) return true;
+  if (code.find_first_of("#[") != std::string_view::npos || branches(without_number(code))) return true;
   return has_m(code, "97") || has_m(code, "98") || has_m(code, "99") ||
          (code.starts_with('O') && (code.ends_with("SUB") || code.find("CALL") != std::string_view::npos));
 }
@@ -110,9 +129,13 @@ class Unfolder {
   }
 
   Fault run() {
+    if (Fault fault = find_branches()) return fault;
     if (Fault fault = find_subprograms()) return fault;
     for (here_ = 0; here_ < lines_.size(); ++here_) {
       if (const auto end = end_of_definition(here_)) {
+        // The lines from O to M99 run where the program comes to them; SUB is passed over.
+        if (!ended_ && !lines_[here_].code.ends_with("SUB"))
+          return "the program runs into a subprogram; put M2 or M30 before it";
         here_ = *end;
         continue;
       }
@@ -130,6 +153,26 @@ class Unfolder {
   Unfolded take() { return std::move(result_); }
 
  private:
+  /// Names all branches and loops at once.
+  Fault find_branches() {
+    std::string more;
+    std::optional<std::size_t> first;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      const std::string_view code = without_number(lines_[k].code);
+      if (!branches(code)) continue;
+      if (first) more += fmt::format("{}{}", more.empty() ? "; so in line " : ", ", k + 1);
+      first = first.value_or(k);
+    }
+    if (!first) return {};
+    here_ = *first;
+    return "IF, GOTO and WHILE cannot be rewritten; let the CAM system write them out" + more;
+  }
+
+  void note_use(const words::FlowWord& word, std::size_t index) {
+    const auto same = [&](const FlowUse& use) { return use.word == &word; };
+    if (std::ranges::none_of(result_.uses, same)) result_.uses.push_back({&word, index + 1});
+  }
+
   /// `O100 SUB` to `O100 ENDSUB`, and `O100` to M99 where another program was there before.
   Fault find_subprograms() {
     bool any_code = false;
@@ -147,13 +190,6 @@ class Unfolder {
       any_code = any_code || (!code.empty() && code != "%");
     }
     return {};
-  }
-
-  static std::string name_of(std::string_view code) {
-    if (!code.starts_with('O')) return {};
-    if (code.substr(1).starts_with('<'))
-      return std::string(code.substr(1, std::min(code.find('>'), code.size() - 1)));
-    return std::string(digits_of(code));
   }
 
   [[nodiscard]] std::size_t line_with(const std::string& code) const {
@@ -178,11 +214,11 @@ class Unfolder {
     const Line& line = lines_[index];
     const std::string_view code = without_number(line.code);
     if (result_.text.size() > kMostBytes) return "the program written out has more than 10 million bytes";
-    for (const std::string_view word : {"IF[", "WHILE[", "GOTO", "DO1", "DO2", "DO3", "END1", "END2", "END3"})
-      if (code.starts_with(word))
-        return "IF, GOTO and WHILE cannot be rewritten; let the CAM system write them out";
+    if (code.find_first_of("#[") != std::string_view::npos) note_use(words::kVariable, index);
+    if (code.find("#<") != std::string_view::npos) note_use(words::kNamedVariable, index);
     if (code.starts_with('#')) return assign(line, index);
     if (has_m(code, "98") || has_m(code, "97")) return call_by_m(line, code, index);
+    if (code.starts_with('O') && code.ends_with("CALL")) note_use(words::kNamedSubprogram, index);
     if (code.starts_with('O') && code.ends_with("CALL"))
       return call(line, trimmed_number(name_of(code)), 1, index);
     if (code.starts_with('O') && code.find("CALL[") != std::string_view::npos)
@@ -220,6 +256,8 @@ class Unfolder {
     if (!name.fault().empty()) return name.fault();
     if (name.at() >= line.code.size() || line.code[name.at()] != '=')
       return "a variable that is neither set nor used as a number";
+    if (key.starts_with('<') && words::is_state_name(std::string_view(key).substr(1)))
+      return fmt::format("#{}> is set by the control alone", key);
     ExpressionReader sum(line.code, name.at() + 1, variables_, depth_ > 0);
     const double value = sum.total();
     if (!sum.fault().empty()) return sum.fault();
@@ -235,6 +273,7 @@ class Unfolder {
     std::string name;
     double repeats = 1;
     const bool local = has_m(code, "97");
+    note_use(local ? words::kLocalCall : words::kCall, index);
     for (std::size_t at = 0; at < code.size();) {
       const char letter = code[at];
       const std::string_view digits = digits_of(code.substr(at));
@@ -260,15 +299,25 @@ class Unfolder {
     return write_out(line, found->second, repeats, index);
   }
 
-  /// M97 calls what stands behind an N of the same file, up to M99.
+  /// M97 calls what stands behind an N of the same file, up to M99. Where there is no such N the control
+  /// stops with an alarm, in the result as in the original.
   Fault call_local(const Line& line, const std::string& name, double repeats, std::size_t index) {
-    for (std::size_t k = 0; k < lines_.size(); ++k)
-      if (lines_[k].code.starts_with('N') && trimmed_number(digits_of(lines_[k].code)) == name) {
-        const std::size_t end = line_of_return(k);
-        if (end == lines_.size()) break;
-        return write_out(line, {k, end}, repeats, index);
-      }
-    return fmt::format("the subprogram N{} is not in this file, or has no M99", name);
+    const auto is_named = [&](const Line& each) {
+      return each.code.starts_with('N') && trimmed_number(digits_of(each.code)) == name;
+    };
+    const auto found = std::ranges::find_if(lines_, is_named);
+    if (found == lines_.end()) {
+      result_.notes.push_back(
+          fmt::format("line {}: N{}, which M97 calls, is not in this program: the control stops there, as it "
+                      "does with the original",
+                      index + 1, name));
+      emit(std::string(line.text), line, index);
+      return {};
+    }
+    const auto first = static_cast<std::size_t>(found - lines_.begin());
+    const std::size_t end = line_of_return(first);
+    if (end == lines_.size()) return fmt::format("the subprogram N{} has no M99", name);
+    return write_out(line, {first, end}, repeats, index);
   }
 
   Fault write_out(const Line& line, Subprogram body, double repeats, std::size_t index) {
@@ -322,10 +371,12 @@ class Unfolder {
 
 }  // namespace
 
-Result<Unfolded> unfold(std::string_view text, const std::string& name) {
+bool is_folded_line(std::string_view line) { return is_folded(code_of(line)); }
+
+tl::expected<Unfolded, LineFault> unfold(std::string_view text) {
   Unfolder unfolder(text);
-  if (!unfolder.has_work()) return Unfolded{std::string(text), {}, 0, 0};
-  if (const Fault fault = unfolder.run()) return refusal(name, unfolder.line(), *fault);
+  if (!unfolder.has_work()) return Unfolded{std::string(text), {}, 0, 0, {}, {}};
+  if (const Fault fault = unfolder.run()) return tl::unexpected(LineFault{unfolder.line(), *fault});
   return unfolder.take();
 }
 

@@ -106,6 +106,18 @@ std::optional<std::string> refusal_of(const Word& word, Control control, const s
   return word.letter == 'G' ? refused_g(word) : refused_m(word);
 }
 
+/// G80 beside G0 to G3, which LinuxCNC counts to one modal group.
+bool ends_and_begins_motion(const Block& block) {
+  bool ends = false, begins = false;
+  for (const Word& word : block.words) {
+    if (word.letter != 'G') continue;
+    const int tenths = tenths_of(word.value).value_or(words::kMachineFrame);
+    ends = ends || tenths == words::kMotionOff;
+    begins = begins || tenths <= words::kCounterClockwise;
+  }
+  return ends && begins;
+}
+
 }  // namespace
 
 bool is_cycle(int tenths) noexcept { return tenths >= 730 && tenths <= 890 && tenths != words::kMotionOff; }
@@ -138,15 +150,17 @@ bool m_may_be_skipped(int number) noexcept {
   return std::ranges::find(kSkippableMWords, number) != kSkippableMWords.end();
 }
 
-std::vector<RefusedWord> refused_words(const Program& program, Control control,
-                                       const std::vector<int>& allowed_m) {
-  std::vector<RefusedWord> refused;
+std::vector<LineFault> refused_words(const Program& program, Control control,
+                                     const std::vector<int>& allowed_m) {
+  std::vector<LineFault> refused;
   for (const Block& block : program.blocks) {
     for (const Word& word : block.words)
-      if (const auto reason = refusal_of(word, control, allowed_m))
-        refused.push_back({block.line, name_of(word), *reason});
+      if (const auto reason = refusal_of(word, control, allowed_m)) refused.push_back({block.line, *reason});
+    if (control == Control::linuxcnc && ends_and_begins_motion(block))
+      refused.push_back(
+          {block.line, "G80 beside G0 to G3; Haas, Fanuc and GRBL controls read it: --control haas"});
     if (block.nested_comment && control == Control::linuxcnc)
-      refused.push_back({block.line, "(",
+      refused.push_back({block.line,
                          "a comment inside a comment; Haas, Fanuc and GRBL controls read it: "
                          "--control haas"});
   }
@@ -155,53 +169,65 @@ std::vector<RefusedWord> refused_words(const Program& program, Control control,
 
 namespace {
 
-/// The letters P, Q and D of blocks in which no word takes them for this control.
+/// The letters of blocks in which no word takes them for this control, nor the motion in force.
 std::size_t idle_letters(const Program& program, Control control) {
   std::size_t idle = 0;
-  for (const Block& block : program.blocks)
+  const words::Word* motion = nullptr;
+  const auto takes = [](const words::Word* word, char letter) {
+    return word != nullptr && word->takes.find(letter) != std::string_view::npos;
+  };
+  for (const Block& block : program.blocks) {
+    for (const Word& word : block.words)
+      if (const words::Word* known = listed(word, control);
+          known != nullptr && (known->group == words::Group::motion || known->tenths == words::kMotionOff))
+        motion = known->group == words::Group::motion ? known : nullptr;
     for (const Word& word : block.words) {
-      if (std::string_view("PQD").find(word.letter) == std::string_view::npos) continue;
-      const bool used = std::ranges::any_of(block.words, [&](const Word& other) {
-        const words::Word* const known = listed(other, control);
-        return std::string_view("XYZ").find(other.letter) != std::string_view::npos ||
-               (known != nullptr && known->takes.find(word.letter) != std::string_view::npos);
-      });
+      if (std::string_view("PQDLK").find(word.letter) == std::string_view::npos) continue;
+      const bool used =
+          takes(motion, word.letter) || std::ranges::any_of(block.words, [&](const Word& other) {
+            return takes(listed(other, control), word.letter);
+          });
       if (!used && words::is_taken(word.letter, control)) ++idle;
     }
+  }
   return idle;
 }
 
 }  // namespace
 
-Control guess_control(const Program& program, const std::vector<int>& allowed_m) {
+Control guess_control(const Program& program, const std::vector<int>& allowed_m, unsigned controls) {
   const bool numbered = std::ranges::any_of(program.blocks, [](const Block& block) {
     return !block.words.empty() && block.words.front().letter == 'O';
   });
   const std::array order = numbered
                                ? std::array{Control::fanuc, Control::haas, Control::linuxcnc, Control::grbl}
                                : std::array{Control::linuxcnc, Control::fanuc, Control::haas, Control::grbl};
-  return *std::ranges::min_element(order, {}, [&](Control control) {
-    return refused_words(program, control, allowed_m).size() + idle_letters(program, control);
-  });
+  const auto unknown = [&](Control control) {
+    const bool possible = (controls >> static_cast<unsigned>(control) & 1U) != 0;
+    return std::pair(!possible,
+                     refused_words(program, control, allowed_m).size() + idle_letters(program, control));
+  };
+  return *std::ranges::min_element(order, {}, unknown);
 }
 
-std::string sentence_of(const std::vector<RefusedWord>& refused) {
+tl::unexpected<Error> refusal_of_all(const std::string& name, std::vector<LineFault> faults) {
   struct Group {
     std::string reason, lines;
     std::size_t count = 0;
   };
+  std::ranges::stable_sort(faults, {}, &LineFault::line);
   std::vector<Group> groups;
-  for (const RefusedWord& word : refused) {
-    auto group = std::ranges::find(groups, word.reason, &Group::reason);
-    if (group == groups.end()) group = groups.insert(groups.end(), {word.reason, "", 0});
-    group->lines += fmt::format("{}{}", group->count++ == 0 ? "" : ", ", word.line);
+  for (const LineFault& fault : faults) {
+    auto group = std::ranges::find(groups, fault.reason, &Group::reason);
+    if (group == groups.end()) group = groups.insert(groups.end(), {fault.reason, "", 0});
+    group->lines += fmt::format("{}{}", group->count++ == 0 ? "" : ", ", fault.line);
   }
-  if (groups.size() == 1 && groups[0].count == 1) return groups[0].reason;
-  std::string sentence = fmt::format("{} words cannot be rewritten: ", refused.size());
+  if (faults.size() == 1) return refusal(name, faults.front().line, faults.front().reason);
+  std::string sentence = fmt::format("{} words cannot be rewritten: ", faults.size());
   for (const Group& group : groups)
     sentence += fmt::format("{}line{} {}: {}", &group == &groups.front() ? "" : " / ",
                             group.count == 1 ? "" : "s", group.lines, group.reason);
-  return sentence;
+  return refusal(name, faults.front().line, sentence);
 }
 
 }  // namespace lekalo::nc

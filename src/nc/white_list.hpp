@@ -32,20 +32,16 @@ namespace lekalo::nc {
 /// skipped may hold them.
 [[nodiscard]] bool m_may_be_skipped(int number) noexcept;
 
-/// A word that the control does not know, and why it cannot be rewritten.
-struct RefusedWord {
-  std::size_t line = 0;
-  std::string name, reason;
-};
+/// All words of the program that are not on the list of this control, and why they cannot be rewritten.
+[[nodiscard]] std::vector<LineFault> refused_words(const Program& program, words::Control control,
+                                                   const std::vector<int>& allowed_m);
 
-/// All words of the program that are not on the list of this control, in their order.
-[[nodiscard]] std::vector<RefusedWord> refused_words(const Program& program, words::Control control,
-                                                     const std::vector<int>& allowed_m);
+/// The control in whose language the program most likely is: of these, which are some, the one that knows
+/// most of its words.
+[[nodiscard]] words::Control guess_control(const Program& program, const std::vector<int>& allowed_m,
+                                           unsigned controls);
 
-/// The control in whose language the program most likely is: the one that knows most of its words.
-[[nodiscard]] words::Control guess_control(const Program& program, const std::vector<int>& allowed_m);
-
-/// One sentence that names all refused words with their lines. \pre not empty
-[[nodiscard]] std::string sentence_of(const std::vector<RefusedWord>& refused);
+/// Refuses a program for all of this at once, with the lines. \pre not empty
+[[nodiscard]] tl::unexpected<Error> refusal_of_all(const std::string& name, std::vector<LineFault> faults);
 
 }  // namespace lekalo::nc

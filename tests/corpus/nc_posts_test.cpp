@@ -20,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kRefused{"06", "08", "21", "30", "32", "34",
-                                        "37", "44", "46", "52", "70", "74"};
+const std::vector<std::string> kRefused{"06", "08", "21", "30", "32", "34", "37", "44", "52", "70", "74"};
 
 verify::Decimal decimal(double value) { return *verify::parse_decimal(fmt::format("{:.17g}", value)); }
 

@@ -7,11 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "lekalo/nc/rewrite.hpp"
 #include "support/cases.hpp"
 #include "support/places.hpp"
 #include "support/rs274_random.hpp"
+#include "support/rs274_strange.hpp"
+#include "support/shared_data.hpp"
 
 namespace {
 
@@ -261,6 +264,59 @@ G4 P.1
 G0 Z9 A0
 M2
 )");
+}
+
+bool goes_home(const std::string& program) {
+  return std::ranges::any_of(std::array{"G28", "g28", "G30", "g30", "G53", "g53"},
+                             [&](const char* word) { return program.find(word) != std::string::npos; });
+}
+
+/// Programs as posts write them (the shared data): where rs274 knows all words, it sees the moved original.
+TEST(NcRs274, ProgramsOfPostsAgree) {
+  if (lekalo::cases::shared_data().empty()) GTEST_SKIP() << "no shared data";
+  std::size_t compared = 0;
+  for (const char* folder : {"fusion", "variants"})
+    for (const auto& entry :
+         std::filesystem::directory_iterator(lekalo::cases::shared_data() + "/nc/" + folder)) {
+      const std::string program = rs274::read_file(entry.path());
+      const auto& pose = kPoses[compared % 2];
+      const auto result = rewrite_program(program, "p", pose.x, pose.y, pose.theta, {});
+      const rs274::Run original = oracle().run(program);
+      if (!result || !original.accepted) continue;
+      ++compared;
+      rs274::Comparison comparison(pose, kTolerance, false, goes_home(program));
+      EXPECT_EQ(comparison.difference(original, oracle().run(result->program)), "") << entry.path();
+      EXPECT_GT(comparison.motions, 0U) << entry.path();
+    }
+  EXPECT_GE(compared, 90U);
+}
+
+/// Programs with words that few readers agree about: what is rewritten is the moved original, and what rs274
+/// refuses is refused, or refused by it in the result too.
+TEST(NcRs274, StrangeProgramsAgreeOrAreRefused) {
+  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(150), 10000);
+  std::size_t rewritten = 0;
+  std::array<std::size_t, rs274::kFamilies.size()> drawn{}, taken{};
+  for (std::size_t k = 0; k < count; ++k) {
+    rs274::StrangeProgram strange(lekalo::cases::seed(), 99000 + k);
+    const std::string program = strange.write();
+    const auto& pose = kPoses[k % kPoses.size()];
+    const RewriteMode mode = k % 3 == 0 ? RewriteMode::offset : RewriteMode::coordinates;
+    const auto result = rewrite_program(program, "p", pose.x, pose.y, pose.theta,
+                                        {.mode = mode, .control = lekalo::words::Control::linuxcnc});
+    for (const std::size_t family : strange.families()) ++drawn[family], taken[family] += result ? 1 : 0;
+    if (!result) continue;
+    ++rewritten;
+    const rs274::Run original = oracle().run(program), written = oracle().run(result->program);
+    rs274::Comparison comparison(pose, kTolerance, mode == RewriteMode::offset, goes_home(program));
+    EXPECT_EQ(comparison.difference(original, written), "")
+        << "seed " << lekalo::cases::seed() << ", case " << k << "\n"
+        << program << "---\n"
+        << result->program << written.errors;
+  }
+  EXPECT_GE(rewritten, count / 4);
+  for (std::size_t family = 0; family < rs274::kFamilies.size(); ++family)
+    fmt::print("{:14} {:5} drawn, {:5} rewritten\n", rs274::kFamilies[family], drawn[family], taken[family]);
 }
 
 TEST(NcRs274, AModalWordMissingAtTheTopIsSetByTheOffsetLine) {

@@ -75,6 +75,7 @@ TEST(NcRefusal, OfWhatIsNoPlainNumber) {
       {"G0 X[1+2 Y0\n",
        "1: an expression that is not understood: a bracket ] is missing, or a word before it"},
       {"G0 X#1 Y0\n", "1: variable #1 is read and was not set in this program"},
+      {"#<_x>=5\n", "1: #<_X> is set by the control alone"},
       {"#5221=5\n", "1: variable #5221: only #1 to #999 and named ones are a program's own"},
       {"#1=5 G1 X#1\n",
        "1: an assignment that is not understood, or beside other words; give it a block of its own"},
@@ -111,7 +112,10 @@ TEST(NcRefusal, OfSubprogramsAndHiddenState) {
       {"N1 O5\n", named.c_str()},
       {"M98 P100\n",
        "1: the subprogram O100 is not in this file; put it there, or let the CAM system write it out"},
-      {"M97 P100\n", "1: the subprogram N100 is not in this file, or has no M99"},
+      {"G21\nM98 P7\nO7\nM99\n", "3: the program runs into a subprogram; put M2 or M30 before it"},
+      {"M97 P100\nN100 G0 X1\n", "1: the subprogram N100 has no M99"},
+      {"o5 sub\no5 endsub\nM97 P1\no5 call\nM30\nN1 M99\n",
+       "4: an O word beside SUB or CALL is a word of linuxcnc controls alone, and line 3 has one of others"},
       {"M99\n", "1: M99 in the main program, which then never ends"},
       {"G65 P9010\n",
        "1: G65: subprograms and macros cannot be rewritten; let the CAM system write them out"},
@@ -165,6 +169,20 @@ TEST(NcRefusal, NamesAllUnknownWordsAtOnceWithTheirLinesAndTheWayOut) {
        "words that can be rewritten; LinuxCNC controls know it: --control linuxcnc / line 5: G92: it shifts "
        "the coordinate system inside the program"},
   });
+  expect_refusals({
+      {"G21\nIF [#1 GT 0] GOTO 5\nM130\n#1=2\nG51\nG0 X@1\nWHILE [1] DO1\n",
+       "2: 4 words cannot be rewritten: line 2: IF, GOTO and WHILE cannot be rewritten; let the CAM system "
+       "write them out; so in line 7 / line 3: M130 is not on the list of words that can be rewritten; if it "
+       "moves no axis, --allow FILE with the line M130 lets it pass / line 5: G51: scaling and mirroring "
+       "would "
+       "change under the rotation / line 6: polar words (@ ^) cannot be rewritten; give X and Y"},
+      {"G21\nM98 P5\nM130\nG0 X1..2\n",
+       "2: 3 words cannot be rewritten: line 2: the subprogram O5 is not in this file; put it there, or let "
+       "the "
+       "CAM system write it out / line 3: M130 is not on the list of words that can be rewritten; if it "
+       "moves "
+       "no axis, --allow FILE with the line M130 lets it pass / line 4: X1..2 is not a number"},
+  });
   RewriteOptions options{.control = lekalo::words::Control::haas, .allowed_m = {130}};
   EXPECT_TRUE(rewrite_program("G21\nG187 P1 E0.01\nM130 P2\nM19 R90\n", "p.nc", 1, 2, 0.5, options));
   options.control = lekalo::words::Control::linuxcnc;
@@ -172,6 +190,36 @@ TEST(NcRefusal, NamesAllUnknownWordsAtOnceWithTheirLinesAndTheWayOut) {
     EXPECT_FALSE(rewrite_program(bores, "p.nc", 1, 2, 0.5, options)) << bores;
   options.control = lekalo::words::Control::grbl;
   EXPECT_FALSE(rewrite_program("G21\nG43 H1\n", "p.nc", 1, 2, 0.5, options));
+}
+
+TEST(NcRefusal, OfWordsThatAnotherControlHas) {
+  using lekalo::words::Control;
+  struct Foreign {
+    Control control;
+    const char *program, *message;
+  };
+  const Foreign cases[] = {
+      {Control::linuxcnc, "G21\nM97 P1\nM30\nN1 M99\n",
+       "p.nc:2: M97 is no word of LinuxCNC controls; --control haas has it"},
+      {Control::fanuc, "G21\no1 sub\no1 endsub\no1 call\n",
+       "p.nc:4: an O word beside SUB or CALL is no word of Fanuc controls; --control linuxcnc has it"},
+      {Control::haas, "#<_wide>=3\nG0 X#<_wide> Y1.\n",
+       "p.nc:1: a variable with a name is no word of Haas controls; --control linuxcnc has it"},
+      {Control::grbl, "#1=3\nG0 X#1 Y1\n",
+       "p.nc:1: a variable or expression is no word of GRBL controls; --control linuxcnc|haas|fanuc has it"},
+      {Control::haas, "G0 X1. Y1.\nG81 X2. Z-1. R1. K2\n",
+       "p.nc:2: K without G2, G3 or X, Y or Z of a canned cycle in its block"},
+      {Control::linuxcnc, "G21\nG0 G80 X0 Y0\n",
+       "p.nc:2: G80 beside G0 to G3; Haas, Fanuc and GRBL controls read it: --control haas"},
+      {Control::linuxcnc, "G0 X0 Y0 D2\n", "p.nc:1: D without G41 or G42 in its block"},
+      {Control::linuxcnc, "G0 X1 Y1\nG81 X2 Z-1 R1 P2\n",
+       "p.nc:2: P without G2, G3, G4, G64, a canned cycle or M62 to M65 in its block"},
+  };
+  for (const Foreign& one : cases) {
+    const auto result = rewrite_program(one.program, "p.nc", 1, 2, 0.5, {.control = one.control});
+    ASSERT_FALSE(result) << one.program;
+    EXPECT_EQ(result.error().message, one.message);
+  }
 }
 
 TEST(NcRefusal, OfMotionThatIsNotKnown) {
@@ -201,6 +249,7 @@ TEST(NcRefusal, OfMotionThatIsNotKnown) {
       {"/G91\n", "1: G in a block that the / switch may skip: where the tool then stands is not known"},
       {"/M6\n", "1: M in a block that the / switch may skip: where the tool then stands is not known"},
       {"/M30\n", "1: M in a block that the / switch may skip: where the tool then stands is not known"},
+      {"/M8 P1\n", "1: P without G2, G3, G4, G64, a canned cycle or M62 to M65 in its block"},
       {"/2 M8\n", "1: numbered block delete (/2) is not on the list of what can be rewritten"},
       {"G21\nM2\nG0 X1 Y1\n", "3: words after the end of the program (M2, M30)"},
   });
@@ -261,7 +310,6 @@ TEST(NcRefusal, OfBlocksThatSayTwoThings) {
       {"G0 X0 Y0 P2\n", "1: P without G2, G3, G4, G64, a canned cycle or M62 to M65 in its block"},
       {"G0 X0 Y0 Q2\n", "1: Q without G64 or a canned cycle in its block"},
       {"G0 X0 Y0 H2\n", "1: H without G43 or G44 in its block"},
-      {"G0 X0 Y0 D2\n", "1: D without G41 or G42 in its block"},
       {"G0 X0 Y0\nG4 X2\n",
        "2: G4 beside axis words: some controls read X as seconds; give the dwell a block of its own"},
   });
@@ -275,7 +323,7 @@ TEST(NcRefusal, OfBytesThatDoNotBelongThere) {
       {"G21\n(a (b) c\n", "2: a comment is opened and not closed"},
       {"G21 )\n", "1: a comment is closed that was not opened"},
       {"G0 X1 Y0 \xC3\xA9\n", "1: byte 0xC3 outside a comment is not ASCII"},
-      {"\xEF\xBB\xBFG21\n", "1: byte 0xEF outside a comment is not ASCII"},
+      {"G21 \xEF\xBB\xBF\n", "1: byte 0xEF outside a comment is not ASCII"},
       {"G21 \x01\n", "1: control character byte 0x01"},
       {"G21\rG0 X0\r", "1: a carriage return inside a line; line ends must be LF or CR LF"},
       {"G21 =\n", "1: '=' does not belong in a program"},

@@ -4,6 +4,7 @@
 #include "lekalo/nc/rewrite.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <limits>
@@ -225,6 +226,43 @@ TEST(NcRewrite, CountsTheBlocksAndStatesTheBound) {
   const auto result = rewritten("G21\nG0 X0 Y0\nG1 X1 F9\nG1 Z1\n", 0, 0, 30 * kDegree);
   EXPECT_EQ(result.motions, 2U);
   EXPECT_NEAR(result.rounding_mm, std::abs(std::cos(30 * kDegree) - 0.86603), 1e-15);
+}
+
+TEST(NcRewrite, LeavesACallOfABlockThatIsNotThereAndSaysSo) {
+  const auto result = rewrite_program("G21 G90\nG0 X1. Y2.\nM97 P900\nX3.\n", "p", 10, 20, 0, {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->program, "G21 G90\nG0 X11.00000 Y22.00000\nM97 P900\nX13.00000\n");
+  EXPECT_EQ(result->control, lekalo::words::Control::haas);
+  EXPECT_NE(
+      std::ranges::find(result->notes,
+                        "line 3: N900, which M97 calls, is not in this program: the control stops there, "
+                        "as it does with the original"),
+      result->notes.end());
+}
+
+TEST(NcRewrite, LeavesTheByteOrderMarkOut) {
+  const auto result = rewrite_program("\xEF\xBB\xBFG21\n(\xC3\xA9)\nG0 X1 Y2\n", "p", 10, 20, 0, {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->program, "G21\n(\xC3\xA9)\nG0 X11.00000 Y22.00000\n");
+}
+
+TEST(NcRewrite, ReadsTheLettersOfACycleAsItsControlDoes) {
+  const std::string begin = "G21 G90\nG0 X0. Y0. Z9.\n";
+  const auto places = [&](const std::string& cycle, lekalo::words::Control control) {
+    const auto result = rewrite_program(begin + cycle, "p", 10, 20, 0, {.control = control});
+    return result ? result->program.substr(result->program.rfind("G90 G1")) : result.error().message;
+  };
+  // Three steps of 2 on Fanuc; on Haas K is the least peck, and there is one.
+  EXPECT_EQ(places("G91 G83 X2. Z-1. R-1. Q.3 K3\nG80\nG90 G1 Y1.\nG91 X1.\n", lekalo::words::Control::fanuc),
+            "G90 G1 Y21.00000\nG91 X1.\n");
+  const auto three = rewrite_program(begin + "G91 G83 X.3333333 Z-1. R-1. Q.3 K3\n", "p", 0, 0, 1,
+                                     {.control = lekalo::words::Control::fanuc});
+  const auto one = rewrite_program(begin + "G91 G83 X.3333333 Z-1. R-1. I.3 J.1 K3.\n", "p", 0, 0, 1,
+                                   {.control = lekalo::words::Control::haas});
+  ASSERT_TRUE(three && one);
+  EXPECT_NE(three->program.find("X0.18010075"), std::string::npos) << three->program;  // a decimal more
+  EXPECT_NE(one->program.find("X0.1801008 "), std::string::npos) << one->program;
+  EXPECT_NE(one->program.find("I.3 J.1 K3."), std::string::npos) << one->program;
 }
 
 TEST(NcRewrite, SaysInWhichFrameTheProgramMustRun) {

@@ -113,6 +113,29 @@ TEST(VerifyMovedProgram, RefusesEveryChangeOfANumberOrALetter) {
   EXPECT_EQ(confirmed, 0U);
 }
 
+/// Of a way along Z from a height that is not known no motion is seen, only its words.
+TEST(VerifyMovedProgram, ARapidUpFromAnUnknownHeightStaysOne) {
+  const std::string original =
+      "G21 G90 G17 F90.\nG0 X1. Y2.\nG0 Z9.\nG98 G81 X3. Y4. Z-2. R1.\nG80\nG0 Z9.\nX5.\nM30\n";
+  const Moved made = moved(original, RewriteMode::coordinates, 0.58);
+  std::string other = made.text;
+  other.replace(other.rfind("G0 Z9."), 2, "G1");
+  EXPECT_EQ(said(verdict_of(original, made.text, made, RewriteMode::coordinates, 0.58)), "confirmed");
+  EXPECT_EQ(said(verdict_of(original, other, made, RewriteMode::coordinates, 0.58)).find("fault"), 0U);
+}
+
+TEST(VerifyMovedProgram, ChordsShareTheTimeOfTheirArc) {
+  const std::string original =
+      "G21 G90 G17\nG0 X1. Y2. Z5.\nG93 G18 G2 X3. Z5. I1. K0. F4.\nG17 G94\nG1 X5. F90.\nM30\n";
+  const Moved made = moved(original, RewriteMode::coordinates, 0.58);
+  const std::size_t at = made.text.rfind(" F", made.text.find("G94"));
+  std::string other = made.text;
+  other.replace(at, 3, " F9");
+  EXPECT_EQ(said(verdict_of(original, made.text, made, RewriteMode::coordinates, 0.58)), "confirmed");
+  EXPECT_NE(other, made.text);
+  EXPECT_EQ(said(verdict_of(original, other, made, RewriteMode::coordinates, 0.58)).find("fault"), 0U);
+}
+
 TEST(VerifyMovedProgram, RefusesLinesThatAreTakenOutPutInOrExchanged) {
   const Moved made = moved(kPlain, RewriteMode::coordinates, 0.58);
   const auto verdict = [&](const std::string& written) {

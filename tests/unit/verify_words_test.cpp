@@ -17,7 +17,7 @@ namespace {
 
 using words::Control;
 
-const std::string kBegin = "G21 G90 G17\nG0 Z5\nG0 X10 Y10\n";  // a word after it stands on line 4
+const std::string kBegin = "G21 G90 G17\nG0 Z5.\nG0 X10. Y10.\n";  // a word after it stands on line 4
 
 std::string complaint_of(const std::string& program) {
   const auto moves = read_moves({"p.ngc", program}, 0);
@@ -40,12 +40,12 @@ std::string block_with(const words::Word& word) {
   std::string text = fmt::format("{}{:g}", word.letter, word.tenths / 10.0);
   const auto takes = [&](char letter) { return word.takes.find(letter) != std::string_view::npos; };
   if (word.group == words::Group::motion && word.tenths > words::kCounterClockwise)
-    return text + " X12 Y13 Z-1 R1 Q1 P1 F100";
+    return text + " X12. Y13. Z-1. R1. F100." + (takes('Q') ? " Q1." : "") + (takes('P') ? " P1" : "");
   if (word.letter == 'M') return text + (takes('P') ? " P1" : "");
-  if (word.tenths == words::kClockwise || word.tenths == words::kCounterClockwise) return text + " I5 F100";
+  if (word.tenths == words::kClockwise || word.tenths == words::kCounterClockwise) return text + " I5. F100.";
   if (word.group == words::Group::once && word.tenths == words::kMachineFrame) return "G0 " + text + " Z0";
-  if (word.group == words::Group::once && word.tenths != words::kDwell) return text + " Z3";
-  if (word.group == words::Group::motion) return text + " X12 F100";
+  if (word.group == words::Group::once && word.tenths != words::kDwell) return text + " Z3.";
+  if (word.group == words::Group::motion) return text + " X12. F100.";
   if (takes('P') && word.group != words::Group::look_ahead) text += " P1";
   if (takes('H')) text += " H1";
   if (takes('D')) text += " D1";
@@ -133,13 +133,74 @@ TEST(VerifyWords, ALetterAloneIsReadOnlyWhereItMovesOrNeedsNoCode) {
 }
 
 TEST(VerifyWords, EachControlReadsItsOwnForms) {
-  const std::string z_home = kBegin + "G1 Z-1 F99\nG0 Z5\nG28 G91 Z0\nG90\nG53 G0 Z0\nM30\n";
+  const std::string z_home = kBegin + "G1 Z-1. F99.\nG0 Z5.\nG28 G91 Z0\nG90\nG53 G0 Z0\nM30\n";
   for (const Control control : kControls) EXPECT_EQ(checker_says(z_home, control), "");
-  for (const char* line : {"(a (b) c)", "G4 X1.", "D1", "G0 G28 Z9", "G80 G0"}) {
+  for (const char* line : {"(a (b) c)", "G4 X1.", "D1", "G0 G28 Z9.", "G80 G0"}) {
     EXPECT_EQ(checker_says(kBegin + line + "\nM2\n", Control::fanuc), "") << line;
     EXPECT_NE(checker_says(kBegin + line + "\nM2\n", Control::linuxcnc), "") << line;
   }
   EXPECT_EQ(checker_says(kBegin + "/M8\nM2\n", Control::linuxcnc), "");
+}
+
+TEST(VerifyWords, LettersOfCyclesAreThoseOfTheControl) {
+  struct Cycle {
+    Control control;
+    const char *block, *says;
+  };
+  const Cycle cases[] = {
+      {Control::linuxcnc, "G98 G81 X12. Z-1. R1. F9. P1.", "no word of the block takes P"},
+      {Control::linuxcnc, "G98 G73 X12. Z-1. R1. F9. Q1. P1.", "no word of the block takes P"},
+      {Control::linuxcnc, "G98 G83 X12. Z-1. R1. F9. Q1. P1.", "no word of the block takes P"},
+      {Control::linuxcnc, "G98 G85 X12. Z-1. R1. F9. P1.", "no word of the block takes P"},
+      {Control::linuxcnc, "G98 G82 X12. Z-1. R1. F9. P1. Q1.", "no word of the block takes Q"},
+      {Control::linuxcnc, "G98 G81 X12. Z-1. R1. F9. K2", "no word of the block takes K"},
+      {Control::linuxcnc, "G98 G82 X12. Z-1. R1. F9. P1. L2", ""},
+      {Control::haas, "G98 G81 X12. Z-1. R1. F9. P1. L2", ""},
+      {Control::haas, "G98 G81 X12. Z-1. R1. F9. K2", "no word of the block takes K"},
+      {Control::haas, "G98 G83 X12. Z-1. R1. F9. I1. J.2 K.2 Q1.", "pecks shaped by I, J and K"},
+      {Control::fanuc, "G98 G81 X12. Z-1. R1. F9. P1. K2", ""},
+      {Control::fanuc, "G98 G81 X12. Z-1. R1. F9. L2", "L beside a canned cycle, which not every Fanuc"},
+      {Control::grbl, "G81 X12. Z-1. R1. F9.", "G81 is not understood here"},
+  };
+  for (const Cycle& one : cases) {
+    const std::string said = checker_says(kBegin + one.block + "\nM2\n", one.control);
+    if (*one.says == '\0')
+      EXPECT_EQ(said, "") << one.block;
+    else
+      EXPECT_EQ(said.find(fmt::format("p.ngc:4: {}", one.says)), 0U) << one.block << " " << said;
+  }
+}
+
+TEST(VerifyWords, AWholeNumberIsRefusedWhereTheControlMayCountIt) {
+  for (const Control control : {Control::haas, Control::fanuc}) {
+    EXPECT_NE(checker_says(kBegin + "G1 X20 F9.\n", control).find("X has no decimal point"),
+              std::string::npos);
+    EXPECT_NE(checker_says(kBegin + "G2 I5 F9.\n", control).find("I has no decimal point"),
+              std::string::npos);
+    EXPECT_EQ(checker_says(kBegin + "G1 X0 Z-1.5 F90.\n", control), "");
+  }
+  for (const Control control : {Control::linuxcnc, Control::grbl})
+    EXPECT_EQ(checker_says(kBegin + "G1 X20 F9\n", control), "");
+}
+
+TEST(VerifyWords, SubprogramsAndVariablesAreThoseOfTheControl) {
+  const std::string m97 = kBegin + "M97 P7\nM30\nN7 G1 X12. F9.\nM99\n",
+                    m98 = kBegin + "M98 P7\nM30\nO7\nM99\n",
+                    named = kBegin + "o<a> sub\no<a> endsub\no<a> call\nM2\n",
+                    variable = kBegin + "#1=2\nG0 X#1\n", name = kBegin + "#<_wide>=2\nG0 X#<_wide>\n";
+  struct Form {
+    const std::string& program;
+    unsigned controls;
+  };
+  for (const Form& form : {Form{m97, 2}, Form{m98, 7}, Form{named, 1}, Form{variable, 7}, Form{name, 1}})
+    for (const Control control : kControls) {
+      const std::string said = checker_says(form.program, control);
+      if ((form.controls >> static_cast<unsigned>(control) & 1U) != 0)
+        EXPECT_EQ(said, "") << form.program;
+      else
+        EXPECT_NE(said.find("is no word of this control"), std::string::npos) << form.program << said;
+    }
+  EXPECT_NE(checker_says(kBegin + "M97 P8\nM30\n", Control::haas).find("M97"), std::string::npos);
 }
 
 TEST(VerifyWords, CyclesAreReadAsTheMovesTheyMake) {
@@ -218,9 +279,13 @@ TEST(VerifyWords, WordsThatDoNotFitTogetherAreRefusedWithTheLine) {
       {"G0 X[1\n", "4: an expression that is not understood"},
       {"#5220=2\n", "4: variable #5220 is not one of a program's own"},
       {"G0 X#7\n", "4: variable #7 is read and was not set"},
+      {"#<_feed>=2\n", "4: the control alone sets <_FEED>"},
       {"#1=2 X1\n", "4: a variable that is neither set alone"},
+      {"M98 P7\nG0 X1\nO7\nG0 X2\nM99\n", "6: the program runs into a subprogram"},
       {"M98 P7\n", "4: a subprogram that is not in this file"},
       {"/G0 X1\n", "4: a block that may be skipped"},
+      {"/P1\n", "4: a block that may be skipped"},
+      {"/M8 P1\n", "4: a block that may be skipped"},
       {"/F100\n", "4: a block that may be skipped"},
       {"G0 N10 X1\n", "4: N does not begin its block"},
       {"N10 N20\n", "4: N does not begin its block"},

@@ -78,7 +78,11 @@ inline constexpr int kRapid = 0, kFeed = 10, kClockwise = 20, kCounterClockwise 
 
 namespace detail {
 inline constexpr unsigned L = 1, H = 2, F = 4, B = 8, mills = L | H | F, all = mills | B;
-inline constexpr std::string_view axes = "XYZABC", arc = "XYZABCIJKR", hole = "XYZRPQLK";
+inline constexpr std::string_view axes = "XYZABC", arc = "XYZABCIJKR", hole = "XYZRPQL";
+/// LinuxCNC refuses P and Q beside cycles that do not wait and do not peck. Haas shapes its pecks by I, J and
+/// K, where Fanuc has K for the L of the others.
+inline constexpr std::string_view drill = "XYZRL", dwell = "XYZRPL", peck = "XYZRQL",
+                                  shaped_peck = "XYZRPQLIJK", fanuc_hole = "XYZRPQKL";
 }  // namespace detail
 
 inline constexpr std::array kWords = [] {
@@ -123,20 +127,40 @@ inline constexpr std::array kWords = [] {
       Word{'G', 640, path_control, "PQ", L},
       Word{'G', 640, path_control, "", H | F},
       Word{'G', 690, rotation, "", H | F},
-      Word{'G', 730, motion, hole, mills},
-      Word{'G', 740, motion, "XYZRPQ", L},
-      Word{'G', 740, motion, hole, H | F},
-      Word{'G', 760, motion, hole, H | F, false},
+      Word{'G', 730, motion, peck, L},
+      Word{'G', 730, motion, shaped_peck, H},
+      Word{'G', 730, motion, fanuc_hole, F},
+      Word{'G', 740, motion, "XYZRP", L},
+      Word{'G', 740, motion, hole, H},
+      Word{'G', 740, motion, fanuc_hole, F},
+      Word{'G', 760, motion, hole, H, false},
+      Word{'G', 760, motion, fanuc_hole, F, false},
       Word{'G', kMotionOff, motion_off, "", all},
-      Word{'G', 810, motion, hole, mills},
-      Word{'G', 820, motion, hole, mills},
-      Word{'G', 830, motion, hole, mills},
-      Word{'G', 840, motion, hole, mills},
-      Word{'G', 850, motion, hole, mills},
-      Word{'G', 860, motion, hole, mills},
-      Word{'G', 870, motion, hole, H | F, false},
-      Word{'G', 880, motion, hole, H | F, false},
-      Word{'G', 890, motion, hole, mills},
+      Word{'G', 810, motion, drill, L},
+      Word{'G', 810, motion, hole, H},
+      Word{'G', 810, motion, fanuc_hole, F},
+      Word{'G', 820, motion, dwell, L},
+      Word{'G', 820, motion, hole, H},
+      Word{'G', 820, motion, fanuc_hole, F},
+      Word{'G', 830, motion, peck, L},
+      Word{'G', 830, motion, shaped_peck, H},
+      Word{'G', 830, motion, fanuc_hole, F},
+      Word{'G', 840, motion, dwell, L},
+      Word{'G', 840, motion, hole, H},
+      Word{'G', 840, motion, fanuc_hole, F},
+      Word{'G', 850, motion, drill, L},
+      Word{'G', 850, motion, hole, H},
+      Word{'G', 850, motion, fanuc_hole, F},
+      Word{'G', 860, motion, dwell, L},
+      Word{'G', 860, motion, hole, H},
+      Word{'G', 860, motion, fanuc_hole, F},
+      Word{'G', 870, motion, hole, H, false},
+      Word{'G', 870, motion, fanuc_hole, F, false},
+      Word{'G', 880, motion, hole, H, false},
+      Word{'G', 880, motion, fanuc_hole, F, false},
+      Word{'G', 890, motion, dwell, L},
+      Word{'G', 890, motion, hole, H},
+      Word{'G', 890, motion, fanuc_hole, F},
       Word{'G', 900, distance, "", all},
       Word{'G', 901, centre, "", L},
       Word{'G', 910, distance, "", all},
@@ -181,6 +205,8 @@ inline constexpr std::array kWords = [] {
       Word{'M', 840, auxiliary, "", H},
       Word{'M', 880, auxiliary, "", H | F},
       Word{'M', 890, auxiliary, "", H | F},
+      // Subprograms are written out, so only a call of a block that is not there is left.
+      Word{'M', 970, auxiliary, "PL", H, false},
       Word{'M', 1380, auxiliary, "", H},
       Word{'M', 1390, auxiliary, "", H},
   };
@@ -191,6 +217,19 @@ inline constexpr std::array kWords = [] {
   for (const Word& word : kWords)
     if (word.letter == letter && word.tenths == tenths && knows(word, control)) return &word;
   return nullptr;
+}
+
+/// A way to write a program out, subprograms and computed numbers, and the controls that know it.
+struct FlowWord {
+  std::string_view name;
+  unsigned controls;
+};
+inline constexpr FlowWord kLocalCall{"M97", detail::H}, kCall{"M98", detail::mills},
+    kNamedSubprogram{"an O word beside SUB or CALL", detail::L},
+    kVariable{"a variable or expression", detail::mills}, kNamedVariable{"a variable with a name", detail::L};
+
+[[nodiscard]] constexpr bool knows(const FlowWord& word, Control control) noexcept {
+  return (word.controls >> static_cast<unsigned>(control) & 1U) != 0;
 }
 
 /// The other letters: those that need a word of the block, or the motion in force, which takes them, and

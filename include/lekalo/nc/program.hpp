@@ -32,21 +32,29 @@ struct Block {
   std::vector<Word> words;
 };
 
+/// The fault of a line, as words that complete `name:line:`.
+struct LineFault {
+  std::size_t line = 0;
+  std::string reason;
+};
+
 /// A program taken apart into words without losing a byte: what no word covers is comment, blank or line end.
 struct Program {
   std::vector<Block> blocks;  ///< every line, also empty ones
   /// The end of the first line that has one, or a line feed.
   std::string line_end;
+  /// The lines that could not be taken apart. A block with a fault ends before it.
+  std::vector<LineFault> faults;
 };
 
-/// Takes the text apart. Refuses (ErrorCode::program_refused, `name:line: reason`) what is not made of
-/// comments and words with plain numbers: expressions, variables, named O words, polar words, open
-/// comments, comments that act (Python, probe and log files, printed variables), characters that are not
-/// ASCII outside comments, blanks inside a number, lines too long.
+/// Takes the text apart. A fault is whatever is not made of comments and words with plain numbers:
+/// expressions, variables, named O words, polar words, open comments, comments that act (Python, probe and
+/// log files, printed variables), characters that are not ASCII outside comments, blanks inside a number,
+/// lines too long.
+///
 /// \param lines  the number of each line for messages, where the text was made from another; else they count
 ///               from 1
-[[nodiscard]] Result<Program> parse_program(std::string_view text, const std::string& name,
-                                            const std::vector<std::size_t>& lines = {});
+[[nodiscard]] Program parse_program(std::string_view text, const std::vector<std::size_t>& lines = {});
 
 /// `name:line: reason` as ErrorCode::program_refused.
 [[nodiscard]] tl::unexpected<Error> refusal(const std::string& name, std::size_t line,

@@ -27,6 +27,8 @@ struct LocateInputs {
   std::optional<Document> features = std::nullopt;
   /// The program that was to be moved, and the one that was written, where it is still there.
   std::optional<Document> program = std::nullopt, written_program = std::nullopt;
+  /// The list of M words that the shop allows.
+  std::optional<Document> allow = std::nullopt;
   /// The earlier result that this one was compared with.
   std::optional<Document> earlier = std::nullopt;
   /// The file of deviations that was written, where it is still there.

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/number/exact.hpp"
 #include "verify/read/json.hpp"
@@ -13,6 +14,8 @@ struct WrittenNc {
   Decimal clearance, rounding_mm;
   std::string mode;
   std::size_t work_offset = 1;
+  /// Results of 0.1 name no control: LinuxCNC's words were all that it knew.
+  words::Control control = words::Control::linuxcnc;
 };
 [[nodiscard]] WrittenNc read_written_nc(Json value, std::string& complaint);
 

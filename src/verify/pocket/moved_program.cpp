@@ -67,6 +67,20 @@ std::optional<double> number_behind(const std::string& line, const std::string& 
   return double_of_text(std::string_view(line).substr(begin, end - begin));
 }
 
+/// Under G93 the chords of an arc share its time: each says F, so many times that of the arc.
+bool shares_time(std::string arc, std::string chord, bool first, double chords) {
+  const auto take_feed = [](std::string& words) -> std::optional<double> {
+    const std::size_t at = words.starts_with('F') ? 0 : words.find(" F") + 1;
+    const std::size_t end = words.find(' ', at);
+    if (words.empty() || words[at] != 'F' || end == std::string::npos) return std::nullopt;
+    const auto feed = double_of_text(std::string_view(words).substr(at + 1, end - at - 1));
+    words.erase(at, end + 1 - at);
+    return feed;
+  };
+  const auto whole = take_feed(arc), share = take_feed(chord);
+  return whole && share && same(*whole * chords, *share) && chord == (first ? arc : "");
+}
+
 /// The frame that lines put into a program make, and the program without them.
 struct Framed {
   std::string rest;
@@ -157,7 +171,9 @@ class ProgramCheck {
   }
 
   /// Returns nothing where a program is not understood.
-  std::optional<NcProgram> read(const Document& program) {
+  std::optional<NcProgram> read(Document program) {
+    // The byte order mark of UTF-8 is no part of a program.
+    if (program.bytes.starts_with("\xEF\xBB\xBF")) program.bytes.remove_prefix(3);
     Result<NcProgram> found =
         read_program(program, {.control = claim_.control, .judged = false, .allowed_m = claim_.allowed_m});
     if (found) return *std::move(found);
@@ -260,12 +276,9 @@ class ProgramCheck {
       const Spot middle{(from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2};
       off_by(std::max({off_of(at(0), from, map), off_of(at(0.5), middle, map), off_of(at(1), to, map)}),
              chord.line);
-      if (chord.words == (k == 0 ? event.words : "")) continue;
-      // Under G93 the chords share the time of the arc, which is not computed here.
-      if (chord.words.find('F') == std::string::npos)
+      if (!(event.by_time ? shares_time(event.words, chord.words, k == 0, static_cast<double>(count))
+                          : chord.words == (k == 0 ? event.words : "")))
         fault(fmt::format("its line {} says \"{}\" beside a chord", chord.line, excerpt(chord.words)));
-      else if (!verdict_.open)
-        verdict_.open = fmt::format("{}:{}: the time of chords", claim_.written.name, chord.line);
     }
     return std::max(end, first + 1);
   }

@@ -42,7 +42,7 @@ bool may_be_skipped(const NcBlock& block) {
       return false;
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     if (block[letter] && std::string_view("NPS").find(letter) == std::string_view::npos) return false;
-  return true;
+  return !block['P'] || block.has('G', words::kDwell);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ bool NcLines::read(std::string_view text, bool in_subprogram, NcBlock& block) {
   if (!take_apart(text, block)) return false;
   if (skipped && !may_be_skipped(block))
     return complain("a block that may be skipped is not understood; take out the /");
-  if (skipped) block = {.line = block.line, .codes = {}, .allowed = {}, .words = {}};
+  if (skipped) block = {.line = block.line, .codes = {}, .allowed = {}, .words = {}, .pointless = {}};
   if (block.empty()) return true;
   if (ended_) return complain("words after the end of the program");
   any_words_ = true;
@@ -106,7 +106,14 @@ bool NcLines::tape_mark(std::string_view text) {
 bool NcLines::set_variable(std::string_view code) {
   if (ended_) return complain("words after the end of the program");
   any_words_ = true;
-  return assign(code.substr(0, code.find_first_of("(;")), variables_, in_subprogram_, complaint_);
+  const std::string_view assignment = code.substr(0, code.find_first_of("(;"));
+  return knows_variables(assignment) && assign(assignment, variables_, in_subprogram_, complaint_);
+}
+
+bool NcLines::knows_variables(std::string_view code) {
+  const words::FlowWord& word =
+      code.find("#<") == std::string_view::npos ? words::kVariable : words::kNamedVariable;
+  return words::knows(word, control_) || complain(fmt::format("{} is no word of this control", word.name));
 }
 
 bool NcLines::take_apart(std::string_view text, NcBlock& block) {
@@ -147,8 +154,9 @@ bool NcLines::take_word(std::string_view text, std::size_t& at, NcBlock& block) 
   const std::size_t opens = signed_one ? text.find_first_not_of(" \t", at + 1) : at;
   if (opens < text.size() && (text[opens] == '#' || text[opens] == '[')) {
     const std::optional<double> value = computed(text, at, variables_, in_subprogram_, complaint_);
-    return value && (letter == 'N' || letter == 'O' ? complain("the number of a block is computed")
-                                                    : keep(letter, *value, block));
+    return value && knows_variables(text.substr(begin, at - begin)) &&
+           (letter == 'N' || letter == 'O' ? complain("the number of a block is computed")
+                                           : keep(letter, *value, block));
   }
   while (at < text.size() && (is_digit(text[at]) || text[at] == '.' || text[at] == '-' || text[at] == '+'))
     ++at;
@@ -157,6 +165,7 @@ bool NcLines::take_word(std::string_view text, std::size_t& at, NcBlock& block) 
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
   const std::optional<double> value = double_of_text(digits);
   if (!value) return complain(fmt::format("{} is not followed by a plain number", letter));
+  if (*value != 0 && digits.find('.') == std::string_view::npos) block.pointless += letter;
   return keep(letter, *value, block);
 }
 

@@ -20,6 +20,8 @@ struct NcBlock {
   std::vector<int> allowed;
   /// The numbers of the letters but for G and M; 0 for N and O.
   std::array<std::optional<double>, 26> words;
+  /// The letters of numbers but 0 that have no decimal point, in their order.
+  std::string pointless;
 
   [[nodiscard]] std::optional<double> operator[](char letter) const {
     return words[static_cast<std::size_t>(letter - 'A')];
@@ -62,6 +64,7 @@ class NcLines {
   bool check_bytes(std::string_view& text);
   bool tape_mark(std::string_view text);
   bool set_variable(std::string_view code);
+  bool knows_variables(std::string_view code);
   bool take_apart(std::string_view text, NcBlock& block);
   bool take_word(std::string_view text, std::size_t& at, NcBlock& block);
   bool take_comment(std::string_view text, std::size_t& at);

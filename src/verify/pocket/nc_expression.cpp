@@ -8,6 +8,7 @@
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/double_of_text.hpp"
+#include "lekalo/base/nc_names.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -198,6 +199,10 @@ std::optional<double> computed(std::string_view text, std::size_t& at, const NcV
 bool assign(std::string_view text, NcVariables& variables, bool globals_only, std::string& complaint) {
   Reader reader(text, text.find('#') + 1, variables, globals_only);
   const std::string key = reader.name();
+  if (key.starts_with('<') && words::is_state_name(std::string_view(key).substr(1, key.size() - 2))) {
+    complaint = "the control alone sets " + key;
+    return false;
+  }
   const bool assigns = reader.takes('=');
   const double value = assigns ? reader.sum() : 0;
   if (reader.complaint.empty() && (!assigns || !reader.at_end()))

@@ -18,7 +18,9 @@ constexpr long kMostRepeats = 9999;
 /// A line in capitals, without blanks, comments and the number of its block.
 struct Code {
   std::string text;
-  std::string block;  ///< the digits of N, without zeros before them
+  std::string block;             ///< the digits of N, without zeros before them
+  std::string_view remarks;      ///< what follows the code in the line
+  bool remarks_between = false;  ///< a comment stands before some of the code
 };
 
 std::string digits_at(std::string_view text, std::size_t at) {
@@ -35,13 +37,21 @@ std::string without_zeros(const std::string& digits) {
 Code code_of(std::string_view line) {
   Code code;
   int depth = 0;
-  for (const char c : line) {
+  bool remarked = false;
+  std::size_t end = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
     if (c == ';' && depth == 0) break;
     depth += c == '(' ? 1 : 0;
-    if (depth == 0 && c != ' ' && c != '\t' && c != '\r')
+    remarked = remarked || depth > 0;
+    if (depth == 0 && c != ' ' && c != '\t' && c != '\r') {
       code.text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      code.remarks_between = remarked;
+      end = at + 1;
+    }
     depth -= c == ')' && depth > 0 ? 1 : 0;
   }
+  code.remarks = line.substr(end);
   if (!code.text.starts_with('N')) return code;
   const std::string digits = digits_at(code.text, 1);
   code.block = without_zeros(digits);
@@ -57,7 +67,7 @@ std::string number_of(const std::string& code, char letter) {
 
 class Flow {
  public:
-  explicit Flow(const Document& program) : name_(program.name) {
+  Flow(const Document& program, words::Control control) : name_(program.name), control_(control) {
     std::string_view rest = program.bytes;
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -75,6 +85,9 @@ class Flow {
     bool ended = false;
     for (; line < lines_.size() && complaint_.empty(); ++line) {
       if (const auto body = bodies_by_line_.find(line); body != bodies_by_line_.end()) {
+        at_ = line;
+        if (!ended && !codes_[line].text.ends_with("SUB"))
+          complain("the program runs into a subprogram; M2 or M30 is missing before it");
         line = body->second;
         continue;
       }
@@ -131,7 +144,13 @@ class Flow {
       if (number_of(code, 'M') == "99") return complain("M99 outside a subprogram");
       return order_.push_back({line + 1, lines_[line].text, depth_ > 0});
     }
-    order_.push_back({line + 1, {}, false});
+    const words::FlowWord& word = code.starts_with('O')          ? words::kNamedSubprogram
+                                  : number_of(code, 'M') == "97" ? words::kLocalCall
+                                                                 : words::kCall;
+    if (!words::knows(word, control_))
+      return complain(fmt::format("{} is no word of this control", word.name));
+    if (codes_[line].remarks_between) return complain("a comment before the words of a call");
+    order_.push_back({line + 1, codes_[line].remarks, false});
     call(code);
   }
 
@@ -151,11 +170,13 @@ class Flow {
       return complain("a call that is repeated L times is not understood");
     const std::string wanted = number_of(code, 'P');
     if (number_of(code, 'M') == "98") return repeat(bodies_.find(wanted), repeats);
+    if (wanted.empty()) return complain("a call without P");
     const auto first =
         static_cast<std::size_t>(std::ranges::find(codes_, wanted, &Code::block) - codes_.begin());
+    if (first == codes_.size()) return void(order_.back().text = lines_[at_].text);
     std::size_t end = first;
     while (end < codes_.size() && codes_[end].text != "M99") ++end;
-    if (wanted.empty() || end == codes_.size()) return complain("a subprogram that is not in this file");
+    if (end == codes_.size()) return complain("a subprogram without an end");
     repeat(bodies_.insert_or_assign("N" + wanted, std::pair(first, end)).first, repeats);
   }
 
@@ -175,6 +196,7 @@ class Flow {
   }
 
   std::string name_;
+  words::Control control_;
   std::vector<NcLine> lines_, order_;
   std::vector<Code> codes_;
   Bodies bodies_;
@@ -185,6 +207,8 @@ class Flow {
 
 }  // namespace
 
-Result<std::vector<NcLine>> lines_in_order(const Document& program) { return Flow(program).run(); }
+Result<std::vector<NcLine>> lines_in_order(const Document& program, words::Control control) {
+  return Flow(program, control).run();
+}
 
 }  // namespace lekalo::verify

@@ -46,7 +46,7 @@ class ProgramReader {
         lines_(reading.control, reading.allowed_m) {}
 
   Result<NcProgram> read() {
-    LEKALO_TRY(const std::vector<NcLine> order, lines_in_order(program_));
+    LEKALO_TRY(const std::vector<NcLine> order, lines_in_order(program_, control_));
     for (const NcLine& line : order) {
       ask();
       line_ = line.number;
@@ -88,6 +88,13 @@ class ProgramReader {
       if (judged_ && !code->judged)
         return complain(
             fmt::format("{} makes the control compute path or feed, which is not judged", name_of(*code)));
+    // A whole number means millimetres or thousandths by a setting of the control. K beside a cycle counts
+    // holes.
+    if (const std::size_t at = block.pointless.find_first_of(
+            is_cycle(motion == nullptr ? motion_ : motion) ? "XYZIJRQ" : "XYZIJKRQ");
+        judged_ && at != std::string::npos && (control_ == Control::haas || control_ == Control::fanuc))
+      return complain(fmt::format("{0} has no decimal point, and {1} controls may count it in thousandths",
+                                  block.pointless[at], name_of(control_)));
     const words::Word* carried = motion == nullptr && block.has_axis() && !off ? motion_ : nullptr;
     for (const char letter : words::kTakenLetters)
       if (block[letter] && !has_one_taker(block, letter, carried)) return false;
@@ -96,6 +103,7 @@ class ProgramReader {
   }
 
   bool has_one_taker(const NcBlock& block, char letter, const words::Word* carried) {
+    if (!block.allowed.empty() && (letter == 'P' || letter == 'Q')) return true;
     const words::Word* once = block.code(Group::once);
     auto takers =
         std::ranges::count_if(block.codes, [&](const words::Word* code) { return takes(*code, letter); });
@@ -118,9 +126,13 @@ class ProgramReader {
       if ((code->group == Group::motion && is_cycle(code)) ||
           std::ranges::find(kShown, code->group) == kShown.end())
         rest += name_of(*code) + " ";
+    // The words have to say whether it is a rapid where no move is seen, as up from a Z that is not known.
+    if (!moved && block.has_axis() && block.code(Group::once) == nullptr && motion_ != nullptr &&
+        !is_cycle(motion_))
+      rest += name_of(*motion_) + " ";
     for (const int m : block.allowed) rest += fmt::format("M{} ", m);
     const bool turns = is_arc(motion_) && block.code(Group::once) == nullptr;
-    const std::string_view shown = turns ? "NOXYIJKRP" : block.code(Group::once) != nullptr ? "NO" : "NOXYIJ";
+    const std::string_view shown = turns ? "NOXYIJKRP" : block.code(Group::once) != nullptr ? "NO" : "NOXY";
     for (char letter = 'A'; letter <= 'Z'; ++letter) {
       if (!block[letter] || shown.find(letter) != std::string_view::npos) continue;
       if (letter == 'Z' && moved && known_[2]) continue;
@@ -140,11 +152,12 @@ class ProgramReader {
     const std::string rest = rest_of(block, moves_.size() > before);
     if (!rest.empty() || moves_.size() > before)
       events_.push_back({block.line, rest, before, moves_.size(), upright_,
-                         work_offset_ == nullptr ? 0 : work_offset_->tenths});
+                         work_offset_ == nullptr ? 0 : work_offset_->tenths, by_time_});
   }
 
   void run(const NcBlock& block) {
-    if (block.code(Group::feed_mode) != nullptr) feed_ = 0;  // G94 takes back the F before it
+    if (const words::Word* code = block.code(Group::feed_mode))
+      feed_ = 0, by_time_ = code->tenths == 930;  // G94 takes back the F before it
     const words::Word* unit = block.code(Group::unit);
     const double new_unit = unit == nullptr ? unit_ : unit->tenths == 200 ? 25.4 : 1;
     if (block['F']) {
@@ -330,12 +343,16 @@ class ProgramReader {
       return void(complain("a canned cycle before G98 or G99"));
     double repeats = 1;
     for (const char letter : {'L', 'K'}) {
-      if (!block[letter]) continue;
+      if (!block[letter] || (letter == 'K' && control_ == Control::haas)) continue;
       const bool none = control_ != Control::linuxcnc && *block[letter] == 0;
-      if ((letter == 'K' && control_ == Control::linuxcnc) || (!is_count(*block[letter]) && !none))
+      if (!is_count(*block[letter]) && !none)
         return void(complain(fmt::format("{} of a canned cycle is not a number of holes", letter)));
       repeats = *block[letter];
     }
+    if (judged_ && block['L'] && control_ == Control::fanuc)
+      return void(complain("L beside a canned cycle, which not every Fanuc control reads; K repeats it"));
+    if (judged_ && control_ == Control::haas && (block['I'] || block['J'] || block['K']))
+      return void(complain("pecks shaped by I, J and K"));
     if (!judged_) return visit(block, repeats);
     if (!read_cycle(block)) return;
     const double before = to_r_plane_ ? at_[2] : std::max(initial_z_, at_[2]);
@@ -430,7 +447,7 @@ class ProgramReader {
   NcCycle cycle_;
   bool incremental_ = false, absolute_centre_ = false, to_r_plane_ = false, says_retract_ = false,
        has_cut_ = false;
-  bool has_cycle_ = false, cycle_incremental_ = false, ended_ = false;
+  bool has_cycle_ = false, cycle_incremental_ = false, ended_ = false, by_time_ = false;
   int spindle_ = 50;  ///< M3, M4 or M5, in tenths
   std::size_t line_ = 0;
 };

@@ -35,6 +35,7 @@ struct NcEvent {
   std::optional<NcArc> upright;
   /// The work offset that was selected last, in tenths of its G word; 0 before any.
   int offset = 0;
+  bool by_time = false;  ///< under G93
 };
 
 struct NcProgram {
