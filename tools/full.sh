@@ -100,7 +100,7 @@ builds_agree() {
 }
 
 fuzz_all() {
-  build_preset fuzz
+  build_preset asan --target fuzz
   "$root/fuzz/run.sh" "$fuzz_seconds"
 }
 
