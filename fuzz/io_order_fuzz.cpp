@@ -27,7 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const io::OrderRow& row : order->rows) {
     require(row.line > last && !row.file.empty());
     require(row.quantity >= 1 && row.quantity <= 1'000'000'000);
-    require(!row.rotations || !row.rotations->empty());
+    if (row.rotations)  // none is any
+      for (const layout::AngleRange& range : *row.rotations) require(std::isfinite(range.from));
     require(!row.grain || std::isfinite(row.grain->degrees));
     last = row.line;
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lekalo/nc/rewrite.hpp"
+#include "nc/unfold.hpp"
 #include "support/rs274_reader.hpp"
 
 namespace {
@@ -84,15 +85,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < kHead) return 0;
   const Pose pose = pose_of(data);
   const std::string program(reinterpret_cast<const char*>(data) + kHead, size - kHead);
+  // Subprograms and expressions are written out first, and what stands behind the end goes then.
+  const auto flat = unfold(program, "f");
+  if (!flat) {
+    require(flat.error().code == lekalo::ErrorCode::program_refused);
+    return 0;
+  }
   switch (data[6] % 4) {
     case 0:
-      check_inserting(program, pose, RewriteMode::offset);
+      check_inserting(flat->text, pose, RewriteMode::offset);
       break;
     case 1:
-      check_inserting(program, pose, RewriteMode::g68);
+      check_inserting(flat->text, pose, RewriteMode::g68);
       break;
     default:
-      check_coordinates(program, pose);
+      check_coordinates(flat->text, pose);
       break;
   }
   return 0;

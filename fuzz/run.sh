@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs every fuzz program of the preset `fuzz` for a while, beginning with fuzz/corpus/NAME.
+# Runs every fuzz program of the preset `asan` for a while, beginning with fuzz/corpus/NAME.
 #
 #   fuzz/run.sh SECONDS [NAME...]
 #
@@ -16,17 +16,17 @@ longest_kept=4096 # bytes
 
 programs=()
 if [ "$#" -gt 0 ]; then
-  for name in "$@"; do programs+=("$root/build/fuzz/fuzz/fuzz_$name"); done
+  for name in "$@"; do programs+=("$root/build/asan/fuzz/fuzz_$name"); done
 else
   for source in "$root"/fuzz/*_fuzz.cpp; do
     [ -e "$source" ] || fail "fuzz/run.sh: there is no fuzz/*_fuzz.cpp"
-    programs+=("$root/build/fuzz/fuzz/fuzz_$(basename -- "$source" _fuzz.cpp)")
+    programs+=("$root/build/asan/fuzz/fuzz_$(basename -- "$source" _fuzz.cpp)")
   done
 fi
 
 status=0
 for program in "${programs[@]}"; do
-  [ -x "$program" ] || fail "fuzz/run.sh: $program is not built; run 'cmake --preset fuzz && cmake --build --preset fuzz'."
+  [ -x "$program" ] || fail "fuzz/run.sh: $program is not built; run 'cmake --preset asan && cmake --build --preset asan --target fuzz'."
   name=$(basename -- "$program")
   name=${name#fuzz_}
   grown=$root/build/fuzz/corpus/$name

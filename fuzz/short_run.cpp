@@ -3,18 +3,19 @@
 //
 //   short_NAME [CORPUS FOLDER]
 //
-// LEKALO_CASES inputs, by LEKALO_SEED. An input that stops the program, that takes 20 s, or after which the
-// process has ever held more than a gigabyte, is left in ./found-NAME, and fails the run.
+// LEKALO_CASES inputs, by LEKALO_SEED. An input that stops the program, that takes 20 s of processor time, or
+// after which the process has ever held more than a gigabyte, is left in ./found-NAME, and fails the run.
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -107,12 +108,12 @@ std::size_t megabytes_held() {
 }
 
 void try_input(std::string input) {
-  using Clock = std::chrono::steady_clock;
   current = std::move(input);
-  ::alarm(kMostSeconds);
-  const Clock::time_point start = Clock::now();
+  const itimerval most{{}, {kMostSeconds, 0}};
+  ::setitimer(ITIMER_PROF, &most, nullptr);
+  const std::clock_t start = std::clock();
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(current.data()), current.size());
-  slowest_seconds = std::max(slowest_seconds, std::chrono::duration<double>(Clock::now() - start).count());
+  slowest_seconds = std::max(slowest_seconds, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   if (megabytes_held() > kMostMegabytes) {
     std::fprintf(stderr, "more than %zu MB are held after an input\n", kMostMegabytes);
     std::raise(SIGABRT);
@@ -125,7 +126,7 @@ int main(int argc, char** argv) {
   const std::uint64_t seed = lekalo::cases::seed();
   const std::size_t cases = lekalo::cases::case_count(kStandardCases);
   found = "found-" + std::filesystem::path(argv[0]).filename().string();
-  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM})
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGPROF})
     std::signal(signal, leave_input);
 
   lekalo::Random random(seed);

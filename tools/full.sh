@@ -51,7 +51,7 @@ build_and_test() {
 # The quick counts: a sanitizer and another compiler look for what a few cases show as well as many.
 quick_suite() {
   unset LEKALO_CASES LEKALO_TIMES
-  export UBSAN_OPTIONS=print_stacktrace=1
+  export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$root/tests/lsan.supp:print_suppressions=0
   build_and_test "$1"
 }
 
@@ -100,7 +100,7 @@ builds_agree() {
 }
 
 fuzz_all() {
-  build_preset fuzz
+  build_preset asan --target fuzz
   "$root/fuzz/run.sh" "$fuzz_seconds"
 }
 

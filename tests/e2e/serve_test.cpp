@@ -201,7 +201,7 @@ TEST(Serve, MakesNoLayoutOfAFileThatNobodyWaitsFor) {
   // Long to read, so that the end of the connection is known before.
   Json many = Json::parse(squares());
   const Json one = many["placements"][0];
-#ifdef __SANITIZE_THREAD__
+#ifdef LEKALO_SANITIZE_THREAD
   constexpr int kMany = 15'000;
 #else
   constexpr int kMany = 150'000;
@@ -452,7 +452,7 @@ TEST(Serve, FortyClientsAgreeInTheEnd) {
   table("20 on one layout", shared_ms);
   table("20 on their own ", alone_ms);
   std::printf("memory: %ld kB after a sixth, %ld kB at the end\n", early, late);
-#ifndef __SANITIZE_ADDRESS__  // which keeps what is freed for a while
+#ifndef LEKALO_SANITIZE_ADDRESS  // which keeps what is freed for a while
   EXPECT_LT(late, early + 64 * 1024);
 #endif
 }

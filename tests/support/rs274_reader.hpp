@@ -74,6 +74,7 @@ class Reader {
     for (std::size_t k = 0; k < text.size(); ++k) {
       if (text[k] == ';' || text[k] == '/') break;
       if (text[k] == '(') k = text.find(')', k);
+      if (k == std::string::npos) break;
       if (!std::isalpha(static_cast<unsigned char>(text[k]))) continue;
       const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[k])));
       std::size_t end = k + 1;

@@ -275,14 +275,17 @@ class DxfReader {
     DrawnArc arc;
     arc.centre = *centre, arc.radius = in_mm(*radius);
     arc.from_deg = full ? Fraction(0) : to_fraction(*from);
-    Fraction sweep = full ? Fraction(360) : to_fraction(*to) - *arc.from_deg;
-    while (sweep <= 0) sweep += 360;
-    while (sweep > 360) sweep -= 360;
+    const Fraction sweep = full ? Fraction(360) : within_a_turn(to_fraction(*to) - *arc.from_deg);
     arc.to_deg = *arc.from_deg + sweep;
     arc.sweep = sweep_of(sweep);
     arc.first = direction(*arc.from_deg), arc.last = direction(*arc.to_deg);
     if (arc.sweep == Sweep::full) arc.last = arc.first;
     maker_.arc(map, arc);
+  }
+  /// Returns degrees, above 0 and up to 360, that differ by whole turns.
+  static Fraction within_a_turn(const Fraction& degrees) {
+    const Fraction rest = degrees - Fraction(Integer(degrees / 360) * 360);
+    return rest > 0 ? rest : Fraction(rest + 360);
   }
   static Sweep sweep_of(const Fraction& degrees) {
     if (degrees == 360) return Sweep::full;
@@ -343,9 +346,7 @@ class DxfReader {
     static const Fraction kPi = to_fraction(*parse_decimal("3.14159265358979323846264338327950288"));
     const auto in_degrees = [&](const Decimal& angle) { return Fraction(to_fraction(angle) * 180 / kPi); };
     const Fraction first = in_degrees(*from);
-    Fraction sweep = in_degrees(*to) - first;
-    while (sweep <= 0) sweep += 360;
-    while (sweep > 360) sweep -= 360;
+    Fraction sweep = within_a_turn(in_degrees(*to) - first);
     if (360 - sweep < Fraction(1) / 10000) sweep = 360;
     const Vec left{-along->y, along->x};
     if (compare(*ratio, Decimal{1, 0}) == 0) {
