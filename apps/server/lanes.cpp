@@ -12,7 +12,7 @@ namespace lekalo::server {
 namespace {
 
 /// Threads beside those of the quick lane whose work turned out to be long.
-constexpr std::size_t kMostOvertaken = 32;
+constexpr std::size_t kMostOvertaken = 32, kMostOvertakenOfOwner = 8;
 constexpr auto kWatchEvery = std::chrono::milliseconds(10);
 
 /// Gives a thread a tenth of what others get of a processor that they want too. Failing is no harm.
@@ -37,7 +37,7 @@ std::chrono::nanoseconds computed_by(std::thread& thread) {
 
 }  // namespace
 
-QuickLane::QuickLane(std::size_t threads) : wanted_(threads) {
+QuickLane::QuickLane(std::size_t threads, SlowLane& slow) : wanted_(threads), lane_of_long_(slow) {
   {
     const std::lock_guard lock(lock_);
     fill();
@@ -56,17 +56,17 @@ QuickLane::~QuickLane() {
   for (Worker& worker : workers_) worker.thread.join();
 }
 
-void QuickLane::post(Work work) {
+void QuickLane::post(const std::string& owner, Work work) {
   {
     const std::lock_guard lock(lock_);
     if (ending_) return;
-    waiting_.push_back(std::move(work));
+    waiting_.push_back({owner, std::move(work)});
   }
   work_came_.notify_one();
 }
 
 bool QuickLane::end(LaneTime until) {
-  std::deque<Work> dropped;  // stands before the lock, because what it holds may end with it
+  std::deque<Piece> dropped;  // stands before the lock, because what it holds may end with it
   std::unique_lock lock(lock_);
   ending_ = true;
   dropped.swap(waiting_);
@@ -100,8 +100,17 @@ void QuickLane::run(Worker& worker) {
     work_came_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
     if (ending_) break;
     {
-      const Work work = std::move(waiting_.front());
+      Piece piece = std::move(waiting_.front());
       waiting_.pop_front();
+      const auto overtaken = overtaken_of_.find(piece.owner);
+      if (overtaken != overtaken_of_.end() && overtaken->second >= kMostOvertakenOfOwner) {
+        lock.unlock();
+        lane_of_long_.post(piece.owner, std::move(piece.work));
+        lock.lock();
+        continue;
+      }
+      worker.owner = std::move(piece.owner);
+      const Work work = std::move(piece.work);
       worker.begun = std::chrono::steady_clock::now();
       worker.computed_before = time_of(CLOCK_THREAD_CPUTIME_ID);
       worker.busy = true;
@@ -113,6 +122,7 @@ void QuickLane::run(Worker& worker) {
     }
     if (worker.overtaken) break;  // another thread is in its place
   }
+  if (worker.overtaken && --overtaken_of_[worker.owner] == 0) overtaken_of_.erase(worker.owner);
   --(worker.overtaken ? slow_ : quick_);
   worker.ended = true;
   fill();
@@ -148,6 +158,7 @@ void QuickLane::look_after(Worker& worker, LaneTime now) {
   if (!worker.overtaken && slow_ < kMostOvertaken) {
     worker.overtaken = true;
     ++overtaken_;
+    ++overtaken_of_[worker.owner];
     --quick_;
     ++slow_;
     fill();
@@ -246,7 +257,7 @@ void Turns::start() {
   if (next.length == Length::lengthy || (next.length == Length::as_before && is_slow_))
     slow_.post(next.owner, run_next);
   else
-    quick_.post(run_next);
+    quick_.post(next.owner, run_next);
 }
 
 void Turns::run() {

@@ -191,6 +191,7 @@ const std::string* Target::find(std::string_view name) const {
 }
 
 std::optional<Target> parse_target(std::string_view target) {
+  constexpr std::size_t kMostFields = 64;  // each is compared with those before it
   Target parsed;
   if (target.empty() || target.front() != '/' || target.find('#') != target.npos) return std::nullopt;
   const std::size_t mark = std::min(target.find('?'), target.size());
@@ -204,7 +205,8 @@ std::optional<Target> parse_target(std::string_view target) {
     const std::size_t equal = std::min(field.find('='), field.size());
     auto name = percent_decoded(field.substr(0, equal));
     auto value = percent_decoded(field.substr(std::min(equal + 1, field.size())));
-    if (!name || !value || parsed.find(*name) != nullptr) return std::nullopt;
+    if (!name || !value || parsed.find(*name) != nullptr || parsed.fields.size() == kMostFields)
+      return std::nullopt;
     parsed.fields.emplace_back(std::move(*name), std::move(*value));
   }
   return parsed;

@@ -167,6 +167,12 @@ Outbound Room::leave(ClientNumber client) {
   return out;
 }
 
+std::vector<ClientNumber> Room::clients() const {
+  std::vector<ClientNumber> numbers;
+  for (const auto& one : clients_) numbers.push_back(one.first);
+  return numbers;
+}
+
 Outbound Room::handle(ClientNumber client, const ClientMessage& said, const std::atomic<bool>& gone) {
   if (clients_.find(client) == clients_.end()) return {};
   if (const auto* one = std::get_if<CommandMessage>(&said)) return command(client, *one, gone);

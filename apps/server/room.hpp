@@ -79,6 +79,7 @@ class Room {
 
   [[nodiscard]] Revision revision() const noexcept { return revision_; }
   [[nodiscard]] bool empty() const noexcept { return clients_.empty(); }
+  [[nodiscard]] std::vector<ClientNumber> clients() const;
   [[nodiscard]] const layout::Document& document() const noexcept { return workspace_.document(); }
 
  private:

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "network/service.hpp"
@@ -26,15 +27,18 @@ using tcp = asio::ip::tcp;
 using boost::system::error_code;
 
 /// After a signal the last words to clients may take this long, and what was begun this long in all.
-constexpr std::chrono::milliseconds kFarewell{500}, kLastWork{1500};
+constexpr std::chrono::milliseconds kFarewell{500}, kLastWork{1000};
 constexpr auto kSweepEvery = std::chrono::milliseconds(250);
 
 class Acceptor {
  public:
   Acceptor(Service& service, tcp::acceptor&& socket)
       : service_(service), socket_(std::move(socket)), pause_(service.io) {}
+  /// Waits for the next connection, unless it does so already.
   void next() {
+    if (waits_ || !socket_.is_open()) return;
     socket_.async_accept([this](error_code error, tcp::socket socket) {
+      waits_ = false;
       if (error == asio::error::operation_aborted || !socket_.is_open()) return;
       if (error) return wait();  // out of descriptors, most likely
       error_code ignored;
@@ -42,6 +46,7 @@ class Acceptor {
       start_visit(service_, std::move(socket));
       next();
     });
+    waits_ = true;
   }
   void close() {
     error_code ignored;
@@ -59,25 +64,31 @@ class Acceptor {
   Service& service_;
   tcp::acceptor socket_;
   asio::steady_timer pause_;
+  bool waits_ = false;
 };
 
 /// Ends the connections whose clients are too slow.
 class Sweeper {
  public:
   explicit Sweeper(Service& service) : service_(service), timer_(service.io) {}
+  /// Waits for the next time, unless it does so already.
   void next() {
+    if (waits_ || service_.stopping) return;
     timer_.expires_after(kSweepEvery);
     timer_.async_wait([this](error_code error) {
+      waits_ = false;
       if (error) return;
       service_.places.sweep(std::chrono::steady_clock::now());
       next();
     });
+    waits_ = true;
   }
   void close() { timer_.cancel(); }
 
  private:
   Service& service_;
   asio::steady_timer timer_;
+  bool waits_ = false;
 };
 
 /// Listens until a signal comes. Returns when it came.
@@ -92,17 +103,17 @@ Result<LaneTime> run_until_signal(Service& service, tcp::acceptor&& socket, cons
     if (service.stopping) return;
     service.stopping = true;
     signalled = std::chrono::steady_clock::now();
+    farewell.expires_after(kFarewell);
+    farewell.async_wait([&](error_code) {
+      service.places.cut_all();
+      service.io.stop();
+    });
     acceptor.close();
     sweeper.close();
     const auto talks = service.talks;  // one that is slow may go meanwhile
     for (const auto& [number, weak] : talks)
       if (const std::shared_ptr<Talk> talk = weak.lock())
         talk->say_goodbye("the server stops; everything that was acknowledged is kept");
-    farewell.expires_after(kFarewell);
-    farewell.async_wait([&](error_code) {
-      service.places.cut_all();
-      service.io.stop();
-    });
   };
   signals.async_wait([&](error_code problem, int) {
     if (problem) return;
@@ -115,10 +126,15 @@ Result<LaneTime> run_until_signal(Service& service, tcp::acceptor&& socket, cons
   const std::string query = options.tells_token ? "?token=" + options.token : "";
   if (Result<void> said = listening(fmt::format("http://{}:{}/{}", host, service.rules.port, query)); !said)
     return tl::unexpected(said.error());
-  acceptor.next();
-  sweeper.next();
-  service.io.run();
-  return signalled;
+  for (;;) {
+    try {
+      acceptor.next();
+      sweeper.next();
+      service.io.run();
+      return signalled;
+    } catch (const std::bad_alloc&) {  // it ends the connection whose turn it was, and no other
+    }
+  }
 }
 
 }  // namespace

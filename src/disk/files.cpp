@@ -73,17 +73,28 @@ std::string temporary_name(const std::string& target) {
   return fmt::format("{}/.lekalo-{}-{}.tmp", folder_of(target), ::getpid(), counter++);
 }
 
-/// Creates a new file beside `target` and says its name; -1 with errno on failure.
-int create_beside(const std::string& target, std::string& name) {
+/// Makes something beside `target` under a name that no other file has, and says the name. `make` takes a
+/// name and returns a number below 0, with errno, where it fails.
+template <class Make>
+int make_beside(const std::string& target, std::string& name, const Make& make) {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
     std::string free_name = temporary_name(target);
-    const int file = ::open(free_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file >= 0) name = std::move(free_name);  // which cannot fail: a file whose name is lost would stay
-    if (file >= 0 || errno != EEXIST) return file;
+    const int made = make(free_name.c_str());
+    if (made >= 0) name = std::move(free_name);  // which cannot fail: a file whose name is lost would stay
+    if (made >= 0 || errno != EEXIST) return made;
   }
   return -1;
 }
+
+int create_beside(const std::string& target, std::string& name) {
+  return make_beside(target, name, [](const char* path) {
+    return ::open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  });
+}
+
+/// Says whether a file cannot have a second name, by errno: its file system has none, or not for others.
+bool has_one_name() { return errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS || errno == EMLINK; }
 
 /// Owner and permissions of the file that is replaced. Where the owner cannot be kept, set-user bits must not
 /// be.
@@ -143,7 +154,7 @@ AtomicFiles::~AtomicFiles() { discard(); }
 void AtomicFiles::discard() noexcept {
   for (const Pending& file : pending_) {
     if (!file.temporary.empty()) ::unlink(file.temporary.c_str());
-    if (!file.backup.empty()) ::unlink(file.backup.c_str());
+    if (!file.backup.empty() && !file.is_stuck) ::unlink(file.backup.c_str());
   }
   pending_.clear();
 }
@@ -184,25 +195,33 @@ Result<void> AtomicFiles::add(const std::string& path, std::string_view bytes) {
 }
 
 Result<void> AtomicFiles::commit() {
-  // A second name for each file that goes, so that a rename that fails halfway can be undone. File systems
-  // without hard links go without: one file is atomic there, several are not.
-  for (Pending& file : pending_) {
-    std::string backup = temporary_name(file.target);
-    if (::link(file.target.c_str(), backup.c_str()) == 0) file.backup = std::move(backup);
+  const auto given_up = [&](const Pending& file) {
+    auto why = trouble(ErrorCode::environment, file.target, "cannot be written");
+    for (const Pending& other : pending_)
+      if (other.is_stuck) why.value().message += stuck_sentence(other);
+    discard();
+    return why;
+  };
+  // A second name for each file that goes, so that it can be put back if a later rename fails.
+  for (std::size_t i = 0; i + 1 < pending_.size(); ++i) {
+    Pending& file = pending_[i];
+    const auto link_to = [&](const char* name) { return ::link(file.target.c_str(), name); };
+    if (file.replaces && make_beside(file.target, file.backup, link_to) < 0 && !has_one_name())
+      return given_up(file);
   }
+  // From the first rename on nothing asks for memory.
+  std::vector<std::string> folders;
+  for (const Pending& file : pending_) folders.push_back(folder_of(file.target));
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     if (::rename(pending_[i].temporary.c_str(), pending_[i].target.c_str()) == 0) continue;
     const int why = errno;
     undo(i);
-    const std::string target = std::move(pending_[i].target);
-    discard();
     errno = why;
-    return trouble(ErrorCode::environment, target, "cannot be written");
+    return given_up(pending_[i]);
   }
-  for (Pending& file : pending_) {
-    file.temporary.clear();
-    sync_folder(folder_of(file.target));
-  }
+  for (Pending& file : pending_) file.temporary.clear();
+  for (const std::string& folder : folders) sync_folder(folder);
   discard();
   return {};
 }
@@ -215,8 +234,16 @@ void AtomicFiles::undo(std::size_t renamed) noexcept {
       ::unlink(file.target.c_str());
     } else if (!file.backup.empty() && ::rename(file.backup.c_str(), file.target.c_str()) == 0) {
       file.backup.clear();
+    } else {
+      file.is_stuck = true;
     }
   }
+}
+
+std::string AtomicFiles::stuck_sentence(const Pending& file) {
+  return file.backup.empty() ? fmt::format("; {} is new already, and what it was is gone", file.target)
+                             : fmt::format("; {} is new already and could not be put back: {} is what it was",
+                                           file.target, file.backup);
 }
 
 }  // namespace lekalo::disk

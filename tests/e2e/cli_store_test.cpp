@@ -111,6 +111,22 @@ TEST_F(StoreCommand, TakesWhatIsWholeOutOfADamagedFile) {
   EXPECT_TRUE(says(whole.out, "2 layouts")) << taken.err;
 }
 
+TEST_F(StoreCommand, NothingIsWrittenThroughALinkBesideTheStore) {
+  const std::string precious = "what somebody else wrote\n";
+  write_bytes(folder_ / "victim", precious);
+  for (const char* name : {"new.sqlite-reserve", "new.sqlite-revision", "copy.sqlite.lekalo-new"})
+    fs::create_symlink("victim", folder_ / name);
+  const Ran refused = run(folder_.path(), {"serve", "--store", "new.sqlite", "--port", "0"});
+  EXPECT_EQ(refused.status, 5);
+  EXPECT_TRUE(says(refused.err, "new.sqlite-revision")) << refused.err;
+  fs::remove(folder_ / "new.sqlite-revision");
+  EXPECT_EQ(served("new.sqlite"), "");
+  EXPECT_EQ(store({"backup", "new.sqlite", "-o", "copy.sqlite"}).status, 0);
+  EXPECT_EQ(fs::status(folder_ / "copy.sqlite").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(read_bytes(folder_ / "victim"), precious);
+}
+
 TEST_F(StoreCommand, SaysWhatIsWrongWithTheCommandLine) {
   EXPECT_EQ(store({}).status, 2);
   EXPECT_TRUE(says(store({"mend", "old.sqlite"}).err, "check, backup or restore"));

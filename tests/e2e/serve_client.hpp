@@ -42,7 +42,9 @@ inline std::string squares() {
 class ServerProcess {
  public:
   /// \param file_limit  bytes a file of the server may have, as on a disk that fills up; 0: no limit
-  explicit ServerProcess(const fs::path& folder, const Words& more = {}, rlim_t file_limit = 0) {
+  /// \param environment  NAME=VALUE, beside what the test itself runs in
+  explicit ServerProcess(const fs::path& folder, const Words& more = {}, rlim_t file_limit = 0,
+                         Words environment = {}) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
     Words words =
@@ -53,6 +55,7 @@ class ServerProcess {
     process_ = fork();
     if (process_ == 0) {
       dup2(ends[1], 1);
+      for (std::string& one : environment) putenv(one.data());
       if (file_limit > 0) {
         const rlimit limit{file_limit, file_limit};
         setrlimit(RLIMIT_FSIZE, &limit);

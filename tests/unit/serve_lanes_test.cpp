@@ -55,9 +55,10 @@ void compute(milliseconds time) {
 TEST(QuickLane, OvertakesWhatTakesLong) {
   Gate gate;
   std::promise<void> done;
-  QuickLane lane(2);
-  for (int i = 0; i < 5; ++i) lane.post(gate.work());
-  lane.post([&] { done.set_value(); });
+  SlowLane slow(1);
+  QuickLane lane(2, slow);
+  for (int i = 0; i < 5; ++i) lane.post("x", gate.work());
+  lane.post("x", [&] { done.set_value(); });
   EXPECT_TRUE(is_done(done));
   EXPECT_GE(lane.overtaken(), 4u);
   EXPECT_FALSE(lane.end(in(milliseconds(10))));
@@ -65,19 +66,37 @@ TEST(QuickLane, OvertakesWhatTakesLong) {
   EXPECT_TRUE(lane.end(in(kPatience)));
 }
 
+TEST(QuickLane, SendsWhoOftenTakesLongToTheSlowLane) {
+  Gate gate;
+  std::promise<void> done;
+  SlowLane slow(2);
+  QuickLane lane(1, slow);
+  for (int i = 0; i < 60; ++i) lane.post("greedy", gate.work());
+  lane.post("modest", [&] { done.set_value(); });
+  EXPECT_TRUE(is_done(done));
+  EXPECT_GE(lane.overtaken(), 8u);
+  EXPECT_LT(lane.overtaken(), 12u);
+  gate.open();
+  // What was overtaken is done, so it counts no more.
+  std::promise<void> again;
+  lane.post("greedy", [&] { again.set_value(); });
+  EXPECT_TRUE(is_done(again));
+}
+
 TEST(QuickLane, DropsAtTheEndWhatHasNotBegun) {
   Gate gate;
   std::atomic<int> begun = 0;
   {
-    QuickLane lane(1);
+    SlowLane slow(1);
+    QuickLane lane(1, slow);
     std::promise<void> first;
-    lane.post([&] {
+    lane.post("x", [&] {
       first.set_value();
       gate.work()();
     });
     ASSERT_TRUE(is_done(first));
     EXPECT_FALSE(lane.end(in(milliseconds(1))));
-    for (int i = 0; i < 10; ++i) lane.post([&] { ++begun; });
+    for (int i = 0; i < 10; ++i) lane.post("x", [&] { ++begun; });
     gate.open();
     EXPECT_TRUE(lane.end(in(kPatience)));
   }
@@ -113,8 +132,8 @@ TEST(Turns, GoOneAfterTheOtherInOrder) {
   std::vector<int> order;
   std::atomic<int> at_once = 0, most = 0;
   std::promise<void> done;
-  QuickLane quick(3);
   SlowLane slow(2);
+  QuickLane quick(3, slow);
   const auto turns = std::make_shared<Turns>(quick, slow);
   for (int i = 0; i < kPieces; ++i)
     turns->post(
@@ -132,8 +151,8 @@ TEST(Turns, GoOneAfterTheOtherInOrder) {
 }
 
 TEST(Turns, OfASlowRoomGoToTheSlowLaneUntilOneIsShort) {
-  QuickLane quick(1);
   SlowLane slow(2);
+  QuickLane quick(1, slow);
   const auto turns = std::make_shared<Turns>(quick, slow);
   const int usual = getpriority(PRIO_PROCESS, 0);
   if (usual >= 19) GTEST_SKIP() << "nothing is nicer than this process";
@@ -161,8 +180,8 @@ TEST(Turns, OfASlowRoomGoToTheSlowLaneUntilOneIsShort) {
 
 TEST(Turns, AreDroppedWhenTheLanesHaveEnded) {
   const auto held = std::make_shared<int>(0);
-  QuickLane quick(1);
   SlowLane slow(1);
+  QuickLane quick(1, slow);
   const auto turns = std::make_shared<Turns>(quick, slow);
   ASSERT_TRUE(quick.end(in(kPatience)));
   ASSERT_TRUE(slow.end(in(kPatience)));

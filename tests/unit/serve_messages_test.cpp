@@ -89,6 +89,10 @@ TEST(Targets, AreSplitAndDecodedOnce) {
   EXPECT_EQ(target->find("y"), nullptr);
   for (const char* bad : {"", "api", "http://a/b", "/a?b=%", "/a?b=%2", "/a?b=%zz", "/a?b=1&b=2", "/a#b"})
     EXPECT_FALSE(parse_target(bad)) << bad;
+  std::string many = "/a?f";  // each is compared with all before it
+  for (int i = 1; i < 64; ++i) many += "&f" + std::to_string(i);
+  EXPECT_TRUE(parse_target(many));
+  EXPECT_FALSE(parse_target(many + "&f64"));
   EXPECT_EQ(whole_number("0012"), 12u);
   for (const char* bad :
        {"", "-1", "+1", " 1", "1 ", "1e3", "0x1", "9007199254740992", "99999999999999999999"})

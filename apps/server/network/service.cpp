@@ -26,9 +26,9 @@ std::size_t processors() { return std::max(1U, std::thread::hardware_concurrency
 Service::Service(const ServerOptions& options, Store opened)
     : store(std::move(opened)),
       rules{options.address, 0, false, options.token},
-      quick(std::clamp<std::size_t>(processors(), 2, 4)),
       slow(std::max<std::size_t>(processors(), 2) + 1),
-      jobs(kMostJobs) {}
+      jobs(kMostJobs),
+      quick(std::clamp<std::size_t>(processors(), 2, 4), slow) {}
 
 std::shared_ptr<OpenRoom> Service::take_room(LayoutId id) {
   const std::lock_guard lock(rooms_lock);
@@ -52,6 +52,30 @@ Result<void> Service::change_room(OpenRoom& room, const std::function<Result<Out
   return {};
 }
 
+bool Service::in_turn(OpenRoom& room, const std::function<void()>& act) {
+  try {
+    act();
+    return true;
+  } catch (const std::bad_alloc&) {
+    forget(room);
+    return false;
+  }
+}
+
+void Service::forget(OpenRoom& room) {
+  if (!room.room) return;
+  std::vector<ClientNumber> clients = room.room->clients();
+  room.room.reset();
+  asio::post(io, [this, clients = std::move(clients)] {
+    for (const ClientNumber client : clients) {
+      const auto at = talks.find(client);
+      if (at == talks.end()) continue;
+      if (const std::shared_ptr<Talk> talk = at->second.lock())
+        talk->say_goodbye("there was not enough memory; open the layout again");
+    }
+  });
+}
+
 void Service::deliver(Outbound out) {
   if (out.empty()) return;
   asio::post(io, [this, out = std::move(out)] {
@@ -71,11 +95,18 @@ void Service::free_client(ClientNumber client) {
   });
 }
 
+void Service::post_to_room(const std::shared_ptr<OpenRoom>& room, const std::string& owner,
+                           std::function<void()> act) {
+  room->turns->post(owner, [this, room, act = std::move(act)] {
+    if (room->room) in_turn(*room, act);
+  });
+}
+
 void Service::run_jobs(const std::shared_ptr<OpenRoom>& room, const std::string& owner) {
   for (JobStart& start : room->room->take_jobs())
     jobs.post(owner, [this, room, owner, start = std::move(start)] {
       Result<layout::Change> found = run_job(room, owner, start);
-      room->turns->post(owner, [this, room, owner, number = start.number, found = std::move(found)] {
+      post_to_room(room, owner, [this, room, owner, number = start.number, found = std::move(found)] {
         const ClientNumber client = room->room->client_of(number);
         deliver(room->room->job_ended(number, found));
         if (!room->room->is_busy(client)) free_client(client);
@@ -99,12 +130,12 @@ Result<layout::Change> Service::run_job(const std::shared_ptr<OpenRoom>& room, c
     time_left.take(std::chrono::duration<double>(now - begin).count(), progress.fraction);
     const double fraction = progress.fraction;
     const std::optional<double> left = time_left.seconds();
-    room->turns->post(owner, [this, room, number = start.number, fraction, left] {
+    post_to_room(room, owner, [this, room, number = start.number, fraction, left] {
       deliver(room->room->job_progress(number, fraction, left));
     });
   };
   context.improved = [&](const layout::Change& change) {
-    room->turns->post(owner, [this, room, number = start.number, change] {
+    post_to_room(room, owner, [this, room, number = start.number, change] {
       deliver(room->room->job_improved(number, change));
     });
   };

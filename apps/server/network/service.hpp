@@ -68,8 +68,8 @@ struct Service {
   /// The stop flags of the jobs under way.
   std::set<std::atomic<bool>*> job_stops;
   /// The lanes stand last, because what they run uses the others.
-  QuickLane quick;
   SlowLane slow, jobs;
+  QuickLane quick;
 
   /// Returns the room of a layout. When nobody uses it any more it is closed: its memory is freed, and its
   /// layout is in the store.
@@ -79,6 +79,9 @@ struct Service {
   /// Changes a layout and tells its clients. It is to be called in the room's turn.
   [[nodiscard]] Result<void> change_room(OpenRoom& room,
                                          const std::function<Result<Outbound>(Room&)>& change);
+  /// Does something in the turn of a room. Where memory ends halfway, the room may be another than the store
+  /// says: it is forgotten then, to be opened anew, and its clients are sent away. Returns false then.
+  bool in_turn(OpenRoom& room, const std::function<void()>& act);
   /// Hands messages to the network's thread. It is to be called in a room's turn.
   void deliver(Outbound out);
   /// Runs the jobs that were started in the room. It is to be called in the room's turn.
@@ -93,6 +96,10 @@ struct Service {
  private:
   [[nodiscard]] Result<layout::Change> run_job(const std::shared_ptr<OpenRoom>& room,
                                                const std::string& owner, const JobStart& start);
+  void forget(OpenRoom& room);
+  /// Does something in the room's turn, if the room is still open then.
+  void post_to_room(const std::shared_ptr<OpenRoom>& room, const std::string& owner,
+                    std::function<void()> act);
   /// Tells the client's connection that its long command has ended. It is to be called in a room's turn.
   void free_client(ClientNumber client);
 };

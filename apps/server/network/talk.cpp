@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -24,6 +25,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kSilence = std::chrono::seconds(60);
 constexpr int kMostFaults = 20;
 constexpr std::size_t kMostHeld = 64;
+/// Larger messages are not parsed on the network's thread, for which all wait.
+constexpr std::size_t kParsedAtOnce = std::size_t{16} << 10;
 
 /// One WebSocket connection.
 class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocketTalk> {
@@ -94,7 +97,8 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     room_->turns->post(
         place_->peer(),
         [self = shared_from_this(), act = std::move(act)]() mutable {
-          act(*self);
+          if (!self->service_.in_turn(*self->room_, [&] { act(*self); }))
+            self->fail_in_room("there was not enough memory for this layout");
           // The connection may end with this; that belongs to the network's thread.
           Service& service = self->service_;
           asio::post(service.io, [self = std::move(self)] {});
@@ -123,19 +127,38 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
     });
   }
   void take() {
-    const WebSocket::Message taken = socket_.message();
+    WebSocket::Message taken = socket_.message();
     place_->heard(Clock::now());
     if (closing_) return read();
-    Result<ClientMessage> message = taken.is_text
-                                        ? parse_client_message(taken.bytes)
-                                        : failure(ErrorCode::bad_input, "messages are text frames of JSON");
+    if (taken.bytes.size() <= kParsedAtOnce) return take_parsed(parsed(taken), taken.bytes.size());
+    parsing_ = true;  // nothing is read meanwhile, so messages keep their order
+    service_.slow.post(place_->peer(), [self = shared_from_this(), taken = std::move(taken)]() mutable {
+      Service& service = self->service_;
+      asio::post(service.io, [self = std::move(self), message = parsed(taken), size = taken.bytes.size()]() {
+        self->parsing_ = false;
+        self->take_parsed(message, size);
+      });
+    });
+  }
+  static Result<ClientMessage> parsed(const WebSocket::Message& taken) {
+    try {
+      if (taken.is_text) return parse_client_message(taken.bytes);
+      return failure(ErrorCode::bad_input, "messages are text frames of JSON");
+    } catch (const std::bad_alloc&) {
+      return failure(ErrorCode::environment, "not enough memory for this message");
+    }
+  }
+  void take_parsed(Result<ClientMessage> message, std::size_t size) {
+    if (over_) return;
     if (!message) {
       say_trouble("error", message.error().message);
       if (++faults_ == kMostFaults) close_after(WebSocket::Close::policy);
       return read();
     }
-    held_bytes_ += taken.bytes.size();
-    held_.emplace_back(std::move(*message), taken.bytes.size());
+    held_bytes_ += size;
+    held_.emplace_back(std::move(*message), size);
+    // A client that sends little may stay where there is no room.
+    if (!count_bytes() && held_bytes_ > kPaceBytes) return over();
     go_on();
   }
   void give(ClientMessage message) {
@@ -170,13 +193,14 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
       ClientMessage message = std::move(next->first);
       held_bytes_ -= next->second;
       held_.erase(next);
+      static_cast<void>(count_bytes());
       give(std::move(message));
     }
-    if (!reading_ && held_.size() < kMostHeld && held_bytes_ < kLargestMessage) read();
+    if (!reading_ && !parsing_ && held_.size() < kMostHeld && held_bytes_ < kLargestMessage) read();
   }
 
   bool count_bytes() {
-    return place_->hold(outbox_.bytes() + (writing_ ? writing_->size() : 0), Clock::now());
+    return place_->hold(held_bytes_ + outbox_.bytes() + (writing_ ? writing_->size() : 0), Clock::now());
   }
   void write() {
     if (writing_ || over_) return;
@@ -226,7 +250,7 @@ class WebSocketTalk : public Talk, public std::enable_shared_from_this<WebSocket
   std::deque<std::pair<ClientMessage, std::size_t>> held_;
   std::size_t held_bytes_ = 0;
   int faults_ = 0, working_ = 0;  ///< working: messages the room has
-  bool reading_ = false, busy_ = false, closed_ = false, over_ = false;
+  bool reading_ = false, parsing_ = false, busy_ = false, closed_ = false, over_ = false;
   /// Says to the room's turns that nobody waits for what comes.
   std::atomic<bool> gone_ = false;
 };

@@ -231,7 +231,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     else if (is_long)
       service_.slow.post(place_->peer(), std::move(work));
     else
-      service_.quick.post(std::move(work));
+      service_.quick.post(place_->peer(), std::move(work));
   }
   /// Makes the answer. It is called in the turn of the room, where the request changes one.
   void make_answer(const std::string& method, const std::string& body, OpenRoom* room) {
@@ -243,12 +243,16 @@ class Visit : public std::enable_shared_from_this<Visit> {
     };
     RunControl control;
     control.stop = &given_up_;
+    const char* const no_memory = "not enough memory for this";
+    if (room != nullptr) {  // what has begun is done to the end
+      if (!service_.in_turn(*room, [&] { answer_ = answer(); })) answer_ = api_error(503, no_memory);
+      return;
+    }
     try {
-      // A change of a room that has begun is done to the end.
-      const tl::expected<ApiAnswer, Stopped> made = room != nullptr ? answer() : stoppable(control, answer);
+      const tl::expected<ApiAnswer, Stopped> made = stoppable(control, answer);
       answer_ = made ? *made : api_error(503, made.error().what());
     } catch (const std::bad_alloc&) {
-      answer_ = api_error(503, "not enough memory for this");
+      answer_ = api_error(503, no_memory);
     }
   }
 

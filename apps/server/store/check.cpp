@@ -83,7 +83,9 @@ Result<void> Store::write_copy(const std::string& path) {
     return failure(ErrorCode::environment, fmt::format("{}: {}", path, std::strerror(errno)));
   };
   const std::string temporary = path + ".lekalo-new";
-  const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  // A copy that was interrupted may have left a file; a link that somebody put there would name another.
+  ::unlink(temporary.c_str());
+  const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return trouble();
   const auto copied = [&]() -> Result<void> {
     LEKALO_TRY(const Database copy, Database::open(temporary));

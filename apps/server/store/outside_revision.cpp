@@ -65,7 +65,8 @@ std::optional<OutsideRevision::Kept> OutsideRevision::read(const std::string& st
 
 Result<OutsideRevision> OutsideRevision::open(const std::string& store_path) {
   const std::string path = path_of(store_path);
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  // Who may write in this folder could put a link here to a file that is not his.
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (file < 0)
     return failure(ErrorCode::environment, fmt::format("{}: the revision of the store cannot be kept: {}",
                                                        path, std::strerror(errno)));

@@ -63,6 +63,13 @@ Result<PhotoRow> find_photo(const Database& database, LayoutId id, const std::st
   return photo;
 }
 
+/// The bytes of a photograph, which nobody has looked at yet; none where there is none.
+Result<std::string> image_of(const Database& database, LayoutId id, const std::string& stock) {
+  LEKALO_TRY(Statement row, database.prepare("SELECT image FROM photo WHERE layout = ? AND stock = ?"));
+  LEKALO_TRY(const bool found, row.bind(1, id).bind(2, stock).step());
+  return found ? row.bytes(0) : std::string();
+}
+
 Result<void> write_photo(const Database& database, LayoutId id, const PhotoRow& photo,
                          const std::string& image) {
   LEKALO_TRY(Statement row, database.prepare("INSERT OR REPLACE INTO photo VALUES (?, ?, ?, ?, ?, ?, ?)"));
@@ -95,22 +102,17 @@ Result<std::vector<Photo>> Store::photos(LayoutId id) {
 }
 
 Result<std::string> Store::photo_image(LayoutId id, const std::string& stock) {
-  const std::lock_guard lock(*turn_);
-  return image_locked(id, stock);
-}
-
-Result<std::string> Store::image_locked(LayoutId id, const std::string& stock) const {
+  std::unique_lock turn(*turn_);
   LEKALO_TRY(const PhotoRow photo, find_photo(database_, id, stock));
-  LEKALO_TRY(Statement row, database_.prepare("SELECT image FROM photo WHERE layout = ? AND stock = ?"));
-  LEKALO_TRY(const bool found, row.bind(1, id).bind(2, stock).step());
-  std::string image = found ? row.bytes(0) : std::string();
+  LEKALO_TRY(std::string image, image_of(database_, id, stock));
+  turn.unlock();
   if (io::sha256(image) != photo.image_sha256) return damaged_photo(stock);
   return image;
 }
 
 Result<void> Store::set_photo(LayoutId id, const Photo& photo, const std::string& image) {
-  const std::lock_guard lock(*turn_);
   const PhotoRow row{photo.stock, photo.type, scale_text(photo.scale), io::sha256(image), photo.bytes, true};
+  const std::lock_guard lock(*turn_);
   return change([&] { return write_photo(database_, id, row, image); });
 }
 
@@ -150,8 +152,10 @@ Result<void> Store::copy_photos(LayoutId from, LayoutId to) {
   }
   rows.reset();
   for (const PhotoRow& photo : photos) {
-    const Result<std::string> image = image_locked(from, photo.stock);
-    if (image) LEKALO_CHECK(write_photo(database_, to, photo, *image));  // a damaged one stays behind
+    if (!photo.whole) continue;  // a damaged one stays behind
+    const Result<std::string> image = image_of(database_, from, photo.stock);
+    if (image && io::sha256(*image) == photo.image_sha256)
+      LEKALO_CHECK(write_photo(database_, to, photo, *image));
   }
   return {};
 }
@@ -164,7 +168,8 @@ Result<void> Store::check_photos(LayoutId id, StoreCheck& check) const {
     if (!more) return {};
     ++check.photos;
     const PhotoRow photo = photo_row(id, rows);
-    if (!photo.whole || !scale_from(photo.scale) || !image_locked(id, photo.stock))
+    const Result<std::string> image = image_of(database_, id, photo.stock);
+    if (!photo.whole || !scale_from(photo.scale) || !image || io::sha256(*image) != photo.image_sha256)
       check.damage.push_back(
           fmt::format("layout {}: the photograph of stock '{}' is not as it was written", id, photo.stock));
   }

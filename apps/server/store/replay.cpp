@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/io/layout/layout_json.hpp"
+#include "pause.hpp"
 #include "rows.hpp"
 
 namespace lekalo::server {
@@ -66,18 +67,6 @@ bool take_snapshot(LayoutId id, const SnapshotRow& row, StoredLayout& layout) {
   layout.document = std::move(file->document);
   return true;
 }
-
-/// Lets others have their turn while rows that were read are looked at, which takes longer than to read them.
-class Pause {
- public:
-  explicit Pause(std::unique_lock<std::mutex>& turn) : turn_(turn) { turn_.unlock(); }
-  ~Pause() { turn_.lock(); }
-  Pause(const Pause&) = delete;
-  Pause& operator=(const Pause&) = delete;
-
- private:
-  std::unique_lock<std::mutex>& turn_;
-};
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "lekalo/io/layout/layout_json.hpp"
+#include "pause.hpp"
 #include "rows.hpp"
 
 namespace lekalo::server {
@@ -216,6 +217,21 @@ HistoryEntry missing_entry(Revision revision) {
   return entry;
 }
 
+/// Reads a few changes after a revision; none where it is the last.
+Result<std::vector<ChangeRow>> some_changes(const Database& database, LayoutId id, Revision after) {
+  LEKALO_TRY(Statement rows,
+             database.prepare(fmt::format("SELECT {} FROM change WHERE layout = ? AND revision > ? ORDER BY "
+                                          "revision LIMIT 256",
+                                          kChangeColumns)));
+  rows.bind(1, id).bind(2, after);
+  std::vector<ChangeRow> changes;
+  for (;;) {
+    LEKALO_TRY(const bool row, rows.step());
+    if (!row) return changes;
+    changes.push_back(change_row(rows));
+  }
+}
+
 /// Adds an entry, and says of the one that it takes back or does again which of the two it is now.
 void add_to_history(std::vector<HistoryEntry>& entries, HistoryEntry entry) {
   const bool takes_back = entry.kind == ChangeKind::undo, does_again = entry.kind == ChangeKind::redo;
@@ -228,36 +244,38 @@ void add_to_history(std::vector<HistoryEntry>& entries, HistoryEntry entry) {
 }  // namespace
 
 Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
-  const std::lock_guard lock(*turn_);
+  std::unique_lock turn(*turn_);
   LEKALO_TRY(const Entry layout, entry_of(database_, id));
   LEKALO_TRY(std::string chain, chain_at(database_, id, 0));
-  LEKALO_TRY(Statement rows,
-             database_.prepare(fmt::format("SELECT {} FROM change WHERE layout = ? AND revision > 0 ORDER BY "
-                                           "revision",
-                                           kChangeColumns)));
-  rows.bind(1, id);
   std::vector<HistoryEntry> entries;
-  for (;;) {
-    LEKALO_TRY(const bool more, rows.step());
-    if (!more) break;
-    ChangeRow row = change_row(rows);
-    // Revisions begin at 1 and have no holes. A damaged number may be far off, and is not filled up to.
-    const Revision next = static_cast<Revision>(entries.size()) + 1;
-    if (row.revision > layout.revision && layout.whole) break;
-    if (row.revision != next && row.revision != next + 1) break;
-    if (row.revision == next + 1) {
-      entries.push_back(missing_entry(next));
-      chain.clear();
+  for (bool more = true; more;) {
+    // A history may be long, so it is read a piece at a time.
+    LEKALO_TRY(std::vector<ChangeRow> rows,
+               some_changes(database_, id, static_cast<Revision>(entries.size())));
+    const Pause pause(turn);
+    more = !rows.empty();
+    for (ChangeRow& row : rows) {
+      // Revisions begin at 1 and have no holes. A damaged number may be far off, and is not filled up to.
+      const Revision next = static_cast<Revision>(entries.size()) + 1;
+      const bool is_later = row.revision > layout.revision && layout.whole;
+      more = !is_later && (row.revision == next || row.revision == next + 1);
+      if (!more) break;
+      if (row.revision == next + 1) {
+        entries.push_back(missing_entry(next));
+        chain.clear();
+      }
+      if (row.digest == change_digest(id, chain, row))
+        add_to_history(entries, {row.revision, std::move(row.at), std::move(row.author), std::move(row.text),
+                                 static_cast<ChangeKind>(row.kind), row.target, false, false});
+      else
+        entries.push_back(missing_entry(row.revision));
+      chain = row.digest;
     }
-    if (row.digest == change_digest(id, chain, row))
-      add_to_history(entries, {row.revision, std::move(row.at), std::move(row.author), std::move(row.text),
-                               static_cast<ChangeKind>(row.kind), row.target, false, false});
-    else
-      entries.push_back(missing_entry(row.revision));
-    chain = row.digest;
   }
-  if (layout.whole && static_cast<Revision>(entries.size()) < layout.revision)
+  if (layout.whole && static_cast<Revision>(entries.size()) < layout.revision) {
+    LEKALO_CHECK(entry_of(database_, id));  // it may have been removed meanwhile
     entries.push_back(missing_entry(static_cast<Revision>(entries.size()) + 1));
+  }
   return entries;
 }
 

@@ -177,7 +177,6 @@ class Store {
   /// \param text  the document as it is stored
   [[nodiscard]] Result<LayoutId> create_rows(const std::string& name, const layout::Document& document,
                                              const std::string& text, const std::string& origin);
-  [[nodiscard]] Result<std::string> image_locked(LayoutId id, const std::string& stock) const;
   [[nodiscard]] Result<void> copy_photos(LayoutId from, LayoutId to);
   [[nodiscard]] Result<void> check_layout(LayoutId id, StoreCheck& check, std::unique_lock<std::mutex>& turn);
   [[nodiscard]] Result<void> check_photos(LayoutId id, StoreCheck& check) const;

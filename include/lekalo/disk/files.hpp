@@ -18,8 +18,9 @@ inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 /// names (.lekalo-*.tmp), then renamed. A target that exists is replaced only at commit, keeping its
 /// permissions, and if a rename fails the files renamed before it are put back. Nothing is left behind on
 /// failure or by the destructor. What POSIX cannot give: between two renames of one commit another program
-/// sees the first file new and the second old, and so does a power cut; file systems without hard links
-/// cannot put files back.
+/// sees the first file new and the second old, and so does a power cut; and a disk that takes one rename and
+/// then refuses another and its undoing leaves some files new. The sentence names these then, and under what
+/// name the file that stood there is kept; on file systems without hard links it is gone.
 ///
 /// Links are followed: the file they name is replaced (or made). Targets that are no plain files,
 /// write-protected files and folders that are not there give ErrorCode::environment, one target named twice
@@ -38,7 +39,9 @@ class AtomicFiles {
   struct Pending {
     std::string temporary, target, backup;
     bool replaces = false;
+    bool is_stuck = false;  ///< new, and could not be put back
   };
+  [[nodiscard]] static std::string stuck_sentence(const Pending& file);
   void discard() noexcept;
   void undo(std::size_t renamed) noexcept;
   std::vector<Pending> pending_;

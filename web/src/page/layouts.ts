@@ -57,8 +57,11 @@ export class Layouts {
 
   /** Opens the layout that the address names, or the first. */
   async openFirst(): Promise<void> {
+    const here = new URL(location.href);
+    here.searchParams.delete('token'); // a cookie holds it now, the address bar need not
+    history.replaceState(null, '', here);
     await this.read();
-    const wanted = Number(new URL(location.href).searchParams.get('layout'));
+    const wanted = Number(here.searchParams.get('layout'));
     const first = this.known.find((one) => one.id === wanted) ?? this.known[0];
     if (first) this.open(first.id);
     else this.events.empty();
@@ -74,7 +77,6 @@ export class Layouts {
     this.events.opening();
     const here = new URL(location.href);
     here.searchParams.set('layout', String(id));
-    here.searchParams.delete('token'); // a cookie holds it now, the address bar need not
     history.replaceState(null, '', here);
     editor.client = this.connect(id);
     editor.client.start();
