@@ -7,6 +7,7 @@
         --only REGEX      mutants whose place (file:line) matches
         --jobs N          runners side by side (the number of processors)
         --minutes M       no new mutant after so many
+        --longest S       tests that take more seconds of a processor are left out
         --explained       also those that tests/mutation/explained.txt explains
 
 A mutant is killed by the first test that fails, takes ten times its time, or wants 3 GB. A test is tried only on
@@ -16,11 +17,12 @@ survivor is not explained, or an explanation fits no mutant.
 import argparse
 import collections
 import concurrent.futures
+import hashlib
 import json
 import os
 import queue
-import random
 import re
+import resource
 import subprocess
 import sys
 import time
@@ -30,6 +32,7 @@ SOURCES = os.path.join(ROOT, "src", "verify")
 EXPLAINED = os.path.join(ROOT, "tests", "mutation", "explained.txt")
 CONSTANTS = 1000  # drawn of all, by SEED
 SEED = 1
+BLOCK = 64  # a file's mutants begin at a multiple, so that a change of one file leaves the numbers of most others
 
 SPACED = re.compile(r" (<=|>=|==|!=|<|>|&&|\|\|)(?=[ \n])")
 EXTREME = re.compile(r"\bstd::(min|max)(<[\w:]+>)?(?=\()")
@@ -123,12 +126,26 @@ def source_files():
                 yield os.path.relpath(os.path.join(folder, name), SOURCES)
 
 
+def line_at(text, at):
+    """The line about a place, and where in it the place is."""
+    first = text.rfind("\n", 0, at) + 1
+    return text[first:text.find("\n", first)], at - first
+
+
+def lot(name, text, start):
+    """What a number draws: it keeps its lot as long as its line stands in this file."""
+    line, column = line_at(text, start)
+    return hashlib.sha256(f"{SEED} {name} {column - len(line) + len(line.lstrip())} {line.strip()}".encode()).digest()
+
+
 def draw(texts):
-    """Every place of every file, but of the numbers as many as CONSTANTS says."""
-    everything = [(name, place) for name, text in texts.items() for place in places(blanked(text))]
-    numbers = [i for i, (_, place) in enumerate(everything) if place[2] == "number"]
-    left = set(numbers) - set(random.Random(SEED).sample(numbers, min(CONSTANTS, len(numbers))))
-    return [one for i, one in enumerate(everything) if i not in left]
+    """Every place of every file, but of the numbers as many as CONSTANTS says, which have the least lots."""
+    everything = {name: places(blanked(text)) for name, text in texts.items()}
+    lots = sorted((lot(name, texts[name], place[0]), name, place) for name, found in everything.items()
+                  for place in found if place[2] == "number")
+    left = {(name, place[0]) for _, name, place in lots[CONSTANTS:]}
+    return {name: [place for place in found if place[2] != "number" or (name, place[0]) not in left]
+            for name, found in everything.items()}
 
 
 def write(folder):
@@ -136,17 +153,19 @@ def write(folder):
     for name in source_files():
         with open(os.path.join(SOURCES, name), encoding="utf-8") as file:
             texts[name] = file.read()
-    mutants, edits = [], collections.defaultdict(list)
-    for name, (start, end, kind, replacement, count) in draw(texts):
-        text = texts[name]
-        first = text.rfind("\n", 0, start) + 1
-        line = text.count("\n", 0, start) + 1
-        source = text[first:text.find("\n", first)].strip()
-        fate = {"<": ["<=", "not <"], "<=": ["<", "not <="], ">": [">=", "not >"], ">=": [">", "not >="]}.get(
-            kind, ["not " + kind] if kind in ("==", "!=") else [kind])
-        edits[name].append((start, end, replacement.format(k=len(mutants))))
-        for i in range(count):
-            mutants.append({"file": name, "line": line, "column": start - first + 1, "kind": fate[i], "source": source})
+    mutants, edits = {}, collections.defaultdict(list)
+    first = 0
+    for name, drawn in draw(texts).items():
+        first = (first + BLOCK - 1) // BLOCK * BLOCK
+        for start, end, kind, replacement, count in drawn:
+            line, column = line_at(texts[name], start)
+            fate = {"<": ["<=", "not <"], "<=": ["<", "not <="], ">": [">=", "not >"], ">=": [">", "not >="]}.get(
+                kind, ["not " + kind] if kind in ("==", "!=") else [kind])
+            edits[name].append((start, end, replacement.format(k=first)))
+            for i in range(count):
+                mutants[first] = {"file": name, "line": texts[name].count("\n", 0, start) + 1, "column": column + 1,
+                                  "kind": fate[i], "source": line.strip()}
+                first += 1
     for name, text in texts.items():
         for start, end, replacement in reversed(edits[name]):
             text = text[:start] + replacement + text[end:]
@@ -161,7 +180,7 @@ def write(folder):
             out.append(line + f" {number + 1}" if line.endswith("#line") else line)
         put(os.path.join(folder, "verify", name), "\n".join(out))
     put(os.path.join(folder, "mutants.json"), json.dumps(mutants, indent=0))
-    print(len(mutants))
+    print(first)
 
 
 def put(path, text):
@@ -178,6 +197,10 @@ def put(path, text):
 class Runner:
     def __init__(self, program):
         self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def end(self):
+        self.process.stdin.close()
+        self.process.wait()
 
     def ask(self, *words):
         self.process.stdin.write(" ".join(str(word) for word in words) + "\n")
@@ -226,18 +249,21 @@ class Trial:
         self.tests = tests            # name: seconds
         self.askers = collections.defaultdict(list)
         self.kills = collections.defaultdict(collections.Counter)  # of a file
+        self.broken = False           # a test fails without a mutant
 
     def order(self, mutant, file):
         kills = self.kills[file]
         return sorted(self.askers[mutant], key=lambda test: (self.tests[test] + 0.01) / (kills[test] + 0.1))
 
     def patience(self, test):
-        return max(2, int(10 * self.tests[test]) + 1)
+        return max(0.5, 10 * self.tests[test])
 
 
 def run(arguments):
     with open(os.path.join(arguments.folder, "mutants.json"), encoding="utf-8") as file:
-        mutants = json.load(file)
+        mutants = {int(k): mutant for k, mutant in json.load(file).items()}
+    os.environ["LEKALO_RS274_ANSWERS"] = os.path.join(arguments.folder, "rs274")
+    os.makedirs(os.environ["LEKALO_RS274_ANSWERS"], exist_ok=True)
     runners = queue.SimpleQueue()
     for _ in range(arguments.jobs):
         runners.put(Runner(arguments.runner))
@@ -252,15 +278,22 @@ def run(arguments):
     started = time.monotonic()
     trial = Trial({})
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
-    names = list(tests_of(arguments.runner))
+    names, long_ones = list(tests_of(arguments.runner)), []
     for name, answer in zip(names, pool.map(lambda name: with_runner(lambda r: r.ask("reach", 600, name)), names)):
         if answer[0] != "passed":
-            sys.exit(f"{name} fails without a mutant")
+            print(f"{name} fails without a mutant and is left out")
+            trial.broken = True
+            continue
+        if float(answer[1]) > arguments.longest:
+            long_ones.append(f"{name} ({float(answer[1]):.1f} s)")
+            continue
         trial.tests[name] = float(answer[1])
         for mutant in answer[2:]:
             trial.askers[int(mutant)].append(name)
+    if long_ones:
+        print(f"left out, since they take more than {arguments.longest:g} s: {', '.join(long_ones)}")
     reasons = explanations()
-    chosen = [k for k, m in enumerate(mutants) if re.search(arguments.only, place_of(m))
+    chosen = [k for k, m in mutants.items() if re.search(arguments.only, place_of(m))
               and (arguments.explained or key_of(m) not in reasons)]
     print(f"{len(names)} tests, {sum(trial.tests.values()):.0f} s; {len(mutants)} mutants, {len(chosen)} to try",
           flush=True)
@@ -273,34 +306,43 @@ def run(arguments):
             if with_runner(lambda r: r.ask("try", k, trial.patience(test), test)) != ["passed"]:
                 trial.kills[file][test] += 1
                 return test
+        print(told(k), flush=True)
         return None
 
+    def told(k):
+        mutant = mutants[k]
+        return (f"{place_of(mutant)}:{mutant['column']}: {mutant['kind']}: {mutant['source']}"
+                + ("" if trial.askers[k] else "  (no test comes here)")
+                + ("  explained" if key_of(mutant) in reasons else ""))
+
     fates = dict(zip(chosen, pool.map(killed_by, chosen)))
-    report(arguments, mutants, fates, trial, reasons)
+    while not runners.empty():
+        runners.get().end()
+    report(mutants, fates, reasons, trial.broken)
 
 
-def report(arguments, mutants, fates, trial, reasons):
+def report(mutants, fates, reasons, broken):
     table, survivors = collections.defaultdict(collections.Counter), []
     for k, fate in fates.items():
         word = "survived" if fate is None else "not tried" if fate == "not tried" else "killed"
         table[mutants[k]["file"]][word] += 1
         if word == "survived":
             survivors.append(k)
-    for k in survivors:
-        mutant = mutants[k]
-        unseen = "" if trial.askers[k] else "  (no test comes here)"
-        told = "  explained" if reasons.get(key_of(mutant)) else ""
-        print(f"{place_of(mutant)}:{mutant['column']}: {mutant['kind']}: {mutant['source']}{unseen}{told}")
     print()
     total = collections.Counter()
-    for file, counts in sorted(table.items()):
+    rooms = collections.defaultdict(collections.Counter)
+    for file, counts in table.items():
+        rooms[file.split("/")[0]] += counts
         total += counts
-        print(f"{file:40} {counts['killed']:5} killed {counts['survived']:4} survived {counts['not tried']:5} not tried")
-    known = [m for m in mutants if key_of(m) in reasons]
+    for name, counts in sorted(table.items()) + sorted(rooms.items()):
+        print(f"{name:40} {counts['killed']:5} killed {counts['survived']:4} survived {counts['not tried']:5} not tried")
+    known = [m for m in mutants.values() if key_of(m) in reasons]
     print(f"{'all':40} {total['killed']:5} killed {total['survived']:4} survived {total['not tried']:5} not tried; "
           f"{len(known)} of {len(mutants)} explained")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"{used.ru_utime + used.ru_stime:.0f} s of processor time")
     # A number that another draw left out may come back.
-    stray = [key for key in reasons if key not in {key_of(m) for m in mutants} and " | number | " not in key]
+    stray = [key for key in reasons if key not in {key_of(m) for m in mutants.values()} and " | number | " not in key]
     for key in stray:
         print(f"explained, but there is no such mutant: {key}")
     bare = [key for key, reason in reasons.items() if not reason]
@@ -308,7 +350,7 @@ def report(arguments, mutants, fates, trial, reasons):
         print(f"explained without a reason: {key}")
     open_ones = [k for k in survivors if key_of(mutants[k]) not in reasons]
     # The threads of the pool wait for nothing any more; the runners end with their stdin.
-    sys.exit(1 if open_ones or stray or bare or total["not tried"] else 0)
+    sys.exit(1 if broken or open_ones or stray or bare or total["not tried"] else 0)
 
 
 def main():
@@ -321,6 +363,7 @@ def main():
     runs.add_argument("--only", default="")
     runs.add_argument("--jobs", type=int, default=os.cpu_count())
     runs.add_argument("--minutes", type=float, default=85)
+    runs.add_argument("--longest", type=float, default=3)
     runs.add_argument("--explained", action="store_true")
     arguments = parser.parse_args()
     write(arguments.folder) if arguments.command == "write" else run(arguments)

@@ -7,12 +7,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
+
+#ifdef LEKALO_COMMAND_INSIDE  // tests/mutation: the command is a part of the program that tests it
+int lekalo_command(int argc, char** argv);
+#endif
 
 namespace lekalo::test {
 
@@ -66,8 +72,15 @@ Program::Program(const fs::path& folder, const Words& words, const std::string& 
   if (to_out < 0 || to_err < 0 || dup2(to_out, 1) < 0 || dup2(to_err, 2) < 0 || chdir(folder.c_str()) != 0)
     _exit(127);
   for (std::string& one : more_environment) putenv(one.data());
+#ifdef LEKALO_COMMAND_INSIDE
+  const int status = lekalo_command(static_cast<int>(all.size()), argv.data());
+  std::cout.flush();
+  std::fflush(nullptr);
+  _exit(status);
+#else
   execv(argv[0], argv.data());
   _exit(127);
+#endif
 }
 
 void Program::send_when_caught(int signal_number) const {

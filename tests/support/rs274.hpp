@@ -19,6 +19,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "lekalo/io/text/sha256.hpp"
+
 namespace rs274 {
 
 /// One call of the interpreter's canonical interface.
@@ -85,11 +87,9 @@ class Oracle {
 
   [[nodiscard]] const std::filesystem::path& root() const { return root_; }
 
+  /// With LEKALO_RS274_ANSWERS=FOLDER answers are kept there, so that a program is run once.
   [[nodiscard]] Run run(const std::string& program) const {
-    const std::filesystem::path file = scratch_.path() / "program.ngc";
-    std::ofstream(file, std::ios::binary) << program;
-    const auto [status, output, errors] =
-        shell("'" + script_ + "' run '" + scratch_.path().string() + "' '" + file.string() + "'");
+    const auto [status, output, errors] = answer(program);
     Run result;
     result.accepted = status == 0;
     result.errors = errors;
@@ -113,6 +113,35 @@ class Oracle {
     int status;
     std::string out, errors;
   };
+
+  Output answer(const std::string& program) const {
+    const char* const folder = std::getenv("LEKALO_RS274_ANSWERS");
+    if (folder == nullptr) return interpreted(program);
+    const std::filesystem::path kept = std::filesystem::path(folder) / lekalo::io::sha256(program);
+    if (std::ifstream file(kept, std::ios::binary); file) {
+      Output output{};
+      std::size_t size = 0;
+      file >> output.status >> size;
+      file.get();
+      output.out.resize(size);
+      file.read(output.out.data(), static_cast<std::streamsize>(size));
+      output.errors.assign(std::istreambuf_iterator<char>(file), {});
+      return output;
+    }
+    Output output = interpreted(program);
+    const std::filesystem::path made = scratch_.path() / "answer";
+    std::ofstream(made, std::ios::binary) << output.status << ' ' << output.out.size() << '\n'
+                                          << output.out << output.errors;
+    std::error_code ignored;  // of another file system: then nothing is kept
+    std::filesystem::rename(made, kept, ignored);
+    return output;
+  }
+
+  Output interpreted(const std::string& program) const {
+    const std::filesystem::path file = scratch_.path() / "program.ngc";
+    std::ofstream(file, std::ios::binary) << program;
+    return shell("'" + script_ + "' run '" + scratch_.path().string() + "' '" + file.string() + "'");
+  }
 
   Output shell(const std::string& command) const {
     const std::filesystem::path errors = scratch_.path() / "errors.txt";

@@ -1,0 +1,284 @@
+#include <gtest/gtest.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "verify/drawn/drawn_file.hpp"
+
+/// What the checker reads in an export, and that it refuses every word that lekalo does not write there.
+namespace lekalo::verify {
+namespace {
+
+std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
+std::string point(Place p) { return number(p.x) + "," + number(p.y); }
+
+std::string told(const Result<std::vector<DrawnLine>>& lines) {
+  if (!lines) return lines.error().message;
+  std::string text;
+  for (const DrawnLine& line : *lines) {
+    text += line.layer + (line.closed ? "" : "!") + ":";
+    for (const Stroke& edge : line.edges)
+      text += (edge.arc ? " A " + point(edge.centre) + " " + number(edge.radius) + (edge.ccw ? " +" : " -")
+                        : " L") +
+              " " + point(edge.from) + " " + point(edge.to);
+    text += "\n";
+  }
+  return text;
+}
+
+// ---- DXF --------------------------------------------------------------------------------------------------
+
+/// Every blank ends a line.
+std::string dxf_text(std::string words) {
+  std::replace(words.begin(), words.end(), ' ', '\n');
+  return words + "\n";
+}
+const std::string kHead = "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC ", kTail = " 0 ENDSEC 0 EOF";
+std::string dxf(const std::string& entities) {
+  return told(read_dxf({"e.dxf", dxf_text(kHead + "0 SECTION 2 ENTITIES " + entities + kTail)}));
+}
+std::string dxf_whole(const std::string& words) { return told(read_dxf({"e.dxf", dxf_text(words)})); }
+
+TEST(VerifyDrawnDxf, PolylinesCirclesAndLinesAreRead) {
+  EXPECT_EQ(dxf("0 LWPOLYLINE 5 1F 330 0 100 x 8 CUT 90 3 70 1 43 0 10 0 20 0 10 4 20 0 10 4 20 3"),
+            "CUT: L 0,0 4,0 L 4,0 4,3 L 4,3 0,0\n");
+  EXPECT_EQ(dxf("0 LWPOLYLINE 8 CUT 90 2 70 1 10 0 20 0 42 1 10 4 20 0 42 0.5"),
+            "CUT: A 2,0 2 + 0,0 4,0 A 2,-1.5 2.5 + 4,0 0,0\n");
+  EXPECT_EQ(dxf("0 LWPOLYLINE 8 CUT 90 2 70 1 10 0 20 0 42 -1 10 4 20 0 42 0"),
+            "CUT: A 2,0 2 - 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(dxf("0 CIRCLE 8 CUT 10 1 20 2 30 0 40 5"), "CUT: A 1,2 5 + 6,2 6,2\n");
+  EXPECT_EQ(dxf("0 LINE 8 MARK 10 1 20 2 30 0 11 3 21 5 31 0.0"), "MARK!: L 1,2 3,5\n");
+  EXPECT_EQ(dxf("0 TEXT 8 LABEL 10 1 1 any 0 LINE 8 MARK 10 1 20 2 11 3 21 5"), "MARK!: L 1,2 3,5\n");
+  EXPECT_EQ(dxf("0 LINE 8 A 10 1 20 2 11 3 21 5 0 LINE 10 1 20 2 11 3 21 6"),
+            "A!: L 1,2 3,5\n!: L 1,2 3,6\n");
+}
+
+TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
+  const auto refused = [](const std::string& entities, const std::string& said) {
+    EXPECT_NE(dxf(entities).find(said), std::string::npos) << entities << "\n" << dxf(entities);
+  };
+  refused("0 ARC 8 CUT", "line 16: lekalo writes no ARC");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 0 10 0 20 0 10 4 20 0", "a polyline that is not closed");
+  refused("0 LWPOLYLINE 8 CUT 90 3 70 1 10 0 20 0 10 4 20 0", "a polyline that is not closed");
+  refused("0 LWPOLYLINE 8 CUT 90 1 70 1 10 0 20 0", "a polyline that is not closed");
+  refused("0 LWPOLYLINE 8 CUT 70 1 10 0 20 0 10 4 20 0", "a polyline that is not closed");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 10 0 20 x", "x is no number");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 20 0", "lekalo writes no group 20 there");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 42 0", "lekalo writes no group 42 there");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 10 0 30 0", "lekalo writes no group 30 there");
+  refused("0 LINE 10 1 10 2", "lekalo writes no group 10 there");
+  refused("0 LINE 10 1 20 2 30 1", "groups are missing");
+  refused("0 LINE 10 1 20 2 31 1 11 3 21 4", "groups are missing");
+  refused("0 LINE 10 1 20 2 11 3", "groups are missing in a LINE");
+  refused("0 LINE 10 1 20 2 11 3 40 4", "groups are missing in a LINE");
+  refused("0 CIRCLE 10 1 20 2", "groups are missing in a CIRCLE");
+  refused("0 CIRCLE 10 1 20 2 40 5 50 0", "groups are missing in a CIRCLE");
+}
+
+TEST(VerifyDrawnDxf, TheFileSaysItsUnitAndShowsItsLayers) {
+  const std::string entities = "0 SECTION 2 ENTITIES 0 LINE 8 M 10 1 20 2 11 3 21 5" + kTail;
+  EXPECT_EQ(dxf_whole("0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC " + entities),
+            "M!: L 25.4,50.8 76.2,127\n");
+  EXPECT_EQ(
+      dxf_whole(
+          "0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC 0 SECTION 2 ENTITIES 0 CIRCLE 8 C 10 1 20 0 40 2" +
+          kTail),
+      "C: A 25.4,0 50.8 + 76.2,0 76.2,0\n");
+  EXPECT_EQ(dxf_whole("0 SECTION 2 HEADER 9 $INSUNITS 40 1 70 4 9 $X 70 1 0 ENDSEC " + entities),
+            "M!: L 1,2 3,5\n");
+  EXPECT_EQ(dxf_whole("0 SECTION 2 HEADER 9 $INSUNITS 70 5 0 ENDSEC " + entities),
+            "e.dxf: line 8: its unit is neither mm nor inch");
+  EXPECT_EQ(dxf_whole("0 SECTION 2 HEADER 9 $X 70 4 0 ENDSEC " + entities),
+            "e.dxf: it does not say its unit");
+  EXPECT_EQ(dxf_whole("0 SECTION 2 CLASSES 9 $INSUNITS 70 4 0 ENDSEC " + entities),
+            "e.dxf: it does not say its unit");
+  const auto table = [&](const std::string& layer) {
+    return dxf_whole(kHead + "0 SECTION 2 TABLES 0 TABLE 2 LAYER 70 3 " + layer + " 0 ENDTAB 0 ENDSEC " +
+                     entities);
+  };
+  EXPECT_EQ(table("0 LAYER 2 A 70 0 62 7"), "M!: L 1,2 3,5\n");
+  EXPECT_EQ(table("0 LTYPE 2 A 70 1 62 -7"), "M!: L 1,2 3,5\n");
+  EXPECT_NE(table("0 LAYER 2 A 70 1 62 7").find("a layer is not shown"), std::string::npos);
+  EXPECT_NE(table("0 LAYER 2 A 70 0 62 -7").find("a layer is not shown"), std::string::npos);
+}
+
+TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
+  const std::string line = "0 LINE 8 M 10 1 20 2 11 3 21 5", read = "M!: L 1,2 3,5\n";
+  const std::string body = kHead + "0 SECTION 2 ENTITIES " + line;
+  EXPECT_EQ(dxf_whole(body + kTail), read);
+  EXPECT_EQ(dxf_whole(body), "e.dxf: line 26: it ends in the middle");
+  EXPECT_EQ(dxf_whole(body + kTail + " 0 x"), "e.dxf: line 32: it goes on after its end");
+  EXPECT_EQ(dxf_whole(body + kTail + " 5 x"), "e.dxf: line 32: it goes on after its end");
+  EXPECT_EQ(dxf_whole("x " + body), "e.dxf: line 1: it ends in the middle");
+  EXPECT_EQ(dxf_whole("0x SECTION"), "e.dxf: line 1: it ends in the middle");
+  EXPECT_EQ(told(read_dxf({"e.dxf", ""})), "e.dxf: line 0: it ends in the middle");
+  const auto blocks = [&](const std::string& words) {
+    return dxf_whole(kHead + "0 SECTION 2 BLOCKS " + words + " 0 ENDSEC 0 SECTION 2 ENTITIES " + line +
+                     kTail);
+  };
+  EXPECT_EQ(blocks("0 BLOCK 8 0 10 1 0 ENDBLK 8 0"), read);
+  EXPECT_EQ(blocks("0 BLOCK 0 LINE 0 ENDBLK"), "e.dxf: line 18: lekalo writes no LINE in a block");
+  // Blanks around a line and the other ends of lines say nothing.
+  EXPECT_EQ(told(read_dxf({"e.dxf", "  0 \r\nSECTION\n2\n ENTITIES \n0\nENDSEC\n0\nEOF"})),
+            "e.dxf: it does not say its unit");
+}
+
+// ---- SVG --------------------------------------------------------------------------------------------------
+
+std::string svg_whole(const std::string& text) { return told(read_svg({"e.svg", text})); }
+std::string svg(const std::string& body) {
+  return svg_whole(R"(<?xml version="1.0"?>
+<svg xmlns="x" version="1.1" width="100mm" height="50mm" viewBox="0 -50 100 50" data-lekalo-corner="0 0">
+<g inkscape:groupmode="layer" inkscape:label="CUT" fill="none">)" +
+                   body + "</g>\n</svg>\n");
+}
+std::string path(const std::string& d) { return svg("<path d=\"" + d + "\"/>"); }
+
+TEST(VerifyDrawnSvg, PathsCirclesAndLinesAreReadWithYUp) {
+  EXPECT_EQ(path("M0 0L4 0L4,-3Z"), "CUT: L 0,0 4,0 L 4,0 4,3 L 4,3 0,0\n");
+  EXPECT_EQ(path("M 0 0 L 4 0 L 4 -3 L 0 0 Z"), "CUT: L 0,0 4,0 L 4,0 4,3 L 4,3 0,0\n");
+  EXPECT_EQ(path("M0 0L4 0L4 -3L0 -1e-3Z"), "CUT: L 0,0 4,0 L 4,0 4,3 L 4,3 0,0.001 L 0,0.001 0,0\n");
+  EXPECT_EQ(path("M0 0L4 0L4 -3L1e-3 0Z"), "CUT: L 0,0 4,0 L 4,0 4,3 L 4,3 0.001,0 L 0.001,0 0,0\n");
+  EXPECT_EQ(path("M0 0A2 2 0 0 0 4 0Z"), "CUT: A 2,0 2 + 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(path("M0 0A2.5 2.5 0 0 0 4 0Z"), "CUT: A 2,1.5 2.5 + 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(path("M0 0A2.5 2.5 0 1 0 4 0Z"), "CUT: A 2,-1.5 2.5 + 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(path("M0 0A2.5 2.5 0 0 1 4 0Z"), "CUT: A 2,-1.5 2.5 - 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(path("M0 0A2.5 2.5 0 1 1 4 0Z"), "CUT: A 2,1.5 2.5 - 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(path("M0 0A1 1 0 0 0 4 0Z"), "CUT: A 2,0 2 + 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(svg(R"(<circle cx="1" cy="-2" r="5" data-lekalo-arcs="1"/>)"), "CUT: A 1,2 5 + 6,2 6,2\n");
+  EXPECT_EQ(svg(R"(<line x1="1" y1="-2" x2="3" y2="-5"/>)"), "CUT!: L 1,2 3,5\n");
+  EXPECT_EQ(svg("<text x=\"1\">any words</text>"), "");
+}
+
+TEST(VerifyDrawnSvg, PathsOfOtherWordsAreRefused) {
+  const std::string strange = "a path with other words than M, L, A and a Z at its end",
+                    cut = "path data that cannot be read";
+  const auto refused = [](const std::string& d, const std::string& said) {
+    EXPECT_EQ(path(d), "e.svg: " + said + ": path d=\"" + d + "\"/");
+  };
+  refused("L0 0Z", "a path that does not begin with M");
+  refused("0 0Z", "a path that does not begin with M");
+  refused("", "a path that does not begin with M");
+  refused("M0 0L1 1C1 2 3 4 5 6Z", strange);
+  refused("M0 0L1 1ZL2 2Z", strange);
+  refused("M0 0L1 1Z Z", strange);
+  refused("M0 0L1 1 2 2Z", strange);
+  refused("M0 0l1 1Z", cut);
+  refused("M0 0L1 1", cut);
+  refused("M0 0", cut);
+  refused("M0 0L1Z", cut);
+  refused("M0 0L1 xZ", cut);
+  refused("M0 0L1", cut);
+  refused("M0", cut);
+  for (const char* arc :
+       {"A2 3 0 0 0 4 0Z", "A2 2 1 0 0 4 0Z", "A0 0 0 0 0 4 0Z", "A-2 -2 0 0 0 4 0Z", "A2 2 0 0 0 0 0Z"})
+    refused(std::string("M0 0") + arc, "an arc that is not of a circle");
+}
+
+TEST(VerifyDrawnSvg, OtherElementsAndAttributesAreRefused) {
+  const auto refused = [](const std::string& body, const std::string& said) {
+    EXPECT_NE(svg(body).find(said), std::string::npos) << body << "\n" << svg(body);
+  };
+  refused("<rect/>", "lekalo writes no such element");
+  refused("words<line x1=\"1\" y1=\"2\" x2=\"3\" y2=\"4\"/>", "text where lekalo writes none");
+  refused("<line x1=\"1\" y1=\"2\" x2=\"3\"/>", "y2 is no number");
+  refused("<line x1=\"1\" y1=\"2\" x2=\"3\" y2=\"x\"/>", "y2 is no number");
+  refused("<line x1=\"1\" y1=\"2\" x2=\"3\" y2=\"4\" id=\"5\"/>", "lekalo writes no attribute id there");
+  refused("<line x1=\"1\" y1=\"2\" x2=\"3\" y2=\"4\" transform=\"5\"/>",
+          "lekalo writes no attribute transform there");
+  refused("<circle cx=\"1\" cy=\"2\" r=\"3\" x=\"3\"/>", "lekalo writes no attribute x there");
+  refused("<path d=\"M0 0L1 1L1 0Z\" x=\"3\"/>", "lekalo writes no attribute x there");
+  refused("<path/>", "a path without data");
+  refused("<line x1=\"1\" x1=\"1\" y1=\"2\" x2=\"3\" y2=\"4\"/>", "attributes that cannot be read");
+  refused("<line x1/>", "attributes that cannot be read");
+  refused("<line x1=\"1/>", "attributes that cannot be read");
+  refused("<g inkscape:label=\"X\"></g>", "a group that is no layer");
+  refused("<g>", "a group that is no layer");
+}
+
+TEST(VerifyDrawnSvg, ThePageIsAsLargeAsItsView) {
+  const auto page = [](const std::string& words) { return svg_whole("<svg " + words + "></svg>"); };
+  EXPECT_EQ(page(R"(width="100mm" height="50mm" viewBox="0 -50 100 50")"), "");
+  EXPECT_EQ(page(R"(width="100mm" height="50mm" viewBox="3 -54 100 50" data-lekalo-corner="3 4")"), "");
+  const auto refused = [&](const std::string& words, const std::string& said) {
+    EXPECT_NE(page(words).find(said), std::string::npos) << words << "\n" << page(words);
+  };
+  const std::string large = "the page is not as large as its viewBox",
+                    corner = "the corner of the page is not that of its viewBox";
+  refused(R"(width="100" height="50mm" viewBox="0 -50 100 50")", "width is not in mm");
+  refused(R"(width="100mm" height="50in" viewBox="0 -50 100 50")", "height is not in mm");
+  refused(R"(width="xmm" height="50mm" viewBox="0 -50 100 50")", "width is no number");
+  refused(R"(width="100mm" height="50mm")", "a page without a viewBox");
+  refused(
+      R"(width="100mm" height="50mm" viewBox="0 -50 100 50"><svg width="100mm" height="50mm" viewBox="0 -50 100 50"/)",
+      "a second one");
+  refused(R"(width="101mm" height="50mm" viewBox="0 -50 100 50")", large);
+  refused(R"(width="100mm" height="51mm" viewBox="0 -51 100 50")", large);
+  refused(R"(width="100mm" height="50mm" viewBox="0 -50 100 50 1")", large);
+  refused(R"(width="100mm" height="50mm" viewBox="0 -50 100")", large);
+  refused(R"(width="100mm" height="50mm" viewBox="1 -50 100 50")", corner);
+  refused(R"(width="100mm" height="50mm" viewBox="0 -49 100 50")", corner);
+  refused(R"(width="100mm" height="50mm" viewBox="0 -50 100 50" data-lekalo-corner="0")", corner);
+  refused(R"(width="100mm" height="50mm" viewBox="0 -50 100 50" data-lekalo-corner="0 0 0")", corner);
+  refused(R"(width="100mm" height="50mm" viewBox="0 -50 100 50" viewbox="0")",
+          "lekalo writes no attribute viewbox there");
+}
+
+TEST(VerifyDrawnSvg, AFileIsWhole) {
+  const std::string open = R"(<svg width="100mm" height="50mm" viewBox="0 -50 100 50">)";
+  EXPECT_EQ(svg_whole(open + "</svg>"), "");
+  EXPECT_EQ(svg_whole(open + "\r\n\t </svg>"), "");
+  EXPECT_NE(svg_whole(open).find("an element is not closed"), std::string::npos);
+  EXPECT_NE(svg_whole(open + "</svg></svg>").find("an element is not closed"), std::string::npos);
+  EXPECT_NE(svg_whole("").find("an element is not closed"), std::string::npos);
+  EXPECT_NE(svg_whole("<text></text>").find("an element is not closed"), std::string::npos);
+  EXPECT_NE(svg_whole(open + "</svg").find("an element is cut off"), std::string::npos);
+  EXPECT_NE(svg_whole("words" + open + "</svg>").find("text where lekalo writes none"), std::string::npos);
+}
+
+// ---- HPGL -------------------------------------------------------------------------------------------------
+
+std::string hpgl(const std::string& body) { return told(read_hpgl({"e.plt", "IN;PA;" + body + "SP0;"})); }
+
+TEST(VerifyDrawnHpgl, PensAreLayersAndUnitsAre40ToAMillimetre) {
+  EXPECT_EQ(hpgl("SP1;PU0,0;PD160,0,160,120,0,0;PU;"), "CUT: L 0,0 4,0 L 4,0 4,3 L 4,3 0,0\n");
+  EXPECT_EQ(hpgl("SP2;PU40,80;PD120,200;"), "MARK!: L 1,2 3,5\n");
+  EXPECT_EQ(hpgl("SP2;PU40,80;PD40,200;"), "MARK!: L 1,2 1,5\n");
+  EXPECT_EQ(hpgl("SP2;PU40,80;PD80,80;"), "MARK!: L 1,2 2,2\n");
+  EXPECT_EQ(hpgl("SP2;PU40,80;PD120,200;PD40,80;"), "MARK!: L 1,2 3,5\nMARK!: L 3,5 1,2\n");
+  EXPECT_EQ(hpgl("SP4;PU40,80;PD;"), "SHEET: L 1,2 1,2\n");
+  EXPECT_EQ(hpgl("SP5;PU0,0;PD;SP6;PD;SP7;PD;"), "DEFECT: L 0,0 0,0\nZONE: L 0,0 0,0\nAREA: L 0,0 0,0\n");
+  EXPECT_EQ(hpgl("SP3;PU1,1;SI0.2,0.3;LO5;LBany; words\x03;"), "");
+  EXPECT_EQ(hpgl("\nSP3;\r\nPU1,1;\r"), "");
+}
+
+TEST(VerifyDrawnHpgl, WhatLekaloDoesNotWriteIsRefused) {
+  const auto refused = [](const std::string& body, const std::string& word, int at) {
+    EXPECT_EQ(hpgl(body), fmt::format("e.plt: instruction {}: lekalo writes no {} there", at, word)) << body;
+  };
+  refused("SP8;", "SP8", 2);
+  refused("SP/;", "SP/", 2);
+  refused("SP;", "SP", 2);
+  refused("SP11;", "SP11", 2);
+  refused("SP1;SI1,1;", "SI1,1", 3);
+  refused("SP1;LO5;", "LO5", 3);
+  refused("SP3;LO4;", "LO4", 3);
+  refused("SP1;CI5;", "CI5", 3);
+  refused("PD1,1;", "PD1,1", 2);
+  refused("SP1;PU1,1,2,2;", "PU1,1,2,2", 3);
+  refused("SP1;PU1,1;PD1,1.5;", "1.5", 4);
+  refused("SP1;PU1,1;PD1,x;", "x", 4);
+  refused("SP1;PU1,1;PD1,2,3;", "odd list of numbers", 4);
+  refused("SP0;PU1,1;", "PU1,1", 3);
+  refused("S;", "S", 2);
+  EXPECT_EQ(told(read_hpgl({"e.plt", "PA;IN;SP0;"})), "e.plt: instruction 0: lekalo writes no PA there");
+  EXPECT_EQ(told(read_hpgl({"e.plt", "IN;IN;SP0;"})), "e.plt: instruction 1: lekalo writes no IN there");
+  EXPECT_EQ(told(read_hpgl({"e.plt", "IN;PA;SP1;PU1,1;"})), "e.plt: it does not end with SP0");
+  EXPECT_EQ(told(read_hpgl({"e.plt", "IN;PA;SP1;PU1,1;SP0"})), "e.plt: an instruction is cut off");
+  EXPECT_EQ(told(read_hpgl({"e.plt", "IN;PA;SP3;LBx;SP0;"})), "e.plt: an instruction is cut off");
+}
+
+}  // namespace
+}  // namespace lekalo::verify

@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "lekalo/verify/claims.hpp"
+#include "support/layout_texts.hpp"
+#include "verify/profile/profile_moves.hpp"
+
+/// What the checker reads in a profile program, and which cuts it accepts for a layout.
+namespace lekalo::verify {
+namespace {
+
+std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
+std::string point(Place p) { return number(p.x) + "," + number(p.y); }
+
+/// Chains, each on a line: the line of its first cut, "r" where a rapid motion cuts, and its edges.
+std::string told(const std::string& program) {
+  const Result<std::vector<CutChain>> chains = read_profile({"p.nc", program});
+  if (!chains) return chains.error().message;
+  std::string text;
+  for (const CutChain& chain : *chains) {
+    text += std::to_string(chain.line) + (chain.rapid ? "r" : "") + ":";
+    for (const Stroke& edge : chain.edges)
+      text += (edge.arc ? " A " + point(edge.centre) + " " + number(edge.radius) + (edge.ccw ? " +" : " -")
+                        : " L") +
+              " " + point(edge.from) + " " + point(edge.to);
+    text += "\n";
+  }
+  return text;
+}
+const std::string kModes = "G21 G17 G40 G49 G54 G90 G94\n";
+/// The cuts of words behind a head of one line and before an end.
+std::string cuts(const std::string& words) { return told(kModes + words + "\nM5\nM2\n"); }
+
+TEST(VerifyProfileMoves, WhatIsOnCuts) {
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3 S100\nG1 X5 F200\nY6"), "4: L 1,2 5,2 L 5,2 5,6\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nM4\nG1 X5\nM5\nG0 X9\nM4\nG1 X1"), "4: L 1,2 5,2\n8: L 9,2 1,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG0 X5"), "4r: L 1,2 5,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG1 X5\nG0 X6\nG1 X7"), "4r: L 1,2 5,2 L 5,2 6,2 L 6,2 7,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG2 X3 Y2 I1 J0\nG3 X1 Y2 I-1 J0"),
+            "4: A 2,2 1 - 1,2 3,2 A 2,2 1 + 3,2 1,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2"), "");
+  EXPECT_EQ(told("G20 G17 G40 G49 G54 G90 G94\nG0 X1 Y2\nM3\nG1 X2\nM5\nM30\n"),
+            "4: L 25.4,50.8 50.8,50.8\n");
+  // Once an axis Z has been named, only what goes below 0 cuts.
+  EXPECT_EQ(cuts("G0 Z5\nG0 X1 Y2\nM3\nG1 X9\nG1 Z-1\nG1 X3\nG1 X4\nG0 Z5\nG1 X8"),
+            "7: L 9,2 3,2 L 3,2 4,2\n");
+  EXPECT_EQ(cuts("G0 Z0\nG0 X1 Y2\nM3\nG1 X9\nG1 Z-1\nG1 X3"), "7: L 9,2 3,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG1 X5\nG1 Z-1\nG1 X6"), "4: L 1,2 5,2\n6: L 5,2 6,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG1 X5\nG4 P1\nG1 X6"), "4: L 1,2 5,2 L 5,2 6,2\n");
+}
+
+TEST(VerifyProfileMoves, WordsAreReadAsTheyStand) {
+  EXPECT_EQ(cuts("G0X1Y2\nM3\nG1X5.5 Y-.5"), "4: L 1,2 5.5,-0.5\n");
+  EXPECT_EQ(cuts("G00 X1 Y2 (to the start) ; there\nM03\n\n;\n(a)\nG01 X5"), "7: L 1,2 5,2\n");
+  EXPECT_EQ(told("%\nO1\n" + kModes + "G0 X1 Y2\nM3\nG1 X5\nM5\nM30\n%\n"), "6: L 1,2 5,2\n");
+  EXPECT_EQ(told("O1\r\n" + kModes + "M2\r\n"), "");
+  EXPECT_EQ(told("G61 G80 G91.1\n" + kModes + "G0 X1 Y2\nM2\n"), "");
+}
+
+TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
+  const auto refused = [](const std::string& words, const std::string& said) {
+    EXPECT_NE(cuts(words).find(said), std::string::npos) << words << "\n" << cuts(words);
+  };
+  const std::string no_word = "p.nc:2: lekalo writes no such word into a profile program: ";
+  refused("G0 X1 X2", no_word);
+  refused("G0 A1", no_word);
+  refused("G0 x1", no_word);
+  refused("G0 X", no_word);
+  refused("G0 X+1", no_word);
+  refused("G0 X1.2.3", no_word);
+  refused("G-1 X1", no_word);
+  refused("G100 X1", no_word);
+  refused("G1.05 X1", no_word);
+  refused("M3.05", no_word);
+  refused("(open", "p.nc:2: a comment is not closed");
+  refused("G0.5 X1 Y1", "lekalo writes no G0.5 into a profile program");
+  refused("G5 X1 Y1", "lekalo writes no G5 into a profile program");
+  refused("G91", "lekalo writes no G91 into a profile program");
+  refused("M6", "lekalo writes no M6 into a profile program");
+  refused("M3.1", "lekalo writes no M3.1 into a profile program");
+  refused("G0 X1\nG20", "the unit changes on the way");
+  refused("G0 Y1\nG21", "the unit changes on the way");
+  refused("G4", "a wait without its time, or a time without a wait");
+  refused("G0 X1 P1", "a wait without its time, or a time without a wait");
+  refused("G4 P1 X1", "a wait beside a motion");
+  refused("G4 P1 G0", "a wait beside a motion");
+  refused("O5 X1", "a number of a program where none is");
+  refused("G0 O5", "a number of a program where none is");
+  refused("\nO5", "a number of a program where none is");
+  refused("X1", "a motion without G0, G1, G2 or G3");
+  refused("G1 X1 I1 J1", "an arc without I and J");
+  refused("G1 X1 I1", "an arc without I and J");
+  refused("G1 X1 J1", "an arc without I and J");
+  refused("G2 X1 I1", "an arc without I and J");
+  refused("G2 X1 J1", "an arc without I and J");
+  refused("G2 X1", "an arc without I and J");
+  refused("G0 X1 Z1", "a motion in X or Y and Z at once");
+  refused("G0 Y1 Z1", "a motion in X or Y and Z at once");
+  refused("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z-2", "a rapid motion down into the material");
+  refused("M3\nG1 X1", "a cut from a place that is not known");
+  refused("G0 X1\nM3\nG1 Y1", "a cut from a place that is not known");
+  refused("G0 Y1\nM3\nG1 X1", "a cut from a place that is not known");
+  refused("G0 X0 Y0\nM3\nG2 X2.011 Y0 I1 J0", "an arc whose ends do not lie on one circle");
+  refused("G0 X0 Y0\nM3\nG2 X0 Y0 I0 J0", "an arc whose ends do not lie on one circle");
+  refused("G0 X0 Y0\nM3\nG2 X0 Y0 I1 J0", "an arc of a whole turn");
+  refused("G0 X0 Y0\nM3\nM4", "M4 where M3 is meant");
+  refused("G0 X0 Y0\nM4\nM3", "M4 where M3 is meant");
+  refused("G0 Z5\nM4", "M4 where M3 is meant");
+  refused("%", "p.nc:2: % neither begins the program nor ends it");
+  EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X2.004 Y0 I1 J0"), "4: A 1,0 1.002 - 0,0 2.004,0\n");
+  EXPECT_EQ(cuts("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2"), "");
+  EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X0 Y2 I0 J1"), "4: A 0,1 1 - 0,0 0,2\n");
+}
+
+TEST(VerifyProfileMoves, AProgramSaysItsModesAndEnds) {
+  const std::string tail = "G0 X1 Y1\nM2\n";
+  EXPECT_EQ(told(kModes + tail), "");
+  for (const std::string mode : {"G17", "G40", "G49", "G54", "G90", "G94"}) {
+    std::string less = kModes;
+    less.erase(less.find(mode), 3);
+    EXPECT_EQ(told(less + tail), "p.nc:2: a motion before " + mode);
+  }
+  EXPECT_EQ(told("G17 G40 G49 G54 G90 G94\n" + tail), "p.nc:2: a motion before G20 or G21");
+  EXPECT_EQ(told(kModes + "G0 X1 Y1\n"), "p.nc:2: the program does not end with M2 or M30");
+  EXPECT_EQ(told(kModes + "M3\nM2\n"), "p.nc:3: the beam or spindle is on at the end");
+  EXPECT_EQ(told(kModes + "M2\nG0 X1\n"), "p.nc:3: words after the end of the program");
+  EXPECT_EQ(told(kModes + "M2\n%\n"), "p.nc:3: % neither begins the program nor ends it");
+  EXPECT_EQ(told("%\n" + kModes + "%\nM2\n"), "p.nc:3: % neither begins the program nor ends it");
+  EXPECT_EQ(told("%\n" + kModes + "M2\n%\n"), "");
+  EXPECT_EQ(told("%\n" + kModes + "M2\n(that is all)\n"), "");
+}
+
+// ---- against a layout -------------------------------------------------------------------------------------
+
+/// A square part of 20 with a square hole of 8 in it, at (10, 10), and another of 10 beside it.
+std::string layout_text() {
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "ring",
+                  cases::outline_json(cases::rectangle(0, 0, 20, 20), {cases::rectangle(6, 6, 8, 8)}));
+  cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(layout, "ring", 10, 10);
+  cases::place(layout, "plate", 50, 10);
+  return layout.dump();
+}
+/// The way round a rectangle, `out` mm outside of it with round corners, from its lower left corner on.
+std::string way_round(double x, double y, double width, double height, double out) {
+  const double r = x + width, t = y + height;
+  return fmt::format(
+      "G1 X{1}\nG3 X{2} Y{3} I0 J{0}\nG1 Y{4}\nG3 X{1} Y{5} I{6} J0\nG1 X{7}\nG3 X{8} Y{4} I0 J{6}\nG1 Y{3}\n"
+      "G3 X{7} Y{9} I{0} J0\n",
+      out, r, r + out, y, t, t + out, -out, x, x - out, y - out);
+}
+std::string around(double x, double y, double width, double height, double out) {
+  return fmt::format("G0 X{} Y{}\nM3\n", x, y - out) + way_round(x, y, width, height, out) + "M5\n";
+}
+/// The same inside of a rectangle.
+std::string within(double x, double y, double width, double height, double in) {
+  const double l = x + in, r = x + width - in, b = y + in, t = y + height - in;
+  return fmt::format("G0 X{0} Y{1}\nM3\nG1 X{2}\nY{3}\nX{0}\nY{1}\nM5\n", l, b, r, t);
+}
+// From line 2 on, the cuts of these begin at lines 4, 11 and 22.
+const std::string kHole = within(16, 16, 8, 8, 0.5), kRing = around(10, 10, 20, 20, 0.5),
+                  kPlate = around(50, 10, 10, 10, 0.5);
+
+std::string judged(const std::string& cut, double kerf = 1, double tolerance = 0.01) {
+  ProfileWords words;
+  words.kerf_mm = kerf, words.tolerance_mm = tolerance;
+  const std::string layout = layout_text(), program = kModes + cut + "M2\n";
+  const Result<ClaimReport> report = verify_profile({"p.nc", program}, {"l.json", layout}, words);
+  if (!report) return report.error().message;
+  std::string text;
+  for (const std::string& finding : report->findings) text += finding + "\n";
+  return text;
+}
+
+TEST(VerifyProfile, EveryContourIsCutOnItsWasteSide) {
+  EXPECT_EQ(judged(kHole + kRing + kPlate), "");
+  EXPECT_EQ(judged(kPlate + kHole + kRing), "");
+  EXPECT_EQ(judged(kHole + kRing), "the outline of placement 2 is not cut\n");
+  EXPECT_EQ(judged(kRing + kPlate), "hole 1 of placement 1 is not cut\n");
+  EXPECT_EQ(judged(kHole + kPlate), "the outline of placement 1 is not cut\n");
+  EXPECT_EQ(judged(kRing + kHole + kPlate),
+            "line 15: hole 1 of placement 1 is cut after the outline of placement 1, which encloses it\n");
+  EXPECT_EQ(judged(kHole + kRing + kPlate + around(70, 70, 10, 10, 0.5)),
+            "line 33: the cut follows no contour of a part\n");
+  EXPECT_EQ(judged(kHole + kRing + kPlate + "G0 X70 Y70\nM3\nG1 X80\nM5\n"),
+            "line 33: the cut is not closed\n");
+}
+
+TEST(VerifyProfile, TheKerfKeepsItsDistance) {
+  EXPECT_EQ(judged(kHole + kRing + around(50, 10, 10, 10, 0.4905)), "");
+  EXPECT_NE(judged(kHole + kRing + around(50, 10, 10, 10, 0.4895)).find("the kerf enters a part"),
+            std::string::npos);
+  EXPECT_EQ(judged(kHole + kRing + around(50, 10, 10, 10, 0.509)), "");
+  EXPECT_EQ(judged(kHole + kRing + around(50, 10, 10, 10, 0.7)),
+            "line 22: the cut follows no contour of a part\nthe outline of placement 2 is not cut\n");
+  EXPECT_NE(judged(kHole + kRing + within(50, 10, 10, 10, 0.5)).find("placement 2"), std::string::npos);
+}
+
+TEST(VerifyProfile, ALeadMayComeFromOutsideAlone) {
+  const std::string way = way_round(50, 10, 10, 10, 0.5);
+  EXPECT_EQ(judged(kHole + kRing + "G0 X50 Y5\nM3\nG1 Y9.5\n" + way + "M5\n"), "");
+  const std::string said = judged(kHole + kRing + "G0 X55 Y15\nM3\nG1 X50 Y9.5\n" + way + "M5\n");
+  EXPECT_NE(said.find("the kerf enters a part"), std::string::npos) << said;
+  const std::string inside = judged(kHole + kRing + within(50, 10, 10, 10, 2));
+  EXPECT_NE(inside.find("line 22: the cut begins in placement 2"), std::string::npos) << inside;
+  EXPECT_NE(
+      judged(kHole + kRing + "G0 X50 Y9.5\nM3\nG0" + way.substr(2) + "M5\n").find("a rapid motion cuts"),
+      std::string::npos);
+}
+
+TEST(VerifyProfile, ACutThatLeavesAStretchOutIsNone) {
+  // It runs to and fro along one side.
+  EXPECT_EQ(judged(kHole + kRing + "G0 X50 Y9.5\nM3\nG1 X60\nX50\nM5\n"),
+            "line 22: the cut follows no contour of a part\nthe outline of placement 2 is not cut\n");
+}
+
+TEST(VerifyProfile, OneSheetIsCutByOneProgram) {
+  cases::Json layout = cases::Json::parse(layout_text());
+  layout["stocks"][0]["count"] = 2;
+  layout["placements"][1]["copy"] = 1;
+  const std::string text = layout.dump(), program = kModes + kHole + kRing + "M2\n";
+  ProfileWords words;
+  words.kerf_mm = 1;
+  const auto both = verify_profile({"p.nc", program}, {"l.json", text}, words);
+  ASSERT_FALSE(both);
+  EXPECT_EQ(both.error().message,
+            "p.nc: a program cuts one sheet and 2 are in use; say which, for example --sheet s#1");
+  words.sheet = "s#1";
+  const auto one = verify_profile({"p.nc", program}, {"l.json", text}, words);
+  ASSERT_TRUE(one);
+  EXPECT_TRUE(one->findings.empty());
+  words.sheet = "s";
+  EXPECT_TRUE(verify_profile({"p.nc", program}, {"l.json", text}, words)->findings.empty());
+  words.sheet = "s#2";
+  EXPECT_FALSE(verify_profile({"p.nc", program}, {"l.json", text}, words)->findings.empty());
+  words.sheet = "s#3";
+  EXPECT_EQ(verify_profile({"p.nc", program}, {"l.json", text}, words).error().message,
+            "l.json: nothing lies on a sheet s#3, only on s#1, s#2");
+}
+
+}  // namespace
+}  // namespace lekalo::verify
