@@ -130,8 +130,9 @@ class DxfReader {
     return entities;
   }
 
+  /// Other readers show nothing that stands behind EOF, or a second time.
   void read_sections() {
-    while (!at_end()) {
+    while (!at_end() && !is(0, "EOF")) {
       if (!is(0, "SECTION")) {
         ++at_;
         continue;
@@ -145,8 +146,14 @@ class DxfReader {
       else if (name == "BLOCKS")
         read_blocks();
       else if (name == "ENTITIES")
-        ++at_, entities_ = take_entities("ENDSEC");
+        read_entities();
     }
+  }
+
+  void read_entities() {
+    if (std::exchange(has_entities_, true)) complain("a second section ENTITIES");
+    ++at_;
+    entities_ = take_entities("ENDSEC");
   }
 
   void read_header() {
@@ -469,6 +476,7 @@ class DxfReader {
   std::map<std::string, LayerState> layers_;
   std::map<std::string, Block> blocks_;
   std::vector<Entity> entities_;
+  bool has_entities_ = false;
   std::string complaint_;
 };
 

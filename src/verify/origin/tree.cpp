@@ -10,7 +10,6 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::size_t kMostPrimitives = 10'000;
-constexpr int kDeepest = 64;
 
 /// A map that keeps circles: x is mirrored if said, then turned, scaled and shifted.
 struct Map {
@@ -62,7 +61,7 @@ class TreeReader {
   TreeReader(LengthUnit unit, std::string& complaint) : unit_(unit), complaint_(complaint) {}
 
   Tree read(Json shape) {
-    read_shape_at(shape, "shape", "", 0);
+    read_shape_at(shape, "shape", "");
     for (Primitive& primitive : tree_.primitives) bound(primitive.shape);
     return std::move(tree_);
   }
@@ -109,9 +108,8 @@ class TreeReader {
         complain(fmt::format("{}: \"{}\" is no word here", path, excerpt(members.key())));
   }
 
-  /// Returns the number of the node.
-  std::size_t read_shape_at(Json value, const std::string& path, const std::string& name_around, int depth) {
-    if (depth > kDeepest) return complain(path + " is nested too deep"), 0;
+  /// Returns the number of the node. JSON is nested no deeper than a recursion may go.
+  std::size_t read_shape_at(Json value, const std::string& path, const std::string& name_around) {
     Fields fields(value, path, complaint_);
     if (!complaint_.empty()) return 0;
     const std::string name = has(fields, "name") ? fields.text("name") : name_around;
@@ -124,11 +122,11 @@ class TreeReader {
       word = members.key(), what = *item;
     }
     const std::string at = path + "." + word;
-    if (word == "union") return read_list(what, Tree::Kind::unite, at, name, depth);
-    if (word == "intersection") return read_list(what, Tree::Kind::intersect, at, name, depth);
-    if (word == "difference") return read_list(what, Tree::Kind::subtract, at, name, depth);
+    if (word == "union") return read_list(what, Tree::Kind::unite, at, name);
+    if (word == "intersection") return read_list(what, Tree::Kind::intersect, at, name);
+    if (word == "difference") return read_list(what, Tree::Kind::subtract, at, name);
     if (word == "move" || word == "rotate" || word == "mirror" || word == "scale")
-      return read_mapped(what, word, at, name, depth);
+      return read_mapped(what, word, at, name);
     if (tree_.primitives.size() == kMostPrimitives) return complain("the tree has too many primitives"), 0;
     Primitive made;
     made.name = name;
@@ -138,24 +136,23 @@ class TreeReader {
     return tree_.nodes.size() - 1;
   }
 
-  std::size_t read_list(Json list, Tree::Kind kind, const std::string& path, const std::string& name,
-                        int depth) {
+  std::size_t read_list(Json list, Tree::Kind kind, const std::string& path, const std::string& name) {
     Tree::Node node;
     node.kind = kind;
     if (!list.is_array() || count_items(list) == 0) return complain(path + " is not a list of shapes"), 0;
     JsonItems items(list);
     for (std::size_t k = 0; const auto item = items.next(); ++k)
-      node.children.push_back(read_shape_at(*item, fmt::format("{}[{}]", path, k), name, depth + 1));
+      node.children.push_back(read_shape_at(*item, fmt::format("{}[{}]", path, k), name));
     tree_.nodes.push_back(std::move(node));
     return tree_.nodes.size() - 1;
   }
 
   std::size_t read_mapped(Json value, const std::string& word, const std::string& path,
-                          const std::string& name, int depth) {
+                          const std::string& name) {
     Fields fields(value, path, complaint_);
     const Map map = read_map(fields, value, word, path);
     const std::size_t first = tree_.primitives.size();
-    const std::size_t node = read_shape_at(fields.get("shape"), path + ".shape", name, depth + 1);
+    const std::size_t node = read_shape_at(fields.get("shape"), path + ".shape", name);
     if (!complaint_.empty()) return node;
     for (std::size_t k = first; k < tree_.primitives.size(); ++k) apply(map, tree_.primitives[k]);
     return node;

@@ -189,7 +189,7 @@ class Flow {
     for (long k = 0; k < repeats; ++k)
       for (std::size_t line = first; line < end && complaint_.empty(); ++line) {
         const std::string m = number_of(codes_[line].text, 'M');
-        if (m == "2" || m == "30") complain("the program ends in a subprogram");
+        if (m == "2" || m == "30") at_ = line, complain("the program ends in a subprogram");
         take(line);
       }
     --depth_;

@@ -1,0 +1,445 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/drawn_text.hpp"
+#include "verify/origin/drawing.hpp"
+#include "verify/origin/xml.hpp"
+
+/// What the checker's own reader of SVG takes a drawing for, curve by curve.
+namespace lekalo::verify {
+namespace {
+
+using cases::drawn_text;
+
+std::string read(const std::string& text, const Fraction& mm_per_unit = 1, double off = 1) {
+  return drawn_text(read_svg_drawing({"d.svg", text}, mm_per_unit, off));
+}
+
+/// On a page of 100 x 100 mm with its unit: y runs up from the lower edge.
+std::string on_page(const std::string& body, double off = 1) {
+  return read(R"(<svg width="100mm" height="100mm" viewBox="0 0 100 100">)" + body + "</svg>", 1, off);
+}
+std::string path(const std::string& d) { return on_page("<path d='" + d + "'/>"); }
+/// The place of one line under words of its page.
+std::string page(const std::string& words, const Fraction& mm_per_unit = 1) {
+  return read("<svg " + words + "><line x1='10' y1='10' x2='20' y2='40'/></svg>", mm_per_unit);
+}
+std::string transformed(const std::string& transform) {
+  return on_page("<line x1='1' y1='2' x2='4' y2='8' transform='" + transform + "'/>");
+}
+
+TEST(VerifySvgDrawing, ShapesAreTheirSides) {
+  EXPECT_EQ(on_page("<line x1='1' y1='2' x2='30' y2='4'/>"), ": L 1,98 30,96\n");
+  EXPECT_EQ(on_page("<polyline points='1,2 3,4, 5 8'/>"), ": L 1,98 3,96 L 3,96 5,92\n");
+  EXPECT_EQ(on_page("<polygon points='1,2 3,4 5,8'/>"), ": L 1,98 3,96 L 3,96 5,92 L 5,92 1,98\n");
+  EXPECT_EQ(on_page("<polygon points='1,2 3,4'/>"), ": L 1,98 3,96\n");
+  EXPECT_EQ(on_page("<polygon points='1,2'/><polygon points=''/>"), "");
+  EXPECT_EQ(on_page("<polygon points='1,2 3'/>"), "d.svg: points that are no numbers");
+  EXPECT_EQ(on_page("<polygon points='1,2 3,x'/>"), "d.svg: points that are no numbers");
+  EXPECT_EQ(on_page("<rect x='1' y='2' width='3' height='5'/>"),
+            ": L 1,98 4,98 L 4,98 4,93 L 4,93 1,93 L 1,93 1,98\n");
+  EXPECT_EQ(on_page("<rect width='3' height='5'/>"),
+            ": L 0,100 3,100 L 3,100 3,95 L 3,95 0,95 L 0,95 0,100\n");
+  for (const char* none : {"width='0' height='5'", "width='3' height='0'", "width='-3' height='5'",
+                           "width='3' height='-5'", "height='5'", "width='3'"})
+    EXPECT_EQ(on_page(std::string("<rect ") + none + "/>"), "") << none;
+  EXPECT_EQ(on_page("<rect width='3' height='5' rx='0' ry='0'/>"),
+            ": L 0,100 3,100 L 3,100 3,95 L 3,95 0,95 L 0,95 0,100\n");
+  for (const char* round : {"rx='1'", "ry='1'", "rx='1' ry='0'", "rx='0' ry='1'"})
+    EXPECT_EQ(on_page(std::string("<rect width='3' height='5' ") + round + "/>"),
+              "not read: rectangles with round corners\n")
+        << round;
+}
+
+TEST(VerifySvgDrawing, CirclesStayCirclesAndEllipsesBecomeStrokes) {
+  EXPECT_EQ(on_page("<circle cx='10' cy='20' r='5'/>"), ": A 10,80 5 15,80 15,80 o\n");
+  EXPECT_EQ(on_page("<ellipse cx='10' cy='20' rx='5' ry='5'/>"), ": A 10,80 5 15,80 15,80 o\n");
+  for (const char* none : {"<circle r='0'/>", "<circle r='-1'/>", "<circle/>", "<ellipse rx='1' ry='0'/>",
+                           "<ellipse rx='0' ry='1'/>", "<ellipse rx='1'/>", "<ellipse ry='1'/>"})
+    EXPECT_EQ(on_page(none), "") << none;
+  // Within 100 mm of 8 mm and 4 mm the least number of strokes is enough.
+  EXPECT_EQ(
+      on_page("<ellipse cx='10' cy='20' rx='8' ry='4'/>", 100),
+      ": L 18,80 12.47,76.2~ L 12.47,76.2 3.528,77.65~ L 3.528,77.65 3.528,82.35~ L 3.528,82.35 12.47,83.8~ "
+      "L 12.47,83.8 18,80~\n");
+}
+
+TEST(VerifySvgDrawing, AnEllipseIsWithinTheDistanceOfItsStrokes) {
+  for (const double off : {1.0, 0.1, 0.001}) {
+    ReadDrawing strokes;
+    CurveMaker maker(strokes, off);
+    maker.ellipse({}, {just(1), just(2)}, {just(8), just(0)}, {just(0), just(7)}, 10, 300);
+    maker.done("", false);
+    ASSERT_EQ(strokes.curves.size(), 1U);
+    const auto& pieces = strokes.curves[0].pieces;
+    double worst = 0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const double degrees = 10 + 290 * (static_cast<double>(k) + 0.5) / static_cast<double>(pieces.size());
+      const double t = degrees * std::acos(-1.0) / 180, x = 1 + 8 * std::cos(t), y = 2 + 7 * std::sin(t);
+      const auto middle = [](const Span& a, const Span& b) { return (a.low + a.high + b.low + b.high) / 4; };
+      const Side& side = pieces[k].side;
+      worst =
+          std::max(worst, std::hypot(middle(side.from.x, side.to.x) - x, middle(side.from.y, side.to.y) - y));
+      EXPECT_EQ(pieces[k].off, off);
+    }
+    EXPECT_LE(worst, off);
+    EXPECT_GE(worst, off / 20) << "more strokes than are of use";
+  }
+}
+
+TEST(VerifySvgDrawing, ABezierCurveIsWithinTheDistanceOfItsStrokes) {
+  for (const double off : {1.0, 1e-3, 1e-5}) {
+    ReadDrawing strokes;
+    CurveMaker maker(strokes, off);
+    // A parabola, which bends the same everywhere: nothing of the distance is left over.
+    maker.cubic({}, {Vec{just(0), just(0)}, {just(10), just(20)}, {just(20), just(20)}, {just(30), just(0)}});
+    maker.done("", false);
+    ASSERT_EQ(strokes.curves.size(), 1U);
+    const auto& pieces = strokes.curves[0].pieces;
+    double worst = 0;
+    for (const CurvePiece& piece : pieces) {
+      const double x = (piece.side.from.x.low + piece.side.to.x.high) / 2, t = x / 30;
+      worst =
+          std::max(worst, std::abs((piece.side.from.y.low + piece.side.to.y.high) / 2 - 60 * t * (1 - t)));
+    }
+    EXPECT_LE(worst, off);
+    EXPECT_GE(worst, off / 2) << "more strokes than are of use";
+    // Of a curve that bends at one end alone, that end counts.
+    for (const bool first : {true, false}) {
+      ReadDrawing bent;
+      CurveMaker one(bent, off);
+      const Vec a{just(0), just(0)}, b{just(0), just(0)}, c{just(10), just(0)}, d{just(30), just(30)};
+      one.cubic({}, first ? std::array{a, b, c, d} : std::array{d, c, b, a});
+      one.done("", false);
+      EXPECT_GE(static_cast<double>(bent.curves[0].pieces.size()),
+                std::sqrt(6 * std::hypot(10, 30) / (8 * off)));
+      EXPECT_LE(static_cast<double>(bent.curves[0].pieces.size()),
+                std::sqrt(6 * std::hypot(10, 30) / (8 * off)) + 2);
+    }
+  }
+}
+
+TEST(VerifySvgDrawing, WhatWouldTakeTooManyStrokesIsNotRead) {
+  ReadDrawing drawing;
+  CurveMaker maker(drawing, 1e-9);
+  const Vec nought{just(0), just(0)};
+  maker.cubic({}, {nought, {just(0), just(90)}, {just(90), just(90)}, {just(90), just(0)}});
+  maker.ellipse({}, nought, {just(80), just(0)}, {just(0), just(70)}, 0, 360);
+  maker.done("", false);
+  EXPECT_EQ(drawn_text(Result<ReadDrawing>(drawing)),
+            "not read: Bezier curves that are large against the tolerance\n"
+            "not read: ellipses that are large against the tolerance\n");
+}
+
+TEST(VerifySvgDrawing, PathsRunAsTheirLettersSay) {
+  EXPECT_EQ(path("M1 2L3 4 5 8"), ": L 1,98 3,96 L 3,96 5,92\n");
+  EXPECT_EQ(path("m1 2l3 4 5 8"), ": L 1,98 4,94 L 4,94 9,86\n");
+  EXPECT_EQ(path("M1 2 3 4"), ": L 1,98 3,96\n");
+  EXPECT_EQ(path("m1 2 3 4"), ": L 1,98 4,94\n");
+  EXPECT_EQ(path("M1 2H9V5"), ": L 1,98 9,98 L 9,98 9,95\n");
+  EXPECT_EQ(path("M1 2h9v5"), ": L 1,98 10,98 L 10,98 10,93\n");
+  EXPECT_EQ(path("M1 2H9 12"), ": L 1,98 9,98 L 9,98 12,98\n");
+  EXPECT_EQ(path("M1 2L3 4 5 2zl1 1"), ": L 1,98 3,96 L 3,96 5,98 L 5,98 1,98 L 1,98 2,97\n");
+  EXPECT_EQ(path("M1 2L3 4Z"), ": L 1,98 3,96 L 3,96 1,98\n");
+  EXPECT_EQ(path("M1 2h3m4 0h5z"), ": L 1,98 4,98 L 8,98 13,98 L 13,98 8,98\n");
+  EXPECT_EQ(path("M1-2+3.5.5"), ": L 1,102 3.5,99.5\n");
+  EXPECT_EQ(path("M1e1,2E+0,3e-1 4"), ": L 10,98 0.3,96\n");
+  EXPECT_EQ(path("M1\t2\r\nL3\n,4"), ": L 1,98 3,96\n");
+  EXPECT_EQ(path(""), "");
+  for (const char* broken :
+       {"M1", "M1 2L3", "M1 2L3 x", "M1 2h", "M1 2Lz", "M.", "M1 2C3 4 5 6 7", "M1 2L- 3", "M1 2@"})
+    EXPECT_EQ(path(broken), "d.svg: a path that breaks off") << broken;
+  for (const char* strange : {"1 2", "M1 2B3 4"})
+    EXPECT_EQ(path(strange), "d.svg: a path that is not understood") << strange;
+  EXPECT_EQ(path("M1 2L3 4e"), "d.svg: a path that is not understood");
+  EXPECT_EQ(path("M1 2L3 4e+"), "d.svg: a path that is not understood");
+}
+
+TEST(VerifySvgDrawing, CurvesOfPathsGoOnFromTheirPoles) {
+  const std::string c = on_page("<path d='M0 0C0 40 20 40 40 0'/>", 10);
+  EXPECT_EQ(c, ": L 0,100 5.926,73.33~ L 5.926,73.33 20.74,73.33~ L 20.74,73.33 40,100~\n");
+  EXPECT_EQ(on_page("<path d='m0 0c0 40 20 40 40 0'/>", 10), c);
+  EXPECT_EQ(on_page("<path d='M0 0C0 40 20 40 40 0S60 40 80 0'/>", 10),
+            ": L 0,100 5.926,73.33~ L 5.926,73.33 20.74,73.33~ L 20.74,73.33 40,100~ L 40,100 49.92,111.5~ L "
+            "49.92,111.5 56.96,105.8~ L 56.96,105.8 63.04,94.24~ L 63.04,94.24 70.08,88.48~ L 70.08,88.48 "
+            "80,100~\n");
+  EXPECT_EQ(on_page("<path d='M0 0C0 40 20 40 40 0s20 40 40 0'/>", 10),
+            ": L 0,100 5.926,73.33~ L 5.926,73.33 20.74,73.33~ L 20.74,73.33 40,100~ L 40,100 49.92,111.5~ L "
+            "49.92,111.5 56.96,105.8~ L 56.96,105.8 63.04,94.24~ L 63.04,94.24 70.08,88.48~ L 70.08,88.48 "
+            "80,100~\n");
+  EXPECT_EQ(on_page("<path d='M0 0S20 40 40 0'/>", 10),
+            ": L 0,100 3.438,94.38~ L 3.438,94.38 12.5,85~ L 12.5,85 25.31,83.12~ L 25.31,83.12 40,100~\n");
+  EXPECT_EQ(
+      on_page("<path d='M0 0S20 40 40 0S50 10 80 0'/>", 10),
+      ": L 0,100 3.438,94.38~ L 3.438,94.38 12.5,85~ L 12.5,85 25.31,83.12~ L 25.31,83.12 40,100~ L 40,100 "
+      "50.47,115.5~ L 50.47,115.5 56.25,111.2~ L 56.25,111.2 63.91,101.4~ L 63.91,101.4 80,100~\n");
+  EXPECT_EQ(on_page("<path d='M0 0Q20 40 40 0T80 0'/>", 10),
+            ": L 0,100 13.33,82.22~ L 13.33,82.22 26.67,82.22~ L 26.67,82.22 40,100~ L 40,100 53.33,117.8~ L "
+            "53.33,117.8 66.67,117.8~ L 66.67,117.8 80,100~\n");
+  EXPECT_EQ(on_page("<path d='M0 0Q20 40 40 0t40 0t40 0'/>", 10),
+            ": L 0,100 13.33,82.22~ L 13.33,82.22 26.67,82.22~ L 26.67,82.22 40,100~ L 40,100 53.33,117.8~ L "
+            "53.33,117.8 66.67,117.8~ L 66.67,117.8 80,100~ L 80,100 93.33,82.22~ L 93.33,82.22 106.7,82.22~ "
+            "L 106.7,82.22 120,100~\n");
+  EXPECT_EQ(on_page("<path d='M0 0Q20 40 40 0h5t40 10'/>", 10),
+            ": L 0,100 13.33,82.22~ L 13.33,82.22 26.67,82.22~ L 26.67,82.22 40,100~ L 40,100 45,100 L "
+            "45,100 49.44,98.89~ L 49.44,98.89 62.78,95.56~ L 62.78,95.56 85,90~\n");
+  EXPECT_EQ(on_page("<path d='M0 0Q20 40 40 0S60 40 80 0'/>", 10),
+            ": L 0,100 13.33,82.22~ L 13.33,82.22 26.67,82.22~ L 26.67,82.22 40,100~ L 40,100 43.44,94.38~ L "
+            "43.44,94.38 52.5,85~ L 52.5,85 65.31,83.12~ L 65.31,83.12 80,100~\n");
+}
+
+TEST(VerifySvgDrawing, ArcsOfPathsTurnAsTheirFlagsSay) {
+  EXPECT_EQ(path("M10 20A5 5 0 0 1 15 25"), ": A 10,75 5 15,75 10,80 -\n");
+  EXPECT_EQ(path("M10 20A5 5 0 0 0 15 25"), ": A 15,80 5 10,80 15,75 -\n");
+  EXPECT_EQ(path("M10 20A5 5 0 1 1 15 25"), ": A 15,80 5 15,75 10,80 +\n");
+  EXPECT_EQ(path("M10 20A5 5 0 1 0 15 25"), ": A 10,75 5 10,80 15,75 +\n");
+  EXPECT_EQ(path("M10 20a5,5 0 0110 0"), ": A 15,80 5 20,80 10,80 =\n");
+  EXPECT_EQ(path("M10 20a-5 5 0 00 10 0"), ": A 15,80 5 10,80 20,80 =\n");
+  EXPECT_EQ(path("M10 20a1 1 0 0 1 10 0"), ": A 15,80 5 20,80 10,80 =\n");
+  EXPECT_EQ(path("M10 20a5.000001 5.000001 0 0 1 10 0"),
+            ": A 15,80 5 20,80 10,80 -\nnot read: arcs of nearly half a turn in paths\n");
+  EXPECT_EQ(path("M10 20a5.00001 5.00001 0 0 1 10 0"), ": A 15,79.99 5 20,80 10,80 -\n");
+  EXPECT_EQ(path("M10 20a0 5 0 0 1 10 0"), ": L 10,80 20,80\n");
+  EXPECT_EQ(path("M10 20a5 0 0 0 1 10 0"), ": L 10,80 20,80\n");
+  EXPECT_EQ(path("M10 20a5 5 0 0 1 0 0"), "");
+  EXPECT_EQ(path("M10 20a5 6 0 0 1 10 0"), "not read: arcs of ellipses in paths\n");
+  for (const char* flags : {"2 1", "0 2", "0 x", "x 0"})
+    EXPECT_EQ(path("M10 20a5 5 0 " + std::string(flags) + " 10 0"),
+              "d.svg: an arc of a path without its flags");
+}
+
+TEST(VerifySvgDrawing, AMapThatKeepsCirclesKeepsArcs) {
+  const std::string arc = "<path d='M10 20A5 5 0 0 1 15 25' transform='";
+  EXPECT_EQ(on_page(arc + "scale(2)'/>"), ": A 20,50 10 30,50 20,60 -\n");
+  EXPECT_EQ(on_page(arc + "scale(-1 1)'/>"), ": A -10,75 5 -10,80 -15,75 -\n");
+  EXPECT_EQ(on_page(arc + "rotate(90)'/>"), ": A -25,90 5 -25,85 -20,90 -\n");
+  EXPECT_EQ(on_page(arc + "scale(2 1)'/>"), "not read: arcs whose angles are not stated, scaled unequally\n");
+  EXPECT_EQ(on_page(arc + "scale(1 1.000001)'/>"),
+            "not read: arcs whose angles are not stated, scaled unequally\n");
+  EXPECT_EQ(on_page("<circle r='5' transform='scale(2 1)'/>", 100),
+            ": L 10,100 3.09,95.24~ L 3.09,95.24 -8.09,97.06~ L -8.09,97.06 -8.09,102.9~ L -8.09,102.9 "
+            "3.09,104.8~ L 3.09,104.8 10,100~\n");
+}
+
+TEST(VerifySvgDrawing, TransformsAreMapsOneAfterTheOther) {
+  EXPECT_EQ(transformed(""), ": L 1,98 4,92\n");
+  EXPECT_EQ(transformed("translate(10,20)"), ": L 11,78 14,72\n");
+  EXPECT_EQ(transformed("translate(10)"), ": L 11,98 14,92\n");
+  EXPECT_EQ(transformed("scale(2,3)"), ": L 2,94 8,76\n");
+  EXPECT_EQ(transformed("scale(2)"), ": L 2,96 8,84\n");
+  EXPECT_EQ(transformed("rotate(90)"), ": L -2,99 -8,96\n");
+  EXPECT_EQ(transformed("rotate(90 10 20)"), ": L 28,89 22,86\n");
+  EXPECT_EQ(transformed("skewX(45)"), ": L 3,98 12,92\n");
+  EXPECT_EQ(transformed("skewY(45)"), ": L 1,97 4,88\n");
+  EXPECT_EQ(transformed("skewX(135)"), ": L -1,98 -4,92\n");
+  EXPECT_EQ(transformed("matrix(1 2 3 4 5 6)"), ": L 12,84 33,54\n");
+  EXPECT_EQ(transformed("translate(10,20) scale(2)"), ": L 12,76 18,64\n");
+  EXPECT_EQ(transformed("scale(2),translate(10,20)"), ": L 22,56 28,44\n");
+  for (const char* wrong :
+       {"turn(3)", "scale", "scale(", "scale()", "scale(1 2 3)", "translate()", "translate(1 2 3)",
+        "rotate()", "rotate(1 2)", "rotate(1 2 3 4)", "skewX()", "skewX(1 2)", "skewY(1 2)",
+        "matrix(1 2 3 4 5)", "matrix(1 2 3 4 5 6 7)", "scale(x)", "scale 2", "scale(2) 3"})
+    EXPECT_EQ(transformed(wrong), "d.svg: a transform that is not understood") << wrong;
+  EXPECT_EQ(on_page("<g style='transform: var(--a)'><line x2='1'/></g>"),
+            "not read: transforms by variables\n");
+  EXPECT_EQ(on_page("<g transform='translate(5)'><g transform='scale(2)'><line x2='1'/></g></g>"),
+            ": L 5,100 7,100\n");
+}
+
+TEST(VerifySvgDrawing, APageSaysItsUnitAndItsPlace) {
+  EXPECT_EQ(page("width='100mm' height='100mm' viewBox='0 0 100 100'"), ": L 10,90 20,60\n");
+  EXPECT_EQ(page("width='10cm' height='10cm' viewBox='0 0 100 100'"), ": L 10,90 20,60\n");
+  EXPECT_EQ(page("width='10in' height='10in' viewBox='0 0 100 100'"), ": L 25.4,228.6 50.8,152.4\n");
+  EXPECT_EQ(page("width='360pt' height='360pt' viewBox='0 0 100 100'"), ": L 12.7,114.3 25.4,76.2\n");
+  EXPECT_EQ(page("width='30pc' height='30pc' viewBox='0 0 100 100'"), ": L 12.7,114.3 25.4,76.2\n");
+  EXPECT_EQ(page("width='400Q' height='400Q' viewBox='0 0 100 100'"), ": L 10,90 20,60\n");
+  EXPECT_EQ(page("width='200mm' height='200mm' viewBox='0 0 100 100'"), ": L 20,180 40,120\n");
+  EXPECT_EQ(page("width='100mm' height='100mm' viewBox='5 6 100 100'"), ": L 5,96 15,66\n");
+  EXPECT_EQ(page("width='100mm' viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
+  EXPECT_EQ(page("height='50mm' viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
+  EXPECT_EQ(page("width='80%' height='50mm' viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
+  EXPECT_EQ(page("viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
+  EXPECT_EQ(page("viewBox='0 0 100 50'", 2), ": L 20,80 40,20\n");
+  EXPECT_EQ(page("width='100' height='50' viewBox='0 0 100 50'", 2), ": L 20,80 40,20\n");
+  EXPECT_EQ(page("width='100px' height='50px' viewBox='0 0 100 50'", 2), ": L 20,80 40,20\n");
+  EXPECT_EQ(page("width='100px' height='50px'", 2), ": L 20,80 40,20\n");
+  // 96 pixels are an inch where the page says how large it is.
+  EXPECT_EQ(page("width='100mm' height='25.4mm'"), ": L 2.646,22.75 5.292,14.82\n");
+  EXPECT_EQ(page("width='100mm'"), ": L 2.646,-2.646 5.292,-10.58\nnot read: pages without a height\n");
+  EXPECT_EQ(page("width='100mm' height='100' viewBox='0 0 100 100'"),
+            ": L 10,90 20,60\nnot read: pages with two kinds of units\n");
+  EXPECT_EQ(page("width='100' height='100mm' viewBox='0 0 100 100'"),
+            ": L 10,90 20,60\nnot read: pages with two kinds of units\n");
+  EXPECT_EQ(page("width='9em' height='1mm'"), "d.svg: its page has a unit that is not known here");
+  EXPECT_EQ(page("width='9mm' height='1ex'"), "d.svg: its page has a unit that is not known here");
+  for (const char* view : {"0 0 100", "0 0 100 x", "x"})
+    EXPECT_EQ(page("viewBox='" + std::string(view) + "'"), "d.svg: its viewBox is not four numbers") << view;
+  for (const char* view : {"0 0 0 1", "0 0 1 0", "0 0 -1 1", "0 0 1 -1"})
+    EXPECT_EQ(page("viewBox='" + std::string(view) + "'"), "d.svg: its viewBox is empty") << view;
+  EXPECT_EQ(read("<html/>"), "d.svg: its root is no svg");
+}
+
+TEST(VerifySvgDrawing, WhetherAPageSaysItsUnitIsTold) {
+  const auto says = [](const std::string& words) {
+    return read_svg_drawing({"d.svg", "<svg " + words + "/>"}, 1, 1)->says_unit;
+  };
+  EXPECT_TRUE(says("width='1mm' height='1mm'"));
+  EXPECT_TRUE(says("width='1mm' height='100%'"));
+  EXPECT_FALSE(says("width='1' height='1'"));
+  EXPECT_FALSE(says("width='1px' height='1px'"));
+  EXPECT_FALSE(says("viewBox='0 0 1 1'"));
+}
+
+TEST(VerifySvgDrawing, APageOfOtherProportionsIsPlacedAsItSays) {
+  // A view of 100 x 100 on pages that are twice as wide, or twice as high.
+  const std::string wide = "width='200mm' height='100mm' viewBox='0 0 100 100' ",
+                    high = "width='100mm' height='200mm' viewBox='0 0 100 100' ";
+  EXPECT_EQ(page(wide), ": L 60,90 70,60\n");
+  EXPECT_EQ(page(wide + "preserveAspectRatio='none'"), ": L 20,90 40,60\n");
+  EXPECT_EQ(page(wide + "preserveAspectRatio='xMinYMid'"), ": L 10,90 20,60\n");
+  EXPECT_EQ(page(wide + "preserveAspectRatio='xMaxYMid'"), ": L 110,90 120,60\n");
+  EXPECT_EQ(page(wide + "preserveAspectRatio='xMidYMid slice'"), ": L 20,130 40,70\n");
+  EXPECT_EQ(page(wide + "preserveAspectRatio='xMidYMin slice'"), ": L 20,80 40,20\n");
+  EXPECT_EQ(page(wide + "preserveAspectRatio='xMidYMax slice'"), ": L 20,180 40,120\n");
+  EXPECT_EQ(page(high), ": L 10,140 20,110\n");
+  EXPECT_EQ(page(high + "preserveAspectRatio='xMidYMin'"), ": L 10,190 20,160\n");
+  EXPECT_EQ(page(high + "preserveAspectRatio='xMidYMax'"), ": L 10,90 20,60\n");
+  EXPECT_EQ(page(high + "preserveAspectRatio='xMinYMin slice'"), ": L 20,180 40,120\n");
+  EXPECT_EQ(page("width='200mm' height='100mm' viewBox='5 6 100 100'"), ": L 55,96 65,66\n");
+}
+
+TEST(VerifySvgDrawing, LayersAreGroupsAndWhatIsHiddenIsMarked) {
+  const std::string line = "<line x2='1'/>", drawn = ": L 0,100 1,100\n";
+  EXPECT_EQ(on_page("<g id='a'>" + line + "</g>" + line), "a" + drawn + drawn);
+  EXPECT_EQ(on_page("<a id='a'>" + line + "</a>"), "a" + drawn);
+  EXPECT_EQ(on_page("<g id='a' inkscape:label='b'>" + line + "</g>"), "b" + drawn);
+  EXPECT_EQ(on_page("<g id='a'><g id='b'>" + line + "</g></g>"), "a" + drawn);
+  EXPECT_EQ(on_page("<g><g id='b'>" + line + "</g></g>"), "b" + drawn);
+  const std::string layer = " inkscape:groupmode='layer'>";
+  EXPECT_EQ(on_page("<g id='a'" + layer + "<g id='b'>" + line + "</g><g id='c'" + layer + line + "</g></g>"),
+            "a" + drawn + "c" + drawn);
+  EXPECT_EQ(on_page("<g id='a'>" + line + "</g><g id='c'" + layer + "</g>"), drawn);
+  EXPECT_EQ(on_page("<g id='a' display='none'>" + line + "</g>"), "a!" + drawn);
+  EXPECT_EQ(on_page("<g id='a' display='inline'>" + line + "</g>"), "a" + drawn);
+  EXPECT_EQ(on_page("<g display='none'><g visibility='visible' display='inline'>" + line + "</g></g>"),
+            "!" + drawn);
+  EXPECT_EQ(on_page("<line x2='1' style='fill:none;display : none '/>"), "!" + drawn);
+  EXPECT_EQ(on_page("<line x2='1' style='display:none;display:inline' display='none'/>"), drawn);
+  EXPECT_EQ(on_page("<line x2='1' style='display' display='none'/>"), "!" + drawn);
+  EXPECT_EQ(on_page("<line x2='1' visibility='hidden'/>"), "!" + drawn);
+  EXPECT_EQ(on_page("<line x2='1' visibility='collapse'/>"), "!" + drawn);
+  EXPECT_EQ(on_page("<g visibility='hidden'>" + line + "<line x2='1' visibility='visible'/></g>"),
+            "!" + drawn + drawn);
+  EXPECT_EQ(on_page("<text>a</text><defs>" + line + "</defs>" + line), drawn);
+  EXPECT_EQ(on_page("<symbol>" + line + "</symbol>"), "");
+  EXPECT_EQ(on_page("<svg>" + line + "</svg>"), "not read: svg within the page\n");
+  EXPECT_EQ(on_page("<switch>" + line + "</switch>"), "not read: switch within the page\n");
+}
+
+TEST(VerifySvgDrawing, StyleSheetsThatHideOrMoveAreNotRead) {
+  for (const char* word : {"display", "visibility", "transform"})
+    EXPECT_EQ(on_page("<style>.a{" + std::string(word) + ":none}</style>"),
+              "not read: style sheets that hide or move\n");
+  EXPECT_EQ(on_page("<style>.a{fill:none}</style>"), "");
+  EXPECT_EQ(on_page("<text>display</text>"), "");
+}
+
+TEST(VerifySvgDrawing, AUseDrawsWhatItNamesElsewhere) {
+  const std::string defs = "<defs><line id='l' x2='1'/><symbol id='s'/><svg id='v'/></defs>";
+  EXPECT_EQ(on_page(defs + "<use href='#l' x='3' y='4'/>"), ": L 3,96 4,96\n");
+  EXPECT_EQ(on_page(defs + "<use xlink:href='#l'/>"), ": L 0,100 1,100\n");
+  EXPECT_EQ(on_page(defs + "<use href='#l' xlink:href='#x'/>"), ": L 0,100 1,100\n");
+  EXPECT_EQ(on_page(defs + "<use href='#l' x='3' transform='scale(2)'/>"), ": L 6,100 8,100\n");
+  EXPECT_EQ(on_page(defs + "<g id='a'><use href='#l'/></g>"), "a: L 0,100 1,100\n");
+  for (const char* nothing : {"<use/>", "<use href=''/>", "<use href='#x'/>"})
+    EXPECT_EQ(on_page(defs + nothing), "d.svg: a use of nothing") << nothing;
+  EXPECT_EQ(on_page(defs + "<use href='#s'/>"), "not read: uses of symbol\n");
+  EXPECT_EQ(on_page(defs + "<use href='#v'/>"), "not read: uses of svg\n");
+  EXPECT_EQ(on_page("<g id='a'><use href='#a'/></g>"), "not read: groups nested too deep\n");
+}
+
+TEST(VerifySvgDrawing, GroupsAreReadTo32Deep) {
+  const auto nested = [](int depth) {
+    std::string text = "<line x2='1'/>";
+    for (int k = 0; k < depth; ++k) text = "<g>" + text + "</g>";
+    return on_page(text);
+  };
+  EXPECT_EQ(nested(32), ": L 0,100 1,100\n");
+  EXPECT_EQ(nested(33), "not read: groups nested too deep\n");
+}
+
+TEST(VerifySvgDrawing, LengthsAreNumbersOrPixels) {
+  EXPECT_EQ(on_page("<line x1='1px' x2='2'/>"), ": L 1,100 2,100\n");
+  EXPECT_EQ(on_page("<line x2='2mm'/>"), ": L 0,100 2,100\nnot read: lengths with units\n");
+  EXPECT_EQ(on_page("<line x2='5%'/>"), ": L 0,100 5,100\nnot read: lengths with units\n");
+  EXPECT_EQ(on_page("<line x2='x'/>"), "d.svg: x2 is no length");
+  EXPECT_EQ(on_page("<line x2='1' y2='1e-1'/>"), ": L 0,100 1,99.9\n");
+}
+
+// ---- XML --------------------------------------------------------------------------------------------------
+
+std::string told(const XmlElement& element) {
+  std::string text = element.name;
+  for (const auto& [key, value] : element.attributes) text += " " + key + "=" + value;
+  if (!element.text.empty()) text += " '" + element.text + "'";
+  for (const XmlElement& child : element.children) text += "(" + told(child) + ")";
+  return text;
+}
+std::string parsed(const std::string& text) {
+  const Result<XmlElement> root = parse_xml({"d.svg", text});
+  return root ? told(*root) : root.error().message;
+}
+
+TEST(VerifyXml, ElementsHaveNamesAttributesTextAndChildren) {
+  EXPECT_EQ(parsed("<a/>"), "a");
+  EXPECT_EQ(parsed("\xEF\xBB\xBF <a></a>"), "a");
+  EXPECT_EQ(parsed("<a></a >"), "a");
+  EXPECT_EQ(parsed("<svg:a><svg:b/></svg:a>"), "a(b)");
+  EXPECT_EQ(parsed("<x:a\tb = '1'\n c=\"2'\"><b/>text<c d=''>more</c></x:a>"),
+            "x:a b=1 c=2' 'text'(b)(c d= 'more')");
+  EXPECT_EQ(parsed("<?xml version='1.0'?><!-- <x> --><!DOCTYPE svg><a>1<!-- 2 -->3<![CDATA[<4>]]></a>"),
+            "a '13<4>'");
+  EXPECT_EQ(parsed("<a b='&lt;&gt;&amp;&quot;&apos;&#65;x'/>"), "a b=<>&\"'?x");
+  EXPECT_EQ(parsed("text <a/> and what follows </b>"), "a");
+}
+
+TEST(VerifyXml, EverythingElseIsRefused) {
+  for (const char* text : {"",
+                           "text",
+                           "<a>",
+                           "<a",
+                           "<a b",
+                           "<a b=",
+                           "<a b=1/>",
+                           "<a b='1/>",
+                           "<a b='1' c/>",
+                           "<a ='1'/>",
+                           "</a>",
+                           "<a></b>",
+                           "<a></a x>",
+                           "<a/ >",
+                           "< a/>",
+                           "<a b='&x;'/>",
+                           "<a b='&lt'/>",
+                           "<!-- ",
+                           "<a><![CDATA[ </a>",
+                           "<?xml",
+                           "<!DOCTYPE svg [<!ENTITY x 'y'>]><a/>",
+                           "<!DOCTYPE svg"})
+    EXPECT_EQ(parsed(text), "d.svg: it is no XML that is understood here") << text;
+}
+
+TEST(VerifyXml, ElementsNestTo600Deep) {
+  const auto nested = [](int depth) {
+    std::string text;
+    for (int k = 0; k < depth; ++k) text += "<a>";
+    for (int k = 0; k < depth; ++k) text += "</a>";
+    return parse_xml({"d.svg", text}).has_value();
+  };
+  EXPECT_TRUE(nested(600));
+  EXPECT_FALSE(nested(601));
+}
+
+}  // namespace
+}  // namespace lekalo::verify
