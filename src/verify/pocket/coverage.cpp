@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <utility>
 
 #include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
-#include "verify/shape/side_tree.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -34,32 +32,20 @@ class Coverage {
         widest_ = std::max(widest_, wider_.back());
       }
     }
-    const double reach = reach_of_square() + widest_;
-    const Place low = pocket.low() - Place{reach, reach}, high = pocket.high() + Place{reach, reach};
-    index_ = StrokeIndex(low, high, radius);
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < floor_.size(); ++i) {
-      Place from, to;
-      box_of(floor_[i], from, to);
-      const Box box{from.x, from.y, to.x, to.y};
-      if (meet(box, {low.x, low.y, high.x, high.y})) {
-        index_.add(static_cast<std::uint32_t>(i), floor_[i]);
-      } else {
-        outside_.push_back(i);
-        boxes.push_back(box);
-      }
-    }
-    tree_outside_ = SideTree(std::move(boxes));
+    const Place pad{radius, radius};
+    index_ = StrokeIndex(pocket.low() - pad, pocket.high() + pad, radius);
+    for (std::size_t i = 0; i < floor_.size(); ++i) index_.add(static_cast<std::uint32_t>(i), floor_[i]);
   }
 
   void run() {
-    const double side = side_of_square(), reach = reach_of_square();
+    const double side = radius_ / 2;
     const Place low = pocket_.low(), high = pocket_.high();
     Numbers cuts, limits;
     for (double y = low.y; y < high.y; y += side)
       for (double x = low.x; x < high.x; x += side) {
         ask();
         const Place middle{x + side / 2, y + side / 2};
+        const double reach = radius_ + 2.2 * side;
         index_.near(middle, reach + widest_, cuts);
         pocket_.limit_index().near(middle, reach, limits);
         spot_ = {};
@@ -74,21 +60,10 @@ class Coverage {
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] double side_of_square() const { return radius_ / 2; }
-  /// Strokes farther than this from the middle of a square do not matter to it.
-  [[nodiscard]] double reach_of_square() const { return radius_ + 2.2 * side_of_square(); }
-
   /// Returns the distance from what is cut, as if this tool had cut all of it along paths. A path that a
   /// wider tool cut counts as nearer by the difference of the radii. A place is cut where the distance is
   /// below this tool's radius.
-  [[nodiscard]] double swept_at(Place p) const {
-    double least = index_.nearest(p, floor_, wider_, widest_), limit = least + widest_;
-    tree_outside_.visit_near({p.x, p.y, p.x, p.y}, limit, [&](std::size_t k) {
-      const std::size_t i = outside_[k];
-      least = std::min(least, distance(p, floor_[i]) - wider_[i]), limit = least + widest_;
-    });
-    return least;
-  }
+  [[nodiscard]] double swept_at(Place p) const { return index_.nearest(p, floor_, wider_, widest_); }
 
   /// Returns the distance from `middle` to the nearest, and keeps those that may matter to the square.
   template <class Distance>
@@ -204,9 +179,6 @@ class Coverage {
   std::vector<double> wider_;
   double widest_ = 0;
   StrokeIndex index_;
-  /// Strokes of the floor that reach no square, of which a line of a few bytes may have a million.
-  std::vector<std::size_t> outside_;
-  SideTree tree_outside_{std::vector<Box>()};
   double undecided_ = 0;
   /// The size of the pocket, mm; no place is wider.
   double whole_ = length(pocket_.high() - pocket_.low());
