@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "e2e/lies.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/layout_texts.hpp"
+#include "support/lies.hpp"
 
 /// What the checker says of layouts and of reports about them, from bytes made by hand.
 namespace lekalo::verify {

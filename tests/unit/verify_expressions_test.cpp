@@ -159,7 +159,7 @@ TEST(VerifyExpressions, AnAssignmentStandsAlone) {
 
 /// The numbers of the lines as they run, "s" in subprograms, "-" for a call; or the complaint.
 std::string run(const std::string& program) {
-  const auto lines = lines_in_order({"p.nc", program});
+  const auto lines = lines_in_order({"p.nc", program}, words::Control::linuxcnc);
   if (!lines) return lines.error().message;
   std::string text;
   for (const NcLine& line : *lines)
