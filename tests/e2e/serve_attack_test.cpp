@@ -1,5 +1,7 @@
 // `lekalo serve` and somebody who tries what the protocol does not mean: it is refused, and others go on.
 
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
 #include <functional>
 #include <sstream>
 
@@ -108,7 +110,9 @@ TEST(ServeAttack, ARequestThatCanBeReadInTwoWaysIsRefused) {
     socket.shutdown(tcp::socket::shutdown_send, error);
     std::string said;
     asio::read(socket, asio::dynamic_buffer(said), error);  // until the server ends the connection
-    if (!said.empty()) EXPECT_EQ(said.substr(0, 10), "HTTP/1.1 4") << said.substr(0, 100);
+    if (!said.empty()) {
+      EXPECT_EQ(said.substr(0, 10), "HTTP/1.1 4") << said.substr(0, 100);
+    }
     EXPECT_EQ(said.find("HTTP/1.1", 8), std::string::npos) << "one answer, to one request";
   }
   EXPECT_EQ(Json::parse(ask(server, http::verb::get, "/api/layouts").body)["layouts"].size(), 1U);
