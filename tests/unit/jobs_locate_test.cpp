@@ -62,6 +62,7 @@ verify::Verdict verdict(const LocateJob& job, const Located& located) {
                if (role == "part") return job.part;
                if (role == "nc") return job.program;
                if (role == "NC program") return File{"o.nc", located.program};
+               if (role == "deviations") return File{"d.csv", located.deviations};
                if (role == "features") return job.features;
                if (role == "last-result") return job.earlier;
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
