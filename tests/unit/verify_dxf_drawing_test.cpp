@@ -264,9 +264,12 @@ TEST(VerifyDxfDrawing, BlocksAreInsertedWhereTheySay) {
   EXPECT_EQ(
       with_blocks("0 BLOCK 2 b 0 ARC 10 0 20 0 40 5 50 0 51 90 0 ENDBLK", "0 INSERT 2 b 10 0 20 0 41 2 42 2"),
       ": A 0,0 10 10,0 0,10 -\n");
-  EXPECT_EQ(with_blocks("0 BLOCK 2 b 0 LWPOLYLINE 10 0 20 0 42 0.5 10 10 20 0 0 ENDBLK",
-                        "0 INSERT 2 b 10 0 20 0 41 2"),
-            "not read: arcs whose angles are not stated, scaled unequally\n");
+  EXPECT_EQ(
+      with_blocks("0 BLOCK 2 b 0 LWPOLYLINE 10 0 20 0 42 0.5 10 10 20 0 0 ENDBLK",
+                  "0 INSERT 2 b 10 0 20 0 41 2"),
+      ": L 0,0 1.991,-1.048~ L 1.991,-1.048 4.41,-1.84~ L 4.41,-1.84 7.128,-2.333~ L 7.128,-2.333 10,-2.5~ "
+      "L 10,-2.5 12.87,-2.333~ L 12.87,-2.333 15.59,-1.84~ L 15.59,-1.84 18.01,-1.048~ L 18.01,-1.048 "
+      "20,0~\n");
 }
 
 TEST(VerifyDxfDrawing, BlocksNestTo32Deep) {

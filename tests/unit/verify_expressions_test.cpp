@@ -158,8 +158,8 @@ TEST(VerifyExpressions, AnAssignmentStandsAlone) {
 // ---- the order of lines -----------------------------------------------------------------------------------
 
 /// The numbers of the lines as they run, "s" in subprograms, "-" for a call; or the complaint.
-std::string run(const std::string& program) {
-  const auto lines = lines_in_order({"p.nc", program}, words::Control::linuxcnc);
+std::string run(const std::string& program, words::Control control = words::Control::linuxcnc) {
+  const auto lines = lines_in_order({"p.nc", program}, control);
   if (!lines) return lines.error().message;
   std::string text;
   for (const NcLine& line : *lines)
@@ -177,8 +177,8 @@ TEST(VerifyFlow, WithoutCallsLinesStandAsTheyAre) {
 TEST(VerifyFlow, SubprogramsRunWhereTheyAreCalled) {
   EXPECT_EQ(run("G0 X1\nM98 P7\nX2\nM30\nO7\nX3\nX4\nM99\n"), "1 2- 6s 7s 3 4 ");
   EXPECT_EQ(run("G0 X1\nm98 p07 l2\nM2\nO0007\nX3\nM99\n%\n"), "1 2- 5s 5s 3 7 ");
-  EXPECT_EQ(run("G0 X1\nN5 M98 P7 (call)\nM2\nN9 O7\nX3\nN10 M99\n"), "1 2- 5s 3 ");
-  EXPECT_EQ(run("G0 X1\nM97 P50 L2\nM30\nN050 X3\nX4\nM99\n"), "1 2- 4s 5s 4s 5s 3 ");
+  EXPECT_EQ(run("G0 X1\nN5 M98 P7 (call)\nM2\nN9 O7\nX3\nN10 M99\n"), "1 2 5s 3 ");
+  EXPECT_EQ(run("G0 X1\nM97 P50 L2\nM30\nN050 X3\nX4\nM99\n", words::Control::haas), "1 2- 4s 5s 4s 5s 3 ");
   EXPECT_EQ(run("o100 sub\nX1\no100 endsub\nG0 X9\no100 call\nM2\n"), "4 5- 2s 6 ");
   EXPECT_EQ(run("o<in> sub\nX1\no<in> endsub\nG0 X9\no<in> call\nM2\n"), "4 5- 2s 6 ");
   EXPECT_EQ(run("%\nO1 (main)\nM98 P2\nM30\nO2\nM98 P3\nX5\nM99\nO3\nX6\nM99\n%"), "1 2 3- 6- 10s 7s 4 12 ");
@@ -190,9 +190,9 @@ TEST(VerifyFlow, CallsThatAreNotUnderstoodAreRefusedWithTheirLine) {
   const std::string tail = "\nM30\nO7\nX3\nM99\n", none = "a subprogram that is not in this file";
   EXPECT_EQ(run("G0 X1\nM98 P8" + tail), "p.nc:2: " + none);
   EXPECT_EQ(run("G0 X1\nM98" + tail), "p.nc:2: " + none);
-  EXPECT_EQ(run("G0 X1\nM97 P8" + tail), "p.nc:2: " + none);
-  EXPECT_EQ(run("G0 X1\nM97" + tail), "p.nc:2: " + none);
-  EXPECT_EQ(run("G0 X1\nM97 P8\nM30\nN8 X1\n"), "p.nc:2: " + none);
+  EXPECT_EQ(run("G0 X1\nM97" + tail, words::Control::haas), "p.nc:2: a call without P");
+  EXPECT_EQ(run("G0 X1\nM97 P8\nM30\nN8 X1\n", words::Control::haas), "p.nc:2: a subprogram without an end");
+  EXPECT_EQ(run("G0 X1\nM97 P8" + tail), "p.nc:2: M97 is no word of this control");
   EXPECT_EQ(run("G0 X1\nO9 CALL" + tail), "p.nc:2: " + none);
   EXPECT_EQ(run("G0 X1\nM98 P7 X2" + tail), "p.nc:2: a call beside other words");
   EXPECT_EQ(run("G0 X1\nG1 M98 P7" + tail), "p.nc:2: a call beside other words");
@@ -228,9 +228,9 @@ TEST(VerifyFlow, AProgramRunsNoMoreThanAMillionLines) {
 }
 
 TEST(VerifyFlow, CommentsAndBlanksSayNothing) {
-  EXPECT_EQ(run("G0 X1\n M 9 8 P 7 ; M2\nM30\n(O5) O7 \r\nX3\n( M2 ) M99\n"), "1 2- 5s 3 ");
+  EXPECT_EQ(run("G0 X1\n M 9 8 P 7 ; M2\nM30\n(O5) O7 \r\nX3\n( M2 ) M99\n"), "1 2 5s 3 ");
   EXPECT_EQ(run("G0 X1\nM98 P7\nM30\nO7\n(M30) X3\n;M2\nM99\n"), "1 2- 5s 6s 3 ");
-  EXPECT_EQ(run("G0 X1\nM98 P7 (a (b) ; c)\nM30\nO7\nX3\nM99\n"), "1 2- 5s 3 ");
+  EXPECT_EQ(run("G0 X1\nM98 P7 (a (b) ; c)\nM30\nO7\nX3\nM99\n"), "1 2 5s 3 ");
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ struct Rings {
   std::string x = "100", y = "50", theta = "0", theta_deg = "0", clearance = "1", upper = "1.001",
               gap = "0.001";
   std::string part_radius = "10", tolerances = R"({"part": 0, "blank": 0})";
-  std::string contacts = R"([{"part_at": [10, 0], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
+  std::string contacts =
+      R"([{"part_edge": 0, "blank_edge": 0, "part_at": [10, 0], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
   std::string tree = leaf();
   std::string box = R"("theta": [0, 6.2831853071795872], "x": [88, 112], "y": [38, 62])";
   std::string part_file = "[]", pivot = "[0, 5]";
@@ -149,11 +150,13 @@ TEST(VerifyRegions, EveryFalseClaimIsFound) {
       {[](Rings& r) { r.tolerances = R"({"part": -1, "blank": 0})"; }, "tolerance is negative"},
       {[](Rings& r) { r.tolerances = R"({"part": 0.1, "blank": 0})"; }, "clearance 1 mm is above"},
       {[](Rings& r) {
-         r.contacts = R"([{"part_at": [10, 1], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
+         r.contacts =
+             R"([{"part_edge": 0, "blank_edge": 0, "part_at": [10, 1], "blank_at": [112, 50], "distance": 2, "multiplier": 1}])";
        },
-       "part_at is not on the part's outline"},
+       "part_at is not on edge 0 of the part"},
       {[](Rings& r) {
-         r.contacts = R"([{"part_at": [10, 0], "blank_at": [112, 50], "distance": 2.1, "multiplier": 1}])";
+         r.contacts =
+             R"([{"part_edge": 0, "blank_edge": 0, "part_at": [10, 0], "blank_at": [112, 50], "distance": 2.1, "multiplier": 1}])";
        },
        "apart, not 2.1"},
       {[](Rings& r) { r.part_file = R"({"units": "mm", "outer": )" + Rings::circle("0", "0", 9) + "}"; },
