@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/geom/arc_ends.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/same_outline.hpp"
@@ -115,7 +116,7 @@ std::optional<std::string> arc_fault(const Edge& arc, bool alone) {
   if (arc.from == arc.centre || arc.to == arc.centre) {
     return fmt::format("an end of the arc lies at its centre {}", text(arc.centre));
   }
-  const double allowed = kArcConsistency + kArcConsistencyRelative * std::max(from, to);
+  const double allowed = allowed_radius_difference(arc);
   if (!(std::abs(from - to) <= allowed)) {
     return fmt::format(
         "the arc's ends {} and {} are {} and {} mm from its centre {}; they may differ by {:.3g} mm",

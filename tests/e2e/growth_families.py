@@ -324,7 +324,7 @@ FAMILIES = [
     ("tree-crossing-bars", 2000, READ,
      lambda n: tree({"union": [{"rotate": {"by_deg": 180 * k / n, "shape": {"rectangle": {"size": [1000, 1]}}}}
                                for k in range(n)]})),
-    ("tree-plate-less-discs", 5000, READ,
+    ("tree-plate-less-discs", 4900, READ,
      lambda n: tree({"difference": [{"rectangle": {"size": [1000, 1000]}}] +
                      [disc(3 * (k % 100) - 200, 3 * (k // 100) - 200, 1) for k in range(n)]})),
     ("tree-half-planes", 100, READ, half_planes),
@@ -341,7 +341,7 @@ FAMILIES = [
     ("layout-comb", 20000, ["check", "a.json"], lambda n: layout(polygon(comb(n, 0.002, 50)))),
     ("layout-tall-comb", 20000, ["check", "a.json"],
      lambda n: layout(polygon([(y, x) for x, y in comb(n, 0.002, 50)]))),
-    ("layout-spiral", 15000, ["check", "a.json"], lambda n: layout(polygon(spiral(n)))),
+    ("layout-spiral", 6000, ["check", "a.json"], lambda n: layout(polygon(spiral(n)))),
     ("layout-side-by-side", 4000, ["check", "a.json"],
      lambda n: layout(polygon(square(0, 0, 2)), placed(n, lambda k: (3 * (k % 300), 3 * (k // 300))))),
     ("layout-in-a-row", 4000, ["check", "a.json"],

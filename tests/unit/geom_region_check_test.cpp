@@ -92,6 +92,22 @@ TEST(RegionCheck, FindsTheInnermostContourBesideSlopesAndTips) {
   EXPECT_EQ(fault_of(pieces), "piece 10 lies in the material of piece 0, at (30, 5) mm");
 }
 
+/// The radii of its ends differ by 8 mm. That is less than a millionth of the radius, and more than half of
+/// the chord: engine and checker meant different curves by it.
+TEST(RegionCheck, AShortArcAboutAFarCentreIsRefusedWhereItsRadiiDiffer) {
+  const auto corner = [](Point to, Point centre) {
+    return make_region({{EdgeKind::line, {8, 0}, {112, 0}, {}},
+                        {EdgeKind::arc_ccw, {112, 0}, to, centre},
+                        {EdgeKind::line, to, {8, 0}, {}}});
+  };
+  const auto fault = corner({120, 8}, {112, 1e9});
+  ASSERT_FALSE(fault.has_value());
+  EXPECT_NE(fault.error().message.find("they may differ by 1.42 mm"), std::string::npos)
+      << fault.error().message;
+  EXPECT_TRUE(corner({120, 0}, {116, 1e9}).has_value());
+  EXPECT_TRUE(corner({120, 8}, {112, 8}).has_value());
+}
+
 TEST(RegionCheck, SaysWhenBoxesMeetTooOften) {
   std::vector<Contour> slots;
   for (int k = 0; k < 2500; ++k) {

@@ -7,6 +7,7 @@
 
 #include "io/text/decimal.hpp"
 #include "lekalo/base/angle.hpp"
+#include "lekalo/geom/arc_ends.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/trig.hpp"
 
@@ -31,7 +32,7 @@ std::optional<std::string> fault(const geom::Edge& edge) {
   if (edge.kind == geom::EdgeKind::line) return std::nullopt;
   if (auto found = point_fault(edge.centre)) return found;
   const double from = norm(edge.from - edge.centre), to = norm(edge.to - edge.centre);
-  const double allowed = geom::kArcConsistency + geom::kArcConsistencyRelative * std::max(from, to);
+  const double allowed = geom::allowed_radius_difference(edge);
   if (from > 0 && to > 0 && std::abs(from - to) <= allowed) return std::nullopt;
   return fmt::format("its ends are {} and {} mm from its centre; they may differ by {:.3g} mm", from, to,
                      allowed);

@@ -127,9 +127,21 @@ class Copies {
 
   std::vector<LyingOn> run() {
     set_equal_ones_aside();
+    // A line or an arc can lie anywhere on another, and curves of several edges lie edge by edge.
+    std::vector<Candidate> candidates;
+    for (std::uint32_t p = 0; p < order_.size(); ++p) {
+      const LaidCurve& curve = curves_[order_[p]];
+      if (curve.edges->size() == 1) {
+        candidates.push_back({grown(curve.box, reach_), p});
+        continue;
+      }
+      const Point from = curve.edges->front().from, to = curve.edges->back().to;
+      candidates.push_back({grown(Box{from, from}, reach_), p});
+      if (!(from == to)) candidates.push_back({grown(Box{to, to}, reach_), p});
+    }
     std::vector<Box> boxes;
-    for (const std::uint32_t i : order_) boxes.push_back(grown(curves_[i].box, reach_));
-    const geom::BoxTree tree(boxes);
+    for (const Candidate& one : candidates) boxes.push_back(one.box);
+    const geom::BoxTree tree(std::move(boxes));
     std::size_t left = limits::most_meeting_boxes(order_.size());
     for (std::uint32_t p = 0; p < order_.size(); ++p) {
       const std::uint32_t a = order_[p];
@@ -137,9 +149,11 @@ class Copies {
       if (on_[a]) continue;
       // A curve whose copy is a little longer still counts as the copy.
       const Box room = grown(curves_[a].box, 2 * reach_);
-      const bool all = tree.visit_meeting_while(boxes[p], [&](std::uint32_t q) {
+      const Point from = curves_[a].edges->front().from;
+      const Box where = curves_[a].edges->size() == 1 ? grown(curves_[a].box, reach_) : Box{from, from};
+      const bool all = tree.visit_meeting_while(where, [&](std::uint32_t k) {
         if (left-- == 0) return false;
-        if (q > p) consider(order_[q], a, room);
+        if (candidates[k].place > p) consider(order_[candidates[k].place], a, room);
         return true;
       });
       if (!all) break;
@@ -148,6 +162,12 @@ class Copies {
   }
 
  private:
+  /// The place of a curve in the order, and where another begins that it may lie on, or lies.
+  struct Candidate {
+    Box box;
+    std::uint32_t place = 0;
+  };
+
   /// The order in which curves are kept: larger ones first, of equal ones the first.
   [[nodiscard]] bool before(std::uint32_t i, std::uint32_t j) const {
     return curves_[i].size != curves_[j].size ? curves_[i].size > curves_[j].size : i < j;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/geom/arc_ends.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/predicates.hpp"
 
@@ -36,8 +37,7 @@ double difference_of_radii(const Edge& arc) {
 /// \pre from != to
 bool is_sound(const Edge& arc) {
   const double from = norm(arc.from - arc.centre), to = norm(arc.to - arc.centre);
-  return from > 0 && to > 0 &&
-         std::abs(from - to) <= geom::kArcConsistency + geom::kArcConsistencyRelative * std::max(from, to) &&
+  return from > 0 && to > 0 && std::abs(from - to) <= geom::allowed_radius_difference(arc) &&
          (geom::orientation(arc.centre, arc.from, arc.to) != 0 ||
           dot(arc.from - arc.centre, arc.to - arc.centre) < 0);
 }

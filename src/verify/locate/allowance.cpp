@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
+
 namespace lekalo::verify {
 namespace {
 
@@ -96,35 +98,121 @@ class SeenFromBlank {
   long scale_ = 1;
 };
 
+struct FlatBox {
+  FlatPoint low, high;
+};
+
+/// Points in the order of an outline, with the boxes of halves of halves of them.
+class PointTree {
+ public:
+  explicit PointTree(std::vector<FlatPoint> points) : points_(std::move(points)) {
+    if (!points_.empty()) build(0, 0, points_.size());
+  }
+
+  /// Calls visit(i, point) in order for all points but those in boxes for which skip(box) is true.
+  template <class Skip, class Visit>
+  void visit_but(const Skip& skip, const Visit& visit) const {
+    if (!points_.empty()) descend(0, 0, points_.size(), skip, visit);
+  }
+
+ private:
+  static constexpr std::size_t kLeaf = 8;
+
+  void build(std::size_t node, std::size_t begin, std::size_t end) {
+    if (node >= boxes_.size()) boxes_.resize(node + 1);
+    FlatBox box{points_[begin], points_[begin]};
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const FlatPoint p = points_[i];
+      box = {{std::min(box.low.x, p.x), std::min(box.low.y, p.y)},
+             {std::max(box.high.x, p.x), std::max(box.high.y, p.y)}};
+    }
+    boxes_[node] = box;
+    if (end - begin <= kLeaf) return;
+    const std::size_t middle = begin + (end - begin) / 2;
+    build(2 * node + 1, begin, middle);
+    build(2 * node + 2, middle, end);
+  }
+
+  template <class Skip, class Visit>
+  void descend(std::size_t node, std::size_t begin, std::size_t end, const Skip& skip,
+               const Visit& visit) const {
+    if (skip(boxes_[node])) return;
+    ask();
+    if (end - begin <= kLeaf) {
+      for (std::size_t i = begin; i < end; ++i) visit(i, points_[i]);
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    descend(2 * node + 1, begin, middle, skip, visit);
+    descend(2 * node + 2, middle, end, skip, visit);
+  }
+
+  std::vector<FlatPoint> points_;
+  std::vector<FlatBox> boxes_;
+};
+
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// Finds the pairs (row, column) whose true distance may be the least, given distances within kFilterError of
+/// Finds the pairs (row, point) whose true distance may be the least, given distances within kFilterError of
 /// the true ones. Step 3 of docs/design/verify.md decides between them exactly.
-template <class RowDistance>
-std::vector<Pair> near_minimal(std::size_t rows, std::size_t columns, RowDistance row_distance) {
-  std::vector<double> least(rows, std::numeric_limits<double>::infinity());
+/// \param row_of  gives of a row's number what tells the distance of a point, and a bound for those in a box
+template <class RowOf>
+std::vector<Pair> near_minimal(std::size_t rows, std::vector<FlatPoint> points, RowOf row_of) {
+  const PointTree tree(std::move(points));
+  double limit = std::numeric_limits<double>::infinity();
+  const auto visit_below_limit = [&](const auto& row, const auto& visit) {
+    tree.visit_but([&](const FlatBox& box) { return row.bound(box) > limit + 2 * kFilterError; }, visit);
+  };
   for (std::size_t r = 0; r < rows; ++r) {
-    const auto distance = row_distance(r);
-    for (std::size_t c = 0; c < columns; ++c) least[r] = std::min(least[r], distance(c));
+    const auto row = row_of(r);
+    visit_below_limit(row, [&](std::size_t, FlatPoint p) { limit = std::min(limit, row.distance(p)); });
   }
-  const double limit = *std::min_element(least.begin(), least.end()) + 2 * kFilterError;
+  limit += 2 * kFilterError;
   std::vector<Pair> pairs;
   for (std::size_t r = 0; r < rows; ++r) {
-    if (least[r] > limit) continue;
-    const auto distance = row_distance(r);
-    for (std::size_t c = 0; c < columns; ++c) {
-      if (!(distance(c) > limit)) pairs.emplace_back(r, c);
-    }
+    const auto row = row_of(r);
+    visit_below_limit(row, [&](std::size_t i, FlatPoint p) {
+      if (!(row.distance(p) > limit)) pairs.emplace_back(r, i);
+    });
   }
   return pairs;
 }
 
-double flat_segment_distance(FlatPoint p, FlatPoint a, FlatPoint b) {
-  const FlatPoint e = b - a, w = p - a;
-  const double squared = e.x * e.x + e.y * e.y;
-  const double t = squared > 0 ? std::clamp((w.x * e.x + w.y * e.y) / squared, 0.0, 1.0) : 0.0;
-  const FlatPoint rest{w.x - t * e.x, w.y - t * e.y};
-  return std::sqrt(rest.x * rest.x + rest.y * rest.y);
+/// A line by a point of it and its unit normal, moved in by a dent.
+struct LineRow {
+  FlatPoint at, normal;
+  double dent = 0;
+  [[nodiscard]] double distance(FlatPoint p) const {
+    const FlatPoint w = p - at;
+    return normal.x * w.x + normal.y * w.y - dent;
+  }
+  [[nodiscard]] double bound(const FlatBox& box) const {
+    return distance({normal.x > 0 ? box.low.x : box.high.x, normal.y > 0 ? box.low.y : box.high.y});
+  }
+};
+
+struct SegmentRow {
+  FlatPoint a, b;
+  [[nodiscard]] double distance(FlatPoint p) const {
+    const FlatPoint e = b - a, w = p - a;
+    const double squared = e.x * e.x + e.y * e.y;
+    const double t = squared > 0 ? std::clamp((w.x * e.x + w.y * e.y) / squared, 0.0, 1.0) : 0.0;
+    const FlatPoint rest{w.x - t * e.x, w.y - t * e.y};
+    return std::sqrt(rest.x * rest.x + rest.y * rest.y);
+  }
+  /// The distance of the segment's box.
+  [[nodiscard]] double bound(const FlatBox& box) const {
+    const double x = std::max({0.0, std::min(a.x, b.x) - box.high.x, box.low.x - std::max(a.x, b.x)}),
+                 y = std::max({0.0, std::min(a.y, b.y) - box.high.y, box.low.y - std::max(a.y, b.y)});
+    return std::sqrt(x * x + y * y);
+  }
+};
+
+std::vector<FlatPoint> chosen(const std::vector<FlatPoint>& points, const std::vector<std::size_t>& which) {
+  std::vector<FlatPoint> found;
+  found.reserve(which.size());
+  for (const std::size_t i : which) found.push_back(points[i]);
+  return found;
 }
 
 // ---- exact minima -----------------------------------------------------------------------------------------
@@ -139,18 +227,15 @@ Interval least_of(const std::vector<Interval>& values) {
 /// moved in by its dent.
 Interval line_minimum(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
                       const SeenFromBlank& scene, bool dented, Precision precision) {
-  const auto row_distance = [&](std::size_t j) {
-    FlatPoint normal;
-    double dent = 0;
-    scene.flat_line(j, normal, dent);
-    const FlatPoint a = scene.flat_blank()[blank.hull[j]];
-    return [&scene, &part, normal, a, dent = dented ? dent : 0.0](std::size_t i) {
-      const FlatPoint w = scene.flat_part()[part.hull[i]] - a;
-      return normal.x * w.x + normal.y * w.y - dent;
-    };
+  const auto line = [&](std::size_t j) {
+    LineRow row;
+    row.at = scene.flat_blank()[blank.hull[j]];
+    scene.flat_line(j, row.normal, row.dent);
+    if (!dented) row.dent = 0;
+    return row;
   };
   std::vector<Interval> values;
-  for (const auto& [j, i] : near_minimal(blank.hull.size(), part.hull.size(), row_distance)) {
+  for (const auto& [j, i] : near_minimal(blank.hull.size(), chosen(scene.flat_part(), part.hull), line)) {
     const Point side = blank.side(j);
     Interval value = scaled_distance(part.corner(i), blank.corner(j), side, pose.shift, turn, precision);
     if (dented) value = value - Interval(blank.dents[j], precision);
@@ -184,21 +269,17 @@ Interval outline_distance(const Outline& blank, const Outline& part, const SeenF
   for (std::size_t i = 0; i < n; ++i) {
     if (!is_corner[i]) others.push_back(i);
   }
-  const auto from_blank_edge = [&](std::size_t j) {
-    return [&scene, a = scene.flat_blank()[j], b = scene.flat_blank()[(j + 1) % n]](std::size_t i) {
-      return flat_segment_distance(scene.flat_part()[i], a, b);
-    };
+  const auto blank_edge = [&](std::size_t j) {
+    return SegmentRow{scene.flat_blank()[j], scene.flat_blank()[(j + 1) % n]};
   };
-  const auto from_part_edge = [&](std::size_t j) {
-    return [&scene, &others, a = scene.flat_part()[j], b = scene.flat_part()[(j + 1) % m]](std::size_t i) {
-      return flat_segment_distance(scene.flat_blank()[others[i]], a, b);
-    };
+  const auto part_edge = [&](std::size_t j) {
+    return SegmentRow{scene.flat_part()[j], scene.flat_part()[(j + 1) % m]};
   };
   std::vector<Interval> values;
-  for (const auto& [j, i] : near_minimal(n, m, from_blank_edge)) {
+  for (const auto& [j, i] : near_minimal(n, scene.flat_part(), blank_edge)) {
     values.push_back(segment_distance(scene.placed(i), scene.blank_point(j), scene.blank_point((j + 1) % n)));
   }
-  for (const auto& [j, i] : near_minimal(m, others.size(), from_part_edge)) {
+  for (const auto& [j, i] : near_minimal(m, chosen(scene.flat_blank(), others), part_edge)) {
     values.push_back(
         segment_distance(scene.blank_point(others[i]), scene.placed(j), scene.placed((j + 1) % m)));
   }

@@ -40,6 +40,7 @@ class TreeCheck {
 
   TreeVerdict run() {
     clip_half_planes();
+    gather_sides();
     if (!ends_in_window()) leave_open("the shape may have no end");
     for (const Side& side : used_.sides) {
       if (side.written || verdict_.along.empty()) verdict_.along.emplace_back();
@@ -76,6 +77,25 @@ class TreeCheck {
       line.from = foot - along * just(window_), line.to = foot + along * just(window_);
       bound(primitive.shape);
     }
+  }
+
+  /// The sides of all primitives stand in one tree, and their boxes in another, so that a piece is asked about
+  /// those near to it alone.
+  void gather_sides() {
+    std::vector<Box> boxes, wholes;
+    for (std::size_t k = 0; k < primitives_.size(); ++k) {
+      const Primitive& primitive = primitives_[k];
+      const Shape& shape = primitive.shape;
+      for (std::size_t i = 0; i < shape.sides.size(); ++i) {
+        const Side& side = shape.sides[i];
+        members_.push_back({{k, i}, side.arc ? Vec{} : unit(side.to - side.from)});
+        boxes.push_back(shape.tree->box(i));
+      }
+      wholes.push_back(primitive.half_plane ? Box{-kInfinity, -kInfinity, kInfinity, kInfinity}
+                                            : Box{shape.low_x, shape.low_y, shape.high_x, shape.high_y});
+    }
+    sides_ = SideTree(std::move(boxes));
+    wholes_ = SideTree(std::move(wholes));
   }
 
   /// Beyond the window there is none of any primitive but half-planes.
@@ -162,7 +182,7 @@ class TreeCheck {
       const Span height =
           side.arc ? length(at - side.centre) - side.radius : cross(side.to - side.from, at - side.from);
       before = before && height.high < 0, behind = behind && height.low > 0;
-      if (i < 2) nearest = {std::min(nearest.low, length(at - side.centre).low), kInfinity};
+      if (i < 2 && side.arc) nearest = {std::min(nearest.low, length(at - side.centre).low), kInfinity};
     }
     // The corners are on one side of a line, or within a circle, with all between them.
     if (before || (behind && !side.arc)) return true;
@@ -177,6 +197,17 @@ class TreeCheck {
     return (distance(middle, side) - just(farthest(piece, middle))).low > 0 || distance(piece, side).low > 0;
   }
 
+  /// A side of a primitive, and the direction of a line.
+  struct Member {
+    SideOfTree side;
+    Vec along;
+  };
+  /// Says whether the line or circle that carries a side is surely farther than `room` from a point.
+  static bool is_away(const Member& member, const Side& side, const Vec& p, double room) {
+    const Span off = side.arc ? length(p - side.centre) - side.radius : cross(member.along, p - side.from);
+    return (absolute(off) - just(room) - just(side.off)).low > 0;
+  }
+
   /// Asks on which side of a piece there is material of the tree. Where no outline of a primitive meets the
   /// two stretches beside the piece, one point of each tells for all of it.
   /// \pre piece is a line or turns by less than a half
@@ -186,29 +217,36 @@ class TreeCheck {
     if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
     const Side left = aside_of(piece, aside), right = aside_of(piece, -aside);
     const Vec at_left = middle_of(left), at_right = middle_of(right);
-    const Box box = box_of(piece);
-    std::vector<In> on_left, on_right;
-    for (std::size_t k = 0; k < primitives_.size(); ++k) {
-      const std::vector<Side>& sides = primitives_[k].shape.sides;
-      bool near = false;
-      work_ += sides.size() / 8;
-      for (std::size_t i = 0; i < sides.size(); ++i) {
-        if (gap(box, primitives_[k].shape.tree->box(i)) > 2 * aside) continue;
-        ++work_, near = true;
-        if (!surely_apart(left, sides[i]) || !surely_apart(right, sides[i])) return known;
-        if (farthest(piece, corners, sides[i]) <= reach_) known.along.push_back({k, i});
-      }
-      const In in = outside_box(k, at_left) ? In::no : in_primitive(primitives_[k], at_left);
-      on_left.push_back(in), on_right.push_back(near ? in_primitive(primitives_[k], at_right) : in);
-    }
+    const Vec middle = middle_of(piece);
+    const double room = (just(farthest(piece, middle)) + just(2 * aside)).high;
+    bool meets = false;
+    std::vector<std::size_t> near;
+    const double limit = 2 * aside;
+    sides_.visit_near(box_of(piece), limit, [&](std::size_t m) {
+      ++work_;
+      const auto [k, i] = members_[m].side;
+      const Side& side = primitives_[k].shape.sides[i];
+      if (meets || is_away(members_[m], side, middle, room)) return;
+      work_ += 3;
+      near.push_back(k);
+      meets = !surely_apart(left, side) || !surely_apart(right, side);
+      if (!meets && farthest(piece, corners, side) <= reach_) known.along.push_back({k, i});
+    });
+    if (meets) return known;
+    std::vector<In> on_left(primitives_.size(), In::no), on_right;
+    const auto may_hold = [&](const Box& box) {
+      return !(at_left.x.high < box.low_x || at_left.x.low > box.high_x || at_left.y.high < box.low_y ||
+               at_left.y.low > box.high_y);
+    };
+    wholes_.visit(may_hold, [&](std::size_t k) {
+      ++work_;
+      on_left[k] = in_primitive(primitives_[k], at_left);
+    });
+    on_right = on_left;
+    for (const std::size_t k : near) on_right[k] = in_primitive(primitives_[k], at_right);
+    work_ += primitives_.size() / 8;
     known.left = value_of(on_left), known.right = value_of(on_right);
     return known;
-  }
-  [[nodiscard]] bool outside_box(std::size_t k, const Vec& p) const {
-    if (primitives_[k].half_plane) return false;
-    const Shape& shape = primitives_[k].shape;
-    return p.x.high < shape.low_x || p.x.low > shape.high_x || p.y.high < shape.low_y ||
-           p.y.low > shape.high_y;
   }
 
   /// Calls `settled(piece, corners)` for parts of a side until it is true for all but the shortest.
@@ -251,9 +289,13 @@ class TreeCheck {
 
   /// A side with a point farther from every primitive is none of the tree's.
   [[nodiscard]] bool far_from_primitives(const Vec& p) const {
-    return std::all_of(primitives_.begin(), primitives_.end(), [&](const Primitive& primitive) {
-      return distance(p, primitive.shape).low > kFar * reach_;
+    bool far = true;
+    const double limit = kFar * reach_;
+    sides_.visit_near(box_of(p), limit, [&](std::size_t m) {
+      const auto [k, i] = members_[m].side;
+      far = far && distance(p, primitives_[k].shape.sides[i]).low > limit;
     });
+    return far;
   }
 
   void check_edge(const Side& side) {
@@ -300,6 +342,9 @@ class TreeCheck {
   const Shape& used_;
   double reach_;
   double window_ = 0;
+  std::vector<Member> members_;
+  /// Over the sides of all primitives, in the order of members_, and over the boxes of the primitives.
+  SideTree sides_{std::vector<Box>()}, wholes_{std::vector<Box>()};
   CurvePieces outline_;
   std::size_t work_ = 0;
   /// A place near the last piece that was cut.
