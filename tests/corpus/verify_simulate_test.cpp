@@ -29,7 +29,7 @@ TEST(VerifySimulateAttack, EachProgramIsRefusedByLineAndWord) {
       {"a_g55mid.ngc", "149: G55 after the first motion changes where the program's places are"},
       {"a_g58.9.ngc", "149: G58.9 is not understood here"},
       {"a_m101.ngc", "149: M101 is not understood here"},
-      {"a_m97.ngc", "149: a subprogram that is not in this file"},
+      {"a_m97.ngc", "149: M97 is no word of this control"},
       {"a_percent_before_M30.ngc", "63: words after the end of the program"},
       {"a_toolchange.ngc", "149: a change of the tool after the first cut"},
       {"rapid_plunge.ngc", "3: G0 below Z 0 from a place that no block has said"},
