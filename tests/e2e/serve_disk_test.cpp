@@ -91,6 +91,7 @@ TEST(ServeDisk, AFullOneIsFreedFromThePage) {
       EXPECT_GT(fs::space(disk.path()).available, 100'000U) << "the room is given back to the disk";
       EXPECT_TRUE(fs::exists(disk.path() / "store.sqlite-reserve")) << "and kept for the next time";
       EXPECT_EQ(client.command("move 2 by 1 0")["type"], "done");
+      client.hear("change");  // it comes after the acknowledgement
     }
     EXPECT_EQ(from_page(server, http::verb::post, "/api/layouts?name=small", squares()).status, 201U);
     acknowledged = client.document();
