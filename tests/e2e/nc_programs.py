@@ -409,6 +409,17 @@ class Check:
         self.write("out.nc", written)
 
 
+def said_again(lines):
+    """True where G90 or G91 is said again before a word depends on it."""
+    for line in lines:
+        code = nc_reader.without_comments(line.upper(), "linuxcnc")
+        if re.search(r"G9[01](?!\d|\.)", code):
+            return True
+        if re.search(r"[XYZIJ]\s*[-+.\d]", code):
+            return False
+    return True
+
+
 def lie_about(text, rng, rounding):
     """Changes one word of a block: a number, a code, or the block itself."""
     lines = text.split("\n")
@@ -429,8 +440,8 @@ def lie_about(text, rng, rounding):
         moves = re.search(r"[XYZIJ]\s*[-+.\d]", nc_reader.without_comments(line.upper(), "linuxcnc"))
         if number not in others or (float(number) < 4 and not moves):
             return None  # without a place a motion word may say what the next one says again
-        if number in ("90", "91") and not moves and at + 1 < len(lines) and re.search(r"G9[01](?!\d)", lines[at + 1], re.I):
-            return None  # the next block says it again
+        if number in ("90", "91") and not moves and said_again(lines[at + 1:]):
+            return None
         new = others[number]
     elif letter == "M":
         new = {"3": "4", "8": "9", "9": "8", "5": "3", "30": "2", "6": "1"}.get(number)

@@ -367,7 +367,8 @@ class ProgramReader {
 
   /// The places of the holes alone; what is done there stands in the words of the block.
   void visit(const NcBlock& block, double repeats) {
-    for (double k = 0; k < repeats; ++k) {
+    // No hole is a place all the same, which the words must say alike.
+    for (double k = 0; k < std::max(1.0, repeats); ++k) {
       if (!go_along(0, block['X'], 1, at_) || !go_along(1, block['Y'], 1, at_)) return;
       if (!known_[0] || !known_[1]) return void(complain("a canned cycle at a place that no block has said"));
       moves_.push_back(straight(true, at_, block.line));
