@@ -29,9 +29,10 @@ const rs274::Oracle& oracle() {
 class Comparison {
  public:
   explicit Comparison(const std::vector<Move>& moves, const std::string& program = "")
-      : moves_(moves), homes_(std::ranges::any_of(std::array{"G28", "G30", "G53"}, [&](const char* word) {
-          return program.find(word) != std::string::npos;
-        })) {}
+      : moves_(moves),
+        homes_(
+            std::ranges::any_of(std::array{"G28", "G30", "G53", "g28", "g30", "g53"},
+                                [&](const char* word) { return program.find(word) != std::string::npos; })) {}
 
   /// What differs first; empty when nothing does.
   std::string difference(const rs274::Run& run) {
