@@ -370,14 +370,14 @@ class StrangeProgram {
                           "M3.5",
                           "G1 X 4 Y 5 ."}));
       case 6:
-        return line(pick({"T4", "M6", "T2 M6", "M6 T2", "T2 M6 G0 X1", "M61 Q3", "T-1", "T1.5", "T99 M6",
+        return line(pick({"T4", "M6", "T2 M6", "M6 T2", "T2 M6 G0 X1", "M61 Q3", "T-1", "T1.5", "T19 M6",
                           "T0 M6", "T4 G43 H4", "M6 G43 H1", "T2\nG1 X3", "T2 M6\nG0 X1 Y1 Z5", "M6 M3",
                           "T3 M6\nM3 S100\nG0 X1 Y2 Z6\nG1 X5"}));
       case 7:
         return line(pick({"G54",           "G55",          "G59.1",  "G59.3",        "G55 G0 X1",
                           "G43 H1",        "G43 H2 Z4",    "G43",    "G49",          "G43.1 Z1",
                           "G44 H1",        "G52 X1",       "G92 X1", "G92.1",        "G10 L2 P1 X1",
-                          "G10 L20 P1 X0", "G43 H99",      "G43 H0", "G43 G0 Z4 H1", "G43.2 H1",
+                          "G10 L20 P1 X0", "G43 H19",      "G43 H0", "G43 G0 Z4 H1", "G43.2 H1",
                           "G54 G0 Z4",     "G10 L1 P1 Z2", "G92.2",  "G92.3",        "G55\nG0 X1 Y1 Z5",
                           "G43 H1.5",      "G43 H-1"}));
       case 8:

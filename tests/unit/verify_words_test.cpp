@@ -209,6 +209,8 @@ TEST(VerifyWords, CyclesAreReadAsTheMovesTheyMake) {
             "p.ngc:4: G81 without Z and R in its first block");
   EXPECT_EQ(complaint_of(kBegin + "G98 G83 X20 Z-3 R1 F9\n"), "p.ngc:4: G83 without Q in its first block");
   EXPECT_EQ(complaint_of(kBegin + "G98 G81 X20 Z-3 R-4 F9\n"), "p.ngc:4: R of a cycle is below its Z");
+  EXPECT_EQ(complaint_of(kBegin + "G0 Z1\nG98 G81 X20 Z-3 R3 F9\nY1 R2\n"),
+            "p.ngc:6: R of a cycle changed above the plane that it began at");
   EXPECT_EQ(complaint_of(kBegin + "G18 G81 X20 Z-3 R1 F9\n"), "p.ngc:4: a canned cycle outside the XY plane");
   EXPECT_EQ(complaint_of("G21 G90\nG81 X20 Y2 Z-3 R1 F9\n"),
             "p.ngc:2: a canned cycle from a place that no block has said");

@@ -415,6 +415,9 @@ class ProgramReader {
       return complain("Z or R of a cycle changed under G91 and G99");
     if (to_r_plane_ && has_cycle_ && block['R'] && *block['R'] * unit_ != cycle_.high)
       return complain("R of a cycle changed under G99");
+    // LinuxCNC then goes to the new R where the last hole was.
+    if (!to_r_plane_ && has_cycle_ && block['R'] && initial_z_ < cycle_.high)
+      return complain("R of a cycle changed above the plane that it began at");
     cycle_.tenths = code;
     if (block['Q']) cycle_.peck = *block['Q'] * unit_;
     if (pecks && !(cycle_.peck > 0)) return complain("Q of a cycle is not above 0");
