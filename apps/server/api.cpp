@@ -94,13 +94,21 @@ ApiAnswer history(Store& store, LayoutId id) {
   const Result<std::vector<HistoryEntry>> entries = store.history(id);
   if (!entries) return trouble(entries.error());
   return list_answer("entries", *entries, [](JsonWriter& json, const HistoryEntry& entry) {
-    json.object({{"revision", entry.revision},
-                 {"at", entry.at},
-                 {"author", entry.author},
-                 {"text", entry.text},
-                 {"kind", name_of(entry.kind)},
-                 {"undone", entry.undone},
-                 {"damaged", entry.damaged}});
+    json.begin_object().fields({{"revision", entry.revision},
+                                {"at", entry.at},
+                                {"author", entry.author},
+                                {"text", entry.text},
+                                {"kind", name_of(entry.kind)},
+                                {"undone", entry.undone},
+                                {"damaged", entry.damaged}});
+    json.key("parts").list(entry.parts, [&](const TouchedPart& one) {
+      json.object({{"part", one.part},
+                   {"first", one.first},
+                   {"placed", one.placed},
+                   {"changed", one.changed},
+                   {"removed", one.removed}});
+    });
+    json.end();
   });
 }
 

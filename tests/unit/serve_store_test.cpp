@@ -314,6 +314,32 @@ TEST_F(StoreFile, OfTheFirstFormatIsTakenOver) {
   EXPECT_GT(store.create("new", cases::two_squares()).value(), 2);
 }
 
+TEST(ChangeText, CountsWhatHappensToEachPart) {
+  const auto of = [](std::uint64_t id, std::uint32_t part) {
+    layout::Placement p;
+    p.id = id;
+    p.part = part;
+    return p;
+  };
+  layout::Change change;
+  change.placements = {{of(3, 2), std::nullopt}, {of(4, 0), of(4, 0)}, {std::nullopt, of(5, 2)},
+                       {of(6, 2), of(6, 2)},     {of(7, 2), of(7, 2)}, {std::nullopt, of(9, 1)}};
+  change.features = {{0, 0, std::nullopt,
+                      layout::Feature{layout::FeatureKind::defect, "scar", 3,
+                                      cases::outline_of({cases::box_loop(0, 0, 1, 7)})}}};
+  const std::vector<TouchedPart> all = touched_parts(change_text(change));
+  const auto expect = [&](std::size_t i, std::uint64_t first, std::int64_t placed, std::int64_t changed,
+                          std::int64_t removed) {
+    EXPECT_EQ(all[i].part, i);
+    EXPECT_EQ(all[i].first, first);
+    EXPECT_EQ(std::tuple(all[i].placed, all[i].changed, all[i].removed), std::tuple(placed, changed, removed));
+  };
+  ASSERT_EQ(all.size(), 3U);
+  expect(0, 4, 0, 1, 0);
+  expect(1, 9, 1, 0, 0);
+  expect(2, 3, 1, 2, 1);
+}
+
 TEST(ChangeText, IsExactAndRefusesEverythingElse) {
   layout::Change change;
   layout::Placement p;

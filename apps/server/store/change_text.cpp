@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <map>
 
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "store.hpp"
@@ -134,6 +135,34 @@ Result<layout::Change> change_from_text(std::string_view text) {
   }
   if (!ok) return failure(ErrorCode::environment, "the store is damaged: a change in it cannot be read");
   return change;
+}
+
+std::vector<TouchedPart> touched_parts(std::string_view text) {
+  std::map<std::uint32_t, TouchedPart> touched;
+  NumberTaker lines(text);
+  std::uint64_t before = 0;  // the placement of the line before this one, if it was taken away there
+  while (lines.ok() && !lines.empty()) {
+    const std::string_view line = lines.take_line();
+    if (line.empty() || (line.front() != '-' && line.front() != '+')) continue;
+    NumberTaker numbers(line.substr(1));
+    std::uint64_t id = 0;
+    std::uint32_t part = 0;
+    numbers.take(id, ' ');
+    numbers.take(part, ' ');
+    TouchedPart& one = touched.try_emplace(part, TouchedPart{part, id, 0, 0, 0}).first->second;
+    if (line.front() == '-') {
+      ++one.removed;
+    } else if (id == before) {
+      --one.removed;
+      ++one.changed;
+    } else {
+      ++one.placed;
+    }
+    before = line.front() == '-' ? id : 0;
+  }
+  std::vector<TouchedPart> all;
+  for (const auto& [part, one] : touched) all.push_back(one);
+  return all;
 }
 
 }  // namespace lekalo::server

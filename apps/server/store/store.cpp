@@ -266,7 +266,8 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
       }
       if (row.digest == change_digest(id, chain, row))
         add_to_history(entries, {row.revision, std::move(row.at), std::move(row.author), std::move(row.text),
-                                 static_cast<ChangeKind>(row.kind), row.target, false, false});
+                                 static_cast<ChangeKind>(row.kind), row.target, false, false,
+                                 touched_parts(row.change)});
       else
         entries.push_back(missing_entry(row.revision));
       chain = row.digest;

@@ -52,6 +52,13 @@ struct LayoutSummary {
   bool damaged = false;
 };
 
+/// How many placements of one part a change put in, changed and took away, and the first of them.
+struct TouchedPart {
+  std::uint32_t part = 0;  ///< its index in the document
+  std::uint64_t first = 0;
+  std::int64_t placed = 0, changed = 0, removed = 0;
+};
+
 struct HistoryEntry {
   Revision revision = 0;
   std::string at;  ///< UTC, ISO 8601
@@ -62,6 +69,8 @@ struct HistoryEntry {
   bool undone = false;
   /// True for a change that is missing or not as it was written. Nothing else of it is known then.
   bool damaged = false;
+  /// The parts whose placements it changed, ascending by index.
+  std::vector<TouchedPart> parts = {};
 };
 
 struct StoredLayout {
@@ -139,7 +148,7 @@ class Store {
   /// Adds the next revision. \param after  the document with the change carried out
   [[nodiscard]] Result<void> append(LayoutId id, const StoredChange& change, const layout::Document& after);
   [[nodiscard]] Result<StoredChange> change_at(LayoutId id, Revision revision);
-  /// Returns the history, oldest entry first, without the placements.
+  /// Returns the history, oldest entry first, with the counts of the placements.
   [[nodiscard]] Result<std::vector<HistoryEntry>> history(LayoutId id);
 
   /// Returns the photographs. They are no part of a layout's history, but copies of the layout have them too.
@@ -197,5 +206,8 @@ class Store {
 [[nodiscard]] std::string change_text(const layout::Change& change);
 /// Reads such a text. Fails with ErrorCode::environment for anything that change_text does not write.
 [[nodiscard]] Result<layout::Change> change_from_text(std::string_view text);
+/// Counts what such a text does to the placements of each part. It passes over features, whose outlines are
+/// long. \pre change_text has written it
+[[nodiscard]] std::vector<TouchedPart> touched_parts(std::string_view text);
 
 }  // namespace lekalo::server

@@ -8,6 +8,8 @@ export type Language = 'en' | 'uk';
 type Entry = string | Record<string, string>;
 export const dictionaries: Record<Language, Record<string, Entry>> = { en, uk };
 
+export const isKey = (text: string): text is Key => text in en;
+
 let language: Language = 'en';
 let plurals = new Intl.PluralRules('en');
 

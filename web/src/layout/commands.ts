@@ -8,6 +8,11 @@ import type { Sheet } from './model';
 export type Mode = 'strict' | 'free';
 
 const quoted = (name: string): string => `"${name.replace(/[\\"]/g, '\\$&').replace(/\n/g, '\\n')}"`;
+/** The words of a line; a name in quotation marks is one of them. */
+export const wordsOf = (line: string): string[] =>
+  [...line.matchAll(/"((?:[^"\\]|\\.)*)"|\S+/g)].map((found) =>
+    found[1] === undefined ? found[0] : found[1].replace(/\\(.)/g, (_, c: string) => (c === 'n' ? '\n' : c)),
+  );
 /** The name of a defect or zone: its stock and id. */
 interface Named {
   stock: string;

@@ -4,7 +4,7 @@ import type { Editor, Tool } from '../editor/editor';
 import { h } from '../html/elements';
 import { CHOICES, type ChosenForm } from '../dialogs/export_choices';
 import { icon } from '../html/icons';
-import { currentLanguage, t, type Key } from '../i18n';
+import { currentLanguage, isKey, t, type Key } from '../i18n';
 import { menu } from '../html/menu';
 import { act, type Action } from '../tools/actions';
 
@@ -34,6 +34,11 @@ const FORMS: readonly [string, string][] = [
   ['png', 'PNG'],
 ];
 
+/** The short word of a button, which stands beside its sign where there is room. */
+function word(label: Key): HTMLElement | null {
+  const key = `word.${label}`;
+  return isKey(key) ? h('span', { class: 'word' }, t(key)) : null;
+}
 const button = (label: Key, run: () => void, pressed?: boolean): HTMLButtonElement =>
   h(
     'button',
@@ -46,46 +51,32 @@ const button = (label: Key, run: () => void, pressed?: boolean): HTMLButtonEleme
       click: run,
     },
     icon(label),
+    word(label),
   );
 const space = (): HTMLElement => h('span', { class: 'gap' });
 /** A line of a menu; a choice closes the menu. */
-const item = (name: string, text: string, run: () => void): HTMLButtonElement => {
+const item = (name: string, text: string, run: () => void, sign?: Key): HTMLButtonElement => {
   const click = (e: Event): void => {
     (e.currentTarget as HTMLElement).closest('details')!.open = false;
     run();
   };
-  return h('button', { 'data-action': name, click }, text);
+  return h('button', { 'data-action': name, click }, sign ? icon(sign) : null, text);
 };
 
-type Layouts = readonly { id: number; name: string }[];
+export interface Shown {
+  layouts: readonly { id: number; name: string }[];
+  /** On a narrow screen the buttons that are used less are in menus. */
+  folded: boolean;
+}
 
 /** Shows the bar and the tools anew. */
-export function showBar(
-  bar: HTMLElement,
-  tools: HTMLElement,
-  editor: Editor,
-  layouts: Layouts,
-  events: BarEvents,
-): void {
+export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, shown: Shown, events: BarEvents): void {
   // The buttons are new: the focus goes back to the one that had it.
   const focused = (document.activeElement as HTMLElement | null)?.dataset.action;
   bar.replaceChildren(
-    files(editor, layouts, events),
-    commands(editor),
-    h('span', { class: 'push' }),
-    h(
-      'span',
-      { class: 'ends' },
-      button('fit', events.fit),
-      viewMenu(editor, events),
-      exportMenu(events),
-      h(
-        'button',
-        { 'aria-label': t('language'), 'data-action': 'language', click: events.language },
-        currentLanguage() === 'en' ? 'УКР' : 'ENG',
-      ),
-      button('help', events.help),
-    ),
+    files(editor, shown, events),
+    h('span', { class: 'ends' }, ...(shown.folded ? foldedEnds(editor, events) : ends(editor, events))),
+    h('span', { class: 'commands' }, ...(shown.folded ? foldedCommands(editor) : commands(editor))),
   );
   const names: Tool[] = ['select', 'slide', 'push', 'nearest', 'measure', 'pan', 'defect', 'zone'];
   if (editor.photos.size > 0) names.push('photo');
@@ -94,9 +85,45 @@ export function showBar(
     ...names.map((name) => button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name)),
   );
   if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
+  showWords(bar);
 }
 
-function files(editor: Editor, layouts: Layouts, events: BarEvents): HTMLElement {
+/** Shows the words of the buttons where the line of the bar that they stand in has room for them. */
+export function showWords(bar: HTMLElement): void {
+  const [files, ends, commands] = [...bar.children] as [Element, Element, Element];
+  const middle = (e: Element): number => (e.getBoundingClientRect().top + e.getBoundingClientRect().bottom) / 2;
+  const isOneLine = (row: Element): boolean => {
+    const seen = [...row.children].filter((e) => e.getBoundingClientRect().height > 0);
+    return seen.every((e) => Math.abs(middle(e) - middle(seen[0]!)) < 8) && row.scrollWidth <= row.clientWidth + 1;
+  };
+  for (const line of [[files, ends], [commands]]) {
+    for (const row of line) row.classList.add('words');
+    const fits = line.every(isOneLine);
+    for (const row of line) row.classList.toggle('words', fits);
+  }
+}
+
+function languageButton(events: BarEvents): HTMLElement {
+  return h(
+    'button',
+    { 'aria-label': t('language'), 'data-action': 'language', click: events.language },
+    currentLanguage() === 'en' ? 'УКР' : 'ENG',
+  );
+}
+const ends = (editor: Editor, events: BarEvents): HTMLElement[] => [
+  button('fit', events.fit),
+  viewMenu(editor, events),
+  exportMenu(events),
+  languageButton(events),
+  button('help', events.help),
+];
+const foldedEnds = (editor: Editor, events: BarEvents): HTMLElement[] => [
+  button('fit', events.fit),
+  viewMenu(editor, events),
+  exportMenu(events),
+];
+
+function files(editor: Editor, { layouts, folded }: Shown, events: BarEvents): HTMLElement {
   const choice = h(
     'select',
     {
@@ -113,24 +140,45 @@ function files(editor: Editor, layouts: Layouts, events: BarEvents): HTMLElement
     'aria-label': t('open.file'),
     change: (e) => events.takeFiles((e.target as HTMLInputElement).files),
   });
-  const begin = h('button', { 'data-action': 'new.layout', click: events.newLayout }, t('new.layout'));
+  const open = (): void => file.click();
+  if (folded) {
+    const items = [
+      item('new.layout', t('new.layout'), events.newLayout),
+      item('open.file', t('open.file'), open, 'open.file'),
+      item('copy.layout', t('copy.layout'), events.copyLayout, 'copy.layout'),
+      item('name.layout', t('name.layout'), events.nameLayout, 'name.layout'),
+      item('language', currentLanguage() === 'en' ? 'Українською' : 'English', events.language),
+      item('help', t('help'), events.help, 'help'),
+    ];
+    const main = menu('main', '☰', ...items);
+    main.querySelector('summary')!.setAttribute('aria-label', t('menu'));
+    return h('span', { class: 'files' }, main, file, choice);
+  }
   return h(
     'span',
     { class: 'files' },
     h('span', { class: 'brand' }, 'lekalo'),
     choice,
-    begin,
-    button('open.file', () => file.click()),
+    h('button', { 'data-action': 'new.layout', click: events.newLayout }, t('new.layout')),
+    button('open.file', open),
     file,
     button('copy.layout', events.copyLayout),
     button('name.layout', events.nameLayout),
   );
 }
 
-function commands(editor: Editor): HTMLElement {
-  const actions = (...names: Action[]): HTMLButtonElement[] =>
-    names.map((name) => button(name, () => void act(editor, name)));
-  const modes = (['strict', 'free'] as const).map((mode) =>
+/** What is done to the parts: every action stands in one of the groups. */
+const GROUPS: readonly (readonly Action[])[] = [
+  ['undo', 'redo'],
+  ['rotate.left', 'rotate.right', 'flip'],
+  ['slide.left', 'slide.right', 'slide.up', 'slide.down', 'settle', 'snap', 'compact', 'nest'],
+  ['lock', 'swap', 'copy', 'remove'],
+];
+/** The actions that have a button of their own on a narrow screen. */
+const NEAREST: readonly Action[] = ['undo', 'redo', 'rotate.left', 'rotate.right', 'flip', 'settle', 'nest', 'remove'];
+
+function modes(editor: Editor): HTMLElement {
+  const choices = (['strict', 'free'] as const).map((mode) =>
     h(
       'button',
       {
@@ -141,7 +189,10 @@ function commands(editor: Editor): HTMLElement {
       t(mode),
     ),
   );
-  const step = h('input', {
+  return h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...choices);
+}
+function stepField(editor: Editor): HTMLInputElement {
+  return h('input', {
     type: 'number',
     class: 'step',
     value: editor.rotateStep,
@@ -156,22 +207,30 @@ function commands(editor: Editor): HTMLElement {
       if (value > 0 && value <= 180) editor.rotateStep = value;
     },
   });
-  return h(
-    'span',
-    { class: 'commands' },
-    space(),
-    h('span', { class: 'segment', role: 'group', title: t('mode.hint') }, ...modes),
-    space(),
-    ...actions('undo', 'redo'),
-    space(),
-    ...actions('rotate.left'),
-    step,
-    ...actions('rotate.right', 'flip'),
-    space(),
-    ...actions('slide.left', 'slide.right', 'slide.up', 'slide.down', 'settle', 'snap', 'compact', 'nest'),
-    space(),
-    ...actions('lock', 'swap', 'copy', 'remove'),
+}
+
+function commands(editor: Editor): HTMLElement[] {
+  const groups = GROUPS.map((group) =>
+    group.flatMap((name) => [
+      button(name, () => void act(editor, name)),
+      ...(name === 'rotate.left' ? [stepField(editor)] : []),
+    ]),
   );
+  return [modes(editor), ...groups.flatMap((group) => [space(), ...group])];
+}
+
+function foldedCommands(editor: Editor): HTMLElement[] {
+  const rest = GROUPS.flat().filter((name) => !NEAREST.includes(name));
+  return [
+    ...NEAREST.map((name) => button(name, () => void act(editor, name))),
+    menu(
+      'more',
+      t('more'),
+      modes(editor),
+      h('label', {}, t('step'), stepField(editor)),
+      ...rest.map((name) => item(name, t(name), () => void act(editor, name), name)),
+    ),
+  ];
 }
 
 function viewMenu(editor: Editor, events: BarEvents): HTMLElement {

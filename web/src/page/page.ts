@@ -13,7 +13,7 @@ import { ServerKernel } from '../server/server_kernel';
 import { photoBeneath } from '../tools/features';
 import { dragFromTray } from '../tools/from_tray';
 import { SHORTCUTS } from '../tools/keys';
-import { showBar } from './bar';
+import { showBar, showWords } from './bar';
 import { offerBenchmark } from './benchmark';
 import { chooseAndSave, saveAs } from './exports';
 import { listenToKeys } from './keyboard';
@@ -51,6 +51,8 @@ export class Page {
     },
     empty: () => this.showWelcome(),
   });
+  /** The width below which style.css puts the panels beneath the picture. */
+  private readonly narrow = matchMedia('(max-width: 860px)');
   private welcome: HTMLElement = h('section');
   private theme = firstTheme();
   private side: Side = 'violations';
@@ -65,6 +67,8 @@ export class Page {
     element.addEventListener('pointermove', (e) => this.status.showPlace(this.pane.worldAt(e)));
     listenToKeys(this.editor, this.pane, { find: () => this.find(), help: () => this.showHelp() });
     this.listenToDrops();
+    this.narrow.addEventListener('change', () => this.showBar());
+    window.addEventListener('resize', () => showWords(this.bar));
     window.addEventListener('beforeprint', () => this.paper.replaceChildren(...printed(this.editor)));
     window.addEventListener('afterprint', () => this.paper.replaceChildren());
     offerBenchmark(this.pane.bench);
@@ -131,7 +135,8 @@ export class Page {
   }
   private showBar(): void {
     const { editor, layouts, pane } = this;
-    showBar(this.bar, this.tools, editor, layouts.known, {
+    const shown = { layouts: layouts.known, folded: this.narrow.matches };
+    showBar(this.bar, this.tools, editor, shown, {
       openLayout: (id) => layouts.open(id),
       takeFiles: (files) => void layouts.takeFiles(files),
       newLayout: () => layouts.begin([]),

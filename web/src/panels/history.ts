@@ -3,17 +3,14 @@
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';
 import { t } from '../i18n';
-
-interface Entry {
-  revision: number;
-  at: string;
-  author: string | number;
-  text: string;
-  undone: boolean;
-}
+import { inWords, type Entry } from './history_words';
 
 export function history(editor: Editor): HTMLElement {
   const list = h('ol', { class: 'list', reversed: true });
+  const nameOf = (index: number): string => {
+    const part = editor.model.document.parts?.[index];
+    return part?.name ?? part?.id ?? '';
+  };
   void (async () => {
     const answer = await fetch(`/api/layouts/${editor.layoutId}/history`);
     const body = (await answer.json()) as { entries?: Entry[]; error?: string };
@@ -27,7 +24,7 @@ export function history(editor: Editor): HTMLElement {
             'div',
             { class: 'row' },
             h('b', {}, String(e.revision)),
-            h('span', { title: e.at }, e.text, e.undone ? ` (${t('history.undone')})` : ''),
+            h('span', { title: `${e.text}\n${e.at}` }, inWords(e, nameOf), e.undone ? ` (${t('history.undone')})` : ''),
             h('button', { class: 'small', click: () => void restore(editor, e.revision) }, t('history.restore')),
           ),
         ),

@@ -234,6 +234,7 @@ inEditor('goes back to any state, and to that before', async (page, server) => {
   await press(page, 3);
   await keys(page, 'ArrowUp', 'ArrowUp', 'ArrowUp');
   await command(page, 'side.history');
+  assert.match(await page.textContent('[data-id="revision-3"]'), /moved Bracket 3/);
   await page.click('[data-id="revision-1"] button');
   await page.waitForFunction(
     () => /20.00 121.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel),
@@ -242,6 +243,12 @@ inEditor('goes back to any state, and to that before', async (page, server) => {
   );
   assert.equal((await placementOf(server, 3)).y, 121);
   await page.waitForSelector('[data-id="revision-4"]');
+  assert.match(await page.textContent('[data-id="revision-4"]'), /went back to 1/);
+  await command(page, 'language');
+  await page.waitForFunction(() =>
+    /пересунуто Bracket 3/.test(document.querySelector('[data-id="revision-3"]')?.textContent),
+  );
+  await command(page, 'language');
   await page.click('[data-id="revision-3"] button');
   await page.waitForFunction(
     () => /20.00 123.00/.test(document.querySelector('[data-id="placement-3"]').ariaLabel),
@@ -366,6 +373,56 @@ inEditor('makes one job of five dropped drawings, from an empty page to G-code',
   await download.saveAs(file);
   assert.match(readFileSync(file, 'utf8'), /F2000/);
 });
+
+/** What of the bar, the tools and the tabs cannot be seen, or reaches out of the window. */
+const cutOff = (page, rows) =>
+  page.evaluate(
+    (list) =>
+      list.flatMap((selector) =>
+        [...document.querySelectorAll(selector)].flatMap((row) => {
+          const wide = row.scrollWidth > row.clientWidth + 1 ? [`${selector} is wider than its place`] : [];
+          const out = [...row.querySelectorAll('button, summary, select, input')].filter((e) => {
+            const { left, right, top, bottom } = e.getBoundingClientRect();
+            return right > left && (left < 0 || right > innerWidth + 0.5 || top < 0 || bottom > innerHeight);
+          });
+          return [...wide, ...out.map((e) => `${selector}: ${e.dataset.action ?? e.outerHTML.slice(0, 80)}`)];
+        }),
+      ),
+    rows,
+  );
+const rowsOfThePage = ['.files', '.ends', '.commands', '.tools', '.tabs', '.status', '.menu[open] .items'];
+
+for (const [width, height] of [
+  [390, 844],
+  [861, 700],
+  [1400, 900],
+])
+  inEditor(
+    `shows every button whole at ${width} x ${height}, in both languages, and does what it says`,
+    async (page) => {
+      const narrow = width < 861;
+      for (const language of ['en', 'uk']) {
+        await page.waitForFunction((wanted) => document.documentElement.lang === wanted, language);
+        assert.deepEqual(await cutOff(page, rowsOfThePage), []);
+        for (const menu of narrow ? ['main', 'view', 'export', 'more'] : ['view', 'export']) {
+          await command(page, `menu.${menu}`);
+          assert.deepEqual(await cutOff(page, rowsOfThePage), [], menu);
+          await command(page, `menu.${menu}`);
+        }
+        if (narrow && language === 'en') await command(page, 'menu.main');
+        if (language === 'en') await command(page, 'language');
+      }
+      const words = await page.locator('.bar .word:visible').count();
+      assert.equal(words > 0, width >= 1180, `${words} words`);
+      // The action lies in the menu on a narrow screen, and does there what the button does.
+      await press(page, 2);
+      if (narrow) await command(page, 'menu.more');
+      await command(page, 'lock');
+      await settled(page);
+      assert.match(await page.getAttribute('[data-id="placement-2"]', 'aria-label'), /закріплена/);
+    },
+    { options: { viewport: { width, height }, hasTouch: width < 861 } },
+  );
 
 inEditor('reads the drawing that it has exported: parts and sheets, no labels', async (page, server) => {
   await command(page, 'menu.export');
