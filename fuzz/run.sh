@@ -24,9 +24,9 @@ else
   done
 fi
 
-status=0
-for program in "${programs[@]}"; do
-  [ -x "$program" ] || fail "fuzz/run.sh: $program is not built; run 'cmake --preset asan && cmake --build --preset asan --target fuzz'."
+# One after the other would leave all processors but one without work.
+fuzz() {
+  local program=$1 name grown found log kept runs added
   name=$(basename -- "$program")
   name=${name#fuzz_}
   grown=$root/build/fuzz/corpus/$name
@@ -43,9 +43,22 @@ for program in "${programs[@]}"; do
     added=$(sed -n 's/^MERGE-OUTER: \([0-9]*\) new files.*/\1/p' "$log" | tail -n 1)
     say "fuzz $name: ok, $runs inputs, ${added:-0} of them kept"
   else
-    say "fuzz $name: FAILED, input in $found, log in $log"
-    tail -n 40 "$log"
-    status=1
+    printf '%s\n' "fuzz $name: FAILED, input in $found, log in $log" "$(tail -n 40 "$log")"
+    return 1
   fi
+}
+
+for program in "${programs[@]}"; do
+  [ -x "$program" ] || fail "fuzz/run.sh: $program is not built; run 'cmake --preset asan && cmake --build --preset asan --target fuzz'."
 done
+status=0 running=0 most=$(nproc)
+for program in "${programs[@]}"; do
+  if [ "$running" -ge "$most" ]; then
+    wait -n || status=1
+  else
+    running=$((running + 1))
+  fi
+  fuzz "$program" &
+done
+for (( ; running > 0; running--)); do wait -n || status=1; done
 exit "$status"
