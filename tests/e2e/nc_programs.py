@@ -24,7 +24,7 @@ sys.dont_write_bytecode = True
 import nc_reader  # noqa: E402  pylint: disable=wrong-import-position
 
 SEED = int(os.environ.get("LEKALO_SEED", "1"))
-CASES = int(os.environ.get("LEKALO_CASES", "60"))
+CASES = min(int(os.environ.get("LEKALO_CASES", "60")), 60 * int(os.environ.get("LEKALO_TIMES", "1000000")))
 SHARED = os.environ.get("LEKALO_SHARED_DATA", "")
 LIES = 4
 WAIT = 60
