@@ -28,7 +28,7 @@ packages=(
   fonts-dejavu-core  # texts in PNG pictures, Cyrillic too
 )
 full_packages=(
-  clang libclang-rt-14-dev llvm libbenchmark-dev
+  clang libclang-rt-14-dev lld llvm libbenchmark-dev
   libpolyclipping-dev libcgal-dev # rivals and oracle of Booleans; CGAL is under the GPL and linked by nothing that is shipped
 )
 

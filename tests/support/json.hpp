@@ -62,6 +62,9 @@ class Json {
   /// last are added.
   Json& operator[](const std::string& key);
   const Json& operator[](const std::string& key) const;
+  /// A number and a literal make a subscript of the language too, for a compiler that converts the tree.
+  Json& operator[](const char* key) { return (*this)[std::string(key)]; }
+  const Json& operator[](const char* key) const { return (*this)[std::string(key)]; }
   template <std::integral Index>
   Json& operator[](Index index) {
     if (static_cast<std::size_t>(index) == size()) push_back({});
