@@ -144,6 +144,7 @@ class Arranger {
       if (a.high != b.high) return a.high < b.high;
       return a.height != b.height ? a.height < b.height : a.stretch < b.stretch;
     });
+    std::vector<std::uint32_t> first_of(made_.stretches.size());
     for (std::size_t i = 0; i < all.size();) {
       std::size_t end = i;
       MapEdge edge{all[i].stretch, {}};
@@ -156,8 +157,9 @@ class Arranger {
         upwards[outlines_.operand[made_.pieces[s.piece].origin]] += s.from < s.to ? 1 : -1;
         edge.stretch = std::min(edge.stretch, all[end].stretch);
       }
+      for (std::size_t k = i; k < end; ++k) first_of[all[k].stretch] = edge.stretch;
       const Stretch& shape = made_.stretches[edge.stretch];
-      bool any = false;
+      bool any = outlines_.loose;
       for (std::size_t k = 0; k < upwards.size(); ++k) {
         edge.weight[k] = shape.from < shape.to ? upwards[k] : -upwards[k];
         any = any || upwards[k] != 0;
@@ -168,6 +170,10 @@ class Arranger {
     }
     std::sort(made_.edges.begin(), made_.edges.end(),
               [](const MapEdge& a, const MapEdge& b) { return a.stretch < b.stretch; });
+    std::vector<std::uint32_t> edge_of_first(made_.stretches.size(), kNoEdge);
+    for (std::uint32_t e = 0; e < made_.edges.size(); ++e) edge_of_first[made_.edges[e].stretch] = e;
+    made_.edge_of_stretch.resize(made_.stretches.size());
+    for (std::uint32_t i = 0; i < first_of.size(); ++i) made_.edge_of_stretch[i] = edge_of_first[first_of[i]];
   }
 
   const Outlines& outlines_;

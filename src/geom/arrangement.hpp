@@ -17,6 +17,8 @@ struct Outlines {
   std::vector<std::uint8_t> operand;
   /// By edge: the one after it along its contour.
   std::vector<std::uint32_t> next;
+  /// True where the edges are curves in no order: then those that coincide do not cancel.
+  bool loose = false;
 
   void add(const Contour& contour, std::uint8_t operand_of_all);
   void add(const std::vector<Region>& regions, std::uint8_t operand_of_all);
@@ -58,6 +60,8 @@ struct Arrangement {
   std::vector<Stretch> stretches;
   /// By outline edge its first stretch, and the number of stretches at the end.
   std::vector<std::uint32_t> origin_starts;
+  /// By stretch: the edge that it is part of, or kNoEdge where it cancelled another.
+  std::vector<std::uint32_t> edge_of_stretch;
   /// The edges in the order of their stretches. An edge without weight is here only if it is short.
   std::vector<MapEdge> edges;
   /// True when there is more than limits let through; then nothing else is there.
@@ -66,6 +70,7 @@ struct Arrangement {
 /// Edges that cancel are left out, but not those of up to this many snaps across the mouth of a crack. They
 /// make the crack a face, and a thin face is turned over (PlanarMap::loops).
 inline constexpr double kShortGap = 4;
+inline constexpr std::uint32_t kNoEdge = 0xffffffff;
 inline constexpr double kHot = 1.25;
 /// Arcs shorter than this many snaps become lines, less than a quarter of their length away.
 inline constexpr double kShortArc = 16;

@@ -215,6 +215,7 @@ LoopContour contour_of(const PlanarMap::Loop& loop, const Outlines& outlines, co
   LoopContour result;
   for (std::size_t i = 0; i < made.size(); ++i) {
     result.contour.push_back(made[i].edge);
+    result.origins.push_back(made[i].first_origin);
     const Made& next = made[i + 1 == made.size() ? 0 : i + 1];
     if (made.size() > 1 && !reader.is_drawn_corner(made[i], next))
       result.corner_error = std::max(result.corner_error, corner_shift(made[i], next, edge_error));

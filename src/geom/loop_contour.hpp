@@ -10,6 +10,8 @@ struct LoopContour {
   Contour contour;
   /// The corner_error of boolean.hpp when edges move by `edge_error`.
   double corner_error = 0;
+  /// By edge: the outline edge that it comes from, the first of several on one line.
+  std::vector<std::uint32_t> origins;
 };
 [[nodiscard]] LoopContour contour_of(const PlanarMap::Loop& loop, const Outlines& outlines,
                                      const Arrangement& arrangement, double edge_error);

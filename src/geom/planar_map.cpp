@@ -68,6 +68,47 @@ std::optional<PlanarMap> PlanarMap::make(const Arrangement& arrangement) {
   return map;
 }
 
+std::optional<PlanarMap> PlanarMap::make_of_curves(const Arrangement& arrangement) {
+  PlanarMap map(arrangement);
+  map.sort_around_vertices();
+  map.trace_faces();
+  map.find_components();
+  if (!map.is_planar()) return std::nullopt;
+  return map;
+}
+
+std::vector<PlanarMap::Loop> PlanarMap::face_loops() const {
+  std::vector<char> is_outside(face_starts_.size(), 0);
+  for (const Component& component : components_) is_outside[face_[component.outside]] = 1;
+  std::vector<Loop> loops;
+  std::vector<std::uint32_t> place(a_.vertices.size(), kNone);
+  for (std::uint32_t f = 0; f < face_starts_.size(); ++f) {
+    if (is_outside[f] != 0) continue;
+    const Loop walk = walk_around(f);
+    ask(1 + walk.half_edges.size() / 16);
+    // Where the walk comes back to a vertex, it has gone around something that touches the face from inside.
+    std::vector<std::uint32_t> chain;
+    const auto close_loop = [&](std::size_t begin) {
+      Loop loop;
+      loop.group = f;
+      for (std::size_t i = begin; i < chain.size(); ++i) {
+        loop.half_edges.push_back(chain[i]);
+        place[start_of(a_, chain[i])] = kNone;
+      }
+      chain.resize(begin);
+      if (!loop.half_edges.empty() && signed_area(a_, loop) > 0) loops.push_back(std::move(loop));
+    };
+    for (const std::uint32_t h : walk.half_edges) {
+      const std::uint32_t vertex = start_of(a_, h);
+      if (place[vertex] != kNone) close_loop(place[vertex]);
+      place[vertex] = static_cast<std::uint32_t>(chain.size());
+      chain.push_back(h);
+    }
+    close_loop(0);
+  }
+  return loops;
+}
+
 std::uint32_t PlanarMap::next(std::uint32_t half_edge) const noexcept {
   // The next edge around the face on the left is the first one clockwise from the way back.
   const std::uint32_t back = half_edge ^ 1, vertex = start_of(a_, back), place = place_[back];

@@ -20,6 +20,8 @@ class PlanarMap {
   /// Returns nothing where the arrangement contradicts itself: where edges that cross unseen leave a map that
   /// no plane holds (Euler's formula), or winding numbers that differ with the way around.
   [[nodiscard]] static std::optional<PlanarMap> make(const Arrangement& arrangement);
+  /// Does the same for edges that are no contours and have no winding numbers: loops() is not for this map.
+  [[nodiscard]] static std::optional<PlanarMap> make_of_curves(const Arrangement& arrangement);
 
   /// A closed chain of half-edges around kept material. It visits no vertex twice.
   struct Loop {
@@ -30,6 +32,12 @@ class PlanarMap {
   /// Step 4: returns the loops around the faces that are kept. Thin faces that others enclose are turned
   /// over, because they are left of edges that were drawn apart by less than snapping can tell.
   [[nodiscard]] std::vector<Loop> loops(KeepRule keep) const;
+
+  /// Says whether one face lies on both sides of a map edge, so that it bounds nothing.
+  [[nodiscard]] bool is_bridge(std::uint32_t edge) const { return face_[2 * edge] == face_[2 * edge + 1]; }
+  /// Returns the outer loop of every face but the outsides, in the order of their first half-edges. It visits
+  /// no vertex twice. \pre no edge is a bridge
+  [[nodiscard]] std::vector<Loop> face_loops() const;
 
   /// Says whether all points inside a loop are within kEdgeErrorInSnaps of its edges. A no may be wrong.
   [[nodiscard]] static bool is_thin(const Arrangement& arrangement, const Loop& loop);

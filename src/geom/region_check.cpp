@@ -108,30 +108,32 @@ class Checker {
     bool too_many = false;  ///< boxes meet, so that not all could be looked at
   };
   [[nodiscard]] Meetings meetings() const {
-    std::vector<Box> boxes;
-    boxes.reserve(curves_.size());
-    double largest = 0;
-    for (const Curve& curve : curves_) {
-      const Box box = boxes.emplace_back(curve_box(curve));
-      largest = std::max(
-          {largest, std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-    }
-    const double limit = kEdgeDistanceError * largest;
-    const Point margin{limit, limit};
-    for (Box& box : boxes) box = {box.low - margin, box.high + margin};
     Meetings all;
     const std::size_t most = limits::most_meeting_boxes(curves_.size());
     std::size_t seen = 0;
-    BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
-      ask();
+    visit_pairs([&](std::uint32_t i, std::uint32_t j, double limit) {
       // Once there is one, the search for the first one ends early: a drawing of which everything crosses
       // everything is as wrong by any of its crossings.
       if (++seen > (all.first ? most / kSoon : most)) return all.too_many = !all.first, false;
       if (all.first && std::pair(all.first->a, all.first->b) < std::pair(i, j)) return true;
-      if (carriers_apart(curves_[i], curves_[j], limit) || joined_only_at_their_end(i, j, limit)) return true;
-      const ClosestPoints close = closest_points(curves_[i], curves_[j]);
-      if (!(close.distance > limit)) all.first = MeetingEdges{i, j, close.a};
+      if (const auto met = meeting(i, j, limit)) all.first = met;
       return true;
+    });
+    return all;
+  }
+
+  [[nodiscard]] std::optional<std::vector<MeetingEdges>> all_meetings() const {
+    std::vector<MeetingEdges> all;
+    const std::size_t most = limits::most_meeting_boxes(curves_.size());
+    std::size_t seen = 0;
+    visit_pairs([&](std::uint32_t i, std::uint32_t j, double limit) {
+      if (++seen > most) return false;
+      if (const auto met = meeting(i, j, limit)) all.push_back(*met);
+      return true;
+    });
+    if (seen > most) return std::nullopt;
+    std::sort(all.begin(), all.end(), [](const MeetingEdges& a, const MeetingEdges& b) {
+      return std::pair(a.a, a.b) < std::pair(b.a, b.b);
     });
     return all;
   }
@@ -154,6 +156,32 @@ class Checker {
   }
 
  private:
+  /// Calls visit(i, j, limit) for the edges whose boxes come within the limit, until it returns false.
+  template <class Visit>
+  void visit_pairs(Visit&& visit) const {
+    std::vector<Box> boxes;
+    boxes.reserve(curves_.size());
+    double largest = 0;
+    for (const Curve& curve : curves_) {
+      const Box box = boxes.emplace_back(curve_box(curve));
+      largest = std::max(
+          {largest, std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+    }
+    const double limit = kEdgeDistanceError * largest;
+    const Point margin{limit, limit};
+    for (Box& box : boxes) box = {box.low - margin, box.high + margin};
+    BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
+      ask();
+      return visit(i, j, limit);
+    });
+  }
+  [[nodiscard]] std::optional<MeetingEdges> meeting(std::uint32_t i, std::uint32_t j, double limit) const {
+    if (carriers_apart(curves_[i], curves_[j], limit) || joined_only_at_their_end(i, j, limit))
+      return std::nullopt;
+    const ClosestPoints close = closest_points(curves_[i], curves_[j]);
+    if (close.distance > limit) return std::nullopt;
+    return MeetingEdges{i, j, close.a};
+  }
   /// Says whether two neighbours along a contour meet only at an end they share, as far as fault_of sees it.
   [[nodiscard]] bool joined_only_at_their_end(std::uint32_t i, std::uint32_t j, double limit) const {
     const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
@@ -219,6 +247,10 @@ class Checker {
 
 std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions) {
   return Checker(regions).meetings().first;
+}
+
+std::optional<std::vector<MeetingEdges>> all_meetings(const std::vector<Region>& regions) {
+  return Checker(regions).all_meetings();
 }
 
 std::optional<std::string> fault_of(const std::vector<Region>& regions) { return Checker(regions).run(); }

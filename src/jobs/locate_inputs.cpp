@@ -37,7 +37,8 @@ const char* only_convex_has(const LocateJob& job) {
 bool is_one_file(const LocateJob& job) {
   const io::OutlineOptions &part = job.options.part, &blank = job.options.blank;
   return job.part.bytes == job.blank.bytes && part.units == blank.units && part.join == blank.join &&
-         part.curve == blank.curve && part.layers == blank.layers && !part.scan && !blank.scan;
+         part.curve == blank.curve && part.repair == blank.repair && part.strict == blank.strict &&
+         part.layers == blank.layers && !part.scan && !blank.scan;
 }
 
 bool asks_for_regions(const LocateJob& job) {

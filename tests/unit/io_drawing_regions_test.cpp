@@ -23,7 +23,8 @@ DrawnRegions made(const Sketch& sketch, const DrawingOptions& options = {}) {
   EXPECT_EQ(result->curve_of_edge.size(), geom::edges_in(result->regions));
   return *std::move(result);
 }
-std::string refusal(const Sketch& sketch, const DrawingOptions& options = {}) {
+std::string refusal(const Sketch& sketch, DrawingOptions options = {}) {
+  options.strict = true;
   auto result = make_regions(sketch.drawing(), options);
   EXPECT_FALSE(result.has_value());
   return result ? "" : result.error().message;
@@ -121,28 +122,22 @@ TEST(DrawingRegions, ArcsMeetHalfWayOrHaveALineBetweenThem) {
 TEST(DrawingRegions, ThreeEndsInOnePlaceAreNamed) {
   Sketch sketch;
   sketch.polyline(kSquare).layer("AXES").line({10, 10}, {20, 20});
-  for (const bool leave : {false, true}) {
-    DrawingOptions options;
-    options.leave_open_chains = leave;
-    const std::string message = refusal(sketch, options);
-    EXPECT_TRUE(has(message, "sketch.dxf: 3 ends of curves lie within 0.01 mm of (10, 10) mm")) << message;
-    EXPECT_TRUE(has(message,
-                    "the LINE at line 20, layer '0'; the LINE at line 30, layer '0'; the LINE at line 50, "
-                    "layer 'AXES'"))
-        << message;
-  }
+  const std::string message = refusal(sketch);
+  EXPECT_TRUE(has(message, "sketch.dxf: 3 ends of curves lie within 0.01 mm of (10, 10) mm")) << message;
+  EXPECT_TRUE(has(message,
+                  "the LINE at line 20, layer '0'; the LINE at line 30, layer '0'; the LINE at line 50, "
+                  "layer 'AXES'"))
+      << message;
   DrawingOptions options;
   options.leave = {"axes"};
   EXPECT_EQ(made(sketch, options).regions.size(), 1u);
-  // One end beside a joint that is clear: refused too, unless open chains may be left out.
+  // One end beside a joint that is clear: refused too.
   Sketch beside;
   beside.polyline(kSquare).line({10.005, 10}, {20, 20});
   EXPECT_TRUE(has(refusal(beside), "3 ends of curves"));
-  options = {};
-  options.leave_open_chains = true;
-  const auto found = made(beside, options);
-  ASSERT_EQ(found.open_chains.size(), 1u);
-  EXPECT_EQ(found.open_chains[0].curves, (std::vector<std::uint32_t>{4}));
+  const auto found = made(beside);
+  ASSERT_EQ(found.marks.size(), 1u);
+  EXPECT_EQ(found.marks[0].curve_of_edge, (std::vector<std::uint32_t>{4}));
 }
 
 TEST(DrawingRegions, AnOpenChainIsNamedWithItsGap) {
@@ -157,14 +152,11 @@ TEST(DrawingRegions, AnOpenChainIsNamedWithItsGap) {
   DrawingOptions options;
   options.join_tolerance = 0.6;
   EXPECT_EQ(made(sketch, options).gaps.size(), 1u);
-  options = {};
-  options.leave_open_chains = true;
-  EXPECT_TRUE(has(refusal(sketch, options), "none of the 3 curves closes a contour"));
   sketch.circle({30, 0}, 2);
-  const auto found = made(sketch, options);
+  const auto found = made(sketch);
   EXPECT_EQ(found.regions.size(), 1u);
-  ASSERT_EQ(found.open_chains.size(), 1u);
-  EXPECT_EQ(found.open_chains[0].to, (Point{0, 0.5}));
+  ASSERT_EQ(found.set_aside.size(), 1u);
+  EXPECT_EQ(found.set_aside[0].edges.back().to, (Point{0, 0.5}));
   EXPECT_EQ(found.notices.size(), 1u);
 }
 

@@ -20,6 +20,8 @@ void add_drawings_reading(Form& form, LayoutWords& w) {
   add("--units", w.units, list_of(kUnits, "|"), "Of files that do not say theirs [mm]");
   add("--chord-tolerance", w.chords, "MM", "How far chords lie from the arcs of drawings [0.01]");
   add("--join", w.join, "MM", "Loose ends of drawings this near to each other are joined [0.01]");
+  add("--repair", w.repair, "MM", "Mends of drawings move no outline further; the rest is set aside [0.2]");
+  add("--strict", w.strict, "Refuse a drawing of which anything would be mended or set aside");
   add("--layers", w.layers, "NAME", "Layers of a drawing that hold parts [all that are shown]").delimiter =
       ',';
 }
@@ -38,6 +40,8 @@ Result<LayoutSource> to_layout_source(const LayoutWords& w) {
   constexpr const char* kLength = "a length up to 1000 mm, as 0.2 or 1/64in";
   reader.length("--chord-tolerance", w.chords, 0x1p-16, 1000.0, kLength, source.parts.chord_tolerance);
   reader.length("--join", w.join, 0.0, 1000.0, kLength, source.parts.drawing.join_tolerance);
+  reader.length("--repair", w.repair, 0.0, 1000.0, kLength, source.parts.drawing.repair);
+  source.parts.drawing.strict = w.strict;
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
   return source;
 }

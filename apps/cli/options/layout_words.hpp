@@ -7,9 +7,9 @@ namespace lekalo::cli {
 
 /// The options that say how a layout is read, and where it is drawn and told; as typed.
 struct LayoutWords {
-  std::string path, instance, units, chords, join, picture;
+  std::string path, instance, units, chords, join, repair, picture;
   std::vector<std::string> layers;
-  bool json = false;
+  bool strict = false, json = false;
 };
 
 void add_layout_source(Form& form, LayoutWords& words, bool required = true);

@@ -32,11 +32,11 @@ struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, control, allow, chord_tolerance, wcs, scan_frame,
       output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
-      features, criterion, give_up, trade_off, join, curve, uncertainty, coverage, min_radius, max_dip, step,
-      drop_outliers, simplify, slice_height, slice_thickness;
+      features, criterion, give_up, trade_off, join, curve, repair, uncertainty, coverage, min_radius,
+      max_dip, step, drop_outliers, simplify, slice_height, slice_thickness;
   std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window;
-  bool json = false;
+  bool json = false, strict = false;
 };
 
 constexpr double kLargestWindowAngle = 720.0;  // degrees: either way of writing a window fits
@@ -122,6 +122,8 @@ void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
   io::OutlineOptions how = o.job.part;
   length("--join", words.join, 0, how.join);
   length("--curve-tolerance", words.curve, kSmallestLength, how.curve);
+  length("--repair", words.repair, 0, how.repair);
+  how.strict = words.strict;
   o.job.part = o.job.blank = how;
   o.job.part.layers = words.part_layers, o.job.blank.layers = words.blank_layers;
 
@@ -272,6 +274,8 @@ void add_input_options(Form& form, LocateWords& w) {
   add("--blank-layers", w.blank_layers, "NAME", "Layers of the blank's drawing [all that are shown]");
   add("--join", w.join, "MM", "Loose ends of a drawing this near are joined [0.01]");
   add("--curve-tolerance", w.curve, "MM", "Lines and arcs may be this far from an ellipse or spline [0.001]");
+  add("--repair", w.repair, "MM", "Mends of a drawing move no outline further; the rest is set aside [0.2]");
+  add("--strict", w.strict, "Refuse a drawing of which anything would be mended or set aside");
   add("--units", w.units, list_of(kUnits, "|"), "Unit of contour files that do not name theirs [mm]");
   add("--trim", w.trim, "MM",
       "Cut dents of the blank up to this deep inwards to a convex contour; the loss is reported");

@@ -30,11 +30,11 @@ struct PocketWords {
       ramp_angle, safe_height, tolerance;
   std::string feed, feed_per_tooth, teeth, most_feed, plunge_feed, link_feed, spindle;
   std::string post, output_units, work_offset, tool_number, coolant;
-  std::string units, join;
+  std::string units, join, repair;
   std::string method, sampling, trace_step, images;
   std::vector<std::string> layers, island_layers, open_layers, after, starts;
   std::string output, picture, animation;
-  bool json = false, whole = false;
+  bool json = false, whole = false, strict = false;
 };
 
 /// `--feed`, or what feed per tooth, teeth and spindle make.
@@ -139,6 +139,10 @@ Result<Command> to_pocket(const PocketWords& w) {
     read.number("--join", w.join, 0.0, kLargestLength, "a length from 0 mm on", join);
     o.outline.join = join;
   }
+  if (!w.repair.empty())
+    read.number("--repair", w.repair, 0.0, kLargestLength, "a length from 0 mm on",
+                o.outline.repair.emplace());
+  o.outline.strict = w.strict;
   o.outline.layers = w.layers;
   o.island_layers = w.island_layers, o.open_layers = w.open_layers;
   read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
@@ -194,6 +198,8 @@ Typed add_pocket_form(Form& form) {
   const OptionAdder reading(form, "Reading");
   reading("--units", w.units, "WORD", "Of a file that does not say: mm or inch [mm]");
   reading("--join", w.join, "MM", "Ends of a drawing's curves this near are joined [0.01]");
+  reading("--repair", w.repair, "MM", "Mends of a drawing move no outline further [0.2]");
+  reading("--strict", w.strict, "Refuse a drawing of which anything would be mended or set aside");
   reading("--layer", w.layers, "NAME", "Outlines on this layer of a drawing; again for more [all shown]");
   reading("--island-layer", w.island_layers, "NAME", "What this layer encloses stays");
   reading("--open-layer", w.open_layers, "NAME", "Edges on this layer are no walls: beyond is air");

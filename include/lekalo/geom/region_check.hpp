@@ -29,4 +29,7 @@ struct MeetingEdges {
 /// The first such pair (smallest a, then b), by the rule and at the cost of fault_of.
 [[nodiscard]] std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions);
 
+/// Returns all of them, in order; nothing where more boxes meet than limits let through.
+[[nodiscard]] std::optional<std::vector<MeetingEdges>> all_meetings(const std::vector<Region>& regions);
+
 }  // namespace lekalo::geom

@@ -40,6 +40,13 @@ Edge pulled(const Edge& arc, Point from, Point to) {
   return {arc.kind, from, to, from + along * after + aside * perpendicular(after)};
 }
 
+/// Says whether an end of the arc may move so far.
+bool may_pull(const Edge& arc, double far) { return norm(arc.to - arc.from) >= kLeastChordInGaps * far; }
+/// The rounding of the new centre: a few units of its distances, as kEdgeDistanceError.
+double rounding_of_pulled(const Edge& arc) {
+  return geom::kEdgeDistanceError * (norm(arc.centre) + 2 * geom::arc_radius(arc));
+}
+
 class GapCloser {
  public:
   explicit GapCloser(LooseContour& contour) : contour_(contour) {
@@ -106,9 +113,9 @@ class GapCloser {
     } else if (is_line(b)) {
       b.from = p;
       moved_[next] = std::max(moved_[next], gap.size);
-    } else if (i != next && may_pull(a, gap) && may_pull(b, gap)) {
-      moved_[i] += lever(a) * to_middle + rounding(a);
-      moved_[next] += lever(b) * to_middle + rounding(b);
+    } else if (i != next && may_pull(a, gap.size) && may_pull(b, gap.size)) {
+      moved_[i] += lever(a) * to_middle + rounding_of_pulled(a);
+      moved_[next] += lever(b) * to_middle + rounding_of_pulled(b);
       a = pulled(a, a.from, gap.at);
       b = pulled(b, gap.at, b.to);
     } else {
@@ -116,14 +123,6 @@ class GapCloser {
       moved_[i] = std::max(moved_[i], to_middle);
     }
     closing_.gaps.push_back(gap);
-  }
-
-  static bool may_pull(const Edge& arc, const ClosedGap& gap) {
-    return norm(arc.to - arc.from) >= kLeastChordInGaps * gap.size;
-  }
-  /// The rounding of the new centre: a few units of its distances, as kEdgeDistanceError.
-  static double rounding(const Edge& arc) {
-    return geom::kEdgeDistanceError * (norm(arc.centre) + 2 * geom::arc_radius(arc));
   }
 
   void rebuild() {
@@ -149,6 +148,18 @@ class GapCloser {
 };
 
 }  // namespace
+
+std::optional<double> move_end(Edge& edge, bool at_end, Point to) {
+  const double far = norm(to - (at_end ? edge.to : edge.from)) * kUp;
+  if (!is_line(edge)) {
+    if (!may_pull(edge, far) || edge.from == edge.to) return std::nullopt;
+    const double moved = lever(edge) * far + rounding_of_pulled(edge);
+    edge = at_end ? pulled(edge, edge.from, to) : pulled(edge, to, edge.to);
+    return moved;
+  }
+  (at_end ? edge.to : edge.from) = to;
+  return far;
+}
 
 Closing close_gaps(LooseContour& contour) { return GapCloser(contour).run(); }
 

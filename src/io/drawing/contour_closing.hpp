@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lekalo/geom/region.hpp"
@@ -30,6 +31,11 @@ struct Closing {
   std::vector<ClosedGap> gaps;    ///< in order, none of size 0
   std::vector<MovedCurve> moved;  ///< a curve may come several times: the largest counts
 };
+
+/// Moves an end of an edge: of a line it alone, an arc is turned and stretched about its other end. Returns
+/// how far any point of the edge moved at most; nothing, and the edge stays, where the arc's ends are too
+/// near.
+[[nodiscard]] std::optional<double> move_end(geom::Edge& edge, bool at_end, geom::Point to);
 
 /// Makes each edge begin where the one before ends. Two lines meet half way; a line goes to the end of an
 /// arc, which stays as it is; two arcs are turned and stretched a little, each about its other end, to meet

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "lekalo/base/stop.hpp"
@@ -167,7 +168,76 @@ class Joiner {
   CurveJoins joins_;
 };
 
+/// Sets of points that are joined one by one.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  [[nodiscard]] std::uint32_t of(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = of(i), j = of(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
 }  // namespace
+
+std::vector<std::vector<EndNumber>> branchings(const std::vector<OpenCurve>& curves, const CurveJoins& joins,
+                                               double tolerance) {
+  std::vector<End> ends;
+  for (EndNumber i = 0; i < curves.size(); ++i) {
+    if (!curves[i].used) continue;
+    ends.push_back({curves[i].from, 2 * i});
+    ends.push_back({curves[i].to, 2 * i + 1});
+  }
+  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+    return std::tie(a.at.x, a.at.y, a.number) < std::tie(b.at.x, b.at.y, b.number);
+  });
+  // Equal ends make a place; the number of an End is that of its place from here on.
+  std::vector<End> places;
+  std::vector<std::uint32_t> place_of(2 * curves.size(), kNoEnd);
+  std::vector<char> free;
+  for (const End& end : ends) {
+    if (places.empty() || !(places.back().at == end.at)) {
+      places.push_back({end.at, static_cast<EndNumber>(places.size())});
+      free.push_back(0);
+    }
+    place_of[end.number] = places.back().number;
+    if (joins.partner[end.number] == kNoEnd) free.back() = 1;
+  }
+  Sets sets(places.size());
+  std::vector<Pair> near;
+  const auto crowded = EndGrid(places, tolerance).visit_pairs([&](const Pair& pair) {
+    if (free[pair.a] != 0 || free[pair.b] != 0) near.push_back(pair);
+  });
+  if (!crowded)
+    for (const Pair& pair : near) sets.join(pair.a, pair.b);
+  std::vector<char> branches(places.size(), 0);
+  for (std::uint32_t p = 0; p < places.size(); ++p)
+    if (free[p] != 0) branches[sets.of(p)] = 1;
+  for (const End& end : ends) {
+    const EndNumber partner = joins.partner[end.number];
+    if (partner == kNoEnd || partner < end.number) continue;
+    const std::uint32_t a = sets.of(place_of[end.number]), b = sets.of(place_of[partner]);
+    if (a == b || (branches[a] == 0 && branches[b] == 0)) continue;
+    sets.join(a, b);
+    branches[std::min(a, b)] = 1;
+  }
+  std::vector<std::vector<EndNumber>> of_place(places.size());
+  for (const End& end : ends) {
+    const std::uint32_t p = sets.of(place_of[end.number]);
+    if (branches[p] != 0) of_place[p].push_back(end.number);
+  }
+  std::erase_if(of_place, [](const auto& place) { return place.size() < 3; });
+  for (auto& place : of_place) std::sort(place.begin(), place.end());
+  std::sort(of_place.begin(), of_place.end());
+  return of_place;
+}
 
 CurveJoins join_ends(const std::vector<OpenCurve>& curves, double tolerance) {
   return Joiner(curves, tolerance).run();

@@ -5,20 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "bezier.hpp"
+#include "branches.hpp"
 #include "contour_closing.hpp"
+#include "contour_relation.hpp"
+#include "contour_settling.hpp"
 #include "curve_edges.hpp"
 #include "curve_joins.hpp"
 #include "curve_overlaps.hpp"
+#include "io/text/decimal.hpp"
 #include "layers.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_check.hpp"
+#include "near_edges.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -33,16 +42,20 @@ constexpr double kUp = 1 + 0x1p-48;
 constexpr int kMostRounds = 8;
 /// The most curves that the sentence about a crowded place names.
 constexpr std::size_t kMostNamed = 4;
+/// The most kinds of curves, and shapes that were set aside, that are told one by one.
+constexpr std::size_t kMostKinds = 8;
+/// A chain whose ends are this near, mm, and far nearer than it is large, was meant to close.
+constexpr double kWidestGap = 2;
 
 std::string text(Point p) { return fmt::format("({:.9g}, {:.9g}) mm", p.x, p.y); }
 
 /// One drawn curve after step 1: its edges, and what reading and moving did to it.
 struct Worked {
   std::vector<Edge> edges;
-  double curve_error = 0, moved = 0, coordinate_error = 0;
+  double curve_error = 0, moved = 0, repaired = 0, coordinate_error = 0;
   bool taken = false;   ///< on a layer that counts, and more than a point
   bool closed = false;  ///< a contour by itself
-  [[nodiscard]] double total() const { return (curve_error + moved + coordinate_error) * kUp; }
+  [[nodiscard]] double total() const { return (curve_error + moved + repaired + coordinate_error) * kUp; }
 };
 
 /// A curve of a chain, and whether the chain goes along it backwards.
@@ -66,10 +79,16 @@ class Assembly {
     LEKALO_CHECK(work_curves(layers.taken));
     drop_duplicates();
     LEKALO_CHECK(join());
+    if (!options_.strict) resolve_branchings();
     make_chains();
+    if (!options_.strict) bridge_gaps();
     LEKALO_CHECK(sort_out_open_chains());
     close_contours();
+    if (!options_.strict) trace_branches();
     LEKALO_CHECK(nest());
+    set_aside_contents();
+    if (result_.regions.empty()) return refuse(empty_sentence());
+    place_marks();
     account();
     report();
     return std::move(result_);
@@ -90,6 +109,10 @@ class Assembly {
       return failure(ErrorCode::usage,
                      fmt::format("the curve tolerance is {} mm; it must be above 0, and finite",
                                  options_.curve_tolerance));
+    if (!(options_.repair >= 0) || !std::isfinite(options_.repair))
+      return failure(
+          ErrorCode::usage,
+          fmt::format("the size of repairs is {} mm; it must be 0 or more, and finite", options_.repair));
     return {};
   }
 
@@ -102,9 +125,14 @@ class Assembly {
       const DrawnCurve& drawn = drawing_.curves[i];
       if (!taken[drawn.layer]) continue;
       auto made = edges_of(drawn.shape, options_.curve_tolerance);
-      if (!made) return refuse(fmt::format("{} {}", name(i), made.error().message));
-      if (!(drawn.error >= 0) || !std::isfinite(drawn.error))
-        return refuse(fmt::format("{} has no known error", name(i)));
+      if (made && (!(drawn.error >= 0) || !std::isfinite(drawn.error)))
+        made = failure(ErrorCode::bad_input, "has no known error");
+      if (!made && options_.strict) return refuse(fmt::format("{} {}", name(i), made.error().message));
+      if (!made) {
+        result_.set_aside.push_back(
+            {AsideReason::no_curve, {i}, {}, 0, {}, fmt::format("{} {}", name(i), made.error().message)});
+        continue;
+      }
       edges += made->edges.size();
       if (edges > 2 * kMostCurves)
         return refuse(
@@ -137,6 +165,15 @@ class Assembly {
     // Copies that are closer than rounding cannot be told apart, so the reach is never less than rounding.
     overlap_reach_ = std::max(options_.join_tolerance, geom::kEdgeDistanceError * largest);
     lying_ = curves_on_others(laid, overlap_reach_);
+    // A way back along the curve before is a spike, which the outline needs to go on.
+    if (!options_.strict)
+      std::erase_if(lying_, [&](const LyingOn& one) {
+        const Worked &curve = worked_[one.curve], &on = worked_[one.on];
+        return drawing_.curves[one.curve].entity == drawing_.curves[one.on].entity && !curve.closed &&
+               !on.closed &&
+               (curve.edges.front().from == on.edges.back().to ||
+                on.edges.front().from == curve.edges.back().to);
+      });
     for (const LyingOn& one : lying_) {
       worked_[one.curve].taken = false;
       result_.duplicates.push_back(one.curve);
@@ -165,6 +202,11 @@ class Assembly {
           open[i] = {worked_[i].edges.front().from, worked_[i].edges.back().to, reach_[i], true};
       }
       joins_ = join_ends(open, options_.join_tolerance);
+      if (joins_.crowded && !options_.strict) {
+        // What is drawn to meet is joined all the same; gaps stay.
+        joins_ = join_ends(open, 0);
+        break;
+      }
       if (joins_.crowded)
         return refuse(
             fmt::format("more than {} loose ends of curves lie close together at {}, among them {}; use a "
@@ -173,7 +215,8 @@ class Assembly {
                         options_.join_tolerance));
       if (!drop_specks() && !cut_overlaps()) break;
     }
-    if (!joins_.undecided.empty()) return refuse(crowd_sentence(end_point(joins_.undecided.front())));
+    if (!joins_.undecided.empty() && options_.strict)
+      return refuse(crowd_sentence(end_point(joins_.undecided.front())));
     return {};
   }
 
@@ -232,6 +275,173 @@ class Assembly {
         ends.size(), options_.join_tolerance, text(at), names);
   }
 
+  // Step 3, continued: where three ends and more meet, curves that one element draws in a row belong
+  // together, then two ends of one layer; the rest is a node, which the faces about it decide.
+
+  void resolve_branchings() {
+    const std::size_t n = worked_.size();
+    std::vector<OpenCurve> open(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      open[i].used = is_open(i);
+      if (open[i].used)
+        open[i] = {worked_[i].edges.front().from, worked_[i].edges.back().to, reach_[i], true};
+    }
+    const auto places = branchings(open, joins_, options_.join_tolerance);
+    node_of_end_.assign(places.empty() ? 0 : 2 * n, kNoNode);
+    if (places.empty()) return;
+    const auto follows = [&](std::uint32_t i, std::uint32_t j) {
+      return is_open(i) && is_open(j) && drawing_.curves[i].entity == drawing_.curves[j].entity &&
+             end_point(2 * i + 1) == end_point(2 * j);
+    };
+    // By curve: the first of the row of curves that it stands in.
+    std::vector<std::uint32_t> row(n);
+    for (std::uint32_t i = 0; i < n; ++i) row[i] = i > 0 && follows(i - 1, i) ? row[i - 1] : i;
+    const auto is_last = [&](std::uint32_t i) { return i + 1 == n || row[i + 1] != row[i]; };
+    const auto goes_on = [&](EndNumber a, EndNumber b) {
+      if (a % 2 == 0) std::swap(a, b);
+      if (a % 2 == 0 || b % 2 != 0 || row[a / 2] != row[b / 2] || !(end_point(a) == end_point(b)))
+        return false;
+      return a / 2 + 1 == b / 2 || (b / 2 == row[a / 2] && is_last(a / 2));
+    };
+    for (std::uint32_t place = 0; place < places.size(); ++place) {
+      ask(places[place].size());
+      std::vector<EndNumber> left = places[place];
+      for (const EndNumber end : left) joins_.partner[end] = kNoEnd;
+      const auto join_if = [&](auto&& belong) {
+        // A stable sort has brought those that may belong together next to each other.
+        std::vector<EndNumber> rest;
+        for (std::size_t i = 0; i < left.size();) {
+          std::size_t end = i + 1;
+          while (end < left.size() && belong(left[i], left[end])) ++end;
+          if (end == i + 2)
+            joins_.partner[left[i]] = left[i + 1], joins_.partner[left[i + 1]] = left[i];
+          else
+            rest.insert(rest.end(), left.begin() + static_cast<std::ptrdiff_t>(i),
+                        left.begin() + static_cast<std::ptrdiff_t>(end));
+          i = end;
+        }
+        left = std::move(rest);
+      };
+      std::stable_sort(left.begin(), left.end(),
+                       [&](EndNumber a, EndNumber b) { return row[a / 2] < row[b / 2]; });
+      // The ends of a row are in order: the last of one curve, the first of the next. What closes the row
+      // stands at its ends.
+      join_if(goes_on);
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        std::size_t last = i;
+        while (last + 1 < left.size() && row[left[last + 1] / 2] == row[left[i] / 2]) ++last;
+        if (last > i && goes_on(left[i], left[last])) {
+          joins_.partner[left[i]] = left[last], joins_.partner[left[last]] = left[i];
+          left.erase(left.begin() + static_cast<std::ptrdiff_t>(last));
+          left.erase(left.begin() + static_cast<std::ptrdiff_t>(i--));
+        } else {
+          i = last;
+        }
+      }
+      const auto layer = [&](EndNumber end) { return drawing_.curves[end / 2].layer; };
+      std::stable_sort(left.begin(), left.end(),
+                       [&](EndNumber a, EndNumber b) { return layer(a) < layer(b); });
+      join_if([&](EndNumber a, EndNumber b) { return layer(a) == layer(b); });
+      if (left.size() == 2)
+        joins_.partner[left[0]] = left[1], joins_.partner[left[1]] = left[0];
+      else if (left.size() > 2)
+        for (const EndNumber end : left) node_of_end_[end] = place;
+    }
+  }
+
+  [[nodiscard]] std::uint32_t node_of(const Chain& chain, bool last) const {
+    if (node_of_end_.empty()) return kNoNode;
+    const Link& link = last ? chain.links.back() : chain.links.front();
+    return node_of_end_[2 * link.curve + (link.backwards != last ? 1 : 0)];
+  }
+
+  /// The edges of a chain in its direction, gaps closed, and its ends moved to those of the node.
+  [[nodiscard]] BranchChain branch_of(const Chain& chain) {
+    BranchChain branch{{}, {}, node_of(chain, false), node_of(chain, true)};
+    const auto moved = [this](std::uint32_t curve, double by) {
+      worked_[curve].moved = std::max(worked_[curve].moved, by);
+    };
+    const auto bridge = [&](Point from, Point to, std::uint32_t curve, bool at_front) {
+      moved(curve, norm(to - from) * kUp);
+      const Edge line{geom::EdgeKind::line, from, to, {}};
+      branch.edges.insert(at_front ? branch.edges.begin() : branch.edges.end(), line);
+      branch.curves.insert(at_front ? branch.curves.begin() : branch.curves.end(), curve);
+    };
+    for (const Link& link : chain.links) {
+      const std::vector<Edge>& own = worked_[link.curve].edges;
+      geom::Contour edges = link.backwards ? geom::reversed(own) : own;
+      if (!branch.edges.empty() && !(branch.edges.back().to == edges.front().from)) {
+        const Point to = branch.edges.back().to;
+        if (const auto by = move_end(edges.front(), false, to))
+          moved(link.curve, *by);
+        else
+          bridge(to, edges.front().from, link.curve, false);
+      }
+      branch.edges.insert(branch.edges.end(), edges.begin(), edges.end());
+      branch.curves.resize(branch.edges.size(), link.curve);
+    }
+    for (const bool last : {false, true}) {
+      const std::uint32_t node = last ? branch.end : branch.begin;
+      if (node == kNoNode) continue;
+      Edge& edge = last ? branch.edges.back() : branch.edges.front();
+      const Point at = last ? edge.to : edge.from;
+      const Point to = node_points_.emplace(node, at).first->second;
+      if (at == to) continue;
+      const std::uint32_t curve = last ? branch.curves.back() : branch.curves.front();
+      if (const auto by = move_end(edge, last, to))
+        moved(curve, *by);
+      else if (last)
+        bridge(at, to, curve, false);
+      else
+        bridge(to, at, curve, true);
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < branch.edges.size(); ++k) {
+      if (branch.edges[k].kind == geom::EdgeKind::line && branch.edges[k].from == branch.edges[k].to)
+        continue;
+      branch.edges[kept] = branch.edges[k], branch.curves[kept++] = branch.curves[k];
+    }
+    branch.edges.resize(kept), branch.curves.resize(kept);
+    return branch;
+  }
+
+  void trace_branches() {
+    if (branches_.empty()) return;
+    Branches made = faces_of_branches(branches_, options_.repair, kWidestGap);
+    for (const MovedCurve& one : made.bridged)
+      worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved);
+    for (LooseContour& contour : made.contours) contours_.push_back(std::move(contour));
+    add_marks(made.left);
+    for (const std::vector<LooseEdge>& unclosed : made.unclosed) {
+      SetAside aside{AsideReason::does_not_close, {}, {}, 0, unclosed.front().edge.from, {}};
+      for (const LooseEdge& one : unclosed) {
+        aside.edges.push_back(one.edge);
+        aside.curves.push_back(one.curve);
+        aside.tolerance = std::max(aside.tolerance, worked_[one.curve].total());
+        worked_[one.curve].taken = false;
+      }
+      std::sort(aside.curves.begin(), aside.curves.end());
+      aside.curves.erase(std::unique(aside.curves.begin(), aside.curves.end()), aside.curves.end());
+      aside.sentence = fmt::format(
+          "{} curves that hang together, the first {}, enclose nothing, though ends of them are within {:g} "
+          "mm "
+          "of each other; close the gap, or use a larger --join",
+          aside.curves.size(), name(aside.curves.front()), kWidestGap);
+      result_.set_aside.push_back(std::move(aside));
+    }
+  }
+
+  /// Edges that follow each other become one mark.
+  void add_marks(const std::vector<LooseEdge>& loose) {
+    Mark* open = nullptr;
+    for (const LooseEdge& one : loose) {
+      if (open == nullptr || !(open->edges.back().to == one.edge.from)) open = &result_.marks.emplace_back();
+      open->edges.push_back(one.edge);
+      open->curve_of_edge.push_back(one.curve);
+      open->tolerance = std::max(open->tolerance, worked_[one.curve].total());
+    }
+  }
+
   // Step 3, continued: joined curves make chains.
 
   [[nodiscard]] Point loose_end(const Chain& chain, bool last) const {
@@ -271,10 +481,196 @@ class Assembly {
     }
   }
 
+  [[nodiscard]] bool is_whole(const Chain& chain) const {
+    return !chain.closed && node_of(chain, false) == kNoNode && node_of(chain, true) == kNoNode;
+  }
+  [[nodiscard]] double reach_of(const Chain& chain) const {
+    geom::Box box{loose_end(chain, false), loose_end(chain, false)};
+    for (const Link& link : chain.links)
+      for (const Edge& edge : worked_[link.curve].edges) box = joined(box, curve_box(geom::make_curve(edge)));
+    return norm(box.high - box.low);
+  }
+
+  /// Closes chains over gaps of up to `repair`, one by itself or several in a ring, by the rule for ends that
+  /// are near; a ring that does not close stays as it is. The gaps stay until contours are closed.
+  void bridge_gaps() {
+    std::vector<OpenCurve> open(chains_.size());
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      open[c].used = is_whole(chains_[c]);
+      if (open[c].used)
+        open[c] = {loose_end(chains_[c], false), loose_end(chains_[c], true), reach_of(chains_[c]), true};
+    }
+    const CurveJoins joins = join_ends(open, options_.repair);
+    if (joins.crowded) return;
+    std::vector<char> gone(chains_.size(), 0);
+    for (std::uint32_t first = 0; first < chains_.size(); ++first) {
+      if (!open[first].used || gone[first] != 0) continue;
+      std::vector<Link> ring{{first, false}};
+      for (;;) {
+        const EndNumber next = joins.partner[2 * ring.back().curve + (ring.back().backwards ? 0 : 1)];
+        if (next == kNoEnd) ring.clear();
+        if (next == kNoEnd || next / 2 == first) break;
+        ring.push_back({next / 2, next % 2 == 1});
+      }
+      if (ring.empty()) continue;
+      std::vector<Link> links;
+      for (const Link& one : ring) {
+        std::vector<Link> part = chains_[one.curve].links;
+        if (one.backwards) {
+          std::reverse(part.begin(), part.end());
+          for (Link& link : part) link.backwards = !link.backwards;
+        }
+        links.insert(links.end(), part.begin(), part.end());
+        gone[one.curve] = 1;
+      }
+      gone[first] = 0;
+      chains_[first] = {std::move(links), true};
+      open[first].used = false;
+    }
+    std::size_t kept = 0;
+    for (std::size_t c = 0; c < chains_.size(); ++c)
+      if (gone[c] == 0) std::swap(chains_[kept++], chains_[c]);
+    chains_.resize(kept);
+  }
+
+  /// An outline with a gap that is small for it is set aside, rather than taken for a line on a part.
+  [[nodiscard]] bool is_unclosed_outline(const Chain& chain) const {
+    const double gap = norm(loose_end(chain, true) - loose_end(chain, false));
+    return chain.links.size() > 1 && gap <= kWidestGap && 8 * gap <= reach_of(chain);
+  }
+
+  void set_aside_unclosed(const Chain& chain) {
+    const Point from = loose_end(chain, false), to = loose_end(chain, true);
+    SetAside aside{AsideReason::does_not_close, {}, {}, 0, to, {}};
+    for (const Link& link : chain.links) {
+      Worked& curve = worked_[link.curve];
+      const geom::Contour edges = link.backwards ? geom::reversed(curve.edges) : curve.edges;
+      aside.edges.insert(aside.edges.end(), edges.begin(), edges.end());
+      aside.curves.push_back(link.curve);
+      aside.tolerance = std::max(aside.tolerance, curve.total());
+      curve.taken = false;
+    }
+    aside.sentence = fmt::format(
+        "the chain of {} curves that begins with {} does not close: from {} to {} there is a gap; --join "
+        "{:.3g} "
+        "would take it in",
+        chain.links.size(), name(aside.curves.front()), text(to), text(from), norm(to - from) * 1.01 + 1e-6);
+    std::sort(aside.curves.begin(), aside.curves.end());
+    result_.set_aside.push_back(std::move(aside));
+  }
+
+  static geom::Contour frame_of(const geom::Contour& edges) {
+    geom::Box box = curve_box(geom::make_curve(edges.front()));
+    for (const Edge& edge : edges) box = joined(box, curve_box(geom::make_curve(edge)));
+    const Point corners[] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+    geom::Contour frame;
+    for (std::size_t k = 0; k < 4; ++k)
+      frame.push_back({geom::EdgeKind::line, corners[k], corners[(k + 1) % 4], {}});
+    return frame;
+  }
+
+  /// Returns the boxes of marks of which loose ends are so near to each other that together they may be an
+  /// outline that does not close: then nobody can tell a part in them from a hole.
+  [[nodiscard]] std::vector<geom::Box> frames_of_marks() const {
+    std::vector<geom::Box> ends, whole;
+    for (const Mark& mark : result_.marks) {
+      for (const Point end : {mark.edges.front().from, mark.edges.back().to})
+        ends.push_back(geom::grown({end, end}, kWidestGap / 2));
+      whole.push_back(curve_box(geom::make_curve(mark.edges.front())));
+      for (const Edge& edge : mark.edges)
+        whole.back() = joined(whole.back(), curve_box(geom::make_curve(edge)));
+    }
+    std::vector<std::uint32_t> parent(whole.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto of = [&](std::uint32_t i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    std::vector<char> meant(whole.size(), 0);
+    std::size_t left = limits::most_meeting_boxes(ends.size());
+    geom::BoxTree(ends).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
+      const std::uint32_t a = of(i / 2), b = of(j / 2);
+      meant[i / 2] = meant[j / 2] = 1;
+      parent[std::max(a, b)] = std::min(a, b);
+      return --left > 0;
+    });
+    std::vector<geom::Box> frames;
+    for (std::uint32_t i = 0; i < whole.size(); ++i)
+      if (of(i) != i) whole[of(i)] = joined(whole[of(i)], whole[i]), meant[of(i)] = 1;
+    for (std::uint32_t i = 0; i < whole.size(); ++i)
+      if (of(i) == i && meant[i] != 0) frames.push_back(whole[i]);
+    return frames;
+  }
+
+  /// What lies in a contour that was set aside goes with it: its holes are no parts.
+  void set_aside_contents() {
+    std::vector<PlacedContour> contours;
+    std::vector<geom::Box> boxes;
+    for (const SetAside& aside : result_.set_aside) {
+      if (aside.edges.empty()) continue;
+      geom::Contour around;
+      for (const Edge& edge : aside.edges) {
+        // The gaps of an outline that does not close matter little here.
+        if (!around.empty() && !(around.back().to == edge.from))
+          around.push_back({geom::EdgeKind::line, around.back().to, edge.from, {}});
+        around.push_back(edge);
+      }
+      if (!(around.back().to == around.front().from))
+        around.push_back({geom::EdgeKind::line, around.back().to, around.front().from, {}});
+      // What is no contour at all counts with its box.
+      if (!geom::make_region(around) || geom::fault_of({geom::Region{around, {}}})) around = frame_of(around);
+      if (!geom::make_region(around)) continue;
+      contours.emplace_back(around);
+      boxes.push_back(contours.back().box());
+    }
+    const std::vector<geom::Box> frames = frames_of_marks();
+    if (contours.empty() && frames.empty()) return;
+    const geom::BoxTree tree(boxes), framed(frames);
+    std::vector<geom::Region> kept;
+    std::vector<std::uint32_t> curve_of_edge;
+    std::size_t edge = 0;
+    for (geom::Region& region : result_.regions) {
+      const std::size_t first = edge;
+      edge += geom::edges_in({region});
+      const Point p = region.outer.front().from;
+      const geom::Box box = geom::bounds(region.outer);
+      const auto in_frame = [&](std::uint32_t i) {
+        const geom::Box& frame = frames[i];
+        return frame.low.x <= box.low.x && frame.low.y <= box.low.y && box.high.x <= frame.high.x &&
+               box.high.y <= frame.high.y;
+      };
+      const bool outside = tree.visit_meeting_while({p, p}, [&](std::uint32_t i) {
+        return !contours[i].contains(p);
+      }) && framed.visit_meeting_while({p, p}, [&](std::uint32_t i) { return !in_frame(i); });
+      const auto begin = result_.curve_of_edge.begin() + static_cast<std::ptrdiff_t>(first),
+                 end = result_.curve_of_edge.begin() + static_cast<std::ptrdiff_t>(edge);
+      if (outside) {
+        curve_of_edge.insert(curve_of_edge.end(), begin, end);
+        kept.push_back(std::move(region));
+        continue;
+      }
+      SetAside aside{AsideReason::lies_in_another, {begin, end}, region.outer, 0, p, {}};
+      for (const geom::Contour& hole : region.holes)
+        aside.edges.insert(aside.edges.end(), hole.begin(), hole.end());
+      std::sort(aside.curves.begin(), aside.curves.end());
+      aside.curves.erase(std::unique(aside.curves.begin(), aside.curves.end()), aside.curves.end());
+      for (const std::uint32_t curve : aside.curves) {
+        aside.tolerance = std::max(aside.tolerance, worked_[curve].total());
+        worked_[curve].taken = false;
+      }
+      aside.sentence =
+          fmt::format("the contour that begins with {} lies at {} in one that does not close or is set aside",
+                      name(aside.curves.front()), text(p));
+      result_.set_aside.push_back(std::move(aside));
+    }
+    result_.regions = std::move(kept);
+    result_.curve_of_edge = std::move(curve_of_edge);
+  }
+
   [[nodiscard]] Result<void> sort_out_open_chains() {
     const auto open = static_cast<std::size_t>(
         std::count_if(chains_.begin(), chains_.end(), [](const Chain& c) { return !c.closed; }));
-    if (open > 0 && !options_.leave_open_chains) {
+    if (open > 0 && options_.strict) {
       const Chain& chain =
           *std::find_if(chains_.begin(), chains_.end(), [](const Chain& c) { return !c.closed; });
       // A chain also stays open where its end would belong to a joint that is complete without it. Then the
@@ -287,18 +683,85 @@ class Assembly {
     for (const Chain& chain : chains_) {
       ask(1 + chain.links.size());
       if (chain.closed) continue;
-      OpenChain listed{loose_end(chain, false), loose_end(chain, true), {}};
-      for (const Link& link : chain.links) {
-        listed.curves.push_back(link.curve);
-        worked_[link.curve].taken = false;
+      if (node_of(chain, false) != kNoNode || node_of(chain, true) != kNoNode) {
+        branches_.push_back(branch_of(chain));
+        if (branches_.back().edges.empty()) branches_.pop_back();
+        continue;
       }
-      result_.open_chains.push_back(std::move(listed));
+      if (!options_.strict && is_unclosed_outline(chain)) {
+        set_aside_unclosed(chain);
+        continue;
+      }
+      Mark mark;
+      for (const Link& link : chain.links) {
+        Worked& curve = worked_[link.curve];
+        const geom::Contour edges = link.backwards ? geom::reversed(curve.edges) : curve.edges;
+        mark.edges.insert(mark.edges.end(), edges.begin(), edges.end());
+        mark.curve_of_edge.resize(mark.edges.size(), link.curve);
+        mark.tolerance = std::max(mark.tolerance, curve.total());
+        curve.taken = false;
+      }
+      result_.marks.push_back(std::move(mark));
     }
     std::erase_if(chains_, [](const Chain& chain) { return !chain.closed; });
-    if (!chains_.empty()) return {};
-    if (drawing_.curves.empty()) return refuse("there are no curves in the drawing" + unread_sentence());
-    return refuse(fmt::format("none of the {} curves closes a contour{}", drawing_.curves.size(),
-                              result_.notices.empty() ? "" : "; " + result_.notices.front()));
+    if (!result_.marks.empty() && !options_.strict) hang_loops_on_marks();
+    if (chains_.empty() && branches_.empty()) return refuse(empty_sentence());
+    return {};
+  }
+
+  /// Small loops that begin on a mark, and on no outline, are of the mark.
+  void hang_loops_on_marks() {
+    const auto less = [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+    const auto is_loop = [&](const Chain& chain) {
+      return chain.links.size() == 1 && reach_[chain.links.front().curve] <= 2 * options_.repair;
+    };
+    std::vector<Point> of_marks, of_outlines;
+    for (const Mark& mark : result_.marks) {
+      of_marks.push_back(mark.edges.back().to);
+      for (const Edge& edge : mark.edges) of_marks.push_back(edge.from);
+    }
+    for (const Chain& chain : chains_)
+      if (!is_loop(chain))
+        for (const Link& link : chain.links)
+          for (const Edge& edge : worked_[link.curve].edges)
+            of_outlines.push_back(edge.from), of_outlines.push_back(edge.to);
+    for (const BranchChain& branch : branches_)
+      for (const Edge& edge : branch.edges) of_outlines.push_back(edge.from), of_outlines.push_back(edge.to);
+    std::sort(of_marks.begin(), of_marks.end(), less);
+    std::sort(of_outlines.begin(), of_outlines.end(), less);
+    std::erase_if(chains_, [&](const Chain& chain) {
+      if (!is_loop(chain)) return false;
+      Worked& curve = worked_[chain.links.front().curve];
+      const Point at = curve.edges.front().from;
+      if (!std::binary_search(of_marks.begin(), of_marks.end(), at, less) ||
+          std::binary_search(of_outlines.begin(), of_outlines.end(), at, less))
+        return false;
+      result_.marks.push_back({curve.edges, {}, curve.total(), std::nullopt});
+      result_.marks.back().curve_of_edge.assign(curve.edges.size(), chain.links.front().curve);
+      curve.taken = false;
+      return true;
+    });
+  }
+
+  /// Returns the sentence for a drawing in which nothing is enclosed: what there is, by kind and layer.
+  [[nodiscard]] std::string empty_sentence() const {
+    if (drawing_.curves.empty()) return "there are no curves in the drawing" + unread_sentence();
+    std::map<std::pair<std::uint32_t, std::string>, std::size_t> kinds;
+    for (const DrawnCurve& curve : drawing_.curves)
+      ++kinds[{curve.layer, drawing_.entities[curve.entity].type}];
+    std::string counts;
+    std::size_t named = 0;
+    for (const auto& [kind, count] : kinds) {
+      if (++named > kMostKinds) break;
+      counts += fmt::format("{}{} of {} on layer {}", named > 1 ? ", " : "", count, kind.second,
+                            excerpt(drawing_.layers[kind.first].name));
+    }
+    if (named > kMostKinds) counts += ", ...";
+    std::string sentence =
+        fmt::format("none of the {} curves closes a contour: {}", drawing_.curves.size(), counts);
+    for (const std::string& notice : result_.notices) sentence += "; " + notice;
+    if (!result_.set_aside.empty()) sentence += "; " + result_.set_aside.front().sentence;
+    return sentence + unread_sentence();
   }
 
   [[nodiscard]] std::string open_sentence(const Chain& chain, std::size_t count) const {
@@ -323,19 +786,29 @@ class Assembly {
 
   // Steps 4 and 5: gaps are closed, contours are nested and checked.
 
+  /// Draws a line across a gap that is a mend. Its points are no further than half of it from the curves.
+  void bridge(LooseContour& contour, Point to) {
+    const Point from = contour.edges.back().to;
+    const double gap = norm(to - from) * kUp;
+    if (!(gap > options_.join_tolerance * kUp) || options_.strict) return;
+    const std::uint32_t curve = contour.curves.back();
+    contour.edges.push_back({geom::EdgeKind::line, from, to, {}});
+    contour.curves.push_back(curve);
+    worked_[curve].repaired = std::max(worked_[curve].repaired, 0.5 * gap);
+    result_.gaps.push_back({0.5 * (from + to), gap, {curve, curve}});
+  }
+
   void close_contours() {
     for (const Chain& chain : chains_) {
       LooseContour contour;
       for (const Link& link : chain.links) {
         const std::vector<Edge>& edges = worked_[link.curve].edges;
-        if (link.backwards) {
-          const geom::Contour turned = geom::reversed(edges);
-          contour.edges.insert(contour.edges.end(), turned.begin(), turned.end());
-        } else {
-          contour.edges.insert(contour.edges.end(), edges.begin(), edges.end());
-        }
+        const geom::Contour turned = link.backwards ? geom::reversed(edges) : edges;
+        if (!contour.edges.empty()) bridge(contour, turned.front().from);
+        contour.edges.insert(contour.edges.end(), turned.begin(), turned.end());
         contour.curves.resize(contour.edges.size(), link.curve);
       }
+      bridge(contour, contour.edges.front().from);
       const Closing closing = close_gaps(contour);
       for (const MovedCurve& one : closing.moved)
         worked_[one.curve].moved = std::max(worked_[one.curve].moved, one.moved);
@@ -350,15 +823,70 @@ class Assembly {
   }
 
   [[nodiscard]] Result<void> nest() {
+    if (options_.strict) return nest_as_they_are();
+    // A drawing without a fault needs no more than this.
+    std::vector<geom::Contour> contours;
+    for (const LooseContour& contour : contours_) contours.push_back(contour.edges);
+    if (auto nested = geom::nest_contours(std::move(contours))) {
+      result_.regions = *std::move(nested);
+      number_edges();
+      return {};
+    }
+    std::vector<CurveOrigin> origins;
+    for (const DrawnCurve& curve : drawing_.curves)
+      origins.push_back({curve.entity, drawing_.entities[curve.entity].fill});
+    auto settled = settled_contours(contours_, origins, {options_.join_tolerance, options_.repair});
+    if (!settled) return nest_as_they_are();
+    for (const MovedCurve& one : settled->moved)
+      worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kUp);
+    add_marks(settled->marks);
+    for (AsideContour& one : settled->aside) set_aside(std::move(one));
+    result_.duplicates.insert(result_.duplicates.end(), settled->dropped.begin(), settled->dropped.end());
+    result_.regions = std::move(settled->regions);
+    result_.curve_of_edge = std::move(settled->curve_of_edge);
+    mends_ = settled->mends;
+    std::vector<char> kept(worked_.size(), 0);
+    for (const std::uint32_t curve : result_.curve_of_edge) kept[curve] = 1;
+    for (const Mark& mark : result_.marks)
+      for (const std::uint32_t curve : mark.curve_of_edge) kept[curve] = 1;
+    for (const SetAside& aside : result_.set_aside)
+      for (const std::uint32_t curve : aside.curves) kept[curve] = 1;
+    for (const std::uint32_t curve : settled->dropped) kept[curve] = 1;
+    for (std::uint32_t i = 0; i < worked_.size(); ++i)
+      if (worked_[i].taken && kept[i] == 0) result_.cut_off.push_back(i);
+    return {};
+  }
+
+  void set_aside(AsideContour&& one) {
+    SetAside aside{one.reason, one.contour.curves, std::move(one.contour.edges), 0, one.at, {}};
+    std::sort(aside.curves.begin(), aside.curves.end());
+    aside.curves.erase(std::unique(aside.curves.begin(), aside.curves.end()), aside.curves.end());
+    const std::string which = fmt::format("the contour of {} curves that begins with {}", aside.curves.size(),
+                                          name(aside.curves.front()));
+    aside.sentence =
+        one.other ? fmt::format(
+                        "{} overlaps that of {} at {} by more than {:g} mm; move them apart, take them by "
+                        "layers, or use a larger --repair",
+                        which, name(*one.other), text(one.at), options_.repair)
+                  : fmt::format(
+                        "{} crosses itself at {} in a way that mends of up to {:g} mm do not undo; use a "
+                        "larger --repair, or draw it anew there",
+                        which, text(one.at), options_.repair);
+    for (const std::uint32_t curve : aside.curves) {
+      worked_[curve].taken = false;
+      aside.tolerance = std::max(aside.tolerance, worked_[curve].total());
+    }
+    result_.set_aside.push_back(std::move(aside));
+  }
+
+  [[nodiscard]] Result<void> nest_as_they_are() {
     std::vector<geom::Contour> contours;
     for (const LooseContour& contour : contours_) {
       contours.push_back(contour.edges);
       auto made = geom::make_region(contour.edges);
       if (made) continue;
-      const std::uint32_t first = chains_[contours.size() - 1].links.front().curve;
       return refuse(fmt::format("the contour of {} curves that begins with {} is none: {}",
-                                chains_[contours.size() - 1].links.size(), name(first),
-                                made.error().message));
+                                contour.curves.size(), name(contour.curves.front()), made.error().message));
     }
     auto nested = geom::nest_contours(std::move(contours));
     if (!nested) return refuse(meeting_sentence(nested.error().message));
@@ -409,12 +937,31 @@ class Assembly {
     }
   }
 
+  /// Finds the region that each mark is on.
+  void place_marks() {
+    if (result_.marks.empty()) return;
+    std::vector<geom::Box> boxes;
+    for (const geom::Region& region : result_.regions) boxes.push_back(geom::bounds(region.outer));
+    const geom::BoxTree tree(boxes);
+    std::map<std::uint32_t, PlacedContour> placed;
+    for (Mark& mark : result_.marks) {
+      const Point p = bisected(mark.edges.front()).middle;
+      tree.visit_meeting({p, p}, [&](std::uint32_t i) {
+        auto at = placed.find(i);
+        if (at == placed.end()) at = placed.emplace(i, PlacedContour(result_.regions[i].outer)).first;
+        if (!at->second.contains(p)) return;
+        if (!mark.region || at->second.area() < placed.at(*mark.region).area()) mark.region = i;
+      });
+    }
+  }
+
   // Step 6: the account is drawn up.
 
   void account() {
     const auto count = [this](const Worked& curve) {
       result_.curve_tolerance = std::max(result_.curve_tolerance, curve.curve_error);
       result_.moved = std::max(result_.moved, curve.moved);
+      result_.repaired = std::max(result_.repaired, curve.repaired);
       result_.coordinate_error = std::max(result_.coordinate_error, curve.coordinate_error);
       result_.tolerance = std::max(result_.tolerance, curve.total());
     };
@@ -458,10 +1005,19 @@ class Assembly {
           "{} curves that are no longer than the join tolerance and belong to no contour dropped, "
           "the first {}",
           result_.specks.size(), name(result_.specks.front())));
-    if (!result_.open_chains.empty())
-      notices.push_back(fmt::format("{} chains of curves that do not close left out, the first from {} to {}",
-                                    result_.open_chains.size(), text(result_.open_chains.front().from),
-                                    text(result_.open_chains.front().to)));
+    if (mends_ > 0)
+      notices.push_back(
+          fmt::format("{} shapes that cross or touch themselves mended; that moved outlines by "
+                      "{:.3g} mm at most",
+                      mends_, result_.repaired));
+    for (std::size_t i = 0; i < result_.set_aside.size() && i < kMostKinds; ++i)
+      notices.push_back("set aside: " + result_.set_aside[i].sentence);
+    if (result_.set_aside.size() > kMostKinds)
+      notices.push_back(fmt::format("set aside: {} shapes more", result_.set_aside.size() - kMostKinds));
+    if (!result_.marks.empty())
+      notices.push_back(fmt::format("{} lines that enclose nothing are marks, the first from {} to {}",
+                                    result_.marks.size(), text(result_.marks.front().edges.front().from),
+                                    text(result_.marks.front().edges.back().to)));
     if (!drawing_.unread.empty()) notices.push_back(unread_sentence().substr(2));
   }
 
@@ -474,22 +1030,51 @@ class Assembly {
   std::vector<LyingOn> lying_;
   CurveJoins joins_;
   std::vector<Chain> chains_;
+  /// By end: the place where it meets two others and more; empty where there is none.
+  std::vector<std::uint32_t> node_of_end_;
+  std::map<std::uint32_t, Point> node_points_;
+  std::vector<BranchChain> branches_;
   std::vector<LooseContour> contours_;
+  std::size_t mends_ = 0;  ///< groups of contours that were mended
 };
 
 }  // namespace
+
+const char* word_of(AsideReason reason) noexcept {
+  switch (reason) {
+    case AsideReason::crosses_itself:
+      return "crosses itself";
+    case AsideReason::crosses_another:
+      return "crosses another";
+    case AsideReason::does_not_close:
+      return "does not close";
+    case AsideReason::lies_in_another:
+      return "lies in another";
+    case AsideReason::no_curve:
+      break;
+  }
+  return "no curve";
+}
 
 Result<DrawnRegions> make_regions(const Drawing& drawing, const DrawingOptions& options) {
   return Assembly(drawing, options).run();
 }
 
 DrawingRecord record_of(const Drawing& drawing, const DrawingOptions& how, const DrawnRegions& drawn) {
-  DrawingRecord record{how.take, how.join_tolerance, {}};
+  DrawingRecord record{how.take, how.join_tolerance, {}, {}, {}, 0};
+  for (const Mark& mark : drawn.marks) {
+    record.marks.insert(record.marks.end(), mark.edges.begin(), mark.edges.end());
+    record.loose_error = std::max(record.loose_error, mark.tolerance);
+  }
+  for (const SetAside& aside : drawn.set_aside) {
+    record.set_aside.insert(record.set_aside.end(), aside.edges.begin(), aside.edges.end());
+    record.loose_error = std::max(record.loose_error, aside.tolerance);
+  }
   for (const std::uint32_t curve : drawn.specks) {
     const Shape& shape = drawing.curves[curve].shape;
-    if (const auto* edge = std::get_if<geom::Edge>(&shape)) record.set_aside.push_back(edge->from);
-    if (const auto* arc = std::get_if<EllipseArc>(&shape)) record.set_aside.push_back(arc->from);
-    if (const auto* spline = std::get_if<Spline>(&shape)) record.set_aside.push_back(spline->poles.front());
+    if (const auto* edge = std::get_if<geom::Edge>(&shape)) record.specks.push_back(edge->from);
+    if (const auto* arc = std::get_if<EllipseArc>(&shape)) record.specks.push_back(arc->from);
+    if (const auto* spline = std::get_if<Spline>(&shape)) record.specks.push_back(spline->poles.front());
   }
   return record;
 }

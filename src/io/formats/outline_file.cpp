@@ -160,6 +160,8 @@ Result<ReadOutline> OutlineFile::read_drawing() const {
   DrawingOptions how;
   if (options_.join) how.join_tolerance = *options_.join;
   if (options_.curve) how.curve_tolerance = *options_.curve;
+  if (options_.repair) how.repair = *options_.repair;
+  how.strict = options_.strict;
   how.take = options_.layers;
   LEKALO_TRY(DrawnRegions drawn, make_regions(drawing, how));
   ReadOutline read;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/shape/region_text.hpp"
 #include "io/text/json_tree.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
@@ -293,7 +294,16 @@ void write(JsonWriter& json, const ScanRecord& scan) {
 void write(JsonWriter& json, const DrawingRecord& drawing) {
   json.begin_object().key("layers").list(drawing.layers);
   json.field("join", drawing.join).key("set_aside");
-  json.list(drawing.set_aside, [&](geom::Point p) { write(json, p); }).end();
+  json.list(drawing.specks, [&](geom::Point p) { write(json, p); });
+  // These are there only where a drawing has them, so that the documents of clean drawings stay as they were.
+  if (!drawing.marks.empty())
+    json.key("marks").list(drawing.marks, [&](const geom::Edge& edge) { detail::write_edge(json, edge); });
+  if (!drawing.set_aside.empty())
+    json.key("set_aside_curves").list(drawing.set_aside, [&](const geom::Edge& edge) {
+      detail::write_edge(json, edge);
+    });
+  if (drawing.loose_error > 0) json.field("loose_error", drawing.loose_error);
+  json.end();
 }
 
 template <class Record>

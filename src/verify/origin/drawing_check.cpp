@@ -22,7 +22,7 @@ std::string text_of(const Vec& p) { return fmt::format("({}, {})", p.x.low, p.y.
 class DrawingCheck {
  public:
   DrawingCheck(const WrittenDrawing& written, const Shape& used, double reach)
-      : written_(written), used_(used), reach_(reach), outline_(pieces_of(used)) {}
+      : written_(written), used_(used), reach_(reach), outline_(all_of(written, used, reach)) {}
 
   DrawingVerdict run(const ReadDrawing& drawing) {
     std::set<std::string> taken;
@@ -35,11 +35,40 @@ class DrawingCheck {
       if (!verdict_.fault.empty()) return verdict_;
       for (const CurvePiece& piece : curve.pieces) shown.push_back(piece), layers.push_back(curve.layer);
     }
-    check_outline(CurvePieces(std::move(shown)), layers);
+    CurvePieces all(std::move(shown));
+    check_outline(all, layers);
+    for (const std::vector<Side>* const sides : {&written_.marks, &written_.set_aside_curves})
+      if (verdict_.fault.empty()) check_loose(all, *sides);
     return verdict_;
   }
 
  private:
+  /// Everything that the result has of the drawing.
+  static CurvePieces all_of(const WrittenDrawing& written, const Shape& used, double reach) {
+    std::vector<CurvePiece> pieces = pieces_of(used);
+    const double more = std::max(0.0, written.loose_error - reach);
+    for (const std::vector<Side>* const sides : {&written.marks, &written.set_aside_curves})
+      for (const Side& side : *sides) pieces.push_back({side, 0, more});
+    return CurvePieces(std::move(pieces));
+  }
+
+  /// Marks are no invention either.
+  void check_loose(CurvePieces& shown, const std::vector<Side>& sides) {
+    const double reach = std::max(reach_, written_.loose_error);
+    for (const Side& side : sides) {
+      const auto far = shown.first_not_within({{side, 0, 0}}, reach, work_, kMostWork);
+      if (!far) continue;
+      for (const Vec& p : points_of(side))
+        if (shown.surely_away(p, reach)) {
+          verdict_.fault = fmt::format(
+              "a mark, or what was set aside, about {} runs along no curve that counts", text_of(p));
+          return;
+        }
+      leave_open(fmt::format("a mark, or what was set aside, about {} is not shown to run along a curve",
+                             text_of(*far)));
+    }
+  }
+
   void leave_open(std::string sentence) {
     if (verdict_.open.empty()) verdict_.open = std::move(sentence);
   }
@@ -51,7 +80,7 @@ class DrawingCheck {
       for (const Vec& p : points_of(piece.side))
         if (outline_.surely_away(p, reach_ + piece.off)) {
           verdict_.fault =
-              fmt::format("a curve of layer {} about {} is neither of its outlines nor set aside",
+              fmt::format("a curve of layer {} about {} is neither of its outlines nor a mark nor set aside",
                           excerpt(curve.layer), text_of(p));
           return;
         }
@@ -67,10 +96,10 @@ class DrawingCheck {
     });
   }
 
-  void check_outline(CurvePieces shown, const std::vector<std::string>& layers) {
+  void check_outline(CurvePieces& shown, const std::vector<std::string>& layers) {
     for (const Side& side : used_.sides) {
       if (side.written || verdict_.layers.empty()) verdict_.layers.emplace_back();
-      const auto far = shown.first_not_within({{side, 0}}, reach_, work_, kMostWork);
+      const auto far = shown.first_not_within({{side, 0, 0}}, reach_, work_, kMostWork);
       shown.each_near(points_of(side).back(), reach_,
                       [&](std::size_t k) { verdict_.layers.back().insert(layers[k]); });
       if (!far) continue;
@@ -111,6 +140,13 @@ WrittenDrawing read_written_drawing(Json value, const std::string& path, std::st
     if (numbers.size() != 2) return fields.complain(at + " is not two numbers");
     written.set_aside.push_back({numbers[0], numbers[1]});
   });
+  const auto loose = [&](const char* key) {
+    const Json edges = fields.get(key);
+    return edges.text.empty() ? std::vector<Side>() : read_loose_edges(edges, path + "." + key, complaint);
+  };
+  written.marks = loose("marks"), written.set_aside_curves = loose("set_aside_curves");
+  if (!fields.get("loose_error").text.empty())
+    written.loose_error = enclosed(fields.number("loose_error")).high;
   return written;
 }
 

@@ -12,7 +12,8 @@ std::vector<Box> boxes_of(const std::vector<CurvePiece>& pieces) {
   std::vector<Box> boxes;
   for (const CurvePiece& piece : pieces) {
     const Box box = box_of(piece.side);
-    const Span off{-piece.off, piece.off};
+    const double by = piece.off + piece.more;
+    const Span off{-by, by};
     boxes.push_back({(just(box.low_x) + off).low, (just(box.low_y) + off).low, (just(box.high_x) + off).high,
                      (just(box.high_y) + off).high});
   }
@@ -22,7 +23,7 @@ std::vector<Box> boxes_of(const std::vector<CurvePiece>& pieces) {
 /// Arcs are cut into parts of less than half a turn, whose corners are known.
 void add_short(const CurvePiece& piece, std::vector<CurvePiece>& to) {
   if (!piece.side.arc || piece.side.sweep == Sweep::less) return to.push_back(piece);
-  for (const Side& half : halves(piece.side)) add_short({half, piece.off}, to);
+  for (const Side& half : halves(piece.side)) add_short({half, piece.off, piece.more}, to);
 }
 
 }  // namespace
@@ -54,11 +55,11 @@ std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& 
         ++work;
         const CurvePiece& other = pieces_[k];
         const Span off = just(farthest(piece, corners, other.side)) + just(top.piece.off) + just(other.off);
-        within = off.high <= reach;
+        within = off.high <= reach + other.more;
       });
       if (within) continue;
       if (top.depth == kDeepest || work > most_work) return piece.from;
-      for (const Side& half : halves(piece)) open.push_back({{half, top.piece.off}, top.depth + 1});
+      for (const Side& half : halves(piece)) open.push_back({{half, top.piece.off, 0}, top.depth + 1});
     }
   }
   return std::nullopt;
@@ -66,7 +67,7 @@ std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& 
 
 std::vector<CurvePiece> pieces_of(const Shape& shape) {
   std::vector<CurvePiece> pieces;
-  for (const Side& side : shape.sides) pieces.push_back({side, 0});
+  for (const Side& side : shape.sides) pieces.push_back({side, 0, 0});
   return pieces;
 }
 

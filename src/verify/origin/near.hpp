@@ -11,6 +11,8 @@ namespace lekalo::verify {
 struct CurvePiece {
   Side side;
   double off = 0;
+  /// Others may be farther from it than from the rest by this.
+  double more = 0;
 };
 
 /// Curves, with a tree over their boxes.
@@ -27,7 +29,7 @@ class CurvePieces {
   template <class F>
   void each_near(const Vec& p, double reach, F f) {
     index_.visit_near(box_of(p), reach, [&](std::size_t k) {
-      if (distance(p, pieces_[k].side).low <= reach + pieces_[k].off) f(k);
+      if (distance(p, pieces_[k].side).low <= reach + pieces_[k].off + pieces_[k].more) f(k);
     });
   }
   /// Says whether p surely lies farther than `reach` from all pieces.

@@ -59,6 +59,11 @@ class ShapeReader {
     return std::move(shape_);
   }
 
+  std::vector<Side> read_loose(Json value) {
+    read_edges(value, path_, true);
+    return std::move(shape_.sides);
+  }
+
  private:
   void read_piece(Fields& piece, const std::string& path) {
     read_contour(piece.get("outer"), path + ".outer");
@@ -88,7 +93,10 @@ class ShapeReader {
     return {numbers[0], numbers[1]};
   }
 
-  void read_contour(Json value, const std::string& path) {
+  void read_contour(Json value, const std::string& path) { read_edges(value, path, false); }
+
+  /// Reads the edges of a contour, or loose ones.
+  void read_edges(Json value, const std::string& path, bool loose) {
     if (!value.is_array()) return complain(path + " is not a list of edges");
     const std::size_t edges = count_items(value);
     JsonItems items(value);
@@ -100,12 +108,13 @@ class ShapeReader {
       if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
       Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
       WrittenPoint from = point(inner, "from"), to = point(inner, "to");
+      if (loose) at = begin = std::nullopt;
       if (at && !same_as_doubles(*at, from))
         return complain(name + " does not begin where the edge before it ends");
       // Decimals of one double may differ; what counts is closed exactly.
       if (at) from = *at;
       if (!begin) begin = from;
-      if (i + 1 == edges && same_as_doubles(to, *begin)) to = *begin;
+      if (!loose && i + 1 == edges && same_as_doubles(to, *begin)) to = *begin;
       at = to;
       const Json open = edge.get("open");
       if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");
@@ -121,6 +130,7 @@ class ShapeReader {
       }
       shape_.exact.resize(shape_.sides.size(), exact);
     }
+    if (loose) return;
     if (!begin || !(*begin == *at)) return complain(path + " is not closed");
     shape_.contour_starts.push_back(shape_.sides.size());
   }
@@ -219,6 +229,10 @@ void bound(Shape& shape) {
 
 Shape read_shape(Json value, const std::string& path, std::string& complaint, bool inch) {
   return ShapeReader(path, complaint, inch).read(value);
+}
+
+std::vector<Side> read_loose_edges(Json value, const std::string& path, std::string& complaint) {
+  return ShapeReader(path, complaint, false).read_loose(value);
 }
 
 Shape outline_through(const std::vector<Decimal>& x, const std::vector<Decimal>& y) {

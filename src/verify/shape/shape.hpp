@@ -75,6 +75,9 @@ struct Shape {
   std::shared_ptr<const SideTree> tree = {};
 };
 
+/// Reads a list of edges in mm that need not hang together; what is wrong goes to `complaint`.
+[[nodiscard]] std::vector<Side> read_loose_edges(Json value, const std::string& path, std::string& complaint);
+
 /// Reads `{"units": "mm" / "inch", "outer": [edges], "holes": [[edges], ...]}` or `{"units", "pieces":
 /// [{"outer", "holes"}, ...]}`; without units they are mm, or inches if that is what `inch` says. Contours
 /// must be closed: each edge begins where the one before ends, at the decimals of the same double, and

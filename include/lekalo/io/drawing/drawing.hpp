@@ -10,6 +10,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
+#include "lekalo/geom/curve_faces.hpp"
 #include "lekalo/geom/region.hpp"
 
 namespace lekalo::io {
@@ -64,6 +65,8 @@ struct DrawnEntity {
   /// The DXF handle or SVG id, "" if there is none.
   std::string handle;
   std::size_t line = 0;  ///< of the file, 1-based
+  /// The rule by which the file fills the entity, even-odd where it is not filled.
+  geom::FillRule fill = geom::FillRule::even_odd;
 };
 
 struct Layer {

@@ -26,8 +26,9 @@ struct ScanReading {
 struct OutlineOptions {
   /// The unit of a file that does not say its own; millimetres if neither does.
   std::optional<LengthUnit> units;
-  /// The tolerances of drawings, mm; see DrawingOptions.
-  std::optional<double> join, curve;
+  /// The tolerances of drawings, mm, and whether they are refused rather than mended; see DrawingOptions.
+  std::optional<double> join, curve, repair;
+  bool strict = false;
   /// The layers of drawings that count; empty for all that are shown.
   std::vector<std::string> layers;
   /// Set when the file holds measured points.

@@ -1,0 +1,255 @@
+#include "contour_mending.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "lekalo/base/stop.hpp"
+#include "lekalo/geom/region_check.hpp"
+#include "near_edges.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using geom::Contour;
+using geom::Edge;
+using geom::EdgeKind;
+using geom::Point;
+
+struct PointOrder {
+  bool operator()(const Point& a, const Point& b) const { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
+};
+
+Point direction_at(const Edge& edge, Point at) {
+  Point along = edge.to - edge.from;
+  if (edge.kind != EdgeKind::line) {
+    along = perpendicular(at - edge.centre);
+    if (edge.kind == EdgeKind::arc_cw) along = -along;
+  }
+  return (1 / norm(along)) * along;
+}
+
+/// The right-hand side of the way through a corner, where the material is not.
+Point right_of(const Edge& in, const Edge& out) {
+  const Point arriving = direction_at(in, in.to), leaving = direction_at(out, out.from);
+  const Point sum = arriving + leaving;
+  // A way that turns back has its right-hand side ahead.
+  if (!(norm(sum) > 1e-3)) return arriving;
+  return (-1 / norm(sum)) * perpendicular(sum);
+}
+
+class Mender {
+ public:
+  Mender(const std::vector<LooseContour>& contours, geom::FillRule rule, const MendLimits& limits,
+         const std::vector<LooseContour>& less)
+      : given_(contours), less_(less), rule_(rule), speck_(limits.speck), repair_(limits.repair) {}
+
+  std::optional<Mended> run() {
+    std::vector<Contour> contours, less;
+    for (const auto& [from, to] : {std::pair(&given_, &contours), std::pair(&less_, &less)})
+      for (const LooseContour& one : *from) {
+        to->push_back(one.edges);
+        curves_.insert(curves_.end(), one.curves.begin(), one.curves.end());
+      }
+    auto cut = geom::contours_around(contours, rule_, less);
+    if (!cut || !(cut->corner_error <= repair_)) return std::nullopt;
+    cut_ = *std::move(cut);
+    if (cut_.contours.empty()) {
+      for (const geom::CutEdge& one : cut_.left) made_.marks.push_back({one.edge, curves_[one.origin]});
+      return std::move(made_);
+    }
+    // Necks may close something near them, and then loops are cut off instead.
+    for (const bool necks : {true, false})
+      if (auto made = attempt(necks)) return made;
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] std::optional<Mended> attempt(bool necks) {
+    made_ = {};
+    left_.clear(), cut_off_.clear();
+    for (const geom::CutEdge& one : cut_.left) left_.push_back({one.edge, curves_[one.origin]});
+    sort_loops(necks);
+    for (std::size_t i = 0; i < cut_.contours.size(); ++i) {
+      if (kind_[i] == Kind::stays) {
+        if (!add(i)) return std::nullopt;
+      } else if (kind_[i] == Kind::dropped) {
+        const geom::CutContour& loop = cut_.contours[i];
+        for (std::size_t k = 0; k < loop.contour.size(); ++k)
+          cut_off_.push_back({loop.contour[k], curves_[loop.origins[k]]});
+      }
+    }
+    if (made_.contours.empty() || !retreat_holes()) return std::nullopt;
+    for (const LooseContour& one : made_.contours) {
+      ask(one.edges.size());
+      const bool hole = !(geom::signed_area(one.edges) > 0);
+      const auto region = geom::make_region(hole ? geom::reversed(one.edges) : one.edges);
+      if (!region || geom::fault_of({*region})) return std::nullopt;
+    }
+    return settle() ? std::optional(std::move(made_)) : std::nullopt;
+  }
+
+  enum class Kind { stays, joined, dropped };
+
+  /// Says which loops stay, which are joined to another at a corner, and which are dropped.
+  void sort_loops(bool necks) {
+    const std::vector<geom::CutContour>& loops = cut_.contours;
+    kind_.assign(loops.size(), Kind::stays);
+    hung_.clear();
+    std::vector<char> small(loops.size(), 0);
+    std::size_t largest = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const geom::Box box = geom::bounds(loops[i].contour);
+      const double size = norm(box.high - box.low);
+      small[i] = size <= 2 * repair_;
+      if (size > most) most = size, largest = i;
+    }
+    small[largest] = 0;
+    std::map<Point, std::size_t, PointOrder> place;
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      if (small[i] == 0)
+        for (const Edge& edge : loops[i].contour) place.emplace(edge.from, i);
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (small[i] == 0) continue;
+      const Contour& loop = loops[i].contour;
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Point corner = loop[k].from;
+        const auto at = place.find(corner);
+        if (at == place.end() || !lies_within(loop, corner, repair_)) continue;
+        // A loop outside is joined through the material, one inside through what it leaves out.
+        const bool inside = !(geom::signed_area(loop) > 0);
+        const bool joinable = geom::signed_area(loops[at->second].contour) > 0;
+        if (necks && joinable && loop.size() > 1 && !lies_within(loop, corner, speck_) &&
+            hung_.emplace(corner, Hung{i, k, inside}).second)
+          kind_[i] = Kind::joined;
+        else
+          kind_[i] = Kind::dropped;
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] static bool lies_within(const Contour& loop, Point of, double reach) {
+    return std::all_of(loop.begin(), loop.end(), [&](const Edge& edge) {
+      const Bisected halves = bisected(edge);
+      return norm(edge.from - of) <= reach && norm(halves.middle - of) <= reach;
+    });
+  }
+
+  /// Adds a loop that stays, with the loops that hang on its corners.
+  [[nodiscard]] bool add(std::size_t i) {
+    const geom::CutContour& loop = cut_.contours[i];
+    LooseContour made;
+    struct Joint {
+      std::size_t after;  ///< an edge
+      double aside;       ///< how far to the right its end is pulled
+    };
+    std::vector<Joint> joints;
+    const auto append = [&](const geom::CutContour& from, std::size_t k) {
+      made.edges.push_back(from.contour[k]);
+      made.curves.push_back(curves_[from.origins[k]]);
+    };
+    for (std::size_t k = 0; k < loop.contour.size(); ++k) {
+      append(loop, k);
+      const auto hung = hung_.find(loop.contour[k].to);
+      if (hung == hung_.end() || !(geom::signed_area(loop.contour) > 0)) continue;
+      const double aside = hung->second.inside ? -kNeck : kNeck;
+      joints.push_back({made.edges.size() - 1, aside});
+      const geom::CutContour& other = cut_.contours[hung->second.loop];
+      for (std::size_t n = 0; n < other.contour.size(); ++n)
+        append(other, (hung->second.from + n) % other.contour.size());
+      joints.push_back({made.edges.size() - 1, aside});
+      hung_.erase(hung);
+    }
+    for (const Joint& joint : joints)
+      if (!pull(made, joint.after, joint.aside)) return false;
+    made_.contours.push_back(std::move(made));
+    return true;
+  }
+
+  /// Moves the corner after an edge to the right of the way.
+  [[nodiscard]] bool pull(LooseContour& contour, std::size_t joint, double aside) {
+    const std::size_t next = joint + 1 == contour.edges.size() ? 0 : joint + 1;
+    if (joint == next) return false;
+    Edge &in = contour.edges[joint], &out = contour.edges[next];
+    const Point to = in.to + aside * right_of(in, out);
+    const auto one = move_end(in, true, to), other = move_end(out, false, to);
+    if (!one || !other || !(std::max(*one, *other) <= repair_)) return false;
+    made_.moved.push_back({contour.curves[joint], *one});
+    made_.moved.push_back({contour.curves[next], *other});
+    return true;
+  }
+
+  /// Pulls the corners of holes that lie on other contours.
+  [[nodiscard]] bool retreat_holes() {
+    std::vector<geom::Region> alone;
+    std::vector<std::pair<std::size_t, std::size_t>> place;  // contour and edge, by number
+    for (std::size_t c = 0; c < made_.contours.size(); ++c) {
+      alone.push_back({made_.contours[c].edges, {}});
+      for (std::size_t k = 0; k < made_.contours[c].edges.size(); ++k) place.emplace_back(c, k);
+    }
+    const auto meetings = geom::all_meetings(alone);
+    if (!meetings) return false;
+    std::set<std::pair<std::size_t, std::size_t>> joints;
+    for (const geom::MeetingEdges& one : *meetings)
+      for (const auto& [c, k] : {place[one.a], place[one.b]}) {
+        const std::vector<Edge>& edges = made_.contours[c].edges;
+        if (place[one.a].first == place[one.b].first || geom::signed_area(edges) > 0) continue;
+        if (norm(edges[k].to - one.at) <= kNeck / 8) joints.emplace(c, k);
+        if (norm(edges[k].from - one.at) <= kNeck / 8) joints.emplace(c, (k == 0 ? edges.size() : k) - 1);
+      }
+    return std::all_of(joints.begin(), joints.end(), [this](const auto& joint) {
+      return pull(made_.contours[joint.first], joint.second, kNeck);
+    });
+  }
+
+  /// Measures how far what was left is from what stays: that is loss, or the stretch is a mark.
+  [[nodiscard]] bool settle() {
+    std::vector<Edge> kept;
+    for (const LooseContour& one : made_.contours)
+      kept.insert(kept.end(), one.edges.begin(), one.edges.end());
+    const NearEdges outline(kept);
+    const auto measure = [&](const LooseEdge& one, double limit) {
+      ask();
+      if (const auto far = outline.farthest(one.edge, limit))
+        made_.moved.push_back({one.curve, *far});
+      else
+        made_.marks.push_back(one);
+    };
+    for (const LooseEdge& one : left_) measure(one, std::min(speck_, repair_));
+    for (const LooseEdge& one : cut_off_) measure(one, repair_);
+    // Corners where edges cross may be off by this, and edges as a whole by no more.
+    for (const std::uint32_t curve : curves_) made_.moved.push_back({curve, cut_.corner_error});
+    return true;
+  }
+
+  struct Hung {
+    std::size_t loop = 0, from = 0;  ///< the edge of the loop that begins in the corner
+    bool inside = false;             ///< a hole
+  };
+
+  const std::vector<LooseContour>& given_;
+  const std::vector<LooseContour>& less_;
+  geom::FillRule rule_;
+  double speck_, repair_;
+  std::vector<std::uint32_t> curves_;  ///< by given edge
+  geom::CutFaces cut_;
+  std::vector<Kind> kind_;
+  std::map<Point, Hung, PointOrder> hung_;
+  std::vector<LooseEdge> left_;     ///< stretches that bound nothing
+  std::vector<LooseEdge> cut_off_;  ///< of loops
+  Mended made_;
+};
+
+}  // namespace
+
+std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
+                             const MendLimits& limits, const std::vector<LooseContour>& less) {
+  return Mender(contours, rule, limits, less).run();
+}
+
+}  // namespace lekalo::io

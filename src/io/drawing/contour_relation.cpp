@@ -1,0 +1,68 @@
+#include "contour_relation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/stop.hpp"
+#include "near_edges.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using geom::Contour;
+using geom::Edge;
+using geom::EdgeKind;
+
+/// Parts of a contour are halved until they are this share of the reach long.
+constexpr double kFinest = 1.0 / 64;
+/// The reach is no less than this, mm, or halving would not end.
+constexpr double kLeastReach = 1e-6;
+
+Contour anticlockwise(const Contour& contour) {
+  return geom::signed_area(contour) > 0 ? contour : geom::reversed(contour);
+}
+
+}  // namespace
+
+PlacedContour::PlacedContour(const Contour& contour)
+    : contour_(anticlockwise(contour)),
+      index_({geom::Region{contour_, {}}}),
+      box_(geom::bounds(contour_)),
+      area_(geom::signed_area(contour_)) {}
+
+PlacedContour::Sides PlacedContour::sides_of(const PlacedContour& other, double reach) const {
+  Sides sides;
+  std::vector<Edge> open(contour_.begin(), contour_.end());
+  while (!open.empty() && !(sides.outside && sides.inside)) {
+    ask();
+    const Edge part = open.back();
+    open.pop_back();
+    const Bisected halves = bisected(part);
+    const auto near = other.index_.nearest(halves.middle);
+    if (near.distance > reach) (other.contains(halves.middle) ? sides.inside : sides.outside) = true;
+    // Nothing of the part is on the other side, or nothing of it is beyond reach.
+    if (near.distance - halves.half_length > reach || near.distance + halves.half_length <= reach) continue;
+    if (part.kind == EdgeKind::line) {
+      const geom::Curve& along = other.index_.curves()[near.edge];
+      if (along.edge.kind == EdgeKind::line && norm(nearest_on(along, part.from) - part.from) <= reach &&
+          norm(nearest_on(along, part.to) - part.to) <= reach)
+        continue;
+    }
+    if (halves.half_length <= kFinest * reach) continue;
+    open.push_back(halves.first);
+    open.push_back(halves.second);
+  }
+  return sides;
+}
+
+Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair) {
+  const double reach = std::max(repair, kLeastReach);
+  const auto of_a = a.sides_of(b, reach), of_b = b.sides_of(a, reach);
+  const bool a_within = !of_a.outside && !of_b.inside, b_within = !of_b.outside && !of_a.inside;
+  if (a_within && b_within) return Relation::same;
+  if (a_within) return Relation::first_in;
+  if (b_within) return Relation::second_in;
+  return of_a.inside || of_b.inside ? Relation::crossing : Relation::beside;
+}
+
+}  // namespace lekalo::io

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/edge_distance.hpp"
+
+namespace lekalo::io {
+
+/// Edges with a tree over their boxes, to ask how far others are from them.
+class NearEdges {
+ public:
+  explicit NearEdges(const std::vector<geom::Edge>& edges);
+
+  /// Returns a bound, within `limit` / 1024 of the least, on how far the points of an edge are from these
+  /// edges; nothing if some point is farther than `limit`, or may be. Cost: O((length / limit) log n).
+  [[nodiscard]] std::optional<double> farthest(const geom::Edge& edge, double limit) const;
+  /// Returns the distance of a point from these edges; nothing if that is more than `limit`.
+  [[nodiscard]] std::optional<double> distance(geom::Point p, double limit) const;
+
+ private:
+  std::vector<geom::Curve> curves_;
+  geom::BoxTree tree_;
+};
+
+/// The two halves of an edge; a full circle is cut at its first point and opposite to it.
+struct Bisected {
+  geom::Edge first, second;
+  geom::Point middle;
+  double half_length = 0;  ///< no less than that of each half
+};
+[[nodiscard]] Bisected bisected(const geom::Edge& edge);
+
+}  // namespace lekalo::io

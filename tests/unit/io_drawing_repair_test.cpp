@@ -1,0 +1,277 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "lekalo/geom/region_check.hpp"
+#include "lekalo/io/drawing/drawing_regions.hpp"
+#include "support/drawn.hpp"
+
+// What make_regions does with drawings that have faults: mends, marks, and what it sets aside.
+
+namespace lekalo::io {
+namespace {
+
+using cases::Sketch;
+using geom::Point;
+
+DrawnRegions made(const Sketch& sketch, const DrawingOptions& options = {}) {
+  auto result = make_regions(sketch.drawing(), options);
+  EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
+  if (!result) return {};
+  for (const geom::Region& region : result->regions) EXPECT_FALSE(geom::fault_of({region}));
+  EXPECT_EQ(result->curve_of_edge.size(), geom::edges_in(result->regions));
+  EXPECT_LE(result->repaired, options.repair);
+  return *std::move(result);
+}
+
+bool refused_when_strict(const Sketch& sketch) {
+  DrawingOptions options;
+  options.strict = true;
+  return !make_regions(sketch.drawing(), options);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Shape loop_at(Point p, Point a, Point b) {
+  return Spline{3, {0, 0, 0, 0, 1, 1, 1, 1}, {p, p + a, p + b, p}, {}};
+}
+
+const std::vector<Point> kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+
+TEST(DrawingRepair, ALoopInACornerHangsOnItByANeck) {
+  // As a box maker draws the inner corner of a hole: C 21.1 310.5 21.2 310.6 21.2 310.6.
+  Sketch sketch;
+  sketch.polyline(kSquare).add(loop_at({10, 10}, {0.1, 0}, {0, 0.1}), "path");
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_TRUE(found.regions[0].holes.empty());
+  EXPECT_GT(found.regions[0].outer.size(), 5u);
+  EXPECT_GT(geom::area(found.regions[0]), 100.001);
+  EXPECT_TRUE(found.set_aside.empty());
+  EXPECT_TRUE(found.cut_off.empty());
+  // The neck is all that moved.
+  EXPECT_GE(found.repaired, 1e-4);
+  EXPECT_LE(found.tolerance, 0.0015);
+}
+
+TEST(DrawingRepair, ALoopAtACrossingHangsOnANeckAndASpeckIsCutOff) {
+  const auto overshot = [](double by) {
+    Sketch sketch;
+    sketch.polyline({{0, 0}, {10 + by, 0}, {10 + by, -by}, {10, -by}, {10, 10}, {0, 10}});
+    EXPECT_TRUE(refused_when_strict(sketch));
+    return sketch;
+  };
+  const auto loop = made(overshot(0.1));
+  ASSERT_EQ(loop.regions.size(), 1u);
+  EXPECT_NEAR(geom::area(loop.regions[0]), 100.01, 2e-3);
+  EXPECT_LE(loop.tolerance, 2e-4);
+  EXPECT_TRUE(loop.cut_off.empty());
+  // As small as what is joined anyway: the reach of the loop is the loss.
+  const auto speck = made(overshot(0.006));
+  ASSERT_EQ(speck.regions.size(), 1u);
+  EXPECT_EQ(speck.regions[0].outer.size(), 4u);
+  EXPECT_GE(speck.tolerance, 0.006 * 1.41421);
+  EXPECT_LE(speck.tolerance, 0.006 * 1.41422 + 0.0003);
+  EXPECT_EQ(speck.cut_off, (std::vector<std::uint32_t>{1, 2}));
+  // More than is mended is a shape of its own.
+  const auto large = made(overshot(0.5));
+  EXPECT_EQ(large.regions.size(), 2u);
+  EXPECT_LE(large.tolerance, 1e-6);
+}
+
+TEST(DrawingRepair, AFigureOfEightIsTwoParts) {
+  Sketch bow;
+  bow.polyline({{0, 0}, {10, 10}, {10, 0}, {0, 10}});
+  EXPECT_TRUE(refused_when_strict(bow));
+  const auto found = made(bow);
+  ASSERT_EQ(found.regions.size(), 2u);
+  EXPECT_NEAR(geom::area(found.regions), 50, 1e-6);
+  EXPECT_LE(found.tolerance, 1e-6);
+}
+
+TEST(DrawingRepair, PartsThatShareAnEdgeAreTwo) {
+  // Two squares of which the second is drawn with three lines: three ends meet in two places.
+  Sketch sketch;
+  sketch.polyline(kSquare).polyline({{10, 10}, {20, 10}, {20, 0}, {10, 0}}, false);
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 2u);
+  EXPECT_NEAR(geom::area(found.regions[0]), 100, 1e-9);
+  EXPECT_NEAR(geom::area(found.regions[1]), 100, 1e-9);
+  EXPECT_TRUE(found.marks.empty());
+  // Drawn whole, too.
+  Sketch whole;
+  whole.polyline(kSquare).polyline({{10, 10}, {20, 10}, {20, 0}, {10, 0.001}});
+  EXPECT_EQ(made(whole).regions.size(), 2u);
+}
+
+TEST(DrawingRepair, PartsThatTouchInACornerAreTwo) {
+  Sketch sketch;
+  sketch.polyline(kSquare).polyline({{10, 10}, {20, 10}, {20, 20}, {10, 20}});
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  EXPECT_EQ(found.regions.size(), 2u);
+  EXPECT_LE(found.tolerance, 1e-9);
+}
+
+TEST(DrawingRepair, AHoleThatTouchesTheOutlineKeepsAWall) {
+  Sketch sketch;
+  sketch.polyline(kSquare).polyline({{5, 0}, {7, 3}, {3, 3}});
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  ASSERT_EQ(found.regions[0].holes.size(), 1u);
+  EXPECT_NEAR(geom::area(found.regions[0]), 94, 1e-3);
+  EXPECT_LE(found.tolerance, 3e-4);
+}
+
+TEST(DrawingRepair, ALineThatHangsOnAnOutlineIsAMarkOnIt) {
+  Sketch sketch;
+  sketch.polyline(kSquare).layer("BEND").line({0, 0}, {10, 10});
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  ASSERT_EQ(found.marks.size(), 1u);
+  EXPECT_EQ(found.marks[0].curve_of_edge, (std::vector<std::uint32_t>{4}));
+  EXPECT_EQ(found.marks[0].region, 0u);
+  EXPECT_TRUE(has(found.notices.back(), "1 lines that enclose nothing are marks"));
+}
+
+TEST(DrawingRepair, FacesOfOneLayerAreParts) {
+  Sketch sketch;
+  sketch.polyline(kSquare).line({0, 0}, {10, 10});
+  const auto found = made(sketch);
+  EXPECT_EQ(found.regions.size(), 2u);
+  EXPECT_TRUE(found.marks.empty());
+}
+
+TEST(DrawingRepair, ContoursThatOverlapAreSetAsideAndTheRestIsTaken) {
+  Sketch sketch;
+  sketch.polyline(kSquare).layer("B").circle({9, 5}, 5).circle({9, 5}, 1).layer("0").circle({50, 5}, 2);
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  // The hole of what is set aside is no part.
+  ASSERT_EQ(found.set_aside.size(), 3u);
+  EXPECT_EQ(found.set_aside[0].reason, AsideReason::crosses_another);
+  EXPECT_EQ(found.set_aside[0].curves, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(found.set_aside[1].curves, (std::vector<std::uint32_t>{4}));
+  EXPECT_TRUE(has(found.set_aside[1].sentence, "the CIRCLE at line 50, layer 'B'"))
+      << found.set_aside[1].sentence;
+  EXPECT_TRUE(has(found.set_aside[1].sentence, "--repair"));
+  EXPECT_EQ(found.set_aside[2].reason, AsideReason::lies_in_another);
+  EXPECT_STREQ(word_of(found.set_aside[2].reason), "lies in another");
+}
+
+TEST(DrawingRepair, AHoleAcrossTheEdgeIsANotch) {
+  Sketch sketch;
+  sketch.polyline(kSquare).circle({9.5, 5}, 2);
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  EXPECT_TRUE(found.set_aside.empty());
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_TRUE(found.regions[0].holes.empty());
+  EXPECT_LT(geom::area(found.regions[0]), 93);
+  // What bounds no part is kept: the arc outside and the edge across the notch.
+  EXPECT_GE(found.marks.size(), 2u);
+  EXPECT_LE(found.tolerance, 1e-6);
+}
+
+TEST(DrawingRepair, HolesThatCrossAreOneHole) {
+  Sketch sketch;
+  sketch.polyline({{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}).circle({0, 0}, 3).circle({4, 0}, 3);
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  EXPECT_TRUE(found.set_aside.empty());
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_EQ(found.regions[0].holes.size(), 1u);
+}
+
+TEST(DrawingRepair, AGapBelowTheSizeOfRepairsIsBridgedAndAWiderOneNamesTheOption) {
+  Sketch sketch;
+  sketch.line({0, 0}, {10, 0}).line({10, 0}, {10, 10}).line({10, 10}, {0, 0.15});
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_EQ(found.gaps.size(), 1u);
+  EXPECT_NEAR(found.repaired, 0.075, 1e-9);
+  Sketch wide;
+  wide.line({0, 0}, {10, 0})
+      .line({10, 0}, {10, 10})
+      .line({10, 10}, {0, 0.5})
+      .circle({5, 3}, 0.5)
+      .circle({50, 0}, 1);
+  const auto left = made(wide);
+  // The hole in what does not close is no part either.
+  EXPECT_EQ(left.regions.size(), 1u);
+  ASSERT_EQ(left.set_aside.size(), 2u);
+  EXPECT_EQ(left.set_aside[0].reason, AsideReason::does_not_close);
+  EXPECT_TRUE(has(left.set_aside[0].sentence, "--join 0.505")) << left.set_aside[0].sentence;
+}
+
+TEST(DrawingRepair, WhatOneElementDrawsAcrossItselfFollowsItsRule) {
+  for (const geom::FillRule rule : {geom::FillRule::even_odd, geom::FillRule::nonzero}) {
+    Sketch sketch;
+    sketch.polyline(kSquare).polyline({{5, 5}, {15, 5}, {15, 15}, {5, 15}});
+    for (io::DrawnCurve& curve : sketch.drawing().curves) curve.entity = 0;
+    sketch.drawing().entities[0].fill = rule;
+    const auto found = made(sketch);
+    EXPECT_TRUE(found.set_aside.empty());
+    EXPECT_NEAR(geom::area(found.regions), rule == geom::FillRule::nonzero ? 175 : 150, 1e-6);
+  }
+}
+
+TEST(DrawingRepair, ACopyThatIsALittleOffIsDropped) {
+  Sketch sketch;
+  sketch.circle({0, 0}, 10).circle({0.05, 0}, 10);
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  EXPECT_EQ(found.regions.size(), 1u);
+  EXPECT_NEAR(found.tolerance, 0.05, 0.004);
+  EXPECT_GE(found.tolerance, 0.05);
+  EXPECT_EQ(found.duplicates.size(), 1u);
+}
+
+TEST(DrawingRepair, NumbersThatMakeNoCurveAreSetAside) {
+  Sketch sketch;
+  sketch.circle({0, 0}, 1).add(Spline{16, {}, {}, {}}, "SPLINE");
+  const auto found = made(sketch);
+  EXPECT_EQ(found.regions.size(), 1u);
+  ASSERT_EQ(found.set_aside.size(), 1u);
+  EXPECT_EQ(found.set_aside[0].reason, AsideReason::no_curve);
+}
+
+TEST(DrawingRepair, ManyEndsInOnePlaceSetNothingElseAside) {
+  Sketch sketch;
+  sketch.polyline(kSquare);
+  for (int i = 0; i < 100; ++i) sketch.layer("FAN").line({50, 50}, {60, 50 + 3.0 * i});
+  const auto found = made(sketch);
+  EXPECT_EQ(found.regions.size(), 1u);
+  EXPECT_EQ(found.marks.size(), 100u);
+}
+
+TEST(DrawingRepair, ADrawingThatEnclosesNothingIsRefusedWithCounts) {
+  Sketch sketch;
+  sketch.line({0, 0}, {10, 0}).line({0, 5}, {10, 5}).layer("B").arc({0, 0}, {0, 5}, {0, 2.5});
+  sketch.drawing().unread = {{"TEXT", 3, 99}};
+  const auto result = make_regions(sketch.drawing());
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::bad_input);
+  EXPECT_EQ(result.error().message,
+            "sketch.dxf: none of the 3 curves closes a contour: 2 of LINE on layer '0', 1 of ARC on layer "
+            "'B'; not read: 3 TEXT");
+}
+
+TEST(DrawingRepair, TheSizeOfRepairsIsANumberFromZeroOn) {
+  Sketch sketch;
+  sketch.circle({0, 0}, 1);
+  DrawingOptions options;
+  options.repair = -1;
+  EXPECT_EQ(make_regions(sketch.drawing(), options).error().code, ErrorCode::usage);
+  options.repair = 0;
+  EXPECT_TRUE(make_regions(sketch.drawing(), options));
+}
+
+}  // namespace
+}  // namespace lekalo::io
