@@ -136,6 +136,10 @@ std::vector<Bad> unreadable() {
       // DXF
       {"not DXF", "a.dxf", "0,0\n1,0\n", {"line 1", "'0,0' is not a DXF group code"}},
       {"binary DXF", "a.dxf", "AutoCAD Binary DXF\r\n\x1a\0"s, {"binary DXF", "save it as ASCII"}},
+      {"PDF", "a.dxf", "%PDF-1.7\n"s, {"PDF", "save it as SVG or DXF"}},
+      {"gzip", "a.dxf", "\x1f\x8b\x08"s, {"gzip", "unpack it first"}},
+      {"STEP", "a.dxf", "ISO-10303-21;\nHEADER;"s, {"STEP", "as DXF"}},
+      {"an image", "a.dxf", "\x89PNG\r\n\x1a\n"s, {"PNG", "trace it"}},
       {"DWG", "a.dxf", "AC1015\0\0\0"s, {"DWG", "save it as ASCII DXF"}},
       {"cut off in a pair", "a.dxf", "0\nSECTION\n2\n", {"line 3", "ends after a group code"}},
       {"cut off in ENTITIES", "a.dxf", "0\nSECTION\n2\nENTITIES\n" + square(), {"line 2", "not complete"}},

@@ -14,14 +14,18 @@ constexpr std::size_t kMostNamed = 12;
 
 char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-bool is_among(const std::string& name, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(), [&](const auto& n) { return same_layer(name, n); });
+bool is_among(const Layer& layer, const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [&](const auto& w) { return means_layer(w, layer); });
+}
+
+std::string joined(const std::string& a, const std::string& b) {
+  return a.empty() || b.empty() ? std::string() : a + ":" + b;
 }
 
 std::string names_of(const std::vector<Layer>& layers) {
   std::string text;
   for (std::size_t i = 0; i < layers.size() && i < kMostNamed; ++i)
-    text += (i > 0 ? ", " : "") + excerpt(layers[i].name);
+    text += (i > 0 ? ", " : "") + excerpt(layer_word(layers, i));
   if (layers.size() > kMostNamed) text += fmt::format(" and {} more", layers.size() - kMostNamed);
   return text;
 }
@@ -33,11 +37,33 @@ bool same_layer(const std::string& a, const std::string& b) {
                     [](char x, char y) { return folded(x) == folded(y); });
 }
 
+bool means_layer(const std::string& word, const Layer& layer) {
+  if (same_layer(word, layer.name)) return true;
+  const std::string &name = layer.name, &colour = layer.colour, &line = layer.line_type;
+  for (const std::string& said : {colour, line, joined(name, colour), joined(name, line),
+                                  joined(colour, line), joined(joined(name, colour), line)})
+    if (!said.empty() && same_layer(word, said)) return true;
+  return false;
+}
+
+std::string layer_word(const std::vector<Layer>& layers, std::size_t layer) {
+  const Layer& one = layers[layer];
+  std::string word = one.name;
+  for (const std::string& more : {one.colour, one.line_type}) {
+    const auto meant = std::count_if(layers.begin(), layers.end(), [&](const Layer& other) {
+      return other.hidden == one.hidden && means_layer(word, other);
+    });
+    if (meant <= 1) break;
+    if (!more.empty()) word += ":" + more;
+  }
+  return word;
+}
+
 Result<LayerChoice> choose_layers(const Drawing& drawing, const DrawingOptions& options) {
   for (const auto* names : {&options.take, &options.leave}) {
     for (const std::string& name : *names) {
       if (std::any_of(drawing.layers.begin(), drawing.layers.end(),
-                      [&](const Layer& layer) { return same_layer(layer.name, name); }))
+                      [&](const Layer& layer) { return means_layer(name, layer); }))
         continue;
       return failure(ErrorCode::bad_input,
                      fmt::format("{}: no curve is on a layer {}; there are {}", drawing.name, excerpt(name),
@@ -51,11 +77,11 @@ Result<LayerChoice> choose_layers(const Drawing& drawing, const DrawingOptions& 
   std::size_t named = 0;
   for (std::size_t i = 0; i < drawing.layers.size(); ++i) {
     const Layer& layer = drawing.layers[i];
-    const bool wanted = options.take.empty() ? !layer.hidden : is_among(layer.name, options.take);
-    choice.taken.push_back(wanted && !is_among(layer.name, options.leave));
+    const bool wanted = options.take.empty() ? !layer.hidden : is_among(layer, options.take);
+    choice.taken.push_back(wanted && !is_among(layer, options.leave));
     if (choice.taken.back() || ++named > kMostNamed) continue;
-    left += fmt::format("{}{} ({} curves{})", left.empty() ? "" : ", ", excerpt(layer.name), curves[i],
-                        layer.hidden ? ", hidden" : "");
+    left += fmt::format("{}{} ({} curves{})", left.empty() ? "" : ", ",
+                        excerpt(layer_word(drawing.layers, i)), curves[i], layer.hidden ? ", hidden" : "");
   }
   if (named > kMostNamed) left += fmt::format(" and {} more", named - kMostNamed);
   if (named > 0) choice.notices.push_back("layers left out: " + left);

@@ -54,9 +54,10 @@ Affine placement(const Insertion& insertion, const BoundedPoint& base, std::uint
 
 class Expansion {
  public:
-  Expansion(DxfBlocks& blocks, const DxfLayers& layers, const std::vector<DrawnEntity>& entities,
-            const std::string& file)
-      : blocks_(blocks), layers_(layers), entities_(entities), file_(file) {}
+  Expansion(DxfBlocks& blocks, const DxfLayers& layers, DxfPens& pens,
+            const std::vector<DrawnEntity>& entities, const std::string& file,
+            std::vector<std::string>& damaged)
+      : blocks_(blocks), layers_(layers), pens_(pens), entities_(entities), file_(file), damaged_(damaged) {}
 
   Result<DxfBlock> run(DxfBlock model) {
     find_blocks(model);
@@ -77,12 +78,13 @@ class Expansion {
     out_.unread = std::move(model.unread);
     out_.curves.reserve(total);
     const std::vector<DrawnCurve> own = std::exchange(model.curves, {});
-    LEKALO_CHECK(place(own, model.insertions, nullptr, DxfLayers::kZero, kNotFrozen));
+    LEKALO_CHECK(place(own, model.insertions, nullptr, kNoPen, kNotFrozen));
     return std::move(out_);
   }
 
  private:
   static constexpr std::uint32_t kNotFrozen = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kNoPen = kNotFrozen;  ///< of the model space, which stands in no insertion
 
   struct Weight {
     std::size_t cost = 0;   ///< curves it shows, blocks in it expanded
@@ -108,23 +110,36 @@ class Expansion {
                            block.insertions.end());
   }
 
-  Result<void> weigh(const DxfBlock& block, std::size_t depth) {
+  /// Sets an insertion aside that cannot be expanded.
+  void set_aside(DxfBlock& holder, Insertion& insertion, const std::string& why) {
+    insertion.block = nullptr;
+    insertion.damaged = true;
+    holder.count_unread("INSERT (damaged)", insertion.line);
+    tell(insertion.line, why);
+  }
+
+  void tell(std::size_t line, const std::string& why) {
+    if (damaged_.size() < kMostDamagedTold) damaged_.push_back(refuse_line(file_, line, why).value().message);
+  }
+
+  Result<void> weigh(DxfBlock& block, std::size_t depth) {
     Weight weight{block.cost, 0, false};
     weights_[&block] = weight;
-    for (const Insertion& insertion : block.insertions) {
-      const DxfBlock* inner = insertion.block;
+    for (Insertion& insertion : block.insertions) {
+      DxfBlock* inner = insertion.block;
       if (inner == nullptr) continue;
       if (inner->repeated) {
-        return refuse_line(
-            file_, insertion.line,
-            fmt::format("this INSERT names the block {}, of which the file holds two; rename one",
-                        excerpt(insertion.name)));
+        set_aside(block, insertion,
+                  fmt::format("this INSERT names the block {}, of which the file holds two; rename one",
+                              excerpt(insertion.name)));
+        continue;
       }
       auto known = weights_.find(inner);
       if (known != weights_.end() && !known->second.done) {
-        return refuse_line(file_, insertion.line,
-                           fmt::format("the block {} is inserted in itself here; the file is damaged",
-                                       excerpt(insertion.name)));
+        set_aside(block, insertion,
+                  fmt::format("the block {} is inserted in itself here; the file is damaged",
+                              excerpt(insertion.name)));
+        continue;
       }
       if (depth + 1 + (known == weights_.end() ? 0 : known->second.depth) > kDeepestNesting) {
         return refuse_line(file_, insertion.line,
@@ -154,7 +169,7 @@ class Expansion {
         const std::size_t copies = product(times, copies_of(insertion));
         if (const DxfBlock* inner = insertion.block) {
           shown_times[inner] = sum(shown_times[inner], copies);
-        } else {
+        } else if (!insertion.damaged) {
           const bool external = blocks_.count(folded(insertion.name)) != 0;
           model.count_unread(
               external ? "INSERT (of another file)" : "INSERT (of a block that is not in the file)",
@@ -189,8 +204,8 @@ class Expansion {
   Result<void> add(const DrawnCurve& curve, const Affine* map, std::uint32_t inherited,
                    std::uint32_t frozen) {
     DrawnCurve placed = curve;
-    if (placed.layer == DxfLayers::kZero) placed.layer = inherited;
-    if (frozen != kNotFrozen) placed.layer = frozen;
+    if (inherited != kNoPen) placed.layer = pens_.inserted(placed.layer, inherited);
+    if (frozen != kNotFrozen) placed.layer = with_layer(placed.layer, frozen);
     if (map == nullptr) {
       out_.curves.push_back(std::move(placed));
       return {};
@@ -198,9 +213,10 @@ class Expansion {
     auto shape = image(*map, {std::move(placed.shape), curve.error});
     const DrawnEntity& entity = entities_[curve.entity];
     if (!shape) {
-      return refuse_line(file_, entity.line,
-                         fmt::format("a block's INSERT puts this {} beyond {:g} mm or makes it flat",
-                                     shown(entity.type), kLargestMillimetres));
+      out_.count_unread(entity.type + " (damaged)", entity.line);
+      tell(entity.line, fmt::format("a block's INSERT puts this {} beyond {:g} mm or makes it flat",
+                                    shown(entity.type), kLargestMillimetres));
+      return {};
     }
     if (is_point(shape->shape)) {
       out_.count_unread(entity.type + " (of no length)", entity.line);
@@ -215,23 +231,32 @@ class Expansion {
   Result<void> insert(const Insertion& insertion, const Affine* map, std::uint32_t inherited,
                       std::uint32_t frozen) {
     const DxfBlock& block = *insertion.block;
-    const std::uint32_t layer = insertion.layer == DxfLayers::kZero ? inherited : insertion.layer;
+    const std::uint32_t pen = inherited == kNoPen ? insertion.pen : pens_.inserted(insertion.pen, inherited);
+    const std::uint32_t layer = pens_[pen].layer;
     const std::uint32_t hides = frozen == kNotFrozen && layers_[layer].frozen ? layer : frozen;
     for (std::uint32_t row = 0; row < insertion.rows; ++row) {
       ask(1 + insertion.columns);
       for (std::uint32_t column = 0; column < insertion.columns; ++column) {
         const Affine local = placement(insertion, block.base, column, row);
         const Affine all = map == nullptr ? local : composed(*map, local);
-        LEKALO_CHECK(place(block.curves, block.insertions, &all, layer, hides));
+        LEKALO_CHECK(place(block.curves, block.insertions, &all, pen, hides));
       }
     }
     return {};
   }
 
+  std::uint32_t with_layer(std::uint32_t pen, std::uint32_t layer) {
+    DxfPen other = pens_[pen];
+    other.layer = layer;
+    return pens_.index(other);
+  }
+
   DxfBlocks& blocks_;
   const DxfLayers& layers_;
+  DxfPens& pens_;
   const std::vector<DrawnEntity>& entities_;
   const std::string& file_;
+  std::vector<std::string>& damaged_;
   std::map<const DxfBlock*, Weight>
       weights_;  // looked up, never walked: addresses have no order that is the same again
   std::vector<const DxfBlock*> by_depth_;
@@ -264,9 +289,10 @@ bool is_point(const Shape& shape) {
   return false;
 }
 
-Result<DxfBlock> expanded(DxfBlock model, DxfBlocks& blocks, const DxfLayers& layers,
-                          const std::vector<DrawnEntity>& entities, const std::string& file) {
-  return Expansion(blocks, layers, entities, file).run(std::move(model));
+Result<DxfBlock> expanded(DxfBlock model, DxfBlocks& blocks, const DxfLayers& layers, DxfPens& pens,
+                          const std::vector<DrawnEntity>& entities, const std::string& file,
+                          std::vector<std::string>& damaged) {
+  return Expansion(blocks, layers, pens, entities, file, damaged).run(std::move(model));
 }
 
 }  // namespace lekalo::io

@@ -10,17 +10,22 @@
 #include "layers.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/io/drawing/drawing.hpp"
+#include "pens.hpp"
 
 namespace lekalo::io {
 
+/// The most damaged entities that are told one by one; the rest is counted.
+inline constexpr std::size_t kMostDamagedTold = 1000;
+
 /// An INSERT: a block, placed once or in columns and rows.
 struct Insertion {
-  std::size_t before = 0;                  ///< curves of its own block that stand before it in the file
-  std::string_view name;                   ///< of the block, as spelled
-  const struct DxfBlock* block = nullptr;  ///< set by expanded(); null: nothing to place
-  std::size_t line = 0;                    ///< of the INSERT
-  std::uint32_t layer = 0;                 ///< into DxfLayers
-  Affine world;                            ///< from the plane that the extrusion direction says
+  std::size_t before = 0;            ///< curves of its own block that stand before it in the file
+  std::string_view name;             ///< of the block, as spelled
+  struct DxfBlock* block = nullptr;  ///< set by expanded(); null: nothing to place
+  bool damaged = false;              ///< set by expanded(): it cannot be placed
+  std::size_t line = 0;              ///< of the INSERT
+  std::uint32_t pen = 0;             ///< into DxfPens
+  Affine world;                      ///< from the plane that the extrusion direction says
   BoundedPoint at;
   Millimetres scale_x{1, 0}, scale_y{1, 0};  ///< factors; never 0
   Direction rotation{{1, 0}, true};
@@ -33,13 +38,14 @@ struct UnreadTally {
   std::size_t count = 0, line = 0;
 };
 
-/// A block, or the model space itself. Curves are DrawnCurve with `layer` into DxfLayers.
+/// A block, or the model space itself. Curves are DrawnCurve with `layer` into DxfPens.
 struct DxfBlock {
   BoundedPoint base;
   std::vector<DrawnCurve> curves;
   std::vector<Insertion> insertions;  ///< in file order
   std::map<std::string, UnreadTally> unread;
-  std::size_t cost = 0;  ///< of the curves, in curves (curve_cost)
+  std::vector<geom::Box> fills;  ///< the boxes of what solid hatches fill, path by path
+  std::size_t cost = 0;          ///< of the curves, in curves (curve_cost)
   std::size_t line = 0;
   bool external = false;  ///< a reference to another file
   bool repeated = false;  ///< the file holds a second block of this name
@@ -56,11 +62,13 @@ using DxfBlocks = std::map<std::string, DxfBlock>;  ///< by folded name
 /// in one point.
 [[nodiscard]] bool is_point(const Shape& shape);
 
-/// The model space with every insertion replaced by what it shows; layers are still those of DxfLayers:
-/// contents on the layer "0" take the layer of the insertion, and contents of an insertion on a frozen layer
-/// that layer, which hides them. Refused: a block that holds itself, nesting and copies beyond the limits of
-/// drawing.hpp, what an insertion makes too large.
+/// The model space with every insertion replaced by what it shows; layers are still pens: contents on the
+/// layer "0" take the layer of the insertion, colours and line types by block those of the insertion, and
+/// contents of an insertion on a frozen layer that layer, which hides them. Set aside, with a sentence in
+/// `damaged`: insertions of blocks that hold themselves or of which the file has two, and what an insertion
+/// makes too large. Refused: nesting and copies beyond the limits of drawing.hpp.
 [[nodiscard]] Result<DxfBlock> expanded(DxfBlock model, DxfBlocks& blocks, const DxfLayers& layers,
-                                        const std::vector<DrawnEntity>& entities, const std::string& file);
+                                        DxfPens& pens, const std::vector<DrawnEntity>& entities,
+                                        const std::string& file, std::vector<std::string>& damaged);
 
 }  // namespace lekalo::io

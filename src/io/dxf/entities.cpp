@@ -43,7 +43,38 @@ void DxfEntities::Numbers::set(int code, Millimetres value) {
 }
 
 Result<void> DxfEntities::read(DxfBlock& into) {
+  const std::size_t curves = into.curves.size(), insertions = into.insertions.size(), cost = into.cost;
   begin_entity();
+  const Common entity = common_;
+  const Result<void> done = read_kind(into);
+  if (done || at_.fault() || cost_ > kMostCurves) return done;
+  // Nothing of a damaged entity counts.
+  into.curves.resize(curves);
+  into.insertions.resize(insertions);
+  cost_ -= into.cost - cost;
+  into.cost = cost;
+  if (has_entity_) entities_.pop_back();
+  common_ = entity;
+  set_aside(into, done.error());
+  return {};
+}
+
+void DxfEntities::set_aside(DxfBlock& into, const Error& why) {
+  const auto to_next = [this] {
+    while (at_.ok() && at_.code() != 0) at_.next();
+  };
+  to_next();
+  while (common_.type == "POLYLINE" && at_.ok() && (at_.at(0, "VERTEX") || at_.at(0, "SEQEND"))) {
+    const bool ends = at_.at(0, "SEQEND");
+    at_.next();
+    to_next();
+    if (ends) break;
+  }
+  count_unread(into, "damaged");
+  if (damaged_.size() < kMostDamagedTold) damaged_.push_back(why.message);
+}
+
+Result<void> DxfEntities::read_kind(DxfBlock& into) {
   struct Kind {
     std::string_view type;
     Result<void> (DxfEntities::*read)(DxfBlock&);
@@ -53,6 +84,7 @@ Result<void> DxfEntities::read(DxfBlock& into) {
       {"ARC", &DxfEntities::read_arc},           {"CIRCLE", &DxfEntities::read_circle},
       {"POLYLINE", &DxfEntities::read_polyline}, {"SPLINE", &DxfEntities::read_spline},
       {"ELLIPSE", &DxfEntities::read_ellipse},   {"INSERT", &DxfEntities::read_insert},
+      {"MLINE", &DxfEntities::read_mline},       {"HATCH", &DxfEntities::read_hatch},
   };
   for (const Kind& kind : kKinds) {
     if (common_.type == kind.type) return (this->*kind.read)(into);
@@ -79,6 +111,15 @@ Result<bool> DxfEntities::take_common() {
       return true;
     case 8:
       common_.layer = at_.value();
+      return true;
+    case 6:
+      common_.line_type = at_.value();
+      return true;
+    case 62:
+      if (common_.colour.is_by_layer()) common_.colour = DxfColour::of_index(at_.value());
+      return true;
+    case 420:
+      common_.colour = DxfColour::of_rgb(at_.value());
       return true;
     case 60:
       common_.invisible = at_.value() == "1";
@@ -201,9 +242,14 @@ Result<void> DxfEntities::add(DxfBlock& into, const Affine& plane, BoundedShape 
         fmt::format("is one too many: drawings have at most {} curves; keep what is to be cut", kMostCurves));
   }
   into.cost += cost;
-  into.curves.push_back({std::move(shape.shape), static_cast<std::uint32_t>(entities_.size() - 1),
-                         layers_.index(common_.layer.empty() ? "0" : common_.layer), shape.error});
+  into.curves.push_back(
+      {std::move(shape.shape), static_cast<std::uint32_t>(entities_.size() - 1), pen(), shape.error});
   return {};
+}
+
+std::uint32_t DxfEntities::pen() {
+  return pens_.index(
+      {layers_.index(common_.layer.empty() ? "0" : common_.layer), common_.colour, common_.line_type});
 }
 
 Result<void> DxfEntities::read_line(DxfBlock& into) {
@@ -254,7 +300,7 @@ Result<void> DxfEntities::read_insert(DxfBlock& into) {
   insertion.before = into.curves.size();
   insertion.name = name;
   insertion.line = common_.line;
-  insertion.layer = layers_.index(common_.layer.empty() ? "0" : common_.layer);
+  insertion.pen = pen();
   insertion.world = *world;
   insertion.at = numbers.point(10, 20);
   const Millimetres degrees = numbers.get(50);

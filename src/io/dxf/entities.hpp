@@ -13,6 +13,7 @@
 #include "io/text/decimal.hpp"
 #include "layers.hpp"
 #include "lekalo/io/drawing/drawing.hpp"
+#include "pens.hpp"
 
 namespace lekalo::io {
 
@@ -44,15 +45,24 @@ class DxfCursor {
   bool ok_ = true;
 };
 
-/// Reads entities into blocks; its functions stand in entities.cpp, conics.cpp, polyline.cpp and spline.cpp.
+/// Reads entities into blocks; its functions stand in entities.cpp, conics.cpp, polyline.cpp, spline.cpp,
+/// mline.cpp and hatch.cpp.
 class DxfEntities {
  public:
-  DxfEntities(DxfCursor& cursor, DxfLayers& layers, DecimalFactor unit)
-      : at_(cursor), layers_(layers), unit_(unit) {}
+  DxfEntities(DxfCursor& cursor, DxfLayers& layers, DxfPens& pens, DecimalFactor unit)
+      : at_(cursor), layers_(layers), pens_(pens), unit_(unit) {}
 
+  /// Reads an entity, or sets it aside with its sentence where it is damaged; fails where the drawing has too
+  /// many curves.
   /// \pre the cursor is at the name of an entity (group code 0); afterwards it is at the next group with code
   /// 0, or not ok(), and then what was read does not count
   [[nodiscard]] Result<void> read(DxfBlock& into);
+
+  /// Notes which entities of a block its solid hatches fill.
+  void note_fills(const DxfBlock& block);
+
+  /// The sentences about entities that were set aside.
+  [[nodiscard]] std::vector<std::string>& damaged() { return damaged_; }
 
   /// The number that the cursor is at, in millimetres if it is a length.
   [[nodiscard]] Result<Millimetres> number(bool is_length) const;
@@ -64,7 +74,8 @@ class DxfEntities {
  private:
   /// The groups that every entity may have.
   struct Common {
-    std::string_view type, handle, layer;
+    std::string_view type, handle, layer, line_type;
+    DxfColour colour;
     std::size_t line = 0;
     bool paper_space = false, invisible = false, in_application = false;
     double normal[3] = {0, 0, 1};
@@ -97,6 +108,8 @@ class DxfEntities {
     Millimetres bulge;
   };
 
+  Result<void> read_kind(DxfBlock& into);
+  void set_aside(DxfBlock& into, const Error& why);
   Result<void> read_line(DxfBlock& into);
   Result<void> read_circle(DxfBlock& into);
   Result<void> read_arc(DxfBlock& into);
@@ -105,7 +118,10 @@ class DxfEntities {
   Result<void> read_polyline(DxfBlock& into);
   Result<void> read_vertices(unsigned flags);
   Result<void> read_spline(DxfBlock& into);
+  Result<void> read_fit(std::vector<geom::Point>& points, double& error, geom::Point (&tangents)[2]);
+  Result<void> read_mline(DxfBlock& into);
   Result<void> read_insert(DxfBlock& into);
+  Result<void> read_hatch(DxfBlock& into);
   Result<void> read_other(DxfBlock& into);
 
   void begin_entity();
@@ -124,6 +140,7 @@ class DxfEntities {
   /// True when the entity draws nothing in the model space; it is counted then.
   bool is_out_of_sight(DxfBlock& into);
   void count_unread(DxfBlock& into, const char* why) const;
+  [[nodiscard]] std::uint32_t pen();
   /// The map from the plane of the entity, at this height above its origin, to that of the drawing; nothing
   /// where the plane is seen from the side.
   [[nodiscard]] std::optional<Affine> plane(double height) const;
@@ -132,12 +149,14 @@ class DxfEntities {
 
   DxfCursor& at_;
   DxfLayers& layers_;
+  DxfPens& pens_;
   DecimalFactor unit_;
   std::vector<DrawnEntity> entities_;
   Common common_;
   bool has_entity_ = false;  ///< entities_.back() is the one that is read
   std::vector<Vertex> vertices_;
   std::size_t cost_ = 0;  ///< of all curves so far
+  std::vector<std::string> damaged_;
   bool has_heights_ = false;
 };
 

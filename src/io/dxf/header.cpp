@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
+#include <variant>
 
 #include "io/text/refusal.hpp"
 
@@ -44,6 +47,25 @@ double DrawingUnit::millimetres() const noexcept {
   double power = 1;
   for (int i = 0; i < std::abs(factor.exponent); ++i) power *= 10;
   return factor.exponent < 0 ? factor.multiplier / power : factor.multiplier * power;
+}
+
+bool suggests_inches(const std::vector<DrawnCurve>& curves, const DxfHeader& header) {
+  constexpr double kSheetOfFeet = 120;
+  geom::Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  bool on_32nds = true, off_halves = false;
+  const auto see = [&](const geom::Point& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    for (const double c : {p.x, p.y}) {
+      on_32nds = on_32nds && c * 32 == std::round(c * 32);
+      off_halves = off_halves || c * 2 != std::round(c * 2);
+    }
+  };
+  for (const DrawnCurve& curve : curves)
+    if (const auto* edge = std::get_if<geom::Edge>(&curve.shape); edge && edge->kind == geom::EdgeKind::line)
+      see(edge->from), see(edge->to);
+  const double reach = std::max(high.x - low.x, high.y - low.y);
+  return reach > 0 && reach < kSheetOfFeet && (header.english || (on_32nds && off_halves));
 }
 
 Result<DrawingUnit> drawing_unit(const DxfHeader& header, std::optional<LengthUnit> user_says,

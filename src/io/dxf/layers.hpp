@@ -15,6 +15,8 @@ class DxfLayers {
     std::string_view name;  ///< bytes of the file: of the table, or of where it was first used
     bool off = false;       ///< switched off: what stands on it is not seen
     bool frozen = false;    ///< likewise, and what is inserted on it is not seen either
+    /// The groups 62, 420 and 6; empty where the file has none.
+    std::string_view colour{}, true_colour{}, line_type{};
   };
 
   static constexpr std::uint32_t kZero =

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 
+#include "binary.hpp"
 #include "blocks.hpp"
 #include "entities.hpp"
 #include "header.hpp"
@@ -30,7 +33,8 @@ class DxfDrawing {
     if (!seen_entities_) {
       return refuse(at_.name(), "there is no section ENTITIES; this is not a complete DXF file");
     }
-    LEKALO_TRY(auto model, expanded(std::move(model_), blocks_, layers_, entities_->entities(), at_.name()));
+    LEKALO_TRY(auto model, expanded(std::move(model_), blocks_, layers_, pens_, entities_->entities(),
+                                    at_.name(), entities_->damaged()));
     take(std::move(model));
     return std::move(drawing_);
   }
@@ -80,6 +84,7 @@ class DxfDrawing {
     for (; at_.ok() && at_.code() != 0; at_.next()) {
       if (at_.code() == 9) variable = at_.value();
       if (variable == "$DWGCODEPAGE" && at_.code() == 3) header_.code_page = at_.value();
+      if (variable == "$MEASUREMENT" && at_.code() == 70) header_.english = at_.value() == "0";
       if (variable == "$INSUNITS" && at_.code() == 70) {
         header_.unit = at_.value();
         header_.unit_line = at_.line();
@@ -120,11 +125,13 @@ class DxfDrawing {
   }
 
   Result<void> read_layer() {
-    std::string_view name, flags = "0", colour = "7";
+    std::string_view name, flags = "0", colour = "7", true_colour, line_type;
     while (at_.next() && at_.code() != 0) {
       if (at_.code() == 2) name = at_.value();
+      if (at_.code() == 6) line_type = at_.value();
       if (at_.code() == 70) flags = at_.value();
       if (at_.code() == 62) colour = at_.value();
+      if (at_.code() == 420) true_colour = at_.value();
     }
     if (!at_.ok() || name.empty()) return {};
     const auto number = read_millimetres(flags, DecimalFactor{});
@@ -137,6 +144,9 @@ class DxfDrawing {
     layer.name = name;
     layer.off = colour.substr(0, 1) == "-";
     layer.frozen = (static_cast<unsigned>(number->value) & 1U) != 0;
+    layer.colour = colour;
+    layer.true_colour = true_colour;
+    layer.line_type = line_type;
     return {};
   }
 
@@ -147,7 +157,7 @@ class DxfDrawing {
     drawing_.unit = unit.name;
     drawing_.millimetres_per_unit = unit.millimetres();
     unit_is_said_ = unit.said;
-    entities_.emplace(at_, layers_, unit.factor);
+    entities_.emplace(at_, layers_, pens_, unit.factor);
     return {};
   }
 
@@ -191,6 +201,7 @@ class DxfDrawing {
     }
     while (at_.next() && at_.code() != 0) {
     }
+    entities_->note_fills(block);
     const auto [known, is_new] = blocks_.try_emplace(folded(name), std::move(block));
     if (!is_new) known->second.repeated = true;
     return {};
@@ -207,37 +218,60 @@ class DxfDrawing {
     while (at_.ok() && !at_.at(0, "ENDSEC")) {
       LEKALO_CHECK(entities_->read(model_));
     }
+    entities_->note_fills(model_);
     return {};
   }
 
   /// Takes the curves into the drawing; its layers and entities are those of the curves, in their order.
   void take(DxfBlock model) {
     constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> layer(layers_.size(), kNew), entity(entities_->entities().size(), kNew);
+    std::vector<std::uint32_t> layer_of_pen(pens_.size(), kNew), entity(entities_->entities().size(), kNew);
+    std::map<std::tuple<std::uint32_t, std::string, std::string>, std::uint32_t> layers;
     drawing_.curves = std::move(model.curves);
     const std::size_t unfit = exact_arcs_.restore(drawing_.curves, entities_->entities());
     for (DrawnCurve& curve : drawing_.curves) {
-      if (layer[curve.layer] == kNew) {
-        layer[curve.layer] = static_cast<std::uint32_t>(drawing_.layers.size());
-        const DxfLayers::Entry& entry = layers_[curve.layer];
-        drawing_.layers.push_back({text_of_name(entry.name, header_.code_page), entry.off || entry.frozen});
+      if (layer_of_pen[curve.layer] == kNew) {
+        Layer layer = layer_of(pens_[curve.layer]);
+        const auto [found, is_new] =
+            layers.try_emplace({pens_[curve.layer].layer, layer.colour, layer.line_type},
+                               static_cast<std::uint32_t>(drawing_.layers.size()));
+        if (is_new) drawing_.layers.push_back(std::move(layer));
+        layer_of_pen[curve.layer] = found->second;
       }
       if (entity[curve.entity] == kNew) {
         entity[curve.entity] = static_cast<std::uint32_t>(drawing_.entities.size());
         drawing_.entities.push_back(std::move(entities_->entities()[curve.entity]));
       }
-      curve.layer = layer[curve.layer];
+      curve.layer = layer_of_pen[curve.layer];
       curve.entity = entity[curve.entity];
     }
+    drawing_.damaged = std::move(entities_->damaged());
     for (const auto& [what, tally] : model.unread) drawing_.unread.push_back({what, tally.count, tally.line});
     if (!unit_is_said_) {
-      drawing_.notices.push_back(
-          fmt::format("{}: the file does not say its unit; it is read as mm", at_.name()));
+      drawing_.notices.push_back(fmt::format(
+          "{}: the file does not say its unit; it is read as mm{}", at_.name(),
+          suggests_inches(drawing_.curves, header_) ? "; its sizes suggest inches: --units inch reads it so"
+                                                    : ""));
     }
     if (unfit > 0) drawing_.notices.push_back(unfit_arcs_sentence(unfit, at_.name()));
     if (entities_->has_heights()) {
       drawing_.notices.push_back(fmt::format("{}: z coordinates are ignored", at_.name()));
     }
+  }
+
+  /// The layer of what is drawn with a pen, with its colour and line type.
+  [[nodiscard]] Layer layer_of(const DxfPen& pen) const {
+    const DxfLayers::Entry& entry = layers_[pen.layer];
+    Layer layer{text_of_name(entry.name, header_.code_page), entry.off || entry.frozen};
+    DxfColour colour = pen.colour;
+    if (colour.is_by_layer() && !entry.true_colour.empty()) colour = DxfColour::of_rgb(entry.true_colour);
+    if (colour.is_by_layer()) colour = DxfColour::of_index(entry.colour);
+    if (!colour.is_by_layer() && !colour.is_by_block()) layer.colour = colour.word();
+    std::string_view line = pen.line_type;
+    if (line.empty() || folded(line) == "BYLAYER") line = entry.line_type;
+    if (folded(line) != "CONTINUOUS" && folded(line) != "BYBLOCK")
+      layer.line_type = text_of_name(line, header_.code_page);
+    return layer;
   }
 
   static constexpr unsigned kExternal = 4;
@@ -246,6 +280,7 @@ class DxfDrawing {
   std::optional<LengthUnit> user_says_;
   DxfHeader header_;
   DxfLayers layers_;
+  DxfPens pens_;
   std::optional<DxfEntities> entities_;  ///< from the first section that holds some
   DxfBlocks blocks_;
   DxfBlock model_;
@@ -257,6 +292,10 @@ class DxfDrawing {
 }  // namespace
 
 Result<Drawing> parse_dxf(std::string_view bytes, const std::string& name, std::optional<LengthUnit> unit) {
+  if (bytes.starts_with(kBinaryDxf)) {
+    LEKALO_TRY(const std::string text, text_of_binary_dxf(bytes, name));
+    return DxfDrawing(text, name, unit).read();
+  }
   if (const std::string fault = wrong_encoding(bytes); !fault.empty()) return refuse(name, fault);
   if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
   if (bytes.empty()) return refuse(name, "the file is empty");
@@ -264,7 +303,8 @@ Result<Drawing> parse_dxf(std::string_view bytes, const std::string& name, std::
 }
 
 DrawingFormat drawing_dxf() {
-  return {.file = {.name = "DXF", .endings = {".dxf"}, .first_bytes = "0123456789"}, .parse = parse_dxf};
+  return {.file = {.name = "DXF", .endings = {".dxf"}, .first_bytes = "0123456789", .signature = kBinaryDxf},
+          .parse = parse_dxf};
 }
 
 }  // namespace lekalo::io

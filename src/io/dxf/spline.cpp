@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "entities.hpp"
+#include "fit_spline.hpp"
 #include "io/text/refusal.hpp"
 
 // Reads SPLINE.
@@ -18,7 +19,9 @@ struct SplineText {
   Spline spline;
   unsigned degree = 0;
   unsigned said_knots = 0, said_poles = 0;  ///< 0: not said
-  std::size_t fit_points = 0;
+  std::vector<Point> fit_points;
+  double fit_error = 0;
+  Point tangents[2];  ///< at the begin and the end; both coordinates 0 where none is said
   double pole_error = 0, knot_error = 0;
   bool weights_rounded = false;
   bool wants_y = false;
@@ -69,7 +72,7 @@ double spline_error(const SplineText& text) {
 /// Says why a spline is not read; null where it is.
 const char* unread_because(const SplineText& text) {
   const Spline& spline = text.spline;
-  if (spline.poles.empty()) return text.fit_points > 0 ? "fit points alone" : "without control points";
+  if (spline.poles.empty()) return "without control points";
   if (spline.knots.empty()) return "without knots";
   if (text.degree == 0) return "degree 0";
   if (text.degree > kHighestDegree) return "degree above 15";
@@ -93,6 +96,22 @@ const char* broken_because(const Spline& spline) {
 
 }  // namespace
 
+Result<void> DxfEntities::read_fit(std::vector<Point>& points, double& error, Point (&tangents)[2]) {
+  const int code = at_.code();
+  const bool is_point = code % 10 == 1, is_x = code < 20;
+  LEKALO_TRY(const auto value, number(is_point));
+  if (is_point && is_x) points.push_back({value.value, 0});
+  if (is_point) {
+    if (points.empty()) return refuse_line(at_.name(), at_.line(), "a y without its x");
+    if (!is_x) points.back().y = value.value;
+    error = std::max(error, value.error);
+    return {};
+  }
+  Point& tangent = tangents[code % 10 - 2];
+  (is_x ? tangent.x : tangent.y) = value.value;
+  return {};
+}
+
 Result<void> DxfEntities::read_spline(DxfBlock& into) {
   SplineText text;
   Spline& spline = text.spline;
@@ -100,8 +119,10 @@ Result<void> DxfEntities::read_spline(DxfBlock& into) {
     LEKALO_TRY(const auto taken, take_common());
     if (taken) continue;
     const int code = at_.code();
-    if (code == 11) ++text.fit_points;
-    if (code == 30) note_height();
+    if (code >= 11 && code <= 23 && code % 10 >= 1 && code % 10 <= 3) {
+      LEKALO_CHECK(read_fit(text.fit_points, text.fit_error, text.tangents));
+    }
+    if (code == 30 || code == 31) note_height();
     if (code == 71 || code == 72 || code == 73) {
       LEKALO_TRY(const auto value, whole_number());
       (code == 71 ? text.degree : code == 72 ? text.said_knots : text.said_poles) = value;
@@ -150,6 +171,14 @@ Result<void> DxfEntities::read_spline(DxfBlock& into) {
                     knots, poles, spline.weights.size(), text.degree));
   }
   if (is_out_of_sight(into)) return {};
+  if (spline.poles.empty() && !text.fit_points.empty()) {
+    const auto said = [](const Point& p) { return p == Point{} ? std::nullopt : std::optional<Point>(p); };
+    auto through =
+        spline_through(text.fit_points, text.fit_error, said(text.tangents[0]), said(text.tangents[1]));
+    if (through) return add(into, {}, *std::move(through));
+    count_unread(into, "of no length");
+    return {};
+  }
   if (const char* why = unread_because(text)) {
     count_unread(into, why);
     return {};

@@ -8,12 +8,14 @@
 #include "io/nesting/forms.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
+#include "io/text/refusal.hpp"
 #include "lekalo/io/formats/drawing_formats.hpp"
 
 namespace lekalo::io {
 namespace {
 
-tl::unexpected<Error> no_layout(const std::string& path) {
+tl::unexpected<Error> no_layout(const std::string& path, std::string_view bytes = {}) {
+  if (const std::string other = wrong_encoding(bytes); !other.empty()) return refuse(path, other);
   return failure(ErrorCode::bad_input,
                  path +
                      ": no layout; known are \"format\": \"lekalo-layout/1\", jobs of nesting programs "
@@ -57,7 +59,7 @@ Result<AnyLayout> read_any_layout(std::string_view bytes, const std::string& nam
     }
     if (!root.find("shape") && !root.find("outer") && !root.find("pieces")) return no_layout(name);
   } else if (drawing_format_by_content(bytes) == nullptr) {
-    return no_layout(name);
+    return no_layout(name, bytes);
   }
   LEKALO_TRY(auto read, read_parts(bytes, name, parts));
   AnyLayout file;

@@ -157,6 +157,8 @@ Result<ReadOutline> OutlineFile::read_tree() const {
 
 Result<ReadOutline> OutlineFile::read_drawing() const {
   LEKALO_TRY(const Drawing drawing, drawing_format_by_ending(name_)->parse(bytes_, name_, options_.units));
+  // What is missing of a blank would be taken for material, so nothing damaged is set aside here.
+  if (!drawing.damaged.empty()) return failure(ErrorCode::bad_input, drawing.damaged.front());
   DrawingOptions how;
   if (options_.join) how.join_tolerance = *options_.join;
   if (options_.curve) how.curve_tolerance = *options_.curve;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "document.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 using namespace detail;
 
+/// The most damaged elements that are told one by one; the rest is counted.
+constexpr std::size_t kMostDamagedTold = 1000;
 /// Copies are drawn from their text, which counts as one more copy for every so many bytes.
 constexpr std::size_t kBytesOfACopy = 64;
 
@@ -54,6 +57,12 @@ struct Context {
   bool shown = true;
   /// The property visibility, which a child can undo.
   bool visible = true;
+  /// The words of stroke and fill, and whether the stroke is dashed.
+  std::string stroke, fill;
+  bool dashed = false;
+  /// Filled by winding numbers, as CSS has it where nothing is said.
+  bool is_filled = true;
+  geom::FillRule fill_rule = geom::FillRule::nonzero;
   std::size_t depth = 0;
   bool copied = false;  ///< by a use
 };
@@ -98,6 +107,11 @@ class SvgReader {
                                id == nullptr ? "" : " " + excerpt(*id), why));
   }
 
+  [[nodiscard]] tl::unexpected<Error> beyond(const SvgElement& element, const std::string& why) {
+    beyond_limits_ = true;
+    return fault(element, why);
+  }
+
   void count_unread(const std::string& what, const SvgElement& element) {
     Unread& unread = unread_[what];
     if (unread.count++ == 0) unread = {what, 1, element.line};
@@ -128,10 +142,23 @@ class SvgReader {
   }
 
   void see(const SvgElement& element, Context& context) const {
-    const Visibility says = styles_.of(element);
-    if (says.display == "none") context.shown = false;
-    if (says.visibility == "hidden" || says.visibility == "collapse") context.visible = false;
-    if (says.visibility == "visible") context.visible = true;
+    const Look says = styles_.of(element);
+    const std::string& visibility = says[Property::visibility];
+    if (says[Property::display] == "none") context.shown = false;
+    if (visibility == "hidden" || visibility == "collapse") context.visible = false;
+    if (visibility == "visible") context.visible = true;
+    const auto is_said = [&](Property property) {
+      return !says[property].empty() && says[property] != "inherit";
+    };
+    if (is_said(Property::stroke)) context.stroke = colour_word(says[Property::stroke]);
+    if (is_said(Property::fill)) {
+      context.fill = colour_word(says[Property::fill]);
+      context.is_filled = says[Property::fill] != "none" && says[Property::fill] != "transparent";
+    }
+    if (is_said(Property::fill_rule))
+      context.fill_rule =
+          says[Property::fill_rule] == "evenodd" ? geom::FillRule::even_odd : geom::FillRule::nonzero;
+    if (is_said(Property::stroke_dasharray)) context.dashed = says[Property::stroke_dasharray] != "none";
   }
 
   static std::string name_of(const SvgElement& group) {
@@ -141,13 +168,26 @@ class SvgReader {
   }
 
   Result<void> children(const SvgElement& element, const Context& context) {
-    for (const std::uint32_t child : element.children) LEKALO_CHECK(draw(document_.elements[child], context));
+    for (const std::uint32_t child : element.children)
+      LEKALO_CHECK(whole(document_.elements[child], context));
+    return {};
+  }
+
+  /// Draws an element, or sets it aside with its sentence where it is damaged. Fails where the drawing is
+  /// beyond the limits.
+  Result<void> whole(const SvgElement& element, const Context& context) {
+    const std::size_t curves = drawing_.curves.size();
+    const Result<void> done = draw(element, context);
+    if (done || beyond_limits_) return done;
+    drawing_.curves.resize(curves);
+    count_unread(element.name + " (damaged)", element);
+    if (drawing_.damaged.size() < kMostDamagedTold) drawing_.damaged.push_back(done.error().message);
     return {};
   }
 
   Result<void> draw(const SvgElement& element, Context context) {
     if (context.copied && (copies_ += cost_of(element)) > kMostCopies)
-      return fault(element, fmt::format("uses make more than {} copies of elements", kMostCopies));
+      return beyond(element, fmt::format("uses make more than {} copies of elements", kMostCopies));
     const std::string& name = element.name;
     if (name == "defs") {
       for (const std::uint32_t child : element.children)
@@ -167,7 +207,7 @@ class SvgReader {
       return {};
     }
     if (++context.depth > kDeepestNesting)
-      return fault(element, fmt::format("groups and uses are nested more than {} deep", kDeepestNesting));
+      return beyond(element, fmt::format("groups and uses are nested more than {} deep", kDeepestNesting));
     LEKALO_CHECK(moved(element, context));
     if (name == "use") return use(element, context);
     if (name == "svg") return viewport(element, element, context);
@@ -266,7 +306,7 @@ class SvgReader {
     if (const std::string* exact = element.attribute(kExactArcs))
       unfit_arcs_ += restore_exact_arcs(*shapes, *exact);
     if (drawing_.curves.size() + shapes->size() > kMostCurves)
-      return fault(element, fmt::format("more than {} curves, copies counted", kMostCurves));
+      return beyond(element, fmt::format("more than {} curves, copies counted", kMostCurves));
     std::vector<BoundedShape> placed_shapes;
     for (const BoundedShape& one : *shapes) {
       ask();
@@ -284,8 +324,14 @@ class SvgReader {
     }
     const std::string* id = element.attribute("id");
     const auto entity = static_cast<std::uint32_t>(drawing_.entities.size());
-    drawing_.entities.push_back({element.name, id == nullptr ? "" : *id, element.line});
-    const std::uint32_t layer = layer_index(context.layer, !context.shown || !context.visible);
+    const std::string* label = element.attribute("inkscape:label");
+    drawing_.entities.push_back({element.name, id == nullptr ? "" : *id, element.line,
+                                 context.is_filled ? context.fill_rule : geom::FillRule::even_odd,
+                                 label == nullptr ? "" : *label,
+                                 context.stroke.empty() && context.is_filled});
+    const std::uint32_t layer =
+        layer_index({context.layer, !context.shown || !context.visible,
+                     context.stroke.empty() ? context.fill : context.stroke, context.dashed ? "dashed" : ""});
     for (BoundedShape& one : placed_shapes)
       drawing_.curves.push_back({std::move(one.shape), entity, layer, one.error});
     return {};
@@ -299,10 +345,11 @@ class SvgReader {
     return edge->from == edge->centre || edge->to == edge->centre;
   }
 
-  std::uint32_t layer_index(const std::string& name, bool hidden) {
+  std::uint32_t layer_index(Layer layer) {
     const auto [found, is_new] =
-        layers_.try_emplace({name, hidden}, static_cast<std::uint32_t>(drawing_.layers.size()));
-    if (is_new) drawing_.layers.push_back({name, hidden});
+        layers_.try_emplace({layer.name, layer.hidden, layer.colour, layer.line_type},
+                            static_cast<std::uint32_t>(drawing_.layers.size()));
+    if (is_new) drawing_.layers.push_back(std::move(layer));
     return found->second;
   }
 
@@ -310,8 +357,9 @@ class SvgReader {
   StyleSheet styles_;
   Drawing drawing_;
   std::map<std::string, Unread> unread_;
-  std::map<std::pair<std::string, bool>, std::uint32_t> layers_;
+  std::map<std::tuple<std::string, bool, std::string, std::string>, std::uint32_t> layers_;
   std::size_t copies_ = 0, unfit_arcs_ = 0;
+  bool beyond_limits_ = false;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/text/decimal.hpp"
+#include "scanner.hpp"
 
 namespace lekalo::io::detail {
 namespace {
@@ -52,7 +53,7 @@ constexpr std::array<std::string_view, 12> kGeometry{"transform", "translate", "
 
 /// Reads the declarations between braces or of a style attribute.
 struct Declarations {
-  Visibility says;
+  Look look;
   /// A property that moves or shapes, if there is one.
   std::string geometry;
 };
@@ -65,8 +66,8 @@ Declarations declarations(std::string_view text) {
     std::string value = lower(trimmed(one.substr(colon + 1)));
     if (const std::size_t mark = value.find('!'); mark != std::string::npos)
       value = std::string(trimmed(std::string_view(value).substr(0, mark)));
-    if (property == "display") found.says.display = value;
-    if (property == "visibility") found.says.visibility = value;
+    for (std::size_t i = 0; i < kProperties.size(); ++i)
+      if (property == kProperties[i]) found.look.says[i] = value;
     const bool shapes = std::find(kGeometry.begin(), kGeometry.end(), property) != kGeometry.end();
     if (shapes && value != "none" && value != "auto") found.geometry = property;
   });
@@ -85,12 +86,48 @@ std::vector<std::string> classes_of(const SvgElement& element) {
   return classes;
 }
 
-void overwrite(Visibility& all, const Visibility& says) {
-  if (!says.display.empty()) all.display = says.display;
-  if (!says.visibility.empty()) all.visibility = says.visibility;
+/// The letters of "#rgb" as those of "#rrggbb".
+std::string in_full(std::string_view hex) {
+  std::string full = "#";
+  for (const char c : hex.substr(1, 3)) full += std::string(2, c);
+  return full;
+}
+
+/// Reads "rgb(255, 0, 0)" or "rgb(100%, 0%, 0%)"; empty where it is neither.
+std::string of_rgb_function(std::string_view paint) {
+  SvgScanner scanner(paint.substr(paint.find('(') + 1));
+  std::string word = "#";
+  for (int channel = 0; channel < 3; ++channel) {
+    auto value = scanner.number();
+    if (!value) return {};
+    double share = value->value;
+    if (scanner.peek() == '%') share *= 2.55, scanner.advance(1);
+    scanner.skip_comma();
+    word += fmt::format("{:02x}", static_cast<int>(std::clamp(share, 0.0, 255.0) + 0.5));
+  }
+  return word;
 }
 
 }  // namespace
+
+std::string colour_word(std::string_view paint) {
+  // The colours by which laser and plotter users work have names; other names stand as they are.
+  constexpr std::pair<std::string_view, const char*> kNames[] = {
+      {"black", "#000000"},  {"white", "#ffffff"},   {"red", "#ff0000"},  {"lime", "#00ff00"},
+      {"blue", "#0000ff"},   {"yellow", "#ffff00"},  {"cyan", "#00ffff"}, {"aqua", "#00ffff"},
+      {"green", "#008000"},  {"magenta", "#ff00ff"}, {"gray", "#808080"}, {"grey", "#808080"},
+      {"orange", "#ffa500"}, {"fuchsia", "#ff00ff"}};
+  paint = trimmed(paint);
+  if (paint.empty() || paint == "none" || paint == "transparent" || paint.starts_with("url(")) return {};
+  if (paint[0] == '#' && paint.size() == 4) return in_full(paint);
+  if (paint.starts_with("rgb(")) {
+    std::string word = of_rgb_function(paint);
+    if (!word.empty()) return word;
+  }
+  for (const auto& [name, rgb] : kNames)
+    if (paint == name) return rgb;
+  return std::string(paint);
+}
 
 StyleSheet::StyleSheet(const SvgDocument& document) {
   for (const SvgElement& element : document.elements)
@@ -124,7 +161,8 @@ void StyleSheet::read_rule(std::string_view selectors, std::string_view body, st
     notices_.push_back(fmt::format("style sheet of line {}: {} of {} is not read", line, found.geometry,
                                    excerpt(selectors)));
   }
-  if (found.says.display.empty() && found.says.visibility.empty()) return;
+  const auto& says = found.look.says;
+  if (std::all_of(says.begin(), says.end(), [](const std::string& value) { return value.empty(); })) return;
   split(selectors, ',', [&](std::string_view selector) {
     const std::string_view all = selector;
     Selector rule;
@@ -143,35 +181,37 @@ void StyleSheet::read_rule(std::string_view selectors, std::string_view body, st
       selector.remove_prefix(stop);
     }
     if (!plain) {
+      // Colours that are not found out take nothing away.
+      if (found.look[Property::display].empty() && found.look[Property::visibility].empty()) return;
       notices_.push_back(
           fmt::format("style sheet of line {}: the selector {} is not read", line, excerpt(all)));
       return;
     }
     Rule& known = rules_[std::move(rule)];
     const std::size_t order = rules_read_++;
-    if (!found.says.display.empty()) known.display = {found.says.display, order};
-    if (!found.says.visibility.empty()) known.visibility = {found.says.visibility, order};
+    for (std::size_t i = 0; i < says.size(); ++i)
+      if (!says[i].empty()) known[i] = {says[i], order};
   });
 }
 
-Visibility StyleSheet::of(const SvgElement& element) const {
-  Visibility all;
-  if (const std::string* said = element.attribute("display")) all.display = lower(trimmed(*said));
-  if (const std::string* said = element.attribute("visibility")) all.visibility = lower(trimmed(*said));
+Look StyleSheet::of(const SvgElement& element) const {
+  Look all;
+  for (std::size_t i = 0; i < kProperties.size(); ++i)
+    if (const std::string* said = element.attribute(kProperties[i])) all.says[i] = lower(trimmed(*said));
   const std::string* id = element.attribute("id");
   std::vector<std::string> classes = classes_of(element);
   classes.emplace_back();
   // An id outweighs a class, a class the name of an element, and a later rule an earlier one.
-  std::pair<int, std::size_t> of_display{-1, 0}, of_visibility{-1, 0};
+  std::array<std::pair<int, std::size_t>, kProperties.size()> taken;
+  taken.fill({-1, 0});
   const auto look = [&](const Selector& selector, int weight) {
     const auto rule = rules_.find(selector);
     if (rule == rules_.end()) return;
-    const auto take = [&](const Said& said, std::string& to, std::pair<int, std::size_t>& taken) {
+    for (std::size_t i = 0; i < kProperties.size(); ++i) {
+      const Said& said = rule->second[i];
       const std::pair rank{weight, said.order};
-      if (!said.value.empty() && rank > taken) to = said.value, taken = rank;
-    };
-    take(rule->second.display, all.display, of_display);
-    take(rule->second.visibility, all.visibility, of_visibility);
+      if (!said.value.empty() && rank > taken[i]) all.says[i] = said.value, taken[i] = rank;
+    }
   };
   for (const std::string& cls : classes)
     for (const std::string& name : {element.name, std::string()}) {
@@ -179,8 +219,11 @@ Visibility StyleSheet::of(const SvgElement& element) const {
       look({name, {}, cls}, weight);
       if (id != nullptr && !id->empty()) look({name, *id, cls}, weight + 100);
     }
-  if (const std::string* style = element.attribute("style"))
-    overwrite(all, declarations(without_comments(*style)).says);
+  if (const std::string* style = element.attribute("style")) {
+    const Look said = declarations(without_comments(*style)).look;
+    for (std::size_t i = 0; i < kProperties.size(); ++i)
+      if (!said.says[i].empty()) all.says[i] = said.says[i];
+  }
   return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,19 +11,31 @@
 
 namespace lekalo::io::detail {
 
-/// The two properties of CSS that decide what is seen; all others are left alone.
-struct Visibility {
-  std::string display, visibility;  ///< lower case; empty where nothing is said
+/// The properties of CSS that decide what is seen, and in which colour; all others are left alone.
+enum class Property { display, visibility, stroke, fill, stroke_dasharray, fill_rule };
+inline constexpr std::array<std::string_view, 6> kProperties{"display", "visibility",       "stroke",
+                                                             "fill",    "stroke-dasharray", "fill-rule"};
+
+/// The values of those properties, lower case; empty where nothing is said.
+struct Look {
+  std::array<std::string, kProperties.size()> says;
+  [[nodiscard]] const std::string& operator[](Property property) const {
+    return says[static_cast<std::size_t>(property)];
+  }
 };
+
+/// The colour of a paint as "#0000ff", or the word that stands there; empty for none, and for a gradient or
+/// pattern.
+[[nodiscard]] std::string colour_word(std::string_view paint);
 
 /// The rules of all style elements of a document with those properties.
 class StyleSheet {
  public:
   explicit StyleSheet(const SvgDocument& document);
 
-  /// Returns an element's visibility by its attributes, the rules and its style attribute. The later ones of
+  /// Returns an element's own look by its attributes, the rules and its style attribute. The later ones of
   /// these override the earlier.
-  [[nodiscard]] Visibility of(const SvgElement& element) const;
+  [[nodiscard]] Look of(const SvgElement& element) const;
   /// Sentences about the parts of the style sheets that are not read.
   [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }
 
@@ -37,9 +50,7 @@ class StyleSheet {
     std::string value;
     std::size_t order = 0;
   };
-  struct Rule {
-    Said display, visibility;
-  };
+  using Rule = std::array<Said, kProperties.size()>;
   void read(std::string_view sheet, std::size_t line);
   void read_rule(std::string_view selectors, std::string_view body, std::size_t line);
 

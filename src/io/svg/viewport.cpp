@@ -8,6 +8,10 @@
 namespace lekalo::io::detail {
 namespace {
 
+constexpr double kMillimetresPerInch = 25.4;
+/// The digits that programs write of a page's size lose less than this, mm.
+constexpr double kWholeWithin = 0.002;
+
 Affine scaled_and_moved(const Bounded& sx, const Bounded& sy, const Bounded& tx, const Bounded& ty) {
   return {sx.value,
           0,
@@ -45,6 +49,35 @@ Bounded millimetres(const Side& side) {
   if (side.unit == "pc") return over(times(side.number, {254, 0}), {60, 0});
   if (side.unit == "in") return over(times(side.number, {254, 0}), {10, 0});
   return times(side.number, per);
+}
+
+/// The largest of some lengths, in mm or whole inches, of which both sides are multiples; 0 for none.
+double roundness(double wide, double high) {
+  const auto divides = [](double step, double mm) {
+    return mm >= 0.5 * step && std::abs(mm - step * std::round(mm / step)) <= kWholeWithin;
+  };
+  for (const double step : {100.0, 50.0, kMillimetresPerInch, 10.0, 5.0, 1.0})
+    if (divides(step, wide) && divides(step, high)) return step;
+  return 0;
+}
+
+/// A sentence where the page is of whole millimetres or inches at the 72 or 90 px to an inch of other
+/// programs and not at 96, or was made by an Inkscape that counted 90; else "".
+std::string other_resolution(const SvgElement& root, const std::optional<Side>& width,
+                             const std::optional<Side>& height) {
+  if (!width || !height || width->unit != "px" || height->unit != "px") return "";
+  const auto at = [](const Side& side, double dpi) { return side.number.value * kMillimetresPerInch / dpi; };
+  const auto roundness_at = [&](double dpi) { return roundness(at(*width, dpi), at(*height, dpi)); };
+  const std::string* version = root.attribute("inkscape:version");
+  const bool old_inkscape = version != nullptr && version->starts_with("0.") && *version < "0.92";
+  for (const double dpi : {72.0, 90.0}) {
+    if (!(dpi == 90 && old_inkscape) && !(roundness_at(dpi) > roundness_at(96))) continue;
+    return fmt::format(
+        "; at {:g} px to the inch it would be {:.6g} x {:.6g} mm, not {:.6g} x {:.6g} mm: if so, "
+        "give width and height in mm",
+        dpi, at(*width, dpi), at(*height, dpi), at(*width, 96), at(*height, 96));
+  }
+  return "";
 }
 
 /// Turns y upwards: (x, height - y).
@@ -120,7 +153,8 @@ Read<Page> page_of(const SvgElement& root, std::optional<LengthUnit> said) {
   const Bounded px = *millimetres_per_unit("px");
   page.millimetres_per_unit = by_user ? millimetres_per(*said) : millimetres_per_unit(page.unit)->value;
   if (page.unit == "px") {
-    page.notice = side ? "the page is given in px, taken as 1/96 inch; --units says otherwise"
+    page.notice = side ? "the page is given in px, taken as 1/96 inch; --units says otherwise" +
+                             other_resolution(root, width, height)
                        : "the page has no size; its units are taken as px, 1/96 inch; --units says otherwise";
   }
   if (by_user || (!side && box)) {

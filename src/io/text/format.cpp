@@ -12,6 +12,7 @@ bool FileFormat::is_named_so(const std::string& file_name) const {
 }
 
 bool FileFormat::begins_so(std::string_view bytes) const {
+  if (!signature.empty() && bytes.starts_with(signature)) return true;
   const std::size_t begin = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   return begin != std::string_view::npos && first_bytes.find(bytes[begin]) != std::string_view::npos;
 }

@@ -21,8 +21,8 @@ namespace lekalo::io {
   return failure(ErrorCode::bad_input, fmt::format("{}: line {}: {}", name, line, sentence));
 }
 
-/// Says why bytes are not text that can be read, whatever the file's name says: a binary DXF, a DWG, UTF-16,
-/// zero bytes; empty for anything else.
+/// Says why bytes are not text that can be read, whatever the file's name says: a binary DXF, a DWG, a PDF,
+/// an archive, a STEP model, an image, UTF-16, zero bytes; empty for anything else.
 [[nodiscard]] std::string wrong_encoding(std::string_view bytes);
 
 /// The unit that holds when the file says one (or nothing) and the user says one (or nothing).

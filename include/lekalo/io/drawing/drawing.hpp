@@ -67,12 +67,21 @@ struct DrawnEntity {
   std::size_t line = 0;  ///< of the file, 1-based
   /// The rule by which the file fills the entity, even-odd where it is not filled.
   geom::FillRule fill = geom::FillRule::even_odd;
+  /// The name that a person gave it (inkscape:label), "" if there is none.
+  std::string label{};
+  /// True where the file fills it and draws no line along it: a fill of SVG without a stroke, a solid HATCH.
+  bool filled = false;
 };
 
 struct Layer {
   std::string name;  ///< UTF-8
   /// True for a layer that is switched off or frozen in the file.
   bool hidden = false;
+  /// The colour of its curves as "#0000ff", or as the file's own word for it; empty where nothing is said.
+  /// Curves of one layer in several colours or line types stand in as many entries of the same name.
+  std::string colour{};
+  /// The name of their line type ("DASHED"); empty for lines that are drawn through.
+  std::string line_type{};
 };
 
 /// Entities that are not curves or that are not read, by name: "TEXT", "SPLINE (fit points alone)".
@@ -93,6 +102,9 @@ struct Drawing {
   std::vector<DrawnEntity> entities;
   std::vector<DrawnCurve> curves;  ///< file order
   std::vector<Unread> unread;      ///< by name
+  /// A sentence about every entity that is damaged and was set aside, with file, line and reason, in file
+  /// order; the entity is counted in `unread` too.
+  std::vector<std::string> damaged;
   std::vector<std::string> notices;
 };
 

@@ -13,14 +13,15 @@
 
 namespace lekalo::io {
 
-/// Reads an ASCII DXF drawing, R12 to current: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE, POLYLINE, SPLINE and
-/// INSERT of the model space, seen from above. `unit` is what the user said, and applies where the file does
-/// not say ($INSUNITS; millimetres if neither does); a file that says otherwise is refused.
+/// Reads a DXF drawing, R12 to current, text or binary: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE, POLYLINE,
+/// SPLINE, MLINE and INSERT of the model space, seen from above. `unit` is what the user said, and applies
+/// where the file does not say ($INSUNITS; millimetres if neither does); a file that says otherwise is
+/// refused.
 ///
 /// Fails with ErrorCode::bad_input and one sentence that names file, line, what stands there and the way out:
-/// binary DXF, DWG, a file that is not complete, numbers that are none, coordinates beyond 1e9 mm, nesting or
-/// copies beyond the limits above. Whatever else is not read is counted in `unread`, never skipped in
-/// silence. Cost: O(bytes + curves).
+/// DWG and other kinds of files, a file that is not complete, nesting or copies beyond the limits above. An
+/// entity that is damaged is set aside with its sentence in `damaged`. Whatever else is not read is counted
+/// in `unread`, never skipped in silence. Cost: O(bytes + curves).
 [[nodiscard]] Result<Drawing> parse_dxf(std::string_view bytes, const std::string& name,
                                         std::optional<LengthUnit> unit = std::nullopt);
 

@@ -21,16 +21,17 @@ namespace lekalo::io {
 ///
 /// The layer of a curve is the inkscape:label or id of the nearest group that says it is a layer, else of the
 /// outermost group that has one. What display or visibility hides stands in a layer of the same name that is
-/// hidden.
+/// hidden. Strokes (or fills where there is none) and dashes make several entries of a layer.
 ///
 /// A page in mm, cm, in, pt, pc or Q says its unit. Otherwise one unit of the page is what the user said,
 /// or 1/96 inch (CSS) if neither does, with a notice; a file that says another unit than the user is refused.
 ///
 /// Fails with ErrorCode::bad_input and one sentence that names file, line, element and the way out: not XML,
-/// no SVG, compressed SVG, path data or numbers that are none, coordinates beyond 1e9, entities within
-/// entities, nesting or copies beyond the limits of drawing.hpp. No other file is opened. Text, images,
-/// gradients and all else that is no outline is counted in `unread`. Clipping, markers and strokes change
-/// nothing. Cost: O(bytes + curves).
+/// no SVG, compressed SVG, a page whose size or view box is none, entities within entities, nesting or copies
+/// beyond the limits of drawing.hpp. An element with path data or numbers that are none, or coordinates
+/// beyond 1e9, is set aside with its sentence in `damaged`. No other file is opened. Text, images, gradients
+/// and all else that is no outline is counted in `unread`. Clipping, markers and strokes change nothing.
+/// Cost: O(bytes + curves).
 [[nodiscard]] Result<Drawing> parse_svg(std::string_view bytes, const std::string& name,
                                         std::optional<LengthUnit> unit = std::nullopt);
 

@@ -14,9 +14,11 @@ struct FileFormat {
   std::array<std::string_view, 3> endings{};  ///< of file names, small letters with the point; unused: empty
   std::string_view first_bytes{};             ///< any of them begins such a file; empty: none is its own
 
+  std::string_view signature{};  ///< how its binary form begins; empty: there is none
+
   /// By the ending of the file's name, in any case.
   [[nodiscard]] bool is_named_so(const std::string& file_name) const;
-  /// By the first byte after blanks and a byte order mark.
+  /// By the signature, or by the first byte after blanks and a byte order mark.
   [[nodiscard]] bool begins_so(std::string_view bytes) const;
 };
 
