@@ -15,6 +15,7 @@
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
+#include "region_rings.hpp"
 #include "report_sheet.hpp"
 #include "scene.hpp"
 #include "view.hpp"
@@ -33,6 +34,8 @@ constexpr Rect kPage{0, 0, 297, 210};
 constexpr Rect kDrawing{8, 17, 281, 128};
 constexpr double kTables = 152;  ///< where the tables begin
 constexpr std::size_t kMostMarks = 99;
+/// The chords of arcs of marks, mm.
+constexpr double kMarkSag = 0.05, kMarkStep = 50;
 
 /// Fills for parts: light enough for black print, different in lightness as well as in hue.
 constexpr std::array<Colour, 10> kPartFills = {{{166, 206, 227},
@@ -243,6 +246,7 @@ class Composer {
          {bad ? "part bad" : "part",
           fmt::format("{} (placement {}{}{})", part.name.empty() ? part.id : part.name, placement.id,
                       placement.mirrored ? ", mirrored" : "", placement.locked ? ", locked" : "")});
+    draw_part_marks(part, placement, view, room);
     const geom::GridBox box = bounds(outline);
     const Point low = view(geom::mm_from_grid(box.low)), high = view(geom::mm_from_grid(box.high));
     const Rect on_page{low.x, high.y, high.x - low.x, low.y - high.y};
@@ -264,6 +268,27 @@ class Composer {
                   {.size = size, .colour = kInk, .anchor = Anchor::middle, .kind = "part-label"});
       break;
     }
+  }
+
+  /// Draws what is engraved, bent or cut within a part, thin.
+  void draw_part_marks(const layout::Part& part, const Placement& placement, const View& view,
+                       const Rect& room) {
+    PathItem item{{}, false, stroked(kPartLine, 0.1), {"mark", part.id}};
+    constexpr auto kOne = static_cast<double>(geom::GridRotation::kOne);
+    const double c = static_cast<double>(placement.rotation.c) / kOne,
+                 s = static_cast<double>(placement.rotation.s) / kOne;
+    const Point at = geom::mm_from_grid(placement.at);
+    for (const layout::PartMark& mark : part.marks) {
+      ask();
+      Ring line = chain_points(mark.edges, kMarkSag, kMarkStep);
+      for (Point& p : line) {
+        if (placement.mirrored) p.x = -p.x;
+        p = Point{c * p.x - s * p.y, s * p.x + c * p.y} + at;
+      }
+      Ring shown = on_paper(line, view, room);
+      if (shown.size() > 1) item.lines.push_back(std::move(shown));
+    }
+    if (!item.lines.empty()) scene_.items.push_back(std::move(item));
   }
 
   void draw_remnant(const layout::SheetUse& use, const View& view, const Rect& room) {

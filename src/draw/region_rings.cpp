@@ -47,4 +47,11 @@ std::vector<Ring> region_rings(const std::vector<geom::Region>& regions, double 
   return rings;
 }
 
+Ring chain_points(const geom::Contour& chain, double sag, double step) {
+  Ring points;
+  for (const geom::Edge& edge : chain) append_points(edge, sag, step, points);
+  if (!chain.empty()) points.push_back(chain.back().to);
+  return points;
+}
+
 }  // namespace lekalo::draw

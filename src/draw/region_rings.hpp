@@ -12,4 +12,7 @@ namespace lekalo::draw {
 [[nodiscard]] std::vector<geom::Ring> region_rings(const std::vector<geom::Region>& regions, double sag,
                                                    double step);
 
+/// Returns edges that need not close as points, their end among them, in the same way.
+[[nodiscard]] geom::Ring chain_points(const geom::Contour& chain, double sag, double step);
+
 }  // namespace lekalo::draw

@@ -11,6 +11,7 @@
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/geom/arc_ends.hpp"
+#include "lekalo/geom/chain.hpp"
 #include "lekalo/geom/double_double.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/same_outline.hpp"
@@ -136,7 +137,7 @@ std::optional<std::string> arc_fault(const Edge& arc, bool alone) {
   return std::nullopt;
 }
 
-std::optional<std::string> edge_fault(const Contour& contour, std::size_t i) {
+std::optional<std::string> edge_fault(const Contour& contour, std::size_t i, bool closed = true) {
   const Edge& edge = contour[i];
   if (!is_exact(edge)) {
     return fmt::format("a coordinate of {} to {} is not 0 or a number of magnitude {:.3g} to {:.3g}",
@@ -144,7 +145,7 @@ std::optional<std::string> edge_fault(const Contour& contour, std::size_t i) {
   }
   const std::size_t before = i == 0 ? contour.size() - 1 : i - 1;
   const Point joint = contour[before].to;
-  if (edge.from != joint) {
+  if (edge.from != joint && (closed || i > 0)) {
     return fmt::format("it begins at {}, but edge {} ends at {}, {:.3g} mm away", text(edge.from), before,
                        text(joint), norm(edge.from - joint));
   }
@@ -169,6 +170,16 @@ Result<Contour> normalised(Contour contour, bool counter_clockwise, const std::s
 }
 
 }  // namespace
+
+Result<Contour> make_chain(Contour edges) {
+  if (edges.empty()) return failure(ErrorCode::bad_input, "there are no edges");
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!is_arc(edges[i])) edges[i].centre = {};
+    if (const auto fault = edge_fault(edges, i, false))
+      return failure(ErrorCode::bad_input, fmt::format("edge {}: {}", i, *fault));
+  }
+  return edges;
+}
 
 double arc_radius(const Edge& arc) noexcept {
   return (norm(arc.from - arc.centre) + norm(arc.to - arc.centre)) / 2;

@@ -132,6 +132,14 @@ inline layout::Document random_document(std::uint64_t seed, std::uint64_t index)
     if (half()) p.gap = gap();
     if (half()) p.border_gap = gap();
     if (half()) p.defect_gap = gap();
+    for (std::int64_t k = some(2); k > 0; --k) {
+      const geom::Point from{random.uniform(-50, 50), random.uniform(-50, 50)},
+          to{random.uniform(-50, 50), 51};
+      const geom::Point centre = to - geom::Point{8, 0};
+      p.marks.push_back({half() ? random_text(random) : "",
+                         {{geom::EdgeKind::line, from, to, {}},
+                          {geom::EdgeKind::arc_ccw, to, centre + geom::Point{0, 8}, centre}}});
+    }
     d.parts.push_back(std::move(p));
   }
   for (std::int64_t i = d.parts.empty() ? 0 : some(2); i > 0; --i) {

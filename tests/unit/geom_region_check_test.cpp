@@ -125,8 +125,7 @@ TEST(RegionCheck, SameOutlinesMayBeginAnywhereAndRunEitherWay) {
       region(polygon({{10, 10}, {0, 10}, {0, 0}, {10, 0}}), {square(6, 6, 2), circle({3, 3}, 1)})};
   EXPECT_TRUE(same_outline(plate, other));
   EXPECT_FALSE(same_outline(plate, {region(square(0, 0, 10), {circle({3, 3}, 1)})}));
-  EXPECT_FALSE(
-      same_outline(plate, {region(square(0, 0, 10), {circle({3, 3}, 1), square(6, 6, 2.0000001)})}));
+  EXPECT_FALSE(same_outline(plate, {region(square(0, 0, 10), {circle({3, 3}, 1), square(6, 6, 2.0000001)})}));
 }
 
 }  // namespace

@@ -48,6 +48,32 @@ TEST(LayoutJson, ReadsAHandWrittenFileWithItsDefaults) {
   EXPECT_EQ(d.placements[1].at.x, -geom::kGridPerMm);
 }
 
+TEST(LayoutJson, MarksOfPartsAreKeptAsTheyAre) {
+  Json json = Json::parse(kLayout);
+  const Json line = Json::parse(R"({"line": {"from": [0.1, 1], "to": [2, 1]}})");
+  const Json arc = Json::parse(R"({"arc": {"from": [2, 1], "to": [1, 2], "centre": [1, 1], "ccw": true}})");
+  json["parts"][0]["marks"] = {{{"layer", "bend"}, {"edges", {line, arc}}}, {{"edges", {line}}}};
+  const auto file = read_layout(json.dump(), "plan.json");
+  ASSERT_TRUE(file.has_value()) << file.error().message;
+  const layout::Part& part = file->document.parts[0];
+  ASSERT_EQ(part.marks.size(), 2u);
+  EXPECT_EQ(part.marks[0].layer, "bend");
+  EXPECT_EQ(part.marks[0].edges[0].from, (geom::Point{0.1, 1}));
+  EXPECT_EQ(part.marks[0].edges[1].kind, geom::EdgeKind::arc_ccw);
+  EXPECT_EQ(part.marks[1].layer, "");
+  EXPECT_EQ(read_layout(write_layout(file->document), "plan.json")->document, file->document);
+
+  json["parts"][0]["marks"] = {{{"edges", {arc, line}}}};
+  EXPECT_NE(
+      message_of(json.dump()).find("parts[0].marks[0].edges, edge 1: it begins at (0.1, 1), but edge 0 ends"),
+      std::string::npos)
+      << message_of(json.dump());
+  json["parts"][0]["marks"] = {{{"layer", "bend"}}};
+  EXPECT_NE(message_of(json.dump()).find("\"edges\", its lines and arcs"), std::string::npos);
+  json["parts"][0]["marks"] = {{{"edges", Json::array()}}};
+  EXPECT_NE(message_of(json.dump()).find("there are no edges"), std::string::npos) << message_of(json.dump());
+}
+
 TEST(LayoutJson, GapsAreRoundedUpAndCoordinatesToTheNearestStep) {
   Json json = Json::parse(kLayout);
   json["rules"] = {{"gap", 0.1}, {"border_gap", 3}, {"defect_gap", 1e-300}};

@@ -63,6 +63,40 @@ TEST(NestingFiles, OutlinesThatMeetThemselvesAreRefused) {
   }
 }
 
+TEST(NestingFiles, ZonesThatCrossThemselvesAreReadSoThatTheyForbidMore) {
+  const auto shape = [](const std::string& points) {
+    return R"({"Type": "SimplePolygon", "Data": )" + points + "}";
+  };
+  const auto zone = [&](int quality, const std::string& points) {
+    return fmt::format(R"("Zones": [{{"Quality": {}, "Shape": {}}}])", quality, shape(points));
+  };
+  // Two lobes about (5, 5), of 25 mm2 each; what is wound around is nothing in all. Then a loop of 1 mm2 at
+  // the corner of a square.
+  const std::string bow = "[[0,0],[10,10],[10,0],[0,10]]",
+                    loop = "[[0,0],[10,0],[10,11],[9,11],[9,10],[11,10],[0,10]]";
+  const auto areas = [&](const std::string& item_zones, const std::string& hide_zones) {
+    const std::string square = shape("[[0,0],[50,0],[50,50],[0,50]]");
+    const auto file =
+        read_nesting(fmt::format(R"({{"Items": [{{"Demand": 1, "BaseQuality": 2, "Shape": {0}, {1}}}], )"
+                                 R"("Objects": [{{"Cost": 1, "Stock": 1, "Shape": {0}, {2}}}]}})",
+                                 square, item_zones, hide_zones),
+                     "h.json");
+    EXPECT_TRUE(file.has_value()) << file.error().message;
+    double part = 0, hide = 0;
+    if (!file) return std::pair{part, hide};
+    for (const auto& area : file->document.parts[0].areas) part += geom::area_mm2(area.outline.polygon);
+    for (const auto& one : file->document.stocks[0].zones) hide += geom::area_mm2(one.outline.polygon);
+    EXPECT_EQ(file->notices.size(), 2u);
+    return std::pair{part, hide};
+  };
+  // An area that asks for less than its part is read as small as it may be, every other zone as large.
+  const auto low = areas(zone(1, bow), zone(1, bow)), high = areas(zone(3, bow), zone(1, loop));
+  EXPECT_NEAR(low.first, 0, 1e-4);
+  EXPECT_NEAR(low.second, 50, 1e-4);
+  EXPECT_NEAR(high.first, 50, 1e-4);
+  EXPECT_NEAR(high.second, 101.5, 0.6);
+}
+
 TEST(NestingFiles, SheetsInInchesWithGaps) {
   const auto file = job("sheets.json", LengthUnit::inch);
   ASSERT_TRUE(file.has_value()) << file.error().message;
@@ -218,10 +252,10 @@ TEST(OpenLayout, TellsFilesApartByWhatIsInThem) {
   const auto svg = opened(
       "s.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">
       <g id="soles"><rect id="left" x="1" y="1" width="10" height="10"/><rect x="21" y="1" width="10" height="10"/></g></svg>)");
-  ASSERT_EQ(svg.parts.size(), 2u);
-  EXPECT_EQ(svg.parts[0].id, "left");
-  EXPECT_EQ(svg.parts[1].id, "soles");
-  EXPECT_EQ(svg.parts[0].demand, 1);
+  ASSERT_EQ(svg.parts.size(), 1u);
+  EXPECT_EQ(svg.parts[0].id, "s");
+  EXPECT_EQ(svg.parts[0].name, "soles, left");
+  EXPECT_EQ(svg.parts[0].demand, 2);
   const auto other = disk::open_layout(put("o.json", "{\"a\": 1}"));
   ASSERT_FALSE(other.has_value());
   EXPECT_NE(other.error().message.find("no layout; known are"), std::string::npos);

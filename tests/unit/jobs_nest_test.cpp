@@ -31,15 +31,15 @@ Document broken_squares() {
 
 /// Finds these layouts in turn, each as a better one than the last, and ends with the last.
 Nester finding(std::vector<Document> documents) {
-  return [documents](const Document&, const nest::Options& options,
-                     const RunControl&) -> Result<nest::Nested> {
-    nest::Nested found;
-    for (const Document& document : documents) {
-      found.document = document;
-      if (options.improved) options.improved(found);
-    }
-    return found;
-  };
+  return
+      [documents](const Document&, const nest::Options& options, const RunControl&) -> Result<nest::Nested> {
+        nest::Nested found;
+        for (const Document& document : documents) {
+          found.document = document;
+          if (options.improved) options.improved(found);
+        }
+        return found;
+      };
 }
 
 TEST(JobsNest, ALayoutThatBreaksARuleIsNeverTheResult) {

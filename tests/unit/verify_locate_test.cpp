@@ -208,7 +208,9 @@ const std::vector<Tampering>& tamperings() {
        }},
       {"an NC program that keeps more than the placement", "nc.clearance",
        [](Files& f, const Solution& s) {
-         f["nc"] = fmt::format(R"({{"clearance": {}, "rounding_mm": 1e-5, "mode": "coordinates", "work_offset": 1}})", s.clearance);
+         f["nc"] = fmt::format(
+             R"({{"clearance": {}, "rounding_mm": 1e-5, "mode": "coordinates", "work_offset": 1}})",
+             s.clearance);
        }},
   };
   return table;

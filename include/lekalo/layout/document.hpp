@@ -48,6 +48,15 @@ struct PartArea {
   friend bool operator==(const PartArea&, const PartArea&) = default;
 };
 
+/// A line on a part that bounds no area: a hinge, a bend, an engraving, a cut within the part. It takes no
+/// room and no rule asks for it; it moves with the part.
+struct PartMark {
+  std::string layer;  ///< of the drawing; may be empty
+  /// In the part's frame, as drawn, made by make_chain; closed where the last ends where the first begins.
+  geom::Contour edges;
+  friend bool operator==(const PartMark&, const PartMark&) = default;
+};
+
 /// A direction in the material or the part: grain, stretch. After half a turn it is the same one.
 struct Grain {
   double degrees = 0;            ///< in the part's frame
@@ -61,6 +70,7 @@ struct Part {
   Outline outline;
   int quality = kAnyQuality;
   std::vector<PartArea> areas;
+  std::vector<PartMark> marks;
   /// The allowed angles of the part as placed, after mirroring; an empty list allows any.
   std::vector<AngleRange> rotations;
   bool may_mirror = false;

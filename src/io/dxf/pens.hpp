@@ -36,7 +36,7 @@ class DxfColour {
   std::uint32_t said_ = kByLayer;
 };
 
-/// What an entity is drawn with: its layer, colour and line type.
+/// A pen is what an entity is drawn with: its layer, colour and line type.
 struct DxfPen {
   std::uint32_t layer = DxfLayers::kZero;  ///< into DxfLayers
   DxfColour colour;

@@ -157,7 +157,7 @@ Result<ReadOutline> OutlineFile::read_tree() const {
 
 Result<ReadOutline> OutlineFile::read_drawing() const {
   LEKALO_TRY(const Drawing drawing, drawing_format_by_ending(name_)->parse(bytes_, name_, options_.units));
-  // What is missing of a blank would be taken for material, so nothing damaged is set aside here.
+  // A hole that is missing would count as material, so nothing damaged is set aside here.
   if (!drawing.damaged.empty()) return failure(ErrorCode::bad_input, drawing.damaged.front());
   DrawingOptions how;
   if (options_.join) how.join_tolerance = *options_.join;

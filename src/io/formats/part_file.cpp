@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "engraving.hpp"
+#include "equal_parts.hpp"
 #include "io/layout/layout_outline.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
@@ -20,17 +22,20 @@
 namespace lekalo::io {
 namespace {
 
-/// A closed outline with its holes, and what it is called.
+/// A closed outline with its holes, the lines on it, and what it is called.
 struct DrawnPart {
   geom::Region region;
   std::string id, name;
+  std::vector<layout::PartMark> marks{};
 };
 
 struct DrawnParts {
   std::vector<DrawnPart> parts;
   std::vector<geom::Region> sheets;
   double tolerance = 0;  ///< mm: the true outlines are within this
-  std::vector<std::string> notices;
+  std::vector<std::string> set_aside, notices;
+  /// True for an export of lekalo, in which every placed piece is a part of its own.
+  bool exported = false;
 };
 
 constexpr std::size_t kLongestName = 200;
@@ -71,11 +76,79 @@ bool is_export(const Drawing& drawing) {
          });
 }
 
+/// The words by which people know an outline: its layer, and what its element is called.
+std::string name_of(const Drawing& drawing, const DrawingFormat& format, const DrawnCurve& curve) {
+  const std::string& layer = drawing.layers[curve.layer].name;
+  const DrawnEntity& entity = drawing.entities[curve.entity];
+  const std::string& own = !entity.label.empty()      ? entity.label
+                           : format.handles_are_names ? entity.handle
+                                                      : entity.label;
+  if (layer.empty() || own.empty() || own == layer) return layer.empty() ? own : layer;
+  return layer + ", " + own;
+}
+
+std::string place_of(const geom::Contour& line) {
+  return fmt::format("({:.6g}, {:.6g}) mm", line.front().from.x, line.front().from.y);
+}
+
+/// Cuts a line where an edge does not begin exactly where the one before ends.
+std::vector<geom::Contour> without_gaps(geom::Contour line) {
+  std::vector<geom::Contour> pieces;
+  for (geom::Edge& edge : line) {
+    const bool goes_on = !pieces.empty() && pieces.back().back().to == edge.from;
+    if (!goes_on) pieces.emplace_back();
+    pieces.back().push_back(edge);
+  }
+  return pieces;
+}
+
+/// Makes parts of regions, with the lines that lie on them; lines that lie on none are set aside.
+void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegions drawn, DrawnParts& made) {
+  const Engraved engraved = without_engraving(drawing, drawn);
+  std::size_t edge = 0;
+  for (const geom::Region& region : engraved.regions) {
+    const DrawnCurve& curve = drawing.curves[engraved.curve_of_edge[edge]];
+    edge += edges_of(region);
+    made.parts.push_back({region, made.exported ? "CUT" : "", name_of(drawing, format, curve)});
+  }
+  std::size_t on_parts = 0;
+  const auto put = [&](std::uint32_t part, std::uint32_t curve, geom::Contour line) {
+    const std::string& layer = drawing.layers[drawing.curves[curve].layer].name;
+    if (part != kNoRegion) {
+      ++on_parts;
+      for (geom::Contour& piece : without_gaps(std::move(line)))
+        made.parts[part].marks.push_back({plain(layer), std::move(piece)});
+      return;
+    }
+    made.set_aside.push_back(fmt::format("{}: the line of {} {} on layer {} from {} on lies on no part",
+                                         drawing.name, line.size(), line.size() == 1 ? "edge" : "edges",
+                                         excerpt(layer), place_of(line)));
+  };
+  const RegionsAround around(engraved.regions);
+  for (const Engraved::Line& line : engraved.lines)
+    put(around.innermost(line.contour.front().from), line.curve, line.contour);
+  for (Mark& mark : drawn.marks) {
+    std::uint32_t part = mark.region ? engraved.new_number[*mark.region] : kNoRegion;
+    if (part == kNoRegion) part = around.innermost(mark.edges.front().from);
+    put(part, mark.curve_of_edge.front(), std::move(mark.edges));
+  }
+  for (const SetAside& one : drawn.set_aside) made.set_aside.push_back(drawing.name + ": " + one.sentence);
+  for (const std::string& sentence : drawing.damaged) made.set_aside.push_back(sentence);
+  if (!engraved.lines.empty())
+    made.notices.push_back(fmt::format("{}: {} closed lines are engraving, filled or in rows of letters",
+                                       drawing.name, engraved.lines.size()));
+  if (on_parts > 0)
+    made.notices.push_back(fmt::format("{}: {} lines that bound no area are kept as marks on their parts",
+                                       drawing.name, on_parts));
+}
+
 Result<DrawnParts> of_drawing(const DrawingFormat& format, std::string_view bytes, const std::string& name,
                               const PartOptions& how) {
   const Result<Drawing> drawing = format.parse(bytes, name, how.unit);
   LEKALO_CHECK(drawing);
   DrawingOptions options = how.drawing;
+  if (options.strict && !drawing->damaged.empty())
+    return failure(ErrorCode::bad_input, drawing->damaged.front());
   DrawnParts made;
   if (options.take.empty() && options.leave.empty() && is_export(*drawing)) {
     made.notices.push_back(
@@ -89,19 +162,12 @@ Result<DrawnParts> of_drawing(const DrawingFormat& format, std::string_view byte
       made.tolerance = sheets.tolerance;
     }
     options.take = {"CUT"};
+    made.exported = true;
   }
   LEKALO_TRY(DrawnRegions drawn, make_regions(*drawing, options));
   made.tolerance = std::max(made.tolerance, drawn.tolerance);
   made.notices.insert(made.notices.end(), drawn.notices.begin(), drawn.notices.end());
-  std::size_t edge = 0;
-  for (geom::Region& region : drawn.regions) {
-    const DrawnCurve& curve = drawing->curves[drawn.curve_of_edge[edge]];
-    edge += edges_of(region);
-    const std::string& layer = drawing->layers[curve.layer].name;
-    const std::string& handle = drawing->entities[curve.entity].handle;
-    made.parts.push_back(
-        {std::move(region), format.handles_are_names && !handle.empty() ? handle : layer, layer});
-  }
+  take_parts(*drawing, format, std::move(drawn), made);
   return made;
 }
 
@@ -148,6 +214,37 @@ Result<layout::Stock> make_sheet(const geom::Region& region, std::string id, con
   return sheet;
 }
 
+/// Takes the holes off a region that are lost in the steps of the grid.
+void drop_specks(geom::Region& region, const std::string& name, double chord_tolerance,
+                 std::vector<std::string>& set_aside) {
+  std::erase_if(region.holes, [&](const geom::Contour& hole) {
+    const auto alone =
+        detail::outline_of_curves({geom::reversed(hole), {}}, geom::ChordSide::shrink, chord_tolerance);
+    if (!alone)
+      set_aside.push_back(fmt::format("{}: the hole at {}: {}", name, place_of(hole), alone.error().message));
+    return !alone;
+  });
+}
+
+/// Puts -2, -3 behind ids that come again.
+void give_ids(std::vector<layout::Part>& parts) {
+  std::set<std::string> ids;
+  std::map<std::string, std::size_t> last_of;
+  for (layout::Part& part : parts) {
+    const std::string base = part.id;
+    std::size_t& last = last_of[base];
+    if (last == 0) last = 1;
+    while (!ids.insert(part.id).second) part.id = fmt::format("{}-{}", base, ++last);
+  }
+}
+
+/// The first sentences of a list that may be long.
+void tell_set_aside(const std::vector<std::string>& list, std::vector<std::string>& notices) {
+  constexpr std::size_t kMostTold = 20;
+  for (std::size_t i = 0; i < list.size() && i < kMostTold; ++i) notices.push_back("set aside: " + list[i]);
+  if (list.size() > kMostTold) notices.push_back(fmt::format("set aside: {} more", list.size() - kMostTold));
+}
+
 /// A notice where outlines are not exactly what is drawn.
 void tell_tolerance(double tolerance, const std::string& name, std::vector<std::string>& notices) {
   if (tolerance > geom::kGridStep)
@@ -190,22 +287,25 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
                           options.chord_tolerance));
     file.stocks.push_back(std::move(sheet));
   }
-  std::set<std::string> ids;
-  std::map<std::string, std::size_t> last_of;
   std::size_t points = 0;
   for (DrawnPart& one : drawn->parts) {
     layout::Part part;
-    const std::string base = one.id.empty() ? id_of_file(name) : plain(one.id);
-    part.id = base;
-    std::size_t& last = last_of[base];
-    if (last == 0) last = 1;
-    while (!ids.insert(part.id).second) part.id = fmt::format("{}-{}", base, ++last);
+    part.id = one.id.empty() ? id_of_file(name) : plain(one.id);
     part.name = plain(one.name);
     part.demand = 1;
+    part.marks = std::move(one.marks);
     auto outline = detail::outline_of_curves(one.region, geom::ChordSide::grow, options.chord_tolerance);
-    if (!outline)
-      return failure(ErrorCode::bad_input,
-                     fmt::format("{}: part {}: {}", name, excerpt(part.id), outline.error().message));
+    if (!outline && !options.drawing.strict) {
+      drop_specks(one.region, name, options.chord_tolerance, drawn->set_aside);
+      outline = detail::outline_of_curves(one.region, geom::ChordSide::grow, options.chord_tolerance);
+    }
+    if (!outline) {
+      const std::string why = fmt::format("{}: part {} at {}: {}", name, excerpt(part.id),
+                                          place_of(one.region.outer), outline.error().message);
+      if (options.drawing.strict || drawn->parts.size() == 1) return failure(ErrorCode::bad_input, why);
+      drawn->set_aside.push_back(why);
+      continue;
+    }
     points += outline->polygon.points.size();
     constexpr std::size_t kMostPointsInAll = 20'000'000;
     if (points > kMostPointsInAll)
@@ -216,7 +316,17 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
     part.outline = *std::move(outline);
     file.parts.push_back(std::move(part));
   }
-  tell_tolerance(drawn->tolerance, name, file.notices);
+  if (file.parts.empty() && !drawn->set_aside.empty())
+    return failure(ErrorCode::bad_input, drawn->set_aside.back());
+  const std::size_t outlines = file.parts.size();
+  const double merged = drawn->exported ? 0 : merge_equal(file.parts);
+  if (file.parts.size() < outlines)
+    file.notices.push_back(fmt::format("{}: {} outlines are {} parts, equal ones by their number", name,
+                                       outlines, file.parts.size()));
+  give_ids(file.parts);
+  file.set_aside = std::move(drawn->set_aside);
+  tell_set_aside(file.set_aside, file.notices);
+  tell_tolerance(drawn->tolerance + merged, name, file.notices);
   return file;
 }
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "io/shape/region_reader.hpp"
 #include "io/text/decimal.hpp"
 #include "layout_outline.hpp"
 #include "layout_reader.hpp"
@@ -198,7 +199,7 @@ class LayoutReader {
   void part(JsonValue value) {
     layout::Part part;
     if (!reader_.expect_object(
-            value, {"id", "name", "outline", "quality", "areas", "rotations", "mirror", "grain",
+            value, {"id", "name", "outline", "quality", "areas", "marks", "rotations", "mirror", "grain",
                     "tolerated_severity", "priority", "demand", "gap", "border_gap", "defect_gap"}))
       return;
     part.id = id(value, part_ids_, "parts");
@@ -212,6 +213,7 @@ class LayoutReader {
       area.outline = outline(v, geom::ChordSide::grow);
       part.areas.push_back(std::move(area));
     });
+    items(value, "marks", kMostMarkEdges, [&](JsonValue v) { mark(v, part); });
     optional(value, "rotations", [&](JsonValue v) { rotations(v, part); });
     optional(value, "mirror", [&](JsonValue v) { part.may_mirror = reader_.truth(v); });
     optional(value, "grain", [&](JsonValue v) {
@@ -230,6 +232,18 @@ class LayoutReader {
     optional(value, "defect_gap", [&](JsonValue v) { part.defect_gap = reader_.gap(v); });
     part_index_.emplace(part.id, static_cast<std::uint32_t>(document_.parts.size()));
     document_.parts.push_back(std::move(part));
+  }
+
+  void mark(JsonValue value, layout::Part& part) {
+    layout::PartMark mark;
+    if (!reader_.expect_object(value, {"layer", "edges"})) return;
+    optional(value, "layer", [&](JsonValue v) { mark.layer = reader_.text(v); });
+    const auto edges = reader_.need(value, "edges", "its lines and arcs");
+    if (!edges || !reader_.expect_list(*edges, kMostMarkEdges)) return;
+    auto chain = read_chain(*edges, fmt::format("{}: {}", reader_.name(), edges->path()));
+    if (!chain) return reader_.take(chain.error());
+    mark.edges = *std::move(chain);
+    part.marks.push_back(std::move(mark));
   }
 
   void rotations(JsonValue value, layout::Part& part) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "io/shape/region_text.hpp"
 #include "io/text/grid_decimal.hpp"
 #include "layout_outline.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
@@ -173,6 +174,15 @@ class Writer {
     fields.outline(part.outline);
     if (!part.areas.empty())
       list_of_lines(fields.field("areas"), part.areas, 2, [this](const PartArea& a) { area(a); });
+    if (!part.marks.empty())
+      list_of_lines(fields.field("marks"), part.marks, 2, [this](const layout::PartMark& m) { mark(m); });
+    fields.close();
+  }
+
+  void mark(const layout::PartMark& mark) {
+    Fields fields(json_);
+    if (!mark.layer.empty()) fields.text("layer", mark.layer);
+    detail::write_edges(fields.field("edges"), mark.edges);
     fields.close();
   }
 

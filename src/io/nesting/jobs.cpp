@@ -238,8 +238,9 @@ class JobReader {
       optional(object, "Stock", [&](JsonValue v) { stock.count = reader_.integer(v, 1, kLargestCount); });
       if (const auto shape = reader_.need(object, "Shape", "the outline"))
         shapes_.stock(*shape, shapes_.typed(*shape), stock);
-      zones(object, [&](int quality, layout::Outline outline, std::size_t k) {
-        stock.zones.push_back({"zone-" + std::to_string(k), quality, std::move(outline)});
+      const auto larger = [](int) { return NestingShapes::Stricter::larger; };
+      zones(object, larger, [&](int quality, layout::Outline outline, const std::string& number) {
+        stock.zones.push_back({"zone-" + number, quality, std::move(outline)});
       });
       document_.stocks.push_back(std::move(stock));
     });
@@ -263,15 +264,20 @@ class JobReader {
       optional(item, "AllowedOrientations", [&](JsonValue v) { orientations(v, part); });
       if (const auto shape = reader_.need(item, "Shape", "the outline"))
         part.outline = shapes_.outline(*shape, shapes_.typed(*shape));
-      zones(item, [&](int quality, layout::Outline outline, std::size_t) {
+      // An area that asks for less than the part forbids more where it is smaller.
+      const auto stricter = [&](int quality) {
+        return quality >= part.quality ? NestingShapes::Stricter::larger : NestingShapes::Stricter::smaller;
+      };
+      zones(item, stricter, [&](int quality, layout::Outline outline, const std::string&) {
         part.areas.push_back({quality, std::move(outline)});
       });
       document_.parts.push_back(std::move(part));
     });
   }
 
-  template <class Take>
-  void zones(JsonValue value, const Take& take) {
+  /// Reads the zones, those that cross themselves by what `stricter` says of their quality.
+  template <class Stricter, class Take>
+  void zones(JsonValue value, const Stricter& stricter, const Take& take) {
     const auto list = value.find("Zones");
     if (!list || !reader_.expect_list(*list, kMostParts)) return;
     std::size_t index = 0;
@@ -281,9 +287,13 @@ class JobReader {
                  shape = reader_.need(zone, "Shape", "the outline");
       if (!quality || !shape) return;
       const int level = static_cast<int>(reader_.integer(*quality, 0, limits::kMostLevel));
-      layout::Outline outline = shapes_.outline(*shape, shapes_.typed(*shape));
+      std::vector<layout::Outline> outlines = shapes_.zone(*shape, shapes_.typed(*shape), stricter(level));
       if (!reader_.ok()) return;
-      take(level, std::move(outline), index++);
+      // A zone in several pieces has numbers 3, 3-2, 3-3.
+      for (std::size_t piece = 0; piece < outlines.size(); ++piece)
+        take(level, std::move(outlines[piece]),
+             piece == 0 ? std::to_string(index) : fmt::format("{}-{}", index, piece + 1));
+      ++index;
     }
   }
 

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "io/layout/layout_outline.hpp"
 #include "lekalo/base/joined_text.hpp"
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/curve_faces.hpp"
+#include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/nesting/nesting_files.hpp"
 
@@ -60,6 +63,58 @@ std::size_t without_spikes(std::vector<GridPoint>& loop) {
   kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(begin));
   if (dropped > 0) loop = std::move(kept);
   return dropped;
+}
+
+geom::Point middle_of(const geom::Edge& line) { return 0.5 * (line.from + line.to); }
+
+/// The loop in mm as lines.
+geom::Contour lines_of(const std::vector<GridPoint>& loop) {
+  geom::Contour contour;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const geom::Point from = geom::mm_from_grid(loop[i]),
+                      to = geom::mm_from_grid(loop[(i + 1) % loop.size()]);
+    if (!(from == to)) contour.push_back({geom::EdgeKind::line, from, to, {}});
+  }
+  return contour;
+}
+
+void add_outline(geom::Region region, geom::ChordSide side, std::vector<layout::Outline>& outlines) {
+  auto polygon = geom::grid_region_of_curves(region, side, kUsualChordTolerance);
+  // A face that is lost in the steps of the grid holds nothing.
+  if (!polygon) return;
+  layout::Outline outline;
+  outline.polygon = *std::move(polygon);
+  outlines.push_back(std::move(outline));
+}
+
+/// Everything that a loop encloses, face by face.
+Result<std::vector<layout::Outline>> enclosed_by(const std::vector<GridPoint>& loop) {
+  LEKALO_TRY(const geom::CutFaces faces, geom::faces_between(lines_of(loop)));
+  std::vector<layout::Outline> outlines;
+  for (const geom::CutContour& face : faces.contours)
+    add_outline({face.contour, {}}, geom::ChordSide::grow, outlines);
+  return outlines;
+}
+
+/// Only what loops wind around an odd number of times; nothing where one of them is no contour.
+Result<std::vector<layout::Outline>> odd_within(const Loops& loops) {
+  std::vector<geom::Contour> contours;
+  for (const auto& loop : loops) {
+    contours.push_back(lines_of(loop));
+    if (!geom::make_region(contours.back())) return std::vector<layout::Outline>{};
+  }
+  LEKALO_TRY(const geom::CutFaces cut, geom::contours_around(contours, geom::FillRule::even_odd));
+  std::vector<layout::Outline> outlines;
+  for (const geom::CutContour& outer : cut.contours) {
+    if (!(geom::signed_area(outer.contour) > 0)) continue;
+    const geom::RegionIndex inside({{outer.contour, {}}});
+    geom::Region region{outer.contour, {}};
+    for (const geom::CutContour& hole : cut.contours)
+      if (geom::signed_area(hole.contour) < 0 && inside.contains(middle_of(hole.contour.front())))
+        region.holes.push_back(hole.contour);
+    add_outline(std::move(region), geom::ChordSide::shrink, outlines);
+  }
+  return outlines;
 }
 
 }  // namespace
@@ -154,6 +209,26 @@ layout::Outline NestingShapes::outline(JsonValue at, Loops loops) {
     reader_.refuse(at, region.error());
   }
   return outline;
+}
+
+std::vector<layout::Outline> NestingShapes::zone(JsonValue at, Loops loops, Stricter stricter) {
+  if (!reader_.ok()) return {};
+  drop_spikes(at, loops);
+  if (auto region = geom::make_grid_region(loops)) {
+    layout::Outline outline;
+    outline.polygon = *std::move(region);
+    return {std::move(outline)};
+  }
+  const bool larger = stricter == Stricter::larger;
+  auto outlines = larger ? enclosed_by(loops[0]) : odd_within(loops);
+  if (!outlines) {
+    reader_.refuse(at, outlines.error());
+    return {};
+  }
+  notices.push_back(
+      fmt::format("{}: the zone crosses itself; the reading that forbids more counts: {}", place(at),
+                  larger ? "all that it encloses" : "what it winds around an odd number of times"));
+  return *std::move(outlines);
 }
 
 void NestingShapes::stock(JsonValue at, Loops loops, layout::Stock& stock) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,14 @@ class NestingShapes {
 
   /// Refused where an outline meets itself.
   layout::Outline outline(JsonValue at, Loops loops);
+  /// Says which of two readings of a zone that crosses itself forbids more.
+  enum class Stricter : std::uint8_t {
+    larger,   ///< everything that it encloses, holes filled
+    smaller,  ///< only what it winds around an odd number of times
+  };
+  /// The outlines of a zone: one, or those of the stricter reading where it meets itself, which a notice
+  /// says; none where that holds nothing.
+  std::vector<layout::Outline> zone(JsonValue at, Loops loops, Stricter stricter);
   /// Holes that meet the outline or each other become defects.
   void stock(JsonValue at, Loops loops, layout::Stock& stock);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/text/decimal.hpp"
+#include "lekalo/geom/chain.hpp"
 
 namespace lekalo::io::detail {
 
@@ -54,7 +55,6 @@ class Reader {
     });
   }
 
- private:
   [[nodiscard]] Result<Contour> contour(JsonValue json, const std::string& where) const {
     if (json.kind() != JsonKind::list) return refuse(where, "a list of edges is needed");
     Contour edges;
@@ -66,6 +66,7 @@ class Reader {
     return edges;
   }
 
+ private:
   [[nodiscard]] Result<Edge> edge(JsonValue json, const std::string& where) const {
     LEKALO_CHECK(open_ != nullptr ? expect_object(json, where, {"line", "arc", "open"})
                                   : expect_object(json, where, {"line", "arc"}));
@@ -110,6 +111,13 @@ class Reader {
 
 Result<Region> read_region(JsonValue json, const std::string& where, double scale, std::vector<Edge>* open) {
   return Reader(scale, open).region(json, where);
+}
+
+Result<geom::Contour> read_chain(JsonValue json, const std::string& where) {
+  LEKALO_TRY(Contour edges, Reader(1, nullptr).contour(json, where));
+  return geom::make_chain(std::move(edges)).map_error([&](Error error) {
+    return Error{error.code, where + ", " + error.message};
+  });
 }
 
 }  // namespace lekalo::io::detail

@@ -18,4 +18,7 @@ namespace lekalo::io::detail {
 [[nodiscard]] Result<geom::Region> read_region(JsonValue json, const std::string& where, double scale,
                                                std::vector<geom::Edge>* open = nullptr);
 
+/// The edges of a list that need not close, in mm.
+[[nodiscard]] Result<geom::Contour> read_chain(JsonValue json, const std::string& where);
+
 }  // namespace lekalo::io::detail

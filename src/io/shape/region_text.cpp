@@ -24,10 +24,6 @@ void write_point(JsonWriter& json, const char* key, Point p) {
   json.end();
 }
 
-void write_contour(JsonWriter& json, const Contour& contour) {
-  json.list(contour, [&](const Edge& edge) { write_edge(json, edge); });
-}
-
 }  // namespace
 
 void write_edge(JsonWriter& json, const Edge& e, bool open) {
@@ -44,9 +40,13 @@ void write_edge(JsonWriter& json, const Edge& e, bool open) {
   json.end();
 }
 
+void write_edges(JsonWriter& json, const Contour& edges) {
+  json.list(edges, [&](const Edge& edge) { write_edge(json, edge); });
+}
+
 void write_region(JsonWriter& json, const geom::Region& region) {
-  write_contour(json.begin_object().key("outer"), region.outer);
-  json.key("holes").list(region.holes, [&](const Contour& hole) { write_contour(json, hole); });
+  write_edges(json.begin_object().key("outer"), region.outer);
+  json.key("holes").list(region.holes, [&](const Contour& hole) { write_edges(json, hole); });
   json.end();
 }
 

@@ -52,8 +52,12 @@ bool same_part(const WrittenPart& a, const WrittenPart& b) {
   const bool rotations = std::equal(
       a.rotations.begin(), a.rotations.end(), b.rotations.begin(), b.rotations.end(),
       [](const WrittenAngles& p, const WrittenAngles& q) { return p.from == q.from && p.to == q.to; });
-  return a.id == b.id && areas && rotations && same_outline(a.outline, b.outline) && a.quality == b.quality &&
-         a.may_mirror == b.may_mirror && same_grain(a.grain, b.grain) &&
+  const bool marks = std::equal(a.marks.begin(), a.marks.end(), b.marks.begin(), b.marks.end(),
+                                [](const WrittenMark& m, const WrittenMark& n) {
+                                  return m.layer == n.layer && m.numbers == n.numbers;
+                                });
+  return a.id == b.id && areas && marks && rotations && same_outline(a.outline, b.outline) &&
+         a.quality == b.quality && a.may_mirror == b.may_mirror && same_grain(a.grain, b.grain) &&
          a.tolerated_severity == b.tolerated_severity && a.priority == b.priority && a.demand == b.demand &&
          a.gap == b.gap && a.border_gap == b.border_gap && a.defect_gap == b.defect_gap;
 }

@@ -210,9 +210,59 @@ Gaps read_gaps(Members& members, Gaps otherwise) {
   return otherwise;
 }
 
+/// Appends the numbers of an edge of a mark, and complains where it is none.
+void read_mark_edge(Json item, const std::string& path, std::string& complaint,
+                    std::vector<double>& numbers) {
+  Members edge(item, path, complaint, {"line", "arc"});
+  const bool arc = edge.has("arc");
+  if (arc == edge.has("line")) return edge.complain(fmt::format("{} is not one line or one arc", path));
+  const std::string_view kind = arc ? "arc" : "line";
+  Members inner(edge.get(kind), edge.name(kind), complaint, {"from", "to", "centre", "ccw"});
+  const auto point = [&](std::string_view key) {
+    std::size_t count = 0;
+    inner.each(key, [&](Json number, const std::string& at) {
+      numbers.push_back(inner.number_of(number, at, -limits::kLargestCoordinate, limits::kLargestCoordinate));
+      ++count;
+    });
+    if (count != 2) inner.complain(fmt::format("field {} is not two numbers", inner.name(key)));
+  };
+  const std::size_t before = numbers.size();
+  point("from");
+  point("to");
+  if (!complaint.empty()) return;
+  if (numbers[before] == numbers[before + 2] && numbers[before + 1] == numbers[before + 3] && !arc)
+    inner.complain(fmt::format("{} has no length", path));
+  if (!arc && (inner.has("centre") || inner.has("ccw")))
+    inner.complain(fmt::format("{} is a line with a centre or a direction", path));
+  if (!arc) return;
+  point("centre");
+  if (!inner.get("ccw").is_bool())
+    inner.complain(fmt::format("field {} is neither true nor false", inner.name("ccw")));
+  numbers.push_back(inner.flag("ccw") ? 1 : -1);
+}
+
+WrittenMark read_mark(Json item, const std::string& path, std::string& complaint) {
+  WrittenMark mark;
+  Members members(item, path, complaint, {"layer", "edges"});
+  if (members.has("layer")) mark.layer = members.text("layer");
+  // The end of the edge before; from, to, centre and direction of an arc are seven numbers, a line has four.
+  std::vector<double> before;
+  members.each("edges", [&](Json value, const std::string& at) {
+    std::vector<double> edge;
+    read_mark_edge(value, at, complaint, edge);
+    if (!complaint.empty()) return;
+    if (!before.empty() && (before[2] != edge[0] || before[3] != edge[1]))
+      members.complain(fmt::format("{} does not begin where the edge before it ends", at));
+    mark.numbers.insert(mark.numbers.end(), edge.begin(), edge.end());
+    before = std::move(edge);
+  });
+  if (mark.numbers.empty()) members.complain(fmt::format("{} has no edges", path));
+  return mark;
+}
+
 WrittenPart read_part(Json item, const std::string& path, std::string& complaint, const Gaps& rules) {
   Members members(item, path, complaint,
-                  {"id", "name", "outline", "quality", "areas", "rotations", "mirror", "grain",
+                  {"id", "name", "outline", "quality", "areas", "marks", "rotations", "mirror", "grain",
                    "tolerated_severity", "priority", "demand", "gap", "border_gap", "defect_gap"});
   WrittenPart part;
   if (!complaint.empty()) return part;
@@ -225,6 +275,9 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
     if (!area.has("quality")) area.complain(fmt::format("field {} is missing", area.name("quality")));
     part.areas.push_back({read_quality(area, true), read_outline(area.get("outline"), area.name("outline"),
                                                                  complaint, ChordSide::outside)});
+  });
+  members.each("marks", [&](Json value, const std::string& at) {
+    part.marks.push_back(read_mark(value, at, complaint));
   });
   part.rotations = read_rotations(members);
   part.may_mirror = members.flag("mirror");

@@ -37,11 +37,19 @@ struct WrittenGrain {
   double degrees = 0, tolerance = 0;
 };
 
+/// A line on a part that no rule asks for: the numbers of its edges in their order, of an arc with its
+/// centre, and whether it runs counter-clockwise.
+struct WrittenMark {
+  std::string layer;
+  std::vector<double> numbers;
+};
+
 struct WrittenPart {
   std::string id;
   WrittenOutline outline;
   int quality = 0;
   std::vector<WrittenArea> areas;
+  std::vector<WrittenMark> marks;
   /// An empty list allows any angle.
   std::vector<WrittenAngles> rotations;
   bool may_mirror = false;

@@ -34,12 +34,23 @@ export interface Stock {
   defects?: Defect[];
   zones?: Zone[];
 }
+/** An edge of a mark; arcs run about their centre from one end to the other. */
+export interface Edge {
+  line?: { from: Point; to: Point };
+  arc?: { from: Point; to: Point; centre: Point; ccw: boolean };
+}
+/** A line on a part that bounds no area: engraving, a hinge, a bend. */
+export interface Mark {
+  layer?: string;
+  edges: Edge[];
+}
 export interface Part {
   id: string;
   name?: string;
   outline: Outline;
   quality?: number | 'best';
   areas?: { quality: number | 'best'; outline: Outline }[];
+  marks?: Mark[];
   rotations?: (number | { from: number; to: number })[];
   mirror?: boolean;
   grain?: { deg: number; tolerance_deg?: number };

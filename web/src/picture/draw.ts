@@ -15,7 +15,7 @@ import {
   drawTag,
   measured,
 } from './marks';
-import { loopsOf, roomAlong, Shape, tracedPath, type Outlined } from './outlines';
+import { loopsOf, marksPath, roomAlong, Shape, tracedPath, type Outlined } from './outlines';
 import type { Scene, Theme } from './scene';
 import type { View } from './view';
 
@@ -23,6 +23,7 @@ export class Picture implements Painter {
   readonly backdrop: Backdrop;
   private readonly top: CanvasRenderingContext2D;
   private shapes = new Map<Part, Shape>();
+  private markPaths = new Map<Part, Path2D>();
   private paths = new WeakMap<object, Path2D>();
   private captions = new WeakMap<object, Point>();
   private hues = new Map<string, number>();
@@ -54,6 +55,7 @@ export class Picture implements Painter {
     if (this.of === model) return;
     this.of = model;
     this.shapes = new Map();
+    this.markPaths = new Map();
     this.hues = new Map();
     // Steps by the golden angle give neighbours in the list different hues, whatever their number.
     [...model.parts.keys()].forEach((id, i) => this.hues.set(id, Math.round(205 + i * 137.508) % 360));
@@ -63,6 +65,12 @@ export class Picture implements Painter {
     let shape = this.shapes.get(part);
     if (!shape) this.shapes.set(part, (shape = new Shape(loopsOf(part.outline))));
     return shape;
+  }
+
+  private marks(part: Part): Path2D {
+    let path = this.markPaths.get(part);
+    if (!path) this.markPaths.set(part, (path = marksPath(part.marks ?? [])));
+    return path;
   }
 
   /** The place of an outline's name, in its own frame. */
@@ -334,6 +342,11 @@ export class Picture implements Painter {
                   : theme.partInk;
       ctx.lineWidth = (chosen || mark || good || scene.others.has(p.id) ? 2 : 0.8) * px;
       ctx.stroke(path);
+    }
+    if (!small && part.marks) {
+      ctx.strokeStyle = theme.partInk;
+      ctx.lineWidth = 0.5 * px;
+      ctx.stroke(this.marks(part));
     }
     if (shape.reach / px >= 18) this.drawLabel(ctx, scene, sheet, p, px, mark !== null);
   }

@@ -1,6 +1,6 @@
 // Outlines become paths of a canvas.
 
-import type { Part, Point } from '../layout/document';
+import type { Mark, Part, Point } from '../layout/document';
 
 /** A part's outline by level of detail, in its own frame: level n drops corners nearer than 2^n / 8 mm to the last. */
 export class Shape {
@@ -33,6 +33,27 @@ export function tracedPath(loops: readonly Point[][], apart: number): Path2D {
       [lx, ly] = [x, y];
     });
     path.closePath();
+  }
+  return path;
+}
+
+/** Marks as a path in the frame of their part, where y runs upwards. */
+export function marksPath(marks: readonly Mark[]): Path2D {
+  const path = new Path2D();
+  for (const mark of marks) {
+    const first = mark.edges[0]?.line ?? mark.edges[0]?.arc;
+    if (first) path.moveTo(...first.from);
+    for (const { line, arc } of mark.edges) {
+      if (line) path.lineTo(...line.to);
+      if (arc) {
+        const angle = ([x, y]: Point): number => Math.atan2(y - arc.centre[1], x - arc.centre[0]);
+        const radius = Math.hypot(arc.from[0] - arc.centre[0], arc.from[1] - arc.centre[1]);
+        const begin = angle(arc.from);
+        const whole = arc.from[0] === arc.to[0] && arc.from[1] === arc.to[1];
+        const end = whole ? begin + (arc.ccw ? 2 : -2) * Math.PI : angle(arc.to);
+        path.arc(...arc.centre, radius, begin, end, !arc.ccw);
+      }
+    }
   }
   return path;
 }

@@ -25,16 +25,21 @@ struct PartsFile {
   std::vector<layout::Part> parts;
   /// The sheets; there are some only in drawings with the layers below.
   std::vector<layout::Stock> stocks;
+  /// A sentence about every curve or shape of a drawing that is neither in a part nor a mark on one, with
+  /// where and why; the first of them are among the notices.
+  std::vector<std::string> set_aside{};
   std::vector<std::string> notices;
 };
 
 /// The parts in a DXF or SVG drawing, a region file or a tree of primitives, told apart by what is in them.
-/// Each closed outline with its holes is a part that is wanted once, may be turned but not mirrored; arcs are
-/// kept beside the chords that replace them.
+/// Each closed outline with its holes is a part that may be turned but not mirrored; outlines that are the
+/// same but for their place are one part, wanted as often. Arcs are kept beside the chords that replace them.
+/// Lines of a drawing that bound no area, and what is engraved (docs/design/drawing.md), are marks of the
+/// part on which they lie.
 ///
-/// Ids: of an SVG drawing the id of the outline's element, of a DXF drawing its layer, of a tree the name of
-/// the outline's primitive, else the file's name without its ending; "-2", "-3" after those that come again.
-/// The name is the layer's, or as the id.
+/// Ids: of a tree the name of the outline's primitive, else the file's name without its ending; "-2", "-3"
+/// after those that come again. The name is that of the layer, with what the element is called (its
+/// inkscape:label, else its SVG id) behind it.
 ///
 /// A drawing that has a layer CUT beside others of kExportLayers (layout_export.hpp), as lekalo's exports
 /// have, holds its parts on CUT and its sheets on SHEET, unless layers are asked for; a notice says so.

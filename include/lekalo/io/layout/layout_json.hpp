@@ -18,6 +18,8 @@ inline constexpr std::size_t kMostPlacements = 1'000'000;
 /// The most parts of a layout, and likewise the most stocks and the most kits.
 inline constexpr std::size_t kMostParts = 100'000;
 inline constexpr std::size_t kMostOutlinePoints = 100'000;
+/// The most marks of a part, and the most edges of a mark.
+inline constexpr std::size_t kMostMarkEdges = 100'000;
 /// Chords where a file gives curves alone, or a drawing, and nobody says otherwise; mm.
 inline constexpr double kUsualChordTolerance = 0.01;
 /// The highest severity of a defect in a file: no part may say that it tolerates it.
