@@ -86,7 +86,7 @@ std::vector<PlanarMap::Loop> PlanarMap::face_loops() const {
     if (is_outside[f] != 0) continue;
     const Loop walk = walk_around(f);
     ask(1 + walk.half_edges.size() / 16);
-    // Where the walk comes back to a vertex, it has gone around something that touches the face from inside.
+    // A walk that comes back to a vertex has gone around something that touches the face from inside.
     std::vector<std::uint32_t> chain;
     const auto close_loop = [&](std::size_t begin) {
       Loop loop;

@@ -35,7 +35,7 @@ struct MendLimits {
 /// own. Spikes are cut off up to the size of a speck, and marks beyond it. Where a hole touches, its corner
 /// is moved into the hole.
 ///
-/// What encloses nothing is marks alone. Nothing where that leaves a contour with a fault.
+/// A loop that encloses nothing is marks alone. Nothing where that leaves a contour with a fault.
 /// \param less  contours whose insides are taken off
 [[nodiscard]] std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
                                            const MendLimits& limits,

@@ -55,7 +55,7 @@ class Settling {
       if (set_aside_crossing()) continue;
       const auto faulty = faulty_regions();
       if (faulty.empty()) break;
-      // What cannot be mended is set aside, one shape at a time.
+      // All that cannot be mended is set aside, one shape at a time.
       if (last || !mend_groups(faulty)) set_aside(faulty);
     }
     make_regions();

@@ -9,7 +9,7 @@
 
 namespace lekalo::io {
 
-/// What drew a curve, and by which rule it is filled.
+/// The entity that drew a curve, and by which rule it is filled.
 struct CurveOrigin {
   std::uint32_t entity = 0;
   geom::FillRule fill = geom::FillRule::even_odd;

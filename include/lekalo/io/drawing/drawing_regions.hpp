@@ -68,7 +68,7 @@ struct SetAside {
   std::vector<geom::Edge> edges;      ///< what they draw
   double tolerance = 0;               ///< mm: how far the edges are from the curves, both ways
   geom::Point at;                     ///< mm: where the trouble is
-  /// Which curves, where, why, and what would take them in.
+  /// A sentence that says which curves, where, why, and what would take them in.
   std::string sentence;
 };
 
