@@ -15,6 +15,9 @@ import os
 import sys
 
 FLAT, JOIN, LEAST = 0.005, 0.2, 0.01
+LARGEST = 262144  # mm, of outlines in a layout (docs/limits.md): what lies further out is beyond it
+# Files of which the other library does not read all, so that it has no verdict.
+UNDECIDED = {'drawings/ezdxf/mtext_framed_columns.dxf'}
 UNITS = {1: 25.4, 2: 304.8, 3: 1609344, 4: 1, 5: 10, 6: 1000, 7: 1e6, 8: 25.4e-6, 9: 0.0254, 10: 914.4, 13: 0.001,
          14: 100}
 
@@ -202,6 +205,10 @@ def row(task):
         area, outline = shape.area, shape.length
     xs = [p[0] for line in lines for p in line] or [0]
     ys = [p[1] for line in lines for p in line] or [0]
+    if max(map(abs, xs + ys)) > LARGEST:
+        verdict = 'beyond'
+    if name in UNDECIDED:
+        verdict = 'unknown'
     return [name, digest, verdict, words(kinds), words(others), f'{max(xs) - min(xs):.3f}',
             f'{max(ys) - min(ys):.3f}', f'{area:.3f}', f'{outline:.3f}']
 

@@ -203,7 +203,7 @@ class Assembly {
       }
       joins_ = join_ends(open, options_.join_tolerance);
       if (joins_.crowded && !options_.strict) {
-        // What is drawn to meet is joined all the same; gaps stay.
+        // Whatever is drawn to meet is joined all the same; gaps stay.
         joins_ = join_ends(open, 0);
         break;
       }
@@ -602,7 +602,7 @@ class Assembly {
     return frames;
   }
 
-  /// What lies in a contour that was set aside goes with it: its holes are no parts.
+  /// Whatever lies in a contour that was set aside goes with it: its holes are no parts.
   void set_aside_contents() {
     std::vector<PlacedContour> contours;
     std::vector<geom::Box> boxes;
@@ -617,7 +617,7 @@ class Assembly {
       }
       if (!(around.back().to == around.front().from))
         around.push_back({geom::EdgeKind::line, around.back().to, around.front().from, {}});
-      // What is no contour at all counts with its box.
+      // Whatever is no contour at all counts with its box.
       if (!geom::make_region(around) || geom::fault_of({geom::Region{around, {}}})) around = frame_of(around);
       if (!geom::make_region(around)) continue;
       contours.emplace_back(around);
