@@ -122,15 +122,18 @@ class Checker {
     return all;
   }
 
-  [[nodiscard]] std::optional<std::vector<MeetingEdges>> all_meetings() const {
+  [[nodiscard]] std::optional<std::vector<MeetingEdges>> all_meetings(double apart) const {
     std::vector<MeetingEdges> all;
     const std::size_t most = limits::most_meeting_boxes(curves_.size());
     std::size_t seen = 0;
-    visit_pairs([&](std::uint32_t i, std::uint32_t j, double limit) {
-      if (++seen > most) return false;
-      if (const auto met = meeting(i, j, limit)) all.push_back(*met);
-      return true;
-    });
+    visit_pairs(
+        [&](std::uint32_t i, std::uint32_t j, double limit) {
+          if (++seen > most) return false;
+          const auto met = meeting(i, j, follow_each_other(i, j) ? limit : std::max(limit, apart));
+          if (met) all.push_back(*met);
+          return true;
+        },
+        apart);
     if (seen > most) return std::nullopt;
     std::sort(all.begin(), all.end(), [](const MeetingEdges& a, const MeetingEdges& b) {
       return std::pair(a.a, a.b) < std::pair(b.a, b.b);
@@ -156,9 +159,10 @@ class Checker {
   }
 
  private:
-  /// Calls visit(i, j, limit) for the edges whose boxes come within the limit, until it returns false.
+  /// Calls visit(i, j, limit) for the edges whose boxes come within the limit or `apart`, until it returns
+  /// false.
   template <class Visit>
-  void visit_pairs(Visit&& visit) const {
+  void visit_pairs(Visit&& visit, double apart = 0) const {
     std::vector<Box> boxes;
     boxes.reserve(curves_.size());
     double largest = 0;
@@ -168,7 +172,7 @@ class Checker {
           {largest, std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
     }
     const double limit = kEdgeDistanceError * largest;
-    const Point margin{limit, limit};
+    const Point margin{std::max(limit, apart), std::max(limit, apart)};
     for (Box& box : boxes) box = {box.low - margin, box.high + margin};
     BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
       ask();
@@ -182,10 +186,14 @@ class Checker {
     if (close.distance > limit) return std::nullopt;
     return MeetingEdges{i, j, close.a};
   }
+  [[nodiscard]] bool follow_each_other(std::uint32_t i, std::uint32_t j) const {
+    const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
+    return j < end && (j == i + 1 || (i == begin && j + 1 == end));
+  }
   /// Says whether two neighbours along a contour meet only at an end they share, as far as fault_of sees it.
   [[nodiscard]] bool joined_only_at_their_end(std::uint32_t i, std::uint32_t j, double limit) const {
     const std::uint32_t begin = starts_[contour_of_[i]], end = starts_[contour_of_[i] + 1];
-    if (j >= end || (j != i + 1 && (i != begin || j + 1 != end))) return false;
+    if (!follow_each_other(i, j)) return false;
     const Edge &a = curves_[i].edge, &b = curves_[j].edge;
     // Two edges alone share both ends, and two circles, or a circle and a line, meet nowhere else.
     if (end - begin < 3) return true;
@@ -249,8 +257,8 @@ std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions) {
   return Checker(regions).meetings().first;
 }
 
-std::optional<std::vector<MeetingEdges>> all_meetings(const std::vector<Region>& regions) {
-  return Checker(regions).all_meetings();
+std::optional<std::vector<MeetingEdges>> all_meetings(const std::vector<Region>& regions, double apart) {
+  return Checker(regions).all_meetings(apart);
 }
 
 std::optional<std::string> fault_of(const std::vector<Region>& regions) { return Checker(regions).run(); }

@@ -29,7 +29,9 @@ struct MeetingEdges {
 /// The first such pair (smallest a, then b), by the rule and at the cost of fault_of.
 [[nodiscard]] std::optional<MeetingEdges> first_meeting(const std::vector<Region>& regions);
 
-/// Returns all of them, in order; nothing where more boxes meet than limits let through.
-[[nodiscard]] std::optional<std::vector<MeetingEdges>> all_meetings(const std::vector<Region>& regions);
+/// Returns all of them, in order; nothing where more boxes meet than limits let through. Edges that do not
+/// follow each other meet when they come within `apart` mm, too.
+[[nodiscard]] std::optional<std::vector<MeetingEdges>> all_meetings(const std::vector<Region>& regions,
+                                                                    double apart = 0);
 
 }  // namespace lekalo::geom

@@ -32,6 +32,19 @@ Point direction_at(const Edge& edge, Point at) {
   return (1 / norm(along)) * along;
 }
 
+/// A neck with a smaller angle than this at its corner counts as closed, radians.
+constexpr double kLeastAngle = 0.1;
+
+/// Says whether two edges leave their common corner side by side, so that chords beside them would meet.
+bool turns_back(const Edge& in, const Edge& out) {
+  const Point arriving = direction_at(in, in.to), leaving = direction_at(out, out.from);
+  return norm(arriving + leaving) < kLeastAngle;
+}
+
+/// The loops that come too near to something are found this many times; after that all are cut off.
+constexpr int kMostRounds = 4;
+constexpr std::size_t kNoLoop = static_cast<std::size_t>(-1);
+
 /// The right-hand side of the way through a corner, where the material is not.
 Point right_of(const Edge& in, const Edge& out) {
   const Point arriving = direction_at(in, in.to), leaving = direction_at(out, out.from);
@@ -61,28 +74,40 @@ class Mender {
       for (const geom::CutEdge& one : cut_.left) made_.marks.push_back({one.edge, curves_[one.origin]});
       return std::move(made_);
     }
-    // Necks may close something near them, and then loops are cut off instead.
-    for (const bool necks : {true, false})
-      if (auto made = attempt(necks)) return made;
-    return std::nullopt;
+    // A neck may close something near it, and then its loop is cut off instead: those that are seen to do so
+    // first, then all.
+    cut_off_loop_.assign(cut_.contours.size(), 0);
+    for (int round = 0;; ++round) {
+      narrow_.clear();
+      auto made = attempt();
+      if (made && narrow_.empty()) return made;
+      if (narrow_.empty() || round >= kMostRounds)
+        for (std::size_t i = 0; i < kind_.size(); ++i)
+          if (kind_[i] == Kind::joined) narrow_.push_back(i);
+      if (narrow_.empty()) return std::nullopt;
+      for (const std::size_t i : narrow_) cut_off_loop_[i] = 1;
+    }
   }
 
  private:
-  [[nodiscard]] std::optional<Mended> attempt(bool necks) {
+  [[nodiscard]] std::optional<Mended> attempt() {
     made_ = {};
+    joined_loop_.clear();
     left_.clear(), cut_off_.clear();
     for (const geom::CutEdge& one : cut_.left) left_.push_back({one.edge, curves_[one.origin]});
-    sort_loops(necks);
+    sort_loops();
     for (std::size_t i = 0; i < cut_.contours.size(); ++i) {
       if (kind_[i] == Kind::stays) {
         if (!add(i)) return std::nullopt;
       } else if (kind_[i] == Kind::dropped) {
         const geom::CutContour& loop = cut_.contours[i];
+        // A sliver is a spike whose ways out and back are not quite the same.
+        std::vector<LooseEdge>& to = is_sliver(loop.contour) ? left_ : cut_off_;
         for (std::size_t k = 0; k < loop.contour.size(); ++k)
-          cut_off_.push_back({loop.contour[k], curves_[loop.origins[k]]});
+          to.push_back({loop.contour[k], curves_[loop.origins[k]]});
       }
     }
-    if (made_.contours.empty() || !retreat_holes()) return std::nullopt;
+    if (made_.contours.empty() || !retreat_holes() || !find_narrow()) return std::nullopt;
     for (const LooseContour& one : made_.contours) {
       ask(one.edges.size());
       const bool hole = !(geom::signed_area(one.edges) > 0);
@@ -95,7 +120,7 @@ class Mender {
   enum class Kind { stays, joined, dropped };
 
   /// Says which loops stay, which are joined to another at a corner, and which are dropped.
-  void sort_loops(bool necks) {
+  void sort_loops() {
     const std::vector<geom::CutContour>& loops = cut_.contours;
     kind_.assign(loops.size(), Kind::stays);
     hung_.clear();
@@ -116,21 +141,31 @@ class Mender {
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (small[i] == 0) continue;
       const Contour& loop = loops[i].contour;
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Point corner = loop[k].from;
-        const auto at = place.find(corner);
-        if (at == place.end() || !lies_within(loop, corner, repair_)) continue;
-        // A loop outside is joined through the material, one inside through what it leaves out.
-        const bool inside = !(geom::signed_area(loop) > 0);
-        const bool joinable = geom::signed_area(loops[at->second].contour) > 0;
-        if (necks && joinable && loop.size() > 1 && !lies_within(loop, corner, speck_) &&
-            hung_.emplace(corner, Hung{i, k, inside}).second)
-          kind_[i] = Kind::joined;
-        else
-          kind_[i] = Kind::dropped;
-        break;
+      std::size_t hangs = 0;  // the edge that begins in the corner by which it hangs
+      while (hangs < loop.size() && place.count(loop[hangs].from) == 0) ++hangs;
+      // What is in the way of a person's eye alone, and what hangs on other loops only, goes with its loss.
+      kind_[i] = Kind::dropped;
+      if (hangs == loop.size() || is_sliver(loop)) continue;
+      const Point corner = loop[hangs].from;
+      if (!lies_within(loop, corner, repair_)) {
+        kind_[i] = Kind::stays;
+        continue;
       }
+      // A loop outside is joined through the material, one inside through what it leaves out.
+      const bool inside = !(geom::signed_area(loop) > 0);
+      const bool joinable = geom::signed_area(loops[place.at(corner)].contour) > 0;
+      if (cut_off_loop_[i] == 0 && joinable && loop.size() > 1 &&
+          hung_.emplace(corner, Hung{i, hangs, inside}).second)
+        kind_[i] = Kind::joined;
     }
+  }
+
+  /// Says whether a loop is nowhere much wider than a speck.
+  [[nodiscard]] bool is_sliver(const Contour& loop) const {
+    double around = 0;
+    for (const Edge& edge : loop) around += 2 * bisected(edge).half_length;
+    return 2 * std::abs(geom::signed_area(loop)) <= speck_ * around ||
+           lies_within(loop, loop.front().from, speck_);
   }
 
   [[nodiscard]] static bool lies_within(const Contour& loop, Point of, double reach) {
@@ -144,30 +179,57 @@ class Mender {
   [[nodiscard]] bool add(std::size_t i) {
     const geom::CutContour& loop = cut_.contours[i];
     LooseContour made;
+    std::vector<std::size_t> joined_loop;
     struct Joint {
       std::size_t after;  ///< an edge
       double aside;       ///< how far to the right its end is pulled
     };
     std::vector<Joint> joints;
-    const auto append = [&](const geom::CutContour& from, std::size_t k) {
-      made.edges.push_back(from.contour[k]);
-      made.curves.push_back(curves_[from.origins[k]]);
+    const auto append = [&](std::size_t from, std::size_t k) {
+      made.edges.push_back(cut_.contours[from].contour[k]);
+      made.curves.push_back(curves_[cut_.contours[from].origins[k]]);
+      joined_loop.push_back(from == i ? kNoLoop : from);
     };
     for (std::size_t k = 0; k < loop.contour.size(); ++k) {
-      append(loop, k);
+      append(i, k);
       const auto hung = hung_.find(loop.contour[k].to);
       if (hung == hung_.end() || !(geom::signed_area(loop.contour) > 0)) continue;
       const double aside = hung->second.inside ? -kNeck : kNeck;
       joints.push_back({made.edges.size() - 1, aside});
       const geom::CutContour& other = cut_.contours[hung->second.loop];
       for (std::size_t n = 0; n < other.contour.size(); ++n)
-        append(other, (hung->second.from + n) % other.contour.size());
+        append(hung->second.loop, (hung->second.from + n) % other.contour.size());
       joints.push_back({made.edges.size() - 1, aside});
       hung_.erase(hung);
     }
     for (const Joint& joint : joints)
       if (!pull(made, joint.after, joint.aside)) return false;
     made_.contours.push_back(std::move(made));
+    joined_loop_.insert(joined_loop_.end(), joined_loop.begin(), joined_loop.end());
+    return true;
+  }
+
+  /// Finds the joined loops that come too near to something. Returns false where nobody can look at all that
+  /// is near.
+  [[nodiscard]] bool find_narrow() {
+    std::vector<geom::Region> alone;
+    for (const LooseContour& one : made_.contours) alone.push_back({one.edges, {}});
+    const auto near = geom::all_meetings(alone, kNeck / 2);
+    if (!near) return false;
+    std::set<std::size_t> loops;
+    const auto tell = [&](std::size_t edge) {
+      if (joined_loop_[edge] != kNoLoop) loops.insert(joined_loop_[edge]);
+    };
+    for (const geom::MeetingEdges& one : *near) tell(one.a), tell(one.b);
+    std::size_t first = 0;
+    for (const LooseContour& one : made_.contours) {
+      for (std::size_t k = 0; k < one.edges.size(); ++k) {
+        const std::size_t next = k + 1 == one.edges.size() ? 0 : k + 1;
+        if (turns_back(one.edges[k], one.edges[next])) tell(first + k), tell(first + next);
+      }
+      first += one.edges.size();
+    }
+    narrow_.assign(loops.begin(), loops.end());
     return true;
   }
 
@@ -240,6 +302,9 @@ class Mender {
   geom::CutFaces cut_;
   std::vector<Kind> kind_;
   std::map<Point, Hung, PointOrder> hung_;
+  std::vector<char> cut_off_loop_;        ///< by loop: not to be joined
+  std::vector<std::size_t> joined_loop_;  ///< by edge of all made contours: the joined loop that it is of
+  std::vector<std::size_t> narrow_;
   std::vector<LooseEdge> left_;     ///< stretches that bound nothing
   std::vector<LooseEdge> cut_off_;  ///< of loops
   Mended made_;

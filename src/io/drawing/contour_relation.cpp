@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/boolean.hpp"
 #include "near_edges.hpp"
 
 namespace lekalo::io {
@@ -63,6 +64,15 @@ Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repa
   if (a_within) return Relation::first_in;
   if (b_within) return Relation::second_in;
   return of_a.inside || of_b.inside ? Relation::crossing : Relation::beside;
+}
+
+double shared_part(const PlacedContour& a, const PlacedContour& b) {
+  const auto both = geom::combine({geom::Region{a.contour_, {}}}, {geom::Region{b.contour_, {}}},
+                                  geom::BooleanOperation::intersect);
+  if (!both) return 1;
+  double area = 0;
+  for (const geom::Region& region : both->regions) area += geom::area(region);
+  return area / std::min(a.area_, b.area_);
 }
 
 }  // namespace lekalo::io

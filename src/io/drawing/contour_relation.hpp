@@ -15,6 +15,7 @@ enum class Relation {
   second_in,  ///< the first holds the second
   same,       ///< each runs along the other
   crossing,   ///< they overlap by more than `repair`
+  neighbours, ///< they cross, but two shapes that were drawn too near to each other do so too
 };
 
 /// A contour, counter-clockwise, as it is asked about others.
@@ -29,6 +30,7 @@ class PlacedContour {
   [[nodiscard]] geom::Point start() const noexcept { return contour_.front().from; }
 
   friend Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair);
+  friend double shared_part(const PlacedContour& a, const PlacedContour& b);
 
  private:
   /// Says whether the contour goes more than `reach` outside of another, and more than that inside of it.
@@ -44,6 +46,11 @@ class PlacedContour {
 };
 
 /// Cost: O((length of what runs along each other / repair) log n).
+/// Never `neighbours`, which the rest of the drawing decides too.
 [[nodiscard]] Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair);
+
+/// Returns how much of the smaller of two contours lies in the other, 0 to 1; 1 where that cannot be told.
+/// Cost: that of geom::combine.
+[[nodiscard]] double shared_part(const PlacedContour& a, const PlacedContour& b);
 
 }  // namespace lekalo::io

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "contour_relation.hpp"
@@ -22,6 +23,8 @@ using geom::Point;
 constexpr int kMostRounds = 6;
 /// A contour of no more than this share of the area of another that it crosses is a notch in it.
 constexpr double kLargestNotch = 0.25;
+/// Contours of which no more than this share lies in each other are two parts that were drawn too near.
+constexpr double kMostShared = 0.1;
 
 /// A closed contour on its way to a region.
 struct Candidate {
@@ -51,6 +54,7 @@ class Settling {
       if (!last && mend_groups(groups_that_meet())) continue;
       relate();
       if (!nest()) return std::nullopt;
+      tell_neighbours();
       if (!last && mend_crossing_holes()) continue;
       if (set_aside_crossing()) continue;
       const auto faulty = faulty_regions();
@@ -321,19 +325,40 @@ class Settling {
     const geom::BoxTree tree(boxes);
     by_.assign(candidates_.size(), kNone);
     depth_.assign(candidates_.size(), 0);
+    std::vector<char> crosses(candidates_.size(), 0);
+    for (const auto& [pair, meeting] : meetings_)
+      if (meeting.relation == Relation::crossing) crosses[pair.first] = crosses[pair.second] = 1;
+    in_common_.clear();
+    std::vector<std::size_t> around;  // of those that cross others
     std::size_t left = limits::most_meeting_boxes(candidates_.size());
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      around.clear();
       const Point p = candidates_[c].contour.edges.front().from;
       const bool all = tree.visit_meeting_while(geom::grown({p, p}, 2 * repair_), [&](std::uint32_t d) {
         if (left-- == 0) return false;
         if (d == c || !holds(d, c, p)) return true;
         ++depth_[c];
+        if (crosses[d] != 0) around.push_back(d);
         if (by_[c] == kNone || placed(d).area() < placed(by_[c]).area()) by_[c] = d;
         return true;
       });
       if (!all) return false;
+      ask(around.size() * around.size());
+      for (std::size_t i = 0; i < around.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) in_common_.insert(std::minmax(around[i], around[j]));
     }
     return true;
+  }
+
+  /// Tells parts that were drawn too near to each other from a shape and what is cut off it. Whatever both
+  /// hold would be a hole of one and covered by the other, so that two with such a thing in common cross.
+  void tell_neighbours() {
+    for (auto& [pair, meeting] : meetings_) {
+      const auto [a, b] = pair;
+      if (meeting.relation == Relation::crossing && depth_[a] == depth_[b] && depth_[a] % 2 == 0 &&
+          in_common_.count(pair) == 0 && shared_part(placed(a), placed(b)) <= kMostShared)
+        meeting.relation = Relation::neighbours;
+    }
   }
 
   [[nodiscard]] bool holds(std::size_t d, std::size_t c, Point p) {
@@ -387,6 +412,10 @@ class Settling {
   }
 
   void make_regions() {
+    for (const auto& [pair, meeting] : meetings_)
+      if (meeting.relation == Relation::neighbours)
+        made_.neighbours.push_back({candidates_[pair.first].contour.curves.front(),
+                                    candidates_[pair.second].contour.curves.front(), meeting.at});
     for (const Group& shape : shapes()) {
       auto region = region_of(shape);
       if (!region) continue;
@@ -420,6 +449,8 @@ class Settling {
   std::map<std::pair<std::size_t, std::size_t>, Meeting> meetings_;
   std::map<std::size_t, PlacedContour> placed_;
   std::vector<std::size_t> by_, depth_;
+  /// Pairs of contours that cross others and hold something together.
+  std::set<std::pair<std::size_t, std::size_t>> in_common_;
   Settled made_;
 };
 

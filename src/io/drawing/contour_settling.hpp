@@ -23,12 +23,20 @@ struct AsideContour {
   std::optional<std::uint32_t> other;  ///< a curve of the contour that it crosses
 };
 
+/// A curve of each of two contours, and a place where they cross.
+struct Neighbours {
+  std::uint32_t first = 0, second = 0;
+  geom::Point at;
+};
+
 struct Settled {
   std::vector<geom::Region> regions;
   std::vector<std::uint32_t> curve_of_edge;
   std::vector<LooseEdge> marks;
   std::vector<MovedCurve> moved;
   std::vector<AsideContour> aside;
+  /// Outer contours that overlap, as parts do that were drawn too near to each other.
+  std::vector<Neighbours> neighbours;
   /// Curves of contours that run along others and were dropped.
   std::vector<std::uint32_t> dropped;
   std::size_t mends = 0;  ///< how many groups of contours were mended

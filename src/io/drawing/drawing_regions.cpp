@@ -845,6 +845,7 @@ class Assembly {
     result_.regions = std::move(settled->regions);
     result_.curve_of_edge = std::move(settled->curve_of_edge);
     mends_ = settled->mends;
+    neighbours_ = std::move(settled->neighbours);
     std::vector<char> kept(worked_.size(), 0);
     for (const std::uint32_t curve : result_.curve_of_edge) kept[curve] = 1;
     for (const Mark& mark : result_.marks)
@@ -1010,6 +1011,11 @@ class Assembly {
           fmt::format("{} shapes that cross or touch themselves mended; that moved outlines by "
                       "{:.3g} mm at most",
                       mends_, result_.repaired));
+    if (!neighbours_.empty())
+      notices.push_back(fmt::format("{} pairs of contours overlap a little, and each is a part as it is drawn, the "
+                                    "first that of {} and that of {} at {}",
+                                    neighbours_.size(), name(neighbours_.front().first),
+                                    name(neighbours_.front().second), text(neighbours_.front().at)));
     for (std::size_t i = 0; i < result_.set_aside.size() && i < kMostKinds; ++i)
       notices.push_back("set aside: " + result_.set_aside[i].sentence);
     if (result_.set_aside.size() > kMostKinds)
@@ -1036,6 +1042,7 @@ class Assembly {
   std::vector<BranchChain> branches_;
   std::vector<LooseContour> contours_;
   std::size_t mends_ = 0;  ///< groups of contours that were mended
+  std::vector<Neighbours> neighbours_;
 };
 
 }  // namespace

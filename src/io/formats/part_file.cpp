@@ -18,6 +18,7 @@
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/shape/shape_tree.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "part_outline.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -287,17 +288,19 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
                           options.chord_tolerance));
     file.stocks.push_back(std::move(sheet));
   }
-  std::size_t points = 0;
+  std::size_t points = 0, lines = 0;
+  double worst = 0;  // loss of those that became lines
   for (DrawnPart& one : drawn->parts) {
     layout::Part part;
     part.id = one.id.empty() ? id_of_file(name) : plain(one.id);
     part.name = plain(one.name);
     part.demand = 1;
     part.marks = std::move(one.marks);
-    auto outline = detail::outline_of_curves(one.region, geom::ChordSide::grow, options.chord_tolerance);
+    const double most_loss = options.drawing.strict ? 0 : options.drawing.repair;
+    auto outline = outline_of_part(one.region, options.chord_tolerance, most_loss);
     if (!outline && !options.drawing.strict) {
       drop_specks(one.region, name, options.chord_tolerance, drawn->set_aside);
-      outline = detail::outline_of_curves(one.region, geom::ChordSide::grow, options.chord_tolerance);
+      outline = outline_of_part(one.region, options.chord_tolerance, most_loss);
     }
     if (!outline) {
       const std::string why = fmt::format("{}: part {} at {}: {}", name, excerpt(part.id),
@@ -306,16 +309,20 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
       drawn->set_aside.push_back(why);
       continue;
     }
-    points += outline->polygon.points.size();
+    if (outline->loss > 0) ++lines, worst = std::max(worst, outline->loss);
+    points += outline->outline.polygon.points.size();
     constexpr std::size_t kMostPointsInAll = 20'000'000;
     if (points > kMostPointsInAll)
       return failure(ErrorCode::bad_input,
                      fmt::format("{}: more than {} points with chords within {} mm; a larger tolerance needs "
                                  "fewer",
                                  name, kMostPointsInAll, options.chord_tolerance));
-    part.outline = *std::move(outline);
+    part.outline = std::move(outline->outline);
     file.parts.push_back(std::move(part));
   }
+  if (lines > 0)
+    file.notices.push_back(fmt::format("{}: {} parts became lines, where arcs are too near to each other for chords",
+                                       name, lines));
   if (file.parts.empty() && !drawn->set_aside.empty())
     return failure(ErrorCode::bad_input, drawn->set_aside.back());
   const std::size_t outlines = file.parts.size();
@@ -326,7 +333,7 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
   give_ids(file.parts);
   file.set_aside = std::move(drawn->set_aside);
   tell_set_aside(file.set_aside, file.notices);
-  tell_tolerance(drawn->tolerance + merged, name, file.notices);
+  tell_tolerance(drawn->tolerance + worst + merged, name, file.notices);
   return file;
 }
 
