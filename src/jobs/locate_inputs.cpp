@@ -48,7 +48,10 @@ bool asks_for_regions(const LocateJob& job) {
 }
 
 Result<void> read_outlines(const LocateJob& job, LocateInputs& in) {
-  io::OutlineFile part(job.part.bytes, job.part.name, job.options.part);
+  // A part that is larger than it is meant to be lies in the blank all the more.
+  io::OutlineOptions how = job.options.part;
+  how.may_lack_holes = true;
+  io::OutlineFile part(job.part.bytes, job.part.name, how);
   io::OutlineFile blank(job.blank.bytes, job.blank.name, job.options.blank);
   const char* const convex_thing = only_convex_has(job);
   const bool wanted = convex_thing != nullptr;

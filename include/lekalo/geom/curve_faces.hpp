@@ -33,11 +33,10 @@ struct CutFaces {
   double edge_error = 0, corner_error = 0;
 };
 
-/// Returns the contours around the points that the rule says are inside `contours`, and not inside `less`:
-/// outer ones, and holes clockwise. Two of them may share corners. Edges are numbered through both lists.
-/// Fails as combine() does. \pre every contour by itself is accepted by make_region
-[[nodiscard]] Result<CutFaces> contours_around(const std::vector<Contour>& contours, FillRule rule,
-                                               const std::vector<Contour>& less = {});
+/// Returns the contours around the points that the rule says are inside: outer ones, and holes clockwise. Two
+/// of them may share corners. Edges are numbered through the list. Fails as combine() does.
+/// \pre every contour by itself is accepted by make_region
+[[nodiscard]] Result<CutFaces> contours_around(const std::vector<Contour>& contours, FillRule rule);
 
 /// Returns the outer contours of all bounded faces that the edges cut the plane into; neighbours share edges.
 /// What bounds no face, because one face lies on both its sides, is left. Fails as combine() does.

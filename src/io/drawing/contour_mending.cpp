@@ -56,18 +56,16 @@ Point right_of(const Edge& in, const Edge& out) {
 
 class Mender {
  public:
-  Mender(const std::vector<LooseContour>& contours, geom::FillRule rule, const MendLimits& limits,
-         const std::vector<LooseContour>& less)
-      : given_(contours), less_(less), rule_(rule), speck_(limits.speck), repair_(limits.repair) {}
+  Mender(const std::vector<LooseContour>& contours, geom::FillRule rule, const MendLimits& limits)
+      : given_(contours), rule_(rule), speck_(limits.speck), repair_(limits.repair) {}
 
   std::optional<Mended> run() {
-    std::vector<Contour> contours, less;
-    for (const auto& [from, to] : {std::pair(&given_, &contours), std::pair(&less_, &less)})
-      for (const LooseContour& one : *from) {
-        to->push_back(one.edges);
-        curves_.insert(curves_.end(), one.curves.begin(), one.curves.end());
-      }
-    auto cut = geom::contours_around(contours, rule_, less);
+    std::vector<Contour> contours;
+    for (const LooseContour& one : given_) {
+      contours.push_back(one.edges);
+      curves_.insert(curves_.end(), one.curves.begin(), one.curves.end());
+    }
+    auto cut = geom::contours_around(contours, rule_);
     if (!cut || !(cut->corner_error <= repair_)) return std::nullopt;
     cut_ = *std::move(cut);
     if (cut_.contours.empty()) {
@@ -295,7 +293,6 @@ class Mender {
   };
 
   const std::vector<LooseContour>& given_;
-  const std::vector<LooseContour>& less_;
   geom::FillRule rule_;
   double speck_, repair_;
   std::vector<std::uint32_t> curves_;  ///< by given edge
@@ -313,8 +310,8 @@ class Mender {
 }  // namespace
 
 std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
-                             const MendLimits& limits, const std::vector<LooseContour>& less) {
-  return Mender(contours, rule, limits, less).run();
+                             const MendLimits& limits) {
+  return Mender(contours, rule, limits).run();
 }
 
 }  // namespace lekalo::io

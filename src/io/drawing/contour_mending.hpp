@@ -36,10 +36,8 @@ struct MendLimits {
 /// is moved into the hole.
 ///
 /// A loop that encloses nothing is marks alone. Nothing where that leaves a contour with a fault.
-/// \param less  contours whose insides are taken off
 [[nodiscard]] std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
-                                           const MendLimits& limits,
-                                           const std::vector<LooseContour>& less = {});
+                                           const MendLimits& limits);
 
 /// Corners that touch are pulled apart by this on either side, mm: a hundred steps of the grid of layouts.
 /// A smaller number makes necks that layouts lose in rounding, a larger one is loss.

@@ -21,8 +21,8 @@ using geom::Point;
 
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
 constexpr int kMostRounds = 6;
-/// A contour of no more than this share of the area of another that it crosses is a notch in it.
-constexpr double kLargestNotch = 0.25;
+/// A contour of no more than this share of the area of another that it crosses is lines on it.
+constexpr double kMostOfLines = 0.25;
 /// Contours of which no more than this share lies in each other are two parts that were drawn too near.
 constexpr double kMostShared = 0.1;
 
@@ -56,6 +56,7 @@ class Settling {
       if (!nest()) return std::nullopt;
       tell_neighbours();
       if (!last && mend_crossing_holes()) continue;
+      if (leave_lines_on_larger()) continue;
       if (set_aside_crossing()) continue;
       const auto faulty = faulty_regions();
       if (faulty.empty()) break;
@@ -186,7 +187,6 @@ class Settling {
   bool mend_groups(const std::vector<Group>& groups) {
     if (groups.empty()) return false;
     std::vector<char> gone(candidates_.size(), 0);
-    std::vector<Candidate> kept;
     std::vector<LooseContour> entered;
     for (const Group& group : groups) {
       ask();
@@ -202,9 +202,7 @@ class Settling {
       made_.moved.insert(made_.moved.end(), made->moved.begin(), made->moved.end());
       for (LooseContour& contour : made->contours) entered.push_back(std::move(contour));
     }
-    for (std::size_t c = 0; c < candidates_.size(); ++c)
-      if (gone[c] == 0) kept.push_back(std::move(candidates_[c]));
-    candidates_ = std::move(kept);
+    keep_all_but(gone);
     for (LooseContour& contour : entered) enter(std::move(contour), true);
     return true;
   }
@@ -225,9 +223,7 @@ class Settling {
     for (const auto& [pair, meeting] : meetings_) (void)relation(pair.first, pair.second);
   }
 
-  /// Holes that cross each other are one hole, whatever their size. What crosses a contour that is far larger
-  /// is a hole at its edge, a notch: the larger one is taken less the smaller. Returns whether there were
-  /// any.
+  /// Holes that cross each other are one hole, whatever their size. Returns whether there were any.
   bool mend_crossing_holes() {
     std::vector<std::size_t> parent(candidates_.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -235,14 +231,10 @@ class Settling {
       while (parent[i] != i) i = parent[i] = parent[parent[i]];
       return i;
     };
-    std::vector<char> crosses(candidates_.size(), 0), notch(candidates_.size(), 0);
+    std::vector<char> crosses(candidates_.size(), 0);
     for (const auto& [pair, meeting] : meetings_) {
-      if (meeting.relation != Relation::crossing) continue;
       const auto [a, b] = pair;
-      if (depth_[a] != depth_[b]) continue;
-      const std::size_t small = placed(a).area() < placed(b).area() ? a : b, large = small == a ? b : a;
-      if (depth_[a] % 2 == 0 && !(kLargestNotch * placed(large).area() >= placed(small).area())) continue;
-      if (depth_[a] % 2 == 0) notch[small] = 1;
+      if (meeting.relation != Relation::crossing || depth_[a] != depth_[b] || depth_[a] % 2 == 0) continue;
       crosses[a] = crosses[b] = 1;
       const std::size_t i = of(a), j = of(b);
       parent[std::max(i, j)] = std::min(i, j);
@@ -254,18 +246,14 @@ class Settling {
     std::vector<LooseContour> entered;
     for (const auto& [first, group] : groups) {
       ask();
-      std::vector<LooseContour> contours, less;
+      std::vector<LooseContour> contours;
       for (const std::size_t c : group) {
-        LooseContour one = candidates_[c].contour;
-        if (!(geom::signed_area(one.edges) > 0)) {
-          one.edges = geom::reversed(one.edges);
-          std::reverse(one.curves.begin(), one.curves.end());
-        }
-        (notch[c] != 0 ? less : contours).push_back(std::move(one));
+        LooseContour& one = contours.emplace_back(candidates_[c].contour);
+        if (geom::signed_area(one.edges) > 0) continue;
+        one.edges = geom::reversed(one.edges);
+        std::reverse(one.curves.begin(), one.curves.end());
       }
-      // Two large contours with a notch in common are no one part.
-      if (depth_[group.front()] % 2 == 0 && contours.size() != 1) continue;
-      auto made = mended(contours, geom::FillRule::nonzero, limits_, less);
+      auto made = mended(contours, geom::FillRule::nonzero, limits_);
       if (!made) continue;
       ++made_.mends;
       for (const std::size_t c : group) gone[c] = 1;
@@ -274,12 +262,37 @@ class Settling {
       for (LooseContour& contour : made->contours) entered.push_back(std::move(contour));
     }
     if (entered.empty()) return false;
+    keep_all_but(gone);
+    for (LooseContour& contour : entered) enter(std::move(contour), true);
+    return true;
+  }
+
+  /// What crosses a contour that is far larger is lines on it. Whether it is cut off the larger one, or drawn
+  /// on it, nobody can tell, and lines leave both open. Returns whether there were any.
+  bool leave_lines_on_larger() {
+    std::vector<char> gone(candidates_.size(), 0);
+    for (const auto& [pair, meeting] : meetings_) {
+      const auto [a, b] = pair;
+      if (meeting.relation != Relation::crossing || depth_[a] != depth_[b] || depth_[a] % 2 != 0) continue;
+      const std::size_t small = placed(a).area() < placed(b).area() ? a : b, large = small == a ? b : a;
+      if (!(kMostOfLines * placed(large).area() >= placed(small).area()) || std::exchange(gone[small], 1) != 0)
+        continue;
+      const LooseContour& lines = candidates_[small].contour;
+      for (std::size_t k = 0; k < lines.edges.size(); ++k)
+        made_.marks.push_back({lines.edges[k], lines.curves[k]});
+      made_.lines_on_others.push_back(
+          {lines.curves.front(), candidates_[large].contour.curves.front(), meeting.at});
+    }
+    if (std::find(gone.begin(), gone.end(), 1) == gone.end()) return false;
+    keep_all_but(gone);
+    return true;
+  }
+
+  void keep_all_but(const std::vector<char>& gone) {
     std::vector<Candidate> kept;
     for (std::size_t c = 0; c < candidates_.size(); ++c)
       if (gone[c] == 0) kept.push_back(std::move(candidates_[c]));
     candidates_ = std::move(kept);
-    for (LooseContour& contour : entered) enter(std::move(contour), true);
-    return true;
   }
 
   /// Drops contours that run along others, and sets aside those that overlap. Returns whether any went.
@@ -300,10 +313,7 @@ class Settling {
       drop_copy(candidates_[copy].contour, candidates_[kept].contour);
     }
     if (std::find(gone.begin(), gone.end(), 1) == gone.end()) return false;
-    std::vector<Candidate> kept;
-    for (std::size_t c = 0; c < candidates_.size(); ++c)
-      if (gone[c] == 0) kept.push_back(std::move(candidates_[c]));
-    candidates_ = std::move(kept);
+    keep_all_but(gone);
     return true;
   }
 
@@ -405,10 +415,7 @@ class Settling {
     std::vector<char> gone(candidates_.size(), 0);
     for (const Group& shape : shapes)
       for (const std::size_t c : shape) put_aside(c, AsideReason::crosses_itself, shape), gone[c] = 1;
-    std::vector<Candidate> kept;
-    for (std::size_t c = 0; c < candidates_.size(); ++c)
-      if (gone[c] == 0) kept.push_back(std::move(candidates_[c]));
-    candidates_ = std::move(kept);
+    keep_all_but(gone);
   }
 
   void make_regions() {

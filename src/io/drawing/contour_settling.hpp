@@ -37,6 +37,8 @@ struct Settled {
   std::vector<AsideContour> aside;
   /// Outer contours that overlap, as parts do that were drawn too near to each other.
   std::vector<Neighbours> neighbours;
+  /// Contours that cross a far larger one, the second, and are marks on it.
+  std::vector<Neighbours> lines_on_others;
   /// Curves of contours that run along others and were dropped.
   std::vector<std::uint32_t> dropped;
   std::size_t mends = 0;  ///< how many groups of contours were mended

@@ -25,6 +25,7 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/curve_faces.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "near_edges.hpp"
@@ -539,6 +540,45 @@ class Assembly {
     return chain.links.size() > 1 && gap <= kWidestGap && 8 * gap <= reach_of(chain);
   }
 
+  /// Closes an outline whose ends run past each other where they cross; what is behind are marks.
+  bool close_where_ends_cross(const Chain& chain) {
+    std::vector<Edge> edges;
+    std::vector<std::uint32_t> curves;
+    for (const Link& link : chain.links) {
+      const std::vector<Edge>& own = worked_[link.curve].edges;
+      edges.insert(edges.end(), own.begin(), own.end());
+      curves.resize(edges.size(), link.curve);
+    }
+    const auto cut = geom::faces_between(edges);
+    if (!cut || !(cut->corner_error <= options_.repair)) return false;
+    // Beside the outline there may be the loops that its corners have, and what the ends make behind.
+    const auto is_large = [](const geom::CutContour& one) {
+      const geom::Box box = geom::bounds(one.contour);
+      return norm(box.high - box.low) > kWidestGap;
+    };
+    if (std::count_if(cut->contours.begin(), cut->contours.end(), is_large) != 1) return false;
+    double behind = 0;
+    for (const geom::CutEdge& one : cut->left) behind += 2 * bisected(one.edge).half_length;
+    if (!(behind <= 2 * kWidestGap)) return false;
+    const auto number = [&](std::uint32_t edge) {
+      worked_[curves[edge]].repaired = std::max(worked_[curves[edge]].repaired, cut->corner_error);
+      return curves[edge];
+    };
+    std::vector<LooseEdge> left;
+    for (const geom::CutContour& one : cut->contours) {
+      if (!is_large(one)) {
+        for (std::size_t k = 0; k < one.contour.size(); ++k)
+          left.push_back({one.contour[k], number(one.origins[k])});
+        continue;
+      }
+      LooseContour& closed = contours_.emplace_back(LooseContour{one.contour, {}});
+      for (const std::uint32_t origin : one.origins) closed.curves.push_back(number(origin));
+    }
+    for (const geom::CutEdge& one : cut->left) left.push_back({one.edge, number(one.origin)});
+    add_marks(left);
+    return true;
+  }
+
   void set_aside_unclosed(const Chain& chain) {
     const Point from = loose_end(chain, false), to = loose_end(chain, true);
     SetAside aside{AsideReason::does_not_close, {}, {}, 0, to, {}};
@@ -689,7 +729,7 @@ class Assembly {
         continue;
       }
       if (!options_.strict && is_unclosed_outline(chain)) {
-        set_aside_unclosed(chain);
+        if (!close_where_ends_cross(chain)) set_aside_unclosed(chain);
         continue;
       }
       Mark mark;
@@ -705,7 +745,7 @@ class Assembly {
     }
     std::erase_if(chains_, [](const Chain& chain) { return !chain.closed; });
     if (!result_.marks.empty() && !options_.strict) hang_loops_on_marks();
-    if (chains_.empty() && branches_.empty()) return refuse(empty_sentence());
+    if (chains_.empty() && branches_.empty() && contours_.empty()) return refuse(empty_sentence());
     return {};
   }
 
@@ -846,6 +886,11 @@ class Assembly {
     result_.curve_of_edge = std::move(settled->curve_of_edge);
     mends_ = settled->mends;
     neighbours_ = std::move(settled->neighbours);
+    for (const Neighbours& one : settled->lines_on_others)
+      result_.doubtful.push_back(fmt::format(
+          "the contour that begins with {} crosses that of {} at {}, and is taken for lines on it; if it is to be "
+          "cut off, draw the outline so",
+          name(one.first), name(one.second), text(one.at)));
     std::vector<char> kept(worked_.size(), 0);
     for (const std::uint32_t curve : result_.curve_of_edge) kept[curve] = 1;
     for (const Mark& mark : result_.marks)
@@ -1024,6 +1069,10 @@ class Assembly {
       notices.push_back(fmt::format("{} lines that enclose nothing are marks, the first from {} to {}",
                                     result_.marks.size(), text(result_.marks.front().edges.front().from),
                                     text(result_.marks.front().edges.back().to)));
+    for (std::size_t i = 0; i < result_.doubtful.size() && i < kMostKinds; ++i)
+      notices.push_back(result_.doubtful[i]);
+    if (result_.doubtful.size() > kMostKinds)
+      notices.push_back(fmt::format("{} contours more cross far larger ones", result_.doubtful.size() - kMostKinds));
     if (!drawing_.unread.empty()) notices.push_back(unread_sentence().substr(2));
   }
 

@@ -9,6 +9,7 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_check.hpp"
+#include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/drawing/drawing_regions.hpp"
 #include "lekalo/io/formats/drawing_formats.hpp"
 #include "lekalo/io/shape/region_json.hpp"
@@ -94,6 +95,25 @@ const geom::Edge* far_arc(const std::vector<geom::Region>& regions) {
   return nullptr;
 }
 
+/// Returns a sentence about lines that might change what is inside, if they were meant to.
+std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_lack_holes) {
+  const geom::RegionIndex index(drawn.regions);
+  for (const SetAside& one : drawn.set_aside) {
+    const bool inside = !one.edges.empty() &&
+                        std::all_of(one.edges.begin(), one.edges.end(),
+                                    [&](const geom::Edge& edge) { return index.contains(edge.from); });
+    if (!inside || !may_lack_holes) return one.sentence;
+  }
+  if (may_lack_holes) return std::nullopt;
+  if (!drawn.doubtful.empty()) return drawn.doubtful.front();
+  if (drawn.marks.empty()) return std::nullopt;
+  const geom::Contour& line = drawn.marks.front().edges;
+  return fmt::format(
+      "{} lines enclose nothing, the first from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) mm, and may be the edge of a "
+      "hole; close it, use a larger join tolerance, or take the layers without it",
+      drawn.marks.size(), line.front().from.x, line.front().from.y, line.back().to.x, line.back().to.y);
+}
+
 }  // namespace
 
 OutlineFile::OutlineFile(std::string_view bytes, std::string name, OutlineOptions options)
@@ -166,6 +186,8 @@ Result<ReadOutline> OutlineFile::read_drawing() const {
   how.strict = options_.strict;
   how.take = options_.layers;
   LEKALO_TRY(DrawnRegions drawn, make_regions(drawing, how));
+  if (auto missing = what_is_missing(drawn, options_.may_lack_holes))
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", name_, *missing));
   ReadOutline read;
   read.drawing = record_of(drawing, how, drawn);
   read.outline.regions = std::move(drawn.regions);

@@ -110,6 +110,9 @@ struct DrawnRegions {
   std::vector<std::uint32_t> cut_off;
   std::vector<Mark> marks;
   std::vector<SetAside> set_aside;
+  /// Sentences about closed lines that are marks, because they cross an outline that is far larger: what they
+  /// enclose may be meant to be cut off.
+  std::vector<std::string> doubtful;
   /// Sentences about layers left out, gaps, duplicates, mends, marks, what was set aside and not read.
   std::vector<std::string> notices;
 };
