@@ -164,18 +164,65 @@ TEST(DrawingRepair, ContoursThatOverlapAreSetAsideAndTheRestIsTaken) {
   EXPECT_STREQ(word_of(found.set_aside[2].reason), "lies in another");
 }
 
-TEST(DrawingRepair, AHoleAcrossTheEdgeIsANotch) {
+TEST(DrawingRepair, WhatCrossesALargerOutlineIsLinesOnIt) {
+  // An engraved square that reaches across the fingers of a panel must not cut the panel's corners off.
   Sketch sketch;
   sketch.polyline(kSquare).circle({9.5, 5}, 2);
   EXPECT_TRUE(refused_when_strict(sketch));
   const auto found = made(sketch);
   EXPECT_TRUE(found.set_aside.empty());
   ASSERT_EQ(found.regions.size(), 1u);
-  EXPECT_TRUE(found.regions[0].holes.empty());
-  EXPECT_LT(geom::area(found.regions[0]), 93);
-  // What bounds no part is kept: the arc outside and the edge across the notch.
-  EXPECT_GE(found.marks.size(), 2u);
+  EXPECT_NEAR(geom::area(found.regions[0]), 100, 1e-9);
+  ASSERT_EQ(found.marks.size(), 1u);
+  EXPECT_EQ(found.marks[0].curve_of_edge, (std::vector<std::uint32_t>{4}));
+  ASSERT_EQ(found.doubtful.size(), 1u);
+  EXPECT_TRUE(has(found.doubtful[0], "the CIRCLE at line 50")) << found.doubtful[0];
+  EXPECT_EQ(found.tolerance, 0);
+}
+
+TEST(DrawingRepair, PartsThatWereDrawnTooNearStayParts) {
+  // A tab reaches 0.5 mm into the next part; neither is far larger.
+  Sketch sketch;
+  sketch.polyline({{0, 0}, {10, 0}, {10, 4}, {11, 4}, {11, 6}, {10, 6}, {10, 10}, {0, 10}})
+      .polyline({{10.5, 0}, {20.5, 0}, {20.5, 10}, {10.5, 10}});
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  EXPECT_TRUE(found.set_aside.empty());
+  ASSERT_EQ(found.regions.size(), 2u);
+  EXPECT_NEAR(geom::area(found.regions[0]), 102, 1e-9);
+  EXPECT_NEAR(geom::area(found.regions[1]), 100, 1e-9);
+  EXPECT_TRUE(std::any_of(found.notices.begin(), found.notices.end(),
+                          [](const std::string& notice) { return has(notice, "overlap a little"); }));
+  // A hole in both would be a hole of one, and covered by the other.
+  sketch.circle({10.75, 5}, 0.1);
+  EXPECT_EQ(made(Sketch(sketch).circle({50, 50}, 1)).regions.size(), 1u);
+}
+
+TEST(DrawingRepair, EndsThatRunPastEachOtherCloseWhereTheyCross) {
+  // The blade of a fan: its arcs cross 0.4 mm before their ends.
+  Sketch crossing;
+  crossing.line({-0.3, 0}, {10, 0}).line({10, 0}, {10, 10}).line({10, 10}, {-0.3, -0.3});
+  EXPECT_TRUE(refused_when_strict(crossing));
+  const auto found = made(crossing);
+  EXPECT_TRUE(found.set_aside.empty());
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_NEAR(geom::area(found.regions[0]), 50, 1e-6);
   EXPECT_LE(found.tolerance, 1e-6);
+  // What lies behind the crossing is kept, both ends in a row.
+  ASSERT_EQ(found.marks.size(), 1u);
+  EXPECT_EQ(found.marks[0].edges.size(), 2u);
+}
+
+TEST(DrawingRepair, ASliverIsCutOffAsASpikeIs) {
+  // Out along a line and back along one that is a hair beside it, 0.3 mm long: no neck would hold it.
+  Sketch sketch;
+  sketch.polyline({{0, 0}, {10, 0}, {10, 10}, {10.3, 10.001}, {10, 9.999}, {9.9, 10}, {0, 10}});
+  EXPECT_TRUE(refused_when_strict(sketch));
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_NEAR(geom::area(found.regions[0]), 100, 1e-2);
+  EXPECT_LE(found.repaired, 0.011);
+  EXPECT_FALSE(found.marks.empty()) << "0.3 mm is more than may be lost of a spike";
 }
 
 TEST(DrawingRepair, HolesThatCrossAreOneHole) {

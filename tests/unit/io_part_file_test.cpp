@@ -32,6 +32,12 @@ std::string told(const PartsFile& file) {
   return text;
 }
 
+std::string told_notices(const PartsFile& file) {
+  std::string text;
+  for (const std::string& notice : file.notices) text += notice + "\n";
+  return text;
+}
+
 TEST(PartFile, PartsAreCalledAfterTheFileAndNamedByLayerAndLabel) {
   EXPECT_EQ(told(read(square(0, 0, 10) + square(20, 0, 11, "id='r1'") +
                       square(40, 0, 12, "id='r2' inkscape:label='lid'"))),
@@ -48,6 +54,18 @@ TEST(PartFile, EqualOutlinesAreOnePartWantedAsOften) {
   // A turned copy lies otherwise to the grain, so it stays a part of its own.
   EXPECT_EQ(told(read(R"(<path d="M0 0H20V10Z"/><path d="M50 0V20H40Z"/><path d="M80 0H100V10Z"/>)")),
             "side_panel=2 \"cut\" 0 holes 0 marks, side_panel-2=1 \"cut\" 0 holes 0 marks, ");
+}
+
+TEST(PartFile, ACrackThatClosesAlongATangentLeavesAPartOfLines) {
+  // The arc runs back along the line before it, as a box maker draws the tip of a triangle: chords outside of
+  // The arc leaves its corner along the line before it, and chords outside of it cross that line however fine
+  // they are.
+  const PartsFile file = read(R"(<path d="M0 0H20V10A10 10 0 0 1 22 4H40V12H0Z"/>)");
+  ASSERT_EQ(file.parts.size(), 1u);
+  EXPECT_TRUE(file.set_aside.empty());
+  EXPECT_TRUE(file.parts[0].outline.curves.empty()) << "lines, within the tolerance that is told";
+  EXPECT_NE(told_notices(file).find("1 parts became lines"), std::string::npos) << told_notices(file);
+  EXPECT_NE(told_notices(file).find("outlines are within"), std::string::npos) << told_notices(file);
 }
 
 TEST(PartFile, LinesThatBoundNothingAreMarksOfTheirPart) {
