@@ -30,7 +30,9 @@ def dxf_curves(path):
         doc = ezdxf.readfile(path)
     except Exception:  # the library has several kinds of complaint, and a second reader for all of them
         doc, _ = recover.readfile(path)
-    scale = UNITS.get(doc.header.get('$INSUNITS', 0), 1)
+    # The library says metres where the file says nothing.
+    says = b'$INSUNITS' in open(path, 'rb').read()
+    scale = UNITS.get(doc.header.get('$INSUNITS', 0), 1) if says else 1
     hidden = {layer.dxf.name.lower() for layer in doc.layers if layer.is_off() or layer.is_frozen()}
     kinds, others, lines = collections.Counter(), collections.Counter(), []
 

@@ -192,7 +192,7 @@ TEST(DrawingRepair, PartsThatWereDrawnTooNearStayParts) {
   EXPECT_NEAR(geom::area(found.regions[0]), 102, 1e-9);
   EXPECT_NEAR(geom::area(found.regions[1]), 100, 1e-9);
   EXPECT_TRUE(std::any_of(found.notices.begin(), found.notices.end(),
-                          [](const std::string& notice) { return has(notice, "overlap a little"); }));
+                          [](const std::string& notice) { return has(notice, "overlap, and each"); }));
   // A hole in both would be a hole of one, and covered by the other.
   sketch.circle({10.75, 5}, 0.1);
   EXPECT_EQ(made(Sketch(sketch).circle({50, 50}, 1)).regions.size(), 1u);

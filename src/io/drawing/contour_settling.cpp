@@ -23,7 +23,7 @@ using geom::Point;
 constexpr int kMostRounds = 6;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
-/// Contours of which no more than this share lies in each other are two parts that were drawn too near.
+/// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to it.
 constexpr double kMostShared = 0.1;
 
 /// A closed contour on its way to a region.
@@ -360,13 +360,16 @@ class Settling {
     return true;
   }
 
-  /// Tells parts that were drawn too near to each other from a shape and what is cut off it. Whatever both
-  /// hold would be a hole of one and covered by the other, so that two with such a thing in common cross.
+  /// Tells parts that were drawn over each other from a shape and lines on it. Whatever both hold would be a
+  /// hole of one and covered by the other, so that two with such a thing in common cross.
   void tell_neighbours() {
     for (auto& [pair, meeting] : meetings_) {
       const auto [a, b] = pair;
-      if (meeting.relation == Relation::crossing && depth_[a] == depth_[b] && depth_[a] % 2 == 0 &&
-          in_common_.count(pair) == 0 && shared_part(placed(a), placed(b)) <= kMostShared)
+      if (meeting.relation != Relation::crossing || depth_[a] != depth_[b] || depth_[a] % 2 != 0 ||
+          in_common_.count(pair) > 0)
+        continue;
+      const auto [small, large] = std::minmax(placed(a).area(), placed(b).area());
+      if (small > kMostOfLines * large || shared_part(placed(a), placed(b)) <= kMostShared)
         meeting.relation = Relation::neighbours;
     }
   }

@@ -1057,7 +1057,7 @@ class Assembly {
                       "{:.3g} mm at most",
                       mends_, result_.repaired));
     if (!neighbours_.empty())
-      notices.push_back(fmt::format("{} pairs of contours overlap a little, and each is a part as it is drawn, the "
+      notices.push_back(fmt::format("{} pairs of contours overlap, and each is a part as it is drawn, the "
                                     "first that of {} and that of {} at {}",
                                     neighbours_.size(), name(neighbours_.front().first),
                                     name(neighbours_.front().second), text(neighbours_.front().at)));

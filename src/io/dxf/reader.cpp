@@ -41,8 +41,13 @@ class DxfDrawing {
 
  private:
   Result<void> read_sections() {
-    while (at_.next()) {
+    for (bool more = at_.next(); more; more = at_.next()) {
       ask();
+      // Some programs close the header too early; what comes of it then says nothing about curves.
+      while (at_.code() == 9 && at_.next())
+        while (at_.code() != 0 && at_.code() != 9 && at_.next()) {
+        }
+      if (!at_.ok()) break;
       if (at_.at(0, "EOF")) return {};
       if (at_.code() == 999) continue;  // a comment
       if (!at_.at(0, "SECTION")) {
