@@ -79,9 +79,8 @@ Result<CutFaces> cut(const Outlines& outlines, Loops&& loops_of) {
 Result<CutFaces> contours_around(const std::vector<Contour>& contours, FillRule rule) {
   Outlines outlines;
   for (const Contour& contour : contours) outlines.add(contour, 0);
-  const KeepRule keep = rule == FillRule::even_odd
-                            ? KeepRule([](const Winding& w) { return w[0] % 2 != 0; })
-                            : KeepRule([](const Winding& w) { return w[0] != 0; });
+  const KeepRule keep = rule == FillRule::even_odd ? KeepRule([](const Winding& w) { return w[0] % 2 != 0; })
+                                                   : KeepRule([](const Winding& w) { return w[0] != 0; });
   return cut(outlines, [&](const Arrangement& arrangement) -> std::optional<std::vector<PlanarMap::Loop>> {
     const auto map = PlanarMap::make(arrangement);
     if (!map) return std::nullopt;

@@ -24,7 +24,8 @@ namespace {
 
 struct Row {
   std::string file, sha256, verdict;
-  double enclosed = 0, outline = 0;  ///< mm2 of everything that the curves enclose, holes filled, and mm around it
+  double enclosed = 0,
+         outline = 0;  ///< mm2 of everything that the curves enclose, holes filled, and mm around it
 };
 
 /// Drawings of which parts do not cover all that the curves enclose, and why.
@@ -138,7 +139,8 @@ TEST_F(Drawings, CoverWhatTheirCurvesEnclose) {
     const DrawingFormat* const format = drawing_format_by_content(bytes);
     const auto drawing = format == nullptr ? Result<Drawing>(failure(ErrorCode::bad_input, "no drawing"))
                                            : format->parse(bytes, row.file, std::nullopt);
-    const auto made = drawing ? make_regions(*drawing) : Result<DrawnRegions>(tl::unexpected(drawing.error()));
+    const auto made =
+        drawing ? make_regions(*drawing) : Result<DrawnRegions>(tl::unexpected(drawing.error()));
     if (!made) continue;  // the test above counts these
     ++compared;
     const double area = covered(made->regions);

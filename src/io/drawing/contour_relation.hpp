@@ -10,12 +10,12 @@ namespace lekalo::io {
 /// How two contours that cross or touch lie to each other, when what is within `repair` of a contour counts
 /// as on it.
 enum class Relation {
-  beside,     ///< neither holds anything of the other
-  first_in,   ///< the second holds the first
-  second_in,  ///< the first holds the second
-  same,       ///< each runs along the other
-  crossing,   ///< they overlap by more than `repair`
-  neighbours, ///< they cross, but two shapes that were drawn too near to each other do so too
+  beside,      ///< neither holds anything of the other
+  first_in,    ///< the second holds the first
+  second_in,   ///< the first holds the second
+  same,        ///< each runs along the other
+  crossing,    ///< they overlap by more than `repair`
+  neighbours,  ///< they cross, but two shapes that were drawn too near to each other do so too
 };
 
 /// A contour, counter-clockwise, as it is asked about others.

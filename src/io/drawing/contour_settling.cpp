@@ -23,7 +23,8 @@ using geom::Point;
 constexpr int kMostRounds = 6;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
-/// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to it.
+/// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to
+/// it.
 constexpr double kMostShared = 0.1;
 
 /// A closed contour on its way to a region.
@@ -275,7 +276,8 @@ class Settling {
       const auto [a, b] = pair;
       if (meeting.relation != Relation::crossing || depth_[a] != depth_[b] || depth_[a] % 2 != 0) continue;
       const std::size_t small = placed(a).area() < placed(b).area() ? a : b, large = small == a ? b : a;
-      if (!(kMostOfLines * placed(large).area() >= placed(small).area()) || std::exchange(gone[small], 1) != 0)
+      if (!(kMostOfLines * placed(large).area() >= placed(small).area()) ||
+          std::exchange(gone[small], 1) != 0)
         continue;
       const LooseContour& lines = candidates_[small].contour;
       for (std::size_t k = 0; k < lines.edges.size(); ++k)

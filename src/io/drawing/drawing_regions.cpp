@@ -887,10 +887,11 @@ class Assembly {
     mends_ = settled->mends;
     neighbours_ = std::move(settled->neighbours);
     for (const Neighbours& one : settled->lines_on_others)
-      result_.doubtful.push_back(fmt::format(
-          "the contour that begins with {} crosses that of {} at {}, and is taken for lines on it; if it is to be "
-          "cut off, draw the outline so",
-          name(one.first), name(one.second), text(one.at)));
+      result_.doubtful.push_back(
+          fmt::format("the contour that begins with {} crosses that of {} at {}, and is taken for lines on "
+                      "it; if it is to be "
+                      "cut off, draw the outline so",
+                      name(one.first), name(one.second), text(one.at)));
     std::vector<char> kept(worked_.size(), 0);
     for (const std::uint32_t curve : result_.curve_of_edge) kept[curve] = 1;
     for (const Mark& mark : result_.marks)
@@ -1057,10 +1058,11 @@ class Assembly {
                       "{:.3g} mm at most",
                       mends_, result_.repaired));
     if (!neighbours_.empty())
-      notices.push_back(fmt::format("{} pairs of contours overlap, and each is a part as it is drawn, the "
-                                    "first that of {} and that of {} at {}",
-                                    neighbours_.size(), name(neighbours_.front().first),
-                                    name(neighbours_.front().second), text(neighbours_.front().at)));
+      notices.push_back(
+          fmt::format("{} pairs of contours overlap, and each is a part as it is drawn, the "
+                      "first that of {} and that of {} at {}",
+                      neighbours_.size(), name(neighbours_.front().first), name(neighbours_.front().second),
+                      text(neighbours_.front().at)));
     for (std::size_t i = 0; i < result_.set_aside.size() && i < kMostKinds; ++i)
       notices.push_back("set aside: " + result_.set_aside[i].sentence);
     if (result_.set_aside.size() > kMostKinds)
@@ -1072,7 +1074,8 @@ class Assembly {
     for (std::size_t i = 0; i < result_.doubtful.size() && i < kMostKinds; ++i)
       notices.push_back(result_.doubtful[i]);
     if (result_.doubtful.size() > kMostKinds)
-      notices.push_back(fmt::format("{} contours more cross far larger ones", result_.doubtful.size() - kMostKinds));
+      notices.push_back(
+          fmt::format("{} contours more cross far larger ones", result_.doubtful.size() - kMostKinds));
     if (!drawing_.unread.empty()) notices.push_back(unread_sentence().substr(2));
   }
 

@@ -99,9 +99,9 @@ const geom::Edge* far_arc(const std::vector<geom::Region>& regions) {
 std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_lack_holes) {
   const geom::RegionIndex index(drawn.regions);
   for (const SetAside& one : drawn.set_aside) {
-    const bool inside = !one.edges.empty() &&
-                        std::all_of(one.edges.begin(), one.edges.end(),
-                                    [&](const geom::Edge& edge) { return index.contains(edge.from); });
+    const bool inside =
+        !one.edges.empty() && std::all_of(one.edges.begin(), one.edges.end(),
+                                          [&](const geom::Edge& edge) { return index.contains(edge.from); });
     if (!inside || !may_lack_holes) return one.sentence;
   }
   if (may_lack_holes) return std::nullopt;
@@ -109,7 +109,8 @@ std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_l
   if (drawn.marks.empty()) return std::nullopt;
   const geom::Contour& line = drawn.marks.front().edges;
   return fmt::format(
-      "{} lines enclose nothing, the first from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) mm, and may be the edge of a "
+      "{} lines enclose nothing, the first from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) mm, and may be the edge "
+      "of a "
       "hole; close it, use a larger join tolerance, or take the layers without it",
       drawn.marks.size(), line.front().from.x, line.front().from.y, line.back().to.x, line.back().to.y);
 }

@@ -321,8 +321,8 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
     file.parts.push_back(std::move(part));
   }
   if (lines > 0)
-    file.notices.push_back(fmt::format("{}: {} parts became lines, where arcs are too near to each other for chords",
-                                       name, lines));
+    file.notices.push_back(fmt::format(
+        "{}: {} parts became lines, where arcs are too near to each other for chords", name, lines));
   if (file.parts.empty() && !drawn->set_aside.empty())
     return failure(ErrorCode::bad_input, drawn->set_aside.back());
   const std::size_t outlines = file.parts.size();

@@ -12,8 +12,8 @@ struct PartOutline {
   double loss = 0;
 };
 
-/// Returns a region as the outline of a part. Where chords beside its arcs meet although the arcs do not, they
-/// are made finer. Where that does not help either, as at a crack that closes along a tangent, the part
+/// Returns a region as the outline of a part. Where chords beside its arcs meet although the arcs do not,
+/// they are made finer. Where that does not help either, as at a crack that closes along a tangent, the part
 /// becomes lines, with whatever is too narrow for the grid of layouts filled.
 /// Fails as grid_region_of_curves where that would move the outline further than `most_loss`, mm.
 [[nodiscard]] Result<PartOutline> outline_of_part(const geom::Region& region, double chord_tolerance,

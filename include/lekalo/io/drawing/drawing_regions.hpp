@@ -76,7 +76,8 @@ struct DrawnRegions {
   /// Made by make_region, each by itself free of faults (fault_of of geom/region_check.hpp): outlines that
   /// hold material and their holes, by containment; in the order of their first curves in the file. Regions
   /// may share corners and edges, as parts do that are drawn side by side, and overlap by up to `repair`, or
-  /// by more as they are drawn, which a notice says; whoever takes several of them as one shape asks fault_of of all (strict: they are apart).
+  /// by more as they are drawn, which a notice says; whoever takes several of them as one shape asks fault_of
+  /// of all (strict: they are apart).
   std::vector<geom::Region> regions;
   /// For every edge the curve it came from (into Drawing::curves); a line that closes a gap counts to the
   /// curve before it.
