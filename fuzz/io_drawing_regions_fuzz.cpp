@@ -114,7 +114,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::uint32_t curve : found->curve_of_edge) must(curve < drawing.curves.size());
   must(found->curve_tolerance <= options.curve_tolerance);
   must(found->tolerance >= 0 &&
-       found->tolerance <= (found->curve_tolerance + found->moved + found->coordinate_error) * (1 + 1e-12));
+       found->tolerance <=
+           (found->curve_tolerance + found->moved + found->repaired + found->coordinate_error) * (1 + 1e-12));
+  must(found->repaired <= options.repair);
   for (const geom::Region& region : found->regions) {
     auto again = geom::make_region(region.outer, region.holes);
     must(again && *again == region);

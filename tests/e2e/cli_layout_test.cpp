@@ -199,7 +199,7 @@ TEST(CliLayout, BadFilesGetOneSentenceAndLeaveNothing) {
       {"other JSON", R"({"a": 1})", "no layout; known are"},
       {"a list", "[1, 2]", "broken.json"},
       {"words", "Dear Sir or Madam", "no layout; known are"},
-      {"binary rubbish", std::string("\x00\x01\xfe\xff", 4), "no layout; known are"},
+      {"binary rubbish", std::string("\x00\x01\xfe\xff", 4), "this is not a text file"},
       {"empty", "", "is empty"},
   };
   for (const Bad& one : bad) {

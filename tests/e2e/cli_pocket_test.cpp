@@ -370,7 +370,7 @@ TEST(CliPocket, BadInputIsOneSentence) {
   };
   const Words tool{"--tool", "6", "--depth", "2"};
   says(Words{"open.dxf"} + tool, 3, "close");
-  says(Words{"bow.dxf"} + tool, 3, "cross");
+  says(Words{"bow.dxf"} + tool, 3, "outlines must not meet");
   says(Words{"plate.json", "--tool", "21", "--depth", "2"}, 3, "fits nowhere");
   says(Words{"outside.json"} + tool, 3, "outside");
   says(Words{"out.dxf", "--island-layer", "I"} + tool, 3, "lies in no pocket");

@@ -64,7 +64,7 @@ def main(lekalo, source):
                     faults.append(f"{kind.name}: {path}/{key} is not named in docs/formats.md")
     for table, keys in written.items():
         nested = {"kind", "a", "b", "stock", "copy", "feature", "amount_mm", "at", "direction", "part", "count", "parts", "remnant",
-                  "length", "reason", "name"}
+                  "length", "reason", "name", "marks"}
         for key in sorted(tables[table] - keys - nested - OPTIONAL):
             faults.append(f"{table} names {key}, which no result has")
     for fault in sorted(set(faults)):

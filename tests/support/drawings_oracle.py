@@ -16,8 +16,8 @@ import sys
 
 FLAT, JOIN, LEAST = 0.005, 0.2, 0.01
 LARGEST = 262144  # mm, of outlines in a layout (docs/limits.md): what lies further out is beyond it
-# Files of which the other library does not read all, so that it has no verdict.
-UNDECIDED = {'drawings/ezdxf/mtext_framed_columns.dxf'}
+# Files of which the other library does not read all, or reads what the format forbids (radii of no length).
+UNDECIDED = {'drawings/ezdxf/mtext_framed_columns.dxf', 'drawings/ezdxf/circle_radius_le_0.dxf'}
 UNITS = {1: 25.4, 2: 304.8, 3: 1609344, 4: 1, 5: 10, 6: 1000, 7: 1e6, 8: 25.4e-6, 9: 0.0254, 10: 914.4, 13: 0.001,
          14: 100}
 

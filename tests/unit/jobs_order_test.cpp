@@ -14,7 +14,7 @@ File drawing(const char* name, const char* shapes) {
                     shapes + "</svg>"};
 }
 const File kPlate = drawing("shop/plate.svg", "<rect width='80' height='40'/>");
-const File kTwo = drawing("two.svg", "<path d='M0 0H9V9Z'/><path d='M20 0H29V9Z'/>");
+const File kTwo = drawing("two.svg", "<path d='M0 0H9V9Z'/><path d='M20 0H29V8Z'/>");
 
 Order order_of_plates() {
   Order order;

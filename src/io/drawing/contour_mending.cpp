@@ -141,7 +141,7 @@ class Mender {
       const Contour& loop = loops[i].contour;
       std::size_t hangs = 0;  // the edge that begins in the corner by which it hangs
       while (hangs < loop.size() && place.count(loop[hangs].from) == 0) ++hangs;
-      // What is in the way of a person's eye alone, and what hangs on other loops only, goes with its loss.
+      // A sliver, and a loop that hangs on other small ones alone, is cut off with its loss.
       kind_[i] = Kind::dropped;
       if (hangs == loop.size() || is_sliver(loop)) continue;
       const Point corner = loop[hangs].from;

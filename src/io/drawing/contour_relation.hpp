@@ -29,7 +29,8 @@ class PlacedContour {
   [[nodiscard]] double area() const noexcept { return area_; }
   [[nodiscard]] geom::Point start() const noexcept { return contour_.front().from; }
 
-  friend Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair);
+  friend Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair,
+                              std::size_t& work);
   friend double shared_part(const PlacedContour& a, const PlacedContour& b);
 
  private:
@@ -37,7 +38,7 @@ class PlacedContour {
   struct Sides {
     bool outside = false, inside = false;
   };
-  [[nodiscard]] Sides sides_of(const PlacedContour& other, double reach) const;
+  [[nodiscard]] Sides sides_of(const PlacedContour& other, double reach, std::size_t& work) const;
 
   geom::Contour contour_;
   geom::RegionIndex index_;
@@ -46,8 +47,10 @@ class PlacedContour {
 };
 
 /// Cost: O((length of what runs along each other / repair) log n).
-/// Never `neighbours`, which the rest of the drawing decides too.
-[[nodiscard]] Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair);
+/// Never `neighbours`, which the rest of the drawing decides too. Takes a unit of `work` for each step; where
+/// none is left, contours count as crossing.
+[[nodiscard]] Relation relation_of(const PlacedContour& a, const PlacedContour& b, double repair,
+                                   std::size_t& work);
 
 /// Returns how much of the smaller of two contours lies in the other, 0 to 1; 1 where that cannot be told.
 /// Cost: that of geom::combine.

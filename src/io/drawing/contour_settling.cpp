@@ -21,6 +21,8 @@ using geom::Point;
 
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
 constexpr int kMostRounds = 6;
+/// Steps that may be spent on how contours lie to each other; about a second.
+constexpr std::size_t kMostWork = 2'000'000;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
 /// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to
@@ -130,7 +132,7 @@ class Settling {
   [[nodiscard]] Relation relation(std::size_t a, std::size_t b) {
     Meeting& meeting = meetings_.at(std::minmax(a, b));
     if (!std::exchange(meeting.known, true))
-      meeting.relation = relation_of(placed(std::min(a, b)), placed(std::max(a, b)), repair_);
+      meeting.relation = relation_of(placed(std::min(a, b)), placed(std::max(a, b)), repair_, work_);
     return meeting.relation;
   }
 
@@ -268,8 +270,8 @@ class Settling {
     return true;
   }
 
-  /// What crosses a contour that is far larger is lines on it. Whether it is cut off the larger one, or drawn
-  /// on it, nobody can tell, and lines leave both open. Returns whether there were any.
+  /// A contour that crosses a far larger one becomes lines on it. Whether it is to be cut off, or only drawn
+  /// there, nobody can tell, and lines leave both open. Returns whether there were any.
   bool leave_lines_on_larger() {
     std::vector<char> gone(candidates_.size(), 0);
     for (const auto& [pair, meeting] : meetings_) {
@@ -370,8 +372,9 @@ class Settling {
       if (meeting.relation != Relation::crossing || depth_[a] != depth_[b] || depth_[a] % 2 != 0 ||
           in_common_.count(pair) > 0)
         continue;
-      const auto [small, large] = std::minmax(placed(a).area(), placed(b).area());
-      if (small > kMostOfLines * large || shared_part(placed(a), placed(b)) <= kMostShared)
+      const double one = placed(a).area(), other = placed(b).area();
+      if (std::min(one, other) > kMostOfLines * std::max(one, other) ||
+          shared_part(placed(a), placed(b)) <= kMostShared)
         meeting.relation = Relation::neighbours;
     }
   }
@@ -463,6 +466,7 @@ class Settling {
   std::vector<std::size_t> by_, depth_;
   /// Pairs of contours that cross others and hold something together.
   std::set<std::pair<std::size_t, std::size_t>> in_common_;
+  std::size_t work_ = kMostWork;
   Settled made_;
 };
 

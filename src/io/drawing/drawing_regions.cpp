@@ -786,6 +786,9 @@ class Assembly {
   /// Returns the sentence for a drawing in which nothing is enclosed: what there is, by kind and layer.
   [[nodiscard]] std::string empty_sentence() const {
     if (drawing_.curves.empty()) return "there are no curves in the drawing" + unread_sentence();
+    if (!result_.set_aside.empty())
+      return fmt::format("nothing that the {} curves enclose can be taken: {}{}", drawing_.curves.size(),
+                         result_.set_aside.front().sentence, unread_sentence());
     std::map<std::pair<std::uint32_t, std::string>, std::size_t> kinds;
     for (const DrawnCurve& curve : drawing_.curves)
       ++kinds[{curve.layer, drawing_.entities[curve.entity].type}];
@@ -800,7 +803,6 @@ class Assembly {
     std::string sentence =
         fmt::format("none of the {} curves closes a contour: {}", drawing_.curves.size(), counts);
     for (const std::string& notice : result_.notices) sentence += "; " + notice;
-    if (!result_.set_aside.empty()) sentence += "; " + result_.set_aside.front().sentence;
     return sentence + unread_sentence();
   }
 

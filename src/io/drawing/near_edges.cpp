@@ -15,6 +15,8 @@ using geom::Point;
 
 /// Parts of an edge are halved until they are this share of the limit long.
 constexpr double kFinest = 1.0 / 1024;
+/// An edge is not halved into more parts than this: arcs of kilometres that run along each other would be.
+constexpr std::size_t kMostParts = 50'000;
 
 std::vector<Box> boxes_of(const std::vector<Curve>& curves) {
   std::vector<Box> boxes;
@@ -59,7 +61,8 @@ std::optional<double> NearEdges::distance(Point p, double limit) const {
 std::optional<double> NearEdges::farthest(const Edge& edge, double limit) const {
   double largest = 0;
   std::vector<Edge> open{edge};
-  while (!open.empty()) {
+  for (std::size_t parts = 0; !open.empty(); ++parts) {
+    if (parts == kMostParts) return std::nullopt;
     ask();
     const Edge part = open.back();
     open.pop_back();

@@ -49,7 +49,7 @@ class DxfDrawing {
         }
       if (!at_.ok()) break;
       if (at_.at(0, "EOF")) return {};
-      if (at_.code() == 999) continue;  // a comment
+      if (at_.code() == 999 || at_.at(0, "ENDSEC")) continue;
       if (!at_.at(0, "SECTION")) {
         return refuse_line(at_.name(), at_.line(),
                            fmt::format("a section is wanted here, not {}", excerpt(at_.value())));
