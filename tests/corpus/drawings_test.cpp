@@ -32,6 +32,7 @@ struct Row {
 const std::map<std::string, std::string> kOtherAreas{
     {"drawings/boxes/Lamp.svg", "two rings and two bells end on the inside of other curves"},
     {"drawings/ezdxf/3dface.dxf", "ends on the inside of other curves"},
+    {"drawings/ezdxf/columns_R2018.dxf", "a frame whose end lies on a curve"},
     {"drawings/ezdxf/custom_blocks.dxf", "holes that touch the outline all around leave segments"},
     {"drawings/ezdxf/multi_insert_with_attribs.dxf", "flags whose ends lie on their own poles"},
     {"drawings/ezdxf/text_alignments.dxf", "circles about crosses, in which ends lie on curves"},

@@ -275,7 +275,7 @@ class Mender {
     const NearEdges outline(kept);
     const auto measure = [&](const LooseEdge& one, double limit) {
       ask();
-      if (const auto far = outline.farthest(one.edge, limit))
+      if (const auto far = outline.farthest(one.edge, limit, work_))
         made_.moved.push_back({one.curve, *far});
       else
         made_.marks.push_back(one);
@@ -304,6 +304,7 @@ class Mender {
   std::vector<std::size_t> narrow_;
   std::vector<LooseEdge> left_;     ///< stretches that bound nothing
   std::vector<LooseEdge> cut_off_;  ///< of loops
+  std::size_t work_ = kMostWork;
   Mended made_;
 };
 

@@ -21,8 +21,6 @@ using geom::Point;
 
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
 constexpr int kMostRounds = 6;
-/// Steps that may be spent on how contours lie to each other; about a second.
-constexpr std::size_t kMostWork = 2'000'000;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
 /// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to
@@ -325,7 +323,7 @@ class Settling {
     const NearEdges outline(kept.edges);
     for (std::size_t k = 0; k < copy.edges.size(); ++k) {
       made_.dropped.push_back(copy.curves[k]);
-      if (const auto far = outline.farthest(copy.edges[k], repair_))
+      if (const auto far = outline.farthest(copy.edges[k], repair_, work_))
         made_.moved.push_back({copy.curves[k], *far});
       else
         made_.marks.push_back({copy.edges[k], copy.curves[k]});

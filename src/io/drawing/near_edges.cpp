@@ -15,8 +15,6 @@ using geom::Point;
 
 /// Parts of an edge are halved until they are this share of the limit long.
 constexpr double kFinest = 1.0 / 1024;
-/// An edge is not halved into more parts than this: arcs of kilometres that run along each other would be.
-constexpr std::size_t kMostParts = 50'000;
 
 std::vector<Box> boxes_of(const std::vector<Curve>& curves) {
   std::vector<Box> boxes;
@@ -58,11 +56,12 @@ std::optional<double> NearEdges::distance(Point p, double limit) const {
   return least;
 }
 
-std::optional<double> NearEdges::farthest(const Edge& edge, double limit) const {
+std::optional<double> NearEdges::farthest(const Edge& edge, double limit, std::size_t& work) const {
   double largest = 0;
   std::vector<Edge> open{edge};
-  for (std::size_t parts = 0; !open.empty(); ++parts) {
-    if (parts == kMostParts) return std::nullopt;
+  while (!open.empty()) {
+    if (work == 0) return std::nullopt;
+    --work;
     ask();
     const Edge part = open.back();
     open.pop_back();

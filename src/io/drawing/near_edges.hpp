@@ -14,8 +14,9 @@ class NearEdges {
   explicit NearEdges(const std::vector<geom::Edge>& edges);
 
   /// Returns a bound, within `limit` / 1024 of the least, on how far the points of an edge are from these
-  /// edges; nothing if some point is farther than `limit`, or may be. Cost: O((length / limit) log n).
-  [[nodiscard]] std::optional<double> farthest(const geom::Edge& edge, double limit) const;
+  /// edges; nothing if some point is farther than `limit`, or may be. Cost: O((length / limit) log n), of
+  /// which each step takes a unit of `work`; arcs of kilometres that run along each other would take minutes.
+  [[nodiscard]] std::optional<double> farthest(const geom::Edge& edge, double limit, std::size_t& work) const;
   /// Returns the distance of a point from these edges; nothing if that is more than `limit`.
   [[nodiscard]] std::optional<double> distance(geom::Point p, double limit) const;
 
@@ -23,6 +24,9 @@ class NearEdges {
   std::vector<geom::Curve> curves_;
   geom::BoxTree tree_;
 };
+
+/// The work for all questions about one shape, a second or two.
+inline constexpr std::size_t kMostWork = 2'000'000;
 
 /// The two halves of an edge; a full circle is cut at its first point and opposite to it.
 struct Bisected {

@@ -87,9 +87,10 @@ std::optional<double> distance_between(const geom::Region& a, const geom::Region
   const std::vector<Edge> of_a = edges_of(a), of_b = edges_of(b);
   const NearEdges near_a(of_a), near_b(of_b);
   double loss = 0;
+  std::size_t work = kMostWork;
   for (const auto& [edges, others] : {std::pair(&of_a, &near_b), std::pair(&of_b, &near_a)})
     for (const Edge& edge : *edges) {
-      const auto far = others->farthest(edge, most);
+      const auto far = others->farthest(edge, most, work);
       if (!far) return std::nullopt;
       loss = std::max(loss, *far);
     }
