@@ -26,7 +26,7 @@ bool runs_along(const Edge& part, const geom::Curve& curve, double reach) {
       norm(nearest_on(curve, part.to) - part.to) > reach)
     return false;
   if (part.kind == EdgeKind::line) return true;
-  // Of two circles that lie within reach of each other the arcs do as well, unless one has its gap there.
+  // Arcs of two circles that lie within reach of each other do so as well, unless one has its gap there.
   return geom::arc_sweep(part) < 1 && (curve.full || geom::arc_sweep(curve.edge) < 5) &&
          norm(part.centre - curve.edge.centre) +
                  std::abs(geom::arc_radius(part) - geom::arc_radius(curve.edge)) <=

@@ -21,6 +21,9 @@ using geom::Point;
 
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
 constexpr int kMostRounds = 6;
+/// Steps that may be spent on how contours lie to each other, and as many more for each edge. Real drawings
+/// take a few for each edge that lies along another; arcs of kilometres take all.
+constexpr std::size_t kLeastRelationWork = 100'000, kRelationWorkOfEdge = 2'000;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
 /// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to
@@ -44,7 +47,10 @@ class Settling {
   Settling(std::vector<LooseContour> contours, const std::vector<CurveOrigin>& origins,
            const MendLimits& limits)
       : origins_(origins), limits_(limits), repair_(limits.repair) {
-    for (LooseContour& contour : contours) enter(std::move(contour), false);
+    for (LooseContour& contour : contours) {
+      relation_work_ += kRelationWorkOfEdge * contour.edges.size();
+      enter(std::move(contour), false);
+    }
   }
 
   std::optional<Settled> run() {
@@ -130,7 +136,7 @@ class Settling {
   [[nodiscard]] Relation relation(std::size_t a, std::size_t b) {
     Meeting& meeting = meetings_.at(std::minmax(a, b));
     if (!std::exchange(meeting.known, true))
-      meeting.relation = relation_of(placed(std::min(a, b)), placed(std::max(a, b)), repair_, work_);
+      meeting.relation = relation_of(placed(std::min(a, b)), placed(std::max(a, b)), repair_, relation_work_);
     return meeting.relation;
   }
 
@@ -464,7 +470,7 @@ class Settling {
   std::vector<std::size_t> by_, depth_;
   /// Pairs of contours that cross others and hold something together.
   std::set<std::pair<std::size_t, std::size_t>> in_common_;
-  std::size_t work_ = kMostWork;
+  std::size_t work_ = kMostWork, relation_work_ = kLeastRelationWork;
   Settled made_;
 };
 
