@@ -352,6 +352,20 @@ inEditor(
     await page.waitForFunction(() => /60 × 30 mm/.test(document.querySelectorAll('dialog .drawing')[1]?.textContent));
     assert.match(await page.textContent('dialog .drawing .trouble'), /broken\.svg/);
     assert.deepEqual(await cutOff(page, ['dialog table']), []);
+    await command(page, 'order.cancel');
+    // Each part of the tray has the colour that it has in the picture.
+    const colours = await page.locator('.tray path').evaluateAll((all) => all.map((e) => getComputedStyle(e).fill));
+    assert.equal(new Set(colours).size, smallLayout.parts.length);
+    // The longer words of the other language leave every button in its place, too.
+    await command(page, 'menu.main');
+    await command(page, 'language');
+    await command(page, 'menu.main');
+    await command(page, 'new.layout');
+    await page.setInputFiles('dialog [data-action="order.file"]', [
+      { name: 'lid.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(tray) },
+    ]);
+    await page.waitForSelector('dialog .drawing .thumbnail');
+    assert.deepEqual(await cutOff(page, ['dialog table']), []);
   },
   { options: {}, expected: ['400'] },
 );
