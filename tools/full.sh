@@ -118,7 +118,9 @@ coverage() {
 mutation() {
   build_preset mutation
   unset LEKALO_CASES LEKALO_TIMES
-  "$root/tools/mutants.py" run "$root/build/mutation/tests/mutation/copy" "$root/build/mutation/tests/mutation/mutants"
+  # The rest of the hour that a step may take; a mutant that is not tried by then fails the step.
+  "$root/tools/mutants.py" run "$root/build/mutation/tests/mutation/copy" "$root/build/mutation/tests/mutation/mutants" \
+    --minutes 45
 }
 
 describe_run() {

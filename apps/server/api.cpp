@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lekalo/base/double_of_text.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/text/json_writer.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/export.hpp"
@@ -88,6 +89,19 @@ ApiAnswer create_layout(Store& store, const Target& target, const std::string& b
   if (body.empty()) return api_error(400, *name + ": the file is empty");
   if (target.find("order") != nullptr) return made_layout(store, *name, ordered_layout(body), given_up);
   return made_layout(store, *name, jobs::open_layout({*name, body}), given_up);
+}
+
+/// Reads a file as create_layout does, and keeps nothing of it.
+ApiAnswer read_drawing(const Target& target, const std::string& body) {
+  const Result<std::string> name = name_in(target);
+  if (!name) return trouble(name.error());
+  if (body.empty()) return api_error(400, *name + ": the file is empty");
+  const Result<jobs::Layout> read = jobs::open_layout({*name, body});
+  if (!read) return api_error(400, read.error().message);
+  JsonWriter json(io::JsonLayout::compact);
+  json.begin_object().key("document").raw() += io::write_layout(read->document);
+  json.key("notices").list(read->notices).end();
+  return json_answer(200, json);
 }
 
 ApiAnswer history(Store& store, LayoutId id) {
@@ -300,7 +314,7 @@ ApiAnswer photo(Store& store, const ChangeRoom& change_room, const std::string& 
   return done ? json_answer(200, {}) : trouble(done.error());
 }
 
-constexpr std::string_view kRoot = "/api/layouts";
+constexpr std::string_view kRoot = "/api/layouts", kDrawings = "/api/drawings";
 
 /// "/api/layouts/ID" and what stands behind it.
 struct LayoutPath {
@@ -328,7 +342,7 @@ std::string image_type(std::string_view bytes) {
 
 std::size_t most_body(std::string_view method, std::string_view path) {
   constexpr std::size_t kLargestFile = std::size_t{64} << 20;
-  if (method == "POST" && path == kRoot) return kLargestFile;
+  if (method == "POST" && (path == kRoot || path == kDrawings)) return kLargestFile;
   const std::optional<LayoutPath> layout = layout_path(path);
   return method == "PUT" && layout && layout->what == "/photo" ? kLargestPhoto : 0;
 }
@@ -364,6 +378,7 @@ ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::str
     if (method == "POST") return create_layout(store, target, body, given_up);
     return wrong_method("GET, POST");
   }
+  if (target.path == kDrawings) return method == "POST" ? read_drawing(target, body) : wrong_method("POST");
   const std::optional<LayoutPath> path = layout_path(target.path);
   if (!path) return nothing;
   const auto& [id, what] = *path;

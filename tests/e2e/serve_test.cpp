@@ -166,6 +166,23 @@ TEST(Serve, MakesOneLayoutOfAnOrderOfManyDrawingsAsTheCommandDoes) {
   EXPECT_EQ(read_bytes(folder / "o.json"), written);
 }
 
+TEST(Serve, ReadsADrawingForAPictureAndKeepsNothing) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  const Answer read = ask(server, http::verb::post, "/api/drawings?name=tray.svg", kTray);
+  ASSERT_EQ(read.status, 200u) << read.body;
+  const Json parts = Json::parse(read.body)["document"]["parts"];
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0]["outline"]["polygon"]["outer"].size(), 4u);
+  const Answer broken = ask(server, http::verb::post, "/api/drawings?name=tray.svg", "<svg><rect");
+  EXPECT_EQ(broken.status, 400u);
+  EXPECT_NE(Json::parse(broken.body)["error"].get<std::string>().find("tray.svg"), std::string::npos);
+  EXPECT_EQ(ask(server, http::verb::post, "/api/drawings?name=a", "").status, 400u);
+  EXPECT_EQ(ask(server, http::verb::post, "/api/drawings", kTray).status, 400u);
+  EXPECT_EQ(ask(server, http::verb::get, "/api/drawings?name=a").status, 405u);
+  EXPECT_EQ(Json::parse(ask(server, http::verb::get, "/api/layouts").body)["layouts"].size(), 0u);
+}
+
 TEST(Serve, TellsEverythingThatIsWrongWithAnOrderAndMakesNothing) {
   const TemporaryFolder folder;
   const ServerProcess server(folder.path());

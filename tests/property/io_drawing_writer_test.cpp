@@ -360,7 +360,7 @@ TEST(DrawingWriterLaws, SvgIsReadByItsCurvesWhereTheyOrThePageWereChanged) {
   EXPECT_EQ(moved.notices,
             std::vector<std::string>{"x.svg: the exact numbers of 1 arcs do not fit their curves, which were "
                                      "changed since; the curves count"});
-  EXPECT_EQ(circle_of(moved).centre, Point(-3.5, 7));
+  EXPECT_EQ(circle_of(moved).centre, (Point{-3.5, 7}));
   for (const char* text : {"0 1 start nan 1", "0 1 ccw 1 2", "9 1 start 1 2", "0 0 start 1 2", "x", ";",
                            "0 1 start 1 2 3", "0 5 start 1 2", "18446744073709551615 2 cw 1 2"}) {
     const Drawing odd =
@@ -388,7 +388,7 @@ TEST(DrawingWriterLaws, ExactArcsFindTheirEntitiesByHandle) {
   const auto drawing = parse_dxf(other, "x.dxf");
   ASSERT_TRUE(drawing.has_value());
   EXPECT_EQ(drawing->notices.size(), 1u);
-  EXPECT_EQ(std::get<Edge>(drawing->curves[0].shape).from, Point(5, 1));
+  EXPECT_EQ(std::get<Edge>(drawing->curves[0].shape).from, (Point{5, 1}));
 }
 
 }  // namespace

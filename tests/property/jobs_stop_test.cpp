@@ -28,6 +28,7 @@
 #include "lekalo/layout/check.hpp"
 #include "support/cases.hpp"
 #include "support/places.hpp"
+#include "support/stopwatch.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -166,11 +167,7 @@ class Stopper {
   std::thread thread_;
 };
 
-#if defined(LEKALO_SANITIZE_ADDRESS) || defined(LEKALO_SANITIZE_THREAD)
-constexpr double kLatest = 1;  // each step of work takes up to ten times as long
-#else
-constexpr double kLatest = 0.1;
-#endif
+constexpr double kLatest = 0.1 * cases::kSlowdown;
 
 TEST(JobsStop, AFlagIsSeenWithinATenthOfASecondOfWork) {
   Random random(cases::seed(), 1);

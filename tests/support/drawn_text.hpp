@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "verify/origin/drawing.hpp"
@@ -43,6 +45,20 @@ inline std::string drawn_text(const Result<verify::ReadDrawing>& drawing) {
   }
   for (const std::string& kind : drawing->not_read) text += "not read: " + kind + "\n";
   return text;
+}
+
+/// The text of one curve that is made of these cubics, each of four poles as x and y.
+inline std::string drawn_cubics(std::initializer_list<std::array<double, 8>> cubics, double off) {
+  verify::ReadDrawing drawing;
+  verify::CurveMaker maker(drawing, off);
+  for (const std::array<double, 8>& c : cubics) {
+    const auto pole = [&](std::size_t k) {
+      return verify::Vec{verify::just(c[2 * k]), verify::just(c[2 * k + 1])};
+    };
+    maker.cubic({}, {pole(0), pole(1), pole(2), pole(3)});
+  }
+  maker.done("", false);
+  return drawn_text(drawing);
 }
 
 }  // namespace lekalo::cases

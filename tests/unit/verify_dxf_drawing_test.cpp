@@ -9,6 +9,7 @@
 namespace lekalo::verify {
 namespace {
 
+using cases::drawn_cubics;
 using cases::drawn_text;
 
 /// Groups are written as words: every blank ends a line.
@@ -137,21 +138,24 @@ TEST(VerifyDxfDrawing, EllipsesRunBetweenTheirParameters) {
 
 TEST(VerifyDxfDrawing, SplinesAreTheBezierCurvesBetweenTheirKnots) {
   const std::string poles3 = " 10 0 20 0 10 0 20 40 10 40 20 40 10 40 20 0";
-  const std::string one = entities("0 SPLINE 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3, 10);
-  EXPECT_EQ(one, ": L 0,0 6.25,22.5~ L 6.25,22.5 20,30~ L 20,30 33.75,22.5~ L 33.75,22.5 40,0~\n");
-  EXPECT_EQ(entities("0 SPLINE 71 3 40 2 40 2 40 2 40 2 40 5 40 5 40 5 40 5" + poles3, 10), one);
-  EXPECT_EQ(entities("0 SPLINE 71 3 41 1 41 1.0 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3, 10), one);
+  const std::string one = entities("0 SPLINE 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3, 0.1);
+  EXPECT_EQ(one, drawn_cubics({{0, 0, 0, 40, 40, 40, 40, 0}}, 0.1));
+  EXPECT_EQ(entities("0 SPLINE 71 3 40 2 40 2 40 2 40 2 40 5 40 5 40 5 40 5" + poles3, 0.1), one);
+  EXPECT_EQ(entities("0 SPLINE 71 3 41 1 41 1.0 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3, 0.1), one);
   EXPECT_EQ(entities("0 SPLINE 71 1 40 0 40 0 40 1 40 2 40 3 40 3" + poles3),
             ": L 0,0 0,40 L 0,40 40,40 L 40,40 40,0\n");
-  EXPECT_EQ(entities("0 SPLINE 71 2 40 0 40 0 40 0 40 1 40 2 40 2 40 2" + poles3, 10),
-            ": L 0,0 2.222,22.22~ L 2.222,22.22 8.889,35.56~ L 8.889,35.56 20,40~ L 20,40 31.11,35.56~ L "
-            "31.11,35.56 37.78,22.22~ L 37.78,22.22 40,0~\n");
-  EXPECT_EQ(entities("0 SPLINE 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 20 20 40 10 40 20 0", 10),
-            ": L 0,0 13.33,17.78~ L 13.33,17.78 26.67,17.78~ L 26.67,17.78 40,0~\n");
+  // The middle poles of a parabola are two thirds of the way to its own.
   EXPECT_EQ(
-      entities("0 SPLINE 71 3 40 0 40 0 40 0 40 0 40 1 40 3 40 3 40 3 40 3" + poles3 + " 10 60 20 10", 10),
-      ": L 0,0 3.786,27.98~ L 3.786,27.98 12.51,37.2~ L 12.51,37.2 22.22,35.56~ L 22.22,35.56 35.47,22.76~ L "
-      "35.47,22.76 45.27,10.21~ L 45.27,10.21 60,10~\n");
+      entities("0 SPLINE 71 2 40 0 40 0 40 0 40 1 40 2 40 2 40 2" + poles3, 0.1),
+      drawn_cubics({{0, 0, 0, 80.0 / 3, 20 / 3.0, 40, 20, 40}, {20, 40, 100 / 3.0, 40, 40, 80 / 3.0, 40, 0}},
+                   0.1));
+  EXPECT_EQ(entities("0 SPLINE 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 20 20 40 10 40 20 0", 0.1),
+            drawn_cubics({{0, 0, 40 / 3.0, 80 / 3.0, 80 / 3.0, 80 / 3.0, 40, 0}}, 0.1));
+  EXPECT_EQ(
+      entities("0 SPLINE 71 3 40 0 40 0 40 0 40 0 40 1 40 3 40 3 40 3 40 3" + poles3 + " 10 60 20 10", 0.1),
+      drawn_cubics({{0, 0, 0, 40, 40 / 3.0, 40, 200 / 9.0, 320 / 9.0},
+                    {200 / 9.0, 320 / 9.0, 40, 80 / 3.0, 40, 0, 60, 10}},
+                   0.1));
   const std::string not_read = "not read: splines with weights, of a degree above 3, or without knots\n";
   EXPECT_EQ(entities("0 SPLINE 71 3 41 1 41 2 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3), not_read);
   EXPECT_EQ(entities("0 SPLINE 71 3 41 2 41 1 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3), not_read);

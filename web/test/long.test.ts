@@ -108,7 +108,7 @@ describe('a long command', () => {
     expect(editor.long!.stopping).toBe(true);
     hear(double.endLong([{ id: 2, after: at(2, 30, 50) }]));
     expect(await compact).toBe(true);
-    expect(editor.message).toContain('best so far is kept');
+    expect(editor.message.text).toContain('best so far is kept');
     expect(editor.stopLong()).toBe(false);
   });
   it('takes back what it had found when it begins again', async () => {
@@ -145,7 +145,7 @@ describe('a long command', () => {
     await compact;
     expect(await Promise.all(dropped)).toEqual([false, false]);
     expect(double.lines).toEqual(['compact towards -1 0']);
-    expect(editor.message).toContain('drop them again');
+    expect(editor.message.text).toContain('drop them again');
     expect(editor.queued).toEqual([]);
     expect(editor.pending).toBe(0);
   });
@@ -176,7 +176,7 @@ describe('a long command', () => {
     expect([await compact, await dropped]).toEqual([false, false]);
     expect(editor.long).toBeNull();
     expect(editor.queued).toEqual([]);
-    expect(editor.message).toContain('may not be saved');
+    expect(editor.message.text).toContain('may not be saved');
     editor.client!.stop();
   });
 });

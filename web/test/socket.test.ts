@@ -89,7 +89,7 @@ describe('the client', () => {
     const { editor } = setup({ refuse: () => 'not admitted: 1 is outside' });
     await soon();
     expect(await editor.command('move 1 by 200 0')).toBe(false);
-    expect(editor.message).toBe('not admitted: 1 is outside');
+    expect(editor.message.text).toBe('not admitted: 1 is outside');
     expect(editor.model.placements.get(1)).toMatchObject({ x: 5, y: 5 });
     expect(editor.moving.size).toBe(0);
   });
@@ -134,7 +134,7 @@ describe('the client', () => {
     const asked = editor.command('move 1 by 1 0');
     wires[0]!.onclose?.();
     expect(await asked).toBe(false);
-    expect(editor.message).toContain('may not be saved');
+    expect(editor.message.text).toContain('may not be saved');
     await vi.advanceTimersByTimeAsync(300);
     expect(editor.connection).toBe('open');
     vi.useRealTimers();

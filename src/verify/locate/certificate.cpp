@@ -157,7 +157,7 @@ const CertificateCheck::FlatTurn& CertificateCheck::flat_turn(std::string_view a
   if (!std::isfinite(turn.nearest)) return turn;
   const RoundedTurn rounded = rounded_turn(turn.nearest);
   // The rounded value and the angle are each off by half a step; the sum is doubled to be safe.
-  const double error = std::nextafter((1 + std::abs(turn.nearest)) * 0x1p-52, kInfinity);
+  const double error = step_up((1 + std::abs(turn.nearest)) * 0x1p-52);
   turn.cosine = outwards(rounded.cosine - error, rounded.cosine + error);
   turn.sine = outwards(rounded.sine - error, rounded.sine + error);
   return turn;
@@ -188,7 +188,7 @@ double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinus
   // A negative bound must be divided by the spread of the lines, which doubles leave to the next tier.
   if (sum.high < 0 && !true_edges) return kInfinity;
   const long places = std::clamp(scale - weight_scale - 2 * edges_.flat_scale(), -4000L, 4000L);
-  return std::nextafter(std::ldexp((sum / divisor).high, static_cast<int>(places)), kInfinity);
+  return step_up(std::ldexp((sum / divisor).high, static_cast<int>(places)));
 }
 
 Turn CertificateCheck::turn_at(std::string_view angle, Precision precision) {

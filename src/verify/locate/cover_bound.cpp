@@ -13,7 +13,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Span plus(Span a, double by) { return a + just(by); }
 double magnitude(Span a) { return absolute(a).high; }
-double up(double value) { return std::nextafter(value, kInfinity); }
 
 }  // namespace
 
@@ -28,7 +27,7 @@ CellBound bound_over(const PoseCell& cell, const std::vector<BallTerm>& terms) {
   double middle[3], half[3];
   for (int k = 0; k < 3; ++k) {
     middle[k] = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
-    half[k] = up(std::max(cell.high[k] - middle[k], middle[k] - cell.low[k]));
+    half[k] = step_up(std::max(cell.high[k] - middle[k], middle[k] - cell.low[k]));
   }
   const Turn turn = turn_by(Interval::exactly(middle[0], 80));
   const Span c{turn.cosine.low_double(), turn.cosine.high_double()},

@@ -31,8 +31,6 @@ Span radians(const Decimal& degrees) {
 }
 
 Span plus(Span a, double by) { return a + just(by); }
-/// Rounds up a product or a sum of numbers that are not negative.
-double up(double value) { return std::nextafter(value, kInfinity); }
 
 }  // namespace
 
@@ -109,7 +107,7 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
   }
   // At such a pose the material lies in the blank, or sticks out by less than -bound, and the pivot is within
   // pivot_off of the material.
-  const double more = up(problem_.pivot_off + std::max(0.0, -problem_.bound));
+  const double more = step_up(problem_.pivot_off + std::max(0.0, -problem_.bound));
   const Shape& blank = problem_.blank;
   const auto covers = [&](int k, const std::optional<Decimal>& locked, double low, double high) {
     if (locked) return root.low[k] <= enclosed(*locked).low && root.high[k] >= enclosed(*locked).high;

@@ -1,12 +1,26 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "exact.hpp"
 
 namespace lekalo::verify {
+
+/// Returns the next larger double, bit for bit as std::nextafter(value, infinity) does; NaN and infinity
+/// stay. The checker steps twice for each operation on spans, and calls of the library were a third of its
+/// time.
+[[nodiscard]] inline double step_up(double value) {
+  // Doubles of one sign are ordered as their bits are. The sum turns -0 into 0, whose next is a positive one.
+  const auto bits = std::bit_cast<std::int64_t>(value + 0.0);
+  const auto next = std::bit_cast<double>(bits + (bits < 0 ? -1 : 1));
+  return value < std::numeric_limits<double>::infinity() ? next : value;
+}
+/// Returns the next smaller double.
+[[nodiscard]] inline double step_down(double value) { return -step_up(-value); }
 
 /// A small brother of Interval in doubles, by which most of a long certificate is decided. Each operation
 /// rounds to nearest and then steps one double outwards. Overflow gives infinities or NaN, which decide
@@ -15,10 +29,7 @@ struct Span {
   double low = 0, high = 0;
 };
 
-[[nodiscard]] inline Span outwards(double low, double high) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {std::nextafter(low, -kInfinity), std::nextafter(high, kInfinity)};
-}
+[[nodiscard]] inline Span outwards(double low, double high) { return {step_down(low), step_up(high)}; }
 
 /// Returns the span that holds exactly this number.
 [[nodiscard]] inline Span just(double value) { return {value, value}; }

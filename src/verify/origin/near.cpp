@@ -50,8 +50,9 @@ std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& 
       const Side& piece = top.piece.side;
       const Corners corners = corners_of(piece);
       bool within = false;
-      index_.visit_near(box_of(piece), reach, [&](std::size_t k) {
-        if (within) return;
+      double limit = reach;
+      index_.visit_near(box_of(piece), limit, [&](std::size_t k) {
+        if (within) return void(limit = -1);  // no box is so near, which ends the walk
         ++work;
         const CurvePiece& other = pieces_[k];
         const Span off = just(farthest(piece, corners, other.side)) + just(top.piece.off) + just(other.off);

@@ -2,11 +2,19 @@
 
 import { h } from '../html/elements';
 import { t, type Key } from '../i18n';
+import { drawingPicture, type ReadDrawing } from './drawing_picture';
 import { formOf, ROTATIONS, type OrderedFile, type OrderTerms, type Stock, type StockKind } from './order_form';
+
+/** How far the order is: the share that is sent or, when the server is at work, the seconds since it began. */
+export interface Sent {
+  fraction: number | null;
+  since: number;
+}
 
 export interface OrderEvents {
   /** Gives the reason why the server refused, or null. */
-  make(name: string, form: FormData): Promise<string | null>;
+  make(name: string, form: FormData, watched: { told(one: Sent): void; signal: AbortSignal }): Promise<string | null>;
+  read: ReadDrawing;
 }
 
 const KINDS: readonly StockKind[] = ['sheet', 'strip', 'drawing'];
@@ -19,6 +27,14 @@ class OrderDialog {
   private readonly name = this.text('name', '', t('order.name'));
   private readonly parts = h('tbody');
   private readonly stocks = h('tbody');
+  /** A picture is made once, as the rows are shown anew at every change. */
+  private readonly pictures = new Map<File, HTMLElement>();
+  private readonly closed = new AbortController();
+  /** The order on its way; null: none is. */
+  private sending: AbortController | null = null;
+  private readonly share = h('progress', { max: 1, 'aria-label': t('order.making') });
+  private readonly far = h('span');
+  private readonly row = h('div', { class: 'sending', hidden: true, role: 'status' }, this.share, this.far);
   private readonly trouble = h('p', { class: 'trouble', role: 'alert' });
   private readonly ok = h('button', { type: 'submit', 'data-action': 'order.make' }, t('order.make'));
 
@@ -31,9 +47,20 @@ class OrderDialog {
       'dialog',
       { class: 'order', 'aria-label': t('order.title') },
       h('h2', {}, t('order.title')),
-      h('form', { submit: (e) => this.submit(e) }, ...this.rows(), this.trouble, this.buttons()),
+      h('form', { submit: (e) => this.submit(e) }, ...this.rows(), this.trouble, this.row, this.buttons()),
     );
-    this.element.addEventListener('close', () => this.element.remove());
+    // The browser may close a dialog at the second Escape whatever is said to its `cancel`.
+    const giveUp = (e: Event): void => {
+      if (!this.sending || (e instanceof KeyboardEvent && e.key !== 'Escape')) return;
+      e.preventDefault();
+      this.sending.abort();
+    };
+    this.element.addEventListener('keydown', giveUp);
+    this.element.addEventListener('cancel', giveUp);
+    this.element.addEventListener('close', () => {
+      this.closed.abort();
+      this.element.remove();
+    });
     this.showParts();
     this.showStocks();
   }
@@ -71,7 +98,11 @@ class OrderDialog {
       { class: 'buttons' },
       h(
         'button',
-        { type: 'button', 'data-action': 'order.cancel', click: () => this.element.close() },
+        {
+          type: 'button',
+          'data-action': 'order.cancel',
+          click: () => (this.sending ? this.sending.abort() : this.element.close()),
+        },
         t('export.cancel'),
       ),
       this.ok,
@@ -147,7 +178,7 @@ class OrderDialog {
         'data-field': `mirror.${i}`,
         change: () => (one.mirror = mirror.checked),
       });
-      const cells = [one.file.name, quantity, rotations, mirror].map((cell) => h('td', {}, cell));
+      const cells = [this.drawing(one.file), quantity, rotations, mirror].map((cell) => h('td', {}, cell));
       return h(
         'tr',
         {},
@@ -157,6 +188,12 @@ class OrderDialog {
     };
     this.parts.replaceChildren(...this.files.map(row));
     if (this.files.length === 0) this.parts.replaceChildren(h('tr', {}, h('td', { colspan: 5 }, t('order.empty'))));
+  }
+
+  private drawing(file: File): HTMLElement {
+    let picture = this.pictures.get(file);
+    if (!picture) this.pictures.set(file, (picture = drawingPicture(file, this.events.read, this.closed.signal)));
+    return h('div', { class: 'of' }, h('span', {}, file.name), picture);
   }
 
   private showStocks(): void {
@@ -204,15 +241,31 @@ class OrderDialog {
 
   private submit(e: Event): void {
     e.preventDefault();
+    if (this.sending) return;
+    const { signal } = (this.sending = new AbortController());
     void (async () => {
-      this.ok.disabled = true;
+      this.ok.setAttribute('aria-disabled', 'true'); // a disabled button would lose the focus
       this.trouble.textContent = '';
+      this.tell({ fraction: 0, since: 0 });
       const name = this.name.value.trim() || this.name.placeholder || t('order.title');
-      const refused = await this.events.make(name, formOf(this.files, this.terms));
-      this.ok.disabled = false;
-      if (refused === null) this.element.close();
-      else this.trouble.textContent = refused;
+      const watched = { told: (one: Sent) => this.tell(one), signal };
+      const refused = await this.events.make(name, formOf(this.files, this.terms), watched);
+      this.sending = null;
+      this.row.hidden = true;
+      this.ok.removeAttribute('aria-disabled');
+      if (refused === null) return this.element.close();
+      this.trouble.textContent = refused;
+      this.ok.focus();
     })();
+  }
+
+  /** Shows how far the order is. Cancel gives it up then, and the dialog stays. */
+  private tell({ fraction, since }: Sent): void {
+    this.row.hidden = false;
+    if (fraction === null) this.share.removeAttribute('value');
+    else this.share.value = fraction;
+    const far = fraction === null ? t('transfer.since', { s: since }) : `${Math.floor(fraction * 100)} %`;
+    this.far.textContent = `${t('order.making')} ${far}`;
   }
 }
 

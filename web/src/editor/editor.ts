@@ -31,6 +31,11 @@ export interface Long {
   stopping: boolean;
   ended: Promise<void>;
 }
+/** Who watches a request from its own place, as a dialog does that lies over the rows of the page. */
+export interface Watched {
+  told(one: Transfer): void;
+  signal: AbortSignal;
+}
 /** A gesture that waits for its turn, with the placements that were dropped. */
 export interface Queued {
   placements: Placement[];
@@ -65,7 +70,9 @@ export class Editor {
   grades = { defect: 1, zone: 1 };
   readonly photos = new Photos(this);
   show = { labels: true, grain: true, gap: true, zones: true };
-  message = '';
+  message = { text: '', isNote: false };
+  /** A layout is on its way from the server. */
+  loading = false;
   pending = 0;
   long: Long | null = null;
   /** Gestures made while a long command runs; they are carried out one after the other when it has ended. */
@@ -98,12 +105,23 @@ export class Editor {
   tell(topic: Topic): void {
     for (const listener of this.listeners) listener(topic);
   }
+  /** Says what went wrong. */
   say(text: string): void {
-    this.message = text;
+    this.message = { text, isNote: false };
     this.tell('message');
+  }
+  /** Says what is good to know, and nobody's fault. */
+  note(text: string): void {
+    this.message = { text, isNote: true };
+    this.tell('message');
+  }
+  /** Says whether leaving the page now would lose something: a long command, a file on its way, a step to be saved. */
+  get isAtWork(): boolean {
+    return this.long !== null || this.pending > 0 || this.transfers.size > 0;
   }
 
   open(document: LayoutDocument, name: string): void {
+    this.loading = false;
     this.model = new Model(document);
     this.name = name;
     this.selection = new Set([...this.selection].filter((id) => this.model.placements.has(id)));
@@ -212,6 +230,7 @@ export class Editor {
   /**
    * Asks the server for something that may take a while. Throws where there is no answer.
    *
+   * @param watched is told how far it is, and can give it up
    * @returns null: it was cancelled
    */
   async transfer(
@@ -220,8 +239,13 @@ export class Editor {
     method: string,
     address: string,
     body?: Blob | FormData,
+    watched?: Watched,
   ): Promise<Answer | null> {
-    const one = new Transfer(kind, name, () => this.tell('transfer'));
+    const one = new Transfer(kind, name, () => {
+      watched?.told(one);
+      this.tell('transfer');
+    });
+    watched?.signal.addEventListener('abort', () => one.abort());
     this.transfers.add(one);
     this.tell('transfer');
     try {
@@ -285,7 +309,7 @@ export class Editor {
     } else if (answer.type === 'lost') {
       this.say(t('lost.gesture'));
     } else if (answer.type === 'done') {
-      this.say(answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '');
+      this.note(answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '');
       this.others.delete(-1);
       const fresh = (answer.placements ?? [])
         .filter(({ id, after }) => after && this.fresh.has(id))

@@ -31,7 +31,8 @@ async function download(editor: Editor, fields: URLSearchParams): Promise<Saved>
 /** Saves a form that leaves nothing to choose. */
 export async function saveAs(editor: Editor, form: string): Promise<void> {
   const { refused, notes } = await download(editor, new URLSearchParams({ form }));
-  if (refused !== null || notes.length > 0) editor.say(refused ?? notes.join(' · '));
+  if (refused !== null) editor.say(refused);
+  else if (notes.length > 0) editor.note(notes.join(' · '));
 }
 
 /** Asks what a form leaves to choose, and saves it. */

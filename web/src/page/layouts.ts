@@ -3,9 +3,10 @@
 import { layoutDialog } from '../dialogs/layout_dialog';
 import { orderDialog } from '../dialogs/order_dialog';
 import { firstTerms, type OrderTerms, type Stock } from '../dialogs/order_form';
-import type { Editor } from '../editor/editor';
+import type { Editor, Watched } from '../editor/editor';
 import { showDialog } from '../html/elements';
 import { t } from '../i18n';
+import type { LayoutDocument, Part } from '../layout/document';
 import { Client, type Wire } from '../server/socket';
 import { sentenceOf } from '../work/transfer';
 import { author, store, stored } from './settings';
@@ -25,6 +26,8 @@ export interface LayoutsEvents {
   listed(): void;
   /** A layout is going to be opened. */
   opening(): void;
+  /** A dialog has gone, and what had the focus before it is no more. */
+  left(): void;
   /** There is none to open. */
   empty(): void;
 }
@@ -44,6 +47,7 @@ function keptTerms(): OrderTerms {
 
 export class Layouts {
   known: Known[] = [];
+  private reading: Promise<void> = Promise.resolve();
 
   constructor(
     private readonly editor: Editor,
@@ -69,8 +73,14 @@ export class Layouts {
 
   open(id: number): void {
     const { editor } = this;
+    // The server ends the long command of who leaves, and keeps nothing of it.
+    if (editor.long && !confirm(t('leave.running', { what: t(`long.${editor.long.verb}`) }))) {
+      this.events.listed();
+      return;
+    }
     editor.client?.stop();
     editor.layoutId = id;
+    editor.loading = true;
     editor.selection.clear();
     editor.others.clear();
     editor.photos.clear();
@@ -101,7 +111,10 @@ export class Layouts {
         void this.read();
       },
       photos: (stock, image) => void editor.photos.read(image ? { stock } : 'none'),
-      error: (text) => editor.say(text),
+      error: (text) => {
+        editor.loading = false;
+        editor.say(text);
+      },
       connection: (to) => {
         editor.connection = to;
         editor.tell('connection');
@@ -122,16 +135,18 @@ export class Layouts {
   private async takeFile(file: File): Promise<void> {
     const made = await this.take(file.name, '', file);
     if (typeof made === 'string') this.editor.say(made);
+    else if (made === null) this.editor.note(t('transfer.cancelled'));
     // Outlines alone: they are ordered with something to cut them from, in place of the layout without it.
-    else if (made?.stocks === 0) this.begin([file], made.id);
+    else if (made.stocks === 0) this.begin([file], made.id);
   }
 
   /** Asks for a new layout of these drawings, which takes the place of the layout `without` stock. */
   begin(drawings: readonly File[], without = 0): void {
     const terms = keptTerms();
     const dialog = orderDialog(drawings, terms, {
-      make: async (name, form) => {
-        const made = await this.take(name, '&order=1', form);
+      read: (file, signal) => this.readDrawing(file, signal),
+      make: async (name, form, watched) => {
+        const made = await this.take(name, '&order=1', form, watched);
         if (made === null || typeof made === 'string') return made ?? t('transfer.cancelled');
         store('order', JSON.stringify({ ...terms, stocks: terms.stocks.map((one) => ({ ...one, file: null })) }));
         if (without !== 0) {
@@ -141,7 +156,28 @@ export class Layouts {
         return null;
       },
     });
+    dialog.addEventListener('close', () => {
+      if (document.activeElement === document.body) this.events.left();
+    });
     showDialog(dialog);
+  }
+
+  /** Reads drawings one after the other: many at once would only wait for each other in the server. */
+  private async readDrawing(file: File, signal: AbortSignal): Promise<Part[] | string | null> {
+    const before = this.reading;
+    let done = (): void => undefined;
+    this.reading = new Promise((resolve) => (done = resolve));
+    await before;
+    try {
+      const address = `/api/drawings?${new URLSearchParams({ name: file.name })}`;
+      const answer = await fetch(address, { method: 'POST', body: file, signal });
+      const read = (await answer.json()) as { document?: LayoutDocument; error?: string };
+      return read.document?.parts ?? read.error ?? String(answer.status);
+    } catch (error) {
+      return signal.aborted ? null : String(error);
+    } finally {
+      done();
+    }
   }
 
   /**
@@ -149,17 +185,22 @@ export class Layouts {
    *
    * @returns a string: the reason why not; null: it was cancelled
    */
-  private async take(name: string, form: string, body: Blob | FormData): Promise<Made | string | null> {
+  private async take(
+    name: string,
+    form: string,
+    body: Blob | FormData,
+    watched?: Watched,
+  ): Promise<Made | string | null> {
     const { editor } = this;
     try {
       const address = `/api/layouts?${new URLSearchParams({ name })}${form}`;
-      const answer = await editor.transfer('open', t('transfer.open', { name }), 'POST', address, body);
+      const answer = await editor.transfer('open', t('transfer.open', { name }), 'POST', address, body, watched);
       if (!answer) return null;
       if (answer.status !== 201) return await sentenceOf(answer);
       const made = JSON.parse(await answer.body.text()) as Made;
       await this.read();
       this.open(made.id);
-      if (made.notices.length > 0) editor.say(made.notices.join(' · '));
+      if (made.notices.length > 0) editor.note(made.notices.join(' · '));
       return made;
     } catch (error) {
       return error instanceof Error ? error.message : String(error);

@@ -48,7 +48,10 @@ export class Page {
     opening: () => {
       this.welcome.remove();
       this.pane.begin();
+      this.showBar();
+      this.changed('layout');
     },
+    left: () => this.pane.focus(),
     empty: () => this.showWelcome(),
   });
   /** The width below which style.css puts the panels beneath the picture. */
@@ -69,6 +72,9 @@ export class Page {
     this.listenToDrops();
     this.narrow.addEventListener('change', () => this.showBar());
     window.addEventListener('resize', () => showWords(this.bar));
+    window.addEventListener('beforeunload', (e) => {
+      if (this.editor.isAtWork) e.preventDefault();
+    });
     window.addEventListener('beforeprint', () => this.paper.replaceChildren(...printed(this.editor)));
     window.addEventListener('afterprint', () => this.paper.replaceChildren());
     offerBenchmark(this.pane.bench);
@@ -87,12 +93,13 @@ export class Page {
   /** Shows anew what a change of the editor's state concerns. */
   private changed(topic: Topic): void {
     const { editor, pane } = this;
-    if (topic === 'layout') pane.take();
+    if (topic === 'layout' && !editor.loading) pane.take();
     const { dataset } = pane.element;
     const wasMoving = dataset.moving === 'true';
     const isMoving = editor.moving.size > 0;
     dataset.moving = String(isMoving);
     dataset.level = editor.live?.level ?? '';
+    dataset.loading = editor.loading ? t('loading') : '';
     if (topic === 'long' || topic === 'check' || topic === 'transfer' || topic === 'layout') this.longBar.show();
     if (topic === 'check' || topic === 'transfer') return;
     if (topic === 'long' || (topic === 'moving' && wasMoving === isMoving)) pane.later('top');

@@ -139,8 +139,7 @@ export class PicturePane {
   private resized(): void {
     const { element, editor } = this;
     this.drawing.resize(this.view, element.clientWidth, element.clientHeight);
-    if (editor.model.sheets.length === 0) return;
-    if (this.view.isFitted) this.fitView();
+    if (editor.model.sheets.length > 0 && this.view.isFitted) this.fitView();
     this.later('all');
   }
 
@@ -183,6 +182,8 @@ export class PicturePane {
   }
 
   private painted(duty: Duty): void {
+    // An opaque canvas is black before it is painted for the first time.
+    if (duty === 'all') this.element.dataset.painted = 'true';
     if (duty === 'top' && this.editor.tool === 'measure') this.measuring();
     if (!this.fitted || !this.drawing.backdrop.isWhole || performance.getEntriesByName('first view').length > 0) return;
     performance.mark('first view');

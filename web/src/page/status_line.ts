@@ -31,7 +31,11 @@ export class StatusLine {
     const { ruler } = this.overlay;
     this.live.className = `live ${editor.live?.level ?? ''}`;
     this.live.textContent = ruler ? measured(ruler.from, ruler.to) : editor.live ? saidOf(editor.live) : this.chosen();
-    this.message.textContent = this.message.title = editor.message;
+    const { text, isNote } = editor.message;
+    this.message.textContent = this.message.title = text;
+    this.message.className = isNote ? 'message note' : 'message';
+    this.message.tabIndex = text ? 0 : -1;
+    this.message.setAttribute('role', isNote ? 'status' : 'alert');
     element.dataset.pending = String(editor.pending);
     element.dataset.unchecked = String(editor.checking.left);
     this.state.textContent = this.connection();

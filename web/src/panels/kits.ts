@@ -6,6 +6,7 @@ import { h } from '../html/elements';
 import { t } from '../i18n';
 
 export function kits(editor: Editor): HTMLElement {
+  if (editor.loading) return h('p', { class: 'note', role: 'status' }, t('loading'));
   const { document, parts } = editor.model;
   const all = document.kits ?? [];
   if (all.length === 0) return h('p', { class: 'note' }, t('kits.none'));

@@ -4,30 +4,8 @@ import * as line from '../layout/commands';
 import type { Part } from '../layout/document';
 import type { Editor } from '../editor/editor';
 import { h } from '../html/elements';
+import { thumbnail } from '../html/thumbnail';
 import { t } from '../i18n';
-import { boxOf } from '../layout/model';
-
-function thumbnail(part: Part, colour: string): SVGSVGElement {
-  const ns = 'http://www.w3.org/2000/svg';
-  const svg = document.createElementNS(ns, 'svg');
-  const { outer, holes = [] } = part.outline.polygon;
-  const b = boxOf(outer);
-  const size = Math.max(b.right - b.left, b.top - b.bottom);
-  const m = size * 0.06;
-  svg.setAttribute(
-    'viewBox',
-    `${(b.left + b.right - size) / 2 - m} ${-(b.top + b.bottom + size) / 2 - m} ${size + 2 * m} ${size + 2 * m}`,
-  );
-  svg.setAttribute('aria-hidden', 'true');
-  const path = document.createElementNS(ns, 'path');
-  path.setAttribute('d', [outer, ...holes].map((l) => `M${l.map(([x, y]) => `${x} ${-y}`).join('L')}Z`).join(''));
-  path.setAttribute('fill', colour);
-  path.setAttribute('fill-rule', 'evenodd');
-  path.setAttribute('stroke', 'currentColor');
-  path.setAttribute('stroke-width', String(size * 0.012));
-  svg.append(path);
-  return svg;
-}
 
 export function tray(
   editor: Editor,
@@ -54,7 +32,7 @@ export function tray(
       const piece = h(
         'button',
         { class: 'piece', title: t('tray.fit'), click: () => put(part, part.mirror ? 'upright' : undefined) },
-        thumbnail(part, colour(part)),
+        thumbnail(part.outline.polygon, colour(part)),
         h(
           'span',
           { class: 'grow' },

@@ -15,6 +15,7 @@ export function violations(editor: Editor, show: (v: Violation) => void): HTMLEl
   // Without a layout there is nothing to check yet.
   if (editor.layoutId === 0) return h('p');
   const list = editor.violations;
+  if (editor.loading) return h('p', { class: 'note', role: 'status' }, t('loading'));
   if (list === null) return h('p', { class: 'note', role: 'status' }, t('violations.unknown'));
   const { checking } = editor;
   const unchecked =

@@ -339,6 +339,37 @@ inEditor(
   { expected: ['400'] },
 );
 
+inEditor(
+  'says in the dialog which drawing cannot be read, and reads the others',
+  async (page) => {
+    await page.setViewportSize({ width: 390, height: 844 });
+    await command(page, 'menu.main');
+    await command(page, 'new.layout');
+    await page.setInputFiles('dialog [data-action="order.file"]', [
+      { name: 'broken.svg', mimeType: 'image/svg+xml', buffer: Buffer.from('<svg><rect') },
+      { name: 'lid.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(tray.replace(/<circle.*\/>/, '')) },
+    ]);
+    await page.waitForFunction(() => /60 × 30 mm/.test(document.querySelectorAll('dialog .drawing')[1]?.textContent));
+    assert.match(await page.textContent('dialog .drawing .trouble'), /broken\.svg/);
+    assert.deepEqual(await cutOff(page, ['dialog table']), []);
+    await command(page, 'order.cancel');
+    // Each part of the tray has the colour that it has in the picture.
+    const colours = await page.locator('.tray path').evaluateAll((all) => all.map((e) => getComputedStyle(e).fill));
+    assert.equal(new Set(colours).size, smallLayout.parts.length);
+    // The longer words of the other language leave every button in its place, too.
+    await command(page, 'menu.main');
+    await command(page, 'language');
+    await command(page, 'menu.main');
+    await command(page, 'new.layout');
+    await page.setInputFiles('dialog [data-action="order.file"]', [
+      { name: 'lid.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(tray) },
+    ]);
+    await page.waitForSelector('dialog .drawing .thumbnail');
+    assert.deepEqual(await cutOff(page, ['dialog table']), []);
+  },
+  { options: {}, expected: ['400'] },
+);
+
 inEditor('makes one job of five dropped drawings, from an empty page to G-code', async (page, server) => {
   for (const { id } of (await (await fetch(new URL('/api/layouts', server.url))).json()).layouts)
     await page.evaluate((one) => fetch(`/api/layouts/${one}`, { method: 'DELETE' }), id);
@@ -352,6 +383,18 @@ inEditor('makes one job of five dropped drawings, from an empty page to G-code',
   }, tray);
   await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
   await page.waitForSelector('dialog [data-field="quantity.4"]');
+  // Each drawing is shown in small, with its parts: a wide lid and a disc.
+  await page.waitForFunction(() => document.querySelectorAll('dialog .drawing .thumbnail').length === 10);
+  const small = (i) => page.locator('dialog .drawing path').nth(i);
+  const box = (e) => [e.getBBox().width, e.getBBox().height].map(Math.round);
+  assert.deepEqual(
+    [await small(0).evaluate(box), await small(1).evaluate(box)],
+    [
+      [60, 30],
+      [40, 40],
+    ],
+  );
+  assert.match(await page.textContent('dialog .drawing'), /2 parts/);
   await page.fill('dialog [data-field="quantity.1"]', '3');
   await page.selectOption('dialog [data-field="rotations.0"]', '0');
   await page.fill('dialog [data-field="width.0"]', '600');
