@@ -126,14 +126,15 @@ std::vector<Place> places_along(const Side& side) {
 }
 
 TEST(VerifySvgDrawing, ABezierCurveAndItsStrokesAreWithinTheDistanceOfEachOther) {
-  // They bend at one end alone, turn about, have a loop or a cusp, go back on a line, or are nearly a circle.
+  // They bend at one end alone, turn about, have a loop or a cusp, go back on a line or on an arc, or are
+  // nearly a circle.
   const Poles parabola{{{0, 0}, {10, 20}, {20, 20}, {30, 0}}}, one_end{{{0, 0}, {0, 0}, {10, 0}, {30, 30}}},
       other_end{{{30, 30}, {10, 0}, {0, 0}, {0, 0}}}, wave{{{0, 0}, {10, 20}, {20, -20}, {30, 0}}},
       loop{{{0, 0}, {60, 30}, {-30, 30}, {30, 0}}}, cusp{{{0, 0}, {30, 30}, {0, 30}, {30, 0}}},
       back{{{0, 0}, {30, 0}, {-10, 0}, {20, 0}}}, round{{{0, 0}, {5.5228, 0}, {10, 4.4772}, {10, 10}}},
-      closed{{{5, 5}, {40, 30}, {-30, 30}, {5, 5}}};
+      closed{{{5, 5}, {40, 30}, {-30, 30}, {5, 5}}}, beyond{{{0, 0}, {40, 2}, {40, 2}, {20, 1}}};
   for (const double off : {1.0, 1e-2, 1e-4}) {
-    for (const Poles& poles : {parabola, one_end, other_end, wave, loop, cusp, back, round, closed}) {
+    for (const Poles& poles : {parabola, one_end, other_end, wave, loop, cusp, back, round, closed, beyond}) {
       ReadDrawing strokes;
       CurveMaker maker(strokes, off);
       std::array<Vec, 4> given;
