@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "around_vertex.hpp"
-#include "disjoint_sets.hpp"
+#include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/trig.hpp"

@@ -49,6 +49,25 @@ std::string refusal_of(const std::string& bytes, const std::string& name,
   return read ? "" : read.error().message;
 }
 
+TEST(OutlineFile, LinesThatMayChangeTheMaterialAreRefused) {
+  OutlineOptions part;
+  part.may_lack_holes = true;
+  const std::string plate = "M0 0H80V40H0Z ";
+  // Within a part a hole that is not seen leaves it larger than it is; of a blank it would be material.
+  for (const char* within : {"M10 10H30", "M0 10H80", "M40 0A20 20 0 0 0 60 20"}) {
+    const ReadOutline read = outline_in(svg(plate + within), "a.svg", part);
+    EXPECT_NEAR(cases::area_of(read.outline.regions), 3200, 1e-6) << within;
+    EXPECT_NE(refusal_of(svg(plate + within), "a.svg").find("may be the edge of a hole"), std::string::npos);
+  }
+  // Whatever reaches out may be more of the part, a chain of arcs too whose ends are inside.
+  for (const char* outside : {"M70 10H90", "M85 10H95", "M70 10A15 15 0 1 1 70 30", "M10 10H30V50"})
+    EXPECT_NE(refusal_of(svg(plate + outside), "a.svg", part).find("more of the part"), std::string::npos)
+        << outside;
+  // A tab that crosses the edge may be meant to belong to the part, or to be cut off it.
+  const std::string tab = R"("/><path d="M75 10H90V15H75Z)";
+  EXPECT_NE(refusal_of(svg(plate + tab), "a.svg", part).find("crosses that of"), std::string::npos);
+}
+
 TEST(OutlineFile, EveryFormGivesTheSameOutline) {
   for (const auto& [name, bytes] : plates()) {
     const ReadOutline read = outline_in(bytes, name);

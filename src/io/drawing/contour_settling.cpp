@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "contour_relation.hpp"
+#include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
@@ -21,8 +21,8 @@ using geom::Point;
 
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
 constexpr int kMostRounds = 6;
-/// Steps that may be spent on how contours lie to each other, and as many more for each edge. Real drawings
-/// take a few for each edge that lies along another; arcs of kilometres take all.
+/// Steps that may be spent on how contours lie to each other, at least, and how many more for each edge. Real
+/// drawings take a few for each edge that lies along another; arcs of kilometres take all.
 constexpr std::size_t kLeastRelationWork = 100'000, kRelationWorkOfEdge = 2'000;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
@@ -143,19 +143,13 @@ class Settling {
   /// Contours that cross or touch themselves, those with the loops beside them that are small, and those that
   /// one element draws across each other.
   [[nodiscard]] std::vector<Group> groups_that_meet() {
-    std::vector<std::size_t> parent(candidates_.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto of = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets sets(candidates_.size());
     std::vector<char> wanted(candidates_.size(), 0);
     for (std::size_t c = 0; c < candidates_.size(); ++c)
       if (itself_[c]) wanted[c] = 1;
     const auto join = [&](std::size_t a, std::size_t b) {
       wanted[a] = wanted[b] = 1;
-      const std::size_t i = of(a), j = of(b);
-      parent[std::max(i, j)] = std::min(i, j);
+      sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     };
     // A small loop goes with one larger contour, that of its own entity before others, so that it does not
     // make one shape of two parts that share a corner.
@@ -184,7 +178,7 @@ class Settling {
     }
     std::map<std::size_t, Group> groups;
     for (std::size_t c = 0; c < candidates_.size(); ++c)
-      if (wanted[c] != 0) groups[of(c)].push_back(c);
+      if (wanted[c] != 0) groups[sets.of(static_cast<std::uint32_t>(c))].push_back(c);
     std::vector<Group> found;
     for (auto& [first, group] : groups) found.push_back(std::move(group));
     return found;
@@ -232,23 +226,17 @@ class Settling {
 
   /// Holes that cross each other are one hole, whatever their size. Returns whether there were any.
   bool mend_crossing_holes() {
-    std::vector<std::size_t> parent(candidates_.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto of = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets sets(candidates_.size());
     std::vector<char> crosses(candidates_.size(), 0);
     for (const auto& [pair, meeting] : meetings_) {
       const auto [a, b] = pair;
       if (meeting.relation != Relation::crossing || depth_[a] != depth_[b] || depth_[a] % 2 == 0) continue;
       crosses[a] = crosses[b] = 1;
-      const std::size_t i = of(a), j = of(b);
-      parent[std::max(i, j)] = std::min(i, j);
+      sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     }
     std::map<std::size_t, Group> groups;
     for (std::size_t c = 0; c < candidates_.size(); ++c)
-      if (crosses[c] != 0) groups[of(c)].push_back(c);
+      if (crosses[c] != 0) groups[sets.of(static_cast<std::uint32_t>(c))].push_back(c);
     std::vector<char> gone(candidates_.size(), 0);
     std::vector<LooseContour> entered;
     for (const auto& [first, group] : groups) {

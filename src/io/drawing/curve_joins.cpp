@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
+#include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/stop.hpp"
 
 namespace lekalo::io {
@@ -168,23 +168,6 @@ class Joiner {
   CurveJoins joins_;
 };
 
-/// Sets of points that are joined one by one.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  [[nodiscard]] std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = of(i), j = of(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace
 
 std::vector<std::vector<EndNumber>> branchings(const std::vector<OpenCurve>& curves, const CurveJoins& joins,
@@ -210,7 +193,7 @@ std::vector<std::vector<EndNumber>> branchings(const std::vector<OpenCurve>& cur
     place_of[end.number] = places.back().number;
     if (joins.partner[end.number] == kNoEnd) free.back() = 1;
   }
-  Sets sets(places.size());
+  DisjointSets sets(places.size());
   std::vector<Pair> near;
   const auto crowded = EndGrid(places, tolerance).visit_pairs([&](const Pair& pair) {
     if (free[pair.a] != 0 || free[pair.b] != 0) near.push_back(pair);

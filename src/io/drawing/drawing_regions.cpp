@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "curve_overlaps.hpp"
 #include "io/text/decimal.hpp"
 #include "layers.hpp"
+#include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
@@ -620,25 +620,20 @@ class Assembly {
       for (const Edge& edge : mark.edges)
         whole.back() = joined(whole.back(), curve_box(geom::make_curve(edge)));
     }
-    std::vector<std::uint32_t> parent(whole.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto of = [&](std::uint32_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets sets(whole.size());
     std::vector<char> meant(whole.size(), 0);
     std::size_t left = limits::most_meeting_boxes(ends.size());
     geom::BoxTree(ends).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
-      const std::uint32_t a = of(i / 2), b = of(j / 2);
       meant[i / 2] = meant[j / 2] = 1;
-      parent[std::max(a, b)] = std::min(a, b);
+      sets.join(i / 2, j / 2);
       return --left > 0;
     });
     std::vector<geom::Box> frames;
     for (std::uint32_t i = 0; i < whole.size(); ++i)
-      if (of(i) != i) whole[of(i)] = joined(whole[of(i)], whole[i]), meant[of(i)] = 1;
+      if (const std::uint32_t set = sets.of(i); set != i)
+        whole[set] = joined(whole[set], whole[i]), meant[set] = 1;
     for (std::uint32_t i = 0; i < whole.size(); ++i)
-      if (of(i) == i && meant[i] != 0) frames.push_back(whole[i]);
+      if (sets.of(i) == i && meant[i] != 0) frames.push_back(whole[i]);
     return frames;
   }
 

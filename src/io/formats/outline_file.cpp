@@ -1,4 +1,5 @@
 #include "lekalo/io/formats/outline_file.hpp"
+#include "io/drawing/near_edges.hpp"
 
 #include <fmt/core.h>
 
@@ -95,24 +96,57 @@ const geom::Edge* far_arc(const std::vector<geom::Region>& regions) {
   return nullptr;
 }
 
-/// Returns a sentence about lines that might change what is inside, if they were meant to.
-std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_lack_holes) {
-  const geom::RegionIndex index(drawn.regions);
-  for (const SetAside& one : drawn.set_aside) {
-    const bool inside =
-        !one.edges.empty() && std::all_of(one.edges.begin(), one.edges.end(),
-                                          [&](const geom::Edge& edge) { return index.contains(edge.from); });
-    if (!inside || !may_lack_holes) return one.sentence;
+/// Ends of lines may stick out of the material by this, mm, and by what the outline is off.
+constexpr double kLinesStickOut = 1e-4;
+constexpr std::size_t kMostParts = 100'000;
+
+/// Says whether no point of an edge lies further than about `slack` outside of the material. Parts of the
+/// edge are halved until that is seen.
+bool lies_within(const geom::RegionIndex& material, const geom::Edge& edge, double slack) {
+  std::vector<geom::Edge> open{edge};
+  for (std::size_t parts = 0; !open.empty(); ++parts) {
+    if (parts == kMostParts) return false;
+    const Bisected halves = bisected(open.back());
+    open.pop_back();
+    const double far = material.nearest(halves.middle).distance;
+    const bool inside = material.contains(halves.middle);
+    if (!inside && far > slack) return false;
+    if ((inside && far > halves.half_length) || far + halves.half_length <= slack ||
+        halves.half_length <= slack / 4)
+      continue;
+    open.push_back(halves.first);
+    open.push_back(halves.second);
   }
-  if (may_lack_holes) return std::nullopt;
+  return true;
+}
+
+std::string place_of(const geom::Contour& line) {
+  return fmt::format("from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) mm", line.front().from.x, line.front().from.y,
+                     line.back().to.x, line.back().to.y);
+}
+
+/// Returns a sentence about lines that would change the material if they were closed. Those that lie in it
+/// could only take some of it away, which a part may lack.
+std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_lack_holes) {
   if (!drawn.doubtful.empty()) return drawn.doubtful.front();
-  if (drawn.marks.empty()) return std::nullopt;
-  const geom::Contour& line = drawn.marks.front().edges;
-  return fmt::format(
-      "{} lines enclose nothing, the first from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) mm, and may be the edge "
-      "of a "
-      "hole; close it, use a larger join tolerance, or take the layers without it",
-      drawn.marks.size(), line.front().from.x, line.front().from.y, line.back().to.x, line.back().to.y);
+  if (drawn.set_aside.empty() && drawn.marks.empty()) return std::nullopt;
+  const geom::RegionIndex material(drawn.regions);
+  const double slack = drawn.tolerance + kLinesStickOut;
+  const auto is_harmless = [&](const geom::Contour& line) {
+    return may_lack_holes && !line.empty() &&
+           std::all_of(line.begin(), line.end(),
+                       [&](const geom::Edge& edge) { return lies_within(material, edge, slack); });
+  };
+  for (const SetAside& one : drawn.set_aside)
+    if (!is_harmless(one.edges)) return one.sentence;
+  for (const Mark& one : drawn.marks)
+    if (!is_harmless(one.edges))
+      return fmt::format(
+          "the line {} encloses nothing and may be the edge of {}; close it, use a larger join tolerance, or "
+          "take "
+          "the layers without it",
+          place_of(one.edges), may_lack_holes ? "more of the part, because it is not within it" : "a hole");
+  return std::nullopt;
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ struct OutlineOptions {
   /// The tolerances of drawings, mm, and whether they are refused rather than mended; see DrawingOptions.
   std::optional<double> join, curve, repair;
   bool strict = false;
-  /// True where lines of a drawing that enclose nothing, and shapes within its outline that were set aside,
-  /// may be holes: the outline of a part, which is then held to be larger than it is. Elsewhere material, or
-  /// room to cut, would be seen where there is none, and the drawing is refused.
+  /// True where lines of a drawing that enclose nothing, and shapes that were set aside, may be holes if they
+  /// lie within its outline: that of a part, which is then held to be larger than it is. Elsewhere material,
+  /// or room to cut, would be seen where there is none, and the drawing is refused.
   bool may_lack_holes = false;
   /// The layers of drawings that count; empty for all that are shown.
   std::vector<std::string> layers;

@@ -4,12 +4,14 @@
 #include <numeric>
 #include <vector>
 
-namespace lekalo::geom::detail {
+namespace lekalo {
 
-/// Union-find in which the smallest member stands for its set.
+/// The numbers below a count in sets that are joined one by one; the smallest of a set stands for it.
+/// Cost: O(log n) a question, amortised.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  /// Returns the number that stands for the set of i.
   [[nodiscard]] std::uint32_t of(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -25,4 +27,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace lekalo::geom::detail
+}  // namespace lekalo
