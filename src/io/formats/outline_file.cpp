@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -98,14 +99,15 @@ const geom::Edge* far_arc(const std::vector<geom::Region>& regions) {
 
 /// Ends of lines may stick out of the material by this, mm, and by what the outline is off.
 constexpr double kLinesStickOut = 1e-4;
-constexpr std::size_t kMostParts = 100'000;
 
 /// Says whether no point of an edge lies further than about `slack` outside of the material. Parts of the
 /// edge are halved until that is seen.
-bool lies_within(const geom::RegionIndex& material, const geom::Edge& edge, double slack) {
+bool lies_within(const geom::RegionIndex& material, const geom::Edge& edge, double slack, std::size_t& work) {
   std::vector<geom::Edge> open{edge};
-  for (std::size_t parts = 0; !open.empty(); ++parts) {
-    if (parts == kMostParts) return false;
+  while (!open.empty()) {
+    if (work == 0) return false;
+    --work;
+    ask();
     const Bisected halves = bisected(open.back());
     open.pop_back();
     const double far = material.nearest(halves.middle).distance;
@@ -132,10 +134,11 @@ std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_l
   if (drawn.set_aside.empty() && drawn.marks.empty()) return std::nullopt;
   const geom::RegionIndex material(drawn.regions);
   const double slack = drawn.tolerance + kLinesStickOut;
+  std::size_t work = kMostWork;
   const auto is_harmless = [&](const geom::Contour& line) {
     return may_lack_holes && !line.empty() &&
            std::all_of(line.begin(), line.end(),
-                       [&](const geom::Edge& edge) { return lies_within(material, edge, slack); });
+                       [&](const geom::Edge& edge) { return lies_within(material, edge, slack, work); });
   };
   for (const SetAside& one : drawn.set_aside)
     if (!is_harmless(one.edges)) return one.sentence;
