@@ -7,6 +7,10 @@ from dataclasses import dataclass, field
 import changes
 import truth
 
+BENT = ('<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="40mm" viewBox="0 0 80 40"><path d="M0 0H80V40H0Z"/>'
+        '<path d="M0 10H80"/><path d="M30 20L50 30"/><circle cx="20" cy="25" r="5"/></svg>')
+BENT_FROM = ('<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="60mm" viewBox="0 0 100 60">'
+             '<path d="M0 0H100V60H0Z"/></svg>')
 PLATE = '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">' \
         '<g id="WALL"><path d="M0 0H60V40H0"/></g><g id="OPEN"><path d="M0 40V0"/></g>' \
         '<g id="ISLAND"><circle cx="30" cy="20" r="6"/></g></svg>'
@@ -98,6 +102,10 @@ def kinds():
                 ["locate", "--part", "placed.dxf", "--part-layers", "PART", "--blank", "placed.dxf",
                  "--blank-layers", "BLANK", "--window", "-2", "2", "--gap", "0.05", "-o", "r.json"]], "r.json",
                of_r, truth.regions, inputs=["placed.dxf"])
+    yield Kind("placement, drawing with lines that enclose nothing", [],
+               [["locate", "--part", "part.svg", "--blank", "blank.svg", "--window", "-2", "2", "--gap", "0.05", "-o",
+                 "r.json"]], "r.json", of_r, truth.regions, inputs=["part.svg", "blank.svg"],
+               written={"part.svg": BENT, "blank.svg": BENT_FROM})
     yield Kind("program, rewritten", bracket,
                [region + ["-o", "r.json", "--nc", "bracket.nc", "--nc-out", "o.nc"]], "o.nc", of_r,
                truth.rewritten, form="text", report_of="r.json")

@@ -408,15 +408,31 @@ def scan_holds(after, before):
 
 
 def drawings_hold(after, before):
-    """What was set aside is no longer than the join tolerance, so a larger one says less."""
+    """Curves that were set aside are no longer than the join tolerance, so a larger one says less."""
     for role in ("part", "blank"):
         one, other = after[role], before[role]
         if one is None or other is None:
             if one != other:
                 return False
-        elif one["layers"] != other["layers"] or one["join"] < other["join"] or one["set_aside"] != other["set_aside"]:
+        elif one["layers"] != other["layers"] or one["set_aside"] != other["set_aside"]:
+            return False
+        elif number(one["join"]) < (number(other["join"]) if other["set_aside"] else 0):
+            return False
+        elif number(one.get("loose_error", 0)) < number(other.get("loose_error", 0)):
+            return False
+        elif not lines_hold(one.get("marks", []), other.get("marks", [])):
             return False
     return True
+
+
+def lines_hold(after, before):
+    """Lines that enclose nothing are where they were, but for rounding, in any direction and order."""
+    def ends(edges):
+        return [[sorted([e["line"]["from"], e["line"]["to"]])] for e in edges]
+    one, other = ends(after), ends(before)
+    return len(one) == len(other) and all(
+        abs(number(a) - number(b)) <= 1e-12 for x, y in zip(sorted(one), sorted(other)) for p, q in zip(x[0], y[0])
+        for a, b in zip(p, q))
 
 
 def regions(context):

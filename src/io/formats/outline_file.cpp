@@ -145,10 +145,11 @@ std::optional<std::string> what_is_missing(const DrawnRegions& drawn, bool may_l
   for (const Mark& one : drawn.marks)
     if (!is_harmless(one.edges))
       return fmt::format(
-          "the line {} encloses nothing and may be the edge of {}; close it, use a larger join tolerance, or "
+          "the line {} encloses nothing and may be {}; close it, use a larger join tolerance, or "
           "take "
           "the layers without it",
-          place_of(one.edges), may_lack_holes ? "more of the part, because it is not within it" : "a hole");
+          place_of(one.edges),
+          may_lack_holes ? "more of the part, for it reaches out of it" : "the edge of a hole");
   return std::nullopt;
 }
 

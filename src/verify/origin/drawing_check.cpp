@@ -147,6 +147,8 @@ WrittenDrawing read_written_drawing(Json value, const std::string& path, std::st
   written.marks = loose("marks"), written.set_aside_curves = loose("set_aside_curves");
   if (!fields.get("loose_error").text.empty())
     written.loose_error = enclosed(fields.number("loose_error")).high;
+  if (written.join < 0 || written.loose_error < 0)
+    fields.complain(path + ": a distance below 0 is none, in join or loose_error");
   return written;
 }
 

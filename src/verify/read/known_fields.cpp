@@ -48,7 +48,8 @@ constexpr Known kScan[] = {{"points"},         {"proved"},   {"ordered"}, {"guar
                            {"median_spacing"}, {"widest"},   {"deepest"}, {"loss"},       {"assumptions"},
                            {"unknown"},        {"dropped"},  {"units"},   {"min_radius"}, {"max_dip"},
                            {"slice", kSlice},  {"left_out"}, {"outlines"}};
-constexpr Known kDrawing[] = {{"layers"}, {"join"}, {"set_aside"}};
+constexpr Known kDrawing[] = {{"layers"},       {"join"},        {"set_aside"},
+                              {"marks", kEdge}, {"loose_error"}, {"set_aside_curves", kEdge}};
 constexpr Known kDrawings[] = {{"part", kDrawing}, {"blank", kDrawing}};
 constexpr Known kTolerances[] = {{"part"}, {"blank"}};
 constexpr Known kFeatures[] = {{"name"},    {"edges"}, {"minimum"}, {"target"},
