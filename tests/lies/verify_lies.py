@@ -140,7 +140,7 @@ class Walk:
         self.count["changes"] += 1
         if status in (3, 4):
             self.count["refused"] += 1
-        elif status == 1 and ("not rechecked" in words or "unchecked" in words or "not there" in words):
+        elif status == 1 and any(word in words for word in ("not rechecked", "unchecked", "not there", "no certificate")):
             self.count["weak"] += 1
         elif status == 0 and verdict:
             self.count["excused"] += 1
