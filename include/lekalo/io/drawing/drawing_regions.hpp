@@ -53,7 +53,7 @@ struct Mark {
 /// Why curves are neither in an outline nor a mark.
 enum class AsideReason : std::uint8_t {
   crosses_itself,   ///< a contour that crosses itself by more than may be mended
-  crosses_another,  ///< contours that overlap by more than may be mended
+  crosses_another,  ///< contours that overlap, of which none can be taken as it is drawn
   does_not_close,   ///< an outline with a gap that is too wide to mend
   lies_in_another,  ///< what lies in a contour that was set aside, its holes among it
   no_curve,         ///< numbers that make no curve
