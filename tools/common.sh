@@ -28,12 +28,12 @@ quietly() {
   fi
 }
 
-# build_preset PRESET [cmake --build arguments...]
+# build_preset PRESET [cmake --build arguments...]: builds on after a failure, so that the log names them all.
 build_preset() {
   local preset=$1
   shift
   mkdir -p "$root/build"
   say "== build $preset"
   (cd "$root" && quietly "build/$preset-configure.log" cmake --preset "$preset") || return
-  (cd "$root" && quietly "build/$preset-build.log" cmake --build --preset "$preset" "$@") || return
+  (cd "$root" && quietly "build/$preset-build.log" cmake --build --preset "$preset" "$@" -- -k 0) || return
 }

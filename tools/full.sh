@@ -59,7 +59,8 @@ quick_suite() {
 # commands over them. The others would be built and run for nothing.
 threaded() {
   unset LEKALO_CASES LEKALO_TIMES
-  local tests='^(unit|property|differential|e2e)\.(base_(parallel|stop)|field|jobs|nest|mill|serve|verify_simulate|io_files|cli_(nest|order|pocket))' targets
+  local fields='^(unit|property)\.field' targets
+  local tests="$fields|^(unit|property|differential|e2e)\.(base_(parallel|stop)|jobs|nest|mill|serve|verify_simulate|io_files|cli_(nest|order|pocket))"
   (cd "$root" && cmake --preset tsan)
   mapfile -t targets < <(cd "$root" && ctest --preset tsan -N -R "$tests" |
     sed -n 's/^ *Test *#[0-9]*: \([a-z0-9]*\)\./\1_/p')

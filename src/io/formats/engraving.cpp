@@ -40,7 +40,7 @@ struct Loop {
 
 class Rules {
  public:
-  Rules(const Drawing& drawing, const DrawnRegions& drawn) : drawing_(drawing), drawn_(drawn) {
+  Rules(const Drawing& drawing, const DrawnRegions& drawn) : drawn_(drawn) {
     std::size_t edge = 0;
     for (std::uint32_t r = 0; r < drawn.regions.size(); ++r) {
       const auto add = [&](const Contour& contour, bool is_hole) {
@@ -176,7 +176,6 @@ class Rules {
     return out;
   }
 
-  const Drawing& drawing_;
   const DrawnRegions& drawn_;
   std::vector<Loop> loops_;
   std::vector<std::size_t> outer_of_, from_outside_;
