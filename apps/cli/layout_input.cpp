@@ -27,10 +27,6 @@ std::string missing_text(const layout::Document& document, const std::vector<lay
 
 }  // namespace
 
-std::string counted(std::size_t count, const char* one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
-
 std::string notes(const std::vector<std::string>& notices) {
   std::string text;
   for (const std::string& notice : notices) text += "note: " + notice + "\n";

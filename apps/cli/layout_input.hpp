@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/jobs/layout.hpp"
 #include "lekalo/layout/check.hpp"
@@ -11,9 +12,6 @@
 #include "outputs.hpp"
 
 namespace lekalo::cli {
-
-/// "1 part", "2 parts".
-[[nodiscard]] std::string counted(std::size_t count, const char* one);
 
 /// Reads any file that holds a layout or a job (jobs::open_layout), after a look at the outputs
 /// (check_outputs), which may replace neither it nor `others`.

@@ -11,6 +11,7 @@
 
 #include "colour.hpp"
 #include "layout_tables.hpp"
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -87,15 +88,12 @@ class Composer {
   Scene compose() && {
     scene_.title = "lekalo: " + picture_.name;
     scene_.description =
-        fmt::format("{} parts placed, {} violations, density {:.2f} %", document_.placements.size(),
-                    picture_.violations.size(), 100 * picture_.completeness.density);
+        fmt::format("{} placed, {}, density {:.2f} %", counted(document_.placements.size(), "part"),
+                    counted(picture_.violations.size(), "violation"), 100 * picture_.completeness.density);
     scene_.items.push_back(PathItem{{kPage.ring()}, true, filled(kPaper), {"page", ""}});
     sheet_.text(8, 11, 190, picture_.name, {.size = 4.6, .bold = true, .kind = "title"});
     const bool valid = picture_.violations.empty();
-    sheet_.text(289, 11, 90,
-                valid                             ? "no violations"
-                : picture_.violations.size() == 1 ? "1 violation"
-                                                  : fmt::format("{} violations", picture_.violations.size()),
+    sheet_.text(289, 11, 90, valid ? "no violations" : counted(picture_.violations.size(), "violation"),
                 {.size = 3.8,
                  .colour = valid ? kGood : kBad,
                  .anchor = Anchor::end,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "foreign.hpp"
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "modes.hpp"
@@ -185,16 +186,16 @@ Result<Rewritten> rewrite_program(std::string_view text, const std::string& name
   result.rounding_mm =
       chords.arcs > 0 ? rounded_up(result.rounding_mm + chords.chord_mm) : result.rounding_mm;
   if (chords.arcs > 0)
-    result.notes.push_back(
-        fmt::format("{} arcs of G18 and G19 are written as chords within {:.2g} mm of them", chords.arcs,
-                    chords.chord_mm));
+    result.notes.push_back(fmt::format(
+        "{} written as chords within {:.2g} mm",
+        counted(chords.arcs, "arc of G18 and G19 is", "arcs of G18 and G19 are"), chords.chord_mm));
   if (unfolded.calls > 0)
-    result.notes.push_back(fmt::format("{} calls of subprograms are written out", unfolded.calls));
+    result.notes.push_back(counted(unfolded.calls, "call of a subprogram is", "calls of subprograms are") +
+                           " written out");
   if (unfolded.computed > 0)
-    result.notes.push_back(
-        fmt::format("{} variables and expressions are computed: the program sets no "
-                    "variable of the control any more",
-                    unfolded.computed));
+    result.notes.push_back(counted(unfolded.computed, "variable or expression is computed",
+                                   "variables and expressions are computed") +
+                           ": the program sets no variable of the control any more");
   if (!options.control)
     result.notes.push_back(
         fmt::format("read as a program for {} controls; --control names another", words::name_of(control)));

@@ -70,7 +70,7 @@ TEST(DrawingRegions, LinesMeetHalfWayAcrossAGap) {
   EXPECT_LE(found.moved, 0.004 * (1 + 1e-12));
   EXPECT_EQ(found.tolerance, found.moved * (1 + 0x1p-48));
   ASSERT_EQ(found.notices.size(), 1u);
-  EXPECT_TRUE(has(found.notices[0], "1 gaps closed, the widest of 0.008 mm")) << found.notices[0];
+  EXPECT_TRUE(has(found.notices[0], "1 gap closed, the widest of 0.008 mm")) << found.notices[0];
 }
 
 TEST(DrawingRegions, ALineGoesToTheEndOfAnArcWhichStaysAsItIs) {
@@ -276,7 +276,7 @@ TEST(DrawingRegions, ContoursWithoutAreaAreRefused) {
   shape.centre = {25, 0};
   // The same arc there and back is a copy, and leaves an open chain.
   EXPECT_TRUE(has(refusal(sketch), "does not close"));
-  EXPECT_TRUE(has(refusal(sketch), "1 curves that lie on others"));
+  EXPECT_TRUE(has(refusal(sketch), "dropped: 1 curve that lies on another"));
 }
 
 TEST(DrawingRegions, LayersAreTakenAndLeft) {

@@ -135,7 +135,7 @@ TEST(DrawingRepair, ALineThatHangsOnAnOutlineIsAMarkOnIt) {
   ASSERT_EQ(found.marks.size(), 1u);
   EXPECT_EQ(found.marks[0].curve_of_edge, (std::vector<std::uint32_t>{4}));
   EXPECT_EQ(found.marks[0].region, 0u);
-  EXPECT_TRUE(has(found.notices.back(), "1 lines that enclose nothing are marks"));
+  EXPECT_TRUE(has(found.notices.back(), "1 line that encloses nothing is a mark"));
 }
 
 TEST(DrawingRepair, FacesOfOneLayerAreParts) {
@@ -191,8 +191,9 @@ TEST(DrawingRepair, PartsThatWereDrawnTooNearStayParts) {
   ASSERT_EQ(found.regions.size(), 2u);
   EXPECT_NEAR(geom::area(found.regions[0]), 102, 1e-9);
   EXPECT_NEAR(geom::area(found.regions[1]), 100, 1e-9);
-  EXPECT_TRUE(std::any_of(found.notices.begin(), found.notices.end(),
-                          [](const std::string& notice) { return has(notice, "overlap, and each"); }));
+  EXPECT_TRUE(std::any_of(found.notices.begin(), found.notices.end(), [](const std::string& notice) {
+    return has(notice, "1 pair of contours overlaps, and each");
+  }));
   // A hole in both would be a hole of one, and covered by the other.
   sketch.circle({10.75, 5}, 0.1);
   EXPECT_EQ(made(Sketch(sketch).circle({50, 50}, 1)).regions.size(), 1u);
@@ -211,6 +212,64 @@ TEST(DrawingRepair, EndsThatRunPastEachOtherCloseWhereTheyCross) {
   // What lies behind the crossing is kept, both ends in a row.
   ASSERT_EQ(found.marks.size(), 1u);
   EXPECT_EQ(found.marks[0].edges.size(), 2u);
+}
+
+TEST(DrawingRepair, AnEndOnTheInsideOfALineClosesAnOutline) {
+  // A flag in one stroke: its end lies on its own pole.
+  Sketch flag;
+  flag.polyline({{0, 0}, {0, 20}, {10, 20}, {10, 12}, {0, 12}}, false);
+  EXPECT_TRUE(refused_when_strict(flag));
+  const auto one = made(flag);
+  ASSERT_EQ(one.regions.size(), 1u);
+  EXPECT_NEAR(geom::area(one.regions[0]), 80, 1e-6);
+  ASSERT_EQ(one.marks.size(), 1u);
+  EXPECT_EQ(one.marks[0].edges.size(), 1u);
+  EXPECT_LE(one.tolerance, 1e-8);
+  // Four lines, each of which ends on the next.
+  Sketch wheel;
+  wheel.line({0, -3}, {0, 10}).line({-3, 10}, {12, 10}).line({12, 13}, {12, 0}).line({15, 0}, {0, 0});
+  const auto square = made(wheel);
+  ASSERT_EQ(square.regions.size(), 1u);
+  EXPECT_NEAR(geom::area(square.regions[0]), 120, 1e-6);
+  EXPECT_EQ(square.marks.size(), 4u);
+  // An arc that stands on a longer line, and a line that ends on the arc.
+  Sketch half;
+  half.line({-20, 0}, {20, 0}).arc({10, 0}, {-10, 0}, {0, 0}).line({6, 0}, {6, 8});
+  const auto halves = made(half);
+  EXPECT_EQ(halves.regions.size(), 2u);
+  EXPECT_EQ(halves.marks.size(), 2u);
+  EXPECT_TRUE(halves.set_aside.empty());
+}
+
+TEST(DrawingRepair, AnEndThatFallsShortOfALineReachesItWithinTheJoinTolerance) {
+  const auto flag = [](double end) {
+    Sketch sketch;
+    sketch.polyline({{0, 0}, {0, 20}, {10, 20}, {10, 12}, {end, 12}}, false);
+    return sketch;
+  };
+  for (const double end : {0.008, -0.008}) {
+    const auto found = made(flag(end));
+    ASSERT_EQ(found.regions.size(), 1u);
+    EXPECT_NEAR(geom::area(found.regions[0]), 80, 1e-6);
+    EXPECT_GE(found.repaired, 0.008);
+    EXPECT_LE(found.repaired, 0.0081);
+  }
+  EXPECT_FALSE(make_regions(flag(0.02).drawing(), {}));
+}
+
+TEST(DrawingRepair, EndsOnLinesOfAnotherLayerOrOnAPartCloseNothing) {
+  Sketch apart;
+  apart.polyline({{0, 0}, {0, 20}}, false).layer("measures");
+  apart.polyline({{0, 20}, {10, 20}, {10, 12}, {0, 12}}, false);
+  EXPECT_FALSE(make_regions(apart.drawing(), {}));
+  // A letter in three strokes on a plate, and a bend line from edge to edge.
+  Sketch plate;
+  plate.polyline({{-50, -50}, {50, -50}, {50, 50}, {-50, 50}});
+  plate.polyline({{0, 0}, {5, 20}, {10, 0}}, false).line({2.5, 10}, {7.5, 10}).line({-50, -20}, {50, -20});
+  const auto found = made(plate);
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_TRUE(found.regions[0].holes.empty());
+  EXPECT_EQ(found.marks.size(), 3u);
 }
 
 TEST(DrawingRepair, ASliverIsCutOffAsASpikeIs) {

@@ -20,6 +20,7 @@
 #include "curve_overlaps.hpp"
 #include "io/text/decimal.hpp"
 #include "layers.hpp"
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
@@ -29,6 +30,7 @@
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "near_edges.hpp"
+#include "touching_ends.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -85,7 +87,11 @@ class Assembly {
     if (!options_.strict) bridge_gaps();
     LEKALO_CHECK(sort_out_open_chains());
     close_contours();
-    if (!options_.strict) trace_branches();
+    if (!options_.strict) {
+      trace_branches();
+      close_at_touching_ends();
+    }
+    if (contours_.empty()) return refuse(empty_sentence());
     LEKALO_CHECK(nest());
     set_aside_contents();
     if (result_.regions.empty()) return refuse(empty_sentence());
@@ -740,8 +746,52 @@ class Assembly {
     }
     std::erase_if(chains_, [](const Chain& chain) { return !chain.closed; });
     if (!result_.marks.empty() && !options_.strict) hang_loops_on_marks();
-    if (chains_.empty() && branches_.empty() && contours_.empty()) return refuse(empty_sentence());
     return {};
+  }
+
+  /// Marks that lie in no contour, and of which ends lie on the inside of others, are contours around what
+  /// they enclose together. In a contour they stay lines on it: strokes of letters enclose something too, and
+  /// a bend from edge to edge cuts no part in two.
+  void close_at_touching_ends() {
+    if (result_.marks.empty()) return;
+    std::vector<PlacedContour> around;
+    std::vector<geom::Box> boxes;
+    for (const LooseContour& contour : contours_) {
+      if (!geom::make_region(contour.edges)) continue;
+      around.emplace_back(contour.edges);
+      boxes.push_back(around.back().box());
+    }
+    const geom::BoxTree tree(std::move(boxes));
+    std::vector<OpenLine> lines;
+    std::vector<std::size_t> mark_of_line;
+    for (std::size_t i = 0; i < result_.marks.size(); ++i) {
+      const Mark& mark = result_.marks[i];
+      const Point p = bisected(mark.edges.front()).middle;
+      if (!tree.visit_meeting_while({p, p}, [&](std::uint32_t c) { return !around[c].contains(p); }))
+        continue;
+      lines.push_back({mark.edges, mark.curve_of_edge, {}});
+      for (const std::uint32_t curve : mark.curve_of_edge)
+        lines.back().layers.push_back(drawing_.curves[curve].layer);
+      mark_of_line.push_back(i);
+    }
+    std::vector<char> closed(result_.marks.size(), 0);
+    std::vector<LooseEdge> left;
+    for (TouchingLines& group :
+         touching_lines(lines, std::min(options_.join_tolerance, options_.repair), 2 * options_.repair)) {
+      for (const std::uint32_t line : group.lines) closed[mark_of_line[line]] = 1;
+      for (const MovedCurve& one : group.moved)
+        worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kUp);
+      for (LooseContour& contour : group.contours) {
+        for (const std::uint32_t curve : contour.curves) worked_[curve].taken = true;
+        contours_.push_back(std::move(contour));
+      }
+      left.insert(left.end(), group.left.begin(), group.left.end());
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < result_.marks.size(); ++i)
+      if (closed[i] == 0) std::swap(result_.marks[kept++], result_.marks[i]);
+    result_.marks.resize(kept);
+    add_marks(left);
   }
 
   /// Small loops that begin on a mark, and on no outline, are of the mark.
@@ -817,7 +867,8 @@ class Assembly {
         "chains out",
         chain.links.size(), text(begin), text(at), name(last.curve), nearest, options_.join_tolerance,
         count > 1 ? fmt::format("; {} chains are open", count) : "",
-        dropped > 0 ? fmt::format("; {} curves that lie on others or are too short were dropped", dropped)
+        dropped > 0 ? "; dropped: " + counted(dropped, "curve that lies on another or is too short",
+                                              "curves that lie on others or are too short")
                     : "");
   }
 
@@ -1037,42 +1088,44 @@ class Assembly {
     if (!result_.gaps.empty()) {
       const auto widest = std::max_element(result_.gaps.begin(), result_.gaps.end(),
                                            [](const auto& a, const auto& b) { return a.size < b.size; });
-      notices.push_back(fmt::format("{} gaps closed, the widest of {:.3g} mm at {} after {}",
-                                    result_.gaps.size(), widest->size, text(widest->at),
+      notices.push_back(fmt::format("{} closed, the widest of {:.3g} mm at {} after {}",
+                                    counted(result_.gaps.size(), "gap"), widest->size, text(widest->at),
                                     name(widest->curves[0])));
     }
     if (!result_.duplicates.empty())
-      notices.push_back(fmt::format("{} curves that lie on others dropped or cut, the first {}",
-                                    result_.duplicates.size(), name(result_.duplicates.front())));
-    if (!result_.specks.empty())
       notices.push_back(fmt::format(
-          "{} curves that are no longer than the join tolerance and belong to no contour dropped, "
-          "the first {}",
-          result_.specks.size(), name(result_.specks.front())));
+          "{} dropped or cut, the first {}",
+          counted(result_.duplicates.size(), "curve that lies on another", "curves that lie on others"),
+          name(result_.duplicates.front())));
+    if (!result_.specks.empty())
+      notices.push_back(
+          fmt::format("{} no longer than the join tolerance and in no contour dropped, the first {}",
+                      counted(result_.specks.size(), "curve"), name(result_.specks.front())));
     if (mends_ > 0)
-      notices.push_back(
-          fmt::format("{} shapes that cross or touch themselves mended; that moved outlines by "
-                      "{:.3g} mm at most",
-                      mends_, result_.repaired));
+      notices.push_back(fmt::format(
+          "{} mended; that moved outlines by {:.3g} mm at most",
+          counted(mends_, "shape that crosses or touches itself", "shapes that cross or touch themselves"),
+          result_.repaired));
     if (!neighbours_.empty())
-      notices.push_back(
-          fmt::format("{} pairs of contours overlap, and each is a part as it is drawn, the "
-                      "first that of {} and that of {} at {}",
-                      neighbours_.size(), name(neighbours_.front().first), name(neighbours_.front().second),
-                      text(neighbours_.front().at)));
+      notices.push_back(fmt::format(
+          "{}, and each is a part as it is drawn, the first that of {} and that of {} at {}",
+          counted(neighbours_.size(), "pair of contours overlaps", "pairs of contours overlap"),
+          name(neighbours_.front().first), name(neighbours_.front().second), text(neighbours_.front().at)));
     for (std::size_t i = 0; i < result_.set_aside.size() && i < kMostKinds; ++i)
       notices.push_back("set aside: " + result_.set_aside[i].sentence);
     if (result_.set_aside.size() > kMostKinds)
-      notices.push_back(fmt::format("set aside: {} shapes more", result_.set_aside.size() - kMostKinds));
+      notices.push_back("set aside: " + counted(result_.set_aside.size() - kMostKinds, "shape") + " more");
     if (!result_.marks.empty())
-      notices.push_back(fmt::format("{} lines that enclose nothing are marks, the first from {} to {}",
-                                    result_.marks.size(), text(result_.marks.front().edges.front().from),
+      notices.push_back(fmt::format("{}, the first from {} to {}",
+                                    counted(result_.marks.size(), "line that encloses nothing is a mark",
+                                            "lines that enclose nothing are marks"),
+                                    text(result_.marks.front().edges.front().from),
                                     text(result_.marks.front().edges.back().to)));
     for (std::size_t i = 0; i < result_.doubtful.size() && i < kMostKinds; ++i)
       notices.push_back(result_.doubtful[i]);
     if (result_.doubtful.size() > kMostKinds)
-      notices.push_back(
-          fmt::format("{} contours more cross far larger ones", result_.doubtful.size() - kMostKinds));
+      notices.push_back(counted(result_.doubtful.size() - kMostKinds, "contour more crosses a far larger one",
+                                "contours more cross far larger ones"));
     if (!drawing_.unread.empty()) notices.push_back(unread_sentence().substr(2));
   }
 

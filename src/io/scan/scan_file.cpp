@@ -9,16 +9,13 @@
 
 #include "io/contour/contour_points.hpp"
 #include "io/text/rows.hpp"
+#include "lekalo/base/counted.hpp"
 #include "lekalo/io/text/format.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "ply_points.hpp"
 
 namespace lekalo::io {
 namespace {
-
-std::string plural(std::size_t count, const char* word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
 
 class ScanReader {
  public:
@@ -83,11 +80,11 @@ class ScanReader {
                                   slice_->height, slice_->thickness, least_z_, greatest_z_));
       }
       file_.notices.push_back(fmt::format("{}: {} of {} lie in the slice at height {:g} mm, {:g} mm thick",
-                                          file_.name, kept, plural(file_.points_in_file, "point"),
+                                          file_.name, kept, counted(file_.points_in_file, "point"),
                                           slice_->height, slice_->thickness));
     } else if (with_z_ > 0) {
       file_.notices.push_back(
-          fmt::format("{}: the third number of {} (z) is ignored", file_.name, plural(with_z_, "line")));
+          fmt::format("{}: the third number of {} (z) is ignored", file_.name, counted(with_z_, "line")));
     }
     return std::move(file_);
   }
