@@ -132,9 +132,20 @@ class LocateDemands : public testing::Test {
       EXPECT_GE(judge.margin(pose_of(r)), r.margin);
     }
     EXPECT_LE(r.margin, r.margin_bound);
+    expect_contacts_on_their_edges(problem, r);
     Random random(cases::seed(), 40 + i);
     around(r.best, random, 500,
            [&](const BlankFromPart& pose) { EXPECT_LE(judge.margin(pose), r.margin_bound); });
+  }
+  /// A place where a maximum is reached once had the number of its edge among those of the maximum.
+  static void expect_contacts_on_their_edges(const DemandProblem& problem, const DemandResult& r) {
+    const phi::RegionClearance clearance(problem.shapes.part, problem.shapes.blank);
+    EXPECT_FALSE(r.contacts.empty());
+    for (const Touch& touch : r.contacts) {
+      const auto off = [](const geom::Curve& curve, Point p) { return norm(nearest_on(curve, p) - p); };
+      EXPECT_LE(off(clearance.part().curves()[touch.part_edge], touch.part), 1e-9);
+      EXPECT_LE(off(clearance.blank().curves()[touch.blank_edge], touch.blank), 1e-9);
+    }
   }
   /// What the second criterion left is what the result has, and no placement near it contradicts the bound.
   void expect_second_holds(const DemandProblem& problem, const DemandResult& first, const DemandResult& r,

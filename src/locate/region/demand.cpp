@@ -106,6 +106,7 @@ class DemandLocaliser final : public Choice {
       if (!f.maximum && !f.finished) continue;
       caps_.push_back({{}, f.finished.value_or(f.maximum.value_or(0))});
       for (const std::uint32_t edge : f.edges) caps_.back().edges.push_back(edges_[edge]);
+      edges_of_cap_.push_back(f.edges);
     }
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       const Demand& d = demand_[k];
@@ -517,7 +518,7 @@ class DemandLocaliser final : public Choice {
     std::vector<Touch>& touches = result_.contacts;
     const auto add = [&](const Touch& touch) {
       const bool known = std::any_of(touches.begin(), touches.end(), [&](const Touch& t) {
-        return t.part_edge == touch.part_edge && t.blank_edge == touch.blank_edge && t.cap == touch.cap;
+        return t.part_edge == touch.part_edge && t.blank_edge == touch.blank_edge;
       });
       if (!known) touches.push_back(touch);
     };
@@ -539,7 +540,13 @@ class DemandLocaliser final : public Choice {
       if (caps_[cap].most - clearance_.deepest(map, curves, 0.125 * margin, margin, places) > margin)
         continue;
       for (const phi::RegionContact& place : places)
-        add({place.part_edge, place.blank_edge, place.part, place.blank, place.distance, 0, cap});
+        add({edges_of_cap_[cap][place.part_edge],
+             place.blank_edge,
+             place.part,
+             place.blank,
+             place.distance,
+             0,
+             {}});
     }
   }
 
@@ -550,7 +557,8 @@ class DemandLocaliser final : public Choice {
   std::vector<Edge> edges_;
   std::vector<Demand> demand_;  ///< by edge
   std::vector<Cap> caps_;
-  std::vector<geom::Curve> free_edges_;  ///< those that are not finished
+  std::vector<std::vector<std::uint32_t>> edges_of_cap_;  ///< of the part, by cap
+  std::vector<geom::Curve> free_edges_;                   ///< those that are not finished
   double least_scale_ = kInfinity, most_scale_ = 0, far_ = 0;
   std::optional<phi::RegionClearance> base_;  ///< of the part grown for margin 0
   double base_tolerance_ = 0, cap_gap_ = 0;
