@@ -110,7 +110,8 @@ class Search {
   struct Nearest {
     /// The vector from the nearest point y to the disc's centre.
     Vec from;
-    /// The direction of `from`.
+    /// The length and the direction of `from`.
+    Span apart;
     Vec away;
     /// n . (x - y) may be less than n . from by this much.
     double blur = 0;
@@ -121,8 +122,9 @@ class Search {
   static void add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
                           std::vector<Nearest>& near);
   /// Returns a bound for the distance from the blank where it has a local maximum in the disc, or nothing if
-  /// it has none. `out` is the distance of the disc's centre.
-  [[nodiscard]] std::optional<double> maximum_in(const Vec& centre, double radius, Span out) const;
+  /// it has none. `out` is the distance of the disc's centre, and nothing above `known` is looked for.
+  [[nodiscard]] std::optional<double> maximum_in(const Vec& centre, double radius, Span out,
+                                                 double known) const;
 
   void add(std::priority_queue<Square>& open, const Vec& centre, double half, double at_most) {
     const double radius = 1.4142136 * half;
@@ -138,7 +140,7 @@ class Search {
       // All of the square lies in the blank.
       if (in && *in) return;
     }
-    const std::optional<double> maximum = maximum_in(centre, radius, out);
+    const std::optional<double> maximum = maximum_in(centre, radius, out, high);
     if (!maximum) return;
     high = std::min(high, *maximum);
     if (to_part.low >= 0) reached_at(centre, 0);
@@ -184,7 +186,7 @@ class Search {
 /// A distance from a convex set, or from a circle, is at most d + u . s + s^2 curve / 2 a step s away, where
 /// u is its gradient. So the least of two such distances is at most half the sum of those. A groove of even
 /// width needs this bound, because there the maximum is a ridge.
-std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span out) const {
+std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span out, double known) const {
   std::vector<Nearest> near;
   const Span reach = out + just(2 * radius);
   std::size_t sides = 0;
@@ -201,16 +203,16 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   // The distance from one line has no maximum, and that from one arc has it in the centre.
   if (sides == 1) return std::nullopt;
   for (Nearest& one : near) {
-    if (!(length(one.from).low > 0)) return kInfinity;
+    one.apart = length(one.from);
+    if (!(one.apart.low > 0)) return kInfinity;
     one.away = unit(one.from);
   }
   // Two directions are tried for n: away from the nearest point, and away from all of them.
   std::array<Vec, 2> tries{Vec{just(0), just(0)}, Vec{just(0), just(0)}};
-  double nearest = kInfinity, least = kInfinity;
+  double nearest = kInfinity;
   for (const Nearest& one : near) {
     tries[1] = tries[1] + one.away;
-    const double apart = length(one.from).low;
-    if (apart < nearest) nearest = apart, tries[0] = one.away;
+    if (one.apart.low < nearest) nearest = one.apart.low, tries[0] = one.away;
   }
   for (Vec& n : tries) {
     if (!(length(n).low > 1e-6)) continue;
@@ -220,12 +222,18 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
     });
     if (all) return std::nullopt;
   }
+  // Half the sum is no less than half of the two distances, so that pairs are left where those are too far.
+  std::erase_if(near, [](const Nearest& one) { return !one.bounds; });
+  std::sort(near.begin(), near.end(),
+            [](const Nearest& a, const Nearest& b) { return a.apart.low < b.apart.low; });
   const Span r = just(radius);
-  for (const Nearest& a : near) {
-    for (const Nearest& b : near) {
-      if (!a.bounds || !b.bounds) continue;
-      const Span sum = length(a.from) + length(b.from) + length(a.away + b.away) * r +
-                       just(0.5) * (a.curve + b.curve) * r * r;
+  double least = known;
+  for (std::size_t i = 0; i < near.size() && near[i].apart.low < least; ++i) {
+    for (std::size_t j = i; j < near.size(); ++j) {
+      const Nearest &a = near[i], &b = near[j];
+      if (!(0.5 * (a.apart.low + b.apart.low) < least)) break;
+      const Span sum =
+          a.apart + b.apart + length(a.away + b.away) * r + just(0.5) * (a.curve + b.curve) * r * r;
       least = std::min(least, (just(0.5) * sum).high);
     }
   }
@@ -241,7 +249,7 @@ void Search::add_nearest(const Side& side, const Vec& centre, double radius, Spa
     return left.low > 0 ? just(1) / left : just(kInfinity);
   };
   const auto add = [&](const Vec& from, double blur, Span curve) {
-    near.push_back({from, {}, blur, curve, curve.high < kInfinity});
+    near.push_back({from, {}, {}, blur, curve, curve.high < kInfinity});
   };
   if (!side.arc) {
     const Vec along = side.to - side.from;
