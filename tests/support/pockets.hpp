@@ -108,8 +108,9 @@ inline std::string random_pocket(Random& random, std::size_t number, double size
       std::string outer;
       for (std::size_t i = 0; i < at.size(); ++i) {
         const geom::Point a = at[i], b = at[(i + 1) % at.size()];
-        const double sagitta =
-            norm(b - a) * (0.03 + 0.09 * random.uniform()) * (random.uniform() < 0.5 ? 1 : -1);
+        // One draw a statement: compilers may evaluate the operands of a product in any order.
+        const double depth = 0.03 + 0.09 * random.uniform();
+        const double sagitta = norm(b - a) * (random.uniform() < 0.5 ? depth : -depth);
         outer += (i == 0 ? "" : ",") + (random.uniform() < 0.4 ? line(a, b) : bulge(a, b, sagitta));
       }
       return document(outer, with(0.3 * size));

@@ -239,6 +239,13 @@ TEST(DrawingRepair, AnEndOnTheInsideOfALineClosesAnOutline) {
   EXPECT_EQ(halves.regions.size(), 2u);
   EXPECT_EQ(halves.marks.size(), 2u);
   EXPECT_TRUE(halves.set_aside.empty());
+  // What is drawn twice bounds its face once, and is listed.
+  Sketch twice;
+  twice.polyline({{0, 0}, {0, 20}, {10, 20}, {10, 12}, {0, 12}, {-5, 12}, {-5, 12.5}}, false);
+  twice.polyline({{0, 20.5}, {0, 18}, {-1, 18}}, false);
+  const auto once = made(twice);
+  EXPECT_EQ(once.regions.size(), 1u);
+  EXPECT_FALSE(once.duplicates.empty());
 }
 
 TEST(DrawingRepair, AnEndThatFallsShortOfALineReachesItWithinTheJoinTolerance) {

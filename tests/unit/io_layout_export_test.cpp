@@ -40,9 +40,10 @@ Json sample() {
   sheet["count"] = 3;
   sheet["defects"] = {{{"id", "knot"}, {"severity", 1}, {"outline", outline_json(rectangle(90, 90, 5, 5))}}};
   sheet["zones"] = {{{"id", "edge"}, {"quality", 1}, {"outline", outline_json(rectangle(0, 95, 100, 5))}}};
-  Json& washer =
-      add_part(layout, "washer",
-               {{"curves", {{"outer", circle_json(0, 0, 20)}, {"holes", {circle_json(0, 0, 12, false)}}}}});
+  Json& washer = add_part(
+      layout, "washer",
+      {{"curves",
+        {{"outer", circle_json(0, 0, 20)}, {"holes", Json::array({circle_json(0, 0, 12, false)})}}}});
   washer["grain"] = {{"deg", 90}, {"tolerance_deg", 90}};
   add_part(layout, "disc", {{"curves", {{"outer", circle_json(0, 0, 8)}}}})["name"] = "Диск";
   Json half =

@@ -52,7 +52,7 @@ TEST(LayoutJson, MarksOfPartsAreKeptAsTheyAre) {
   Json json = Json::parse(kLayout);
   const Json line = Json::parse(R"({"line": {"from": [0.1, 1], "to": [2, 1]}})");
   const Json arc = Json::parse(R"({"arc": {"from": [2, 1], "to": [1, 2], "centre": [1, 1], "ccw": true}})");
-  json["parts"][0]["marks"] = {{{"layer", "bend"}, {"edges", {line, arc}}}, {{"edges", {line}}}};
+  json["parts"][0]["marks"] = {{{"layer", "bend"}, {"edges", {line, arc}}}, {{"edges", Json::array({line})}}};
   const auto file = read_layout(json.dump(), "plan.json");
   ASSERT_TRUE(file.has_value()) << file.error().message;
   const layout::Part& part = file->document.parts[0];

@@ -90,6 +90,7 @@ class Assembly {
     if (!options_.strict) {
       trace_branches();
       close_at_touching_ends();
+      list_covered();
     }
     if (contours_.empty()) return refuse(empty_sentence());
     LEKALO_CHECK(nest());
@@ -778,13 +779,16 @@ class Assembly {
     std::vector<LooseEdge> left;
     for (TouchingLines& group :
          touching_lines(lines, std::min(options_.join_tolerance, options_.repair), 2 * options_.repair)) {
-      for (const std::uint32_t line : group.lines) closed[mark_of_line[line]] = 1;
+      for (const std::uint32_t line : group.lines) {
+        closed[mark_of_line[line]] = 1;
+        for (const std::uint32_t curve : lines[line].curves) {
+          worked_[curve].taken = true;
+          touching_.push_back(curve);
+        }
+      }
       for (const MovedCurve& one : group.moved)
         worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kUp);
-      for (LooseContour& contour : group.contours) {
-        for (const std::uint32_t curve : contour.curves) worked_[curve].taken = true;
-        contours_.push_back(std::move(contour));
-      }
+      for (LooseContour& contour : group.contours) contours_.push_back(std::move(contour));
       left.insert(left.end(), group.left.begin(), group.left.end());
     }
     std::size_t kept = 0;
@@ -792,6 +796,24 @@ class Assembly {
       if (closed[i] == 0) std::swap(result_.marks[kept++], result_.marks[i]);
     result_.marks.resize(kept);
     add_marks(left);
+  }
+
+  /// Where curves that were cut into faces run along each other, one of them bounds the face; the others are
+  /// listed as copies.
+  void list_covered() {
+    std::vector<char> covered(worked_.size(), 0);
+    for (const BranchChain& branch : branches_)
+      for (const std::uint32_t curve : branch.curves) covered[curve] = 1;
+    for (const std::uint32_t curve : touching_) covered[curve] = 1;
+    for (const LooseContour& contour : contours_)
+      for (const std::uint32_t curve : contour.curves) covered[curve] = 0;
+    for (const Mark& mark : result_.marks)
+      for (const std::uint32_t curve : mark.curve_of_edge) covered[curve] = 0;
+    for (std::uint32_t i = 0; i < worked_.size(); ++i) {
+      if (covered[i] == 0 || !worked_[i].taken) continue;
+      worked_[i].taken = false;
+      result_.duplicates.push_back(i);
+    }
   }
 
   /// Small loops that begin on a mark, and on no outline, are of the mark.
@@ -1142,6 +1164,7 @@ class Assembly {
   std::vector<std::uint32_t> node_of_end_;
   std::map<std::uint32_t, Point> node_points_;
   std::vector<BranchChain> branches_;
+  std::vector<std::uint32_t> touching_;  ///< curves of lines that close where they touch
   std::vector<LooseContour> contours_;
   std::size_t mends_ = 0;  ///< groups of contours that were mended
   std::vector<Neighbours> neighbours_;

@@ -15,8 +15,9 @@ namespace lekalo::verify {
 /// time.
 [[nodiscard]] inline double step_up(double value) {
   // Doubles of one sign are ordered as their bits are. The sum turns -0 into 0, whose next is a positive one.
-  const auto bits = std::bit_cast<std::int64_t>(value + 0.0);
-  const auto next = std::bit_cast<double>(bits + (bits < 0 ? -1 : 1));
+  // Without a sign the bits of a NaN may overflow.
+  const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);
+  const auto next = std::bit_cast<double>((bits >> 63) != 0 ? bits - 1 : bits + 1);
   return value < std::numeric_limits<double>::infinity() ? next : value;
 }
 /// Returns the next smaller double.
