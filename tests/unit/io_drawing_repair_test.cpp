@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "lekalo/geom/region_check.hpp"
@@ -239,12 +240,16 @@ TEST(DrawingRepair, AnEndOnTheInsideOfALineClosesAnOutline) {
   EXPECT_EQ(halves.regions.size(), 2u);
   EXPECT_EQ(halves.marks.size(), 2u);
   EXPECT_TRUE(halves.set_aside.empty());
-  // What is drawn twice bounds its face once, and is listed.
+  // An arc that lies on two others together bounds nothing more than they do, and is listed.
+  const auto at = [](double degrees) {
+    return 10.0 * geom::Point{std::cos(degrees / 57.29577951308232), std::sin(degrees / 57.29577951308232)};
+  };
   Sketch twice;
-  twice.polyline({{0, 0}, {0, 20}, {10, 20}, {10, 12}, {0, 12}, {-5, 12}, {-5, 12.5}}, false);
-  twice.polyline({{0, 20.5}, {0, 18}, {-1, 18}}, false);
+  twice.line({-20, 0}, {20, 0}).arc(at(0), at(100), {0, 0}).arc(at(80), at(180), {0, 0});
+  twice.arc(at(30), at(150), {0, 0});
   const auto once = made(twice);
   EXPECT_EQ(once.regions.size(), 1u);
+  EXPECT_NEAR(geom::area(once.regions[0]), 50 * 3.14159265358979, 1e-3);
   EXPECT_FALSE(once.duplicates.empty());
 }
 
