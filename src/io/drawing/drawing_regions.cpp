@@ -798,8 +798,7 @@ class Assembly {
     add_marks(left);
   }
 
-  /// Where curves that were cut into faces run along each other, one of them bounds the face; the others are
-  /// listed as copies.
+  /// One of the curves that run along each other bounds a face; the others are listed as copies.
   void list_covered() {
     std::vector<char> covered(worked_.size(), 0);
     for (const BranchChain& branch : branches_)
