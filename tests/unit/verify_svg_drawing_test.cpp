@@ -133,8 +133,17 @@ TEST(VerifySvgDrawing, ABezierCurveAndItsStrokesAreWithinTheDistanceOfEachOther)
       loop{{{0, 0}, {60, 30}, {-30, 30}, {30, 0}}}, cusp{{{0, 0}, {30, 30}, {0, 30}, {30, 0}}},
       back{{{0, 0}, {30, 0}, {-10, 0}, {20, 0}}}, round{{{0, 0}, {5.5228, 0}, {10, 4.4772}, {10, 10}}},
       closed{{{5, 5}, {40, 30}, {-30, 30}, {5, 5}}}, beyond{{{0, 0}, {40, 2}, {40, 2}, {20, 1}}};
+  // Within 1 mm each is as far from one centre all along, but begins or ends outside the sector of its ends,
+  // or turns by half a turn and more, so that the arc of less between its ends is another curve.
+  const Poles past_end{{{0, 0}, {-19, -8}, {18, 8}, {25, 8}}},
+      before_begin{{{0, 0}, {0, 2}, {40, 13}, {19, 7}}}, past_both{{{0, 0}, {-10, -5}, {40, 19}, {17, 8}}},
+      long_past{{{0, 0}, {29, -1}, {31, 3}, {27, 1}}}, long_before{{{0, 0}, {-3, -2}, {-4, 0}, {25, 7}}},
+      half_turn{{{3, 0}, {3, 4}, {-3, 4}, {-3, 0}}},
+      more_than_half{{{3, 0}, {3, 4.37}, {-3.71, 3.78}, {-2.95, -0.52}}};
   for (const double off : {1.0, 1e-2, 1e-4}) {
-    for (const Poles& poles : {parabola, one_end, other_end, wave, loop, cusp, back, round, closed, beyond}) {
+    for (const Poles& poles :
+         {parabola, one_end, other_end, wave, loop, cusp, back, round, closed, beyond, past_end, before_begin,
+          past_both, long_past, long_before, half_turn, more_than_half}) {
       ReadDrawing strokes;
       CurveMaker maker(strokes, off);
       std::array<Vec, 4> given;

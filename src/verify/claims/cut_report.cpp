@@ -94,11 +94,12 @@ bool is_among(const std::vector<std::string>& layers, const std::string& name) {
   });
 }
 
-/// The regions have the same open edges; these are few.
+/// The regions have the same open edges; these are few. Their outlines are the same already, so that it is
+/// enough to tell an edge from the others: no rounding decides, not even where the tolerance is 0.
 bool same_open_edges(const Shape& a, const Shape& b, double tolerance) {
   const auto near = [&](const Vec& p, const Vec& q) {
     const Vec d = p - q;
-    return absolute(d.x).high <= tolerance && absolute(d.y).high <= tolerance;
+    return absolute(d.x).low <= tolerance && absolute(d.y).low <= tolerance;
   };
   const auto all_in = [&](const Shape& one, const Shape& other) {
     return std::all_of(one.sides.begin(), one.sides.end(), [&](const Side& s) {
