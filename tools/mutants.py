@@ -37,6 +37,8 @@ BLOCK = 64  # a file's mutants begin at a multiple, so that a change of one file
 SPACED = re.compile(r" (<=|>=|==|!=|<|>|&&|\|\|)(?=[ \n])")
 EXTREME = re.compile(r"\bstd::(min|max)(<[\w:]+>)?(?=\()")
 NUMBER = re.compile(r"(?<![\w.'\"])(?<!p[-+])(0[xX][0-9a-fA-F']+|\d[\d']*(?:\.\d*)?(?:[eE][+-]?\d+)?)([uUlLfF]*)(?![\w.'\"])")
+# What complains keeps a sentence and is false, so that nothing changes where it counts as false.
+COMPLAINT = re.compile(r"\s*(complain|fail)\(")
 # A constant of a file becomes a function behind its name, so that its mutant can be chosen later than it is made.
 NAMED = re.compile(r"^(?:inline |static )?constexpr ([\w:]+(?: [\w:]+)?) (k\w+) = ([^{},]*);(.*)$")
 
@@ -90,7 +92,9 @@ def places(code):
             continue
         if word in ("&&", "||"):
             glue, kind = ("|", "and") if word == "&&" else ("&", "or")
-            found.append((start, end, kind + " right", f"{word} ::lekalo::mutants::Right<{{k}}>{{{{}}}} {glue}", 1))
+            if not (word == "||" and COMPLAINT.match(code, end)):
+                found.append(
+                    (start, end, kind + " right", f"{word} ::lekalo::mutants::Right<{{k}}>{{{{}}}} {glue}", 1))
             if begins_chain(code, start, word):
                 found.append((start, start, kind + " left", f"{glue} ::lekalo::mutants::Left<{{k}}>{{{{}}}} ", 1))
         else:

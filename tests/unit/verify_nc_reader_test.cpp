@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -25,7 +26,7 @@ std::string told(const Move& move) {
   if (move.arc)
     text += (move.ccw ? "+" : "-") + plain(move.centre.x) + "," + plain(move.centre.y) +
             fmt::format("*{}", move.turns);
-  return text + (move.rapid ? "R" : "F" + plain(move.feed));
+  return text + (move.rapid && move.feed == 0 ? "R" : "F" + plain(move.feed));
 }
 
 /// The moves of a program that is judged.
@@ -103,11 +104,28 @@ TEST(VerifyNcReader, BlocksThatAreComparedSayWhatTheirMovesDoNot) {
       {"G41 D1 G1 X1 Y1 Z1 F9\nX2\nG40 X3\n",
        "1:G41 D1 F9 1,1,1>1,1,1F9\n2:1,1,1>2,1,1F9\n3:G40 2,1,1>3,1,1F9\n"},
       {"G80\nN5 M8 M9\n", "p:2: M8 and M9 exclude each other"},
+      {"G0 X0 Y0 Z5\nG18 G2 I1 K0 F9\n", "1:0,0,5>0,0,5R\n2:F9 223 chords to 0,0,5\n"},
+      {"G0 X0 Y0 Z5\nG18 G3 I1 K0 F9 P2\n", "1:0,0,5>0,0,5R\n2:F9 445 chords to 0,0,5\n"},
+      {"G0 X0 Y0 Z5\nG18 G2 X2 I1 K0 F9 P2\n", "1:0,0,5>0,0,5R\n2:F9 334 chords to 2,0,5\n"},
+      {"G0 X0 Y0 Z5\nG19 G3 Y2 X3 J1 K0 F9\n", "1:0,0,5>0,0,5R\n2:F9 112 chords to 3,2,5\n"},
+      {"G0 X1 Y1\nG18 G2 X3 I1 K0 F9\n", "p:2: an arc from a Z that no block has said"},
+      {"G0 X1 Y2 Z3\nG2 I1 F9\nG28 X5\n", "1:1,2,3>1,2,3R\n2:F9 1,2,3>1,2,3-2,2*1F9\n3:G28 X5\n"},
+      {"G0 X1 Y1 Z1\nG1 X2 F9\nT2 M6\n", "1:1,1,1>1,1,1R\n2:F9 1,1,1>2,1,1F9\n3:M6 T2\n"},
+      {"G53\n", "p:1: G53 without G0 and G90"},
+      {"G0 X1 Y2 Z3\nG28 X5 Z5\n", "1:1,2,3>1,2,3R\n2:G28 X5 Z5\n"},
+      {"G0 X1 Y2 Z3\nG28 Y5 Z5\n", "1:1,2,3>1,2,3R\n2:G28 Y5 Z5\n"},
+      {"G0 X1\nG81 X2 Z-1 R1 F9\n", "p:2: a canned cycle at a place that no block has said"},
+      {"G0 Y1\nG81 Y2 Z-1 R1 F9\n", "p:2: a canned cycle at a place that no block has said"},
+      {"G0 X1 Y2 Z3\nG81 X3 Z-1 R1\n", "1:1,2,3>1,2,3R\n2:G81 R1 Z-1 3,2,3>3,2,3R\n"},
+      {"G0 X1 Y1\nG1 X2 F9\n", "1:1,1,0>1,1,0R\n2:F9 1,1,0>2,1,0F9\n", Control::haas},
+      {"G0 X1. Y1. Z1.\nG98 G81 X2. Z-1. R1. L2 F9.\n", "1:1,1,1>1,1,1R\n2:G98 G81 F9 L2 R1 Z-1 2,1,1>2,1,1R 2,1,1>2,1,1R\n", Control::fanuc},
+      {"G0 X1. Y1. Z1.\nG98 G83 X2. Z-1. R1. Q1. I1. F9.\n", "1:1,1,1>1,1,1R\n2:G98 G83 F9 I1 Q1 R1 Z-1 2,1,1>2,1,1R\n", Control::haas},
   };
   for (const Case& one : cases) EXPECT_EQ(compared(one.program, one.control), one.says) << one.program;
 }
 
 TEST(VerifyNcReader, WordsThatAShopAllowsAreKeptInTheirOrder) {
+  EXPECT_EQ(compared("M200\n", Control::linuxcnc, {200}), "1:M200\n");
   EXPECT_EQ(compared("M200 M33 P1 Q2\n", Control::linuxcnc, {33, 200}), "1:M200 M33 P1 Q2\n");
   EXPECT_EQ(compared("M201\n", Control::linuxcnc, {33, 200}), "p:1: M201 is not understood here");
   EXPECT_EQ(compared("M200 R1\n", Control::linuxcnc, {33, 200}), "p:1: no word of the block takes R");
@@ -222,6 +240,19 @@ TEST(VerifyNcReader, CyclesAreTheMovesThatTheControlMakes) {
       {"G98 G83 X1. Z-1. R2. Q1.5 J1.\n", "p:2: pecks shaped by I, J and K", Control::haas},
       {"G82 G98 X1. Z-1. R2.\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R ", Control::haas},
       {"G84 G98 X1. Z-1. R2.\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5F9 ", Control::haas},
+      {"G98 G83 X1 Z-1 R2 Q1.5\nX2\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,0.5F9 1,0,0.5>1,0,2R 1,0,2>1,0,0.754R 1,0,0.754>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,0.5F9 2,0,0.5>2,0,2R 2,0,2>2,0,0.754R 2,0,0.754>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G82 X1 Z-1 R2 P1\nX2\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G73 X1 Z-1 R2\n", "p:2: G73 without Q in its first block"},
+      {"G98 G73 X1 Z-1 R2 Q0\n", "p:2: Q of a cycle is not above 0"},
+      {"G98 G89 X1 Z-1 R2\n", "p:2: G89 without P in its first block"},
+      {"M3 S9\nG98 G86 X1 Z-1 R2\n", "p:3: G86 without P in its first block"},
+      {"G91 G99 G81 X1 Z-3 R-3\nX1 R-2\n", "p:3: Z or R of a cycle changed under G91 and G99"},
+      {"G98 G81 X1 Z-1 R7\nX2 R7\n", "p:3: R of a cycle changed above the plane that it began at"},
+      {"G98 G81 X1 Z-1 R5\nX2 R5\n", "0,0,5>1,0,5R 1,0,5>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G81 X1 Z-1 R2\nX2 R3\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,3R 2,0,3>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G99 G81 X1 Z-1 R2\nG98 G82 X2 P1 Z-1 R2\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,2R 1,0,2>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G81 X1. Z-1. R2.\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R ", Control::haas},
+      {"G98 G81 X1. Z-1. R2. L1.5\n", "p:2: L of a canned cycle is not a number of holes", Control::haas},
   };
   for (const Case& one : cases) EXPECT_EQ(judged(begin + one.program, one.control), one.says) << one.program;
 }
@@ -261,8 +292,38 @@ TEST(VerifyNcReader, ArcsHaveTheirCentreAndBothEndsOnTheirCircle) {
       {"G2 X0.000001 I1\n",
        "p:2: an arc of nearly no turn or a full one; give a full turn the same end as start"},
       {"G2 X0.000003 Y0.000003 I1\n", "0,0,5>3e-06,3e-06,5-1,0*1F9 "},
+      {"G2 Y0.000001 I1\n", "p:2: an arc of nearly no turn or a full one; give a full turn the same end as start"},
+      {"G2 X0.0025 I0.00127\n", "p:2: the arc's ends are 0.00127 and 0.00123 mm from its centre"},
+      {"G2 X0.0025 I0.00123\n", "p:2: the arc's ends are 0.00123 and 0.00127 mm from its centre"},
   };
   for (const Case& one : cases) EXPECT_EQ(judged(begin + one.program, one.control), one.says) << one.program;
+}
+
+TEST(VerifyNcReader, ArcsOfOtherPlanesRiseEvenlyAcrossThem) {
+  // A quarter of a circle of 3 mm, of which one chord is within 1e-4 mm on 1/96.2; it rises by 6 mm across.
+  struct Upright {
+    const char* words;
+    std::size_t first, second, across;
+    double middle_of_first, middle_of_second;
+  };
+  for (const Upright& one :
+       {Upright{"G18 G3 Z5 X3 Y6 K0 I3", 2, 0, 1, 2, 3}, Upright{"G19 G3 Y3 Z5 X6 J0 K3", 1, 2, 0, 0, 5}}) {
+    const auto moves = read_moves({"p", std::string("G0 X0 Y0 Z2\nF9 ") + one.words + "\n"}, 0);
+    ASSERT_TRUE(moves) << moves.error().message;
+    EXPECT_EQ(moves->size(), 97U) << one.words;
+    std::array<double, 3> end{0, 0, 2};
+    for (std::size_t k = 0; k < moves->size(); ++k) {
+      const Move& move = (*moves)[k];
+      EXPECT_EQ((std::array{move.from.x, move.from.y, move.from_z}), end);
+      end = {move.to.x, move.to.y, move.to_z};
+      EXPECT_NEAR(end[one.across], 6 * static_cast<double>(k + 1) / static_cast<double>(moves->size()),
+                  1e-12);
+      EXPECT_NEAR(std::hypot(end[one.first] - one.middle_of_first, end[one.second] - one.middle_of_second), 3,
+                  1e-12);
+    }
+    EXPECT_EQ(end[one.across], 6);
+    EXPECT_EQ(end[one.second], one.middle_of_second);
+  }
 }
 
 TEST(VerifyNcReader, OffsetsAndToolsAreChosenBeforeThePlaceIsKnown) {
@@ -297,6 +358,15 @@ TEST(VerifyNcReader, OffsetsAndToolsAreChosenBeforeThePlaceIsKnown) {
        Control::haas},
       {"G0 X1 Y1 Z0\n", ""},
       {"G0 X1 Y1 Z-0.1\n", "p:1: G0 below Z 0 from a place that no block has said"},
+      {"G0 X1 Z1\nG1 X2 F9\n", "p:2: a motion with feed from a place that no block has said"},
+      {"G0 Y1 Z1\nG1 Y2 F9\n", "p:2: a motion with feed from a place that no block has said"},
+      {"G0 X1 Y1 Z1\nG4 P1 X2\n", "p:2: a dwell beside a motion; give it a block of its own"},
+      {"G0 X1 Y1 Z1\nG53 Z0\nX2\n", ""},
+      {"G80\nY1\n", "p:2: a motion before any of G0, G1, G2, G3"},
+      {"G80\nZ1\n", "p:2: a motion before any of G0, G1, G2, G3"},
+      {"M3 S9\nT1 M6\nG0 X0 Y0 Z5\nF9 G98 G86 X1 Z-1 R2 P1\n", "p:4: G86 while the spindle does not turn so"},
+      {"G91 G0 Z1\n", "p:1: a step of Z from a place that no block has said"},
+      {"G0 X1 Y1 Z1\nG1 X2 F9\nG0 X3\nT2\n", "p:4: a change of the tool after the first cut"},
   };
   for (const Case& one : cases) EXPECT_EQ(judged(one.program, one.control), one.says) << one.program;
 }
@@ -351,6 +421,10 @@ TEST(VerifyNcReader, LinesHaveTheirLettersAndBounds) {
   EXPECT_EQ(judged("G0 X1 A1\n"), "p:1: A turns the part; programs of X, Y and Z are understood");
   EXPECT_EQ(judged("G0 X1 B-1\n"), "p:1: B turns the part; programs of X, Y and Z are understood");
   EXPECT_EQ(judged("M64 P0\n"), "");
+  EXPECT_EQ(judged("M10 M11\n", Control::haas), "");
+  EXPECT_EQ(judged("M0 M3 M8 M10 M29\n", Control::haas), "");
+  EXPECT_EQ(judged("G0 X1 Y1\nZ5\nX2\n", Control::linuxcnc, 1), "1,1,5>2,1,5R ");
+  EXPECT_EQ(judged("{}\n"), "p:1: the character \"{\" is not understood");
   EXPECT_EQ(judged("{\n"), "p:1: the character \"{\" is not understood");
   EXPECT_EQ(judged("@\n"), "p:1: the character \"@\" is not understood");
   EXPECT_EQ(judged("[\n"), "p:1: the character \"[\" is not understood");
@@ -376,6 +450,7 @@ TEST(VerifyNcReader, CommentsThatActOnTheControlAreRefused) {
     EXPECT_EQ(judged(fmt::format("({} x)\n", word)), "") << word;
     EXPECT_EQ(judged(fmt::format("(a{},x)\n", word)), "") << word;
   }
+  EXPECT_EQ(judged("(py,)\n"), acts);
   EXPECT_EQ(judged("(msg, hello)\n(debug,x)\n(,)\n"), "");
   EXPECT_EQ(judged("(a(b)c)\n", Control::haas), "");
   EXPECT_EQ(judged("(a(b)c\n", Control::haas), "p:1: a comment is not closed");
@@ -400,6 +475,10 @@ TEST(VerifyNcReader, NumbersAreReadAsTheyAreWritten) {
   EXPECT_EQ(judged("#1=2\nN#1 G0 X1\n"), "p:2: the number of a block is computed");
   EXPECT_EQ(judged("G0 X+-1\n"), "p:1: X is not followed by a plain number");
   EXPECT_EQ(judged("G0 X-\n"), "p:1: X is not followed by a plain number");
+  EXPECT_EQ(judged("G0 X- \n"), "p:1: X is not followed by a plain number");
+  for (const char* computed : {"#1=2\n", "G0 X[1]\n"})
+    EXPECT_EQ(judged(computed, Control::grbl), "p:1: a variable or expression is no word of this control");
+  EXPECT_EQ(judged("G0 X[-4/2] Y[-1*-2] Z[7 MOD 4]\nX[1]\n"), "-2,2,3>1,2,3R ");
   EXPECT_EQ(judged("G0 X\n"), "p:1: X is not followed by a plain number");
   // Where whole numbers may be thousandths, 0 and what is computed say no unit.
   EXPECT_EQ(judged("G0 X0 Y0. Z1.\nX2.\n", Control::fanuc), "0,0,1>2,0,1R ");

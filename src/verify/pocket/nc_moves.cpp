@@ -79,7 +79,7 @@ class ProgramReader {
         !(takes(*once, 'X') && !block['Y'] && !block['Z']))
       return complain("a dwell beside a motion; give it a block of its own");
     const bool off = block.code(Group::motion_off) != nullptr;
-    if (motion != nullptr && is_cycle(motion) && !block.has_axis())
+    if (is_cycle(motion) && !block.has_axis())
       return complain(fmt::format("{} without X, Y or Z", name_of(*motion)));
     if (off && motion != nullptr && (control_ == Control::linuxcnc || is_cycle(motion)))
       return complain(fmt::format("{} and {} exclude each other", name_of(*block.code(Group::motion_off)),
@@ -127,9 +127,8 @@ class ProgramReader {
           std::ranges::find(kShown, code->group) == kShown.end())
         rest += name_of(*code) + " ";
     // The words have to say whether it is a rapid where no move is seen, as up from a Z that is not known.
-    if (!moved && block.has_axis() && block.code(Group::once) == nullptr && motion_ != nullptr &&
-        !is_cycle(motion_))
-      rest += name_of(*motion_) + " ";
+    // A cycle is seen at its places.
+    if (!moved && block.has_axis() && block.code(Group::once) == nullptr) rest += name_of(*motion_) + " ";
     for (const int m : block.allowed) rest += fmt::format("M{} ", m);
     const bool turns = is_arc(motion_) && block.code(Group::once) == nullptr;
     const std::string_view shown = turns ? "NOXYIJKRP" : block.code(Group::once) != nullptr ? "NO" : "NOXY";
@@ -167,7 +166,8 @@ class ProgramReader {
       feed_ = *block['F'] * unit_;
     }
     unit_ = new_unit;
-    if (!change_tool(block) || !change_offsets(block)) return;
+    change_tool(block);
+    change_offsets(block);
     if (const words::Word* code = block.code(Group::spindle)) spindle_ = code->tenths;
     if (const words::Word* code = block.code(Group::plane)) set_plane(code->tenths);
     if (const words::Word* code = block.code(Group::distance)) incremental_ = code->tenths == 910;
@@ -190,34 +190,31 @@ class ProgramReader {
 
   /// A cycle counts the plane to go back to from where the first of a row of cycles begins.
   void set_motion(const words::Word* code) {
-    if (is_cycle(code) && !is_cycle(motion_)) initial_z_ = at_[2];
+    if (!is_cycle(motion_)) initial_z_ = at_[2];
     if (code != motion_) cycle_ = {}, has_cycle_ = false;
     motion_ = code;
   }
 
   /// The report is of one tool. Nobody knows where it stands after a change.
-  bool change_tool(const NcBlock& block) {
+  void change_tool(const NcBlock& block) {
     const bool changes = block.code(Group::tool_change) != nullptr;
-    if (judged_ && (changes || block['T']) && has_cut_)
-      return complain("a change of the tool after the first cut");
+    if (judged_ && (changes || block['T']) && has_cut_) complain("a change of the tool after the first cut");
     if (changes) known_ = {}, spindle_ = 50;
-    return true;
   }
 
   /// Offsets move what the words for axes mean.
-  bool change_offsets(const NcBlock& block) {
+  void change_offsets(const NcBlock& block) {
     const words::Word* work = block.code(Group::work_offset);
     const words::Word* length = block.code(Group::tool_length);
     const bool other_work = work != nullptr && work != work_offset_;
     const bool other_length = length != nullptr && (length != tool_length_ || block['H'] != tool_length_of_);
     if (judged_ && (other_work || other_length) && is_known())
-      return complain(fmt::format("{} after the first motion changes where the program's places are",
-                                  name_of(other_work ? *work : *length)));
+      complain(fmt::format("{} after the first motion changes where the program's places are",
+                           name_of(other_work ? *work : *length)));
     if (other_work) known_ = {};
     if (other_length) known_[2] = false;
     if (work != nullptr) work_offset_ = work;
     if (length != nullptr) tool_length_ = length, tool_length_of_ = block['H'];
-    return true;
   }
 
   /// A way along Z to a place of the machine that the program does not say. G28 and G30 go by the place that
@@ -244,25 +241,32 @@ class ProgramReader {
     std::array<double, 3> to = at_;
     const bool were_known = is_known(), xy_known = known_[0] && known_[1];
     for (std::size_t i = 0; i < 3; ++i)
-      if (!go_along(i, block[kAxes[i]], 1, to)) return;
+      if (!go_along(i, block[kAxes[i]], to)) return;
     const std::array<double, 3> from = std::exchange(at_, to);
     const bool rapid = motion_->tenths == kRapid;
     if (judged_ && !rapid && !(feed_ > 0)) return void(complain("a motion with feed before any F"));
     if (judged_ && !were_known) return arrive(rapid);
-    if (!judged_ && !(xy_known && known_[0] && known_[1])) return appear(rapid, block.line);
+    if (!xy_known) return appear(rapid, block.line);
     if (is_arc(motion_)) return turn(block, from);
     add_line(rapid, from, block.line);
   }
 
-  /// Follows the word of one axis, `times` times where it is a step.
-  bool go_along(std::size_t i, std::optional<double> word, double times, std::array<double, 3>& to) {
+  /// Follows the word of one axis.
+  bool go_along(std::size_t i, std::optional<double> word, std::array<double, 3>& to) {
     if (!word) return true;
     if (incremental_ && !known_[i] && (judged_ || i < 2))
       return complain(fmt::format("a step of {} from a place that no block has said", kAxes[i]));
-    to[i] = times * *word * unit_ + (incremental_ ? to[i] : 0);
+    to[i] = *word * unit_ + (incremental_ ? to[i] : 0);
     known_[i] = known_[i] || !incremental_;
     return std::abs(to[i]) <= kFarthest ||
            complain(fmt::format("{} is farther than {} mm from the origin", kAxes[i], kFarthest));
+  }
+
+  /// To the next hole of a cycle.
+  bool go_along_xy(const NcBlock& block) {
+    go_along(0, block['X'], at_);
+    go_along(1, block['Y'], at_);
+    return complaint_.empty();
   }
 
   void add_line(bool rapid, const std::array<double, 3>& from, std::size_t line) {
@@ -359,7 +363,7 @@ class ProgramReader {
     cycle_.clear = to_r_plane_ ? cycle_.high : std::max(initial_z_, cycle_.high);
     if (before < cycle_.high) lift(cycle_.high, block.line);
     double over = std::max(before, cycle_.high);
-    for (double k = 0; k < repeats && complaint_.empty(); ++k) {
+    for (double k = 0; k < repeats; ++k) {
       hole(block, over);
       over = cycle_.clear;
     }
@@ -369,7 +373,7 @@ class ProgramReader {
   void visit(const NcBlock& block, double repeats) {
     // No hole is a place all the same, which the words must say alike.
     for (double k = 0; k < std::max(1.0, repeats); ++k) {
-      if (!go_along(0, block['X'], 1, at_) || !go_along(1, block['Y'], 1, at_)) return;
+      if (!go_along_xy(block)) return;
       if (!known_[0] || !known_[1]) return void(complain("a canned cycle at a place that no block has said"));
       moves_.push_back(straight(true, at_, block.line));
     }
@@ -384,7 +388,7 @@ class ProgramReader {
 
   void hole(const NcBlock& block, double over) {
     const auto from = at_;
-    if (!go_along(0, block['X'], 1, at_) || !go_along(1, block['Y'], 1, at_)) return;
+    if (!go_along_xy(block)) return;
     at_[2] = over;
     add_line(true, from, block.line);
     lift(cycle_.high, block.line);
