@@ -44,7 +44,8 @@ std::string result_text(const locate::ConvexResult& result, std::size_t part_poi
 "warnings":[],"seed":0,"work":{},"version":"0.1.0","method":"certified",
 "x":{},"y":{},"theta":{},"theta_deg":{},"mirrored":false,"clearance":{},"upper_bound":{},"gap":{},
 "min_allowance":0,"shortfall":{},"window_deg":[0,360],"contacts":{},"certificate":[{}],"certificate_file":null,
-"alternatives":[],"alternatives_complete":true,"trim":null,"nc":null,"run":{{}}}})",
+"alternatives":[],"alternatives_complete":true,"trim":null,"nc":null,
+"comparison":null,"deviations":null,"run":{{}}}})",
       status, part_points, blank_points, result.work, best.x, best.y, best.theta,
       best.theta * 57.295779513082323, best.clearance, result.upper_bound,
       result.upper_bound - best.clearance, result.shortfall, contacts_text(result.contacts), certificate);

@@ -371,6 +371,7 @@ inline Files write(const Case& c, const Solution& s, double from_deg = 0, double
   f["alternatives_complete"] = "true";
   f["trim"] = "null";
   f["nc"] = "null";
+  f["comparison"] = f["deviations"] = "null";
   f["run"] = R"({"seconds": 0.1, "threads": 1})";
   for (const Piece& piece : s.pieces) {
     IntervalText interval{text_of(piece.from), text_of(piece.to), {}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 
 #include "lekalo/disk/files.hpp"
@@ -31,6 +32,36 @@ class JobsVerify : public testing::Test {
   }
   std::map<std::string, std::string> files_;
 };
+
+/// Margin and largest allowance of these placements were rechecked, and their clearance and degrees believed.
+TEST_F(JobsVerify, PlacementsOfATradeOffHaveTheirClearanceAndAngle) {
+  for (const char* const name : {"bracket.json", "casting.json", "bracket-features.json"})
+    files_[name] = bytes(name);
+  const cases::Json whole = cases::Json::parse(bytes("region-largest.json"));
+  ASSERT_EQ(whole["demands"]["trade_off"].size(), 2U);
+  const auto told = [&](const std::function<void(cases::Json&)>& change) {
+    cases::Json result = whole;
+    change(result["demands"]["trade_off"][1]);
+    const Result<Verified> done = verified(result.dump());
+    if (!done) return done.error().message;
+    std::string all;
+    for (const std::string& finding : done->report.findings) all += finding + "\n";
+    return all;
+  };
+  EXPECT_EQ(told([](cases::Json&) {}), "");
+  EXPECT_EQ(told([](cases::Json& point) { point["clearance"] = point["clearance"].get<double>() - 0.5; }),
+            "");
+  for (const double more : {1e-9, 0.5}) {
+    const std::string all =
+        told([&](cases::Json& point) { point["clearance"] = point["clearance"].get<double>() + more; });
+    EXPECT_NE(all.find("demands.trade_off[1]: clearance"), std::string::npos) << more << all;
+  }
+  EXPECT_NE(
+      told([](cases::Json& point) { point["theta_deg"] = 1; }).find("demands.trade_off[1]: theta_deg is 1"),
+      std::string::npos);
+  for (const char* const key : {"clearance", "theta_deg"})
+    EXPECT_NE(told([&](cases::Json& point) { point.erase(key); }).find(key), std::string::npos);
+}
 
 TEST_F(JobsVerify, AResultIsConfirmedFromWhatTheFinderGives) {
   const Result<Verified> done = verified(bytes("convex.json"));

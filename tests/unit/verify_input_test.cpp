@@ -185,6 +185,10 @@ BadInput field(const char* what, const char* words, const char* key, std::string
   return {what, words, [key, value = std::move(value)](Files& f) { f[key] = value; }};
 }
 
+BadInput without(const char* words, const char* key) {
+  return {key, words, [key](Files& f) { f.erase(key); }};
+}
+
 TEST(VerifyInput, WhatCannotBeReadIsRefusedInOneSentence) {
   const Points& points = example().blank;
   const Points open_end{{0, 0}, {5, 0}, {5, 5}};
@@ -250,6 +254,10 @@ TEST(VerifyInput, WhatCannotBeReadIsRefusedInOneSentence) {
       field("null for a number", "field clearance is null", "clearance", "null"),
       field("another format", "format", "format", R"({"name": "other", "version": 1})"),
       field("another version", "format", "format", R"({"name": "lekalo-locate", "version": 2})"),
+      without("field trim is missing", "trim"),
+      without("field nc is missing", "nc"),
+      without("field comparison is missing", "comparison"),
+      without("field deviations is missing", "deviations"),
       field("mirrored", "mirrored", "mirrored", "true"),
       field("units inch", "units", "units", "\"inch\""),
       field("no such status", "\"fine\" is no status", "status", "\"fine\""),

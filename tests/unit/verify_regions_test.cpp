@@ -61,12 +61,13 @@ struct Rings {
  "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
  "regions": {{"part": {}, "blank": {}}}, "contacts": {},
  "certificate": {{"pivot": {}, "trees": [{{"mirrored": false, {}, "nodes": [{}]}}]}}, "certificate_file": null,
- "locked": null, "demands": null, "scan": null, "part_cut": false}})",
+ "locked": null, "demands": null, "scan": null, "part_cut": false, "largest_certificate": null,
+ "trim": null, "nc": null, "comparison": null, "deviations": null}})",
         status, x, y, theta, theta_deg, mirrored, mirror, clearance, upper, gap, tolerances, part(), blank,
         contacts, pivot, box, tree);
   }
-  [[nodiscard]] Result<LocateReport> report() const {
-    const std::string result = text();
+  [[nodiscard]] Result<LocateReport> report() const { return report_of(text()); }
+  [[nodiscard]] Result<LocateReport> report_of(const std::string& result) const {
     const std::string part = part_file == "[]" ? file_of(result, "part") : part_file;
     return verify_locate({{"result.json", result},
                           {"part.json", part},
@@ -192,9 +193,68 @@ std::string pinned(const std::string& upper, const std::string& tolerance, const
  "regions": {{"part": {{"units": "mm", "outer": {}}}, "blank": {{"units": "mm", "outer": {}, "holes": [{}]}}}},
  "contacts": [], "certificate": {{"pivot": [0, 0], "trees": [{{"mirrored": false, "theta": [0, 6.2831853071795872],
  "x": [-{}, {}], "y": [-{}, {}], "nodes": [{}]}}]}}, "certificate_file": null,
- "locked": null, "demands": null, "scan": null, "part_cut": false}})",
+ "locked": null, "demands": null, "scan": null, "part_cut": false, "largest_certificate": null,
+ "trim": null, "nc": null, "comparison": null, "deviations": null}})",
       upper, std::stod(upper) + 0.5, tolerance, tolerance, Rings::circle("0", "0", 11),
       Rings::circle("0", "0", 12), Rings::circle("0", "0", 0.1), reach, reach, reach, reach, nodes);
+}
+
+/// What a result says nothing of it says with a null. Taken out, nobody knows what was claimed.
+TEST(VerifyRegions, FieldsThatAreNullHaveToBeThere) {
+  const std::string whole = Rings().text();
+  for (const std::string key : {"locked", "demands", "scan", "largest_certificate", "certificate_file",
+                                "trim", "nc", "comparison", "deviations"}) {
+    std::string text = whole;
+    const std::string field = fmt::format("\"{}\": null", key);
+    const std::size_t at = text.find(field);
+    ASSERT_NE(at, std::string::npos) << key;
+    text.replace(at, field.size(), "\"warnings\": []");
+    const auto report = Rings().report_of(text);
+    ASSERT_FALSE(report) << key;
+    EXPECT_NE(report.error().message.find(fmt::format("field {} is missing", key)), std::string::npos)
+        << report.error().message;
+  }
+}
+
+TEST(VerifyRegions, AWordThatNoRegionHasIsRefused) {
+  const std::string outer = R"({"units": "mm", "name": "ring", )";
+  for (const auto& [word, told] : std::vector<std::pair<std::string, std::string>>{
+           {R"("islandss": [], )", "field islandss is not one of a region file"},
+           {R"("date": 5, )", ""},
+           {"", ""}}) {
+    Rings rings;
+    rings.part_file =
+        outer + word + file_of(rings.text(), "part").substr(std::string(R"({"units": "mm", )").size());
+    const auto report = rings.report();
+    ASSERT_TRUE(report) << report.error().message;
+    std::string all;
+    for (const std::string& finding : report->findings) all += finding + "\n";
+    EXPECT_NE(all.find(told), std::string::npos) << all;
+    EXPECT_EQ(all.find("the part used is not") == std::string::npos, told.empty()) << all;
+  }
+}
+
+TEST(VerifyRegions, HowADrawingWasReadIsSaidOfDrawingsAlone) {
+  const auto with_drawings = [](const std::string& drawings) {
+    std::string text = Rings().text();
+    return text.insert(text.find("\"locked\""), "\"drawings\": " + drawings + ", ");
+  };
+  const auto all_of = [](const Result<LocateReport>& report) {
+    std::string all = report ? "" : report.error().message;
+    if (report)
+      for (const std::string& finding : report->findings) all += finding + "\n";
+    return all;
+  };
+  const std::string known = R"({"layers": [], "join": 0.01, "set_aside": []})";
+  const std::string word = "it is no drawing";
+  EXPECT_EQ(all_of(Rings().report_of(with_drawings(R"({"part": null, "blank": null})"))).find(word),
+            std::string::npos);
+  EXPECT_NE(all_of(Rings().report_of(with_drawings(R"({"part": 1, "blank": null})"))).find(word),
+            std::string::npos);
+  EXPECT_NE(all_of(Rings().report_of(with_drawings(R"({"part": null, "blank": )" + known + "}"))).find(word),
+            std::string::npos);
+  EXPECT_NE(all_of(Rings().report_of(with_drawings(R"({"part": null})"))).find("drawings.blank is missing"),
+            std::string::npos);
 }
 
 TEST(VerifyRegions, ABallInTheBlanksHoleProvesNoMoreThanItsRadius) {
@@ -240,7 +300,8 @@ double least_proved(const std::string& at, const std::string& from, const std::s
  "regions": {{"part": {{"units": "mm", "outer": {3}}}, "blank": {{"units": "mm", "outer": {4}}}}},
  "contacts": [], "certificate": {{"pivot": [0, 0], "trees": [{{"mirrored": false, "theta": [0, 0],
  "x": [{5}, {6}], "y": [0, 0], "nodes": [{7}]}}]}}, "certificate_file": null,
- "locked": {{"x": {0}, "y": 0}}, "demands": null, "scan": null, "part_cut": false}})",
+ "locked": {{"x": {0}, "y": 0}}, "demands": null, "scan": null, "part_cut": false, "largest_certificate": null,
+ "trim": null, "nc": null, "comparison": null, "deviations": null}})",
         at, upper, upper - 0.5, Rings::circle("0", "0", 11), Rings::circle("1000000", "0", 12), from, to,
         nodes);
     const auto report = verify_locate({{"r", text},
@@ -344,7 +405,8 @@ struct OwnOutline {
  "upper_bound": {}, "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
  "regions": {{"part": {{"units": "mm", "outer": {}, "holes": []}},
  "blank": {{"units": "mm", "outer": {}, "holes": []}}}}, "contacts": [], "certificate": "{}",
- "certificate_file": null, "locked": null, "demands": null, "scan": null, "part_cut": false}})",
+ "certificate_file": null, "locked": null, "demands": null, "scan": null, "part_cut": false, "largest_certificate": null,
+ "trim": null, "nc": null, "comparison": null, "deviations": null}})",
         x, clearance, upper, gap, tolerances, part, blank, certificate);
     const auto report = verify_locate(
         {{"result.json", result}, {"part.dxf", part_file}, {"blank.dxf", blank_file}, std::nullopt});

@@ -77,7 +77,9 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
   fields.each("trade_off", [&](Json item, const std::string& path) {
     Fields point(item, path, complaint);
     WrittenTradeOff t;
-    t.x = point.number("x"), t.y = point.number("y"), t.theta = point.number("theta");
+    t.x = point.number("x"), t.y = point.number("y");
+    t.theta = point.number("theta"), t.theta_deg = point.number("theta_deg");
+    t.clearance = enclosed(point.number("clearance"));
     t.margin = enclosed(point.number("margin")), t.largest = enclosed(point.number("largest"));
     if (!point.get("mirrored").is_bool()) point.complain(fmt::format("{}.mirrored is no truth value", path));
     t.mirrored = point.get("mirrored").is_bool() && point.get("mirrored").is_true();
@@ -310,7 +312,8 @@ bool DemandCheck::grown_sticks_out(std::size_t side, Span by, double more_than) 
     const Vec normal = unit(s.arc ? along : Vec{-along.y, along.x});
     for (const Vec& q : {p, p + normal * just(by.low), p - normal * just(by.low)}) {
       if (!(signed_distance(q, blank_).high < -more_than)) continue;
-      // A finished edge is cut in and has nothing around it, and a point beyond a part's other side is of no edge here.
+      // A finished edge is cut in and has nothing around it, and a point beyond a part's other side is of no
+      // edge here.
       if (by.low >= 0) return true;
     }
   }

@@ -31,9 +31,9 @@ struct WrittenSecond {
 
 /// A placement of the trade-off curve.
 struct WrittenTradeOff {
-  Decimal x, y, theta;
+  Decimal x, y, theta, theta_deg;
   bool mirrored = false;
-  Span margin, largest;
+  Span clearance, margin, largest;
 };
 
 struct WrittenDemands {

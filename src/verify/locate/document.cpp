@@ -95,8 +95,6 @@ void read_trim(Fields& fields, ResultDocument& result, std::string& complaint) {
   });
 }
 
-bool is_given(Json value) { return !value.text.empty() && !value.is_null(); }
-
 void read_comparison(Json value, ResultDocument& result, std::string& complaint) {
   Fields fields(value, "comparison", complaint);
   WrittenComparison& c = result.comparison.emplace();
@@ -114,11 +112,10 @@ void read_comparison(Json value, ResultDocument& result, std::string& complaint)
 }
 
 void read_extras(Fields& fields, ResultDocument& result, std::string& complaint) {
-  const Json nc = fields.get("nc");
-  if (nc.text.empty()) fields.complain("field nc is missing");
-  if (is_given(nc)) result.nc = read_written_nc(nc, complaint);
-  if (const Json value = fields.get("comparison"); is_given(value)) read_comparison(value, result, complaint);
-  if (const Json value = fields.get("deviations"); is_given(value)) {
+  if (const Json nc = fields.get("nc"); !nc.is_null()) result.nc = read_written_nc(nc, complaint);
+  if (const Json value = fields.get("comparison"); !value.is_null())
+    read_comparison(value, result, complaint);
+  if (const Json value = fields.get("deviations"); !value.is_null()) {
     Fields deviations(value, "deviations", complaint);
     result.deviations = {deviations.index("points"), deviations.number("least"),
                          deviations.number("greatest")};
@@ -153,6 +150,7 @@ Result<ResultDocument> read_result_document(Json written, const std::string& nam
     Fields contact(item, path, complaint);
     result.contacts.push_back(read_contact(contact));
   });
+  fields.require({"certificate", "certificate_file", "trim", "nc", "comparison", "deviations"});
   read_proof(fields, result, complaint);
   fields.each("alternatives", [&](Json item, const std::string& path) {
     Fields alternative(item, path, complaint);

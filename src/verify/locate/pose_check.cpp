@@ -99,7 +99,11 @@ class PoseCheck {
   void check_shape(const char* role, const Shape& shape);
   Origin check_input(const char* role, const RegionClaim& claim);
   void check_clearance();
+  /// Returns the exact clearance less the tolerances.
+  Span check_clearance(const std::string& whose, const Shape& placed, const std::optional<ExactShift>& shift,
+                       Span written);
   void check_pose();
+  void check_degrees(const std::string& whose, const Decimal& theta, const Decimal& written);
   void check_allowed(const std::string& whose, const Decimal& x, const Decimal& y, const Decimal& angle,
                      bool mirrored);
   void check_contacts();
@@ -158,43 +162,53 @@ Origin PoseCheck::check_input(const char* role, const RegionClaim& claim) {
 }
 
 void PoseCheck::check_clearance() {
-  const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
-  // Adding even a zero tolerance widens an enclosure, and a part that touches has nothing to spare.
-  const bool none = (r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0) || lies_in_one_file();
-  // The clearance claimed for the regions as they are written.
-  const Span claimed = none ? r_.clearance : r_.clearance + tolerances;
   std::optional<ExactShift> shift;
   if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
   // Findings are already there for an outline with a fault, and such an outline proves nothing.
   if (!report_.findings.empty()) shift.reset();
-  const Span exact = clearance(r_.part, placed_, r_.blank, shift, claimed.low);
+  const Span exact = check_clearance("", placed_, shift, r_.clearance);
+  report_.clearance_low = fmt::format("{}", exact.low);
+  report_.clearance_high = fmt::format("{}", exact.high);
+}
+
+Span PoseCheck::check_clearance(const std::string& whose, const Shape& placed,
+                                const std::optional<ExactShift>& shift, Span written) {
+  const Span tolerances = r_.part_tolerance + r_.blank_tolerance;
+  // Adding even a zero tolerance widens an enclosure, and a part that touches has nothing to spare.
+  const bool none = (r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0) || lies_in_one_file();
+  // The clearance claimed for the regions as they are written.
+  const Span claimed = none ? written : written + tolerances;
+  const Span exact = clearance(r_.part, placed, r_.blank, shift, claimed.low);
   const Span less = none ? exact : exact - tolerances;
-  report_.clearance_low = fmt::format("{}", less.low);
-  report_.clearance_high = fmt::format("{}", less.high);
-  if (claimed.high <= exact.low) return;
+  if (claimed.high <= exact.low) return less;
   if (exact.low > 0)
     find(
-        "clearance {} mm is above {} mm, the least distance between the outlines at its pose, less the "
+        "{}clearance {} mm is above {} mm, the least distance between the outlines at its pose, less the "
         "tolerances",
-        r_.clearance.low, less.low);
+        whose, written.low, less.low);
   else
     find(
-        "clearance is {} mm, but the placed part {}: the exact one is between {} and {} mm, less the "
+        "{}clearance is {} mm, but the placed part {}: the exact one is between {} and {} mm, less the "
         "tolerances",
-        r_.clearance.low,
+        whose, written.low,
         exact.high < 0 ? "sticks out of the blank by more"
                        : "meets the outline of the blank, or cannot be told from doing so",
         less.low, less.high);
+  return less;
 }
 
 void PoseCheck::check_pose() {
   check_allowed("", r_.x, r_.y, r_.theta, r_.mirrored);
-  const Precision wide = 128 + angle_bits(r_.theta);
-  const Interval degrees = Interval(r_.theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
-  const double theta = degrees.high_double();
-  if (!(std::abs((degrees - Interval(r_.theta_deg, 128 + angle_bits(r_.theta_deg))).high_double()) <=
-        1e-14 * std::abs(theta)))
-    find("theta_deg is {}, but theta means {} degrees", approximate(r_.theta_deg), theta);
+  check_degrees("", r_.theta, r_.theta_deg);
+}
+
+void PoseCheck::check_degrees(const std::string& whose, const Decimal& theta, const Decimal& written) {
+  const Precision wide = 128 + angle_bits(theta);
+  const Interval degrees = Interval(theta, wide) * Interval(Integer(180), wide) / Interval::pi(wide);
+  const double meant = degrees.high_double();
+  if (!(std::abs((degrees - Interval(written, 128 + angle_bits(written))).high_double()) <=
+        1e-14 * std::abs(meant)))
+    find("{}theta_deg is {}, but theta means {} degrees", whose, approximate(written), meant);
 }
 
 /// Checks locked shifts, the window and mirroring.
@@ -214,17 +228,19 @@ void PoseCheck::check_allowed(const std::string& whose, const Decimal& x, const 
     find("{}theta is {} degrees, outside the window from {} to {}", whose, theta, from, to);
 }
 
-/// Checks that every placement of the trade-off curve has the margin and the largest allowance that the
-/// result states for it.
+/// Checks that every placement of the trade-off curve has the clearance, the margin and the largest allowance
+/// that the result states for it.
 void PoseCheck::check_curve() {
   for (std::size_t k = 0; k < r_.demands->curve.size(); ++k) {
     const WrittenTradeOff& point = r_.demands->curve[k];
     const std::string whose = fmt::format("demands.trade_off[{}]: ", k);
     check_allowed(whose, point.x, point.y, point.theta, point.mirrored);
+    check_degrees(whose, point.theta, point.theta_deg);
     WrittenDemands here = *r_.demands;
     here.margin = point.margin, here.largest = point.largest;
     const Shape at = placed(r_.part, motion_of(Interval(point.theta, 96 + angle_bits(point.theta)),
                                                enclosed(point.x), enclosed(point.y), point.mirrored));
+    check_clearance(whose, at, std::nullopt, point.clearance);
     std::vector<std::string> findings;
     DemandCheck(here, r_.part, at, r_.blank, r_.part_tolerance + r_.blank_tolerance, findings)
         .check_placement();
@@ -282,11 +298,7 @@ void PoseCheck::check_beside_demands() {
 }
 
 void PoseCheck::check_side() {
-  if (!r_.nc) {
-    if (inputs_.program && Fields(root_, "", complaint_).get("nc").text.empty())
-      find("the result names a program, but says nothing of it: field nc is missing");
-    return;
-  }
+  if (!r_.nc) return;
   const Span left = r_.clearance - enclosed(r_.nc->rounding_mm);
   if (enclosed(r_.nc->clearance).low > left.high || sgn(r_.nc->rounding_mm.digits) < 0)
     find("the program's clearance {} is above clearance less its rounding", approximate(r_.nc->clearance));

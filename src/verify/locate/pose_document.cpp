@@ -53,16 +53,18 @@ RegionDocument read_region_document(Json root, std::string& complaint) {
       fields.complain(fmt::format("the units of {} are not mm", path));
     *to = read_shape(regions.get(key), path, complaint);
   }
-  for (const std::string_view key : {"locked", "demands", "scan", "part_cut"})
-    if (fields.get(key).text.empty()) fields.complain(fmt::format("field {} is missing", key));
+  // What lekalo 0.1 wrote has no drawings.
+  fields.require({"locked", "demands", "scan", "part_cut", "certificate", "largest_certificate",
+                  "certificate_file", "trim", "nc", "comparison", "deviations"});
   if (const Json locked = fields.get("locked"); !locked.is_null()) {
     Fields shift(locked, "locked", complaint);
     r.locked_x = shift.number_or_null("x"), r.locked_y = shift.number_or_null("y");
   }
-  if (!fields.get("part_cut").text.empty()) r.part_cut = truth_of(fields, "part_cut");
+  r.part_cut = truth_of(fields, "part_cut");
   r.scan = fields.get("scan");
   if (const Json drawings = fields.get("drawings"); !drawings.text.empty()) {
     Fields each(drawings, "drawings", complaint);
+    each.require({"part", "blank"});
     r.part_drawing = each.get("part"), r.blank_drawing = each.get("blank");
   }
   const Json demands = fields.get("demands");
@@ -74,10 +76,9 @@ RegionDocument read_region_document(Json root, std::string& complaint) {
     r.upper_bound = enclosed(fields.number("upper_bound")), r.gap = enclosed(fields.number("gap"));
   }
   for (const std::string_view key : {"trim", "comparison", "deviations"})
-    if (const Json value = fields.get(key); !value.text.empty() && !value.is_null())
+    if (!fields.get(key).is_null())
       fields.complain(fmt::format("field {} says something that this checker does not know", key));
-  if (const Json nc = fields.get("nc"); !nc.text.empty() && !nc.is_null())
-    r.nc = read_written_nc(nc, complaint);
+  if (const Json nc = fields.get("nc"); !nc.is_null()) r.nc = read_written_nc(nc, complaint);
   fields.each("contacts", [&](Json item, const std::string& path) {
     Fields contact(item, path, complaint);
     const auto point = [&](std::string_view key) {
@@ -93,7 +94,7 @@ RegionDocument read_region_document(Json root, std::string& complaint) {
                           point("blank_at"), approximate(contact.number("distance")),
                           approximate(contact.number("multiplier"))});
   });
-  r.in_file = !fields.get("certificate_file").text.empty() && !fields.get("certificate_file").is_null();
+  r.in_file = !fields.get("certificate_file").is_null();
   if (r.part_tolerance.low < 0 || r.blank_tolerance.low < 0) fields.complain("a tolerance is negative");
   return r;
 }

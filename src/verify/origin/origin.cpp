@@ -8,6 +8,7 @@
 #include "scan_check.hpp"
 #include "tree_check.hpp"
 #include "verify/read/contour.hpp"
+#include "verify/read/known_fields.hpp"
 #include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
@@ -104,6 +105,9 @@ Origin of_shape(const RegionClaim& claim, Shape shape, LengthUnit unit, const ch
 }
 
 Origin check_regions(const RegionClaim& claim, Json root) {
+  std::string unknown;
+  refuse_unknown_words(root, unknown);
+  if (!unknown.empty()) return fault(unknown);
   return in_either_unit(says(root, "units"), [&](LengthUnit unit) {
     std::string complaint;
     Shape written = read_shape(root, claim.file.name, complaint, unit == LengthUnit::inch);
@@ -224,9 +228,12 @@ Origin check_drawing_file(const RegionClaim& claim) {
 
 Origin check_origin(const RegionClaim& claim) {
   const std::string ending = ending_of(claim.file.name);
+  const bool is_drawing = claim.scan.is_null() && (ending == ".dxf" || ending == ".svg");
+  if (!is_drawing && !claim.drawing.text.empty() && !claim.drawing.is_null())
+    return fault("it is no drawing, but the field drawings says how one was read");
   if (!claim.scan.is_null()) return check_scan_file(claim);
   if (ending == ".ply") return fault("it holds measured points, but the field scan is null");
-  if (ending == ".dxf" || ending == ".svg") return check_drawing_file(claim);
+  if (is_drawing) return check_drawing_file(claim);
   // A document without an ending is told by its beginning.
   const std::size_t begin = claim.file.bytes.find_first_not_of(" \t\r\n");
   const bool is_object = begin != std::string_view::npos && claim.file.bytes[begin] == '{';

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,6 +57,12 @@ class Fields {
     JsonItems items(value);
     for (std::size_t i = 0; const auto item = items.next(); ++i)
       f(*item, fmt::format("{}[{}]", name(key), i));
+  }
+  /// Complains of a member that is not there, not even as null: whoever took it out may have meant to hide
+  /// what it said.
+  void require(std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys)
+      if (get(key).text.empty()) complain(fmt::format("field {} is missing", name(key)));
   }
   [[nodiscard]] std::string name(std::string_view key) const {
     return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <span>
 #include <string_view>
@@ -42,6 +43,9 @@ constexpr Known kArc[] = {{"from"}, {"to"}, {"centre"}, {"ccw"}};
 constexpr Known kEdge[] = {{"line", kLine}, {"arc", kArc}, {"open"}};
 constexpr Known kPiece[] = {{"outer", kEdge}, {"holes", kEdge}};
 constexpr Known kRegion[] = {{"units"}, {"outer", kEdge}, {"holes", kEdge}, {"pieces", kPiece}};
+constexpr Known kPieceOfFile[] = {{"outer", kEdge}, {"holes", kEdge}, {"islands", kEdge}};
+constexpr Known kRegionFile[] = {
+    {"outer", kEdge}, {"holes", kEdge}, {"islands", kEdge}, {"pieces", kPieceOfFile}};
 constexpr Known kRegions[] = {{"part", kRegion}, {"blank", kRegion}};
 constexpr Known kSlice[] = {{"height"}, {"thickness"}};
 constexpr Known kScan[] = {{"points"},         {"proved"},   {"ordered"}, {"guard"},      {"step"},
@@ -105,12 +109,13 @@ constexpr Known kPlacement[] = {{"format", kFormat},
                                 {"intervals", kIntervals}};
 constexpr Known kOfReports[] = {{"regions", kRegion}, {"drawing", kDrawing}, {"scan", kScan}};
 
-void look(Json value, std::span<const Known> known, const std::string& path, std::string& complaint) {
+void look(Json value, std::span<const Known> known, const std::string& path, std::string& complaint,
+          std::string_view whose = "a placement") {
   if (!complaint.empty() || !(value.is_object() || value.is_array())) return;
   JsonItems items(value);
   if (value.is_array()) {
     for (std::size_t i = 0; const auto item = items.next(); ++i)
-      look(*item, known, fmt::format("{}[{}]", path, i), complaint);
+      look(*item, known, fmt::format("{}[{}]", path, i), complaint, whose);
     return;
   }
   std::set<std::string_view> seen;
@@ -120,11 +125,11 @@ void look(Json value, std::span<const Known> known, const std::string& path, std
     const auto found =
         std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.name == items.key(); });
     if (found == known.end())
-      complaint = fmt::format("field {} is not one of a placement", name);
+      complaint = fmt::format("field {} is not one of {}", name, whose);
     else if (!seen.insert(found->name).second)
       complaint = fmt::format("field {} is given twice", name);
     else if (!found->members.empty())
-      look(*item, found->members, name, complaint);
+      look(*item, found->members, name, complaint, whose);
     if (!complaint.empty()) return;
   }
 }
@@ -138,6 +143,20 @@ void refuse_unknown_fields(Json placement, std::string& complaint) {
 void refuse_unknown_fields(Json value, const std::string& key, std::string& complaint) {
   for (const Known& one : kOfReports)
     if (one.name == key) look(value, one.members, key, complaint);
+}
+
+void refuse_unknown_words(Json region, std::string& complaint) {
+  JsonItems items(region);
+  while (const auto item = items.next()) {
+    // A single value beside the outline is its unit, or a name or a date for people.
+    if (!item->is_object() && !item->is_array()) continue;
+    const auto* const found = std::find_if(std::begin(kRegionFile), std::end(kRegionFile),
+                                           [&](const Known& one) { return one.name == items.key(); });
+    if (found != std::end(kRegionFile))
+      look(*item, found->members, std::string(found->name), complaint, "a region file");
+    else if (complaint.empty())
+      complaint = fmt::format("field {} is not one of a region file", excerpt(items.key()));
+  }
 }
 
 }  // namespace lekalo::verify

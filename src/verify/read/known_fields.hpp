@@ -14,4 +14,8 @@ void refuse_unknown_fields(Json placement, std::string& complaint);
 /// The same for a value that stands in other reports too: `key` is "regions", "drawing" or "scan".
 void refuse_unknown_fields(Json value, const std::string& key, std::string& complaint);
 
+/// The same for a file of a region: a word that is misspelt may have been meant to say something of its
+/// outline.
+void refuse_unknown_words(Json region, std::string& complaint);
+
 }  // namespace lekalo::verify
