@@ -55,13 +55,14 @@ def edges(points):
     return made
 
 
-def is_convex(points):
+def is_convex(points, slack=D(0)):
+    """No corner is turned the other way, but for dents of at most `slack`."""
     turns = set()
     n = len(points)
     for k in range(n):
         a, b, c = points[k], points[(k + 1) % n], points[(k + 2) % n]
         cross = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
-        if cross:
+        if abs(cross) > slack * ((c[0] - a[0]) ** 2 + (c[1] - a[1]) ** 2).sqrt():
             turns.add(cross > 0)
     return len(turns) == 1
 
@@ -71,6 +72,18 @@ def convex_clearance(part, blank, pose):
     there = placed(part, *pose)
     return min(n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1])
                for a, n in filter(None, edges(blank)) for p in there)
+
+
+def balance(sides):
+    """The weights with which three normals sum to nothing, 1 together; None where they are parallel, or one weighs less
+    than nothing by more than a rounding of parallel sides can make."""
+    normals = [n for _, n in sides]
+    cross = lambda u, v: u[0] * v[1] - u[1] * v[0]
+    weights = [cross(normals[1], normals[2]), cross(normals[2], normals[0]), cross(normals[0], normals[1])]
+    whole = sum(weights)
+    if whole == 0 or any(w / whole < D("-1e-6") for w in weights):
+        return None
+    return [w / whole for w in weights]
 
 
 def interval_bound(part, sides, interval):
@@ -83,15 +96,20 @@ def interval_bound(part, sides, interval):
     if len(chosen) != 3 or None in chosen or min(c[k] for c in interval["contacts"]
                                                  for k in ("blank_edge", "part_vertex")) < 0:
         return None
-    normals = [n for _, n in chosen]
-    cross = lambda u, v: u[0] * v[1] - u[1] * v[0]
-    weights = [cross(normals[1], normals[2]), cross(normals[2], normals[0]), cross(normals[0], normals[1])]
-    whole = sum(weights)
-    if whole == 0 or any(w / whole < 0 for w in weights):
+    weights = balance(chosen)
+    if weights is None:
         return None
-    weights = [w / whole for w in weights]
     if any(abs(number(c["multiplier"]) - w) > D("1e-6") for c, w in zip(interval["contacts"], weights)):
         return None
+    # Of two opposite sides one may be turned by a last place. Then the third, which weighs nothing, may be on the wrong
+    # side of them; another one in its stead makes a bound that is as good.
+    light = min(range(3), key=lambda j: weights[j])
+    if weights[light] < 0:
+        others = [chosen[:light] + [side] + chosen[light + 1:] for side in sides if side]
+        chosen, weights = next(((three, w) for three, w in ((three, balance(three)) for three in others)
+                                if w and min(w) >= 0), (None, None))
+        if weights is None:
+            return None
     k = a = b = D(0)
     for m, (origin, n), v in zip(weights, chosen, corners):
         k -= m * (n[0] * origin[0] + n[1] * origin[1])

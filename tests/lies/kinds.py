@@ -5,6 +5,8 @@ import json
 from dataclasses import dataclass, field
 
 import changes
+import demands
+import layouts
 import truth
 
 BENT = ('<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="40mm" viewBox="0 0 80 40"><path d="M0 0H80V40H0Z"/>'
@@ -82,13 +84,13 @@ def kinds():
                "r.json", of_r, truth.regions, inputs=["bracket.json", "casting.json"])
     for role, file in (("part", "bracket.json"), ("blank", "casting.json")):
         yield Kind(f"placement, regions, another {role}", bracket, [region + ["-o", "r.json"]], file, of_r,
-                   truth.region_input, report_of="r.json")
+                   truth.region_input(role), report_of="r.json")
     yield Kind("placement, demands", bracket,
-               [region + ["-o", "r.json", "--features", "bracket-features.json"]], "r.json", of_r, truth.demands,
+               [region + ["-o", "r.json", "--features", "bracket-features.json"]], "r.json", of_r, demands.oracle,
                inputs=["bracket.json", "casting.json", "bracket-features.json"])
     yield Kind("placement, demands, largest", bracket,
                [region + ["-o", "r.json", "--features", "bracket-features.json", "--criterion", "largest",
-                          "--give-up", "0.1", "--trade-off", "2"]], "r.json", of_r, truth.demands,
+                          "--give-up", "0.1", "--trade-off", "2"]], "r.json", of_r, demands.oracle,
                inputs=["bracket-features.json"])
     yield Kind("placement, demands, another features file", bracket,
                [region + ["-o", "r.json", "--features", "bracket-features.json"]], "bracket-features.json", of_r,
@@ -131,15 +133,21 @@ def of_layouts():
                ["verify", "s.json"], truth.check_report, inputs=["nested.json"], base=1)
     for words in (["--process", "laser", "--pierce", "0.3"], ["--process", "router", "--depth", "4", "--pass", "3",
                                                               "--plunge", "200", "--speed", "9000"]):
-        yield Kind("program, profile, " + words[1], frames,
-                   [nest, ["export", "nested.json", "--format", "gcode", "--kerf", "0.3", "--feed", "2000",
-                           "--lead-in", "2", "--sheet", SHEET, "-o", "cut.nc"] + words], "cut.nc",
-                   ["verify", "cut.nc", "--kerf", "0.3", "--sheet", SHEET] + against, truth.profile, form="text")
-    for form in ("dxf", "svg", "hpgl"):
+        cut = [nest, ["export", "nested.json", "--format", "gcode", "--kerf", "0.3", "--feed", "2000", "--lead-in",
+                      "2", "--sheet", SHEET, "-o", "cut.nc"] + words]
+        of_cut = ["verify", "cut.nc", "--kerf", "0.3", "--sheet", SHEET] + against
+        yield Kind("program, profile, " + words[1], frames, cut, "cut.nc", of_cut, truth.profile, form="text")
+    # A step is told where the program may not be off by as much.
+    yield Kind("program, profile, another layout", frames, cut, "nested.json", of_cut, layouts.program,
+               step=lambda value, way: value + way * 2 ** -5)
+    for form, within, step in (("dxf", 2e-6, 2 ** -18), ("svg", 2e-6, 2 ** -18), ("hpgl", 0.04, 2 ** -3)):
         sheet = ["--sheet", SHEET] if form == "hpgl" else []
-        yield Kind("export, " + form.upper(), frames,
-                   [nest, ["export", "nested.json", "--format", form, "-o", "out"] + sheet], "out",
-                   ["verify", "out"] + against + sheet, truth.export(form), form="text")
+        drawn = [nest, ["export", "nested.json", "--format", form, "-o", "out"] + sheet]
+        of_drawn = ["verify", "out"] + against + sheet
+        yield Kind("export, " + form.upper(), frames, drawn, "out", of_drawn, truth.export(form), form="text")
+        yield Kind(f"export, {form.upper()}, another layout", frames, drawn, "nested.json", of_drawn,
+                   layouts.export(within, ("steel 2 mm", 0) if sheet else None),
+                   step=lambda value, way, step=step: value + way * step)
 
 
 def of_pockets():

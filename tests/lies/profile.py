@@ -191,6 +191,13 @@ class Sheet:
                     return False
         return True
 
+    def is_cut_by(self, numbers):
+        """Cuts that follow contours of these numbers cut all, and what is enclosed before what encloses it."""
+        first = {number: k for k, number in reversed(list(enumerate(numbers)))}
+        last = {number: k for k, number in enumerate(numbers)}
+        return set(numbers) == set(range(len(self.contours))) and \
+            not any(self.encloses(i, j) and first[i] < last[j] for i in first for j in last)
+
     def encloses(self, i, j):
         return i != j and inside(self.contours[j][0][0], self.contours[i][0])
 
@@ -208,9 +215,5 @@ def oracle(context):
         if after == before:
             return "information"
         numbers = [known[chain] if chain in known else sheet.followed(chain) for chain in after]
-        if None in numbers or set(numbers) != set(range(len(sheet.contours))):
-            return None
-        first = {number: k for k, number in reversed(list(enumerate(numbers)))}
-        last = {number: k for k, number in enumerate(numbers)}
-        return not any(sheet.encloses(i, j) and first[i] < last[j] for i in first for j in last) or None
+        return None not in numbers and sheet.is_cut_by(numbers) or None
     return holds

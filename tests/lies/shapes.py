@@ -189,22 +189,27 @@ class Cover:
 
     def radius(self, x, y, r, edges, sign):
         """As much of a ball as lies in the material of the part, or in none of the blank's."""
-        key = (x, y, sign)
+        key = (x, y, sign, edges is self.part)
         if key not in self.known_depths:
             self.known_depths[key] = float(sign * depth((number(x), number(y)), edges))
         return min(r, self.known_depths[key])
+
+    def term(self, contact):
+        """Centre, radii together, other centre, multiplier, and what the clearance is at least where c is in the part."""
+        a, b, r, c, d, s, m = contact
+        blank = self.radius(c, d, s, self.blank, -1)
+        return a, b, self.radius(a, b, r, self.part, 1) + blank, c, d, m, -blank
 
     def proves(self, contacts, box, mirrored, bound):
         """No pose of the box has more clearance than `bound`, by the balls of a leaf."""
         whole = sum(c[6] for c in contacts)
         if whole <= 0 or any(c[6] < 0 or c[2] < 0 or c[5] < 0 for c in contacts):
             return False
-        contacts = [(a, b, self.radius(a, b, r, self.part, 1), c, d, self.radius(c, d, s, self.blank, -1), m)
-                    for a, b, r, c, d, s, m in contacts if m > 0]
-        if any(-c[5] > bound for c in contacts):
+        found = [self.term(c) for c in contacts if c[6] > 0]
+        if any(floor > bound for *_, floor in found):
             return False
-        terms = [((-1 if mirrored else 1) * (a - self.pivot[0]), b - self.pivot[1], r + s, c, d, m / whole)
-                 for a, b, r, c, d, s, m in contacts]
+        terms = [((-1 if mirrored else 1) * (a - self.pivot[0]), b - self.pivot[1], off, c, d, m / whole)
+                 for a, b, off, c, d, m, _ in found]
         slope = sum(m * math.hypot(u, v) for u, v, *_, m in terms)
 
         def value(theta, x, y):

@@ -8,6 +8,7 @@ true after it, else None.
 import csv
 import io
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -54,15 +55,47 @@ def is_number(value):
 def same_form(a, b):
     """Two documents differ in numbers alone."""
     if isinstance(a, dict):
-        return isinstance(b, dict) and list(a) == list(b) and all(same_form(a[k], b[k]) for k in a)
+        return isinstance(b, dict) and a.keys() == b.keys() and all(same_form(a[k], b[k]) for k in a)
     if isinstance(a, list):
         return isinstance(b, list) and len(a) == len(b) and all(map(same_form, a, b))
     return is_number(a) and is_number(b) or a == b
 
 
+# Items of lists that each say something for themselves: what is left says less.
+MAY_GO = r"/(contacts|alternatives|certificate|intervals)/\d+$|/certificate/trees/\d+/nodes/\d+/contacts/\d+$"
+
+
+def same_shape(text, region):
+    """A file is a region in mm, and has the edges of this one, in whatever order and direction."""
+    def edges(document):
+        made = []
+        for edge in shapes.edges_of(document):
+            ways = [(edge.a, edge.b, edge.arc and edge.ccw), (edge.b, edge.a, edge.arc and not edge.ccw)]
+            made.append((min(ways)[:2] if edge.full else min(ways), edge.arc and edge.c))
+        return sorted(made, key=str)
+    file = json.loads(text) if text.lstrip().startswith("{") else {}
+    return ("outer" in file or "pieces" in file) and file.get("units", "mm") == "mm" and edges(file) == edges(region)
+
+
+def may_hold(change, before, after, may_go=MAY_GO):
+    """Only numbers are others, or the order of a list, or the sense of an arc, or an item is gone of which more are
+    left: the rest of an oracle decides by computing."""
+    return same_form(before, after) or change.path.endswith("/ccw") or \
+        change.how.startswith(("exchanged", "turned")) or \
+        change.how == "deleted" and bool(re.match(may_go, change.path))
+
+
 def document_of(change):
-    """The document after a change, where no member is there twice."""
-    return None if change.how == "given twice" else json.loads(change.text())
+    """The document after a change, where no member is there twice. What lekalo 0.1 wrote has no drawings and names no
+    control, and means that there are none and LinuxCNC's words."""
+    if change.how == "given twice":
+        return None
+    document = json.loads(change.text())
+    if isinstance(document, dict) and "regions" in document and "tolerances" in document:
+        document.setdefault("drawings", {"part": None, "blank": None})
+    if isinstance(document, dict) and isinstance(document.get("nc"), dict):
+        document["nc"].setdefault("control", "linuxcnc")
+    return document
 
 
 def push_one(folder):
@@ -160,10 +193,16 @@ def contacts_balance(contacts, sides):
 
 def trim_holds(trim, contour, whole):
     """The contour is convex, no side of it cuts or leaves the untrimmed one, and the loss is within what was allowed."""
-    if number(trim["loss"]) > number(trim["tolerance"]) or not exact.is_convex(contour):
+    # Its corners are doubles, so it is convex but for their last places.
+    if number(trim["loss"]) > number(trim["tolerance"]) or not exact.is_convex(contour, last_place(contour)):
         return False
     # A point of the contour is inside where its rays cross an odd number of sides, or it lies on one.
     return all(exact.is_in(p, whole, D("1e-11")) for p in contour)
+
+
+def last_place(points):
+    """The last place of doubles as large as the largest coordinate, twice."""
+    return D("4.5e-16") * max(max(map(abs, p)) for p in points)
 
 
 def comparison_holds(document, part, blank, files):
@@ -220,7 +259,7 @@ def deviations(context):
         rows = list(csv.reader(io.StringIO(change.text())))
         if rows[0] != ["index", "x", "y", "deviation"] or len(rows) != len(blank) + 1:
             return None
-        return all(len(row) == 4 and row[0] == str(k) and (D(row[1]), D(row[2])) == blank[k] and
+        return all(len(row) == 4 and int(row[0]) == k and (D(row[1]), D(row[2])) == blank[k] and
                    abs(D(row[3]) - found[k]) <= slack for k, row in enumerate(rows[1:])) or None
     return holds
 
@@ -232,9 +271,12 @@ def convex(context):
         if matches(OF_PLACEMENTS, change.path):
             return "information"
         after = document_of(change)
-        if after is None or not same_form(before, after):
+        if after is None or not may_hold(change, before, after) or after["format"] != before["format"]:
             return None
-        return convex_holds(after, context.files, after["certificate"]) or None
+        try:
+            return convex_holds(after, context.files, after["certificate"]) or None
+        except (KeyError, TypeError, IndexError):
+            return None
     return holds
 
 
@@ -243,7 +285,7 @@ def convex_certificate(context):
 
     def holds(change):
         after = document_of(change)
-        if after is None or not same_form(json.loads(context.text), after) or after["format"]["version"] != 1:
+        if after is None or not may_hold(change, json.loads(context.text), after) or after["format"]["version"] != 1:
             return None
         return convex_holds(document, context.files, after["intervals"]) or None
     return holds
@@ -252,10 +294,13 @@ def convex_certificate(context):
 def convex_input(role):
     def oracle(context):
         document = context.json("r.json")
+        points = exact.points_of(context.text)
 
         def holds(change):
             files = dict(context.files, **{context.kind.target: change.text()})
-            # A comment and the head of the table are no points.
+            # Comments and the head of the table are for people.
+            if exact.points_of(files[context.kind.target]) == points:
+                return "information"
             if not exact.is_convex(exact.points_of(files[context.kind.target])):
                 return None
             return convex_holds(document, files, document["certificate"]) or None
@@ -264,16 +309,17 @@ def convex_input(role):
 
 
 def moved_holds(document, files):
-    """A program is the original moved by the pose before: of what is said of it only the bounds may be looser, and
-    the pose is off by less than the rounding does not use."""
-    before = json.loads(files["r.json"])
-    nc, last = document["nc"], before["nc"]
-    if nc is None:
-        return last is None
-    if any(abs(document[k] - before[k]) > 1e-12 for k in ("x", "y", "theta")):
+    """A program is the original, moved by the pose, by the second reader of the tests: no place is off by more than the
+    rounding that is claimed, and the rest that is said of it is what was said before."""
+    nc, last = document["nc"], json.loads(files["r.json"])["nc"]
+    if nc is None or last is None:
+        return nc is last
+    if any(nc[k] != last[k] for k in last if k not in ("rounding_mm", "clearance", "motions", "notes", "scan_frame")):
         return False
-    return nc["rounding_mm"] >= last["rounding_mm"] and all(
-        nc[k] == last[k] for k in last if k not in ("rounding_mm", "clearance", "motions", "notes", "scan_frame"))
+    original, written = (files[next(one["path"] for one in list_ if one.get("role", "") == role)] for list_, role in
+                         ((document["inputs"], "nc"), ([nc["output"]], "")))
+    return not nc_reader.differences(original, written, nc["control"], pose_of(document), nc["rounding_mm"],
+                                     mode=nc["mode"])
 
 
 class Regions:
@@ -284,7 +330,7 @@ class Regions:
         self.edges = self.edges_in(self.before)
         self.checked = {}
         certificate = self.before["certificate"]
-        if isinstance(certificate, dict):
+        if isinstance(certificate, dict) and self.before["demands"] is None:
             for tree, cover in self.covers(self.before, self.edges):
                 for contacts, box in cover.leaves(tree):
                     self.checked[self.key(contacts, box, tree, self.before)] = True
@@ -317,7 +363,7 @@ class Regions:
             return False
         for tree, cover in self.covers(document, edges):
             leaves = cover.leaves(tree)
-            if leaves is None or not self.root_holds(document, edges, tree):
+            if leaves is None or not self.root_holds(document, edges, tree, "certificate", self.bound(document)):
                 return False
             # A bound that is raised is proved by what proved the lower one.
             lower = dict(document, upper_bound=min(document["upper_bound"], self.before["upper_bound"]),
@@ -328,7 +374,8 @@ class Regions:
                     return False
         return True
 
-    def root_holds(self, document, edges, tree):
+    @staticmethod
+    def root_holds(document, edges, tree, key, bound):
         """The root covers the window, and the box of the blank as much wider as the pivot may lie outside."""
         begin, end = (number(w) * exact.PI / 180 for w in document["window_deg"])
         low, high = map(number, tree["theta"])
@@ -336,8 +383,8 @@ class Regions:
             return False
         if high - low < min(2 * exact.PI, end - begin):
             return False
-        pivot = tuple(map(number, document["certificate"]["pivot"]))
-        more = max(D(0), -shapes.depth(pivot, edges["part"])) + max(D(0), -number(self.bound(document)))
+        pivot = tuple(map(number, document[key]["pivot"]))
+        more = max(D(0), -shapes.depth(pivot, edges["part"])) + max(D(0), -number(bound))
         points = [p for edge in edges["blank"] for p in edge.extremes()]
         locked = document["locked"] or {}
         for k, axis in enumerate("xy"):
@@ -352,10 +399,11 @@ class Regions:
     def regions_hold(self, document):
         """The regions used are those before, within the tolerances, and these were not lowered."""
         for role in ("part", "blank"):
-            if document["tolerances"][role] < self.before["tolerances"][role]:
+            if document["tolerances"][role] < self.before["tolerances"][role] and \
+                    document["tolerances"][role] < self.off_its_file(role):
                 return False
             one, other = (list(changes.nodes(d["regions"][role])) for d in (document, self.before))
-            slack = self.before["tolerances"][role] / 2
+            slack = max(self.before["tolerances"][role] / 2, self.rounding_of(role))
             for (path, a), (_, b) in zip(one, other):
                 if is_number(a) and abs(a - b) > slack:
                     return False
@@ -363,6 +411,19 @@ class Regions:
                 if isinstance(a, dict) and "ccw" in a and a["ccw"] != b["ccw"] and a["from"] != a["to"]:
                     return False
         return True
+
+    def rounding_of(self, role):
+        """Of drawings and trees each number goes through a scale, a turn, a shift and a flip or two, and through the
+        place where two curves meet: each makes it another by a last place of the largest."""
+        path = next(one["path"] for one in self.before["inputs"] if one["role"] == role)
+        if path.endswith(".csv") or same_shape(self.files[path], self.before["regions"][role]):
+            return 0
+        return 2 ** -49 * max(abs(v) for _, v in changes.nodes(self.before["regions"][role]) if is_number(v))
+
+    def off_its_file(self, role):
+        """How far a region may be from what its file means: not at all where that has the very same numbers."""
+        path = next(one["path"] for one in self.before["inputs"] if one["role"] == role)
+        return 0 if same_shape(self.files[path], self.before["regions"][role]) else math.inf
 
     @staticmethod
     def contacts_hold(document, edges):
@@ -380,8 +441,9 @@ class Regions:
                 return False
         return True
 
-    def holds(self, document):
-        if not derived(document) or not self.regions_hold(document):
+    def beside_bounds(self, document, edges):
+        """All that is neither a bound nor derived from one."""
+        if not self.regions_hold(document):
             return False
         if document["mirror"] not in ("either", "yes" if document["mirrored"] else "no"):
             return False
@@ -390,15 +452,18 @@ class Regions:
                 return False
         if document["scan"] != self.before["scan"] and not scan_holds(document["scan"], self.before["scan"]):
             return False
+        return (drawings_hold(document["drawings"], self.before["drawings"]) and
+                self.contacts_hold(document, edges) and moved_holds(document, self.files))
+
+    def holds(self, document):
+        if not derived(document):
+            return False
         edges = self.edges if document["regions"] == self.before["regions"] else self.edges_in(document)
         motion = shapes.Motion(document["x"], document["y"], document["theta"], document["mirrored"])
         apart = shapes.distance([edge.moved(motion) for edge in edges["part"]], edges["blank"])
         if number(document["clearance"]) > apart - sum(map(number, document["tolerances"].values())):
             return False
-        if not drawings_hold(document["drawings"], self.before["drawings"]):
-            return False
-        return (self.contacts_hold(document, edges) and self.certificate_holds(document, edges) and
-                moved_holds(document, self.files))
+        return self.beside_bounds(document, edges) and self.certificate_holds(document, edges)
 
 
 def scan_holds(after, before):
@@ -442,8 +507,7 @@ def regions(context):
         if matches(OF_PLACEMENTS + [r"/contacts/\d+/multiplier$"], change.path):
             return "information"
         after = document_of(change)
-        if after is None or not (same_form(truth.before, after) or change.path.endswith("/ccw")
-                                 or change.how.startswith(("exchanged", "turned"))):
+        if after is None or not may_hold(change, truth.before, after):
             return None
         try:
             return truth.holds(after) or None
@@ -452,25 +516,33 @@ def regions(context):
     return holds
 
 
-def region_input(context):
-    """Another part or blank: its numbers are those of the regions used, within the tolerance of the result."""
-    before = json.loads(context.text)
-    document = context.json("r.json")
-    slack = min(document["tolerances"].values()) / 4
+def region_input(role):
+    """Another part or blank: the region that was used is what it says, within the tolerance of the result."""
+    def oracle(context):
+        before = json.loads(context.text)
+        slack = context.json("r.json")["tolerances"][role] / 2
 
-    def holds(change):
-        after = document_of(change)
-        if after is None:
-            return None
-        # A word that no region has says nothing of its outline.
-        if change.how == "added" or change.path in ("/name", "/source"):
-            return True
-        one, other = map(list, map(changes.nodes, (before, after)))
-        return [p for p, _ in one] == [p for p, _ in other] and all(
-            a == b or (is_number(a) and is_number(b) and abs(a - b) <= slack) or
-            p.endswith("/ccw") and circle(before, p) for (p, a), (_, b) in zip(one, other)
-            if not isinstance(a, (dict, list))) or None
-    return holds
+        def holds(change):
+            after = document_of(change)
+            if after is None:
+                return None
+            # Single values beside the outline are for people.
+            if change.path in ("/name", "/source", "/not_known"):
+                return "information"
+            if says_mm(change):
+                return True
+            one, other = map(list, map(changes.nodes, (before, after)))
+            return [p for p, _ in one] == [p for p, _ in other] and all(
+                a == b or (is_number(a) and is_number(b) and abs(a - b) <= slack) or
+                p.endswith("/ccw") and circle(before, p) for (p, a), (_, b) in zip(one, other)
+                if not isinstance(a, (dict, list))) or None
+        return holds
+    return oracle
+
+
+def says_mm(change):
+    """A file that names no unit has the one that it was given with: its numbers are mm as before."""
+    return change.path == "/units" and change.how == "deleted" and change.old == "mm"
 
 
 def circle(document, path):
@@ -499,69 +571,13 @@ def rewritten(context):
     return holds
 
 
-def nothing(context):
-    return lambda change: None
-
-
-def derived_pose(document):
-    return all(pose_is_allowed(document, pose) for pose in [document] + document["demands"]["trade_off"])
-
-
-def keeps_margins(document):
-    """At every placement each edge that is not finished has its minimum, and the margin times its scale."""
-    edges, said = Regions.edges_in(document), document["demands"]
-    less = sum(map(number, document["tolerances"].values()))
-    rules = {k: feature for feature in said["features"] for k in feature["edges"]}
-    for pose, margin, largest in [(document, said["margin"], said["largest"])] + [
-            (point, point["margin"], point["largest"]) for point in said["trade_off"]]:
-        motion = shapes.Motion(pose["x"], pose["y"], pose["theta"], pose["mirrored"])
-        for k, edge in enumerate(edges["part"]):
-            rule = rules.get(k, {"minimum": said["minimum"], "scale": 1, "finished": False, "maximum": None})
-            if rule["finished"]:
-                continue
-            allowance = shapes.distance([edge.moved(motion)], edges["blank"])
-            if (allowance - less - number(max(rule["minimum"], said["minimum"]))) / number(rule["scale"]) < \
-                    number(margin):
-                return False
-        if number(pose["clearance"]) > shapes.distance([e.moved(motion) for e in edges["part"]], edges["blank"]) - less:
-            return False
-    return True
-
-
-def demands(context):
-    """Of demands only the bounds that may be looser are decided here."""
-    before = json.loads(context.text)
-
-    def holds(change):
-        if matches(OF_PLACEMENTS + [r"/contacts/\d+/multiplier$"], change.path):
-            return "information"
-        after = document_of(change)
-        if after is None or not same_form(before, after):
-            return None
-        if "/certificate/" in change.path or "/largest_certificate/" in change.path:
-            return None
-        if re.match(r"/contacts/\d+/(part_at|blank_at|distance)", change.path):
-            return Regions.contacts_hold(after, Regions.edges_in(after)) or None
-        if change.how.startswith("last place") and re.search(r"/(x|y|theta)$", change.path):
-            return (derived_pose(after) and keeps_margins(after)) or None
-        # Not more than was found, and not less than was proved.
-        way = {"/clearance": -1, "/demands/margin_bound": 1, "/demands/largest": 1, "/demands/margin": -1,
-               "/demands/smallest_largest/kept": 1, "/demands/smallest_largest/bound": -1,
-               "/demands/smallest_largest/found": 1}.get(change.path)
-        if way is None:
-            return None
-        value = changes.at_path(after, change.path)
-        return way * (value - change.old) >= 0 or abs(value - change.old) <= 1e-15 * abs(change.old) or None
-    return holds
-
-
 def features_input(context):
-    return nothing(context)
+    return lambda change: says_mm(change) or None
 
 
 def tree_input(context):
     """A number is another by its last place: far below what the report says its outlines are exact to."""
-    return lambda change: change.how.startswith("last place") and abs(float(change.old)) < 1e6 or None
+    return lambda change: says_mm(change) or change.how.startswith("last place") and abs(float(change.old)) < 1e6 or None
 
 
 OF_REPORTS = [r"/(version|seed|work|run|warnings|checked_by|merges)(/.*)?$", r"/unplaced/\d+/reason$",

@@ -1,6 +1,6 @@
 """Changes every field and every input of what lekalo writes, and demands that `lekalo verify` does not confirm it.
 
-    verify_lies.py LEKALO SOURCE_DIR [--only REGEX] [--jobs N]
+    verify_lies.py LEKALO SOURCE_DIR [--only REGEX] [--jobs N] [--excused]
 
 A result of each kind (kinds.py) is made; as it is it gives 0 (or 1, where docs/formats.md says that a claim is left
 unchecked). Then one thing at a time is changed (changes.py), and the exit status has to be 3 or 4, or 1 with a claim
@@ -16,6 +16,7 @@ true), missed (confirmed and not true).
 import argparse
 import collections
 import concurrent.futures
+import itertools
 import os
 import pathlib
 import random
@@ -63,6 +64,21 @@ class Folder:
                 (self.path / name[1:]).write_bytes(ran.stdout)
 
 
+def claim_of(change):
+    """The field that a change is of, whatever its place in a list, and the way in which it was changed."""
+    return re.sub(r"\d+", "*", change.path), re.sub(r"\d+", "*", change.how)
+
+
+def by_claims(made, count, draw):
+    """Some of the changes: of every field each way of changing it once, then each once more, until there are enough.
+    Drawn by their number alone, nine of ten would be coordinates and nodes of proofs, one like the other."""
+    groups = collections.defaultdict(list)
+    for change in draw.sample(made, len(made)):
+        groups[claim_of(change)].append(change)
+    rounds = itertools.zip_longest(*groups.values())
+    return [change for one in rounds for change in one if change is not None][:count]
+
+
 class Walk:
     """One kind: what is changed, and what came of it."""
 
@@ -72,7 +88,7 @@ class Walk:
         folder = Folder(lekalo, self.home.name)
         folder.make(kind, source)
         self.faults, self.weak_words = [], collections.Counter()
-        self.count = collections.Counter()
+        self.count, self.excused = collections.Counter(), collections.Counter()
         ran = folder.run(kind.verify)
         if ran.returncode != kind.base:
             self.faults.append(f"as it is it gives {ran.returncode}: {ran.stderr.decode()[:600]}")
@@ -81,18 +97,8 @@ class Walk:
         count = (count + 1) // 2 if kind.form == "text" else count
         self.oracle = kind.oracle(truth.Context(folder, kind, self.text))
         self.changes = [c for c in kinds.all_changes(kind, self.text)]
-        # The nodes of a certificate are most of a document, and one like the other.
-        def is_proof(change):
-            return "/nodes/" in change.path or change.path.startswith("/certificate/")
-
-        proofs = [c for c in self.changes if is_proof(c)]
-        if kind.oracle is truth.demands:
-            proofs = [c for c in proofs if c.how in ("deleted", "added", "given twice")]
-        self.changes = [c for c in self.changes if not is_proof(c)]
         if count:
-            self.changes = draw.sample(self.changes, min(count, len(self.changes)))
-            proofs = draw.sample(proofs, min(count // 5, len(proofs)))
-        self.changes += proofs
+            self.changes = by_claims(self.changes, count, draw)
         self.others = self.of_inputs(folder)
         if count:
             self.others = draw.sample(self.others, min(count // 2 + 1, len(self.others)))
@@ -129,7 +135,7 @@ class Walk:
             folder.write(self.kind.report_of, before)
         return ran
 
-    def take(self, where, ran, judge):
+    def take(self, where, claim, ran, judge):
         if ran is None:
             return
         status, words = ran.returncode, ran.stderr.decode(errors="replace")
@@ -144,6 +150,7 @@ class Walk:
             self.count["weak"] += 1
         elif status == 0 and verdict:
             self.count["excused"] += 1
+            self.excused[claim] += 1
         else:
             self.count["missed"] += 1
             self.faults.append(f"{where}: {status}")
@@ -167,10 +174,10 @@ class Walk:
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             for told, others in pool.map(work, range(jobs)):
                 for change, ran in told:
-                    self.take(f"{change.path} {change.how} (was {str(change.old).strip()[:60]})", ran,
-                              lambda: self.oracle(change))
+                    self.take(f"{change.path} {change.how} (was {str(change.old).strip()[:60]})",
+                              " ".join(claim_of(change)), ran, lambda: self.oracle(change))
                 for name, how, ran in others:
-                    self.take(f"{name} {how}", ran, lambda: None)
+                    self.take(f"{name} {how}", name, ran, lambda: None)
         self.home.cleanup()
 
 
@@ -187,6 +194,7 @@ def main():
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("--only", default="")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--excused", action="store_true", help="tell what was confirmed and left every claim true")
     words = parser.parse_args()
     count, seed = int(os.environ.get("LEKALO_CASES", "10")), int(os.environ.get("LEKALO_SEED", "1"))
     count = min(count, 10 * int(os.environ.get("LEKALO_TIMES", "1000000")))
@@ -199,6 +207,8 @@ def main():
         walk.run(words.jobs)
         row(kind.name, walk.count)
         whole += walk.count
+        for claim, number in walk.excused.most_common() if words.excused else ():
+            print(f"  {number} excused: {claim}", flush=True)
         for fault in walk.faults:
             print(f"  {fault}", file=sys.stderr, flush=True)
         faults += [f"{kind.name}: {fault}" for fault in walk.faults]
