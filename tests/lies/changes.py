@@ -1,6 +1,6 @@
 """Changes of a file that was written, one at a time.
 
-Of JSON: every number by its last place up and down, by its sign and by more, every text and truth, every member and
+Of JSON: every number by its last place (or the least that a claim tells apart) up and down, by its sign and by more, every text and truth, every member and
 item taken out, members given twice and members that are not known, neighbours of a list exchanged and lists turned
 round. Of a text of lines: every number by one in its last digit and by its sign, every word taken out, every line
 taken out, every two lines exchanged.
@@ -48,7 +48,7 @@ def of_number(value, step):
     yield "less", value - 0.5
 
 
-def next_double(value, way):
+def next_double(value, way, _path):
     return math.nextafter(float(value), way * math.inf)
 
 
@@ -74,7 +74,7 @@ TWICE = "given twice "
 
 
 def of_json(text, step=next_double):
-    """All changes of a JSON document. `step` gives the neighbour of a number of this document."""
+    """All changes of a JSON document. `step` gives the neighbour of a number of this document, by its path."""
     tree = json.loads(text)
 
     def with_change(path, change):
@@ -101,7 +101,7 @@ def of_json(text, step=next_double):
             yield Change(path, "deleted", with_change(path, take_out), value)
             if not isinstance(at_path(tree, path.rsplit("/", 1)[0]), list):
                 yield Change(path, "given twice", with_change(path, give_twice), value)
-            for how, changed in of_value(value, step):
+            for how, changed in of_value(value, lambda number, way, path=path: step(number, way, path)):
                 yield Change(path, how, with_change(path, put(changed)), value)
         if isinstance(value, dict):
             member = f"{path}/not_known"
@@ -111,8 +111,9 @@ def of_json(text, step=next_double):
 NUMBER = re.compile(r"-?\d+(?:\.\d*)?|-?\.\d+")
 
 
-def of_text(text, skip=lambda line: False):
-    """All changes of a text of lines. Of lines that `skip` names only the whole is changed."""
+def of_text(text, skip=lambda line: False, decimals=None):
+    """All changes of a text of lines. Of lines that `skip` names only the whole is changed. Of numbers with more
+    decimals than claims tell apart the last digit is that of the last of these."""
     lines = text.splitlines(keepends=True)
     for number, line in enumerate(lines):
         def changed(made, number=number):
@@ -127,6 +128,9 @@ def of_text(text, skip=lambda line: False):
         for found in NUMBER.finditer(line):
             begin, end = found.span()
             last = end - 1 if line[end - 1] != "." else end - 2
+            point = line.find(".", begin, end)
+            if decimals is not None and point >= 0:
+                last = min(last, point + decimals)
             digit = str(int(line[last]) + 1) if line[last] != "9" else "8"
             word = line[:begin], line[begin:end], line[end:]
             turned = word[1][1:] if word[1].startswith("-") else "-" + word[1]

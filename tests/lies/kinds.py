@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from dataclasses import dataclass, field
 
 import changes
@@ -25,6 +26,18 @@ POCKET = {"units": "mm", "outer": [
 SHEET = "steel 2 mm#1"
 
 
+# Contacts and multipliers are claims to a millionth of the blank's size, and of 1 (docs/formats.md).
+TO_A_MILLIONTH = ((r"/contacts/\d+/(part_at|blank_at|distance)", 1e-3), (r"/.*/multiplier$", 4e-6))
+
+
+def least_step(value, way, path):
+    """The next double, or the least change of a number that its claim tells apart."""
+    for rule, step in TO_A_MILLIONTH:
+        if re.match(rule, path):
+            return value + way * step
+    return changes.next_double(value, way, path)
+
+
 @dataclass
 class Kind:
     name: str
@@ -36,8 +49,9 @@ class Kind:
     written: dict = field(default_factory=dict)  # files written beforehand
     inputs: list = field(default_factory=list)  # also changed, exchanged and taken away
     base: int = 0  # exit status of verify on the untouched result
-    step: object = changes.next_double
+    step: object = least_step
     form: str = "json"
+    decimals: object = None  # of a text: as many as claims tell apart
     report_of: str = ""  # the document whose digests follow the target, so that nothing but its meaning is amiss
     skip: object = lambda line: False
 
@@ -49,7 +63,7 @@ def digest(text):
 def all_changes(kind, text):
     if kind.form == "json":
         return list(changes.of_json(text, kind.step))
-    return list(changes.of_text(text, kind.skip))
+    return list(changes.of_text(text, kind.skip, kind.decimals))
 
 
 def kinds():
@@ -76,7 +90,7 @@ def kinds():
                         "blank.csv": "100 100\n145 100.03\n190 100\n190 150\n100 150\n"},
                inputs=["part.csv", "blank.csv"])
     yield Kind("table of deviations", plate, [first, full], "d.csv", of_r, truth.deviations, form="text",
-               report_of="r.json")
+               decimals=9, report_of="r.json")
     yield Kind("placement, regions", bracket, [region + ["-o", "r.json", "--nc", "bracket.nc", "--nc-out", "o.nc"]],
                "r.json", of_r, truth.regions, inputs=["bracket.json", "casting.json", "bracket.nc", "o.nc"])
     yield Kind("placement, regions, window and mirror", bracket,
@@ -118,10 +132,10 @@ def kinds():
 def of_layouts():
     frames = ["examples/orders/frames.json"]
     nest = ["nest", "frames.json", "--work", "3000", "--threads", "1", "-o", "nested.json", "--json", ">report.json"]
-    step = lambda value, way: value + way * 2 ** -20
+    step = lambda value, way, _: value + way * 2 ** -20
     against = ["--layout", "nested.json"]
     yield Kind("layout", frames, [nest], "nested.json", ["verify", "nested.json", "--layout", "frames.json"],
-               truth.layout, step=step)
+               layouts.kept, step=step)
     yield Kind("report of nest", frames, [nest], "report.json", ["verify", "report.json"], truth.nest_report,
                inputs=["frames.json", "nested.json"])
     yield Kind("report of check", frames, [nest, ["check", "nested.json", "--json", ">c.json"]], "c.json",
@@ -136,18 +150,20 @@ def of_layouts():
         cut = [nest, ["export", "nested.json", "--format", "gcode", "--kerf", "0.3", "--feed", "2000", "--lead-in",
                       "2", "--sheet", SHEET, "-o", "cut.nc"] + words]
         of_cut = ["verify", "cut.nc", "--kerf", "0.3", "--sheet", SHEET] + against
-        yield Kind("program, profile, " + words[1], frames, cut, "cut.nc", of_cut, truth.profile, form="text")
+        yield Kind("program, profile, " + words[1], frames, cut, "cut.nc", of_cut, truth.profile, form="text",
+                   decimals=1)
     # A step is told where the program may not be off by as much.
     yield Kind("program, profile, another layout", frames, cut, "nested.json", of_cut, layouts.program,
-               step=lambda value, way: value + way * 2 ** -5)
+               step=lambda value, way, _: value + way * 2 ** -5)
     for form, within, step in (("dxf", 2e-6, 2 ** -18), ("svg", 2e-6, 2 ** -18), ("hpgl", 0.04, 2 ** -3)):
         sheet = ["--sheet", SHEET] if form == "hpgl" else []
         drawn = [nest, ["export", "nested.json", "--format", form, "-o", "out"] + sheet]
         of_drawn = ["verify", "out"] + against + sheet
-        yield Kind("export, " + form.upper(), frames, drawn, "out", of_drawn, truth.export(form), form="text")
+        yield Kind("export, " + form.upper(), frames, drawn, "out", of_drawn, truth.export(form), form="text",
+                   decimals=5)
         yield Kind(f"export, {form.upper()}, another layout", frames, drawn, "nested.json", of_drawn,
                    layouts.export(within, ("steel 2 mm", 0) if sheet else None),
-                   step=lambda value, way, step=step: value + way * step)
+                   step=lambda value, way, _, step=step: value + way * step)
 
 
 def of_pockets():

@@ -66,6 +66,8 @@ def cuts_of(text):
                 chains.append([])
             going_on = True
             centre = (at[0] + scale * given["I"], at[1] + scale * given["J"], motion) if arc else ()
+            if arc and abs(math.dist(at, centre[:2]) - math.dist((x, y), centre[:2])) > 0.005:
+                raise Refused
             chains[-1].append((*at, x, y, *centre, *(["rapid"] if motion == "G0" else [])))
         at, z = [x, y], deep
     if not ended or on:

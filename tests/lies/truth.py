@@ -554,9 +554,9 @@ NC_NUMBER = re.compile(r"([A-Z])(-?[\d.]+)")
 
 
 def rewritten(context):
-    """The words are the same, and only comments are others; or one place of a motion has moved by less than what the
-    rounding of its decimals leaves of the rounding that is claimed."""
-    before = words_of_program(context.text)
+    """The words are the same, or one place of a motion has moved by less than what the rounding of its decimals leaves
+    of the rounding that is claimed."""
+    before, same_way = words_of_program(context.text), goes_as(context.text)
     document = context.json("r.json")
     room = document["nc"]["rounding_mm"] - 0.71e-5
 
@@ -566,8 +566,12 @@ def rewritten(context):
 
     def holds(change):
         after = words_of_program(change.text())
+        # Comments are for people.
+        if after == before:
+            return "information"
         return len(before) == len(after) and all(
-            len(one) == len(other) and all(map(same, one, other)) for one, other in zip(before, after)) or None
+            len(one) == len(other) and all(map(same, one, other)) for one, other in zip(before, after)) or \
+            same_way(change)
     return holds
 
 
@@ -630,21 +634,6 @@ nest_report, pocket_report = of_report(nest_holds), of_report(pocket_holds)
 check_report = of_report(lambda change, before, after: False)
 
 
-def layout(context):
-    """Names are for people; a placement may lie as it likes while the engine, which shares nothing with the checker,
-    finds no rule broken."""
-    before = json.loads(context.text)
-
-    def answer(change):
-        if change.path.endswith("/name") or change.path == "/next_id":
-            return "information"
-        after = document_of(change)
-        if after is None or dict(before, placements=0) != dict(after, placements=0):
-            return None
-        return context.runs(change.text(), ["check"]) or None
-    return answer
-
-
 def words_of_program(text):
     made = []
     for line in text.splitlines():
@@ -655,7 +644,8 @@ def words_of_program(text):
 
 
 def motions_of(text):
-    """Where a program goes and how fast, by the second reader of the tests; None where it cannot read it."""
+    """Where a program goes and how fast, and its words beside, by the second reader of the tests; None where it cannot
+    read it."""
     try:
         events = nc_reader.read(text, "linuxcnc")
     except nc_reader.Unreadable:
@@ -663,26 +653,37 @@ def motions_of(text):
     made, feed = [], None
     for event in events:
         feed = ([word for word in event.words if word.startswith("F")] or [feed])[-1]
+        words = [word for word in event.words if word[0] != "F"]
         if event.kind in ("rapid", "feed", "arc"):
             way = [event.kind, event.start, event.z0, event.end, event.z1]
             if event.kind == "arc":
                 way += [event.arc.centre, event.arc.ccw, event.arc.plane, event.arc.sweep]
-            made.append(way + [None if event.kind == "rapid" else feed])
-        elif event.kind != "words":
-            made.append([event.kind])
+            made.append(way + [None if event.kind == "rapid" else feed, words])
+        elif event.kind == "holes":
+            made.append([event.code, event.cycle, event.repeats, event.retract, event.holes, feed, words])
+        elif event.kind != "words" or words:
+            made.append([event.kind, words])
     return made
 
 
+def goes_as(text):
+    """Says of other texts that the tool goes as in this one: words are gone, or blocks exchanged, without which it goes
+    the same way."""
+    way = motions_of(text)
+
+    def holds(change):
+        # The unit that holds where none is said is the machine's, which nobody knows here.
+        same_unit = all(change.text().count(unit) == text.count(unit) for unit in ("G20", "G21"))
+        return change.how in ("word deleted", "exchanged") and same_unit and motions_of(change.text()) == way or None
+    return holds
+
+
 def pocket_program(context):
-    """The words are the same but for comments, or words are gone without which the tool goes the same way."""
-    before, way = words_of_program(context.text), motions_of(context.text)
+    before, same_way = words_of_program(context.text), goes_as(context.text)
 
     def answer(change):
-        if words_of_program(change.text()) == before:
-            return True
-        # The unit that holds where none is said is the machine's, which nobody knows here.
-        same_unit = all(change.text().count(unit) == context.text.count(unit) for unit in ("G20", "G21"))
-        return change.how == "word deleted" and same_unit and motions_of(change.text()) == way or None
+        # Comments are for people.
+        return "information" if words_of_program(change.text()) == before else same_way(change)
     return answer
 
 

@@ -53,7 +53,7 @@ RegionDocument read_region_document(Json root, std::string& complaint) {
       fields.complain(fmt::format("the units of {} are not mm", path));
     *to = read_shape(regions.get(key), path, complaint);
   }
-  // What lekalo 0.1 wrote has no drawings.
+  // Drawings are not asked for: lekalo 0.1 wrote none.
   fields.require({"locked", "demands", "scan", "part_cut", "certificate", "largest_certificate",
                   "certificate_file", "trim", "nc", "comparison", "deviations"});
   if (const Json locked = fields.get("locked"); !locked.is_null()) {
