@@ -15,7 +15,7 @@ def ring_of(points):
 
 
 # What a field that is not there means (docs/formats.md, "Layouts").
-DEFAULTS = {"": {"kits": []}, "rules": {"gap": 0, "border_gap": 0, "defect_gap": 0}, "stocks": {"count": 1, "cost": 1},
+DEFAULTS = {"": {"kits": [], "placements": []}, "rules": {"gap": 0, "border_gap": 0, "defect_gap": 0}, "stocks": {"count": 1, "cost": 1},
             "parts": {"demand": 0, "quality": 0, "mirror": False},
             "placements": {"copy": 0, "mirrored": False, "locked": False}}
 

@@ -136,6 +136,25 @@ TEST(VerifyMovedProgram, ChordsShareTheTimeOfTheirArc) {
   EXPECT_EQ(said(verdict_of(original, other, made, RewriteMode::coordinates, 0.58)).find("fault"), 0U);
 }
 
+/// A program that says nothing of its unit moves in that of the control, which nobody knows here.
+TEST(VerifyMovedProgram, UnitPlaneAndG90AreSaidAsInTheOriginal) {
+  const Moved made = moved(kPlain, RewriteMode::coordinates, 0.58);
+  const auto verdict = [&](const std::string& original, const std::string& without) {
+    std::string written = made.text;
+    const std::size_t at = written.find(without);
+    EXPECT_NE(at, std::string::npos) << without << made.text;
+    if (at != std::string::npos) written.erase(at, without.size());
+    return said(verdict_of(original, written, made, RewriteMode::coordinates, 0.58));
+  };
+  EXPECT_EQ(verdict(kPlain, ""), "confirmed");
+  EXPECT_NE(verdict(kPlain, "G21").find("moves before a unit"), std::string::npos);
+  EXPECT_NE(verdict(kPlain, "G90").find("moves before a G90 or G91"), std::string::npos);
+  EXPECT_NE(verdict(kPlain, "G17").find("moves before a plane"), std::string::npos);
+  // An original that says nothing of them leaves them to the control as well.
+  const std::string silent = kPlain.substr(kPlain.find("T1"));
+  EXPECT_EQ(verdict(silent, "G21 G90 G17"), "confirmed");
+}
+
 TEST(VerifyMovedProgram, RefusesLinesThatAreTakenOutPutInOrExchanged) {
   const Moved made = moved(kPlain, RewriteMode::coordinates, 0.58);
   const auto verdict = [&](const std::string& written) {

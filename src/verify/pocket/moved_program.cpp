@@ -190,6 +190,7 @@ class ProgramCheck {
       if (next == written.events.size())
         return fault(fmt::format("it ends before line {} of the original", event.line));
       const NcEvent& other = written.events[next];
+      check_said(event, written, other);
       if (event.upright && !other.upright)
         next = compare_chords(*event.upright, event, written, next, map);
       else
@@ -197,6 +198,19 @@ class ProgramCheck {
     }
     if (next < written.events.size() && !verdict_.fault)
       fault(fmt::format("its line {} does something that the original does not", written.events[next].line));
+  }
+
+  /// What the original says of its motions the written program says too: else the control decides.
+  void check_said(const NcEvent& event, const NcProgram& written, const NcEvent& other) {
+    if (other.first_move == other.end_move && !other.upright) return;
+    // Lines that stand for an arc of another plane need none.
+    const bool turns = other.first_move < other.end_move && written.moves[other.first_move].arc;
+    const char* const missing = event.says_unit && !other.says_unit              ? "unit"
+                                : event.says_distance && !other.says_distance    ? "G90 or G91"
+                                : turns && event.says_plane && !other.says_plane ? "plane"
+                                                                                 : nullptr;
+    if (missing != nullptr)
+      fault(fmt::format("its line {} moves before a {}, which the original says", other.line, missing));
   }
 
   void compare_event(const NcProgram& original, const NcEvent& a, const NcProgram& written, const NcEvent& b,
