@@ -110,7 +110,7 @@ def program(context):
             # Nothing is said of the sheet, but of what is cut from it.
             if after is None or shown(after, only, outlined=False) == before:
                 return after and "information"
-            sheet = profile_of.Sheet(after, *only, 0.3)
+            sheet = profile_of.Sheet(after, *only, 0.3, step=0.3)
         except (KeyError, TypeError, ValueError, IndexError):
             return None
         numbers = []

@@ -75,7 +75,7 @@ def cuts_of(text):
     return [tuple(chain) for chain in chains]
 
 
-def places(chain):
+def places(chain, step=STEP):
     """Places along a chain of moves."""
     made = []
     for move in chain:
@@ -85,12 +85,12 @@ def places(chain):
             r, first = math.hypot(x - cx, y - cy), math.atan2(y - cy, x - cx)
             turn = (math.atan2(v - cy, u - cx) - first) % (2 * math.pi)
             turn = turn if sense == "G3" else turn - 2 * math.pi
-            n = min(100000, max(1, math.ceil(abs(turn) * r / STEP)))
+            n = min(100000, max(1, math.ceil(abs(turn) * r / step)))
             made += [(cx + r * math.cos(first + turn * k / n), cy + r * math.sin(first + turn * k / n))
                      for k in range(n)]
             made.append((u, v))
         else:
-            n = min(100000, max(1, math.ceil(math.hypot(u - x, v - y) / STEP)))
+            n = min(100000, max(1, math.ceil(math.hypot(u - x, v - y) / step)))
             made += [(x + (u - x) * k / n, y + (v - y) * k / n) for k in range(n + 1)]
     return made
 
@@ -132,8 +132,8 @@ class Near:
 class Sheet:
     """The contours on one sheet of a layout."""
 
-    def __init__(self, layout, stock, copy, kerf, tolerance=0.01):
-        self.half, self.tolerance = kerf / 2, tolerance
+    def __init__(self, layout, stock, copy, kerf, tolerance=0.01, step=STEP):
+        self.half, self.tolerance, self.step = kerf / 2, tolerance, step
         parts = {part["id"]: part["outline"]["polygon"] for part in layout["parts"]}
         self.contours, self.parts = [], []  # (ring, is a hole, lines near it); rings of a part
         for placement in layout["placements"]:
@@ -159,7 +159,7 @@ class Sheet:
         begins = [move[:2] for move in chain]
         if end not in begins:
             return None
-        whole, loop = places(chain), places(chain[begins.index(end):])
+        whole, loop = (places(moves, self.step) for moves in (chain, chain[begins.index(end):]))
         if any(self.near.off(p) < self.half - self.tolerance - 1e-6 for p in whole) or self.in_a_part(whole[0]):
             return None
         for number, (ring, hole, near) in enumerate(self.contours):

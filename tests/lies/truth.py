@@ -80,7 +80,7 @@ def same_shape(text, region):
 def may_hold(change, before, after, may_go=MAY_GO):
     """Only numbers are others, or the order of a list, or the sense of an arc, or an item is gone of which more are
     left: the rest of an oracle decides by computing."""
-    return same_form(before, after) or change.path.endswith("/ccw") or \
+    return same_form(before, after) or change.path.endswith(("/ccw", "/scan/proved")) or change.path == "/scan/max_dip" or \
         change.how.startswith(("exchanged", "turned")) or \
         change.how == "deleted" and bool(re.match(may_go, change.path))
 
@@ -402,7 +402,7 @@ class Regions:
             if document["tolerances"][role] < self.before["tolerances"][role] and \
                     document["tolerances"][role] < self.off_its_file(role):
                 return False
-            one, other = (list(changes.nodes(d["regions"][role])) for d in (document, self.before))
+            one, other = (list(changes.nodes(in_order(d["regions"][role]))) for d in (document, self.before))
             slack = max(self.before["tolerances"][role] / 2, self.rounding_of(role))
             for (path, a), (_, b) in zip(one, other):
                 if is_number(a) and abs(a - b) > slack:
@@ -467,9 +467,17 @@ class Regions:
 
 
 def scan_holds(after, before):
-    """A blank is proved under assumptions that ask for less: a smaller guard or step would be more."""
-    return all(after[k] == before[k] or k in ("median_spacing", "widest", "deepest", "assumptions", "unknown", "dropped")
-               for k in before)
+    """What is proved under some assumptions is under more: that nothing dips by more than so much, that no radius is
+    smaller than a larger one. Beside a radius the step says only how far apart corners were chosen. And a blank may be
+    proved of which it is not said."""
+    def no_less(key):
+        one, other = after[key], before[key]
+        return one == other or key == "proved" and one is False or \
+            key == "max_dip" and is_number(one) and one >= 0 and (other is None or one <= other) or \
+            key == "min_radius" and is_number(one) and (other is not None and one >= other) or \
+            key == "step" and before["min_radius"] is not None and one >= other or \
+            key in ("median_spacing", "widest", "deepest", "assumptions", "unknown", "dropped")
+    return after.keys() == before.keys() and all(map(no_less, before))
 
 
 def drawings_hold(after, before):
@@ -538,6 +546,14 @@ def region_input(role):
                 if not isinstance(a, (dict, list))) or None
         return holds
     return oracle
+
+
+def in_order(region):
+    """A region with its pieces and holes in an order of their own."""
+    def sorted_holes(piece):
+        return dict(piece, holes=sorted(piece.get("holes", []), key=json.dumps))
+    return dict(region, pieces=sorted(map(sorted_holes, region["pieces"]), key=json.dumps)) if "pieces" in region \
+        else sorted_holes(region)
 
 
 def says_mm(change):
