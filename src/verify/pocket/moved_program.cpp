@@ -200,7 +200,7 @@ class ProgramCheck {
       fault(fmt::format("its line {} does something that the original does not", written.events[next].line));
   }
 
-  /// What the original says of its motions the written program says too: else the control decides.
+  /// The written program has to say what the original says of its motions: else the control decides.
   void check_said(const NcEvent& event, const NcProgram& written, const NcEvent& other) {
     if (other.first_move == other.end_move && !other.upright) return;
     // Lines that stand for an arc of another plane need none.

@@ -36,8 +36,8 @@ struct NcEvent {
   /// The work offset that was selected last, in tenths of its G word; 0 before any.
   int offset = 0;
   bool by_time = false;  ///< under G93
-  /// Whether the program has said so far in which unit, from where, and in which plane it moves. Where it has
-  /// not, the control decides.
+  /// The program has said so far in which unit, from where, or in which plane it moves. Where it has not, the
+  /// control decides.
   bool says_unit = false, says_distance = false, says_plane = false;
 };
 
