@@ -198,6 +198,9 @@ TEST(VerifyCutReport, FilesHaveTheirRolesOnce) {
   Json other = report;
   other["inputs"].push_back({{"role", "other"}, {"path", "o"}, {"sha256", "x"}});
   EXPECT_EQ(judged(other), fmt::format(fmt::runtime(wrong), "other"));
+  Json first = report;
+  first["inputs"] = Json::array({other["inputs"].back(), report["inputs"][0], report["inputs"][1]});
+  EXPECT_EQ(judged(first), fmt::format(fmt::runtime(wrong), "other"));
 }
 
 TEST(VerifyCutReport, EarlierProgramsCutWithTheirTools) {
@@ -389,6 +392,24 @@ TEST(VerifyCutReport, OpenEdgesAreThoseOfTheFile) {
   std::string other = kWalls;
   other.replace(other.find("}}"), 2, "}, \"open\": true}");
   EXPECT_EQ(open_edges(open, other), no);
+}
+
+TEST(VerifyCutReport, AnOpenEdgeIsNoneOfItsNeighboursAndNotTheOneAcross) {
+  const auto with_open = [](std::size_t edge, bool backwards = false) {
+    const char* const corners[] = {"[0, 0]", "[7.5, 0]", "[7.5, 6.5]", "[0, 6.5]"};
+    std::string text = R"({"units": "mm", "outer": [)";
+    for (std::size_t k = 0; k < 4; ++k)
+      text += fmt::format(R"({}{{"line": {{"from": {}, "to": {}}}{}}})", k == 0 ? "" : ", ",
+                          corners[backwards ? (4 - k) % 4 : k], corners[backwards ? 3 - k : (k + 1) % 4],
+                          k == edge ? R"(, "open": true)" : "");
+    return text + "]}";
+  };
+  const std::string no = "the open edges are not those of pocket.json\n";
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < 4; ++b) {
+      EXPECT_EQ(open_edges(with_open(a), with_open(b)).starts_with(no), a != b) << a << b;
+      EXPECT_EQ(open_edges(with_open(a), with_open(b, true)).starts_with(no), a != 3 - b) << a << b;
+    }
 }
 
 TEST(VerifyCutReport, OpenEdgesMayBeginAndRunOtherwise) {

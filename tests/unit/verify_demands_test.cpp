@@ -287,6 +287,30 @@ TEST(VerifyDemands, OfAFeatureNoMoreIsMissingThanItsMinimumSays) {
   EXPECT_EQ(with(R"({"finished": 5, "maximum": 0})", square(7.999, 92.001)), "shown");
 }
 
+std::string disc(double radius) {
+  return fmt::format(
+      R"({{"outer": [{{"arc": {{"from": [{0}, 50], "to": [{0}, 50], "centre": [50, 50], "ccw": true}}}}]}})",
+      50 + radius);
+}
+
+TEST(VerifyDemands, OfArcsEveryPointCounts) {
+  // A disc of 10 mm in the middle has 40 mm to each side, and 50 less its diagonal to two of them at once.
+  Tree one = demands();
+  one["largest"] = 50 - std::sqrt(50) + 0.001;
+  EXPECT_EQ(placement(one, disc(10)), "");
+  one["largest"] = 50 - std::sqrt(50) - 0.001;
+  EXPECT_TRUE(has(placement(one, disc(10)), "the part has an allowance above "));
+  one["largest"] = 50;
+  one["margin"] = 39.999;
+  EXPECT_EQ(placement(one, disc(10)), "");
+  one["margin"] = 40.001;
+  EXPECT_TRUE(has(placement(one, disc(10)), "edge 0 needs "));
+  EXPECT_EQ(missing(lacking(5, -3), disc(47.999)), "shown");
+  EXPECT_TRUE(has(missing(lacking(5, -3), disc(48.001)), "at edge 0 more is missing "));
+  EXPECT_EQ(missing(lacking(1, -3), disc(51.999)), "shown");
+  EXPECT_TRUE(has(missing(lacking(1, -3), disc(52.001)), "at edge 0 more is missing "));
+}
+
 // ---- the criteria -----------------------------------------------------------------------------------------
 
 /// What is said about a result whose criterion is `largest`, with these changes.

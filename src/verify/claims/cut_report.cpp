@@ -225,8 +225,11 @@ class CutReport {
   /// An edge is open where the file says so, or where the curve that it runs along lies on an open layer.
   void compare_open_edges(const Shape& stated, const Origin& origin,
                           const std::vector<std::string>& open_layers, double tolerance) {
-    if (origin.in_file && !same_open_edges(stated, *origin.in_file, tolerance))
-      claims_.findings.push_back(fmt::format("the open edges are not those of {}", pocket_->name));
+    if (origin.in_file) {
+      if (!same_open_edges(stated, *origin.in_file, tolerance))
+        claims_.findings.push_back(fmt::format("the open edges are not those of {}", pocket_->name));
+      return;
+    }
     std::size_t edge = 0;
     for (const Side& side : stated.sides) {
       if (!side.written) continue;
@@ -234,7 +237,6 @@ class CutReport {
       ++edge;
       const auto listed = static_cast<std::size_t>(std::count_if(
           layers.begin(), layers.end(), [&](const std::string& l) { return is_among(open_layers, l); }));
-      if (origin.in_file && listed == 0) continue;
       if (side.open ? listed == 0 : listed > 0 && listed == layers.size())
         claims_.findings.push_back(fmt::format("edge {} of regions is {}, but its layer is {}", edge - 1,
                                                side.open ? "open" : "a wall",
