@@ -69,7 +69,9 @@ def shown(layout, only=None, outlined=True):
         polygon, mirror = outlines[placement["part"]], -1 if placement.get("mirrored") else 1
         c, s = placement["c"], placement["s"]
         rings.append([ring_of([(c * mirror * x - s * y + placement["x"], s * mirror * x + c * y + placement["y"])
-                               for x, y in ring]) for ring in [polygon["outer"]] + polygon.get("holes", [])])
+                               for x, y in ring]) for ring in polygon.get("holes", []) + [polygon["outer"]]])
+        # Holes may stand in any order.
+        rings[-1][:-1] = sorted(rings[-1][:-1])
     return {sheet: sorted(rings) for sheet, rings in made.items()}
 
 

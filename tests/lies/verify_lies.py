@@ -3,10 +3,11 @@
     verify_lies.py LEKALO SOURCE_DIR [--only REGEX] [--jobs N] [--excused]
 
 A result of each kind (kinds.py) is made; as it is it gives 0 (or 1, where docs/formats.md says that a claim is left
-unchecked). Then one thing at a time is changed (changes.py), and the exit status has to be 3 or 4, or 1 with a claim
-that is named as unchecked. What is confirmed all the same has to be information (docs/formats.md), or a change that
-leaves every claim true: truth.py decides that by computing of its own, which shares nothing with the checker. These
-are at most a tenth of all changes of claims.
+unchecked). Then one thing at a time is changed (changes.py), and the exit status has to be 3 or 4 (or 2, where a sheet
+that is asked for is no longer one of the layout), or 1 with a claim that is named as unchecked. What is confirmed all
+the same has to be information (docs/formats.md), or a change that leaves every claim true: truth.py and what it is
+helped by decide that by computing of their own, which shares nothing with the checker. These are at most a tenth of all
+changes of claims.
 
 LEKALO_CASES is the number of changes drawn for each kind (0: all of them), LEKALO_SEED their seed. The table at the
 end has a line for each kind: changes of claims and inputs, refused, weak (exit status 1), excused (confirmed and
@@ -144,7 +145,7 @@ class Walk:
             self.count["information"] += 1
             return
         self.count["changes"] += 1
-        if status in (3, 4):
+        if status in (2, 3, 4):
             self.count["refused"] += 1
         elif status == 1 and any(word in words for word in ("not rechecked", "unchecked", "not there", "no certificate")):
             self.count["weak"] += 1
