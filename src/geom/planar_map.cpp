@@ -174,13 +174,18 @@ void PlanarMap::find_components() {
       least[c] = area, components_[c].outside = walk.half_edges.front();
   }
   if (components_.size() < 2) return;
-  std::vector<Box> boxes;
-  for (const MapEdge& edge : a_.edges) {
-    const Point p = a_.vertices[a_.stretches[edge.stretch].from],
-                q = a_.vertices[a_.stretches[edge.stretch].to];
-    boxes.push_back({{std::min(p.x, q.x), std::min(p.y, q.y)}, {std::max(p.x, q.x), std::max(p.y, q.y)}});
+  std::vector<std::vector<std::uint32_t>> numbers(components_.size());
+  for (std::uint32_t e = 0; e < a_.edges.size(); ++e) numbers[component_[start_of(a_, 2 * e)]].push_back(e);
+  std::vector<Box> wholes;
+  for (std::vector<std::uint32_t>& of_one : numbers) {
+    std::vector<Box> boxes;
+    for (const std::uint32_t e : of_one)
+      boxes.push_back(box_of(a_.vertices[start_of(a_, 2 * e)], a_.vertices[end_of(a_, 2 * e)]));
+    Box& whole = wholes.emplace_back(boxes.front());
+    for (const Box& box : boxes) whole = joined(whole, box);
+    edges_of_.push_back({std::move(of_one), BoxTree(std::move(boxes))});
   }
-  tree_.emplace(std::move(boxes));
+  wholes_.emplace(std::move(wholes));
 }
 
 PlanarMap::Loop PlanarMap::walk_around(std::uint32_t face) const {
@@ -215,12 +220,16 @@ bool PlanarMap::has_one_outside() const {
 
 template <class Visit>
 void PlanarMap::cast_ray(std::uint32_t component, Visit&& visit) const {
-  if (!tree_) return;
+  if (!wholes_) return;
   const Point p = a_.vertices[components_[component].lowest];
-  tree_->visit_meeting({p, {std::numeric_limits<double>::infinity(), p.y}}, [&](std::uint32_t e) {
-    const Stretch& s = a_.stretches[a_.edges[e].stretch];
-    if (component_[s.from] == component) return;
-    if (crosses_ray(piece_between(a_, s), p)) visit(e, a_.vertices[s.from].y <= p.y);
+  wholes_->visit_meeting({p, p}, [&](std::uint32_t other) {
+    if (other == component) return;
+    const Edges& edges = edges_of_[other];
+    edges.tree.visit_meeting({p, {std::numeric_limits<double>::infinity(), p.y}}, [&](std::uint32_t i) {
+      const std::uint32_t e = edges.numbers[i];
+      const Stretch& s = a_.stretches[a_.edges[e].stretch];
+      if (crosses_ray(piece_between(a_, s), p)) visit(e, a_.vertices[s.from].y <= p.y);
+    });
   });
 }
 

@@ -53,8 +53,8 @@ class PlanarMap {
   [[nodiscard]] bool has_one_outside() const;
   [[nodiscard]] bool find_windings();
   [[nodiscard]] std::uint32_t next(std::uint32_t half_edge) const noexcept;
-  /// Calls visit(edge, upwards) for the edges of other components that a ray to the right from the
-  /// component's lowest vertex crosses.
+  /// Calls visit(edge, upwards) for the edges that a ray to the right from the component's lowest vertex
+  /// crosses, of the other components whose boxes hold that vertex.
   template <class Visit>
   void cast_ray(std::uint32_t component, Visit&& visit) const;
   [[nodiscard]] std::vector<Loop> traced_loops(const std::vector<char>& kept) const;
@@ -81,8 +81,15 @@ class PlanarMap {
     std::uint32_t vertices = 0, edges = 0, faces = 0;
   };
   std::vector<Component> components_;
-  /// A tree of the edges, where there are several components.
-  std::optional<BoxTree> tree_;
+  /// Where there are several components: a tree of them, and by component its edges with a tree of these. A
+  /// component whose box does not hold a point does not wind about it, so that a row of many costs no more
+  /// than a grid of them.
+  std::optional<BoxTree> wholes_;
+  struct Edges {
+    std::vector<std::uint32_t> numbers;
+    BoxTree tree;
+  };
+  std::vector<Edges> edges_of_;
   std::vector<Winding> winding_;  ///< by face
 };
 

@@ -65,6 +65,11 @@ def comb(n, pitch, height):
     return points + [((n - 1) * pitch, -5), (0, -5)]
 
 
+def broad_comb(n):
+    teeth = [(4 * k + x, y) for k in range(n) for x, y in ((0, 0), (0, 10), (2, 10), (2, 0))]
+    return teeth + [(4 * n, 0), (4 * n, -5), (0, -5)]
+
+
 def spiral(n, pitch=0.02):
     def at(k, out):
         angle = 0.1 * k
@@ -310,6 +315,8 @@ FAMILIES = [
     ("region-holes", 3000, READ,
      lambda n: holed([ring(3 * (k % 100) + 2, 3 * (k // 100) + 2, 1) for k in range(n)])),
     ("region-holes-in-a-row", 3000, READ, lambda n: holed([ring(3 * k + 2, 5, 1) for k in range(n)], 3 * n + 10)),
+    ("region-holes-in-a-comb", 1500, READ,
+     lambda n: {"a.json": region(edges(broad_comb(n)), [ring(4 * k + 1, 5, 0.5) for k in range(n)])}),
     ("region-square-holes-in-a-row", 1500, READ,
      lambda n: holed([edges(square(3 * k + 2, 5, 1)) for k in range(n)], 3 * n + 10)),
     ("region-rings", 2000, READ, rings),
@@ -319,6 +326,8 @@ FAMILIES = [
      lambda n: holed([edges(slot(k, 0, 2.0 * n, 0.3, 0.7)) for k in range(n)], 5 * n)),
     ("tree-discs-in-a-row", 5000, READ,
      lambda n: tree({"union": [disc(1.5 * k, 0, 1) for k in range(n)]})),
+    ("tree-apart-discs-in-a-row", 2500, READ,
+     lambda n: tree({"union": [disc(3 * k, 0, 1) for k in range(n)]})),
     ("tree-nested-discs", 5000, READ, lambda n: tree({"union": [disc(0, 0, 1 + 0.1 * k) for k in range(n)]})),
     ("tree-equal-discs", 5000, READ, lambda n: tree({"union": [disc(0, 0, 1)] * n})),
     ("tree-crossing-bars", 2000, READ,
@@ -352,5 +361,7 @@ FAMILIES = [
     ("program-arcs", 1000, CUT, lambda n: program(["G2 X50 Y50 I10 J0\n"] * n)),
     ("program-far-lines", 5000, CUT,
      lambda n: program([f"G1 X{900000 if k % 2 else -900000}\n" for k in range(n)])),
+    ("program-far-arcs", 20, CUT,
+     lambda n: program([f"G2 X50 Y50 I{100000 + k} J0\n" for k in range(n)])),
     ("program-comments", 40000, CUT, lambda n: program(["(nothing)\n"] * n)),
 ]

@@ -4,8 +4,8 @@
 
 Runs the families of growth_families.py at n and at 2 n, or those named, and compares what the two cost in
 processor time of the command alone, the least of three runs where the first ones say too much. Without names
-those of QUICK are run, which hold; `all` runs every family, and of those not all hold yet (rows of holes and
-rings in the checker). With --table it prints a line for each.
+those of QUICK are run, which hold; `all` runs every family, and of those not all hold yet
+(docs/measurements/verify.md). With --table it prints a line for each.
 """
 
 import os
@@ -17,7 +17,7 @@ import tempfile
 from growth_families import FAMILIES
 
 QUICK = ["dxf-equal-circles", "dxf-concentric", "dxf-nested-squares", "dxf-slanting-slots", "svg-styles",
-         "program-comments"]
+         "region-holes-in-a-row", "region-square-holes-in-a-row", "region-holes-in-a-comb", "program-comments"]
 RATIO, SECONDS, ALLOWED_BYTES = 2.5, 10, 1 << 30
 # A command that takes no longer than this at n has done nothing but start.
 START = 0.06
@@ -84,7 +84,7 @@ def main():
             print(f"{name}: {sentence}", flush=True)
         failed += bool(wrong)
     print(f"{len(names)} families, {failed} failed")
-    return 1 if failed or len(known) != 60 else 0
+    return 1 if failed or len(known) < 60 else 0
 
 
 sys.exit(main())

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -36,6 +38,9 @@ struct Candidate {
   std::uint32_t first = 0;  ///< its first curve in the file
   bool mended = false;      ///< it came out of a mend, and meets nothing but in corners
   bool small = false;       ///< no larger than a loop that may be cut off
+  std::size_t id = 0;       ///< the same in all rounds
+  /// Made when it is first asked about others.
+  std::unique_ptr<const PlacedContour> placed = {};
 };
 
 std::uint32_t first_curve(const LooseContour& contour) {
@@ -76,6 +81,11 @@ class Settling {
 
  private:
   using Group = std::vector<std::size_t>;
+  /// Of two contours, what has been asked for.
+  struct Known {
+    std::optional<Relation> relation;
+    std::optional<double> shared;
+  };
 
   void enter(LooseContour contour, bool mended) {
     const auto region = geom::make_region(contour.edges);
@@ -94,7 +104,8 @@ class Settling {
     }
     const geom::Box box = geom::bounds(contour.edges);
     const std::uint32_t first = first_curve(contour);
-    candidates_.push_back({std::move(contour), first, mended, norm(box.high - box.low) <= 2 * repair_});
+    candidates_.push_back(
+        {std::move(contour), first, mended, norm(box.high - box.low) <= 2 * repair_, next_id_++});
   }
 
   [[nodiscard]] bool find_meetings() {
@@ -113,9 +124,8 @@ class Settling {
     for (const geom::MeetingEdges& one : *all) {
       const std::uint32_t a = contour_of[one.a], b = contour_of[one.b];
       if (a == b && !itself_[a]) itself_[a] = one.at;
-      if (a != b) meetings_.emplace(std::minmax(a, b), Meeting{one.at, Relation::beside, false});
+      if (a != b) meetings_.emplace(std::minmax(a, b), Meeting{one.at, Relation::beside});
     }
-    placed_.clear();
     return true;
   }
 
@@ -128,16 +138,28 @@ class Settling {
   }
 
   [[nodiscard]] const PlacedContour& placed(std::size_t c) {
-    auto at = placed_.find(c);
-    if (at == placed_.end()) at = placed_.emplace(c, PlacedContour(candidates_[c].contour.edges)).first;
-    return at->second;
+    Candidate& one = candidates_[c];
+    if (!one.placed) one.placed = std::make_unique<const PlacedContour>(one.contour.edges);
+    return *one.placed;
+  }
+
+  /// Two contours that stay lie to each other in every round as they do in the first. Those that stay keep
+  /// their order, so that `first_in` and `second_in` keep their sense.
+  [[nodiscard]] Known& known(std::size_t a, std::size_t b) {
+    return known_[{candidates_[std::min(a, b)].id, candidates_[std::max(a, b)].id}];
   }
 
   [[nodiscard]] Relation relation(std::size_t a, std::size_t b) {
-    Meeting& meeting = meetings_.at(std::minmax(a, b));
-    if (!std::exchange(meeting.known, true))
-      meeting.relation = relation_of(placed(std::min(a, b)), placed(std::max(a, b)), repair_, relation_work_);
-    return meeting.relation;
+    std::optional<Relation>& relation = known(a, b).relation;
+    if (!relation)
+      relation = relation_of(placed(std::min(a, b)), placed(std::max(a, b)), repair_, relation_work_);
+    return *relation;
+  }
+
+  [[nodiscard]] double shared(std::size_t a, std::size_t b) {
+    std::optional<double>& part = known(a, b).shared;
+    if (!part) part = shared_part(placed(a), placed(b));
+    return *part;
   }
 
   /// Contours that cross or touch themselves, those with the loops beside them that are small, and those that
@@ -221,7 +243,7 @@ class Settling {
   }
 
   void relate() {
-    for (const auto& [pair, meeting] : meetings_) (void)relation(pair.first, pair.second);
+    for (auto& [pair, meeting] : meetings_) meeting.relation = relation(pair.first, pair.second);
   }
 
   /// Holes that cross each other are one hole, whatever their size. Returns whether there were any.
@@ -366,7 +388,7 @@ class Settling {
         continue;
       const double one = placed(a).area(), other = placed(b).area();
       if (std::min(one, other) > kMostOfLines * std::max(one, other) ||
-          shared_part(placed(a), placed(b)) <= kMostShared)
+          shared(a, b) <= kMostShared)
         meeting.relation = Relation::neighbours;
     }
   }
@@ -444,7 +466,6 @@ class Settling {
   struct Meeting {
     Point at;
     Relation relation = Relation::beside;
-    bool known = false;
   };
 
   const std::vector<CurveOrigin>& origins_;
@@ -454,7 +475,9 @@ class Settling {
   /// By contour: where it meets itself.
   std::vector<std::optional<Point>> itself_;
   std::map<std::pair<std::size_t, std::size_t>, Meeting> meetings_;
-  std::map<std::size_t, PlacedContour> placed_;
+  /// By the ids of two contours.
+  std::map<std::pair<std::size_t, std::size_t>, Known> known_;
+  std::size_t next_id_ = 0;
   std::vector<std::size_t> by_, depth_;
   /// Pairs of contours that cross others and hold something together.
   std::set<std::pair<std::size_t, std::size_t>> in_common_;

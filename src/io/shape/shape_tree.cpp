@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "io/drawing/drawn_shapes.hpp"
 #include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "node.hpp"
 
@@ -232,34 +234,24 @@ Result<Evaluated> evaluate(const ShapeTree& tree) {
 
 /// Step 4 of docs/design/shape-tree.md.
 std::vector<std::uint32_t> names_of_edges(const Evaluated& shape) {
-  struct Source {
-    geom::Curve curve;
-    Box box;
-    std::uint32_t name = kNoName, order = 0;
-  };
-  std::vector<Source> sources;
-  for (const NamedEdge& s : shape.sources) {
-    const geom::Curve curve = geom::make_curve(s.edge);
-    sources.push_back({curve, geom::curve_box(curve), s.name, static_cast<std::uint32_t>(sources.size())});
-  }
-  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
-    return a.box.low.x != b.box.low.x ? a.box.low.x < b.box.low.x : a.order < b.order;
-  });
   // A primitive's edge is within its error of the exact one, and so is the result's.
   const double reach = 2 * shape.edge_error;
+  std::vector<geom::Curve> sources;
+  std::vector<Box> boxes;
+  for (const NamedEdge& source : shape.sources) {
+    sources.push_back(geom::make_curve(source.edge));
+    boxes.push_back(grown(geom::curve_box(sources.back()), reach));
+  }
+  const geom::BoxTree tree(std::move(boxes));
   std::vector<std::uint32_t> names;
   const auto look = [&](const Contour& contour) {
     for (const Edge& edge : contour) {
       const Middle middle = middle_of(edge);
-      const Source* best = nullptr;
-      for (const Source& source : sources) {
-        if (source.box.low.x > middle.at.x + reach) break;
-        if (source.box.high.x < middle.at.x - reach || source.box.low.y > middle.at.y + reach ||
-            source.box.high.y < middle.at.y - reach || (best != nullptr && best->order < source.order))
-          continue;
-        if (comes_from(edge, middle, source.curve, reach)) best = &source;
-      }
-      names.push_back(best == nullptr ? kNoName : best->name);
+      std::optional<std::uint32_t> first;
+      tree.visit_meeting({middle.at, middle.at}, [&](std::uint32_t s) {
+        if ((!first || s < *first) && comes_from(edge, middle, sources[s], reach)) first = s;
+      });
+      names.push_back(first ? shape.sources[*first].name : kNoName);
     }
   };
   for (const Region& region : shape.regions) {

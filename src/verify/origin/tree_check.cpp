@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "near.hpp"
+#include "tree_value.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
@@ -24,8 +25,6 @@ constexpr double kAside = 2;
 /// A point this many times the reach away from all outlines of the tree is on none of them.
 constexpr double kFar = 8;
 
-enum class In { no, yes, open };
-
 /// Our knowledge of the tree's material beside one stretch of a curve.
 struct Beside {
   In left = In::open, right = In::open;
@@ -36,7 +35,7 @@ struct Beside {
 class TreeCheck {
  public:
   TreeCheck(const Tree& tree, const Shape& used, double reach)
-      : tree_(tree), primitives_(tree.primitives), used_(used), reach_(reach), outline_(pieces_of(used)) {}
+      : primitives_(tree.primitives), used_(used), reach_(reach), outline_(pieces_of(used)), value_(tree) {}
 
   TreeVerdict run() {
     clip_half_planes();
@@ -99,42 +98,11 @@ class TreeCheck {
   }
 
   /// Beyond the window there is none of any primitive but half-planes.
-  bool ends_in_window() const {
-    std::vector<In> values;
-    for (const Primitive& primitive : primitives_) values.push_back(primitive.half_plane ? In::open : In::no);
-    return value_of(values) == In::no;
-  }
-
-  [[nodiscard]] In value_of(const std::vector<In>& primitives) const {
-    std::vector<In> values;
-    for (const Tree::Node& node : tree_.nodes) {
-      if (node.kind == Tree::Kind::primitive) {
-        values.push_back(primitives[node.primitive]);
-        continue;
-      }
-      bool any_open = false;
-      const auto one_is = [&](In wanted, std::size_t from) {
-        bool found = false;
-        for (std::size_t k = from; k < node.children.size(); ++k) {
-          const In child = values[node.children[k]];
-          found = found || child == wanted;
-          any_open = any_open || child == In::open;
-        }
-        return found;
-      };
-      In value = In::open;
-      if (node.kind == Tree::Kind::unite) {
-        value = one_is(In::yes, 0) ? In::yes : (any_open ? In::open : In::no);
-      } else if (node.kind == Tree::Kind::intersect) {
-        value = one_is(In::no, 0) ? In::no : (any_open ? In::open : In::yes);
-      } else {
-        const In first = values[node.children[0]];
-        const bool cut = one_is(In::yes, 1);
-        value = cut || first == In::no ? In::no : (any_open || first == In::open ? In::open : In::yes);
-      }
-      values.push_back(value);
-    }
-    return values.back();
+  bool ends_in_window() {
+    value_.clear();
+    for (std::size_t k = 0; k < primitives_.size(); ++k)
+      if (primitives_[k].half_plane) value_.set(k, In::open);
+    return value_.value() == In::no;
   }
 
   static In in_half_plane(const Side& line, const Vec& p) {
@@ -208,10 +176,12 @@ class TreeCheck {
     return (absolute(off) - just(room) - just(side.off)).low > 0;
   }
 
-  /// Asks on which side of a piece there is material of the tree. Where no outline of a primitive meets the
-  /// two stretches beside the piece, one point of each tells for all of it.
+  /// Asks on which side of a piece there is material of the tree. Where the outline of a primitive meets a
+  /// stretch beside the piece, that primitive is open there, and what the others say may be enough: another
+  /// shape of a union holds all of the stretch, or a half-plane of an intersection nothing of it. For the
+  /// rest one point of each stretch tells for all of it. `apart` wants no outline to meet the two.
   /// \pre piece is a line or turns by less than a half
-  Beside beside(const Side& piece, const Corners& corners) {
+  Beside beside(const Side& piece, const Corners& corners, bool apart) {
     const double aside = kAside * reach_;
     Beside known;
     if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
@@ -219,33 +189,43 @@ class TreeCheck {
     const Vec at_left = middle_of(left), at_right = middle_of(right);
     const Vec middle = middle_of(piece);
     const double room = (just(farthest(piece, middle)) + just(2 * aside)).high;
-    bool meets = false;
-    std::vector<std::size_t> near;
-    const double limit = 2 * aside;
+    struct Near {
+      std::size_t primitive;
+      bool meets_left, meets_right;
+    };
+    std::vector<Near> near;
+    bool given_up = false;
+    double limit = 2 * aside;
     sides_.visit_near(box_of(piece), limit, [&](std::size_t m) {
+      if (given_up) return void(limit = -1);  // no box is so near, which ends the walk
       ++work_;
       const auto [k, i] = members_[m].side;
       const Side& side = primitives_[k].shape.sides[i];
-      if (meets || is_away(members_[m], side, middle, room)) return;
+      if (is_away(members_[m], side, middle, room)) return;
       work_ += 3;
-      near.push_back(k);
-      meets = !surely_apart(left, side) || !surely_apart(right, side);
+      near.push_back({k, !surely_apart(left, side), !surely_apart(right, side)});
+      const bool meets = near.back().meets_left || near.back().meets_right;
+      given_up = apart && meets;
       if (!meets && farthest(piece, corners, side) <= reach_) known.along.push_back({k, i});
     });
-    if (meets) return known;
-    std::vector<In> on_left(primitives_.size(), In::no), on_right;
+    if (given_up) return known;
+    value_.clear();
     const auto may_hold = [&](const Box& box) {
       return !(at_left.x.high < box.low_x || at_left.x.low > box.high_x || at_left.y.high < box.low_y ||
                at_left.y.low > box.high_y);
     };
     wholes_.visit(may_hold, [&](std::size_t k) {
       ++work_;
-      on_left[k] = in_primitive(primitives_[k], at_left);
+      value_.set(k, in_primitive(primitives_[k], at_left));
     });
-    on_right = on_left;
-    for (const std::size_t k : near) on_right[k] = in_primitive(primitives_[k], at_right);
-    work_ += primitives_.size() / 8;
-    known.left = value_of(on_left), known.right = value_of(on_right);
+    for (const Near& one : near)
+      if (one.meets_left) value_.set(one.primitive, In::open);
+    known.left = value_.value();
+    // What is not near is the same on both hands.
+    for (const Near& one : near) value_.set(one.primitive, in_primitive(primitives_[one.primitive], at_right));
+    for (const Near& one : near)
+      if (one.meets_right) value_.set(one.primitive, In::open);
+    known.right = value_.value();
     return known;
   }
 
@@ -307,7 +287,7 @@ class TreeCheck {
       }
     bool wrong = false;
     const bool whole = halve(side, [&](const Side& piece, const Corners& corners) {
-      const Beside known = beside(piece, corners);
+      const Beside known = beside(piece, corners, true);
       if (known.along.empty() || known.left == In::open || known.right == In::open) return false;
       const Vec aside = left_of(piece) * just(kAside * reach_);
       const auto in = holds(used_, middle_of(piece) + aside), out = holds(used_, middle_of(piece) - aside);
@@ -325,7 +305,7 @@ class TreeCheck {
     bool missing = false;
     const bool whole = halve(side, [&](const Side& piece, const Corners& corners) {
       if (!outline_.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
-      const Beside known = beside(piece, corners);
+      const Beside known = beside(piece, corners, false);
       if (known.left == In::open || known.right == In::open) return false;
       missing =
           missing || (known.left != known.right && distance(middle_of(piece), used_).low > kFar * reach_);
@@ -337,7 +317,6 @@ class TreeCheck {
 
   static std::string text_of(const Vec& p) { return fmt::format("({}, {})", p.x.low, p.y.low); }
 
-  const Tree& tree_;
   std::vector<Primitive> primitives_;
   const Shape& used_;
   double reach_;
@@ -346,6 +325,7 @@ class TreeCheck {
   /// Over the sides of all primitives, in the order of members_, and over the boxes of the primitives.
   SideTree sides_{std::vector<Box>()}, wholes_{std::vector<Box>()};
   CurvePieces outline_;
+  TreeValue value_;
   std::size_t work_ = 0;
   /// A place near the last piece that was cut.
   Vec at_;

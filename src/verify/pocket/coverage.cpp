@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
@@ -187,25 +188,42 @@ class Coverage {
   std::vector<UncutSpot> spots_;
 };
 
-/// Returns the least signed distance of a stroke's places from the outline, rounded down. It is exact to
+/// A stroke with the depth of its middle, the signed distance from the outline.
+struct Sounded {
+  const Stroke* stroke;
+  double half, middle;
+  /// No place of the stroke is less deep.
+  [[nodiscard]] double least() const { return middle - half; }
+};
+Sounded sounded(const Stroke& stroke, const PocketReach& pocket) {
+  return {&stroke, 0.5 * length(stroke), pocket.depth(at_share(stroke, 0.5))};
+}
+
+/// Lowers `least` to the least depth of a stroke's places, rounded down, where that is less. It is exact to
 /// rounding where the stroke is not near to crossing the outline, and otherwise within `step`.
-double least_depth(const Stroke& stroke, const PocketReach& pocket, double enough,
-                   std::vector<std::uint32_t>& near) {
-  const double half = 0.5 * length(stroke);
-  const double middle = pocket.depth(at_share(stroke, 0.5));
-  if (middle - half >= enough) return enough;
+void lower_to_depth(const Sounded& whole, const PocketReach& pocket, double& least,
+                    std::vector<std::uint32_t>& near) {
+  ask();
+  constexpr double kSlack = 1e-9;  // more than rounding
+  if (whole.least() > least + kSlack * (1 + std::abs(whole.middle))) return;
   // The whole stroke is inside.
-  if (middle - half > 0) {
-    pocket.outline_index().near(at_share(stroke, 0.5), middle + 2 * half, near);
-    double least = enough;
-    for (const std::uint32_t i : near) least = std::min(least, distance_apart(stroke, pocket.outline()[i]));
-    return least;
+  if (whole.least() > 0) {
+    pocket.outline_index().near(at_share(*whole.stroke, 0.5), whole.middle + 2 * whole.half, near);
+    for (const std::uint32_t i : near)
+      least = std::min(least, distance_apart(*whole.stroke, pocket.outline()[i]));
+    return;
   }
   constexpr double kStep = 1e-3;
-  if (half <= kStep) return middle - half;
-  const Place cut = at_share(stroke, 0.5);
-  return std::min(least_depth(until(stroke, cut), pocket, enough, near),
-                  least_depth(beginning(stroke, cut), pocket, enough, near));
+  if (whole.half <= kStep) {
+    least = std::min(least, whole.least());
+    return;
+  }
+  const Place cut = at_share(*whole.stroke, 0.5);
+  const Stroke before = until(*whole.stroke, cut), after = beginning(*whole.stroke, cut);
+  Sounded first = sounded(before, pocket), second = sounded(after, pocket);
+  if (second.least() < first.least()) std::swap(first, second);
+  lower_to_depth(first, pocket, least, near);
+  lower_to_depth(second, pocket, least, near);
 }
 
 }  // namespace
@@ -216,14 +234,19 @@ void measure_coverage(const CutPath& path, const PocketReach& pocket, double rad
 
 void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report) {
   double least = pocket.clearance();
-  std::vector<std::uint32_t> near;
+  std::vector<Sounded> strokes;
   for (const Stroke& stroke : path.strokes) {
     ask();
     if (length(stroke.to - stroke.from) > 0)
-      least = std::min(least, least_depth(stroke, pocket, pocket.clearance(), near));
+      strokes.push_back(sounded(stroke, pocket));
     else
       least = std::min(least, pocket.depth(stroke.from));
   }
+  // Those that may lie farthest outside come first. Of a path far away hardly any other is cut into parts.
+  std::sort(strokes.begin(), strokes.end(),
+            [](const Sounded& a, const Sounded& b) { return a.least() < b.least(); });
+  std::vector<std::uint32_t> near;
+  for (const Sounded& stroke : strokes) lower_to_depth(stroke, pocket, least, near);
   report.gouge_mm = pocket.clearance() - least;
 }
 

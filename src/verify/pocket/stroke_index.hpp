@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -7,8 +8,10 @@
 
 namespace lekalo::verify {
 
-/// Finds the strokes near a place by square cells that know which strokes' boxes meet them. Strokes may be
-/// added in between. There are at most 2^20 cells, however large the area is.
+/// Finds the strokes near a place by squares that are quartered down to the size of a cell, where there are
+/// strokes. A stroke stands in the squares of about its own size that its box meets, at most four, so that
+/// neither long strokes nor large areas cost more than others. Strokes may be added in between. Those outside
+/// of the area stand in the squares at its border, which reach as far as anything.
 class StrokeIndex {
  public:
   StrokeIndex() = default;
@@ -25,17 +28,31 @@ class StrokeIndex {
                                double widest) const;
 
  private:
-  struct Cells {
-    long low_x, low_y, high_x, high_y;
+  struct Box {
+    Place low, high;
   };
-  [[nodiscard]] Cells cells(Place low, Place high) const;
-  template <class Distance>
-  [[nodiscard]] double least(Place p, double widest, Distance&& distance_of) const;
+  struct Square {
+    /// The quarters: bit 0 of the place says right, bit 1 above. 0 where there is none.
+    std::array<std::uint32_t, 4> quarters{};
+    std::vector<std::uint32_t> strokes;
+  };
 
-  Place low_;
-  double cell_ = 1;
-  long columns_ = 0, rows_ = 0;
-  std::vector<std::vector<std::uint32_t>> lists_;
+  /// Calls visit(quarter, middle of it) for the quarters of a square that a box meets.
+  template <class Visit>
+  static void each_quarter(Place middle, double side, const Box& box, Visit&& visit);
+  void add(std::uint32_t at, Place middle, double side, double least_side, const Box& box,
+           std::uint32_t number);
+  void collect(std::uint32_t at, Place middle, double side, const Box& box,
+               std::vector<std::uint32_t>& numbers) const;
+  /// Lowers `least` to the least distance in a square. \param reaches  what belongs to the square
+  template <class Distance>
+  void lower(std::uint32_t at, Place middle, double side, const Box& reaches, Place p, double widest,
+             const Distance& distance_of, double& least) const;
+
+  Place middle_;
+  double side_ = 0, cell_ = 1;
+  std::vector<Square> squares_;
+  std::vector<Box> boxes_;  ///< by number of the stroke
 };
 
 /// Gives the corners of a box that holds the stroke.

@@ -225,6 +225,7 @@ void bound(Shape& shape) {
     shape.low_y = std::min(shape.low_y, box.low_y), shape.high_y = std::max(shape.high_y, box.high_y);
   }
   shape.tree = std::make_shared<const SideTree>(std::move(boxes));
+  shape.contours = std::make_shared<const ContourTree>(*shape.tree, shape.contour_starts);
 }
 
 Shape read_shape(Json value, const std::string& path, std::string& complaint, bool inch) {

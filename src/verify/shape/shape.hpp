@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contour_tree.hpp"
 #include "side_tree.hpp"
 #include "verify/number/span.hpp"
 #include "verify/read/fields.hpp"
@@ -73,6 +74,8 @@ struct Shape {
   double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
   /// Over the sides, made by `bound`.
   std::shared_ptr<const SideTree> tree = {};
+  /// Over the contours, made by `bound`.
+  std::shared_ptr<const ContourTree> contours = {};
 };
 
 /// Reads a list of edges in mm that need not hang together; what is wrong goes to `complaint`.
@@ -86,7 +89,7 @@ struct Shape {
 [[nodiscard]] Shape read_shape(Json value, const std::string& path, std::string& complaint,
                                bool inch = false);
 
-/// Makes the box of a shape and the tree over its sides. Whoever makes or moves sides calls it.
+/// Makes the box of a shape and the trees over its sides and contours. Whoever makes or moves sides calls it.
 void bound(Shape& shape);
 
 /// Returns the outline through points in mm, in their order, without those that repeat the one before.

@@ -194,6 +194,27 @@ Span distance(const Side& a, const Side& b) {
   return least.value();
 }
 
+bool carriers_apart(const Side& a, const Side& b) {
+  if (a.arc && !b.arc) return carriers_apart(b, a);
+  if (a.arc) {
+    const Span apart = squared(b.centre.x - a.centre.x) + squared(b.centre.y - a.centre.y);
+    const Span off = just(a.off) + just(b.off), within = absolute(a.radius - b.radius) - off;
+    return (within.low > 0 && squared(within).low > apart.high) ||
+           apart.low > squared(a.radius + b.radius + off).high;
+  }
+  const Vec along = a.to - a.from;
+  if (b.arc) {
+    const Span height = cross(along, b.centre - a.from);
+    return squared(height).low > ((squared(along.x) + squared(along.y)) * squared(b.radius + just(b.off))).high;
+  }
+  const auto on_one_side = [](const Vec& u, const Vec& v, const Vec& w) {
+    const Span from = cross(u, v), to = cross(u, w);
+    return (from.low > 0 && to.low > 0) || (from.high < 0 && to.high < 0);
+  };
+  return on_one_side(along, b.from - a.from, b.to - a.from) ||
+         on_one_side(b.to - b.from, a.from - b.from, a.to - b.from);
+}
+
 Box box_of(const Vec& p) { return {p.x.low, p.y.low, p.x.high, p.y.high}; }
 
 Span distance(const Vec& p, const Shape& shape, std::size_t except) {

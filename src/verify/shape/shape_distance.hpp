@@ -24,6 +24,9 @@ inline constexpr std::size_t kNoSide = std::numeric_limits<std::size_t>::max();
 [[nodiscard]] Span distance(const Vec& p, const Side& side);
 /// Returns a distance whose low end is 0 where the sides meet or may meet.
 [[nodiscard]] Span distance(const Side& a, const Side& b);
+/// Says whether two sides surely do not meet because the lines or circles that carry them do not, which is
+/// much cheaper than their distance. Those of nested circles and slanting slots have boxes that all meet.
+[[nodiscard]] bool carriers_apart(const Side& a, const Side& b);
 /// Returns the distance from a shape's outline, with one side left out if it is named.
 [[nodiscard]] Span distance(const Vec& p, const Shape& shape, std::size_t except = kNoSide);
 [[nodiscard]] Span distance(const Side& side, const Shape& shape);

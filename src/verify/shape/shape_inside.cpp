@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "lekalo/base/limits.hpp"
@@ -29,12 +28,13 @@ Side turned(Side side, const Ray& ray) {
 int compare(Span a, Span b) { return a.high < b.low ? -1 : (a.low > b.high ? 1 : 0); }
 
 /// Counts how often a line passes the ray from p to the right upwards, less how often downwards.
-std::optional<int> crossings_of_line(const Side& line, const Vec& p) {
-  if (line.from.x.high < p.x.low && line.to.x.high < p.x.low) return 0;
-  const int from = compare(line.from.y, p.y), to = compare(line.to.y, p.y);
+std::optional<int> crossings_of_line(const Vec& begin, const Vec& end, const Vec& p) {
+  if (begin.x.high < p.x.low && end.x.high < p.x.low) return 0;
+  const int from = compare(begin.y, p.y), to = compare(end.y, p.y);
   if (from == 0 || to == 0) return std::nullopt;
   if (from == to) return 0;
-  const Span turn = cross(line.to - line.from, p - line.from);
+  if (begin.x.low > p.x.high && end.x.low > p.x.high) return to;
+  const Span turn = cross(end - begin, p - begin);
   if (!(turn.low > 0 || turn.high < 0)) return std::nullopt;
   return (turn.low > 0) == (to > 0) ? to : 0;
 }
@@ -68,35 +68,30 @@ std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
 constexpr std::array<std::array<double, 3>, 6> kTriples{
     {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
 
-std::size_t contour_of(const Shape& shape, std::size_t side) {
-  const auto after = std::upper_bound(shape.contour_starts.begin(), shape.contour_starts.end(), side);
-  return static_cast<std::size_t>(after - shape.contour_starts.begin()) - 1;
-}
-
 constexpr std::size_t kNoContour = std::numeric_limits<std::size_t>::max();
 
-/// How often each contour that a ray from p meets winds about p; nothing where the ray does not tell.
-using Windings = std::map<std::size_t, std::optional<int>>;
-
-Windings windings(const Shape& shape, const Vec& p, const std::array<double, 3>& triple, std::size_t except) {
+/// Returns how often a contour winds about p, or nothing where the ray does not tell.
+std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p,
+                           const std::array<double, 3>& triple) {
   const bool straight = triple[1] == 0;
   const Ray ray{just(triple[0]) / just(triple[2]), just(triple[1]) / just(triple[2])};
   const Vec at = straight ? p : turned(p, ray);
-  Windings found;
-  const auto on_the_way = [&](const Box& box) {
-    const Vec corners{{box.low_x, box.high_x}, {box.low_y, box.high_y}};
-    const Vec room = straight ? corners : turned(corners, ray);
-    return compare(room.y, at.y) == 0 && compare(room.x, at.x) >= 0;
-  };
-  shape.tree->visit(on_the_way, [&](std::size_t k) {
-    const std::size_t contour = contour_of(shape, k);
-    if (contour == except) return;
-    const Side side = straight ? shape.sides[k] : turned(shape.sides[k], ray);
-    const auto count = side.arc ? crossings_of_arc(side, at) : crossings_of_line(side, at);
-    const auto sum = found.try_emplace(contour, 0).first;
-    sum->second = count && sum->second ? std::optional(*sum->second + *count) : std::nullopt;
+  const Box place = box_of(p);
+  std::optional<int> sum = 0;
+  shape.contours->visit_chains(contour, place, [&](std::size_t first, std::size_t last) {
+    const Side& side = shape.sides[first];
+    std::optional<int> count;
+    if (first != last || !side.arc || surely_apart(shape.tree->box(first), place)) {
+      const Vec &from = side.from, &to = shape.sides[last].to;
+      count = straight ? crossings_of_line(from, to, at)
+                       : crossings_of_line(turned(from, ray), turned(to, ray), at);
+    } else {
+      count = straight ? crossings_of_arc(side, at) : crossings_of_arc(turned(side, ray), at);
+    }
+    sum = count ? std::optional(*sum + *count) : std::nullopt;
+    return sum.has_value();
   });
-  return found;
+  return sum;
 }
 
 /// The contours around a point, and those of which rounding leaves open whether they are; both ascending and
@@ -107,27 +102,15 @@ struct Around {
 
 Around around(const Shape& shape, const Vec& p, std::size_t except = kNoContour) {
   Around found;
-  std::vector<std::size_t> open;
-  for (std::size_t t = 0; t < kTriples.size() && (t == 0 || !open.empty()); ++t) {
-    std::vector<std::size_t> still_open;
-    const auto take = [&](std::size_t contour, const std::optional<int>& turns) {
-      if (!turns)
-        still_open.push_back(contour);
-      else if (*turns == 1 || *turns == -1)
-        found.surely.push_back(contour);
-      else if (*turns != 0)
-        found.maybe.push_back(contour);
-    };
-    const Windings met = windings(shape, p, kTriples[t], except);
-    if (t == 0) {
-      for (const auto& [contour, turns] : met) take(contour, turns);
-    } else {
-      for (const std::size_t contour : open)
-        if (const auto one = met.find(contour); one != met.end()) take(contour, one->second);
-    }
-    open = std::move(still_open);
-  }
-  found.maybe.insert(found.maybe.end(), open.begin(), open.end());
+  shape.contours->visit_about(box_of(p), [&](std::size_t contour) {
+    if (contour == except) return;
+    ask();
+    std::optional<int> turns;
+    for (std::size_t t = 0; t < kTriples.size() && !turns; ++t)
+      turns = winding(shape, contour, p, kTriples[t]);
+    if (turns == 0) return;
+    (turns == 1 || turns == -1 ? found.surely : found.maybe).push_back(contour);
+  });
   std::sort(found.surely.begin(), found.surely.end());
   std::sort(found.maybe.begin(), found.maybe.end());
   return found;
@@ -332,7 +315,8 @@ std::optional<std::string> fault_of(const Shape& shape) {
         if (round && !fault) fault = fault_of_neighbours(shape, j, i);
         if ((next || round) && !fault && number[end - 1] == 2)
           fault = next && !round ? fault_of_three(shape, i, j) : fault_of_three(shape, j, i);
-        if (!next && !round && !(distance(shape.sides[i], shape.sides[j]).low > 0))
+        if (!next && !round && !carriers_apart(shape.sides[i], shape.sides[j]) &&
+            !(distance(shape.sides[i], shape.sides[j]).low > 0))
           fault = fmt::format("sides {} and {} meet, or cannot be told from it", i, j);
         if (fault) return fault;
       }
