@@ -24,8 +24,8 @@ using geom::Point;
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
 constexpr int kMostRounds = 6;
 /// Steps that may be spent on how contours lie to each other, at least, and how many more for each edge. Real
-/// drawings take a few for each edge that lies along another; arcs of kilometres take all.
-constexpr std::size_t kLeastRelationWork = 100'000, kRelationWorkOfEdge = 2'000;
+/// drawings take a few for each edge that lies along another, and long curves some dozens.
+constexpr std::size_t kLeastRelationWork = 10'000, kRelationWorkOfEdge = 500;
 /// A contour of no more than this share of the area of another that it crosses is lines on it.
 constexpr double kMostOfLines = 0.25;
 /// A contour of which no more than this share lies in a far larger one is a part that was drawn too near to
