@@ -81,7 +81,7 @@ class PlanarMap {
     std::uint32_t vertices = 0, edges = 0, faces = 0;
   };
   std::vector<Component> components_;
-  /// Where there are several components: a tree of them, and by component its edges with a tree of these. A
+  /// A tree of the components, if there are several, and by component its edges with a tree of these. A
   /// component whose box does not hold a point does not wind about it, so that a row of many costs no more
   /// than a grid of them.
   std::optional<BoxTree> wholes_;

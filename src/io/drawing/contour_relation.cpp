@@ -63,7 +63,7 @@ bool runs_along(const Edge& part, Point middle, const geom::Curve& curve, double
   if (!is_near(part.from) || !is_near(part.to)) return false;
   const bool line = part.kind == EdgeKind::line, other_line = curve.edge.kind == EdgeKind::line;
   if (line && other_line) return true;
-  // What is near an arc's circle is near the arc, unless it lies in the arc's gap.
+  // A place near an arc's circle is near the arc, unless it lies in the arc's gap.
   if (!line && !(geom::arc_sweep(part) < 1)) return false;
   if (!other_line && !curve.full && !(geom::arc_sweep(curve.edge) < 5)) return false;
   if (!is_near(middle)) return false;
@@ -100,7 +100,7 @@ PlacedContour::Sides PlacedContour::sides_of(const PlacedContour& other, double 
     // Nothing of the part is on the other side, or nothing of it is beyond reach.
     if (near.distance - halves.half_length > reach || near.distance + halves.half_length <= reach) continue;
     if (runs_along(part, halves.middle, other.index_.curves()[near.edge], reach)) continue;
-    // Where two edges part slowly, neither the middle nor the length tells that all is beyond reach.
+    // Two edges may part so slowly that neither middle nor length tells that all is beyond reach.
     if (near.distance > reach) {
       bool beyond = true;
       other.index_.visit_within(halves.middle, halves.half_length, reach, [&](std::uint32_t edge) {

@@ -81,7 +81,7 @@ class Settling {
 
  private:
   using Group = std::vector<std::size_t>;
-  /// Of two contours, what has been asked for.
+  /// The answers about two contours that have been asked for.
   struct Known {
     std::optional<Relation> relation;
     std::optional<double> shared;

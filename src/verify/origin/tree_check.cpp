@@ -221,7 +221,7 @@ class TreeCheck {
     for (const Near& one : near)
       if (one.meets_left) value_.set(one.primitive, In::open);
     known.left = value_.value();
-    // What is not near is the same on both hands.
+    // A primitive that is not near is the same on both hands.
     for (const Near& one : near) value_.set(one.primitive, in_primitive(primitives_[one.primitive], at_right));
     for (const Near& one : near)
       if (one.meets_right) value_.set(one.primitive, In::open);

@@ -8,7 +8,7 @@
 
 namespace lekalo::verify {
 
-/// Whether there is material at a place, as far as we know.
+/// Our knowledge of the material at a place.
 enum class In { no, yes, open };
 
 /// The material of a tree at a place, from that of its primitives. Most primitives do not hold a place, so
