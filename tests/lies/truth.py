@@ -669,7 +669,8 @@ def motions_of(text):
     made, feed = [], None
     for event in events:
         feed = ([word for word in event.words if word.startswith("F")] or [feed])[-1]
-        words = [word for word in event.words if word[0] != "F"]
+        # Nothing is on at the beginning that these turn off.
+        words = [word for word in event.words if word[0] != "F" and word not in ("G40", "G49", "G94")]
         if event.kind in ("rapid", "feed", "arc"):
             way = [event.kind, event.start, event.z0, event.end, event.z1]
             if event.kind == "arc":

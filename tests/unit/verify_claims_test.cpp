@@ -329,6 +329,10 @@ TEST(VerifyClaims, AReportOfShowHasTheSumsOfItsLayout) {
       "unchecked: sheets: what lekalo show counts there\nunchecked: kits: what lekalo show counts there\n"
       "unchecked: parts: what lekalo show counts there\n";
   ASSERT_EQ(judged(shown, {kLayout}), open);
+  // What was shown may be a drawing, a region or an instance: no error, but nothing that was rechecked.
+  for (const char* const other : {"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", R"({"outer": []})"})
+    EXPECT_NE(judged(shown, {other}).find("unchecked: violations, density, cost: "), std::string::npos)
+        << other;
   for (const Lie& lie : test::lies_of_json(shown)) {
     if (lie.how != std::string("deleted") &&
         begins(lie, {"/seed", "/work", "/version", "/inputs/0/path", "/inputs/0/sha256"}))
