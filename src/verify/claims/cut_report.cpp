@@ -191,6 +191,8 @@ class CutReport {
   /// Derives the regions from the pocket's file anew.
   Result<void> compare_regions() {
     refuse_unknown_fields(fields_.get("regions"), "regions", complaint_);
+    if (Fields(fields_.get("regions"), "regions", complaint_).text("units") != "mm")
+      fields_.complain("the units of regions are not mm");
     const Shape stated = read_shape(fields_.get("regions"), "regions", complaint_);
     if (!fields_.has("tolerance_mm")) {
       leave_open("the report does not say how it was read, as those of lekalo 0.1 did not");
