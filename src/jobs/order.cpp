@@ -3,33 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "lekalo/geom/grid.hpp"
 #include "lekalo/io/formats/any_layout.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "lekalo/layout/job.hpp"
 
 namespace lekalo::jobs {
 namespace {
-
-/// Gives ids that nothing else has: a name, then the name with -2, -3 behind it.
-class FreeIds {
- public:
-  std::string take(const std::string& base) {
-    std::string id = base;
-    std::size_t& last = last_of_[base];
-    if (last == 0) last = 1;
-    while (!taken_.insert(id).second) id = fmt::format("{}-{}", base, ++last);
-    return id;
-  }
-
- private:
-  std::set<std::string> taken_;
-  std::map<std::string, std::size_t> last_of_;
-};
 
 /// Says whether a file holds more than outlines.
 bool is_layout(const File& file) {
@@ -46,14 +29,16 @@ class OrderMaker {
     for (const OrderedPart& part : order_.parts) take(part);
     std::int64_t pieces = 0;
     for (const layout::Part& part : made_.document.parts) pieces += part.demand;
-    for (const OrderedStock& stock : order_.stocks) take(stock, std::max<std::int64_t>(pieces, 1));
-    rules();
+    for (const OrderedStock& stock : order_.stocks)
+      take(stock, order_.adds ? 0 : std::max<std::int64_t>(pieces, 1));
+    if (!order_.adds) rules();
     if (!faults_.empty()) return failure(ErrorCode::bad_input, faults_);
     return std::move(made_);
   }
 
  private:
   [[nodiscard]] Result<void> said_enough() const {
+    if (order_.adds && (!order_.parts.empty() || !order_.stocks.empty())) return {};
     std::string missing;
     if (order_.parts.empty()) missing = "no part is ordered";
     if (order_.stocks.empty())
@@ -100,15 +85,10 @@ class OrderMaker {
   void take(const OrderedStock& ordered, std::int64_t enough) {
     const std::int64_t count = ordered.count.value_or(enough);
     if (!ordered.size) return take_drawn(ordered.file, count);
-    layout::Stock stock;
+    const std::int64_t height = geom::grid_from_mm(ordered.size->height_mm);
     const bool strip = ordered.size->width_mm == 0;
-    stock.kind = strip ? layout::StockKind::strip : layout::StockKind::sheet;
-    stock.open_length = strip;
-    stock.count = strip ? 1 : count;
-    const std::int64_t width = strip ? layout::kLongestStrip : geom::grid_from_mm(ordered.size->width_mm);
-    stock.outline.polygon = geom::rectangle({{0, 0}, {width, geom::grid_from_mm(ordered.size->height_mm)}});
-    add(std::move(stock), strip ? fmt::format("strip-{:g}", ordered.size->height_mm)
-                                : fmt::format("{:g}x{:g}", ordered.size->width_mm, ordered.size->height_mm));
+    add(strip ? layout::strip_of(height)
+              : layout::sheet_of(geom::grid_from_mm(ordered.size->width_mm), height, count));
   }
 
   void take_drawn(const File& file, std::int64_t count) {
@@ -118,16 +98,14 @@ class OrderMaker {
     notices(read->notices);
     for (layout::Stock& stock : read->stocks) {
       stock.count = count;
-      const std::string id = stock.id;
-      add(std::move(stock), id);
+      stock.cost = geom::area_mm2(stock.outline.polygon) * 1e-6;
+      add(std::move(stock));
     }
   }
 
-  void add(layout::Stock stock, const std::string& id) {
-    stock.id = stock_ids_.take(id);
+  void add(layout::Stock stock) {
+    stock.id = stock_ids_.take(stock.id);
     stock.grain_degrees = order_.grain_degrees;
-    // A sheet costs what it holds, so that a small one is taken where it is enough.
-    if (!stock.open_length) stock.cost = geom::area_mm2(stock.outline.polygon) * 1e-6;
     made_.document.stocks.push_back(std::move(stock));
   }
 
@@ -141,7 +119,7 @@ class OrderMaker {
 
   const Order& order_;
   Layout made_;
-  FreeIds part_ids_, stock_ids_;
+  layout::FreeIds part_ids_, stock_ids_;
   std::string faults_;
 };
 

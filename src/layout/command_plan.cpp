@@ -8,6 +8,7 @@
 #include <set>
 
 #include "group.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/plain_text.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/layout/command.hpp"
@@ -104,6 +105,7 @@ struct Outcome {
   /// True for commands that cannot break a rule, so that nothing need be checked.
   bool breaks_no_rule = false;
   std::vector<FeatureChange> features = {};
+  JobChange job = {};
 };
 
 class Planner {
@@ -361,7 +363,134 @@ class Planner {
     return of_feature(std::move(change));
   }
 
+  Result<Outcome> operator()(const QuantityCommand& c) const {
+    if (c.quantity < 0 || c.quantity > limits::kMostCount)
+      return malformed(
+          fmt::format("a quantity is a whole number from 0 to {}, not {}", limits::kMostCount, c.quantity));
+    return changed_part(c.part, [&](Part& part) { part.demand = c.quantity; });
+  }
+
+  Result<Outcome> operator()(const RotationsCommand& c) const {
+    if (c.rotations.size() > kMostItems)
+      return malformed(fmt::format("{} rotations; at most {} are kept", c.rotations.size(), kMostItems));
+    for (const AngleRange& range : c.rotations)
+      if (!(range.from <= range.to && -limits::kMostDegrees <= range.from &&
+            range.to <= limits::kMostDegrees))
+        return malformed(
+            fmt::format("rotations lie within +-{} degrees, the first of a range not above its last",
+                        limits::kMostDegrees));
+    return changed_part(c.part, [&](Part& part) { part.rotations = c.rotations; });
+  }
+
+  Result<Outcome> operator()(const MirrorCommand& c) const {
+    return changed_part(c.part, [&](Part& part) { part.may_mirror = c.may_mirror; });
+  }
+
+  Result<Outcome> operator()(const RemovePartCommand& c) const {
+    LEKALO_CHECK(check_part(c.part));
+    const Part& part = document_.parts[c.part];
+    for (const Kit& kit : document_.kits)
+      for (const KitPiece& piece : kit.pieces)
+        if (piece.part == c.part)
+          return wrong(
+              fmt::format("part '{}' is a piece of kit '{}', and stays; set its quantity to 0 where none is "
+                          "wanted beside the kits",
+                          part.id, kit.id));
+    LEKALO_TRY(auto outcome, without([&](const Placement& placement) { return placement.part == c.part; }));
+    outcome.job.parts.push_back({c.part, part, std::nullopt});
+    return outcome;
+  }
+
+  Result<Outcome> operator()(const AddSheetCommand& c) const {
+    if (!is_side(c.width) || !is_side(c.height))
+      return malformed(fmt::format("a side of a sheet is from {} to {} mm long", limits::kShortestSide,
+                                   limits::kLargestOutline));
+    if (c.count < 0 || c.count > limits::kMostCount) return malformed(count_sentence(c.count));
+    return with_stock(sheet_of(c.width, c.height, c.count));
+  }
+
+  Result<Outcome> operator()(const AddStripCommand& c) const {
+    if (!is_side(c.width))
+      return malformed(
+          fmt::format("a strip is from {} to {} mm wide", limits::kShortestSide, limits::kLargestOutline));
+    return with_stock(strip_of(c.width));
+  }
+
+  Result<Outcome> operator()(const CountCommand& c) const {
+    LEKALO_CHECK(check_stock(c.stock));
+    const Stock& stock = document_.stocks[c.stock];
+    if (c.count < 1 || c.count > limits::kMostCount) return malformed(count_sentence(c.count));
+    if (stock.kind == StockKind::strip && c.count != 1)
+      return wrong(fmt::format("there is one of strip '{}'; add another strip instead", stock.id));
+    LEKALO_TRY(auto outcome, without([&](const Placement& placement) {
+                 return placement.stock == c.stock && placement.copy >= c.count &&
+                        placement.copy < stock.count;
+               }));
+    if (stock.count == c.count) return outcome;
+    outcome.job.stocks.push_back({c.stock, stock, stock});
+    outcome.job.stocks.back().after->count = c.count;
+    return outcome;
+  }
+
+  Result<Outcome> operator()(const RemoveStockCommand& c) const {
+    LEKALO_CHECK(check_stock(c.stock));
+    LEKALO_TRY(auto outcome, without([&](const Placement& placement) { return placement.stock == c.stock; }));
+    outcome.job.stocks.push_back({c.stock, document_.stocks[c.stock], std::nullopt});
+    return outcome;
+  }
+
+  Result<Outcome> operator()(const RuleCommand& c) const {
+    if (c.length < 0 || c.length > geom::grid_from_mm(limits::kLargestOutline))
+      return malformed(fmt::format("gap, border and kerf are from 0 to {} mm", limits::kLargestOutline));
+    Rules rules = document_.rules;
+    if (c.kind == RuleKind::border)
+      rules.border_gap = c.length;
+    else
+      rules.gap = c.kind == RuleKind::gap ? c.length : std::max(rules.gap, c.length);
+    Outcome outcome{{}, {}, true};
+    if (!(rules == document_.rules)) outcome.job.rules = RulesChange{document_.rules, rules};
+    return outcome;
+  }
+
  private:
+  Result<void> check_part(std::uint32_t part) const {
+    if (part < document_.parts.size()) return {};
+    return failure(ErrorCode::usage, fmt::format("there is no part number {}", part));
+  }
+  template <class Edit>
+  Result<Outcome> changed_part(std::uint32_t part, Edit&& edit) const {
+    LEKALO_CHECK(check_part(part));
+    Outcome outcome{{}, {}, true};
+    Part after = document_.parts[part];
+    edit(after);
+    if (!(after == document_.parts[part]))
+      outcome.job.parts.push_back({part, document_.parts[part], std::move(after)});
+    return outcome;
+  }
+  /// Takes placements off; one that is locked refuses.
+  template <class Which>
+  Result<Outcome> without(Which&& which) const {
+    Outcome outcome{{}, {}, true};
+    for (const Placement& placement : document_.placements)
+      if (which(placement)) outcome.removed.push_back(placement.id);
+    if (!outcome.removed.empty()) LEKALO_CHECK(movable(workspace_, outcome.removed));
+    return outcome;
+  }
+  Result<Outcome> with_stock(Stock stock) const {
+    if (document_.stocks.size() >= kMostItems)
+      return wrong(fmt::format("the layout has {} stocks; no more are kept", kMostItems));
+    Outcome outcome{{}, {}, true};
+    outcome.job = added(document_, {{}, {std::move(stock)}});
+    return outcome;
+  }
+  static bool is_side(std::int64_t steps) {
+    return geom::grid_from_mm(limits::kShortestSide) <= steps &&
+           steps <= geom::grid_from_mm(limits::kLargestOutline);
+  }
+  static std::string count_sentence(std::int64_t count) {
+    return fmt::format("there are from 1 to {} of a stock, not {}", limits::kMostCount, count);
+  }
+
   static Result<Outcome> limited(Placements placements) {
     LEKALO_TRY(auto within, within_limits(std::move(placements)));
     return Outcome{std::move(within), {}, false};
@@ -555,6 +684,7 @@ Result<Change> plan(const Workspace& workspace, const Command& command, Mode mod
   }
   Change change;
   change.features = std::move(outcome.features);
+  change.job = std::move(outcome.job);
   const std::uint64_t next = workspace.document().next_id;
   change.next_id_before = next;
   change.next_id_after = new_one ? next + 1 : next;
@@ -570,55 +700,6 @@ Result<Change> plan(const Workspace& workspace, const Command& command, Mode mod
               return (a.before ? a.before->id : a.after->id) < (b.before ? b.before->id : b.after->id);
             });
   return change;
-}
-
-void carry_out(Workspace& workspace, const Change& change) {
-  for (const PlacementChange& one : change.placements)
-    if (one.after)
-      workspace.set(*one.after);
-    else
-      workspace.erase(one.before->id);
-  for (const FeatureChange& one : change.features)
-    if (one.after)
-      workspace.set_feature(one.stock, one.index, *one.after);
-    else
-      workspace.erase_feature(one.stock, one.before->kind, one.before->id);
-  workspace.set_next_id(change.next_id_after);
-}
-
-void take_back(Workspace& workspace, const Change& change) {
-  for (auto one = change.features.rbegin(); one != change.features.rend(); ++one)
-    if (one->before)
-      workspace.set_feature(one->stock, one->index, *one->before);
-    else
-      workspace.erase_feature(one->stock, one->after->kind, one->after->id);
-  for (const PlacementChange& one : change.placements)
-    if (one.before)
-      workspace.set(*one.before);
-    else
-      workspace.erase(one.after->id);
-  workspace.set_next_id(change.next_id_before);
-}
-
-void carry_out(Document& document, const Change& change) {
-  auto& placements = document.placements;
-  const auto before_id = [](const Placement& p, std::uint64_t id) { return p.id < id; };
-  for (const PlacementChange& one : change.placements) {
-    const std::uint64_t id = one.after ? one.after->id : one.before->id;
-    const auto at = std::lower_bound(placements.begin(), placements.end(), id, before_id);
-    const bool there = at != placements.end() && at->id == id;
-    if (one.after && there) *at = *one.after;
-    if (one.after && !there) placements.insert(at, *one.after);
-    if (!one.after && there) placements.erase(at);
-  }
-  for (const FeatureChange& one : change.features) {
-    Stock& stock = document.stocks[one.stock];
-    if (one.after)
-      put_feature(stock, one.index, *one.after);
-    else if (const auto at = find_feature(stock, one.before->kind, one.before->id))
-      take_feature(stock, one.before->kind, *at);
-  }
-  document.next_id = change.next_id_after;
 }
 
 }  // namespace lekalo::layout

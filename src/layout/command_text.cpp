@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -13,18 +14,6 @@ namespace lekalo::layout {
 namespace {
 
 using geom::GridPoint;
-
-std::string quoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n')
-      result += "\\n";
-    else
-      result += c;
-  }
-  return result + '"';
-}
 
 std::string text_of(const std::vector<std::uint64_t>& ids) { return joined_text(ids, ","); }
 std::string text_of(GridPoint p) {
@@ -40,12 +29,15 @@ std::string text_of(const std::vector<std::vector<GridPoint>>& loops) {
   return text;
 }
 
+/// The words of the rules, in the order of RuleKind.
+constexpr std::array<std::string_view, 3> kRuleWords{"gap", "border", "kerf"};
+
 class Writer {
  public:
   explicit Writer(const Document& document) : document_(document) {}
 
   std::string operator()(const PlaceCommand& c) const {
-    return fmt::format("place {} {} {} {} {} {}", quoted(document_.parts[c.part].id),
+    return fmt::format("place {} {} {} {} {} {}", quoted_name(document_.parts[c.part].id),
                        text_of(Sheet{c.stock, c.copy}), static_cast<double>(c.rotation.c) * 0x1p-52,
                        static_cast<double>(c.rotation.s) * 0x1p-52, layout::text_of(c.at),
                        c.mirrored ? "mirrored" : "upright");
@@ -86,7 +78,7 @@ class Writer {
     return fmt::format("nearest {} by {}{}", layout::text_of(c.ids), layout::text_of(c.by), to(c.to));
   }
   std::string operator()(const FitCommand& c) const {
-    return fmt::format("fit {} {}{}", quoted(document_.parts[c.part].id), text_of(c.sheet),
+    return fmt::format("fit {} {}{}", quoted_name(document_.parts[c.part].id), text_of(c.sheet),
                        c.mirrored ? (*c.mirrored ? " mirrored" : " upright") : "");
   }
   std::string operator()(const AddFeatureCommand& c) const {
@@ -102,14 +94,48 @@ class Writer {
     return fmt::format("grade-{} {}", named(c), c.grade);
   }
   std::string operator()(const RemoveFeatureCommand& c) const { return "remove-" + named(c); }
+  std::string operator()(const QuantityCommand& c) const {
+    return fmt::format("quantity {} {}", part(c.part), c.quantity);
+  }
+  std::string operator()(const RotationsCommand& c) const {
+    std::string angles;
+    for (const AngleRange& range : c.rotations) {
+      angles += fmt::format("{}{}", angles.empty() ? "" : ",", range.from);
+      if (range.to != range.from) angles += fmt::format("..{}", range.to);
+    }
+    return fmt::format("rotations {} {}", part(c.part), angles.empty() ? "any" : angles);
+  }
+  std::string operator()(const MirrorCommand& c) const {
+    return fmt::format("mirror {} {}", part(c.part), c.may_mirror ? "yes" : "no");
+  }
+  std::string operator()(const RemovePartCommand& c) const { return "remove-part " + part(c.part); }
+  std::string operator()(const AddSheetCommand& c) const {
+    std::string text =
+        fmt::format("add-sheet {}x{}", geom::mm_from_grid(c.width), geom::mm_from_grid(c.height));
+    if (c.count != 0) text += fmt::format("={}", c.count);
+    return text;
+  }
+  std::string operator()(const AddStripCommand& c) const {
+    return fmt::format("add-strip {}", geom::mm_from_grid(c.width));
+  }
+  std::string operator()(const CountCommand& c) const {
+    return fmt::format("count {} {}", stock(c.stock), c.count);
+  }
+  std::string operator()(const RemoveStockCommand& c) const { return "remove-stock " + stock(c.stock); }
+  std::string operator()(const RuleCommand& c) const {
+    return fmt::format("{} {}", kRuleWords[static_cast<std::size_t>(c.kind)], geom::mm_from_grid(c.length));
+  }
 
  private:
+  std::string part(std::uint32_t index) const { return quoted_name(document_.parts[index].id); }
+  std::string stock(std::uint32_t index) const { return quoted_name(document_.stocks[index].id); }
   template <class Named>
   std::string named(const Named& c) const {
-    return fmt::format("{} {} {}", name_of(c.kind), quoted(document_.stocks[c.stock].id), quoted(c.id));
+    return fmt::format("{} {} {}", name_of(c.kind), quoted_name(document_.stocks[c.stock].id),
+                       quoted_name(c.id));
   }
   std::string text_of(Sheet sheet) const {
-    return fmt::format("{} {}", quoted(document_.stocks[sheet.stock].id), sheet.copy);
+    return fmt::format("{} {}", quoted_name(document_.stocks[sheet.stock].id), sheet.copy);
   }
   std::string to(const std::optional<Sheet>& sheet) const { return sheet ? " to " + text_of(*sheet) : ""; }
 
@@ -190,6 +216,54 @@ class Reader {
     if (!geom::fits_grid(mm)) return fail(fmt::format("{} mm is beyond the limits of +-1048576 mm", mm)), 0;
     return geom::grid_from_mm(mm);
   }
+  /// A gap is rounded up to the grid, as those in files are.
+  std::int64_t gap() {
+    const double mm = number();
+    if (!geom::fits_grid(mm)) return fail(fmt::format("{} mm is beyond the limits of +-1048576 mm", mm)), 0;
+    return geom::grid_from_mm_up(mm);
+  }
+  /// "any", or degrees and ranges between commas: 0,90,170..190.
+  std::vector<AngleRange> rotations() {
+    const std::string text = word();
+    std::vector<AngleRange> found;
+    if (text == "any") return found;
+    std::string_view rest = text;
+    while (fault_.empty()) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      const std::string_view one = rest.substr(0, comma);
+      const std::size_t dots = one.find("..");
+      const auto from = double_of_text(one.substr(0, dots));
+      const auto to = dots == one.npos ? from : double_of_text(one.substr(dots + 2));
+      if (!from || !to || found.size() == kMostItems) {
+        fail(fmt::format("'{}' is not \"any\" or degrees, as in 0,90,170..190", text));
+        break;
+      }
+      found.push_back({*from, *to});
+      if (comma == rest.size()) break;
+      rest.remove_prefix(comma + 1);
+    }
+    return found;
+  }
+  AddSheetCommand size() {
+    const std::string text = word();
+    const std::size_t times = text.find('x'), equals = std::min(text.find('='), text.size());
+    AddSheetCommand c;
+    if (times < equals) {
+      const auto width = double_of_text(std::string_view(text).substr(0, times));
+      const auto height = double_of_text(std::string_view(text).substr(times + 1, equals - times - 1));
+      const char* const end = text.data() + text.size();
+      const bool counted = equals < text.size();
+      const auto [read, code] =
+          counted ? std::from_chars(text.data() + equals + 1, end, c.count) : std::from_chars_result{end, {}};
+      if (width && height && geom::fits_grid(*width) && geom::fits_grid(*height) && code == std::errc{} &&
+          read == end && (!counted || c.count > 0)) {
+        c.width = geom::grid_from_mm(*width), c.height = geom::grid_from_mm(*height);
+        return c;
+      }
+    }
+    return fail(fmt::format("'{}' is no size such as 3000x1500, or 3000x1500=2 for two of it, in mm", text)),
+           c;
+  }
   GridPoint vector() {
     const std::int64_t x = length();
     return {x, length()};
@@ -252,9 +326,10 @@ class Reader {
     // The sentence does not name all kits, because some orders have hundreds.
     std::string known;
     for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 8); ++i)
-      known += (i == 0 ? "" : ", ") + quoted(all[i].id);
-    fail(fmt::format("there is no {} {}; there {} {}{}", what, quoted(id), all.size() == 1 ? "is" : "are",
-                     all.empty() ? "none" : known, all.size() > 8 ? ", ..." : ""));
+      known += (i == 0 ? "" : ", ") + quoted_name(all[i].id);
+    fail(fmt::format("there is no {} {}; there {} {}{}", what, quoted_name(id),
+                     all.size() == 1 ? "is" : "are", all.empty() ? "none" : known,
+                     all.size() > 8 ? ", ..." : ""));
     return 0;
   }
 
@@ -279,6 +354,24 @@ std::optional<Command> feature_command(std::string_view what, FeatureKind kind, 
   if (what == "reshape-") return ReshapeFeatureCommand{kind, stock, std::move(id), in.loops()};
   if (what == "grade-") return GradeFeatureCommand{kind, stock, std::move(id), in.integer<int>()};
   return RemoveFeatureCommand{kind, stock, std::move(id)};
+}
+
+std::optional<Command> job_command(std::string_view name, Reader& in) {
+  if (name == "quantity") return QuantityCommand{in.part(), in.integer<std::int64_t>()};
+  if (name == "rotations") return RotationsCommand{in.part(), in.rotations()};
+  if (name == "mirror") {
+    MirrorCommand c{in.part(), in.take("yes")};
+    if (!c.may_mirror) in.expect("no");
+    return c;
+  }
+  if (name == "remove-part") return RemovePartCommand{in.part()};
+  if (name == "add-sheet") return in.size();
+  if (name == "add-strip") return AddStripCommand{in.length()};
+  if (name == "count") return CountCommand{in.stock(), in.integer<std::int64_t>()};
+  if (name == "remove-stock") return RemoveStockCommand{in.stock()};
+  for (std::size_t kind = 0; kind < kRuleWords.size(); ++kind)
+    if (name == kRuleWords[kind]) return RuleCommand{static_cast<RuleKind>(kind), in.gap()};
+  return std::nullopt;
 }
 
 std::optional<Command> command_named(std::string_view name, Reader& in) {
@@ -353,6 +446,7 @@ std::optional<Command> command_named(std::string_view name, Reader& in) {
     auto [ids, by] = directed("by");
     return NearestCommand{std::move(ids), by, in.destination()};
   }
+  if (auto command = job_command(name, in)) return command;
   for (const FeatureKind kind : {FeatureKind::defect, FeatureKind::zone})
     if (name.ends_with(name_of(kind)))
       if (auto command = feature_command(name.substr(0, name.size() - name_of(kind).size()), kind, in))
@@ -361,6 +455,18 @@ std::optional<Command> command_named(std::string_view name, Reader& in) {
 }
 
 }  // namespace
+
+std::string quoted_name(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
+  }
+  return result + '"';
+}
 
 std::string to_text(const Command& command, const Document& document) {
   return std::visit(Writer(document), command);
@@ -376,9 +482,9 @@ Result<Command> command_from_text(std::string_view line, const Document& documen
         ErrorCode::bad_input,
         fmt::format(
             "there is no command '{}'; there are place, fit, move, rotate, flip, remove, swap, lock, unlock, "
-            "slide, slide-along, settle, push, snap, compact and nearest, and add-, move-, reshape-, grade- "
-            "and "
-            "remove-, each with defect or zone",
+            "slide, slide-along, settle, push, snap, compact and nearest, add-, move-, reshape-, grade- and "
+            "remove-, each with defect or zone, and quantity, rotations, mirror, remove-part, add-sheet, "
+            "add-strip, count, remove-stock, gap, border and kerf",
             name));
   if (!in.at_end()) return failure(ErrorCode::bad_input, fmt::format("'{}' is left over", in.word()));
   return *command;

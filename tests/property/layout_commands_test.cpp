@@ -26,6 +26,7 @@ std::size_t session_count() { return std::max<std::size_t>(1, cases::case_count(
 using cases::some_command;
 using cases::some_feature_command;
 using cases::some_id;
+using cases::some_job_command;
 using cases::some_vector;
 
 TEST(LayoutCommands, StrictSessionsNeverBreakARule) {
@@ -74,14 +75,22 @@ TEST(LayoutCommands, WhatIsUndoneIsAsItWasAndWhatIsRedoneAsItBecame) {
         continue;
       }
       if (random.below(20) == 0) session.set_mode(random.below(2) == 0 ? Mode::strict : Mode::free);
-      (void)session.apply(random.below(4) == 0 ? some_feature_command(session.document(), random)
-                                               : some_command(session.document(), random));
+      const std::uint64_t kind = random.below(8);
+      (void)session.apply(kind < 2    ? some_feature_command(session.document(), random)
+                          : kind == 2 ? some_job_command(session.document(), random)
+                                      : some_command(session.document(), random));
     }
     const Document last = session.document();
     const std::string log = session.log();
     std::size_t undone = 0;
     for (; session.can_undo(); ++undone) session.undo();
     EXPECT_TRUE(session.document() == first);
+    // The difference of two states leads from one to the other, whatever came and went between.
+    Workspace between(first);
+    carry_out(between, difference(first, last));
+    EXPECT_TRUE(between.document() == last);
+    take_back(between, difference(first, last));
+    EXPECT_TRUE(between.document() == first);
     for (; undone > 0; --undone) session.redo();
     EXPECT_TRUE(session.document() == last);
     // Replaying executes the commands anew, from their text.
@@ -122,12 +131,17 @@ TEST(LayoutCommands, AWorkspaceSaysWhatTheCheckSays) {
     for (int step = 0; step < 20; ++step) {
       const std::uint64_t id = some_id(session.document(), random);
       (void)session.apply(MoveCommand{{id}, some_vector(random, 15), std::nullopt});
-      if (random.below(2) == 0)
+      if (random.below(4) == 0)
+        (void)session.apply(some_job_command(session.document(), random));
+      else if (random.below(2) == 0)
         (void)session.apply(some_feature_command(session.document(), random));
       else if (session.can_undo() && random.below(4) == 0)
         session.undo();
       check_features(session.workspace());
-      const Placement& placement = *session.workspace().find(id);
+      const Placement* const there = session.workspace().find(id);
+      if (session.document().placements.empty()) break;
+      if (there == nullptr) continue;  // it went with its part or sheet
+      const Placement& placement = *there;
       std::vector<Violation> expected;
       for (const Violation& violation : check(session.document()))
         if (violation.a == id || violation.b == id) expected.push_back(violation);

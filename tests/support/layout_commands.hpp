@@ -59,6 +59,44 @@ inline layout::Command some_feature_command(const layout::Document& document, Ra
   }
 }
 
+/// A change of the job; some are to be refused.
+inline layout::Command some_job_command(const layout::Document& document, Random& random) {
+  const auto part = static_cast<std::uint32_t>(random.below(document.parts.size()));
+  const auto stock = static_cast<std::uint32_t>(random.below(document.stocks.size()));
+  switch (random.below(9)) {
+    case 0:
+      return layout::QuantityCommand{part, static_cast<std::int64_t>(random.below(12)) - 1};
+    case 1: {
+      layout::RotationsCommand rotations{part, {}};
+      for (std::uint64_t i = random.below(3); i > 0; --i) {
+        const double from = random.uniform(-200, 200);
+        rotations.rotations.push_back({from, random.below(2) == 0 ? from : from + random.uniform(0, 90)});
+      }
+      return rotations;
+    }
+    case 2:
+      return layout::MirrorCommand{part, random.below(2) == 0};
+    case 3:
+      if (document.parts.size() > 2) return layout::RemovePartCommand{part};
+      return layout::MirrorCommand{part, true};
+    case 4: {
+      const std::int64_t width = geom::grid_from_mm(random.uniform(50, 300));
+      return layout::AddSheetCommand{width, width / 2, static_cast<std::int64_t>(random.below(4))};
+    }
+    case 5:
+      return layout::AddStripCommand{geom::grid_from_mm(random.uniform(50, 200))};
+    case 6:
+      return layout::CountCommand{stock, static_cast<std::int64_t>(random.below(5))};
+    case 7:
+      if (document.stocks.size() > 1) return layout::RemoveStockCommand{stock};
+      return layout::CountCommand{stock, 2};
+    default: {
+      const auto kind = static_cast<layout::RuleKind>(random.below(3));
+      return layout::RuleCommand{kind, geom::grid_from_mm(random.uniform(0, 3))};
+    }
+  }
+}
+
 inline layout::Command some_command(const layout::Document& document, Random& random) {
   const std::uint64_t id = some_id(document, random);
   std::vector<std::uint64_t> ids{id};

@@ -154,7 +154,9 @@ TEST(LayoutSession, ALogWithAFaultNamesItsLine) {
       fault("lekalo-commands/1\n\n  # note\nmove 1 by 1 0\n"),
       "line 3: there is no command '#'; there are "
       "place, fit, move, rotate, flip, remove, swap, lock, unlock, slide, slide-along, settle, push, snap, "
-      "compact and nearest, and add-, move-, reshape-, grade- and remove-, each with defect or zone");
+      "compact and nearest, add-, move-, reshape-, grade- and remove-, each with defect or zone, and "
+      "quantity, "
+      "rotations, mirror, remove-part, add-sheet, add-strip, count, remove-stock, gap, border and kerf");
   EXPECT_EQ(fault("lekalo-commands/1\n\n# note\nmove 1 by 35 0\n"),
             "line 4: not admitted: placement 1: overlap with placement 2, 5 mm");
   EXPECT_EQ(fault("lekalo-commands/2\n"), "line 1: a log of commands begins with 'lekalo-commands/1'");
@@ -464,9 +466,7 @@ TEST(LayoutFeatures, DifferencesLeadFromOneDocumentToTheOther) {
   const auto leads_to = [&](std::vector<Defect> defects) {
     Document b = a;
     b.stocks[0].defects = std::move(defects);
-    Change change;
-    change.next_id_before = change.next_id_after = a.next_id;
-    change.features = feature_difference(a, b);
+    const Change change = difference(a, b);
     Document made = a;
     carry_out(made, change);
     EXPECT_TRUE(made == b);

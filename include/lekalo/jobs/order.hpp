@@ -50,6 +50,9 @@ struct Order {
   double kerf_mm = 0;
   /// The direction of the grain on every stock, degrees from x.
   std::optional<double> grain_degrees;
+  /// It adds to a layout that is there, with rules of its own: parts or stocks alone are enough, and a stock
+  /// of which as many as needed are there has the count 0 (layout::Additions).
+  bool adds = false;
   io::PartOptions reading;
 };
 

@@ -11,6 +11,7 @@
 #include "lekalo/base/run_control.hpp"
 #include "lekalo/layout/document.hpp"
 #include "lekalo/layout/feature.hpp"
+#include "lekalo/layout/job.hpp"
 #include "lekalo/layout/workspace.hpp"
 
 namespace lekalo::layout {
@@ -158,15 +159,71 @@ struct RemoveFeatureCommand {
   friend bool operator==(const RemoveFeatureCommand&, const RemoveFeatureCommand&) = default;
 };
 
+/// The commands for the job say what is wanted. So they, too, are admitted in both modes, and placements that
+/// break a rule by them show as violations. What is placed of a part, or on a sheet, that goes is taken off
+/// with it.
+struct QuantityCommand {
+  std::uint32_t part = 0;
+  std::int64_t quantity = 0;  ///< Part::demand
+  friend bool operator==(const QuantityCommand&, const QuantityCommand&) = default;
+};
+struct RotationsCommand {
+  std::uint32_t part = 0;
+  std::vector<AngleRange> rotations;  ///< an empty list allows any
+  friend bool operator==(const RotationsCommand&, const RotationsCommand&) = default;
+};
+struct MirrorCommand {
+  std::uint32_t part = 0;
+  bool may_mirror = false;
+  friend bool operator==(const MirrorCommand&, const MirrorCommand&) = default;
+};
+/// A part that a kit needs stays.
+struct RemovePartCommand {
+  std::uint32_t part = 0;
+  friend bool operator==(const RemovePartCommand&, const RemovePartCommand&) = default;
+};
+struct AddSheetCommand {
+  std::int64_t width = 0, height = 0;
+  std::int64_t count = 0;  ///< 0: as many as may be needed
+  friend bool operator==(const AddSheetCommand&, const AddSheetCommand&) = default;
+};
+struct AddStripCommand {
+  std::int64_t width = 0;
+  friend bool operator==(const AddStripCommand&, const AddStripCommand&) = default;
+};
+struct CountCommand {
+  std::uint32_t stock = 0;
+  std::int64_t count = 1;
+  friend bool operator==(const CountCommand&, const CountCommand&) = default;
+};
+struct RemoveStockCommand {
+  std::uint32_t stock = 0;
+  friend bool operator==(const RemoveStockCommand&, const RemoveStockCommand&) = default;
+};
+enum class RuleKind : std::uint8_t {
+  gap,
+  border,
+  kerf  ///< the width of the cut: a smaller gap is raised to it
+};
+struct RuleCommand {
+  RuleKind kind = RuleKind::gap;
+  std::int64_t length = 0;
+  friend bool operator==(const RuleCommand&, const RuleCommand&) = default;
+};
+
 using Command =
     std::variant<PlaceCommand, MoveCommand, RotateCommand, FlipCommand, RemoveCommand, SwapCommand,
                  LockCommand, SlideCommand, SlideAlongCommand, SettleCommand, PushCommand, SnapCommand,
                  CompactCommand, NearestCommand, FitCommand, AddFeatureCommand, MoveFeatureCommand,
-                 ReshapeFeatureCommand, GradeFeatureCommand, RemoveFeatureCommand>;
+                 ReshapeFeatureCommand, GradeFeatureCommand, RemoveFeatureCommand, QuantityCommand,
+                 RotationsCommand, MirrorCommand, RemovePartCommand, AddSheetCommand, AddStripCommand,
+                 CountCommand, RemoveStockCommand, RuleCommand>;
 
 /// Returns the command as one line without its end: `slide 3 5 : -1 0`. Lengths are in millimetres, angles in
 /// degrees, parts and stocks have their names, and nothing is lost.
 [[nodiscard]] std::string to_text(const Command& command, const Document& document);
+/// Returns a name as a line of a command has it: in quotation marks.
+[[nodiscard]] std::string quoted_name(std::string_view name);
 /// Fails with bad_input, naming the word. Numbers are read as in layout files.
 [[nodiscard]] Result<Command> command_from_text(std::string_view line, const Document& document);
 
@@ -175,8 +232,9 @@ enum class Mode : std::uint8_t {
   free     ///< it is, and shown as violations
 };
 
-/// Everything that a command changes: placements and features before and after. Undoing it means putting back
-/// what was before, the features in reverse order.
+/// Everything that a command changes: placements, features and the job before and after. Undoing it means
+/// putting back what was before, the features in reverse order. Placements and features name parts and stocks
+/// by the numbers that JobChange speaks of.
 struct PlacementChange {
   /// At least one of the two, with one id.
   std::optional<Placement> before, after;
@@ -188,8 +246,9 @@ struct Change {
   std::uint64_t next_id_before = 1, next_id_after = 1;
   /// The changes in the order in which they are carried out.
   std::vector<FeatureChange> features;
+  JobChange job;
   [[nodiscard]] bool is_nothing() const noexcept {
-    return placements.empty() && features.empty() && next_id_before == next_id_after;
+    return placements.empty() && features.empty() && job.is_nothing() && next_id_before == next_id_after;
   }
   friend bool operator==(const Change&, const Change&) = default;
 };
@@ -209,11 +268,22 @@ struct Change {
 [[nodiscard]] Result<Change> plan(const Workspace& workspace, const Command& command, Mode mode,
                                   const RunControl& run = {});
 
+/// Cost: that of the placements and features; where the job changes, that of the document and of its scenes.
 void carry_out(Workspace& workspace, const Change& change);
 /// Carries a change out on a document alone.
 /// \pre stocks and parts are there
 void carry_out(Document& document, const Change& change);
 void take_back(Workspace& workspace, const Change& change);
+
+/// Returns the change that takes one back. Numbers of placements are never given again while others may speak
+/// of them, so the next one stays `next_id`.
+[[nodiscard]] Change reversed(const Change& change, std::uint64_t next_id);
+/// Returns the change that leads from one document to another with the same kits.
+[[nodiscard]] Change difference(const Document& from, const Document& to);
+/// Returns a change that fits the document `then` with the numbers that parts and stocks have in `now`, where
+/// others may have come and gone since. Fails with ErrorCode::refuted where it names one that is not there
+/// any more, or is another shape.
+[[nodiscard]] Result<Change> renumbered(Change change, const Document& then, const Document& now);
 
 /// Returns places where a part would lie clear on a sheet, at most `most`, lowest and then leftmost first.
 /// Each is settled towards the lower left from one of the lowest clear places of a grid of starts, at each of

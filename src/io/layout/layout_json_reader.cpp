@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "io/shape/region_reader.hpp"
 #include "io/text/decimal.hpp"
@@ -16,6 +17,7 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
+#include "lekalo/layout/job.hpp"
 
 namespace lekalo::io {
 namespace detail {
@@ -27,7 +29,8 @@ constexpr std::string_view kFormat = "lekalo-layout/1";
 // The limits of commands are those of files, so that what commands make can be read again.
 static_assert(layout::kMostSeverity == limits::kMostSeverity && kNeverTolerated == limits::kMostSeverity &&
               layout::kMostQuality == limits::kMostLevel &&
-              layout::kMostFeaturePoints == kMostOutlinePoints && layout::kLongestFeatureId == kLongestText);
+              layout::kMostFeaturePoints == kMostOutlinePoints && layout::kLongestFeatureId == kLongestText &&
+              layout::kMostItems == kMostParts);
 
 class LayoutReader {
  public:
@@ -57,6 +60,8 @@ class LayoutReader {
     std::unordered_set<std::string> taken;
     return feature(reader_.tree().root(), kind, taken);
   }
+  layout::Part read_part() { return part_of(reader_.tree().root()); }
+  layout::Stock read_stock() { return stock_of(reader_.tree().root()); }
 
  private:
   template <class Take>
@@ -118,10 +123,16 @@ class LayoutReader {
   }
 
   void stock(JsonValue value) {
+    layout::Stock stock = stock_of(value);
+    stock_index_.emplace(stock.id, static_cast<std::uint32_t>(document_.stocks.size()));
+    document_.stocks.push_back(std::move(stock));
+  }
+
+  layout::Stock stock_of(JsonValue value) {
     layout::Stock stock;
     if (!reader_.expect_object(value, {"id", "name", "kind", "count", "cost", "outline", "height", "length",
                                        "grain_deg", "defects", "zones"}))
-      return;
+      return stock;
     stock.id = id(value, stock_ids_, "stocks");
     optional(value, "name", [&](JsonValue v) { stock.name = reader_.text(v); });
     if (const auto kind = reader_.need(value, "kind", "\"strip\", \"sheet\" or \"hide\"")) {
@@ -153,8 +164,7 @@ class LayoutReader {
       layout::Feature zone = feature(v, layout::FeatureKind::zone, zone_ids);
       stock.zones.push_back({std::move(zone.id), zone.grade, std::move(zone.outline)});
     });
-    stock_index_.emplace(stock.id, static_cast<std::uint32_t>(document_.stocks.size()));
-    document_.stocks.push_back(std::move(stock));
+    return stock;
   }
 
   layout::Feature feature(JsonValue v, layout::FeatureKind kind, std::unordered_set<std::string>& taken) {
@@ -197,11 +207,17 @@ class LayoutReader {
   }
 
   void part(JsonValue value) {
+    layout::Part part = part_of(value);
+    part_index_.emplace(part.id, static_cast<std::uint32_t>(document_.parts.size()));
+    document_.parts.push_back(std::move(part));
+  }
+
+  layout::Part part_of(JsonValue value) {
     layout::Part part;
     if (!reader_.expect_object(
             value, {"id", "name", "outline", "quality", "areas", "marks", "rotations", "mirror", "grain",
                     "tolerated_severity", "priority", "demand", "gap", "border_gap", "defect_gap"}))
-      return;
+      return part;
     part.id = id(value, part_ids_, "parts");
     optional(value, "name", [&](JsonValue v) { part.name = reader_.text(v); });
     part.outline = outline(value, geom::ChordSide::grow);
@@ -230,8 +246,7 @@ class LayoutReader {
     optional(value, "gap", [&](JsonValue v) { part.gap = reader_.gap(v); });
     optional(value, "border_gap", [&](JsonValue v) { part.border_gap = reader_.gap(v); });
     optional(value, "defect_gap", [&](JsonValue v) { part.defect_gap = reader_.gap(v); });
-    part_index_.emplace(part.id, static_cast<std::uint32_t>(document_.parts.size()));
-    document_.parts.push_back(std::move(part));
+    return part;
   }
 
   void mark(JsonValue value, layout::Part& part) {
@@ -436,13 +451,33 @@ Result<LayoutFile> read_layout(std::string_view bytes, const std::string& name) 
   return detail::read_layout_tree(tree, name);
 }
 
-Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
-                                     const std::string& name) {
+namespace {
+
+/// The item that `read` reads of the bytes.
+template <class Read>
+auto read_item(std::string_view bytes, const std::string& name, const Read& read)
+    -> Result<decltype(read(std::declval<detail::LayoutReader&>()))> {
   LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
   detail::JsonReader reader(tree, name);
-  layout::Feature feature = detail::LayoutReader(reader).read_feature(kind);
+  detail::LayoutReader layout(reader);
+  auto item = read(layout);
   if (!reader.ok()) return tl::unexpected(reader.fault());
-  return feature;
+  return item;
+}
+
+}  // namespace
+
+Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
+                                     const std::string& name) {
+  return read_item(bytes, name, [kind](detail::LayoutReader& layout) { return layout.read_feature(kind); });
+}
+
+Result<layout::Part> read_part(std::string_view bytes, const std::string& name) {
+  return read_item(bytes, name, [](detail::LayoutReader& layout) { return layout.read_part(); });
+}
+
+Result<layout::Stock> read_stock(std::string_view bytes, const std::string& name) {
+  return read_item(bytes, name, [](detail::LayoutReader& layout) { return layout.read_stock(); });
 }
 
 }  // namespace lekalo::io

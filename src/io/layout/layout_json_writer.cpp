@@ -1,5 +1,6 @@
 // A layout document as JSON text.
 
+#include <algorithm>
 #include <optional>
 
 #include "io/shape/region_text.hpp"
@@ -93,38 +94,9 @@ void write_zone(JsonWriter& json, const std::string& id, int quality, const Outl
   fields.close();
 }
 
-class Writer {
+/// Writes parts and stocks.
+class ItemWriter {
  public:
-  explicit Writer(const Document& document) : document_(document) {}
-
-  std::string write() {
-    json_.begin_object().fields({{"format", "lekalo-layout/1"}, {"units", "mm"}});
-    if (!document_.name.empty()) json_.field("name", document_.name);
-    json_.line(0);
-    rules(document_.rules);
-    list("stocks", document_.stocks, [this](const Stock& s) { stock(s); });
-    list("parts", document_.parts, [this](const Part& p) { part(p); });
-    list("kits", document_.kits, [this](const Kit& k) { kit(k); });
-    list("placements", document_.placements,
-         [this](const Placement& p) { write_placement(json_, document_, p); });
-    json_.line(0).field("next_id", document_.next_id).end();
-    return json_.take() + "\n";
-  }
-
- private:
-  template <class Item, class Write>
-  void list(const char* key, const std::vector<Item>& items, const Write& write) {
-    list_of_lines(json_.line(0).key(key), items, 1, write);
-  }
-
-  void rules(const Rules& rules) {
-    Fields fields(json_.key("rules"));
-    fields.gap("gap", rules.gap);
-    fields.gap("border_gap", rules.border_gap);
-    fields.gap("defect_gap", rules.defect_gap);
-    fields.close();
-  }
-
   void stock(const Stock& stock) {
     Fields fields(json_);
     fields.text("id", stock.id);
@@ -178,7 +150,12 @@ class Writer {
       list_of_lines(fields.field("marks"), part.marks, 2, [this](const layout::PartMark& m) { mark(m); });
     fields.close();
   }
+  [[nodiscard]] std::string take() { return json_.take(); }
 
+ protected:
+  JsonWriter json_{JsonLayout::spaced};
+
+ private:
   void mark(const layout::PartMark& mark) {
     Fields fields(json_);
     if (!mark.layer.empty()) fields.text("layer", mark.layer);
@@ -203,6 +180,39 @@ class Writer {
     fields.outline(area.outline);
     fields.close();
   }
+};
+
+class Writer : private ItemWriter {
+ public:
+  explicit Writer(const Document& document) : document_(document) {}
+
+  std::string write() {
+    json_.begin_object().fields({{"format", "lekalo-layout/1"}, {"units", "mm"}});
+    if (!document_.name.empty()) json_.field("name", document_.name);
+    json_.line(0);
+    rules(document_.rules);
+    list("stocks", document_.stocks, [this](const Stock& s) { stock(s); });
+    list("parts", document_.parts, [this](const Part& p) { part(p); });
+    list("kits", document_.kits, [this](const Kit& k) { kit(k); });
+    list("placements", document_.placements,
+         [this](const Placement& p) { write_placement(json_, document_, p); });
+    json_.line(0).field("next_id", document_.next_id).end();
+    return json_.take() + "\n";
+  }
+
+ private:
+  template <class Item, class Write>
+  void list(const char* key, const std::vector<Item>& items, const Write& write) {
+    list_of_lines(json_.line(0).key(key), items, 1, write);
+  }
+
+  void rules(const Rules& rules) {
+    Fields fields(json_.key("rules"));
+    fields.gap("gap", rules.gap);
+    fields.gap("border_gap", rules.border_gap);
+    fields.gap("defect_gap", rules.defect_gap);
+    fields.close();
+  }
 
   void kit(const Kit& kit) {
     Fields fields(json_);
@@ -223,8 +233,18 @@ class Writer {
   }
 
   const Document& document_;
-  JsonWriter json_{JsonLayout::spaced};
 };
+
+/// The text of the item that `write(items)` writes, on one line: a line end is blank space here, as texts
+/// hold none.
+template <class Write>
+std::string line_of(const Write& write) {
+  ItemWriter items;
+  write(items);
+  std::string text = items.take();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
 
 void write_feature(JsonWriter& json, const Feature& feature) {
   (feature.kind == FeatureKind::defect ? write_defect : write_zone)(json, feature.id, feature.grade,
@@ -249,6 +269,14 @@ std::string placement_json(const Document& document, const Placement& placement)
 
 std::string feature_json(const Feature& feature) {
   return text_of([&](JsonWriter& json) { write_feature(json, feature); });
+}
+
+std::string part_json(const Part& part) {
+  return line_of([&](ItemWriter& items) { items.part(part); });
+}
+
+std::string stock_json(const Stock& stock) {
+  return line_of([&](ItemWriter& items) { items.stock(stock); });
 }
 
 std::string features_json(const Document& document, const std::vector<FeatureChange>& changes) {

@@ -25,6 +25,13 @@ namespace lekalo::io {
 /// Fails with ErrorCode::bad_input as read_layout does; `name` stands for the file.
 [[nodiscard]] Result<layout::Feature> read_feature(layout::FeatureKind kind, std::string_view bytes,
                                                    const std::string& name);
+/// A part and a stock as write_layout writes them, without the line ends. Law: read_part(part_json(p)) is p,
+/// and likewise of stocks. Cost: O(points).
+[[nodiscard]] std::string part_json(const layout::Part& part);
+[[nodiscard]] std::string stock_json(const layout::Stock& stock);
+/// These fail with ErrorCode::bad_input as read_layout does; `name` stands for the file.
+[[nodiscard]] Result<layout::Part> read_part(std::string_view bytes, const std::string& name);
+[[nodiscard]] Result<layout::Stock> read_stock(std::string_view bytes, const std::string& name);
 /// The changes of features as docs/protocol.md has them. Cost: O(points).
 [[nodiscard]] std::string features_json(const layout::Document& document,
                                         const std::vector<layout::FeatureChange>& changes);
