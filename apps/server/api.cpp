@@ -116,11 +116,11 @@ ApiAnswer history(Store& store, LayoutId id) {
                                 {"undone", entry.undone},
                                 {"damaged", entry.damaged}});
     json.key("parts").list(entry.parts, [&](const TouchedPart& one) {
-      json.object({{"part", one.part},
-                   {"first", one.first},
-                   {"placed", one.placed},
-                   {"changed", one.changed},
-                   {"removed", one.removed}});
+      json.begin_object();
+      one.gone.empty() ? json.field("part", one.part) : json.field("part", one.gone);
+      json.fields(
+          {{"first", one.first}, {"placed", one.placed}, {"changed", one.changed}, {"removed", one.removed}});
+      json.end();
     });
     json.end();
   });
@@ -234,6 +234,31 @@ ApiAnswer restore_layout(const ChangeRoom& change_room, const Target& target) {
   return done ? json_answer(200, {{"revision", now}}) : trouble(done.error());
 }
 
+/// Brings the drawings and sheets of a form into a layout.
+ApiAnswer add_to_layout(const ChangeRoom& change_room, const Target& target, ReadFirst read,
+                        const std::atomic<bool>& given_up) {
+  const std::string* const author = target.find("author");
+  if (author != nullptr)
+    if (const Result<void> fine = check_author(*author); !fine) return trouble(fine.error());
+  Result<jobs::Layout>& made = *read.additions;
+  if (!made) return api_error(400, made.error().message);
+  if (given_up) return api_error(503, "nobody waits for it any more");
+  std::vector<std::string> added;
+  Revision now = 0;
+  const Result<void> done = change_room([&](Room& room) {
+    Result<Outbound> out =
+        room.add(author != nullptr ? *author : std::string(),
+                 {std::move(made->document.parts), std::move(made->document.stocks)}, added);
+    now = room.revision();
+    return out;
+  });
+  if (!done) return trouble(done.error());
+  JsonWriter json(io::JsonLayout::compact);
+  json.begin_object().field("revision", now).key("added").list(added);
+  json.key("notices").list(made->notices).end();
+  return json_answer(200, json);
+}
+
 ApiAnswer rename_layout(const ChangeRoom& change_room, const Target& target) {
   const Result<std::string> name = name_in(target);
   if (!name) return trouble(name.error());
@@ -342,8 +367,9 @@ std::string image_type(std::string_view bytes) {
 
 std::size_t most_body(std::string_view method, std::string_view path) {
   constexpr std::size_t kLargestFile = std::size_t{64} << 20;
-  if (method == "POST" && (path == kRoot || path == kDrawings)) return kLargestFile;
   const std::optional<LayoutPath> layout = layout_path(path);
+  if (method == "POST" && (path == kRoot || path == kDrawings || is_read_first(method, path)))
+    return kLargestFile;
   return method == "PUT" && layout && layout->what == "/photo" ? kLargestPhoto : 0;
 }
 
@@ -352,7 +378,7 @@ std::optional<LayoutId> layout_changed_by(std::string_view method, std::string_v
   if (!layout) return std::nullopt;
   const auto& [id, what] = *layout;
   const bool changes = (what.empty() && (method == "PATCH" || method == "DELETE")) ||
-                       (what == "/restore" && method == "POST") ||
+                       ((what == "/restore" || what == "/order") && method == "POST") ||
                        (what == "/photo" && (method == "PUT" || method == "PATCH" || method == "DELETE"));
   return changes ? std::optional(id) : std::nullopt;
 }
@@ -366,12 +392,20 @@ bool takes_long(std::string_view method, std::string_view path, std::size_t body
          ((what == "/copy" || what == "/restore") && method == "POST");
 }
 
+bool is_read_first(std::string_view method, std::string_view path) {
+  const std::optional<LayoutPath> layout = layout_path(path);
+  return method == "POST" && layout && layout->what == "/order";
+}
+
+ReadFirst read_first(const std::string& body) { return {ordered_additions(body)}; }
+
 ApiAnswer api_error(int status, const std::string& sentence) {
   return json_answer(status, {{"error", sentence}});
 }
 
 ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
-                     const Target& target, const std::string& body, const std::atomic<bool>& given_up) {
+                     const Target& target, const std::string& body, ReadFirst read,
+                     const std::atomic<bool>& given_up) {
   const ApiAnswer nothing = api_error(404, "there is nothing here");
   if (target.path == kRoot) {
     if (method == "GET") return list_layouts(store);
@@ -390,6 +424,9 @@ ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::str
   if (what == "/copy") return method == "POST" ? copy_layout(store, id, target) : wrong_method("POST");
   if (what == "/restore")
     return method == "POST" ? restore_layout(change_room, target) : wrong_method("POST");
+  if (what == "/order")
+    return method == "POST" ? add_to_layout(change_room, target, std::move(read), given_up)
+                            : wrong_method("POST");
   if (what == "/history") return method == "GET" ? history(store, id) : wrong_method("GET");
   if (what == "/export") return method == "GET" ? export_layout(store, id, target) : wrong_method("GET");
   if (what == "/photos") return method == "GET" ? list_photos(store, id) : wrong_method("GET");

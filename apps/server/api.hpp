@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "lekalo/jobs/layout.hpp"
 #include "messages.hpp"
 #include "room.hpp"
 #include "store/store.hpp"
@@ -45,13 +46,23 @@ inline constexpr std::size_t kLargestPhoto = std::size_t{16} << 20;
 /// change says goes to the clients.
 using ChangeRoom = std::function<Result<void>(const std::function<Result<Outbound>(Room&)>&)>;
 
+/// A request may bring something that takes a while to read, so that it is read before the turn of the
+/// layout's room comes.
+struct ReadFirst {
+  std::optional<Result<jobs::Layout>> additions;
+};
+/// Says whether read_first has something to read.
+[[nodiscard]] bool is_read_first(std::string_view method, std::string_view path);
+[[nodiscard]] ReadFirst read_first(const std::string& body);
+
 /// Answers a request whose path begins with /api.
 /// \param change_room  is called for the layout of layout_changed_by, and for no other
 /// \param method  as HTTP has it
+/// \param read  what read_first has read of the body, where is_read_first says so
 /// \param given_up  set when nobody waits for the answer any more. A file that has been read by then makes no
 /// layout.
 [[nodiscard]] ApiAnswer answer_api(Store& store, const ChangeRoom& change_room, const std::string& method,
-                                   const Target& target, const std::string& body,
+                                   const Target& target, const std::string& body, ReadFirst read,
                                    const std::atomic<bool>& given_up);
 
 }  // namespace lekalo::server

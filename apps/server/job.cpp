@@ -13,23 +13,6 @@ using layout::Placement;
 using layout::Sheet;
 using layout::Workspace;
 
-std::vector<layout::PlacementChange> difference(const std::vector<Placement>& from,
-                                                const std::vector<Placement>& to) {
-  std::vector<layout::PlacementChange> changes;
-  std::size_t i = 0, k = 0;
-  while (i < from.size() || k < to.size()) {
-    if (k == to.size() || (i < from.size() && from[i].id < to[k].id)) {
-      changes.push_back({from[i++], std::nullopt});
-    } else if (i == from.size() || to[k].id < from[i].id) {
-      changes.push_back({std::nullopt, to[k++]});
-    } else {
-      if (from[i] != to[k]) changes.push_back({from[i], to[k]});
-      ++i, ++k;
-    }
-  }
-  return changes;
-}
-
 /// Compacts sheet by sheet, as the command does. Each sheet makes the layout better than it was, so the job
 /// tells of the layout after each.
 Result<layout::Change> compact_all(const layout::Document& document, const JobContext& context,
@@ -53,20 +36,13 @@ Result<layout::Change> compact_all(const layout::Document& document, const JobCo
     carry_out(work, change);
     done += count;
     if (context.run.stop_requested()) break;
-    if (context.improved && !change.is_nothing()) context.improved(change_between(document, work.document()));
+    if (context.improved && !change.is_nothing())
+      context.improved(layout::difference(document, work.document()));
   }
-  return change_between(document, work.document());
+  return layout::difference(document, work.document());
 }
 
 }  // namespace
-
-layout::Change change_between(const layout::Document& from, const layout::Document& to) {
-  layout::Change change;
-  change.placements = difference(from.placements, to.placements);
-  change.next_id_before = from.next_id;
-  change.next_id_after = to.next_id;
-  return change;
-}
 
 std::optional<Job> job_of(const layout::Command& command, layout::Mode mode) {
   if (const auto* compact = std::get_if<layout::CompactCommand>(&command); compact && !compact->sheet)

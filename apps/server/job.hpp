@@ -32,10 +32,6 @@ using Job = std::function<Result<layout::Change>(const layout::Document&, const 
 /// Returns the job that carries out a command; none for commands that take only a moment.
 [[nodiscard]] std::optional<Job> job_of(const layout::Command& command, layout::Mode mode);
 
-/// Returns the change of placements that leads from one document to another, which has the same stocks and
-/// parts.
-[[nodiscard]] layout::Change change_between(const layout::Document& from, const layout::Document& to);
-
 using JobNumber = std::uint64_t;
 
 /// A job that is to be run, and everything it needs for that.

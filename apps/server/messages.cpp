@@ -150,6 +150,12 @@ Result<ClientMessage> parse_client_message(std::string_view bytes) {
   return reader.message();
 }
 
+Result<void> check_author(std::string_view author) {
+  constexpr std::size_t kLongest = 64;
+  if (author.size() <= kLongest && is_plain_text(author)) return {};
+  return failure(ErrorCode::bad_input, "an author has at most 64 bytes of UTF-8 without control characters");
+}
+
 Result<void> check_layout_name(std::string_view name) {
   constexpr std::size_t kLongest = 200;
   if (name.empty()) return failure(ErrorCode::bad_input, "the name of a layout cannot be empty");

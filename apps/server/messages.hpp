@@ -46,6 +46,8 @@ using ClientMessage = std::variant<CommandMessage, UndoMessage, SelectMessage, S
 
 /// Fails with ErrorCode::bad_input unless the name has 1 to 200 bytes of UTF-8 without control characters.
 [[nodiscard]] Result<void> check_layout_name(std::string_view name);
+/// Fails likewise unless the name of an author has at most 64 bytes.
+[[nodiscard]] Result<void> check_author(std::string_view author);
 
 /// Reads the whole of a text as a number in [0, kLargestCount], digits only.
 [[nodiscard]] std::optional<std::uint64_t> whole_number(std::string_view text);

@@ -115,7 +115,7 @@ Result<layout::Change> run(const Document& document, const NestRequest& request,
   options.only = request.ids;
   if (context.improved)
     options.improved = [&](const Document& better, std::string_view) -> Result<void> {
-      context.improved(change_between(document, better));
+      context.improved(layout::difference(document, better));
       return {};
     };
   RunControl control;
@@ -125,7 +125,7 @@ Result<layout::Change> run(const Document& document, const NestRequest& request,
     if (context.run.progress) context.run.progress({progress.work, std::min(1.0, passed / request.seconds)});
   };
   LEKALO_TRY(const jobs::Nested nested, jobs::nest(document, options, control));
-  return change_between(document, nested.document);
+  return layout::difference(document, nested.document);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ namespace {
 
 class OrderForm {
  public:
+  explicit OrderForm(bool adds) : adds_(adds) {}
+
   Result<jobs::Layout> layout(std::string_view body) {
     LEKALO_TRY(const std::vector<FormField> fields, read_form(body));
     for (const FormField& field : fields) take(field);
@@ -22,6 +24,7 @@ class OrderForm {
     if (!terms) fault(terms.error().message);
     if (!faults_.empty()) return failure(ErrorCode::bad_input, faults_);
     jobs::Order order = jobs::order_of(*terms);
+    order.adds = adds_;
     std::vector<std::string> notices;
     add_parts(*terms, order, notices);
     for (const jobs::StockWord& word : terms->stocks) add_stock(word, order);
@@ -56,6 +59,8 @@ class OrderForm {
       words_.sheets.push_back(value);
     } else if (field.name == "strip") {
       words_.strips.push_back(value);
+    } else if (adds_ && (field.name == "gap" || field.name == "border" || field.name == "kerf")) {
+      fault(fmt::format("the {} is one of the layout; what is added keeps it", field.name));
     } else if (field.name == "gap") {
       words_.gap = value;
     } else if (field.name == "border") {
@@ -94,8 +99,10 @@ class OrderForm {
     stock.size = word.size;
     stock.count = word.count;
     if (!stock.size) {
+      if (!files_.contains(word.said))
+        return fault(fmt::format("sheet: {} is neither a size such as 3000x1500 nor a file that came along",
+                                 io::excerpt(word.said)));
       auto file = file_named(word.said);
-      if (!file) return;
       stock.file = *std::move(file);
     }
     order.stocks.push_back(std::move(stock));
@@ -122,6 +129,7 @@ class OrderForm {
   }
 
   static constexpr std::size_t kLongestWord = 1000;
+  bool adds_;
   jobs::OrderWords words_;
   std::map<std::string, Sent> files_;
   std::vector<std::string> names_;  ///< in the order in which they came
@@ -131,6 +139,7 @@ class OrderForm {
 
 }  // namespace
 
-Result<jobs::Layout> ordered_layout(std::string_view body) { return OrderForm().layout(body); }
+Result<jobs::Layout> ordered_layout(std::string_view body) { return OrderForm(false).layout(body); }
+Result<jobs::Layout> ordered_additions(std::string_view body) { return OrderForm(true).layout(body); }
 
 }  // namespace lekalo::server

@@ -14,4 +14,9 @@ namespace lekalo::server {
 /// Fails with one sentence that lists everything that is wrong. Cost: that of reading the drawings.
 [[nodiscard]] Result<jobs::Layout> ordered_layout(std::string_view body);
 
+/// Reads such a form as an order that adds to a layout (jobs::Order::adds): `gap`, `border` and `kerf` are
+/// none of its fields, and a form without drawings or without sheets is one too. The document has the parts
+/// and stocks alone.
+[[nodiscard]] Result<jobs::Layout> ordered_additions(std::string_view body);
+
 }  // namespace lekalo::server

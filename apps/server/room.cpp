@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "lekalo/base/joined_text.hpp"
@@ -55,8 +56,64 @@ std::vector<Placement> placed_by(const layout::Change& change) {
 }
 
 /// The key of a feature among the last changes.
-std::string feature_key(std::uint32_t stock, const layout::Feature& feature) {
-  return fmt::format("{} {} {}", stock, static_cast<int>(feature.kind), feature.id);
+std::string feature_key(const std::string& stock, const layout::Feature& feature) {
+  return fmt::format("{} {} {}", static_cast<int>(feature.kind), feature.id, stock);
+}
+
+/// The id of a stock that a change names, after it was carried out.
+std::string stock_id(const layout::Document& after, const layout::Change& change, std::uint32_t number) {
+  std::uint32_t gone = 0;
+  for (const auto& one : change.job.stocks) {
+    if (one.after || one.index > number) continue;
+    if (one.index == number) return one.before->id;
+    ++gone;
+  }
+  return after.stocks[number - gone].id;
+}
+
+/// The item that a change of the job changes, in words; the key among the last changes too.
+std::string named(const layout::ItemChange<layout::Part>& one) {
+  return fmt::format("part '{}'", one.either().id);
+}
+std::string named(const layout::ItemChange<layout::Stock>& one) {
+  return fmt::format("stock '{}'", one.either().id);
+}
+constexpr const char* kRules = "the rules";
+
+std::int64_t taken_off(const layout::Change& change) {
+  if (change.job.is_nothing()) return 0;
+  return std::count_if(change.placements.begin(), change.placements.end(),
+                       [](const PlacementChange& one) { return !one.after; });
+}
+
+/// The first change of a list that does not find what it was made for; none where all do.
+template <class Item>
+const layout::ItemChange<Item>* unfit(const std::vector<Item>& there,
+                                      const std::vector<layout::ItemChange<Item>>& changes) {
+  std::uint32_t come = 0;
+  for (const layout::ItemChange<Item>& one : changes) {
+    if (one.before) {
+      if (!(there[one.index - come] == *one.before)) return &one;
+      continue;
+    }
+    ++come;
+    const auto same_id = [&](const auto& other) { return other.id == one.after->id; };
+    const auto goes = [&](const layout::ItemChange<Item>& other) {
+      return other.before && !other.after && same_id(*other.before);
+    };
+    if (std::any_of(there.begin(), there.end(), same_id) &&
+        std::none_of(changes.begin(), changes.end(), goes))
+      return &one;
+  }
+  return nullptr;
+}
+
+template <class Item>
+std::set<std::string> ids_that_go(const std::vector<layout::ItemChange<Item>>& changes) {
+  std::set<std::string> ids;
+  for (const layout::ItemChange<Item>& one : changes)
+    if (!one.after) ids.insert(one.before->id);
+  return ids;
 }
 
 /// A command in a sentence: the outlines in some are long.
@@ -96,16 +153,6 @@ JsonWriter begin_done(std::uint64_t seq, Revision revision) {
   JsonWriter json = begin_message("done");
   json.fields({{"seq", seq}, {"revision", revision}});
   return json;
-}
-
-/// Numbers of placements are never given again while others may speak of them, so going back keeps them.
-layout::Change reversed(const layout::Change& change, std::uint64_t next_id) {
-  layout::Change back;
-  back.next_id_before = back.next_id_after = next_id;
-  for (const PlacementChange& one : change.placements) back.placements.push_back({one.after, one.before});
-  for (auto one = change.features.rbegin(); one != change.features.rend(); ++one)
-    back.features.push_back({one->stock, one->index, one->after, one->before});
-  return back;
 }
 
 /// The violations that a command refused in strict mode would make, to be shown.
@@ -150,7 +197,7 @@ Result<Outbound> Room::join(ClientNumber client, const std::string& author) {
   }
   clients_[client].author = author;
   Outbound out;
-  out.push_back(message(client, layout_text(client), Loss::fresh));
+  out.push_back(message(client, layout_text(client, io::write_layout(document())), Loss::fresh));
   out.push_back(message(client, selections_text(), Loss::as_newer));
   return out;
 }
@@ -187,29 +234,23 @@ Outbound Room::handle(ClientNumber client, const ClientMessage& said, const std:
 Outbound Room::resend(ClientNumber client) const {
   Outbound out;
   if (clients_.find(client) == clients_.end()) return out;
-  out.push_back(message(client, layout_text(client), Loss::fresh));
+  out.push_back(message(client, layout_text(client, io::write_layout(document())), Loss::fresh));
   out.push_back(message(client, selections_text(), Loss::as_newer));
   return out;
 }
 
 Outbound Room::command(ClientNumber client, const CommandMessage& said, const std::atomic<bool>& gone) {
   Outbound out;
-  if (const auto nest = nest_request(said.text, document())) {
-    if (*nest)
-      start({client, said, to_text(**nest), std::nullopt, job_of(**nest), nullptr, 0});
-    else
-      out.push_back(message(client, refused(said.seq, nest->error().message)));
+  Result<std::optional<Running>> running = read_long(client, said);
+  if (!running) {
+    out.push_back(message(client, refused(said.seq, running.error().message)));
+    return out;
+  }
+  if (*running) {
+    start(std::move(**running));
     return out;
   }
   const Result<layout::Command> command = layout::command_from_text(said.text, document());
-  if (!command) {
-    out.push_back(message(client, refused(said.seq, command.error().message)));
-    return out;
-  }
-  if (std::optional<Job> job = job_of(*command, said.mode)) {
-    start({client, said, to_text(*command, document()), *command, std::move(*job), nullptr, 0});
-    return out;
-  }
   RunControl run;
   run.stop = &gone;
   std::string violations = "[]";
@@ -226,9 +267,25 @@ Outbound Room::command(ClientNumber client, const CommandMessage& said, const st
   return out;
 }
 
+Result<std::optional<Room::Running>> Room::read_long(ClientNumber client, const CommandMessage& said) const {
+  if (const auto nest = nest_request(said.text, document())) {
+    if (!*nest) return tl::unexpected(nest->error());
+    return Running{client, said, to_text(**nest), std::nullopt, job_of(**nest), last_job_change_};
+  }
+  LEKALO_TRY(const layout::Command command, layout::command_from_text(said.text, document()));
+  if (std::optional<Job> job = job_of(command, said.mode))
+    return Running{client, said, to_text(command, document()), command, std::move(*job), last_job_change_};
+  return std::optional<Running>();
+}
+
 Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
                          layout::Change change, bool stopped) {
   Outbound out;
+  if (said.preview && !change.job.is_nothing()) {
+    out.push_back(
+        message(client, refused(said.seq, "parts, stocks and rules are changed without a preview")));
+    return out;
+  }
   if (said.preview) {
     out.push_back(message(client, preview_text(said.seq, change)));
     return out;
@@ -250,6 +307,7 @@ Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const 
   }
   JsonWriter json = begin_done(said.seq, revision_);
   if (stopped) json.field("stopped", true);
+  if (const std::int64_t count = taken_off(change); count > 0) json.field("taken_off", count);
   // A defect is where it is: admitted, and what lies on it is named.
   if (!change.features.empty())
     json.key("violations").raw() += io::violations_json(document(), violations_with(workspace_, change));
@@ -329,16 +387,22 @@ Outbound Room::job_ended(JobNumber job, const Result<layout::Change>& found) {
     return out;
   };
   if (!found)
-    return refuse(found.error().message, found.error().code == ErrorCode::refuted && running.command
+    return refuse(found.error().message, found.error().code == ErrorCode::refuted && running.command &&
+                                                 running.knows == last_job_change_
                                              ? violations_of_refused(workspace_, *running.command)
                                              : "[]");
-  if (auto change = rebased(*found, running.said.mode))
+  const bool knows_all = running.knows == last_job_change_;
+  if (auto change = knows_all ? rebased(*found, running.said.mode) : std::nullopt)
     return carry_out(running.client, running.said, running.text, std::move(*change), *running.stop);
   constexpr int kMostAttempts = 3;
   if (*running.stop || running.attempts == kMostAttempts)
     return refuse(
         "others changed meanwhile what this command moves, or the places it found; nothing was done");
-  start(std::move(running));
+  // Parts may have other numbers now, so the command is read anew.
+  Result<std::optional<Running>> again = read_long(running.client, running.said);
+  if (!again) return refuse(again.error().message);
+  (*again)->attempts = running.attempts;
+  start(std::move(**again));
   return out;
 }
 
@@ -359,9 +423,9 @@ Outbound Room::undo(ClientNumber client, const UndoMessage& said) {
   next.mode = stored->mode;
   next.target = stored->revision;
   next.text = stored->text;
-  const std::uint64_t next_id = document().next_id;
-  next.change = reversed(stored->change, next_id);
-  if (said.redo) next.change = reversed(next.change, next_id);
+  Result<layout::Change> wanted = wanted_by(*stored, said.redo);
+  if (!wanted) return refuse(wanted.error().message);
+  next.change = std::move(*wanted);
   if (Result<void> fine = check_standing(*stored, next.change); !fine) return refuse(fine.error().message);
   if (Result<void> kept = commit(client, std::move(next), out); !kept) return refuse(kept.error().message);
   JsonWriter json = begin_done(said.seq, revision_);
@@ -369,6 +433,19 @@ Outbound Room::undo(ClientNumber client, const UndoMessage& said) {
   to.push_back(from.back());
   from.pop_back();
   return out;
+}
+
+Result<layout::Change> Room::wanted_by(const StoredChange& command, bool redo) {
+  layout::Change wanted = reversed(command.change, document().next_id);
+  if (redo) wanted = reversed(wanted, document().next_id);
+  LEKALO_TRY(const bool changed, store_.job_changed_since(id_, command.revision));
+  if (!changed) return wanted;
+  LEKALO_TRY(const layout::Document then,
+             store_.state_at(id_, redo ? command.revision - 1 : command.revision));
+  Result<layout::Change> now = renumbered(std::move(wanted), then, document());
+  if (now) return now;
+  return failure(now.error().code, fmt::format("'{}' cannot be {}: {}", brief(command.text),
+                                               redo ? "done again" : "undone", now.error().message));
 }
 
 std::string Room::preview_text(std::uint64_t seq, const layout::Change& change) {
@@ -396,15 +473,16 @@ Result<std::string> Room::later_change(std::uint64_t id, Revision since) {
                       });
 }
 
-Result<std::string> Room::later_change(std::uint32_t stock, const layout::Feature& feature, Revision since) {
+Result<std::string> Room::later_change(const std::string& stock, const layout::Feature& feature,
+                                       Revision since) {
   const auto known = last_draw_.find(feature_key(stock, feature));
   return later_change(
       fmt::format("{} '{}'", name_of(feature.kind), feature.id),
       known != last_draw_.end() ? &known->second : nullptr, since, [&](const layout::Change& change) {
-        return std::any_of(
-            change.features.begin(), change.features.end(), [&](const layout::FeatureChange& one) {
-              return one.stock == stock && one.either().kind == feature.kind && one.either().id == feature.id;
-            });
+        return std::any_of(change.features.begin(), change.features.end(),
+                           [&](const layout::FeatureChange& one) {
+                             return one.either().kind == feature.kind && one.either().id == feature.id;
+                           });
       });
 }
 
@@ -424,22 +502,74 @@ Result<std::string> Room::later_change(const std::string& what, const Toucher* k
   return what + " was changed";
 }
 
-Result<void> Room::check_standing(const StoredChange& command, const layout::Change& wanted) {
-  const auto refuse = [&](const Result<std::string>& who) -> Result<void> {
-    if (!who) return tl::unexpected(who.error());
-    return failure(ErrorCode::refuted, fmt::format("'{}' stands in the way of a later command: {} since",
-                                                   brief(command.text), *who));
+namespace {
+
+Result<void> in_the_way(const StoredChange& command, const Result<std::string>& who) {
+  if (!who) return tl::unexpected(who.error());
+  return failure(ErrorCode::refuted, fmt::format("'{}' stands in the way of a later command: {} since",
+                                                 brief(command.text), *who));
+}
+
+}  // namespace
+
+Result<void> Room::check_job_standing(const StoredChange& command, const layout::Change& wanted) {
+  const layout::JobChange& job = wanted.job;
+  const auto refuse = [&](const std::string& what, const auto& touches) {
+    const auto known = last_order_.find(what);
+    return in_the_way(command, later_change(what, known != last_order_.end() ? &known->second : nullptr,
+                                            command.revision, touches));
   };
+  const auto refuse_item = [&](const auto& one, auto layout::JobChange::*list) {
+    return refuse(named(one), [&, list](const layout::Change& change) {
+      const auto& changes = change.job.*list;
+      return std::any_of(changes.begin(), changes.end(),
+                         [&](const auto& other) { return other.either().id == one.either().id; });
+    });
+  };
+  if (const auto* one = unfit(document().parts, job.parts))
+    return refuse_item(*one, &layout::JobChange::parts);
+  if (const auto* one = unfit(document().stocks, job.stocks))
+    return refuse_item(*one, &layout::JobChange::stocks);
+  if (job.rules && !(job.rules->before == document().rules))
+    return refuse(kRules, [](const layout::Change& change) { return change.job.rules.has_value(); });
+  const std::set<std::string> parts = ids_that_go(job.parts), stocks = ids_that_go(job.stocks);
+  std::set<std::uint64_t> taken;
+  for (const PlacementChange& one : wanted.placements)
+    if (!one.after) taken.insert(one.before->id);
+  for (const Placement& placement : document().placements) {
+    const bool goes = parts.contains(document().parts[placement.part].id) ||
+                      stocks.contains(document().stocks[placement.stock].id);
+    if (goes && !taken.contains(placement.id))
+      return in_the_way(command, later_change(placement.id, command.revision));
+  }
+  return {};
+}
+
+Result<void> Room::check_standing(const StoredChange& command, const layout::Change& wanted) {
+  if (wanted.job.is_nothing()) return check_standing_in(workspace_, command, wanted);
+  LEKALO_CHECK(check_job_standing(command, wanted));
+  // Placements and features are looked at where parts and stocks have the numbers that the change gives them.
+  layout::Document whole = document();
+  bring_in(whole, wanted.job);
+  layout::Workspace with_job(std::move(whole));
+  layout::Change rest = wanted;
+  rest.job = {};
+  return check_standing_in(with_job, command, rest);
+}
+
+Result<void> Room::check_standing_in(layout::Workspace& workspace, const StoredChange& command,
+                                     const layout::Change& wanted) {
+  const auto refuse = [&](const Result<std::string>& who) { return in_the_way(command, who); };
   for (const PlacementChange& one : wanted.placements) {
-    const Placement* const now = workspace_.find(id_of(one));
+    const Placement* const now = workspace.find(id_of(one));
     const bool same = one.before ? now != nullptr && *now == *one.before : now == nullptr;
     if (!same) return refuse(later_change(id_of(one), command.revision));
   }
   for (const layout::FeatureChange& one : wanted.features) {
-    const layout::Stock& stock = document().stocks[one.stock];
+    const layout::Stock& stock = workspace.document().stocks[one.stock];
     const auto at = find_feature(stock, one.either().kind, one.either().id);
     const bool same = one.before ? at && feature_at(stock, one.either().kind, *at) == *one.before : !at;
-    if (!same) return refuse(later_change(one.stock, one.either(), command.revision));
+    if (!same) return refuse(later_change(stock.id, one.either(), command.revision));
   }
   // A part that was put in the place that became free stands on the command too, where the rules hold.
   if (command.mode == layout::Mode::free) return {};
@@ -451,21 +581,21 @@ Result<void> Room::check_standing(const StoredChange& command, const layout::Cha
     const auto touched = last_touch_.find(id);
     return touched != last_touch_.end() && touched->second.revision > command.revision;
   };
-  for (const layout::Violation& v : workspace_.violations_of(placed)) {
+  for (const layout::Violation& v : workspace.violations_of(placed)) {
     const std::uint64_t other = is_wanted(v.a) ? v.b : v.a;
     if (other != 0 && !is_wanted(other) && later(other)) return refuse(later_change(other, command.revision));
-    if (feature_id(document(), v).empty()) continue;
+    if (feature_id(workspace.document(), v).empty()) continue;
     const auto kind =
         v.kind == layout::ViolationKind::quality ? layout::FeatureKind::zone : layout::FeatureKind::defect;
-    const layout::Feature feature = feature_at(document().stocks[v.stock], kind, v.feature);
-    const auto drawn = last_draw_.find(feature_key(v.stock, feature));
+    const layout::Feature feature = feature_at(workspace.document().stocks[v.stock], kind, v.feature);
+    const auto drawn = last_draw_.find(feature_key(workspace.document().stocks[v.stock].id, feature));
     if (drawn != last_draw_.end() && drawn->second.revision > command.revision)
-      return refuse(later_change(v.stock, feature, command.revision));
+      return refuse(later_change(workspace.document().stocks[v.stock].id, feature, command.revision));
   }
   if (wanted.features.empty()) return {};
-  layout::carry_out(workspace_, wanted);
-  const std::vector<layout::Violation> broken = violations_with(workspace_, wanted);
-  layout::take_back(workspace_, wanted);
+  layout::carry_out(workspace, wanted);
+  const std::vector<layout::Violation> broken = violations_with(workspace, wanted);
+  layout::take_back(workspace, wanted);
   for (const layout::Violation& v : broken)
     if (later(v.a)) return refuse(later_change(v.a, command.revision));
   return {};
@@ -483,10 +613,22 @@ Result<void> Room::commit(ClientNumber client, StoredChange change, Outbound& ou
     return failure(kept.error().code, "not stored, and not done: " + kept.error().message);
   }
   revision_ = change.revision;
-  for (const PlacementChange& one : change.change.placements)
-    last_touch_[id_of(one)] = {revision_, who(client), change.text};
+  const Toucher toucher{revision_, who(client, change), change.text};
+  const layout::JobChange& job = change.change.job;
+  for (const PlacementChange& one : change.change.placements) last_touch_[id_of(one)] = toucher;
   for (const layout::FeatureChange& one : change.change.features)
-    last_draw_[feature_key(one.stock, one.either())] = {revision_, who(client), change.text};
+    last_draw_[feature_key(stock_id(document(), change.change, one.stock), one.either())] = toucher;
+  for (const auto& one : job.parts) last_order_[named(one)] = toucher;
+  for (const auto& one : job.stocks) last_order_[named(one)] = toucher;
+  if (job.rules) last_order_[kRules] = toucher;
+  if (!job.is_nothing()) {
+    // Whatever was numbered may be numbered otherwise, so everyone begins anew.
+    last_job_change_ = revision_;
+    const std::string whole = io::write_layout(document());
+    for (const auto& one : clients_)
+      out.push_back(message(one.first, layout_text(one.first, whole), Loss::fresh));
+    return {};
+  }
   JsonWriter json = begin_message("change");
   json.fields(
       {{"revision", revision_}, {"client", client}, {"text", change.text}, {"kind", name_of(change.kind)}});
@@ -519,11 +661,36 @@ Result<Outbound> Room::restore(Revision revision) {
   change.mode = layout::Mode::free;
   change.target = revision;
   change.text = fmt::format("restore {}", revision);
-  change.change = change_between(document(), state);
+  change.change = layout::difference(document(), state);
   change.change.next_id_after = document().next_id;
-  change.change.features = layout::feature_difference(document(), state);
   if (change.change.is_nothing()) return out;
   LEKALO_CHECK(commit(0, std::move(change), out));
+  return out;
+}
+
+Result<Outbound> Room::add(const std::string& author, layout::Additions additions,
+                           std::vector<std::string>& added) {
+  Outbound out;
+  const std::size_t parts = additions.parts.size(), stocks = additions.stocks.size();
+  if (document().parts.size() + parts > layout::kMostItems ||
+      document().stocks.size() + stocks > layout::kMostItems)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("with these the layout would have more than {} parts or stocks", layout::kMostItems));
+  StoredChange change;
+  change.author = author;
+  change.change.next_id_before = change.change.next_id_after = document().next_id;
+  change.change.job = layout::added(document(), std::move(additions));
+  for (const auto& one : change.change.job.parts) added.push_back(one.after->id);
+  for (const auto& one : change.change.job.stocks) added.push_back(one.after->id);
+  change.text = "add";
+  for (const std::string& id : added) change.text += " " + layout::quoted_name(id);
+  LEKALO_CHECK(commit(0, std::move(change), out));
+  // Who has not been here yet reads what may be undone from the store.
+  if (const auto stack = stacks_.find(author); stack != stacks_.end()) {
+    stack->second.done.push_back(revision_);
+    stack->second.undone.clear();
+  }
   return out;
 }
 
@@ -575,9 +742,9 @@ Room::Stack& Room::stack_of(Client& client) {
   return client.author.empty() ? client.own : stacks_[client.author];
 }
 
-std::string Room::who(ClientNumber client) const {
+std::string Room::who(ClientNumber client, const StoredChange& change) const {
   const auto at = clients_.find(client);
-  if (at == clients_.end()) return "a restore";
+  if (at == clients_.end()) return change.author.empty() ? "a restore" : change.author;
   return at->second.author.empty() ? fmt::format("client {}", client)
                                    : fmt::format("client {} ({})", client, at->second.author);
 }
@@ -587,10 +754,10 @@ void Room::to_all(const std::string& text, Loss loss, Outbound& out) const {
   for (const auto& [number, client] : clients_) out.push_back({number, shared, loss});
 }
 
-std::string Room::layout_text(ClientNumber client) const {
+std::string Room::layout_text(ClientNumber client, const std::string& document) const {
   JsonWriter json = begin_message("layout");
   json.fields({{"client", client}, {"revision", revision_}, {"name", name_}});
-  json.key("document").raw() += io::write_layout(document());
+  json.key("document").raw() += document;
   return end_message(json);
 }
 

@@ -69,6 +69,10 @@ class Room {
   /// Makes the state of that revision the newest one. A state that already is the newest gives no new
   /// revision.
   [[nodiscard]] Result<Outbound> restore(Revision revision);
+  /// Brings parts and stocks in, as one change of this author, who may undo it.
+  /// \param added  is set to the ids that they have
+  [[nodiscard]] Result<Outbound> add(const std::string& author, layout::Additions additions,
+                                     std::vector<std::string>& added);
   [[nodiscard]] Result<Outbound> rename(const std::string& name);
   /// These three keep a photograph of a stock, change its scale, or take it away, and tell everyone.
   [[nodiscard]] Result<Outbound> set_photo(const Photo& photo, const std::string& image);
@@ -102,7 +106,9 @@ class Room {
     /// The layout's command; none for a request that is no command of a layout (nest_job.hpp).
     std::optional<layout::Command> command;
     Job job;
-    std::shared_ptr<std::atomic<bool>> stop;
+    /// The last change of the job that it knows.
+    Revision knows = 0;
+    std::shared_ptr<std::atomic<bool>> stop = nullptr;
     int attempts = 0;
   };
   static constexpr std::atomic<bool> kNever{false};
@@ -117,6 +123,9 @@ class Room {
   /// Answers a command whose change is planned: the change is shown or carried out.
   [[nodiscard]] Outbound carry_out(ClientNumber client, const CommandMessage& said, const std::string& text,
                                    layout::Change change, bool stopped = false);
+  /// Reads a command that takes long; nothing where it takes a moment.
+  [[nodiscard]] Result<std::optional<Running>> read_long(ClientNumber client,
+                                                         const CommandMessage& said) const;
   void start(Running running);
   void stop(ClientNumber client, const StopMessage& message);
   /// Returns a change that was planned on an earlier state as a change of this state; none where that is not
@@ -125,22 +134,28 @@ class Room {
   [[nodiscard]] Outbound undo(ClientNumber client, const UndoMessage& message);
   [[nodiscard]] Outbound select(ClientNumber client, const SelectMessage& message);
   [[nodiscard]] Stack& stack_of(Client& client);
-  [[nodiscard]] std::string who(ClientNumber client) const;
+  [[nodiscard]] std::string who(ClientNumber client, const StoredChange& change) const;
   [[nodiscard]] std::string preview_text(std::uint64_t seq, const layout::Change& change);
   /// Returns the end of a sentence that says who changed the placement or the feature last.
   [[nodiscard]] Result<std::string> later_change(std::uint64_t id, Revision since);
-  [[nodiscard]] Result<std::string> later_change(std::uint32_t stock, const layout::Feature& feature,
+  [[nodiscard]] Result<std::string> later_change(const std::string& stock, const layout::Feature& feature,
                                                  Revision since);
   [[nodiscard]] Result<std::string> later_change(const std::string& what, const Toucher* known,
                                                  Revision since,
                                                  const std::function<bool(const layout::Change&)>& touches);
+  /// Returns what undo or redo puts in place of the present state, with the numbers that parts have now.
+  [[nodiscard]] Result<layout::Change> wanted_by(const StoredChange& command, bool redo);
+  [[nodiscard]] Result<void> check_job_standing(const StoredChange& command, const layout::Change& wanted);
   /// Says why a change cannot be put in place of the present state; success where it can.
   [[nodiscard]] Result<void> check_standing(const StoredChange& command, const layout::Change& wanted);
+  [[nodiscard]] Result<void> check_standing_in(layout::Workspace& workspace, const StoredChange& command,
+                                               const layout::Change& wanted);
   /// Puts a change into the store first, then into the state, and then tells everyone.
   [[nodiscard]] Result<void> commit(ClientNumber client, StoredChange change, Outbound& out);
   [[nodiscard]] Outbound photo_changed(const std::string& stock, bool image) const;
   void to_all(const std::string& text, Loss loss, Outbound& out) const;
-  [[nodiscard]] std::string layout_text(ClientNumber client) const;
+  /// \param document  as a layout file
+  [[nodiscard]] std::string layout_text(ClientNumber client, const std::string& document) const;
   [[nodiscard]] std::string selections_text() const;
 
   Store& store_;
@@ -156,6 +171,8 @@ class Room {
   std::map<std::string, Stack> stacks_;                    ///< by author
   std::unordered_map<std::uint64_t, Toucher> last_touch_;  ///< by placement, since the room was opened
   std::unordered_map<std::string, Toucher> last_draw_;     ///< by feature, since the room was opened
+  std::unordered_map<std::string, Toucher> last_order_;    ///< by part or stock, since the room was opened
+  Revision last_job_change_ = 0;                           ///< since the room was opened; 0: none
 };
 
 }  // namespace lekalo::server

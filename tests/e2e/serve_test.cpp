@@ -166,6 +166,83 @@ TEST(Serve, MakesOneLayoutOfAnOrderOfManyDrawingsAsTheCommandDoes) {
   EXPECT_EQ(read_bytes(folder / "o.json"), written);
 }
 
+TEST(Serve, PartsAndSheetsOfAnOpenLayoutChangeForEveryone) {
+  const TemporaryFolder folder;
+  auto server = std::make_unique<ServerProcess>(folder.path());
+  const int id = create(*server);
+  const std::string path = "/api/layouts/" + std::to_string(id);
+  {
+    Client anna(*server, id, "anna"), other(*server, id);
+    anna.hear("layout");
+    other.hear("layout");
+    EXPECT_EQ(anna.command("quantity square 14")["type"], "done");
+    EXPECT_EQ(anna.hear("layout")["document"]["parts"][0]["demand"], 14);
+    EXPECT_EQ(other.hear("layout")["document"]["parts"][0]["demand"], 14);
+    const Answer added = ask(*server, http::verb::post, path + "/order?author=anna",
+                             form_of({{"table", "", "file,quantity,rotations\ntray.svg,4,\"0,90\"\n"},
+                                      {"sheet", "", "1ftx200mm"},
+                                      {"file", "tray.svg", kTray}}));
+    ASSERT_EQ(added.status, 200u) << added.body;
+    EXPECT_EQ(Json::parse(added.body)["added"], Json::parse(R"(["tray", "304.8x200"])"));
+    const Json document = other.hear("layout")["document"];
+    EXPECT_EQ(document["parts"][1]["demand"], 4);
+    EXPECT_EQ(document["parts"][1]["rotations"], Json::parse("[0, 90]"));
+    EXPECT_EQ(document["stocks"][1]["count"], 18) << "one for every piece";
+    anna.hear("layout");
+    EXPECT_EQ(other.command("fit tray 304.8x200 0")["type"], "done");
+    EXPECT_EQ(anna.ask({{"type", "undo"}})["type"], "refused");
+    EXPECT_EQ(other.command("remove-stock sheet")["taken_off"], 12);
+    EXPECT_EQ(other.hear("layout")["document"]["placements"].size(), 1u);
+    // The numbers of placements that went are not given again, and undo goes on across a restart.
+    anna.hear("layout");
+    EXPECT_EQ(anna.revision(), 4);
+    EXPECT_EQ(other.ask({{"type", "undo"}})["type"], "done");
+    EXPECT_EQ(other.hear("layout")["document"]["placements"].size(), 13u);
+  }
+  const std::string before = ask(*server, http::verb::get, path + "/export?form=layout").body;
+  server->end(SIGKILL);
+  server = std::make_unique<ServerProcess>(folder.path());
+  EXPECT_EQ(ask(*server, http::verb::get, path + "/export?form=layout").body, before);
+  Client anna(*server, id, "anna");
+  anna.hear("layout");
+  EXPECT_EQ(anna.command("remove 13")["type"], "done");
+  EXPECT_EQ(anna.ask({{"type", "undo"}})["type"], "done");
+  EXPECT_EQ(anna.ask({{"type", "undo"}})["type"], "refused") << "a tray lies on what was added";
+  const Json history = Json::parse(ask(*server, http::verb::get, path + "/history").body)["entries"];
+  EXPECT_EQ(history[1]["text"], "add \"tray\" \"304.8x200\"");
+  EXPECT_EQ(history[1]["author"], "anna");
+  EXPECT_EQ(history[3]["parts"][0]["removed"], 12);
+}
+
+TEST(Serve, TellsWhatIsWrongWithAnAdditionAndAddsNothing) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  const std::string path = "/api/layouts/" + std::to_string(create(server)) + "/order";
+  const auto refusal = [&](const std::string& body) {
+    const Answer answer = ask(server, http::verb::post, path, body);
+    EXPECT_EQ(answer.status, 400u) << answer.body;
+    return Json::parse(answer.body)["error"].get<std::string>();
+  };
+  const auto says = [](const std::string& said, const char* what) {
+    return said.find(what) != std::string::npos && said.find('\n') == std::string::npos;
+  };
+  EXPECT_TRUE(
+      says(refusal(form_of({{"gap", "", "4"}, {"sheet", "", "10x10"}})), "the gap is one of the layout"));
+  EXPECT_TRUE(says(refusal(form_of({{"sheet", "", "300x"}})),
+                   "sheet: \"300x\" is neither a size such as 3000x1500 nor a file that came along"));
+  EXPECT_TRUE(says(refusal(form_of({{"file", "tray.svg", "<svg><rect"}})), "tray.svg"));
+  EXPECT_TRUE(says(refusal(form_of({{"grain", "", "x"}})), "no part is ordered"));
+  EXPECT_EQ(ask(server, http::verb::post, path, "").status, 400u);
+  EXPECT_EQ(ask(server, http::verb::get, path).status, 405u);
+  EXPECT_EQ(ask(server, http::verb::post, "/api/layouts/99/order", form_of({{"sheet", "", "9x9"}})).status,
+            404u);
+  EXPECT_EQ(
+      ask(server, http::verb::post, path + "?author=" + std::string(65, 'a'), form_of({{"sheet", "", "9x9"}}))
+          .status,
+      400u);
+  EXPECT_EQ(Json::parse(ask(server, http::verb::get, "/api/layouts").body)["layouts"][0]["revision"], 0);
+}
+
 TEST(Serve, ReadsADrawingForAPictureAndKeepsNothing) {
   const TemporaryFolder folder;
   const ServerProcess server(folder.path());

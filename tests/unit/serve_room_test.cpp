@@ -415,6 +415,136 @@ TEST(Jobs, CompactingAllSheetsShowsABetterLayoutAfterEach) {
   EXPECT_EQ(*found, *plan(layout::Workspace(document), command, layout::Mode::strict));
 }
 
+/// A lid of 8 x 8, to be added.
+layout::Additions a_lid() {
+  layout::Additions additions;
+  additions.parts.emplace_back();
+  additions.parts[0].id = "lid";
+  additions.parts[0].demand = 1;
+  additions.parts[0].outline = cases::outline_of({cases::box_loop(0, 0, 8, 8)});
+  return additions;
+}
+
+TEST_F(TwoClients, BothGetTheWholeLayoutWhenTheJobChanges) {
+  const auto heard = command(1, "quantity square 6");
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[0]["type"], "done");
+  EXPECT_EQ(heard[0]["revision"], 1);
+  EXPECT_FALSE(heard[0].contains("taken_off"));
+  EXPECT_EQ(heard[1]["type"], "layout");
+  EXPECT_EQ(heard[1]["client"], 1);
+  EXPECT_EQ(heard[1]["revision"], 1);
+  EXPECT_EQ(heard[1]["document"]["parts"][0]["demand"], 6);
+  EXPECT_EQ(heard_.back().first, 2u);
+  EXPECT_EQ(heard_.back().second["type"], "layout");
+  EXPECT_EQ(heard_.back().second["client"], 2);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  EXPECT_EQ(command(2, "remove-part square")[0]["taken_off"], 2);
+  EXPECT_TRUE(room_->document().placements.empty());
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  const auto preview = say(1, CommandMessage{9, layout::Mode::free, "gap 4", true});
+  EXPECT_EQ(preview[0]["type"], "refused");
+  EXPECT_EQ(room_->document().rules.gap, 0);
+}
+
+TEST_F(TwoClients, UndoFindsPartsUnderTheNumbersThatTheyHaveNow) {
+  std::vector<std::string> added;
+  hear(room_->add("anna", a_lid(), added).value());
+  EXPECT_EQ(added, std::vector<std::string>{"lid"});
+  const layout::Document with_lid = room_->document();
+  ASSERT_EQ(command(2, "place lid sheet 0 1 0 80 80 upright")[0]["type"], "done");
+  // Others have placed what would go.
+  const auto refused = say(1, UndoMessage{1, false});
+  ASSERT_EQ(refused[0]["type"], "refused");
+  EXPECT_EQ(
+      refused[0]["message"],
+      "'add \"lid\"' stands in the way of a later command: client 2 changed placement 3 by 'place \"lid\" "
+      "\"sheet\" 0 1 0 80 80 upright' (revision 2) since");
+  const layout::Document whole = room_->document();
+  ASSERT_EQ(command(1, "remove-part square")[0]["taken_off"], 2);
+  EXPECT_EQ(room_->document().placements[0].part, 0u);
+  // The lid was part 1 when it was placed, and is part 0 now.
+  ASSERT_EQ(say(2, UndoMessage{2, false})[0]["type"], "done");
+  EXPECT_TRUE(room_->document().placements.empty());
+  ASSERT_EQ(say(2, UndoMessage{3, true})[0]["type"], "done");
+  ASSERT_EQ(room_->document().placements.size(), 1u);
+  EXPECT_EQ(room_->document().parts[room_->document().placements[0].part].id, "lid");
+  const std::vector<HistoryEntry> history = store_->history(id_).value();
+  ASSERT_EQ(history.size(), 5u);
+  EXPECT_EQ(history[1].parts[0].part, 0u);
+  EXPECT_EQ(history[1].parts[0].gone, "");
+  EXPECT_EQ(history[2].parts[0].gone, "square");
+  EXPECT_EQ(history[2].parts[0].removed, 2);
+  // After a restart, too, the numbers are found: by what the store says.
+  reopen();
+  ASSERT_EQ(say(1, UndoMessage{4, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document(), whole);
+  EXPECT_EQ(store_->load(id_)->document, whole);
+  hear(room_->restore(1).value());
+  EXPECT_EQ(room_->document().parts, with_lid.parts);
+  EXPECT_EQ(room_->document().placements, with_lid.placements);
+  hear(room_->restore(0).value());
+  EXPECT_EQ(room_->document().parts, first_.parts);
+  EXPECT_EQ(room_->document().placements, first_.placements);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  EXPECT_TRUE(store_->check()->damage.empty());
+}
+
+TEST_F(TwoClients, AreToldWhoChangedThePartThatWouldGoBack) {
+  command(1, "quantity square 6");
+  command(2, "rotations square 0,90");
+  const auto refused = say(1, UndoMessage{1, false});
+  ASSERT_EQ(refused[0]["type"], "refused");
+  EXPECT_EQ(refused[0]["message"],
+            "'quantity \"square\" 6' stands in the way of a later command: client 2 changed part 'square' by "
+            "'rotations \"square\" 0,90' (revision 2) since");
+  command(1, "remove-part square");
+  std::vector<std::string> added;
+  layout::Additions another = a_lid();
+  another.parts[0].id = "square";
+  hear(room_->add("", another, added).value());
+  EXPECT_EQ(added, std::vector<std::string>{"square"});
+  EXPECT_EQ(say(1, UndoMessage{2, false})[0]["type"], "refused");
+  command(1, "gap 1");
+  command(2, "gap 2");
+  EXPECT_EQ(say(1, UndoMessage{3, false})[0]["message"],
+            "'gap 1' stands in the way of a later command: client 2 changed the rules by 'gap 2' (revision "
+            "6) since");
+}
+
+TEST_F(TwoClients, PiecesThatWereTakenOffComeBackOnlyWhereTheirPlaceIsFree) {
+  command(2, "add-sheet 100x100=1");
+  ASSERT_EQ(command(1, "remove-part square")[0]["taken_off"], 2);
+  std::vector<std::string> added;
+  hear(room_->add("", a_lid(), added).value());
+  command(2, "place lid sheet 0 1 0 22 42 upright");
+  const auto refused = say(1, UndoMessage{1, false});
+  ASSERT_EQ(refused[0]["type"], "refused");
+  EXPECT_NE(refused[0]["message"].get<std::string>().find("client 2 changed placement 3"), std::string::npos);
+  command(2, "move 3 by 0 -30");
+  EXPECT_EQ(say(1, UndoMessage{2, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document().placements.size(), 3u);
+  EXPECT_TRUE(layout::check(room_->document()).empty());
+}
+
+TEST_F(TwoClients, ALongCommandThatKnowsAnOlderJobBeginsAgain) {
+  command(1, "fit square sheet 0");
+  std::vector<JobStart> jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 1u);
+  command(2, "border 7");
+  EXPECT_TRUE(room_->job_ended(jobs[0].number, ran(jobs[0])).empty());
+  jobs = room_->take_jobs();
+  ASSERT_EQ(jobs.size(), 1u);
+  EXPECT_EQ(jobs[0].document.rules.border_gap, 7 * geom::kGridPerMm);
+  const auto found = ran(jobs[0]);
+  command(2, "remove-part square");
+  const std::size_t before = heard_.size();
+  hear(room_->job_ended(jobs[0].number, found));
+  EXPECT_EQ(heard_[before].second["type"], "refused");
+  EXPECT_EQ(heard_[before].second["message"], "there is no part \"square\"; there are none");
+  EXPECT_TRUE(room_->take_jobs().empty());
+}
+
 Outgoing sized(std::size_t bytes, Loss loss) {
   return {1, std::make_shared<const std::string>(bytes, 'x'), loss};
 }

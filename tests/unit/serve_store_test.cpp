@@ -188,11 +188,32 @@ TEST_F(StoreFile, RefusesANewerFormat) {
   { Store store = open(); }
   {
     Database database = Database::open(path_).value();
-    ASSERT_TRUE(database.run("PRAGMA user_version=4"));
+    ASSERT_TRUE(database.run("PRAGMA user_version=5"));
   }
   const Result<Store> store = Store::open(path_);
   ASSERT_FALSE(store);
-  EXPECT_NE(store.error().message.find("format 4"), std::string::npos);
+  EXPECT_NE(store.error().message.find("format 5"), std::string::npos);
+}
+
+TEST_F(StoreFile, OpensAStoreOfFormat3AndMarksItForWhatComes) {
+  const layout::Document document = cases::two_squares();
+  { ASSERT_TRUE(open().create("a", document)); }
+  const auto format = [&] { return Database::open(path_)->number("PRAGMA user_version").value(); };
+  {
+    Database database = Database::open(path_).value();
+    ASSERT_TRUE(database.run("PRAGMA user_version=3"));
+  }
+  {
+    Store store = Store::open(path_, StoreUse::inspect).value();
+    EXPECT_EQ(store.load(1)->document, document);
+  }
+  EXPECT_EQ(format(), 3) << "an inspection changes nothing";
+  {
+    Store store = open();
+    EXPECT_TRUE(store.notices().empty());
+    EXPECT_EQ(store.load(1)->document, document);
+  }
+  EXPECT_EQ(format(), kStoreFormat);
 }
 
 TEST_F(StoreFile, NoticesDamage) {
@@ -332,12 +353,44 @@ TEST(ChangeText, CountsWhatHappensToEachPart) {
                           std::int64_t removed) {
     EXPECT_EQ(all[i].part, i);
     EXPECT_EQ(all[i].first, first);
-    EXPECT_EQ(std::tuple(all[i].placed, all[i].changed, all[i].removed), std::tuple(placed, changed, removed));
+    EXPECT_EQ(std::tuple(all[i].placed, all[i].changed, all[i].removed),
+              std::tuple(placed, changed, removed));
   };
   ASSERT_EQ(all.size(), 3U);
   expect(0, 4, 0, 1, 0);
   expect(1, 9, 1, 0, 0);
   expect(2, 3, 1, 2, 1);
+}
+
+TEST(ChangeText, SaysExactlyHowTheJobChanges) {
+  std::size_t jobs = 0;
+  for (std::size_t i = 0; i < cases::case_count(20); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
+    layout::Session session(cases::random_layout(cases::seed(), 40 + i, 10));
+    Random random(cases::seed(), 60 + i);
+    for (int step = 0; step < 12; ++step) {
+      const auto change = session.apply(cases::some_job_command(session.document(), random));
+      if (!change) continue;
+      const std::string text = change_text(*change);
+      const auto read = change_from_text(text);
+      ASSERT_TRUE(read) << text;
+      EXPECT_EQ(*read, *change);
+      jobs += change->job.is_nothing() ? 0 : 1;
+      for (std::size_t cut = text.find('\n') + 1; cut + 1 < text.size(); cut += 1 + text.size() / 50) {
+        const auto part = change_from_text(std::string_view(text).substr(0, cut));
+        if (part) {  // whole lines alone
+          EXPECT_EQ(change_text(*part), text.substr(0, cut));
+        }
+      }
+    }
+  }
+  EXPECT_GT(jobs, 50u);
+  EXPECT_TRUE(change_from_text("1 1\nr1 2 3 4 5 6\n"));
+  EXPECT_FALSE(change_from_text("1 1\nr1 2 3\n"));
+  EXPECT_FALSE(change_from_text("1 1\nr1 2 3 4 5 6\nr1 2 3 4 5 6\n"));
+  EXPECT_FALSE(change_from_text("1 1\np0 {}\n"));
+  EXPECT_FALSE(change_from_text("1 1\nS0 {\"id\": \"a\"}\n"));
+  EXPECT_FALSE(change_from_text("1 1\nq0 {}\n"));
 }
 
 TEST(ChangeText, IsExactAndRefusesEverythingElse) {

@@ -21,7 +21,6 @@
 
 #include "admission.hpp"
 #include "api.hpp"
-#include "lekalo/base/plain_text.hpp"
 #include "lekalo/base/stop.hpp"
 #include "messages.hpp"
 #include "page.hpp"
@@ -195,9 +194,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
     const auto id = layout != nullptr ? whole_number(*layout) : std::nullopt;
     if (!id || *id == 0) return refuse(400, "the layout is missing or no whole number: ?layout=");
     const std::string* const author = target_->find("author");
-    constexpr std::size_t kLongestAuthor = 64;
-    if (author != nullptr && (author->size() > kLongestAuthor || !is_plain_text(*author)))
-      return refuse(400, "an author has at most 64 bytes of UTF-8 without control characters");
+    if (author != nullptr)
+      if (const Result<void> fine = check_author(*author); !fine) return refuse(400, fine.error().message);
     if (service_.stopping) return refuse(503, "the server is about to stop");
     if (!place_->stay(Clock::now()))
       return refuse(503, "too many pages are open; close some, or try again later");
@@ -215,8 +213,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
     const bool is_long = takes_long(method, target_->path, request.body().size());
     const std::optional<LayoutId> changed = layout_changed_by(method, target_->path);
     const std::shared_ptr<OpenRoom> room = changed ? service_.take_room(*changed) : nullptr;
-    Work work = [self = shared_from_this(), method, room, is_long,
-                 body = std::make_shared<const std::string>(std::move(request.body()))]() mutable {
+    const auto body = std::make_shared<const std::string>(std::move(request.body()));
+    Work work = [self = shared_from_this(), method, room, is_long, body]() mutable {
       if (is_long && self->given_up_)
         self->answer_ = api_error(503, "nobody waited for this any more when its turn came");
       else
@@ -226,12 +224,34 @@ class Visit : public std::enable_shared_from_this<Visit> {
       Service& service = self->service_;
       asio::post(service.io, [self = std::move(self)] { self->send(std::move(self->answer_)); });
     };
-    if (room)
+    if (room && is_read_first(method, target_->path))
+      service_.slow.post(
+          place_->peer(), [self = shared_from_this(), room, body, work = std::move(work)]() mutable {
+            self->read_before_turn(*body);
+            Service& service = self->service_;
+            asio::post(service.io,
+                       [self = std::move(self), room = std::move(room), work = std::move(work)]() mutable {
+                         room->turns->post(self->place_->peer(), std::move(work), Length::as_before);
+                       });
+          });
+    else if (room)
       room->turns->post(place_->peer(), std::move(work), is_long ? Length::lengthy : Length::brief);
     else if (is_long)
       service_.slow.post(place_->peer(), std::move(work));
     else
       service_.quick.post(place_->peer(), std::move(work));
+  }
+  /// Reads what takes a while, so that nobody in the room waits for it.
+  void read_before_turn(const std::string& body) {
+    RunControl control;
+    control.stop = &given_up_;
+    try {
+      auto read = stoppable(control, [&] { return read_first(body); });
+      read_ = read ? *std::move(read)
+                   : ReadFirst{Result<jobs::Layout>(failure(ErrorCode::usage, read.error().what()))};
+    } catch (const std::bad_alloc&) {
+      read_.additions = Result<jobs::Layout>(failure(ErrorCode::environment, kNoMemory));
+    }
   }
   /// Makes the answer. It is called in the turn of the room, where the request changes one.
   void make_answer(const std::string& method, const std::string& body, OpenRoom* room) {
@@ -239,20 +259,19 @@ class Visit : public std::enable_shared_from_this<Visit> {
       return service_.change_room(*room, change);
     };
     const auto answer = [&] {
-      return answer_api(service_.store, change_room, method, *target_, body, given_up_);
+      return answer_api(service_.store, change_room, method, *target_, body, std::move(read_), given_up_);
     };
     RunControl control;
     control.stop = &given_up_;
-    const char* const no_memory = "not enough memory for this";
     if (room != nullptr) {  // what has begun is done to the end
-      if (!service_.in_turn(*room, [&] { answer_ = answer(); })) answer_ = api_error(503, no_memory);
+      if (!service_.in_turn(*room, [&] { answer_ = answer(); })) answer_ = api_error(503, kNoMemory);
       return;
     }
     try {
       const tl::expected<ApiAnswer, Stopped> made = stoppable(control, answer);
       answer_ = made ? *made : api_error(503, made.error().what());
     } catch (const std::bad_alloc&) {
-      answer_ = api_error(503, no_memory);
+      answer_ = api_error(503, kNoMemory);
     }
   }
 
@@ -328,6 +347,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
   std::optional<Target> target_;
   std::optional<Reply> reply_;
   std::optional<http::response_serializer<http::string_body>> serializer_;
+  static constexpr const char* kNoMemory = "not enough memory for this";
+  ReadFirst read_;
   ApiAnswer answer_;
   std::unique_ptr<std::array<char, 65536>> rest_;
   std::size_t swallowed_ = 0;

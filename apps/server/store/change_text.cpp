@@ -25,6 +25,22 @@ void append_line(std::string& text, char sign, const layout::FeatureChange& wher
                       io::feature_json(feature));
 }
 
+/// The letter of a line of the job is a small one for what was there before, and a capital for what is there
+/// after.
+template <class Item, class Write>
+void append_lines(std::string& text, char letter, const std::vector<layout::ItemChange<Item>>& changes,
+                  const Write& write) {
+  const auto capital = static_cast<char>(letter - 'a' + 'A');
+  for (const layout::ItemChange<Item>& one : changes) {
+    if (one.before) text += fmt::format("{}{} {}\n", letter, one.index, write(*one.before));
+    if (one.after) text += fmt::format("{}{} {}\n", capital, one.index, write(*one.after));
+  }
+}
+
+std::string text_of(const layout::Rules& rules) {
+  return fmt::format("{} {} {}", rules.gap, rules.border_gap, rules.defect_gap);
+}
+
 /// Takes whole numbers, each followed by one given character.
 class NumberTaker {
  public:
@@ -49,7 +65,7 @@ class NumberTaker {
   char take_sign() {
     const char sign = text_.front();
     text_.remove_prefix(1);
-    if (sign != '-' && sign != '+' && sign != '<' && sign != '>') ok_ = false;
+    if (kSigns.find(sign) == kSigns.npos) ok_ = false;
     return sign;
   }
   std::string_view take_line() {
@@ -66,6 +82,7 @@ class NumberTaker {
   [[nodiscard]] bool ok() const { return ok_; }
 
  private:
+  static constexpr std::string_view kSigns = "-+<>pPsSr";
   std::string_view text_;
   bool ok_ = true;
 };
@@ -107,6 +124,51 @@ bool take_feature(NumberTaker& numbers, char sign, std::vector<layout::FeatureCh
   return true;
 }
 
+template <class Item, class Read>
+bool take_item(NumberTaker& numbers, bool is_after, std::vector<layout::ItemChange<Item>>& list,
+               const Read& read) {
+  std::uint32_t index = 0;
+  numbers.take(index, ' ');
+  if (!numbers.ok()) return false;
+  auto item = read(numbers.take_line(), "a change");
+  if (!item) return false;
+  const bool joins = is_after && !list.empty() && !list.back().after && list.back().index == index;
+  if (!joins) list.push_back({index, std::nullopt, std::nullopt});
+  (is_after ? list.back().after : list.back().before) = std::move(*item);
+  return true;
+}
+
+bool take_rules(NumberTaker& numbers, std::optional<layout::RulesChange>& change) {
+  if (change) return false;
+  change.emplace();
+  numbers.take(change->before.gap, ' ');
+  numbers.take(change->before.border_gap, ' ');
+  numbers.take(change->before.defect_gap, ' ');
+  numbers.take(change->after.gap, ' ');
+  numbers.take(change->after.border_gap, ' ');
+  numbers.take(change->after.defect_gap, '\n');
+  return numbers.ok();
+}
+
+bool take_line(NumberTaker& numbers, char sign, layout::Change& change) {
+  switch (sign) {
+    case '-':
+    case '+':
+      return take_placement(numbers, sign, change.placements);
+    case '<':
+    case '>':
+      return take_feature(numbers, sign, change.features);
+    case 'p':
+    case 'P':
+      return take_item(numbers, sign == 'P', change.job.parts, io::read_part);
+    case 's':
+    case 'S':
+      return take_item(numbers, sign == 'S', change.job.stocks, io::read_stock);
+    default:
+      return take_rules(numbers, change.job.rules);
+  }
+}
+
 }  // namespace
 
 std::string change_text(const layout::Change& change) {
@@ -119,6 +181,10 @@ std::string change_text(const layout::Change& change) {
     if (one.before) append_line(text, '<', one, *one.before);
     if (one.after) append_line(text, '>', one, *one.after);
   }
+  append_lines(text, 'p', change.job.parts, io::part_json);
+  append_lines(text, 's', change.job.stocks, io::stock_json);
+  if (const auto& rules = change.job.rules)
+    text += fmt::format("r{} {}\n", text_of(rules->before), text_of(rules->after));
   return text;
 }
 
@@ -130,8 +196,7 @@ Result<layout::Change> change_from_text(std::string_view text) {
   bool ok = numbers.ok();
   while (ok && !numbers.empty()) {
     const char sign = numbers.take_sign();
-    ok = numbers.ok() && (sign == '-' || sign == '+' ? take_placement(numbers, sign, change.placements)
-                                                     : take_feature(numbers, sign, change.features));
+    ok = numbers.ok() && take_line(numbers, sign, change);
   }
   if (!ok) return failure(ErrorCode::environment, "the store is damaged: a change in it cannot be read");
   return change;
@@ -163,6 +228,73 @@ std::vector<TouchedPart> touched_parts(std::string_view text) {
   std::vector<TouchedPart> all;
   for (const auto& [part, one] : touched) all.push_back(one);
   return all;
+}
+
+std::vector<layout::ItemChange<layout::Part>> shifted_parts(std::string_view text) {
+  std::vector<layout::ItemChange<layout::Part>> all;
+  std::string_view last;  // the line of a part as it was before, of which it is not known yet whether it goes
+  const auto add = [&](std::string_view line) {
+    NumberTaker numbers(line.substr(1));
+    std::uint32_t index = 0;
+    numbers.take(index, ' ');
+    auto part = io::read_part(line.substr(line.find(' ') + 1), "a change");
+    if (!numbers.ok() || !part) return;
+    all.push_back({index, std::nullopt, std::nullopt});
+    (line.front() == 'p' ? all.back().before : all.back().after) = std::move(*part);
+  };
+  NumberTaker lines(text);
+  while (lines.ok() && !lines.empty()) {
+    const std::string_view line = lines.take_line();
+    if (line.empty() || (line.front() != 'p' && line.front() != 'P')) continue;
+    const auto number = [](std::string_view of) { return of.substr(1, of.find(' ') - 1); };
+    if (line.front() == 'P' && !last.empty() && number(last) == number(line)) {
+      last = {};
+      continue;
+    }
+    if (!last.empty()) add(last);
+    last = line.front() == 'p' ? line : std::string_view{};
+    if (line.front() == 'P') add(line);
+  }
+  if (!last.empty()) add(last);
+  return all;
+}
+
+void name_touched_parts(std::vector<HistoryEntry>& entries,
+                        const std::vector<std::vector<layout::ItemChange<layout::Part>>>& shifts) {
+  // The names of the first parts, from the newest state back to the oldest; those behind are shifted alike.
+  struct Name {
+    std::uint32_t part = 0;
+    std::string gone;
+  };
+  std::vector<Name> names;
+  std::int64_t shift = 0;
+  const auto name_up_to = [&](std::size_t size) {
+    while (names.size() < size)
+      names.push_back({static_cast<std::uint32_t>(static_cast<std::int64_t>(names.size()) + shift), {}});
+  };
+  for (std::size_t i = entries.size(); i-- > 0;) {
+    for (const auto& one : shifts[i]) {
+      if (one.after) continue;
+      name_up_to(one.index);
+      names.insert(names.begin() + one.index, {0, one.before->id});
+      --shift;
+    }
+    for (TouchedPart& touched : entries[i].parts) {
+      if (touched.part < names.size()) {
+        const Name& name = names[touched.part];
+        touched.part = name.part;
+        touched.gone = name.gone;
+      } else {
+        touched.part = static_cast<std::uint32_t>(touched.part + shift);
+      }
+    }
+    for (auto one = shifts[i].rbegin(); one != shifts[i].rend(); ++one) {
+      if (one->before) continue;
+      name_up_to(std::size_t{one->index} + 1);
+      names.erase(names.begin() + one->index);
+      ++shift;
+    }
+  }
 }
 
 }  // namespace lekalo::server

@@ -174,7 +174,8 @@ tl::unexpected<Error> damaged(const std::string& what) {
 }
 
 bool carry_out_if_it_fits(const layout::Change& change, layout::Document& document) {
-  if (change.next_id_before != document.next_id) return false;
+  if (change.next_id_before != document.next_id || !can_bring_in(document, change.job)) return false;
+  bring_in(document, change.job);
   for (const layout::PlacementChange& one : change.placements) {
     if (!same_placement(document, one)) return false;
     if (one.after && (one.after->part >= document.parts.size() || one.after->stock >= document.stocks.size()))
@@ -182,6 +183,7 @@ bool carry_out_if_it_fits(const layout::Change& change, layout::Document& docume
   }
   layout::Change placements = change;
   placements.features.clear();
+  placements.job = {};
   layout::carry_out(document, placements);
   // One feature may be changed twice, so each has to fit what the one before it left.
   for (const layout::FeatureChange& one : change.features) {
@@ -191,6 +193,8 @@ bool carry_out_if_it_fits(const layout::Change& change, layout::Document& docume
     single.features.push_back(one);
     layout::carry_out(document, single);
   }
+  if (!can_take_out(document, change.job)) return false;
+  take_out(document, change.job);
   return true;
 }
 

@@ -206,6 +206,14 @@ Result<StoredChange> Store::change_at(LayoutId id, Revision revision) {
                       std::move(change)};
 }
 
+Result<bool> Store::job_changed_since(LayoutId id, Revision revision) {
+  const std::lock_guard lock(*turn_);
+  LEKALO_TRY(Statement found,
+             database_.prepare("SELECT 1 FROM change WHERE layout = ? AND revision > ? AND placements GLOB "
+                               "'*' || char(10) || '[pPsS]*' LIMIT 1"));
+  return found.bind(1, id).bind(2, revision).step();
+}
+
 namespace {
 
 HistoryEntry missing_entry(Revision revision) {
@@ -248,6 +256,7 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
   LEKALO_TRY(const Entry layout, entry_of(database_, id));
   LEKALO_TRY(std::string chain, chain_at(database_, id, 0));
   std::vector<HistoryEntry> entries;
+  std::vector<std::vector<layout::ItemChange<layout::Part>>> shifts;
   for (bool more = true; more;) {
     // A history may be long, so it is read a piece at a time.
     LEKALO_TRY(std::vector<ChangeRow> rows,
@@ -264,12 +273,15 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
         entries.push_back(missing_entry(next));
         chain.clear();
       }
-      if (row.digest == change_digest(id, chain, row))
+      shifts.resize(entries.size() + 1);
+      if (row.digest == change_digest(id, chain, row)) {
+        shifts.back() = shifted_parts(row.change);
         add_to_history(entries, {row.revision, std::move(row.at), std::move(row.author), std::move(row.text),
                                  static_cast<ChangeKind>(row.kind), row.target, false, false,
                                  touched_parts(row.change)});
-      else
+      } else {
         entries.push_back(missing_entry(row.revision));
+      }
       chain = row.digest;
     }
   }
@@ -277,6 +289,8 @@ Result<std::vector<HistoryEntry>> Store::history(LayoutId id) {
     LEKALO_CHECK(entry_of(database_, id));  // it may have been removed meanwhile
     entries.push_back(missing_entry(static_cast<Revision>(entries.size()) + 1));
   }
+  shifts.resize(entries.size());
+  name_touched_parts(entries, shifts);
   return entries;
 }
 

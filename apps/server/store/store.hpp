@@ -22,8 +22,9 @@ using Revision = std::int64_t;
 /// After so many changes a layout is written whole again, so that opening it reads at most so many changes.
 inline constexpr Revision kSnapshotEvery = 256;
 /// The format that is written. Formats 1 (without photographs) and 2 had no digests; a store of those formats
-/// is brought forward when it is opened, after a copy beside it (PATH.format-2).
-inline constexpr std::int64_t kStoreFormat = 3;
+/// is brought forward when it is opened, after a copy beside it (PATH.format-2). Format 3 had no changes of
+/// parts, stocks and rules; else it is this one.
+inline constexpr std::int64_t kStoreFormat = 4;
 /// This much is kept free beside a store (PATH-reserve), so that layouts can be removed from a full disk.
 inline constexpr std::int64_t kReserveBytes = std::int64_t{4} << 20;
 
@@ -54,9 +55,11 @@ struct LayoutSummary {
 
 /// How many placements of one part a change put in, changed and took away, and the first of them.
 struct TouchedPart {
-  std::uint32_t part = 0;  ///< its index in the document
+  /// Its index in the document as it is now; in a change alone, as that change numbers parts.
+  std::uint32_t part = 0;
   std::uint64_t first = 0;
   std::int64_t placed = 0, changed = 0, removed = 0;
+  std::string gone = {};  ///< the id of a part that is not in the document any more, which has no index
 };
 
 struct HistoryEntry {
@@ -148,6 +151,9 @@ class Store {
   /// Adds the next revision. \param after  the document with the change carried out
   [[nodiscard]] Result<void> append(LayoutId id, const StoredChange& change, const layout::Document& after);
   [[nodiscard]] Result<StoredChange> change_at(LayoutId id, Revision revision);
+  /// Says whether parts or stocks were changed after a revision, so that its changes may number them
+  /// otherwise.
+  [[nodiscard]] Result<bool> job_changed_since(LayoutId id, Revision revision);
   /// Returns the history, oldest entry first, with the counts of the placements.
   [[nodiscard]] Result<std::vector<HistoryEntry>> history(LayoutId id);
 
@@ -202,12 +208,21 @@ class Store {
 };
 
 /// Returns a change as exact text, which is not for people: a line for each placement before (-) and after
-/// (+) and each feature before (<) and after (>).
+/// (+), each feature before (<) and after (>), each part (p, P), each stock (s, S), and one for the rules
+/// (r).
 [[nodiscard]] std::string change_text(const layout::Change& change);
 /// Reads such a text. Fails with ErrorCode::environment for anything that change_text does not write.
 [[nodiscard]] Result<layout::Change> change_from_text(std::string_view text);
 /// Counts what such a text does to the placements of each part. It passes over features, whose outlines are
 /// long. \pre change_text has written it
 [[nodiscard]] std::vector<TouchedPart> touched_parts(std::string_view text);
+
+/// Returns the parts that come or go in such a text, without those that become others. \pre change_text has
+/// written it
+[[nodiscard]] std::vector<layout::ItemChange<layout::Part>> shifted_parts(std::string_view text);
+/// Gives what was touched the numbers and names that parts have now.
+/// \param shifts  what came and went with each of the entries
+void name_touched_parts(std::vector<HistoryEntry>& entries,
+                        const std::vector<std::vector<layout::ItemChange<layout::Part>>>& shifts);
 
 }  // namespace lekalo::server
