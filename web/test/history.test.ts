@@ -12,7 +12,9 @@ const touched = (part: number, first: number, changed: number): Touched => ({
   removed: 0,
 });
 const said = (text: string, parts: Touched[] = [], kind: Entry['kind'] = 'command', damaged = false): string =>
-  inWords({ revision: 1, at: '', author: '', text, kind, undone: false, damaged, parts }, (index) => names[index]!);
+  inWords({ revision: 1, at: '', author: '', text, kind, undone: false, damaged, parts }, (which) =>
+    typeof which === 'string' ? which : names[which]!,
+  );
 
 describe('the history in words', () => {
   it('names one part by its number, several by how many', () => {
@@ -38,6 +40,17 @@ describe('the history in words', () => {
     expect(said('add-defect "two words" "a \\"knot\\"" 1 outline 0 0 1 0 0 1')).toBe('drew defect a "knot"');
     expect(said('remove-zone hide back')).toBe('removed zone back');
     expect(wordsOf('place "a\\\\b\\nc" 3')).toEqual(['place', 'a\\b\nc', '3']);
+  });
+  it('says what became of the job, with the pieces that went', () => {
+    expect(said('quantity "side_panel" 6')).toBe('side_panel: 6 wanted');
+    expect(said('mirror lid no')).toBe('lid may not be turned over');
+    expect(said('add lid "two words" 3000x1500')).toBe('added lid, two words, 3000x1500');
+    expect(said('gap 4')).toBe('gap 4 mm');
+    const gone = { part: 'lid', first: 3, placed: 0, changed: 0, removed: 2 };
+    expect(said('remove-part lid', [gone])).toBe('removed part lid, with 2 of lid');
+    expect(said('remove-stock sheet', [{ ...touched(0, 3, 0), removed: 1 }], 'undo')).toBe(
+      'undone: removed sheet, with side_panel 3',
+    );
   });
   it('is Ukrainian, too', () => {
     setLanguage('uk');

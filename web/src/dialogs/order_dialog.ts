@@ -1,15 +1,10 @@
 // Asks for a new layout: drawings with how many of each, and what they are cut from.
 
 import { h } from '../html/elements';
-import { t, type Key } from '../i18n';
+import { t } from '../i18n';
 import { drawingPicture, type ReadDrawing } from './drawing_picture';
+import { drawingAdder, option, remover, SendingRow, tableHead, textField, type Sent } from './fields';
 import { formOf, ROTATIONS, type OrderedFile, type OrderTerms, type Stock, type StockKind } from './order_form';
-
-/** How far the order is: the share that is sent or, when the server is at work, the seconds since it began. */
-export interface Sent {
-  fraction: number | null;
-  since: number;
-}
 
 export interface OrderEvents {
   /** Gives the reason why the server refused, or null. */
@@ -19,12 +14,9 @@ export interface OrderEvents {
 
 const KINDS: readonly StockKind[] = ['sheet', 'strip', 'drawing'];
 
-const option = (value: string, text: string, chosen: string): HTMLOptionElement =>
-  h('option', { value, selected: value === chosen }, text);
-
 class OrderDialog {
   readonly element: HTMLDialogElement;
-  private readonly name = this.text('name', '', t('order.name'));
+  private readonly name = textField('name', '', t('order.name'));
   private readonly parts = h('tbody');
   private readonly stocks = h('tbody');
   /** A picture is made once, as the rows are shown anew at every change. */
@@ -32,9 +24,7 @@ class OrderDialog {
   private readonly closed = new AbortController();
   /** The order on its way; null: none is. */
   private sending: AbortController | null = null;
-  private readonly share = h('progress', { max: 1, 'aria-label': t('order.making') });
-  private readonly far = h('span');
-  private readonly row = h('div', { class: 'sending', hidden: true, role: 'status' }, this.share, this.far);
+  private readonly row = new SendingRow(t('order.making'));
   private readonly trouble = h('p', { class: 'trouble', role: 'alert' });
   private readonly ok = h('button', { type: 'submit', 'data-action': 'order.make' }, t('order.make'));
 
@@ -47,7 +37,7 @@ class OrderDialog {
       'dialog',
       { class: 'order', 'aria-label': t('order.title') },
       h('h2', {}, t('order.title')),
-      h('form', { submit: (e) => this.submit(e) }, ...this.rows(), this.trouble, this.row, this.buttons()),
+      h('form', { submit: (e) => this.submit(e) }, ...this.rows(), this.trouble, this.row.element, this.buttons()),
     );
     // The browser may close a dialog at the second Escape whatever is said to its `cancel`.
     const giveUp = (e: Event): void => {
@@ -66,15 +56,13 @@ class OrderDialog {
   }
 
   private rows(): HTMLElement[] {
-    const head = (...keys: Key[]): HTMLElement =>
-      h('thead', {}, h('tr', {}, ...keys.map((key) => h('th', {}, t(key))), h('th')));
     return [
       h('label', { class: 'wide' }, h('span', {}, t('order.name')), this.name),
       h('h3', {}, t('order.parts')),
-      h('table', {}, head('order.file', 'order.quantity', 'order.rotations', 'order.mirror'), this.parts),
-      this.adder(),
+      h('table', {}, tableHead('order.file', 'order.quantity', 'order.rotations', 'order.mirror'), this.parts),
+      drawingAdder('order', (files) => this.addFiles(files)),
       h('h3', {}, t('order.stock')),
-      h('table', {}, head('order.kind', 'order.width', 'order.height', 'order.count'), this.stocks),
+      h('table', {}, tableHead('order.kind', 'order.width', 'order.height', 'order.count'), this.stocks),
       h(
         'button',
         { type: 'button', 'data-action': 'order.stock.add', click: () => this.addStock() },
@@ -84,7 +72,7 @@ class OrderDialog {
         'div',
         { class: 'fields' },
         ...(['gap', 'border', 'kerf'] as const).map((key) => {
-          const input = this.text(key, this.terms[key], t(`order.${key}`));
+          const input = textField(key, this.terms[key], t(`order.${key}`));
           input.addEventListener('input', () => (this.terms[key] = input.value));
           return h('label', {}, h('span', {}, t(`order.${key}`)), input);
         }),
@@ -109,33 +97,6 @@ class OrderDialog {
     );
   }
 
-  private text(field: string, value: string, label: string): HTMLInputElement {
-    return h('input', { 'data-field': field, 'aria-label': label, autocomplete: 'off', value });
-  }
-
-  /** Drawings may be chosen, or dropped on the dialog. */
-  private adder(): HTMLElement {
-    const chosen = h('input', {
-      type: 'file',
-      multiple: true,
-      hidden: true,
-      'data-action': 'order.file',
-      'aria-label': t('order.add'),
-      change: () => this.addFiles(chosen.files),
-    });
-    const drop = (e: Event): void => {
-      e.preventDefault();
-      e.stopPropagation();
-      if (e.type === 'drop') this.addFiles((e as DragEvent).dataTransfer?.files ?? null);
-    };
-    return h(
-      'div',
-      { class: 'adder', dragover: drop, drop },
-      h('button', { type: 'button', 'data-action': 'order.add', click: () => chosen.click() }, t('order.add')),
-      chosen,
-    );
-  }
-
   private addFiles(files: FileList | null): void {
     for (const file of files ?? [])
       this.files.push({ file, quantity: '1', rotations: this.files[0]?.rotations ?? 'any', mirror: false });
@@ -147,19 +108,11 @@ class OrderDialog {
     this.showStocks();
   }
 
-  private remover(label: string, remove: () => void): HTMLElement {
-    return h(
-      'td',
-      {},
-      h('button', { type: 'button', class: 'icon', title: label, 'aria-label': label, click: remove }, '×'),
-    );
-  }
-
   private showParts(): void {
     // A layout that nobody has named is called after its first drawing.
     this.name.placeholder = this.files[0]?.file.name.replace(/\.[^.]*$/, '') ?? '';
     const row = (one: OrderedFile, i: number): HTMLElement => {
-      const quantity = this.text(`quantity.${i}`, one.quantity, t('order.quantity'));
+      const quantity = textField(`quantity.${i}`, one.quantity, t('order.quantity'));
       quantity.inputMode = 'numeric';
       quantity.addEventListener('input', () => (one.quantity = quantity.value));
       const rotations = h(
@@ -183,7 +136,7 @@ class OrderDialog {
         'tr',
         {},
         ...cells,
-        this.remover(t('order.remove'), () => (this.files.splice(i, 1), this.showParts())),
+        remover(`remove.${i}`, t('order.remove'), () => (this.files.splice(i, 1), this.showParts())),
       );
     };
     this.parts.replaceChildren(...this.files.map(row));
@@ -214,7 +167,7 @@ class OrderDialog {
       ...KINDS.map((value) => option(value, t(`order.kind.${value}`), stock.kind)),
     );
     const field = (key: 'width' | 'height' | 'count'): HTMLInputElement => {
-      const input = this.text(`${key}.${i}`, stock[key], t(`order.${key}`));
+      const input = textField(`${key}.${i}`, stock[key], t(`order.${key}`));
       input.inputMode = 'decimal';
       if (key === 'count') input.placeholder = t('order.count.any');
       input.addEventListener('input', () => (stock[key] = input.value));
@@ -236,7 +189,7 @@ class OrderDialog {
       this.terms.stocks.splice(i, 1);
       this.showStocks();
     };
-    return h('tr', {}, h('td', {}, kind), ...cells, this.remover(t('order.remove'), remove));
+    return h('tr', {}, h('td', {}, kind), ...cells, remover(`stock.remove.${i}`, t('order.remove'), remove));
   }
 
   private submit(e: Event): void {
@@ -246,26 +199,17 @@ class OrderDialog {
     void (async () => {
       this.ok.setAttribute('aria-disabled', 'true'); // a disabled button would lose the focus
       this.trouble.textContent = '';
-      this.tell({ fraction: 0, since: 0 });
+      this.row.tell({ fraction: 0, since: 0 });
       const name = this.name.value.trim() || this.name.placeholder || t('order.title');
-      const watched = { told: (one: Sent) => this.tell(one), signal };
+      const watched = { told: (one: Sent) => this.row.tell(one), signal };
       const refused = await this.events.make(name, formOf(this.files, this.terms), watched);
       this.sending = null;
-      this.row.hidden = true;
+      this.row.hide();
       this.ok.removeAttribute('aria-disabled');
       if (refused === null) return this.element.close();
       this.trouble.textContent = refused;
       this.ok.focus();
     })();
-  }
-
-  /** Shows how far the order is. Cancel gives it up then, and the dialog stays. */
-  private tell({ fraction, since }: Sent): void {
-    this.row.hidden = false;
-    if (fraction === null) this.share.removeAttribute('value');
-    else this.share.value = fraction;
-    const far = fraction === null ? t('transfer.since', { s: since }) : `${Math.floor(fraction * 100)} %`;
-    this.far.textContent = `${t('order.making')} ${far}`;
   }
 }
 

@@ -36,7 +36,7 @@ export const firstTerms = (): OrderTerms => ({
 });
 
 /** A comma is what half of Europe writes; the server reads points. */
-const length = (typed: string): string => typed.trim().replace(',', '.');
+export const length = (typed: string): string => typed.trim().replace(',', '.');
 const cell = (text: string): string => `"${text.replaceAll('"', '""')}"`;
 
 function stockWord(stock: Stock): [string, string] {
@@ -57,16 +57,22 @@ export function namesOf(files: readonly File[]): string[] {
   });
 }
 
-export function formOf(files: readonly OrderedFile[], terms: OrderTerms): FormData {
+/** What is added to a layout that is there. */
+export function additionsOf(files: readonly OrderedFile[], stocks: readonly Stock[]): FormData {
   const form = new FormData();
   const names = namesOf(files.map(({ file }) => file));
   const rows = files.map(({ quantity, rotations, mirror }, i) =>
     [cell(names[i]!), cell(quantity.trim()), cell(rotations), mirror ? 'yes' : 'no'].join(','),
   );
   if (rows.length > 0) form.append('table', ['file,quantity,rotations,mirror', ...rows, ''].join('\n'));
-  for (const stock of terms.stocks) form.append(...stockWord(stock));
-  for (const key of ['gap', 'border', 'kerf'] as const) form.append(key, length(terms[key]));
+  for (const stock of stocks) form.append(...stockWord(stock));
   files.forEach(({ file }, i) => form.append('file', file, names[i]));
-  for (const { kind, file } of terms.stocks) if (kind === 'drawing' && file) form.append('file', file, file.name);
+  for (const { kind, file } of stocks) if (kind === 'drawing' && file) form.append('file', file, file.name);
+  return form;
+}
+
+export function formOf(files: readonly OrderedFile[], terms: OrderTerms): FormData {
+  const form = additionsOf(files, terms.stocks);
+  for (const key of ['gap', 'border', 'kerf'] as const) form.append(key, length(terms[key]));
   return form;
 }

@@ -309,7 +309,9 @@ export class Editor {
     } else if (answer.type === 'lost') {
       this.say(t('lost.gesture'));
     } else if (answer.type === 'done') {
-      this.note(answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '');
+      const taken = answer.taken_off ?? 0;
+      const said = answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '';
+      this.note(taken > 0 ? t('job.taken', { n: taken }) : said);
       this.others.delete(-1);
       const fresh = (answer.placements ?? [])
         .filter(({ id, after }) => after && this.fresh.has(id))

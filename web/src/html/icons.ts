@@ -2,6 +2,7 @@
 
 const PATHS: Record<string, string> = {
   'open.file': 'M3 16V4h5l2 2h7v10zM10 9v5M7.5 11.5h5',
+  job: 'M3 4h4v4H3zM3 12h4v4H3zM10 5h7M10 7.500h4M10 13h7M10 15.500h4',
   'copy.layout': 'M7 7h9v10H7zM4 13V3h9',
   undo: 'M8 4 4 8l4 4M4 8h7a5 5 0 0 1 0 9H8',
   'name.layout': 'M4 16h3L16 7l-3-3-9 9zM11 6l3 3',

@@ -58,3 +58,13 @@ export const nest = (list: readonly number[], seconds: number, seed: number): st
 /** Compacts a sheet or, without one, all in use. */
 export const compact = (x: number, y: number, sheet?: Sheet): string =>
   `compact ${sheet ? `${quoted(sheet.stock.id)} ${sheet.copy} ` : ''}towards ${x} ${y}`;
+
+/** What was typed as one word of a line, whatever it is: the server says what is wrong with it. */
+const typedWord = (typed: string): string => (/^[^\s"]+$/.test(typed.trim()) ? typed.trim() : quoted(typed.trim()));
+export const quantity = (part: string, typed: string): string => `quantity ${quoted(part)} ${typedWord(typed)}`;
+export const rotations = (part: string, angles: string): string => `rotations ${quoted(part)} ${typedWord(angles)}`;
+export const mirror = (part: string, may: boolean): string => `mirror ${quoted(part)} ${may ? 'yes' : 'no'}`;
+export const removePart = (part: string): string => `remove-part ${quoted(part)}`;
+export const count = (stock: string, typed: string): string => `count ${quoted(stock)} ${typedWord(typed)}`;
+export const removeStock = (stock: string): string => `remove-stock ${quoted(stock)}`;
+export const rule = (name: 'gap' | 'border' | 'kerf', typed: string): string => `${name} ${typedWord(typed)}`;

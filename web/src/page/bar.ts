@@ -12,6 +12,8 @@ export interface BarEvents {
   openLayout(id: number): void;
   takeFiles(files: FileList | null): void;
   newLayout(): void;
+  /** The parts and sheets of the layout that is open. */
+  job(): void;
   copyLayout(): void;
   nameLayout(): void;
   save(form: string): void;
@@ -144,6 +146,7 @@ function files(editor: Editor, { layouts, folded }: Shown, events: BarEvents): H
   if (folded) {
     const items = [
       item('new.layout', t('new.layout'), events.newLayout),
+      item('job', t('job'), events.job, 'job'),
       item('open.file', t('open.file'), open, 'open.file'),
       item('copy.layout', t('copy.layout'), events.copyLayout, 'copy.layout'),
       item('name.layout', t('name.layout'), events.nameLayout, 'name.layout'),
@@ -160,6 +163,7 @@ function files(editor: Editor, { layouts, folded }: Shown, events: BarEvents): H
     h('span', { class: 'brand' }, 'lekalo'),
     choice,
     h('button', { 'data-action': 'new.layout', click: events.newLayout }, t('new.layout')),
+    button('job', events.job),
     button('open.file', open),
     file,
     button('copy.layout', events.copyLayout),

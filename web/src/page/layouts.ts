@@ -1,5 +1,6 @@
 // The layouts that the server keeps: opened, made of files, copied, named and deleted.
 
+import { jobDialog, type OpenJob, type Said } from '../dialogs/job_dialog';
 import { layoutDialog } from '../dialogs/layout_dialog';
 import { orderDialog } from '../dialogs/order_dialog';
 import { firstTerms, type OrderTerms, type Stock } from '../dialogs/order_form';
@@ -28,6 +29,8 @@ export interface LayoutsEvents {
   opening(): void;
   /** A dialog has gone, and what had the focus before it is no more. */
   left(): void;
+  /** There are other sheets than before. */
+  resized(): void;
   /** There is none to open. */
   empty(): void;
 }
@@ -47,6 +50,7 @@ function keptTerms(): OrderTerms {
 
 export class Layouts {
   known: Known[] = [];
+  private job: OpenJob | null = null;
   private reading: Promise<void> = Promise.resolve();
 
   constructor(
@@ -160,6 +164,54 @@ export class Layouts {
       if (document.activeElement === document.body) this.events.left();
     });
     showDialog(dialog);
+  }
+
+  /** Shows the parts and sheets of the layout that is open, which can be changed there. */
+  editJob(): void {
+    const { editor } = this;
+    if (editor.layoutId === 0 || editor.loading) return;
+    const said = (): Said => {
+      const { text, isNote } = editor.message;
+      return { text: text === t('nothing.moved') ? t('job.nothing') : text, isNote };
+    };
+    const job = jobDialog({
+      model: () => editor.model,
+      command: async (line) => {
+        await editor.command(line);
+        return said();
+      },
+      undo: async () => {
+        await editor.undo();
+        return said();
+      },
+      add: (form, watched) => this.addToJob(form, watched),
+    });
+    this.job = job;
+    const sheets = editor.model.sheets.length;
+    job.element.addEventListener('close', () => {
+      this.job = null;
+      if (editor.model.sheets.length !== sheets) this.events.resized();
+      if (document.activeElement === document.body) this.events.left();
+    });
+    showDialog(job.element);
+  }
+  /** The layout is another one than before. */
+  changed(): void {
+    this.job?.refresh();
+  }
+
+  private async addToJob(form: FormData, watched: Watched): Promise<Said> {
+    const { editor } = this;
+    try {
+      const address = `/api/layouts/${editor.layoutId}/order?author=${author}`;
+      const answer = await editor.transfer('open', t('job.adding'), 'POST', address, form, watched);
+      if (!answer) return { text: t('transfer.cancelled'), isNote: true };
+      if (answer.status !== 200) return { text: await sentenceOf(answer), isNote: false };
+      const { notices } = JSON.parse(await answer.body.text()) as { notices: string[] };
+      return { text: notices.join(' · '), isNote: true };
+    } catch (error) {
+      return { text: error instanceof Error ? error.message : String(error), isNote: false };
+    }
   }
 
   /** Reads drawings one after the other: many at once would only wait for each other in the server. */

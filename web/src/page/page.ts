@@ -52,6 +52,7 @@ export class Page {
       this.changed('layout');
     },
     left: () => this.pane.focus(),
+    resized: () => this.pane.fitAll(),
     empty: () => this.showWelcome(),
   });
   /** The width below which style.css puts the panels beneath the picture. */
@@ -93,7 +94,10 @@ export class Page {
   /** Shows anew what a change of the editor's state concerns. */
   private changed(topic: Topic): void {
     const { editor, pane } = this;
-    if (topic === 'layout' && !editor.loading) pane.take();
+    if (topic === 'layout' && !editor.loading) {
+      pane.take();
+      this.layouts.changed();
+    }
     const { dataset } = pane.element;
     const wasMoving = dataset.moving === 'true';
     const isMoving = editor.moving.size > 0;
@@ -147,6 +151,7 @@ export class Page {
       openLayout: (id) => layouts.open(id),
       takeFiles: (files) => void layouts.takeFiles(files),
       newLayout: () => layouts.begin([]),
+      job: () => layouts.editJob(),
       copyLayout: () => void layouts.copy(),
       nameLayout: () => layouts.name(),
       save: (form) => void saveAs(editor, form),
@@ -177,7 +182,12 @@ export class Page {
       (part) => pane.drawing.colour(part, this.theme),
       (button, part, mirrored) => dragFromTray(button, pane.element, editor, pane.view, part, mirrored),
     );
-    this.left.replaceChildren(h('h2', {}, t('tray')), parts);
+    const job = h(
+      'button',
+      { class: 'small', 'data-action': 'tray.job', click: () => this.layouts.editJob() },
+      t('job'),
+    );
+    this.left.replaceChildren(h('h2', {}, t('tray')), job, parts);
   }
   private showSide(): void {
     const { editor, pane, right } = this;

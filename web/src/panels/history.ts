@@ -7,9 +7,9 @@ import { inWords, type Entry } from './history_words';
 
 export function history(editor: Editor): HTMLElement {
   const list = h('ol', { class: 'list', reversed: true });
-  const nameOf = (index: number): string => {
-    const part = editor.model.document.parts?.[index];
-    return part?.name ?? part?.id ?? '';
+  const nameOf = (which: number | string): string => {
+    const part = typeof which === 'string' ? editor.model.parts.get(which) : editor.model.document.parts?.[which];
+    return part?.name ?? part?.id ?? String(which);
   };
   void (async () => {
     const answer = await fetch(`/api/layouts/${editor.layoutId}/history`);

@@ -5,7 +5,8 @@ import { wordsOf } from '../layout/commands';
 
 /** What a change did to the placements of a part: docs/protocol.md. */
 export interface Touched {
-  part: number;
+  /** The part's number in the document, or the id of one that is not there any more. */
+  part: number | string;
   first: number;
   placed: number;
   changed: number;
@@ -26,8 +27,8 @@ export interface Entry {
 const MOST_NAMED = 3;
 const STOPPED = ' # stopped early';
 
-/** @param nameOf the name of a part by its number in the document */
-function partsIn(touched: readonly Touched[], nameOf: (part: number) => string): string {
+/** @param nameOf the name of a part that is touched */
+function partsIn(touched: readonly Touched[], nameOf: (part: number | string) => string): string {
   const count = (one: Touched): number => one.placed + one.changed + one.removed;
   const what = touched
     .slice(0, MOST_NAMED)
@@ -40,16 +41,29 @@ function partsIn(touched: readonly Touched[], nameOf: (part: number) => string):
   return more > 0 ? t('history.more', { what, n: more }) : what;
 }
 
-function commandIn(entry: Entry, nameOf: (part: number) => string): string {
+/** The verbs that change the job, with what each names. */
+const JOB = /^(add|quantity|rotations|mirror|remove-part|add-sheet|add-strip|count|remove-stock|gap|border|kerf)$/;
+
+function jobIn(entry: Entry, nameOf: (part: number | string) => string): string {
+  const [verb = '', id = '', value = '', ...more] = wordsOf(entry.text);
+  const key = (verb === 'mirror' ? `history.mirror.${value}` : `history.${verb}`) as Key;
+  // Of these the first word is a part; the others name material, or a length.
+  const what = /^(quantity|rotations|mirror|remove-part)$/.test(verb) ? nameOf(id) : id;
+  const said = t(key, { id: what, value, all: [id, value, ...more].filter((word) => word !== '').join(', ') });
+  return entry.parts.length === 0 ? said : t('history.with', { said, what: partsIn(entry.parts, nameOf) });
+}
+
+function commandIn(entry: Entry, nameOf: (part: number | string) => string): string {
   const [verb = '', , id = ''] = wordsOf(entry.text);
   const drawn = /^(add|move|reshape|grade|remove)-(defect|zone)$/.exec(verb);
   if (drawn) return t(`history.${drawn[1]}-feature` as Key, { what: t(`history.${drawn[2]}` as Key, { id }) });
+  if (JOB.test(verb)) return jobIn(entry, nameOf);
   const key = `history.${verb}`;
   // A verb that has no words here is shown as it was written.
   return isKey(key) ? t(key, { what: partsIn(entry.parts, nameOf) }) : entry.text;
 }
 
-export function inWords(entry: Entry, nameOf: (part: number) => string): string {
+export function inWords(entry: Entry, nameOf: (part: number | string) => string): string {
   if (entry.damaged) return t('history.damaged');
   if (entry.kind === 'restore') return t('history.back', { n: wordsOf(entry.text)[1] ?? '' });
   const said = commandIn(entry, nameOf);

@@ -27,7 +27,16 @@ export interface Refusal {
 }
 export type Answer =
   /** `placements` are the changes of the command, where this client saw them. */
-  | { type: 'done'; seq: number; revision: number; nothing?: boolean; stopped?: boolean; placements?: Change[] }
+  | {
+      type: 'done';
+      seq: number;
+      revision: number;
+      nothing?: boolean;
+      stopped?: boolean;
+      /** The pieces that went with their part or sheet. */
+      taken_off?: number;
+      placements?: Change[];
+    }
   | ({ type: 'refused'; seq: number } & Refusal)
   | { type: 'preview'; seq: number; placements: Change[]; violations: Violation[] }
   | { type: 'lost' };
