@@ -6,6 +6,7 @@
 
 #include "io/text/grid_decimal.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
+#include "lekalo/io/layout/layout_messages.hpp"
 #include "support/cases.hpp"
 #include "support/layout_documents.hpp"
 #include "support/stopwatch.hpp"
@@ -23,6 +24,17 @@ TEST(LayoutJson, WhatIsWrittenReadsBackEqual) {
     ASSERT_EQ(file->document, document) << "seed " << cases::seed() << " case " << i << "\n" << text;
     ASSERT_TRUE(file->notices.empty()) << file->notices[0];
     ASSERT_EQ(write_layout(file->document), text);
+    // Parts and stocks alone, as the store keeps them, are one line each.
+    for (const layout::Part& part : document.parts) {
+      const std::string line = part_json(part);
+      ASSERT_EQ(line.find('\n'), std::string::npos);
+      ASSERT_EQ(read_part(line, "a part").value(), part) << line;
+    }
+    for (const layout::Stock& stock : document.stocks) {
+      const std::string line = stock_json(stock);
+      ASSERT_EQ(line.find('\n'), std::string::npos);
+      ASSERT_EQ(read_stock(line, "a stock").value(), stock) << line;
+    }
     placements += document.placements.size();
     kits += document.kits.size();
     for (const auto& stock : document.stocks) zones += stock.zones.size() + stock.defects.size();
