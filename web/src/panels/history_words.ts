@@ -47,7 +47,7 @@ const JOB = /^(add|quantity|rotations|mirror|remove-part|add-sheet|add-strip|cou
 function jobIn(entry: Entry, nameOf: (part: number | string) => string): string {
   const [verb = '', id = '', value = '', ...more] = wordsOf(entry.text);
   const key = (verb === 'mirror' ? `history.mirror.${value}` : `history.${verb}`) as Key;
-  // Of these the first word is a part; the others name material, or a length.
+  // The first word behind these verbs is a part; others name material, or a length.
   const what = /^(quantity|rotations|mirror|remove-part)$/.test(verb) ? nameOf(id) : id;
   const said = t(key, { id: what, value, all: [id, value, ...more].filter((word) => word !== '').join(', ') });
   return entry.parts.length === 0 ? said : t('history.with', { said, what: partsIn(entry.parts, nameOf) });
