@@ -132,8 +132,9 @@ TEST(VerifyDemands, NumbersThatCannotBeAreRefused) {
 TEST(VerifyDemands, PointsOfTheTradeOffHaveAMarginFrom0OnAndAHand) {
   const auto with = [](const char* mirrored, double margin) {
     Tree one = demands();
-    Tree point = Tree::parse(R"({"x": 1, "y": 2, "theta": 3, "margin": 0, "largest": 5, "mirrored": )" +
-                             std::string(mirrored) + "}");
+    Tree point = Tree::parse(
+        R"({"x": 1, "y": 2, "theta": 0, "theta_deg": 0, "clearance": 4, "margin": 0, "largest": 5, "mirrored": )" +
+        std::string(mirrored) + "}");
     point["margin"] = margin;
     one["trade_off"].push_back(point);
     return one;
