@@ -229,7 +229,7 @@ TEST(Serve, TellsWhatIsWrongWithAnAdditionAndAddsNothing) {
   EXPECT_TRUE(
       says(refusal(form_of({{"gap", "", "4"}, {"sheet", "", "10x10"}})), "the gap is one of the layout"));
   EXPECT_TRUE(says(refusal(form_of({{"sheet", "", "300x"}})),
-                   "sheet: \"300x\" is neither a size such as 3000x1500 nor a file that came along"));
+                   "sheet: '300x' is neither a size such as 3000x1500 nor a file that came along"));
   EXPECT_TRUE(says(refusal(form_of({{"file", "tray.svg", "<svg><rect"}})), "tray.svg"));
   EXPECT_TRUE(says(refusal(form_of({{"grain", "", "x"}})), "no part is ordered"));
   EXPECT_EQ(ask(server, http::verb::post, path, "").status, 400u);
