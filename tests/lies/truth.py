@@ -629,13 +629,31 @@ def nest_holds(change, before, after):
     return one[0] <= other[0] < other[2] <= one[2] and one[1] <= other[1] < other[3] <= one[3]
 
 
-def pocket_holds(change, before, after):
+def longest_rapid(context, report):
+    """The length of the longest rapid motion of the programs of a report."""
+    found = [0.0]
+    for one in report["inputs"] + report.get("outputs", []):
+        for kind, *way in motions_of(context.files[one["path"]]) or [] if one["path"].endswith(".ngc") else ():
+            if kind == "rapid" and None not in way[:4]:
+                (start, z0, end, z1) = way[:4]
+                found.append(math.dist((*start, z0), (*end, z1)))
+    return max(found)
+
+
+def pocket_holds(change, before, after, context):
     """A looser tolerance; the last place of an option is within the rounding of every figure made with it."""
     path = change.path
     if path == "/tolerance_mm":
         return is_number(after.get("tolerance_mm")) and after["tolerance_mm"] >= before["tolerance_mm"]
     if path == "/drawing/join":
         return same_form(before, after) and after["drawing"]["join"] >= before["drawing"]["join"]
+    if path == "/inputs" and change.how.startswith(("exchanged", "turned")):
+        # Each input says its role.
+        return len({one["role"] for one in before["inputs"]}) == len(before["inputs"])
+    if path == "/rapid_mm_per_min" and same_form(before, after) and after["rapid_mm_per_min"] > 0:
+        # No rapid is long enough to reach either speed.
+        speed = min(after["rapid_mm_per_min"], before["rapid_mm_per_min"]) / 60
+        return longest_rapid(context, before) < speed ** 2 / before["acceleration_mm_per_s2"]
     if path == "/regions/holes" and change.how == "deleted":
         return before["regions"]["holes"] == []
     if path.endswith("/ccw"):
@@ -646,7 +664,13 @@ def pocket_holds(change, before, after):
     return False
 
 
-nest_report, pocket_report = of_report(nest_holds), of_report(pocket_holds)
+nest_report = of_report(nest_holds)
+
+
+def pocket_report(context):
+    return of_report(lambda change, before, after: pocket_holds(change, before, after, context))(context)
+
+
 check_report = of_report(lambda change, before, after: False)
 
 
