@@ -28,7 +28,7 @@ const std::string kSide = R"({"line": {"from": [7.5, 6.5], "to": [0, 6.5]})", kO
 /// 7.5 x 6.5, in which a tool of 6 leaves a strip of 0.5 beside one slot. One like it has room for two slots.
 const std::string kWalls = pocket_with(kSide + "}"),
                   kRoom = pocket_with(R"({"line": {"from": [24, 16], "to": [0, 16]}})", 24, 16);
-const std::string kProgram = "G21 G90 G17\nG0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
+const std::string kProgram = "G21 G90 G17 G54\nG0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
 /// A program before it, which cuts a little of the strip.
 const std::string kEarlier = "G21 G90\nG0 X3 Y6.25 Z5\nG1 Z-1 F300\nG1 X4 F1500\nG0 Z5\n";
 
@@ -223,7 +223,7 @@ TEST(VerifyCutReport, OptionsOutOfTheirRangeAreTheReports) {
 
 /// The hot cuts that the checker finds, as it says how many there are to be.
 std::string hot_cuts_of(const std::string& program, const std::string& said, double step_over = 0.4) {
-  const Files files{.program = "G21 G90 G17\n" + program, .pocket = kRoom};
+  const Files files{.program = "G21 G90 G17 G54\n" + program, .pocket = kRoom};
   Json report = pocketed(files);
   report["hot_cuts"] = Json::parse(said), report["step_over"] = step_over;
   std::string found;
@@ -314,12 +314,44 @@ TEST(VerifyCutReport, TheProgramGoesDownToTheDepthLessWhatStaysOnTheFloor) {
   EXPECT_EQ(with(0.75, -0.25), no);
   // From another upper face.
   const Files raised{.program =
-                         "G21 G90 G17\nG0 X3 Y3 Z5\nG1 Z1 F300\nG1 X4.5 F1500\nG1 Z0.5\nG1 X3\nG0 Z5\n"};
+                         "G21 G90 G17 G54\nG0 X3 Y3 Z5\nG1 Z1 F300\nG1 X4.5 F1500\nG1 Z0.5\nG1 X3\nG0 Z5\n"};
   Json report = pocketed();
   report["top_mm"] = 2, report["depth_mm"] = 1.5;
   EXPECT_EQ(judged(report, raised).find("below top_mm"), std::string::npos);
   report["depth_mm"] = 1;
   EXPECT_NE(judged(report, raised).find("the program goes down to Z 0.5, "), std::string::npos);
+}
+
+/// A control that begins in inches, or goes on as the program before it, makes other motions of it.
+TEST(VerifyCutReport, ModesThatTheProgramDoesNotSayAreUnchecked) {
+  const std::string moves = "G0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
+  const auto unsaid = [&](const std::string& modes) {
+    return judged(pocketed(), {.program = modes + "\n" + moves});
+  };
+  const auto line = [](const std::string& what) {
+    return "unchecked: program: line 2 moves before the program says " + what + "; the control decides it\n";
+  };
+  EXPECT_EQ(unsaid("G21 G90 G54"), "") << "lines alone need no plane";
+  EXPECT_EQ(unsaid("G90 G54"), line("its unit (G20 or G21)"));
+  EXPECT_EQ(unsaid("G21 G54"), line("from where it counts (G90 or G91)"));
+  EXPECT_EQ(unsaid("G21 G90"), line("its work offset (G54)"));
+  EXPECT_EQ(unsaid("G94").size(), (line("its unit (G20 or G21)") + line("from where it counts (G90 or G91)") +
+                                   line("its work offset (G54)"))
+                                      .size());
+  // An arc about the place itself, up and down along the slot.
+  SimulateOptions options;
+  options.tool_diameter = 6;
+  const std::string round = "G0 X3 Y3 Z5\nG1 Z-1 F300\nG3 X3 Y3 I0.25 J0 F1500\nG0 Z5\n";
+  for (const bool said : {false, true}) {
+    const std::string program = "G21 G90 G54" + std::string(said ? " G17" : "") + "\n" + round;
+    const auto report = verify_pocket_program({"p.ngc", program}, {"pocket.json", kWalls}, options, {});
+    ASSERT_TRUE(report) << report.error().message;
+    ASSERT_EQ(report->unchecked.size(), said ? 0U : 1U);
+    if (!said) {
+      EXPECT_NE(report->unchecked[0].find("line 4 moves before the program says the plane"),
+                std::string::npos);
+    }
+  }
 }
 
 TEST(VerifyCutReport, TheProgramOfALargerToolThatIsSupposedIsUnchecked) {

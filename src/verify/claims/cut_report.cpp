@@ -10,6 +10,7 @@
 #include "report_fields.hpp"
 #include "verify/origin/origin.hpp"
 #include "verify/pocket/nc_moves.hpp"
+#include "verify/pocket/nc_program.hpp"
 #include "verify/pocket/stroke.hpp"
 #include "verify/read/known_fields.hpp"
 #include "verify/shape/shape.hpp"
@@ -23,6 +24,29 @@ constexpr double kMostGouge = 0.005;
 constexpr double kLasting = 0.2;
 /// Words of a program have four decimals at least, and three on some controls.
 constexpr double kWordRounding = 5.1e-4;
+
+/// The control, and the program that ran before, decide what a program does not say of its motions.
+Result<void> leave_unsaid_open(const Document& program, const SimulateOptions& options, ClaimReport& claims) {
+  LEKALO_TRY(const NcProgram read, read_program(program, {.control = options.control, .top = options.top}));
+  std::set<std::string_view> told;
+  const auto open = [&](const NcEvent& event, std::string_view what) {
+    if (told.insert(what).second)
+      claims.unchecked.push_back(fmt::format(
+          "program: line {} moves before the program says {}; the control decides it", event.line, what));
+  };
+  for (const NcEvent& event : read.events) {
+    if (event.first_move == event.end_move && !event.upright && !event.places) continue;
+    if (!event.says_unit) open(event, "its unit (G20 or G21)");
+    if (!event.says_distance) open(event, "from where it counts (G90 or G91)");
+    const auto arc = [](const Move& move) { return move.arc; };
+    const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
+               end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
+    if (!event.says_plane && (event.upright || std::any_of(first, end, arc)))
+      open(event, "the plane of its arcs (G17)");
+    if (event.offset == 0) open(event, "its work offset (G54)");
+  }
+  return {};
+}
 
 struct Figure {
   std::string_view key;
@@ -267,6 +291,7 @@ class CutReport {
     LEKALO_CHECK(compare_regions());
     compare_stretches("hot_cuts", hot_cuts(found, options_.step_over));
     read_ramps();
+    LEKALO_CHECK(leave_unsaid_open(*program_, options_, claims_));
     return compare_depth();
   }
 
@@ -401,6 +426,7 @@ Result<ClaimReport> verify_pocket_program(const Document& program, const Documen
         found.uncut.size(), found.uncut[0].width_mm, found.uncut[0].x, found.uncut[0].y));
   report.notes.push_back(
       fmt::format("coverage {:.4f} %, gouge {:.5f} mm", found.coverage_percent, found.gouge_mm));
+  LEKALO_CHECK(leave_unsaid_open(program, options, report));
   return report;
 }
 

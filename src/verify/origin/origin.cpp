@@ -229,9 +229,11 @@ Origin check_drawing_file(const RegionClaim& claim) {
 Origin check_origin(const RegionClaim& claim) {
   const std::string ending = ending_of(claim.file.name);
   const bool is_drawing = claim.scan.is_null() && (ending == ".dxf" || ending == ".svg");
-  if (!is_drawing && !claim.drawing.text.empty() && !claim.drawing.is_null())
+  const bool says_drawing = !claim.drawing.text.empty() && !claim.drawing.is_null();
+  const auto no_drawing = [] {
     return fault("it is no drawing, but the field drawings says how one was read");
-  if (!claim.scan.is_null()) return check_scan_file(claim);
+  };
+  if (!claim.scan.is_null()) return says_drawing ? no_drawing() : check_scan_file(claim);
   if (ending == ".ply") return fault("it holds measured points, but the field scan is null");
   if (is_drawing) return check_drawing_file(claim);
   // A document without an ending is told by its beginning.
@@ -240,6 +242,7 @@ Origin check_origin(const RegionClaim& claim) {
   constexpr std::array<std::string_view, 4> kPoints{".csv", ".txt", ".xyz", ""};
   if (ending != ".json" && std::find(kPoints.begin(), kPoints.end(), ending) == kPoints.end())
     return open("files that end so are not read here");
+  if (says_drawing) return no_drawing();
   if (ending != ".json" && !(ending.empty() && is_object)) return check_points(claim);
   const Result<Json> root = parse_json(claim.file.bytes, claim.file.name);
   if (!root) return fault(root.error().message);

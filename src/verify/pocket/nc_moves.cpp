@@ -152,7 +152,7 @@ class ProgramReader {
     if (!rest.empty() || moves_.size() > before)
       events_.push_back({block.line, rest, before, moves_.size(), upright_,
                          work_offset_ == nullptr ? 0 : work_offset_->tenths, by_time_, says_unit_,
-                         says_distance_, says_plane_});
+                         says_distance_, says_plane_, block.has_axis()});
   }
 
   void run(const NcBlock& block) {

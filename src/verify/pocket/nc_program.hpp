@@ -39,6 +39,8 @@ struct NcEvent {
   /// The program has said so far in which unit, from where, or in which plane it moves. Where it has not, the
   /// control decides.
   bool says_unit = false, says_distance = false, says_plane = false;
+  /// It has words for X, Y or Z, though the place is not known yet and no move is seen.
+  bool places = false;
 };
 
 struct NcProgram {
