@@ -596,8 +596,16 @@ def features_input(context):
 
 
 def tree_input(context):
-    """A number is another by its last place: far below what the report says its outlines are exact to."""
-    return lambda change: says_mm(change) or change.how.startswith("last place") and abs(float(change.old)) < 1e6 or None
+    """A number is another by its last place: far below what the report says its outlines are exact to. Names of
+    primitives are for people where no edge is open, for these alone go by names; no name at all is one of them."""
+    names_decide = context.json("r.json")["open_layers"]
+
+    def holds(change):
+        named = re.search(r"/name$", change.path) and isinstance(change.old, str)
+        if named and not names_decide and change.how in ("text", "deleted"):
+            return "information"
+        return says_mm(change) or change.how.startswith("last place") and abs(float(change.old)) < 1e6 or None
+    return holds
 
 
 OF_REPORTS = [r"/(version|seed|work|run|warnings|checked_by|merges)(/.*)?$", r"/unplaced/\d+/reason$",
@@ -646,7 +654,9 @@ def pocket_holds(change, before, after, context):
     if path == "/tolerance_mm":
         return is_number(after.get("tolerance_mm")) and after["tolerance_mm"] >= before["tolerance_mm"]
     if path == "/drawing/join":
-        return same_form(before, after) and after["drawing"]["join"] >= before["drawing"]["join"]
+        # Curves that were set aside are no longer than it, and the ends of the others meet within the tolerance.
+        least = before["drawing"]["join"] if before["drawing"]["set_aside"] else 0
+        return same_form(before, after) and after["drawing"]["join"] >= least
     if path == "/inputs" and change.how.startswith(("exchanged", "turned")):
         # Each input says its role.
         return len({one["role"] for one in before["inputs"]}) == len(before["inputs"])
