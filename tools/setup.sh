@@ -23,6 +23,7 @@ packages=(
   python3            # a third opinion on results, written by a stranger
   python3-ezdxf python3-gdal # the same on DXF drawings
   python3-svgelements        # and on SVG
+  librsvg2-bin python3-numpy python3-pil # and rasters of both
   python3-shapely            # a second opinion on layouts
   python3-jsonschema         # the schema of layouts
   fonts-dejavu-core  # texts in PNG pictures, Cyrillic too
