@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/geom/grid.hpp"
 #include "lekalo/io/formats/any_layout.hpp"
 #include "lekalo/io/text/sha256.hpp"
@@ -20,13 +21,19 @@ bool is_layout(const File& file) {
   return read && !read->document.stocks.empty();
 }
 
+struct PartsRead {
+  std::string sha256;
+  Result<io::PartsFile> parts = io::PartsFile{};
+};
+
 class OrderMaker {
  public:
   explicit OrderMaker(const Order& order) : order_(order) {}
 
   Result<Layout> make() {
     LEKALO_CHECK(said_enough());
-    for (const OrderedPart& part : order_.parts) take(part);
+    read_parts();
+    for (std::size_t i = 0; i < order_.parts.size(); ++i) take(order_.parts[i], read_[i]);
     std::int64_t pieces = 0;
     for (const layout::Part& part : made_.document.parts) pieces += part.demand;
     for (const OrderedStock& stock : order_.stocks)
@@ -49,19 +56,24 @@ class OrderMaker {
 
   void fault(const std::string& sentence) { faults_ += (faults_.empty() ? "" : "; ") + sentence; }
 
-  void add_input(const char* role, const File& file) {
-    made_.inputs.push_back({role, file.name, io::sha256(file.bytes)});
-  }
-
   void notices(std::vector<std::string>& said) {
     for (std::string& notice : said)
       if (std::find(made_.notices.begin(), made_.notices.end(), notice) == made_.notices.end())
         made_.notices.push_back(std::move(notice));
   }
 
-  void take(const OrderedPart& ordered) {
-    add_input("part", ordered.file);
-    auto read = io::read_parts(ordered.file.bytes, ordered.file.name, order_.reading);
+  /// Reads every file for itself, which is most of the time that an order takes.
+  void read_parts() {
+    read_.resize(order_.parts.size());
+    share_out(read_.size(), kUsualThreads, [this](std::size_t i) {
+      const File& file = order_.parts[i].file;
+      read_[i] = {io::sha256(file.bytes), io::read_parts(file.bytes, file.name, order_.reading)};
+    });
+  }
+
+  void take(const OrderedPart& ordered, PartsRead& part_file) {
+    made_.inputs.push_back({"part", ordered.file.name, std::move(part_file.sha256)});
+    Result<io::PartsFile>& read = part_file.parts;
     if (!read)
       return fault(is_layout(ordered.file)
                        ? ordered.file.name +
@@ -92,7 +104,7 @@ class OrderMaker {
   }
 
   void take_drawn(const File& file, std::int64_t count) {
-    add_input("sheet", file);
+    made_.inputs.push_back({"sheet", file.name, io::sha256(file.bytes)});
     auto read = io::read_stocks(file.bytes, file.name, order_.reading);
     if (!read) return fault(read.error().message);
     notices(read->notices);
@@ -118,6 +130,7 @@ class OrderMaker {
   }
 
   const Order& order_;
+  std::vector<PartsRead> read_;
   Layout made_;
   layout::FreeIds part_ids_, stock_ids_;
   std::string faults_;

@@ -8,11 +8,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <string>
 
 #include "support/cases.hpp"
 #include "support/verify_cases.hpp"
 #include "verify/number/span.hpp"
+#include "verify/shape/shape.hpp"
 
 namespace {
 
@@ -164,6 +167,30 @@ TEST(VerifySpan, OfTwoNumbersTheEndsAreTheNeighboursOfTheNearestDouble) {
     }
     if (a >= 0) {
       ASSERT_NO_FATAL_FAILURE(expect(square_root(just(a)), std::sqrt(a)));
+    }
+  }
+}
+
+// Most decimals take a way in doubles, which is compared with rational arithmetic and with the library.
+TEST(VerifySpan, ADecimalLiesInItsSpanAndItsDoubleIsTheNearest) {
+  Random random(lekalo::cases::seed() + 4);
+  const std::size_t count = case_count(20'000);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int places = static_cast<int>(random.below(21));
+    std::string text = random.below(2) == 0 ? "-" : "";
+    for (int k = static_cast<int>(random.below(20)); k >= 0; --k)
+      text += static_cast<char>('0' + random.below(10));
+    if (random.below(8) == 0) text = std::to_string((std::size_t{1} << 53) - 2 + random.below(5));
+    text += "e" + std::to_string(3 - places);
+    const auto value = parse_decimal(text);
+    ASSERT_TRUE(value) << text;
+    EXPECT_EQ(approximate(*value), std::strtod(text.c_str(), nullptr)) << text;
+    const Span span = enclosed(*value);
+    const mpq_class exact = to_fraction(*value);
+    EXPECT_TRUE(mpq_class(span.low) <= exact && exact <= mpq_class(span.high)) << text;
+    EXPECT_LE(span.high, step_up(step_up(span.low))) << text;
+    if (mpq_class(approximate(*value)) == exact) {
+      EXPECT_EQ(span.low, span.high) << text;
     }
   }
 }

@@ -5,6 +5,9 @@
 
 namespace lekalo {
 
+/// The threads of a job whose caller asks for no number: they change the speed and nothing else.
+inline constexpr unsigned kUsualThreads = 2;
+
 /// Calls act(number) for every number below `count`, each once, on at most `threads` threads, and returns
 /// when all are done. The caller's thread is one of them and begins with number 0; which thread takes which
 /// of the others is open, so a result may not depend on it. Where the system gives no more threads, fewer do

@@ -72,6 +72,7 @@ class Mender {
       for (const geom::CutEdge& one : cut_.left) made_.marks.push_back({one.edge, curves_[one.origin]});
       return std::move(made_);
     }
+    for (const geom::CutContour& loop : cut_.contours) area_.push_back(geom::signed_area(loop.contour));
     // A neck may close something near it, and then its loop is cut off instead: those that are seen to do so
     // first, then all.
     cut_off_loop_.assign(cut_.contours.size(), 0);
@@ -150,8 +151,7 @@ class Mender {
         continue;
       }
       // A loop outside is joined through the material, one inside through what it leaves out.
-      const bool inside = !(geom::signed_area(loop) > 0);
-      const bool joinable = geom::signed_area(loops[place.at(corner)].contour) > 0;
+      const bool inside = !(area_[i] > 0), joinable = area_[place.at(corner)] > 0;
       if (cut_off_loop_[i] == 0 && joinable && loop.size() > 1 &&
           hung_.emplace(corner, Hung{i, hangs, inside}).second)
         kind_[i] = Kind::joined;
@@ -191,7 +191,7 @@ class Mender {
     for (std::size_t k = 0; k < loop.contour.size(); ++k) {
       append(i, k);
       const auto hung = hung_.find(loop.contour[k].to);
-      if (hung == hung_.end() || !(geom::signed_area(loop.contour) > 0)) continue;
+      if (hung == hung_.end() || !(area_[i] > 0)) continue;
       const double aside = hung->second.inside ? -kNeck : kNeck;
       joints.push_back({made.edges.size() - 1, aside});
       const geom::CutContour& other = cut_.contours[hung->second.loop];
@@ -248,8 +248,10 @@ class Mender {
   [[nodiscard]] bool retreat_holes() {
     std::vector<geom::Region> alone;
     std::vector<std::pair<std::size_t, std::size_t>> place;  // contour and edge, by number
+    std::vector<char> is_hole;
     for (std::size_t c = 0; c < made_.contours.size(); ++c) {
       alone.push_back({made_.contours[c].edges, {}});
+      is_hole.push_back(geom::signed_area(made_.contours[c].edges) > 0 ? 0 : 1);
       for (std::size_t k = 0; k < made_.contours[c].edges.size(); ++k) place.emplace_back(c, k);
     }
     const auto meetings = geom::all_meetings(alone);
@@ -258,7 +260,7 @@ class Mender {
     for (const geom::MeetingEdges& one : *meetings)
       for (const auto& [c, k] : {place[one.a], place[one.b]}) {
         const std::vector<Edge>& edges = made_.contours[c].edges;
-        if (place[one.a].first == place[one.b].first || geom::signed_area(edges) > 0) continue;
+        if (place[one.a].first == place[one.b].first || is_hole[c] == 0) continue;
         if (norm(edges[k].to - one.at) <= kNeck / 8) joints.emplace(c, k);
         if (norm(edges[k].from - one.at) <= kNeck / 8) joints.emplace(c, (k == 0 ? edges.size() : k) - 1);
       }
@@ -297,6 +299,7 @@ class Mender {
   double speck_, repair_;
   std::vector<std::uint32_t> curves_;  ///< by given edge
   geom::CutFaces cut_;
+  std::vector<double> area_;  ///< by loop, with its sign
   std::vector<Kind> kind_;
   std::map<Point, Hung, PointOrder> hung_;
   std::vector<char> cut_off_loop_;        ///< by loop: not to be joined

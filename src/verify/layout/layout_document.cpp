@@ -8,9 +8,11 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "chords.hpp"
 #include "lekalo/base/limits.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "verify/read/fields.hpp"
 
 namespace lekalo::verify {
@@ -23,13 +25,10 @@ class Members {
   Members(Json object, const std::string& path, std::string& complaint,
           std::initializer_list<std::string_view> known)
       : fields_(object, path, complaint), path_(path), complaint_(complaint) {
-    if (!object.is_object()) return;
-    JsonItems items(object);
-    while (items.next()) {
-      const std::string_view key = items.key();
+    fields_.each_key([&](std::string_view key) {
       if (!key.starts_with("x_") && std::find(known.begin(), known.end(), key) == known.end())
         complain(fmt::format("field {} is not one of a layout", fields_.name(excerpt(key))));
-    }
+    });
   }
 
   [[nodiscard]] bool has(std::string_view key) const { return !fields_.get(key).text.empty(); }
@@ -294,6 +293,20 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
   return part;
 }
 
+/// Reads all parts, of which each is read for itself. Complains of what is wrong with the first faulty one.
+void read_parts(Members& root, const Gaps& rules, std::vector<WrittenPart>& parts) {
+  std::vector<std::pair<Json, std::string>> items;
+  root.each("parts", [&](Json item, const std::string& path) { items.emplace_back(item, path); });
+  parts.resize(items.size());
+  std::vector<std::string> complaints(items.size());
+  share_out(items.size(), kUsualThreads, [&](std::size_t i) {
+    parts[i] = read_part(items[i].first, items[i].second, complaints[i], rules);
+  });
+  const auto first = std::find_if(complaints.begin(), complaints.end(),
+                                  [](const std::string& said) { return !said.empty(); });
+  if (first != complaints.end()) root.complain(*first);
+}
+
 GridOutline rectangle(std::int64_t length, std::int64_t height) {
   return make_outline({{{0, 0}, {length, 0}, {length, height}, {0, height}}});
 }
@@ -473,10 +486,9 @@ Result<WrittenLayout> read_layout(const Document& document, bool unmade) {
     layout.stocks.push_back(read_stock(item, path, complaint));
     number_ids(layout.stocks.back().id, path, stocks, complaint);
   });
-  root.each("parts", [&](Json item, const std::string& path) {
-    layout.parts.push_back(read_part(item, path, complaint, rules));
-    number_ids(layout.parts.back().id, path, parts, complaint);
-  });
+  if (complaint.empty()) read_parts(root, rules, layout.parts);
+  for (std::size_t i = 0; i < layout.parts.size(); ++i)
+    number_ids(layout.parts[i].id, fmt::format("parts[{}]", i), parts, complaint);
   read_kits(root, parts, layout.kits);
   read_placements(root, parts, stocks, layout);
   if (const std::string path = unmade ? "" : first_unmade(layout); !path.empty())

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdlib>
 
 #include "lekalo/base/assert.hpp"
@@ -68,7 +70,11 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   constexpr long kMost = limits::kMostPlaces;
   if (digits.size() > limits::kMostDigits || magnitude <= -kMost || magnitude > kMost) return std::nullopt;
 
-  Decimal value{Integer(digits, 10), exponent};
+  // A long is made without the text's way through numbers of any length.
+  long few = 0;
+  const bool fits = digits.size() <= 18;
+  if (fits) std::from_chars(digits.data(), digits.data() + digits.size(), few);
+  Decimal value{fits ? Integer(few) : Integer(digits, 10), exponent};
   if (negative) value.digits = -value.digits;
   return value;
 }
@@ -135,8 +141,31 @@ Decimal exactly(double value) {
   return made;
 }
 
+std::optional<SmallDecimal> small(const Decimal& value) {
+  static constexpr std::array<double, 23> kPowers = [] {
+    std::array<double, 23> powers{1};
+    for (std::size_t k = 1; k < powers.size(); ++k) powers[k] = 10 * powers[k - 1];
+    return powers;
+  }();
+  constexpr long kMost = 1'000'000'000'000'000'000;
+  if (value.digits >= kMost || value.digits <= -kMost || value.exponent <= -long{kPowers.size()})
+    return std::nullopt;
+  long digits = to_long(value.digits), exponent = value.exponent;
+  for (; exponent > 0; --exponent) {
+    if (std::abs(digits) >= kMost / 10) return std::nullopt;
+    digits *= 10;
+  }
+  return SmallDecimal{digits, kPowers[static_cast<std::size_t>(-exponent)]};
+}
+
 double approximate(const Decimal& value) {
-  return std::strtod((value.digits.get_str() + "e" + std::to_string(value.exponent)).c_str(), nullptr);
+  // The quotient of two doubles is rounded to the nearest.
+  if (const auto few = small(value); few && std::abs(few->digits) <= 1L << 53)
+    return static_cast<double>(few->digits) / few->power;
+  const std::string text = value.digits.fits_slong_p()
+                               ? fmt::format("{}e{}", to_long(value.digits), value.exponent)
+                               : value.digits.get_str() + "e" + std::to_string(value.exponent);
+  return std::strtod(text.c_str(), nullptr);
 }
 
 }  // namespace lekalo::verify

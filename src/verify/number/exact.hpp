@@ -79,6 +79,14 @@ struct Decimal {
 /// Returns the decimal that is exactly the double.
 [[nodiscard]] Decimal exactly(double value);
 
+/// The decimal digits / power, as most are written.
+struct SmallDecimal {
+  long digits = 0;   ///< less than 10^18
+  double power = 1;  ///< 10^0 to 10^22, which doubles hold exactly
+};
+/// Returns nothing for a decimal that needs more digits or places than that.
+[[nodiscard]] std::optional<SmallDecimal> small(const Decimal& value);
+
 /// Returns the nearest double.
 [[nodiscard]] double approximate(const Decimal& value);
 

@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <initializer_list>
-#include <map>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "json.hpp"
 #include "verify/number/exact.hpp"
@@ -24,17 +27,25 @@ class Fields {
       return;
     }
     JsonItems items(object);
-    while (const auto item = items.next()) {
-      if (!members_.emplace(items.key(), *item).second) {
-        complain(fmt::format("field {} is given twice", name(items.key())));
-      }
-    }
+    while (const auto item = items.next()) members_.push_back({std::string(items.key()), *item});
+    std::sort(members_.begin(), members_.end(),
+              [](const Member& a, const Member& b) { return a.key < b.key; });
+    const auto twice = std::adjacent_find(members_.begin(), members_.end(),
+                                          [](const Member& a, const Member& b) { return a.key == b.key; });
+    if (twice != members_.end()) complain(fmt::format("field {} is given twice", name(twice->key)));
   }
 
   [[nodiscard]] std::size_t size() const { return members_.size(); }
   [[nodiscard]] Json get(std::string_view key) const {
-    const auto found = members_.find(key);
-    return found == members_.end() ? Json{} : found->second;
+    const auto found = std::lower_bound(members_.begin(), members_.end(), key,
+                                        [](const Member& m, std::string_view k) { return m.key < k; });
+    return found == members_.end() || found->key != key ? Json{} : found->value;
+  }
+
+  /// Calls f(key) for each member.
+  template <class F>
+  void each_key(F f) const {
+    for (const Member& member : members_) f(std::string_view(member.key));
   }
 
   [[nodiscard]] Decimal number(std::string_view key) { return number_of(get(key), name(key)); }
@@ -55,8 +66,14 @@ class Fields {
     const Json value = get(key);
     if (!value.is_array()) return complain(fmt::format("field {} is not a list", name(key)));
     JsonItems items(value);
-    for (std::size_t i = 0; const auto item = items.next(); ++i)
-      f(*item, fmt::format("{}[{}]", name(key), i));
+    // One text for all paths: a list of coordinates would make one for each number.
+    std::string path = name(key) + '[';
+    const std::size_t stem = path.size();
+    for (std::size_t i = 0; const auto item = items.next(); ++i) {
+      path.resize(stem);
+      fmt::format_to(std::back_inserter(path), "{}]", i);
+      f(*item, std::as_const(path));
+    }
   }
   /// Complains of a member that is not there, not even as null: whoever took it out may have meant to hide
   /// what it said.
@@ -92,7 +109,12 @@ class Fields {
                                 : fmt::format("field {} is {}, not {}", what, excerpt(value.text), wanted));
   }
 
-  std::map<std::string, Json, std::less<>> members_;
+  struct Member {
+    std::string key;
+    Json value;
+  };
+
+  std::vector<Member> members_;  ///< by key
   std::string path_;
   std::string& complaint_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "lekalo/base/stop.hpp"
 #include "verify/number/exact.hpp"
@@ -160,6 +161,13 @@ std::size_t string_length(std::string_view text) {
   return n + 1;
 }
 
+/// Says of each character whether it ends a plain stretch between brackets and quotes.
+constexpr std::array<bool, 256> kStructure = [] {
+  std::array<bool, 256> table{};
+  for (const char c : {'"', '{', '}', '[', ']'}) table[static_cast<unsigned char>(c)] = true;
+  return table;
+}();
+
 /// Returns the length of the value at the front of checked text.
 std::size_t value_length(std::string_view text) {
   if (text[0] == '"') return string_length(text);
@@ -170,13 +178,14 @@ std::size_t value_length(std::string_view text) {
   }
   int depth = 0;
   do {
+    // Every level of a document passes over what is in it, so that this loop is most of reading one.
+    while (!kStructure[static_cast<unsigned char>(text[n])]) ++n;
     const char c = text[n];
     if (c == '"') {
       n += string_length(text.substr(n));
       continue;
     }
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
+    depth += c == '{' || c == '[' ? 1 : -1;
     ++n;
   } while (depth > 0);
   return n;

@@ -1,6 +1,7 @@
 #include "shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lekalo/base/limits.hpp"
@@ -13,10 +14,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Says whether two decimals have the same digits and exponent, which settles most comparisons.
+bool written_alike(const Decimal& a, const Decimal& b) {
+  return a.exponent == b.exponent && a.digits == b.digits;
+}
+
 struct WrittenPoint {
   Decimal x, y;
   friend bool operator==(const WrittenPoint& a, const WrittenPoint& b) {
-    return compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0;
+    return (written_alike(a.x, b.x) && written_alike(a.y, b.y)) ||
+           (compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0);
   }
   [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
 };
@@ -98,12 +105,12 @@ class ShapeReader {
   /// Reads the edges of a contour, or loose ones.
   void read_edges(Json value, const std::string& path, bool loose) {
     if (!value.is_array()) return complain(path + " is not a list of edges");
-    const std::size_t edges = count_items(value);
-    JsonItems items(value);
+    std::vector<Json> edges;
+    for (JsonItems items(value); const auto item = items.next();) edges.push_back(*item);
     std::optional<WrittenPoint> begin, at;
-    for (std::size_t i = 0; const auto item = items.next(); ++i) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
       const std::string name = fmt::format("{}[{}]", path, i);
-      Fields edge(*item, name, complaint_);
+      Fields edge(edges[i], name, complaint_);
       const bool arc = !edge.get("arc").text.empty();
       if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
       Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
@@ -114,7 +121,7 @@ class ShapeReader {
       // Decimals of one double may differ; what counts is closed exactly.
       if (at) from = *at;
       if (!begin) begin = from;
-      if (!loose && i + 1 == edges && same_as_doubles(to, *begin)) to = *begin;
+      if (!loose && i + 1 == edges.size() && same_as_doubles(to, *begin)) to = *begin;
       at = to;
       const Json open = edge.get("open");
       if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");
@@ -211,6 +218,15 @@ class ShapeReader {
 }  // namespace
 
 Span enclosed(const Decimal& value) {
+  if (const auto few = small(value)) {
+    const double digits = static_cast<double>(few->digits), quotient = digits / few->power;
+    // The remainder of a rounded quotient is a double, and so is what the digits lost: the sign of their
+    // difference is exact. Both roundings together are less than two steps.
+    const long lost = few->digits - static_cast<long>(digits);
+    const double above = std::fma(quotient, few->power, -digits) - static_cast<double>(lost);
+    return {above > 0 ? step_down(step_down(quotient)) : quotient,
+            above < 0 ? step_up(step_up(quotient)) : quotient};
+  }
   const Interval interval(value, 64);
   return {interval.low_double(), interval.high_double()};
 }
